@@ -71,6 +71,8 @@ public:
     [[nodiscard]] int height() const { return height_; }
     /// The shaders that were compiled.
     [[nodiscard]] std::set<ShaderKey> shaders() const { return shaders_.keys(); }
+    /// Whether they bend what they draw, for a lens that distorts.
+    [[nodiscard]] bool bends() const { return needs_.bends; }
     /// Bytes of GPU memory, as the driver says, without the indices that come with each picture.
     [[nodiscard]] std::uint64_t bytes() const;
 

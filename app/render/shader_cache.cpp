@@ -3,6 +3,7 @@
 #include "app/render/shader_source.h"
 #include "firmware_host/gl/gl_program.h"
 
+#include <cassert>
 #include <utility>
 
 namespace frustumscreen {
@@ -14,12 +15,12 @@ constexpr std::array<const char*, static_cast<std::size_t>(Uniform::Count)> unif
     "corners",   "clip_from_unit",      "prop_from_unit",    "brightness",
     "dither",    "pixel_from_fragment", "ray_from_fragment", "inverse_depth",
     "face_gain", "edge_share",          "rectangles",        "picture",
-    "raster"};
+    "raster",    "lens_from_clip",      "distortion"};
 
 } // namespace
 
-Result<Shader> Shader::compile(const ShaderKey& key) {
-    const ShaderSource source = source_of(key);
+Result<Shader> Shader::compile(const ShaderKey& key, bool bends) {
+    const ShaderSource source = source_of(key, bends);
     Result<GlProgram> program = make_program(source.defines, source.vertex, source.fragment);
     if (!program) {
         return tl::unexpected<Error>(program.error());
@@ -34,12 +35,14 @@ Result<Shader> Shader::compile(const ShaderKey& key) {
     return made;
 }
 
-Result<void> ShaderCache::prepare(const std::set<ShaderKey>& keys) {
+Result<void> ShaderCache::prepare(const std::set<ShaderKey>& keys, bool bends) {
+    assert(shaders_.empty() || bends == bends_);
+    bends_ = bends;
     for (const ShaderKey& key : keys) {
         if (find(key) != nullptr) {
             continue;
         }
-        Result<Shader> shader = Shader::compile(key);
+        Result<Shader> shader = Shader::compile(key, bends);
         if (!shader) {
             return tl::unexpected<Error>(shader.error());
         }

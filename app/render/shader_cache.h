@@ -30,12 +30,14 @@ enum class Uniform : std::size_t {
     Rectangles,
     Picture,
     Raster,
+    LensFromClip,
+    Distortion,
     Count
 };
 
 class Shader {
 public:
-    [[nodiscard]] static Result<Shader> compile(const ShaderKey& key);
+    [[nodiscard]] static Result<Shader> compile(const ShaderKey& key, bool bends);
     void use() const { glUseProgram(program_.get()); }
     /// -1, which OpenGL ignores, for one that the shader does not have.
     [[nodiscard]] GLint location(Uniform uniform) const {
@@ -49,13 +51,15 @@ private:
 
 class ShaderCache {
 public:
-    /// Compiles the shaders that are not there yet.
-    [[nodiscard]] Result<void> prepare(const std::set<ShaderKey>& keys);
+    /// Compiles the shaders that are not there yet. `bends`: the projector's lens distorts; the same in each call.
+    [[nodiscard]] Result<void> prepare(const std::set<ShaderKey>& keys, bool bends);
     /// Null if it was not prepared.
     [[nodiscard]] const Shader* find(const ShaderKey& key) const;
     [[nodiscard]] std::set<ShaderKey> keys() const;
+    [[nodiscard]] bool bends() const { return bends_; }
 
 private:
+    bool bends_ = false;
     std::map<ShaderKey, Shader> shaders_;
 };
 

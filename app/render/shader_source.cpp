@@ -1,5 +1,6 @@
 #include "app/render/shader_source.h"
 
+#include "app/render/lens_uniforms.h"
 #include "app/scene/lit_tiles.h"
 
 #include <fmt/format.h>
@@ -8,9 +9,48 @@ namespace frustumscreen {
 
 namespace {
 
+// The projector's lens; in both stages of shaders that bend.
+constexpr std::string_view lens = R"(
+#define BENT
+uniform vec4 lens_from_clip; // scale, offset: clip coordinates to a direction's (x / z, y / z)
+uniform vec3 distortion;     // k1, k2, the r^2 up to which they hold
+)";
+
+/// What is bent keeps its depth and its w.
+constexpr std::string_view bent_vertex = R"(
+#ifdef BENT
+vec4 bent(vec4 clip) {
+    if (clip.w <= 0.0) {
+        return clip;
+    }
+    vec2 x = clip.xy / clip.w * lens_from_clip.xy + lens_from_clip.zw;
+    float r2 = min(dot(x, x), distortion.z);
+    clip.xy += clip.w * r2 * (distortion.x + distortion.y * r2) * x / lens_from_clip.xy;
+    return clip;
+}
+#else
+vec4 bent(vec4 clip) { return clip; }
+#endif
+)";
+
+/// A quadrilateral: four corners of a fan, or bent, strips of cells, one an instance.
+constexpr std::string_view quad_vertex = R"(
+uniform vec4 corners[4]; // top left, top right, bottom right, bottom left
+#ifdef BENT
+vec2 place_in_quad() { return vec2(gl_VertexID >> 1, gl_InstanceID + (gl_VertexID & 1)) / float(QUAD_CELLS); }
+vec4 corner(vec2 at) {
+    return bent(mix(mix(corners[0], corners[1], at.x), mix(corners[3], corners[2], at.x), at.y));
+}
+#else
+vec2 place_in_quad() {
+    return vec2(gl_VertexID == 1 || gl_VertexID == 2 ? 1.0 : 0.0, gl_VertexID >= 2 ? 1.0 : 0.0);
+}
+vec4 corner(vec2 at) { return corners[gl_VertexID]; }
+#endif
+)";
+
 constexpr std::string_view outline_vertex = R"(
-uniform vec4 corners[4];
-void main() { gl_Position = corners[gl_VertexID]; }
+void main() { gl_Position = corner(place_in_quad()); }
 )";
 constexpr std::string_view outline_fragment = R"(
 void main() {}
@@ -28,7 +68,7 @@ layout(location = 1) in vec2 uv;
 out vec2 texel;
 #endif
 void main() {
-    gl_Position = clip_from_unit * vec4(position, 1.0);
+    gl_Position = bent(clip_from_unit * vec4(position, 1.0));
 #ifdef PLACES
     point = prop_from_unit[0] * position + prop_from_unit[1];
 #endif
@@ -67,11 +107,34 @@ uniform vec2 brightness; // the factor in linear light; to the power of 1 / 2.4
 uniform vec4 ray_from_fragment; // scale, offset; z = 1
 uniform vec3 inverse_depth;     // of the face's plane, along a ray
 uniform vec4 face_gain;         // times d^3, most; both to the power of 1 / 2.4
+#ifdef BENT
+// Each step comes some ten times nearer, and the light of a place hardly changes over a pixel.
+vec2 unbent(vec2 real) {
+    vec2 x = real;
+    for (int k = 0; k < 4; ++k) {
+        float r2 = min(dot(x, x), distortion.z);
+        x = real / (1.0 + r2 * (distortion.x + distortion.y * r2));
+    }
+    return x;
+}
+// The lens packs pixels more densely by its area factor.
+vec2 share_of_pixel(vec2 x) {
+    float r2 = min(dot(x, x), distortion.z);
+    float area = (1.0 + r2 * (distortion.x + distortion.y * r2)) * (1.0 + r2 * (3.0 * distortion.x + 5.0 * distortion.y * r2));
+    return vec2(1.0 / area, pow(area, -1.0 / 2.4));
+}
+#else
+vec2 unbent(vec2 real) { return real; }
+#endif
 // As `brightness`. 3 / 2.4 is 1 + 1 / 4: a power of the distance takes roots alone.
 vec2 compensation() {
-    vec3 ray = vec3(gl_FragCoord.xy * ray_from_fragment.xy + ray_from_fragment.zw, 1.0);
+    vec3 ray = vec3(unbent(gl_FragCoord.xy * ray_from_fragment.xy + ray_from_fragment.zw), 1.0);
     float d = sqrt(dot(ray, ray)) / dot(inverse_depth, ray);
-    return min(face_gain.yw, face_gain.xz * d * vec2(d * d, sqrt(sqrt(d))));
+    vec2 gain = face_gain.xz * d * vec2(d * d, sqrt(sqrt(d)));
+#ifdef BENT
+    gain *= share_of_pixel(ray.xy);
+#endif
+    return min(face_gain.yw, gain);
 }
 #endif
 #endif
@@ -106,13 +169,14 @@ void main() {
 }
 )";
 
+// The quadrilateral's corners: the edge's ends, then the inner ones.
 constexpr std::string_view feather_vertex = R"(
-uniform vec4 corners[4]; // the edge's ends, then the inner corners
 uniform vec2 edge_share; // factor of linear light at the ends
 out float share;
 void main() {
-    gl_Position = corners[gl_VertexID];
-    share = gl_VertexID >= 2 ? 1.0 : gl_VertexID == 0 ? edge_share.x : edge_share.y;
+    vec2 at = place_in_quad();
+    gl_Position = corner(at);
+    share = mix(mix(edge_share.x, edge_share.y, at.x), 1.0, at.y);
 }
 )";
 // Codes are multiplied, so the factor goes through sRGB's power law.
@@ -124,11 +188,10 @@ void main() { result = vec4(vec3(pow(max(share, 0.0), 1.0 / 2.4)), 1.0); }
 
 // A picture of light: colours, or coverage as white.
 constexpr std::string_view picture_vertex = R"(
-uniform vec4 corners[4]; // top left, top right, bottom right, bottom left
 out vec2 at;
 void main() {
-    gl_Position = corners[gl_VertexID];
-    at = vec2(gl_VertexID == 1 || gl_VertexID == 2 ? 1.0 : 0.0, gl_VertexID >= 2 ? 1.0 : 0.0);
+    at = place_in_quad();
+    gl_Position = corner(at);
 }
 )";
 constexpr std::string_view picture_fragment = R"(
@@ -194,26 +257,31 @@ std::string defines_of(const ShaderKey& key) {
 
 } // namespace
 
-ShaderSource source_of(const ShaderKey& key) {
+ShaderSource source_of(const ShaderKey& key, bool bends) {
     const std::string most_rectangles =
         fmt::format("#define MOST_RECTANGLES {}\n", LitTiles::most_rectangles);
+    const std::string defines =
+        (bends ? fmt::format("#define QUAD_CELLS {}{}", quad_cells, lens) : std::string()) + defines_of(key);
+    const auto quad = [](std::string_view vertex) {
+        return fmt::format("{}{}{}", bent_vertex, quad_vertex, vertex);
+    };
     switch (key.pass) {
     case ShaderKey::Pass::Outline:
-        return {"", outline_vertex, outline_fragment};
+        return {defines, quad(outline_vertex), outline_fragment};
     case ShaderKey::Pass::Surface:
-        return {defines_of(key), surface_vertex, surface_fragment};
+        return {defines, fmt::format("{}{}", bent_vertex, surface_vertex), surface_fragment};
     case ShaderKey::Pass::Cast:
-        return {defines_of(key), outline_vertex, surface_fragment};
+        return {defines, quad(outline_vertex), surface_fragment};
     case ShaderKey::Pass::EdgeFeather:
-        return {"", feather_vertex, feather_fragment};
+        return {defines, quad(feather_vertex), feather_fragment};
     case ShaderKey::Pass::TablePicture:
-        return {"", picture_vertex, picture_fragment};
+        return {defines, quad(picture_vertex), picture_fragment};
     case ShaderKey::Pass::TileClear:
-        return {most_rectangles, tiles_vertex, black_fragment};
+        return {most_rectangles, std::string(tiles_vertex), black_fragment};
     case ShaderKey::Pass::TileAverage:
-        return {most_rectangles, tiles_vertex, average_fragment};
+        return {most_rectangles, std::string(tiles_vertex), average_fragment};
     case ShaderKey::Pass::TileAverageMany:
-        return {most_rectangles + "#define MANY\n", tiles_vertex, average_fragment};
+        return {most_rectangles + "#define MANY\n", std::string(tiles_vertex), average_fragment};
     }
     return {};
 }

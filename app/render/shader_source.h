@@ -13,8 +13,10 @@ namespace frustumscreen {
 
 struct ShaderSource {
     std::string defines;
-    std::string_view vertex, fragment;
+    std::string vertex;
+    std::string_view fragment;
 };
-[[nodiscard]] ShaderSource source_of(const ShaderKey& key);
+/// `bends`: what it draws is bent as the projector's lens bends it, and quadrilaterals are drawn in cells (lens_uniforms.h).
+[[nodiscard]] ShaderSource source_of(const ShaderKey& key, bool bends = false);
 
 } // namespace frustumscreen

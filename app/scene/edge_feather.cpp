@@ -105,21 +105,22 @@ EdgeFeather strip(std::size_t face, const PictureEdge& edge, double width_px, co
 
 void feather_edges(const PropShape& prop, const glm::dvec3& projector, FramePlan& plan) {
     plan.feathers.clear();
+    const Pinhole ideal = plan.projector.ideal(); // what is drawn is bent later
     for (std::size_t face = 0; face < plan.faces.size(); ++face) {
         const FacePlan& own = plan.faces[face];
         const PropFace& shape = prop.faces[static_cast<std::size_t>(own.face)];
         for (std::size_t k = 0; k < 4; ++k) {
-            const std::optional<PictureEdge> edge = edge_of(own, k, plan.projector);
-            if (!edge || !touches(*edge, own.bounds, outer_px)) {
+            const std::optional<PictureEdge> edge = edge_of(own, k, ideal);
+            if (!edge || (plan.projector.lens.is_plain() && !touches(*edge, own.bounds, outer_px))) {
                 continue;
             }
             const PropFace* const neighbour = neighbour_of(prop, shape, k);
             if (neighbour == nullptr || !(neighbour->plane.distance(projector) > 0.0)) {
-                plan.feathers.push_back(strip(face, *edge, outer_px, glm::vec2(outer_share), plan.projector));
+                plan.feathers.push_back(strip(face, *edge, outer_px, glm::vec2(outer_share), ideal));
             } else if (const FacePlan* const planned = plan_of(prop, *neighbour, plan)) {
-                const glm::vec2 share = share_between(own.light, planned->light, *edge, plan.projector);
+                const glm::vec2 share = share_between(own.light, planned->light, *edge, ideal);
                 if (std::min(share.x, share.y) < hardly_dimmer) {
-                    plan.feathers.push_back(strip(face, *edge, shared_px, share, plan.projector));
+                    plan.feathers.push_back(strip(face, *edge, shared_px, share, ideal));
                 }
             }
         }

@@ -1,7 +1,9 @@
 #include "app/scene/face_view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -32,7 +34,39 @@ std::array<glm::vec3, 8> corners_of(const LevelTriangles::Extent& extent) {
     return corners;
 }
 
+/// Clip coordinates around everything that the lens brings into the picture; -1 and 1 if it does not distort.
+std::pair<glm::dvec2, glm::dvec2> ideal_edges(const Pinhole& pinhole) {
+    glm::dvec2 low(-1.0);
+    glm::dvec2 high(1.0);
+    if (!pinhole.lens.is_plain()) {
+        const auto [least, most] = pinhole.lens.factors_within(pinhole.farthest_r2());
+        const glm::dvec2 size(pinhole.width, pinhole.height);
+        const glm::dvec2 centre = 2.0 * glm::dvec2(pinhole.cx, pinhole.cy) / size - 1.0;
+        low = centre + glm::min((low - centre) / least, (low - centre) / most);
+        high = centre + glm::max((high - centre) / least, (high - centre) / most);
+    }
+    return {low, high};
+}
+
+/// Where the lens brings the pixels between two: not closely, but around them all.
+void bend(const Pinhole& pinhole, glm::dvec2& low, glm::dvec2& high) {
+    const glm::dvec2 centre(pinhole.cx, pinhole.cy);
+    const glm::dvec2 focal(pinhole.fx, pinhole.fy);
+    low = (low - centre) / focal;
+    high = (high - centre) / focal;
+    const glm::dvec2 far = glm::max(glm::abs(low), glm::abs(high));
+    const auto [below, most] = pinhole.lens.factors_within(glm::dot(far, far));
+    const double least = std::max(below, 0.0); // beyond the limit none is drawn with such a factor
+    low = glm::min(low * least, low * most) * focal + centre;
+    high = glm::max(high * least, high * most) * focal + centre;
+}
+
 } // namespace
+
+double lens_limit(const Pinhole& pinhole) {
+    constexpr double beyond = 1.05; // as far as the settings' check looks
+    return pinhole.lens.is_plain() ? std::numeric_limits<double>::infinity() : beyond * pinhole.farthest_r2();
+}
 
 PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const Pinhole& pinhole) {
     glm::dvec2 low(std::numeric_limits<double>::infinity());
@@ -45,6 +79,9 @@ PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const Pinhole& pi
         const glm::dvec2 pixel = (glm::dvec2(p) / p.w * 0.5 + 0.5) * size;
         low = glm::min(low, pixel);
         high = glm::max(high, pixel);
+    }
+    if (!pinhole.lens.is_plain() && low.x <= high.x) {
+        bend(pinhole, low, high);
     }
     low = glm::clamp(glm::floor(low) - 1.0, glm::dvec2(0.0), size);
     high = glm::clamp(glm::ceil(high) + 1.0, glm::dvec2(0.0), size);
@@ -78,7 +115,7 @@ std::array<glm::vec4, 4> corners_in_clip(const std::array<glm::dvec3, 4>& corner
 }
 
 FaceVolume volume_of(const PropFace& face, const glm::dvec3& eye_in_prop, double metres_per_box,
-                     const glm::dmat4& clip_from_box) {
+                     const glm::dmat4& clip_from_box, const Pinhole& pinhole) {
     FaceVolume volume;
     const glm::dvec3 eye = eye_in_prop / metres_per_box;
     for (std::size_t k = 0; k < face.corners.size(); ++k) {
@@ -89,9 +126,10 @@ FaceVolume volume_of(const PropFace& face, const glm::dvec3& eye_in_prop, double
     }
     const glm::dvec4 w = row(clip_from_box, 3);
     volume.add(w);
+    const auto [low, high] = ideal_edges(pinhole);
     for (int axis = 0; axis < 2; ++axis) {
-        volume.add(w + row(clip_from_box, axis));
-        volume.add(w - row(clip_from_box, axis));
+        volume.add(row(clip_from_box, axis) - low[axis] * w);
+        volume.add(high[axis] * w - row(clip_from_box, axis));
     }
     return volume;
 }

@@ -27,8 +27,12 @@ struct FaceView {
     PixelRectangle bounds;          ///< of what may show on it
 };
 
-/// Pixels around points in clip coordinates, with one pixel to spare on each side; the whole picture if a
-/// point is not in front.
+/// r^2 of ideal directions up to which the lens's own factor is taken; beyond it, outside of the picture, that of the limit, so
+/// that nothing folds back into the picture. Infinite if it does not distort.
+[[nodiscard]] double lens_limit(const Pinhole& pinhole);
+
+/// Pixels around points in clip coordinates of the ideal pinhole, where its lens brings them, with one pixel to spare on each
+/// side; the whole picture if a point is not in front.
 [[nodiscard]] PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const Pinhole& pinhole);
 
 /// Where a box can show on a face: the common part of the box seen through the face and of the face itself.
@@ -40,9 +44,10 @@ struct FaceView {
 [[nodiscard]] std::array<glm::vec4, 4> corners_in_clip(const std::array<glm::dvec3, 4>& corners,
                                                        const glm::dmat4& clip);
 
-/// The pyramid eye -> face and the picture's edges seen through the face's collineation; box frame.
+/// The pyramid eye -> face and the picture's edges seen through the face's collineation, straight ones around those that a
+/// lens bends; box frame.
 [[nodiscard]] FaceVolume volume_of(const PropFace& face, const glm::dvec3& eye_in_prop, double metres_per_box,
-                                   const glm::dmat4& clip_from_box);
+                                   const glm::dmat4& clip_from_box, const Pinhole& pinhole);
 
 /// Marks the tiles that the triangles may light on a face: those of their common box, or of each triangle if
 /// there are few in a large box. Returns the pixels around them all.

@@ -130,8 +130,9 @@ std::optional<Draw> draw_part(const Part& part, const PropFace& face, const Face
     }
     draw.shader.cut_out = level.drawable.material.cut_out;
     plan.front.update(*level.triangles, through.eye_in_prop / scale);
-    draw.bounds = show_triangles(*level.triangles, volume_of(face, through.eye_in_prop, scale, clip_from_box),
-                                 glm::mat4(clip_from_box), through.bounds, plan, draw.range);
+    draw.bounds = show_triangles(
+        *level.triangles, volume_of(face, through.eye_in_prop, scale, clip_from_box, shared.view.projector),
+        glm::mat4(clip_from_box), through.bounds, plan, draw.range);
     return draw.range.count > 0 ? std::optional(draw) : std::nullopt;
 }
 

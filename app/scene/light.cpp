@@ -68,7 +68,9 @@ FaceLight face_light(const PropFace& face, const glm::dmat4& projector_from_prop
 double gain(const FaceLight& light, const Pinhole& pinhole, const glm::dvec2& pixel) {
     const glm::dvec3 ray = pinhole.ray(pixel);
     const double d = glm::length(ray) / glm::dot(glm::dvec3(light.inverse_depth), ray);
-    return std::min(static_cast<double>(light.most), static_cast<double>(light.per_cubic_metre) * d * d * d);
+    const double pixels = pinhole.lens.area_factor(ray.x * ray.x + ray.y * ray.y);
+    return std::min(static_cast<double>(light.most),
+                    static_cast<double>(light.per_cubic_metre) * d * d * d / pixels);
 }
 
 } // namespace frustumscreen

@@ -53,7 +53,8 @@ struct SeenFace {
                                      const LightCompensation& compensation);
 
 /// Gain of the pixel (u, v), in linear light, for a face: min(most, per_cubic_metre * d^3), where the lit point's
-/// distance is d = |ray| / dot(inverse_depth, ray), and ray = ((u - cx) / fx, (v - cy) / fy, 1).
+/// distance is d = |ray| / dot(inverse_depth, ray), and ray = ((u - cx) / fx, (v - cy) / fy, 1). Behind a lens that distorts
+/// the ray is the one that goes through the pixel, and the gain is less where the lens packs pixels more densely.
 struct FaceLight {
     glm::vec3 inverse_depth{0.0F, 0.0F, 1.0F}; ///< 1/m, of the face's plane along the optical axis
     float per_cubic_metre = 0.0F;

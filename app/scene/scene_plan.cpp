@@ -302,9 +302,19 @@ std::string_view name_of(Economy economy) {
 }
 
 Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, const SceneRequest& request) {
-    const Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack.description);
+    Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack.description);
     if (!reliefs) {
         return tl::unexpected<Error>(reliefs.error());
+    }
+    const bool bends = !settings.projector.pinhole.lens.is_plain();
+    if (bends && request.technique.starts_with(relief_prefix)) {
+        return bad_input(fmt::format(
+            "technique '{}': a relief is cast for a lens that does not distort, and projector.k1 or k2 "
+            "says that this one does; take auto or a level",
+            request.technique));
+    }
+    if (bends) {
+        reliefs->clear();
     }
     Result<std::vector<SeenLevel>> seen = seen_levels(pack);
     if (!seen) {
@@ -337,6 +347,7 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
                    plan);
     choose_faces(plan);
     plan.needs.outline = largest_outline(settings, plan.projector, plan.visibility);
+    plan.needs.bends = bends;
     return plan;
 }
 

@@ -63,6 +63,7 @@ RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b) {
     } else if (a.outline && b.outline) {
         both.outline = united(*a.outline, *b.outline);
     }
+    both.bends = a.bends || b.bends;
     both.draws.insert(b.draws.begin(), b.draws.end());
     return both;
 }

@@ -49,6 +49,7 @@ struct RenderNeeds {
     std::size_t casts = 0;     ///< pictures that one plan may cast into memory
     /// The largest rectangle around the prop in the picture (prop_outline.h); none: all of the picture.
     std::optional<PixelSize> outline = std::nullopt;
+    bool bends = false; ///< the projector's lens distorts: every shader bends what it draws
 };
 [[nodiscard]] RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b);
 /// Every shader that a renderer with these needs compiles: those of the draws, and those that it brings

@@ -108,10 +108,16 @@ public:
         if (!options_.light) {
             return light;
         }
-        light *= exposure_ * received_from(lens(), place.point_m, place.normal);
+        light *=
+            exposure_ * received_from(lens(), place.point_m, place.normal) * pixels_beside(place.point_m);
         return place.albedo * (light + place.room_share * room_light_on(place.normal));
     }
 
+    /// How densely the lens packs pixels towards a place, beside one that does not distort: each has the same light.
+    [[nodiscard]] double pixels_beside(const glm::dvec3& point_m) const {
+        const glm::dvec3 p = in_projector(point_m);
+        return scene_.projector.lens.area_factor((p.x * p.x + p.y * p.y) / (p.z * p.z));
+    }
     [[nodiscard]] glm::dvec3 lens() const { return scene_.table_from_projector.translation; }
     [[nodiscard]] glm::dvec3 in_projector(const glm::dvec3& point_m) const {
         return projector_from_table_.point(point_m);
@@ -227,9 +233,11 @@ double projector_pixels_covered(const VisitorScene& scene, const VisitorCamera& 
     if (!place || !place->on_prop || !place->lit) {
         return 0.0;
     }
-    // A pixel of a pinhole covers Z^3 / (fx fy |n . p|) of a plane at the point p = (X, Y, Z).
+    // A pixel of a pinhole covers Z^3 / (fx fy |n . p|) of a plane at the point p = (X, Y, Z), and less where its lens
+    // makes the picture larger.
     const auto density = [](const Pinhole& pinhole, const glm::dvec3& p, const glm::dvec3& normal) {
-        return pinhole.fx * pinhole.fy * std::abs(glm::dot(normal, p)) / (p.z * p.z * p.z);
+        const double bent = pinhole.lens.area_factor((p.x * p.x + p.y * p.y) / (p.z * p.z));
+        return pinhole.fx * pinhole.fy * bent * std::abs(glm::dot(normal, p)) / (p.z * p.z * p.z);
     };
     const glm::dvec3 seen = camera.table_from_camera.inverse().point(place->point_m);
     const glm::dvec3 lit = room.in_projector(place->point_m);

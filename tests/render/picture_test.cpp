@@ -1,6 +1,7 @@
 // The renderer's picture against a plain ray cast of the same triangles.
 
 #include "tests/render/comparison.h"
+#include "tests/render/mass.h"
 #include "tests/render/rig.h"
 
 #include <algorithm>
@@ -73,22 +74,6 @@ TEST(Picture, ColoursAreTheTexturesCodesWithoutCompensation) {
     }
 }
 
-/// Every face draws the whole level, over its whole part of the picture.
-void draw_everything(FramePlan& plan, const std::vector<std::uint32_t>& all) {
-    const PixelRectangle picture{0, 0, plan.projector.width, plan.projector.height};
-    plan.indices = all;
-    plan.lit.begin(picture.width, picture.height);
-    plan.lit.light(picture);
-    plan.lit.finish();
-    for (FacePlan& face : plan.faces) {
-        face.bounds = picture;
-    }
-    for (Draw& draw : plan.draws) {
-        draw.range = {0, static_cast<std::uint32_t>(all.size())};
-        draw.bounds = picture;
-    }
-}
-
 TEST(Picture, CullingTakesNothingAway) {
     Rig rig(320, 200);
     Stage stage(320, 200);
@@ -110,41 +95,6 @@ TEST(Picture, CullingTakesNothingAway) {
         ASSERT_EQ(rig.picture().texels, culled_picture.texels) << pose;
     }
     EXPECT_LT(drawn * 10, possible * 6) << "culling leaves out less than 40 % of the triangles";
-}
-
-/// Where the light of a white artifact has its centre of mass.
-struct Mass {
-    double light = 0.0;
-    glm::dvec2 moment{0.0};
-    void add(const glm::dvec2& at, double weight) {
-        light += weight;
-        moment += weight * at;
-    }
-    [[nodiscard]] glm::dvec2 centre() const { return moment / light; }
-};
-
-/// 16 rays a pixel, 4 x 4.
-Mass cast_mass(const ReferenceCast& cast, const Stage& stage) {
-    Mass mass;
-    for (int y = 0; y < stage.projector.height; ++y) {
-        for (int x = 0; x < stage.projector.width; ++x) {
-            for (int k = 0; k < 16; ++k) {
-                const glm::dvec2 at = glm::dvec2(x, y) + (glm::dvec2(k & 3, k >> 2) + 0.5) / 4.0;
-                mass.add(at, cast.through_pixel(stage, at).found ? 1.0 / 16.0 : 0.0);
-            }
-        }
-    }
-    return mass;
-}
-
-Mass shown_mass(const Image8& picture) {
-    Mass mass;
-    for (int y = 0; y < picture.height; ++y) {
-        for (int x = 0; x < picture.width; ++x) {
-            mass.add({x + 0.5, y + 0.5}, linear_from_srgb(picture.at(x, y).g / 255.0));
-        }
-    }
-    return mass;
 }
 
 TEST(Picture, LiesWithinATwentiethOfAPixelOfARayCast) {

@@ -34,9 +34,13 @@ struct Rig {
     PlacedLevel level;
     FramePlan plan;
 
-    Rig(int width, int height, int samples = 1, Pack shown = rings()) : pack(std::move(shown)) {
+    /// `bends`: the stage's projector has a lens that distorts.
+    Rig(int width, int height, int samples = 1, Pack shown = rings(), bool bends = false)
+        : pack(std::move(shown)) {
         display = SurfacelessDisplay::create(width, height).value();
-        renderer = Renderer::create(width, height, needs(samples)).value();
+        RenderNeeds all = needs(samples);
+        all.bends = bends;
+        renderer = Renderer::create(width, height, all).value();
         hit_points = HitPointRenderer::create(*renderer).value();
         level = placed(pack, 0, metres_per_box(pack, prop), renderer->store().upload(pack, 0).value());
         plan = make_plan(prop, level);

@@ -96,9 +96,9 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
     shader.cut_out = whole.cut_out;
     shader.even_light = options.lit;
     const int samples = options.samples > 0 ? options.samples : pack.samples;
-    Result<Renderer> renderer =
-        Renderer::create(stage.width(), stage.height(),
-                         {std::max(samples, default_samples), {shader, {ShaderKey::Pass::EdgeFeather}}});
+    RenderNeeds needs{std::max(samples, default_samples), {shader, {ShaderKey::Pass::EdgeFeather}}};
+    needs.bends = !stage.settings.projector.pinhole.lens.is_plain();
+    Result<Renderer> renderer = Renderer::create(stage.width(), stage.height(), needs);
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }

@@ -56,7 +56,8 @@ void VisibleParts::find(const PeerTriangles& mesh, const Box& box, const PeerVie
         for (int axis = 0; axis < 3; ++axis) {
             clip_from_box[axis] *= mesh.metres_per_box;
         }
-        const FaceVolume volume = volume_of(*face.face, view.eye_m, mesh.metres_per_box, clip_from_box);
+        const FaceVolume volume =
+            volume_of(*face.face, view.eye_m, mesh.metres_per_box, clip_from_box, view.projector);
         const glm::mat4 clip(clip_from_box);
         std::vector<IndexRange> ranges;
         PixelRectangle bounds;

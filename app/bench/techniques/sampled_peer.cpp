@@ -16,7 +16,8 @@ Result<std::shared_ptr<const PeerSamples>> PeerSamples::create(const Stage& stag
     ShaderCache shaders;
     if (const Result<void> ready = shaders.prepare({{ShaderKey::Pass::TileClear},
                                                     {ShaderKey::Pass::TileAverage},
-                                                    {ShaderKey::Pass::TileAverageMany}});
+                                                    {ShaderKey::Pass::TileAverageMany}},
+                                                   false);
         !ready) {
         return tl::unexpected<Error>(ready.error());
     }
