@@ -3,7 +3,6 @@
 #include "app/render/shader_source.h"
 #include "firmware_host/gl/gl_program.h"
 
-#include <cassert>
 #include <utility>
 
 namespace frustumscreen {
@@ -36,8 +35,10 @@ Result<Shader> Shader::compile(const ShaderKey& key, bool bends) {
 }
 
 Result<void> ShaderCache::prepare(const std::set<ShaderKey>& keys, bool bends) {
-    assert(shaders_.empty() || bends == bends_);
-    bends_ = bends;
+    if (bends != bends_) {
+        shaders_.clear();
+        bends_ = bends;
+    }
     for (const ShaderKey& key : keys) {
         if (find(key) != nullptr) {
             continue;

@@ -51,7 +51,7 @@ private:
 
 class ShaderCache {
 public:
-    /// Compiles the shaders that are not there yet. `bends`: the projector's lens distorts; the same in each call.
+    /// Compiles the shaders that are not there yet. `bends`: the projector's lens distorts; shaders that were made without it go.
     [[nodiscard]] Result<void> prepare(const std::set<ShaderKey>& keys, bool bends);
     /// Null if it was not prepared.
     [[nodiscard]] const Shader* find(const ShaderKey& key) const;

@@ -19,6 +19,8 @@ REPORT = "/run/frustumscreen-import/report.json"
 BOOT = "mount -o ro $(readlink -f /run/frustumscreen-boot/boot) /efi && ls /efi/EFI/Linux; umount /efi"
 # Sectors; the kernel counts them for each partition (Documentation/admin-guide/iostats.rst).
 WRITTEN_TO_B = "awk '{ print $7 }' $(dirname $(grep -lx PARTNAME=frustumscreen-b /sys/class/block/*/uevent))/stat"
+CONFIG = "frustumscreen config --config /etc/frustumscreen/kiosk.toml --json"
+CALIBRATION = "/var/lib/frustumscreen/calibration/calibration-0001.toml"
 UPDATE_S = 600.0
 RESTART_S = 300.0
 TRY_S = 600.0
@@ -101,10 +103,29 @@ class Update(ImageTest):
         self.assertTrue(self.pc.resets_within(RESTART_S), "the machine does not start again")
         self.pc.wait_for_start()
 
+    def calibrate(self):
+        """Keeps a calibration that says the same as the settings. Its form is that of docs/calibration.md, not our program's."""
+        settings = json.loads(self.pc.check(CONFIG))
+        self.assertIsNone(settings["calibration"]["used"])
+        text = 'version = 1\nmade = "2026-11-25 10:12 UTC"\nmethod = "touch"\nplaces = 9\n'
+        for name, keys in (("projector", ("width", "height", "fx", "fy", "cx", "cy", "k1", "k2", "table_from_projector")),
+                           ("tracker", ("table_from_tracker", "sensor_from_prop", "eye_in_sensor_m"))):
+            text += f"[{name}]\n" + "".join(f"{key} = {json.dumps(settings[name][key])}\n" for key in keys)
+        self.pc.write(CALIBRATION, text + "[residual]\nmean_mm = 0.3\nworst_mm = 0.9\nmean_px = 0.5\n")
+
+    def calibration(self):
+        """Which one the settings are read with."""
+        used = json.loads(self.pc.check(CONFIG))["calibration"]["used"]
+        return used and (used["file"], used["made"], used["places"])
+
     def test_good(self):
-        """Installed in the other slot, told, started, marked as good; the same stick again changes nothing."""
+        """Installed in the other slot, told, started, marked as good; the same stick again changes nothing. The calibration stays."""
         self.start()
         self.wait_until_good()
+        self.calibrate()
+        self.pc.check(f"sync {CALIBRATION}")
+        kept = self.calibration()
+        self.assertEqual(kept, ("calibration-0001.toml", "2026-11-25 10:12 UTC", 9))
         self.assertEqual((self.version(), self.slot(), self.images()), ("0.1.0", "frustumscreen-a", ["frustumscreen_0.1.0+5.efi"]))
         self.stick("good", {"frustumscreen-0.2.0.raucb": self.updates.make()})
         pack, = self.told()
@@ -113,6 +134,7 @@ class Update(ImageTest):
         self.wait_until_good()
         self.say("lit again")
         self.assertEqual((self.version(), self.slot()), ("0.2.0", "frustumscreen-b"))
+        self.assertEqual(self.calibration(), kept)
         self.assertEqual(self.images(), ["frustumscreen_0.1.0+5.efi", "frustumscreen_0.2.0+5.efi"])
         self.assertEqual(self.pc.notes(), "")
         self.assertEqual(self.told()[0]["outcome"], "already_there")
