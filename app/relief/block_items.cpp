@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace frustumscreen {
 
@@ -16,78 +17,42 @@ GridView grid_view(const ReliefGrid& grid, double texel_box, const CastFace& fac
     GridView view;
     const glm::dvec3 signs(1.0, 1.0, grid.sign);
     for (int k = 0; k < 3; ++k) {
-        const double texels = signs[k] / texel_box;
         const int axis = grid.axis[static_cast<std::size_t>(k)];
-        for (int column = 0; column < 3; ++column) {
-            view.ray[static_cast<std::size_t>(k)][column] =
-                static_cast<float>(texels * face.direction[column][axis]);
-        }
-        view.eye[k] = static_cast<float>(texels * (eye_box[axis] - grid.origin_box[axis]));
+        view.eye[k] = static_cast<float>(signs[k] / texel_box * (eye_box[axis] - grid.origin_box[axis]));
     }
+    // The ray t D (x, y, 1) from the eye lights w (x, y, 1): the two matrices' product is that of w / t and nothing.
+    const double w_per_t = (glm::dmat3(face.pixel_from_box) * face.direction)[2][2];
     for (int row = 0; row < 3; ++row) {
         double constant = face.pixel_from_box[3][row];
         for (int k = 0; k < 3; ++k) {
             const int axis = grid.axis[static_cast<std::size_t>(k)];
             view.pixel[static_cast<std::size_t>(row)][k] =
-                static_cast<float>(face.pixel_from_box[axis][row] * signs[k] * texel_box);
+                static_cast<float>(face.pixel_from_box[axis][row] * signs[k] * texel_box / w_per_t);
             constant += face.pixel_from_box[axis][row] * grid.origin_box[axis];
         }
-        view.pixel[static_cast<std::size_t>(row)].w = static_cast<float>(constant);
+        view.pixel[static_cast<std::size_t>(row)].w = static_cast<float>(constant / w_per_t);
     }
     return view;
 }
 
-/// How a block lies to the eye. Along an eye ray of this direction the height above the surface changes by the ray's length times a
-/// number within [falls, rises]; negative: the ray goes in.
-struct Facing {
-    float falls = 0.0F, rises = 0.0F;
-    float aside = 0.0F; ///< of the ray, across the grid
-};
-
-FRUSTUMSCREEN_INLINE Facing facing_of(const ReliefBlock& block, const glm::vec3& eye) {
+/// Whether any of the block's cells may face the eye: along an eye ray, as long as one from the eye to the block's middle, the height
+/// above the surface then falls somewhere.
+FRUSTUMSCREEN_INLINE bool may_face(const ReliefBlock& block, const glm::vec3& eye) {
     constexpr float half = 0.5F * block_cells;
     const float du = block.u0 + half - eye.x;
     const float dv = block.v0 + half - eye.y;
     const float dw = block.w0 + half * (block.w_u + block.w_v) - eye.z;
     const float plane = dw - block.w_u * du - block.w_v * dv;
-    const float u_low = block.gradient_u.x * du;
-    const float u_high = block.gradient_u.y * du;
-    const float v_low = block.gradient_v.x * dv;
-    const float v_high = block.gradient_v.y * dv;
-    const float aside = std::sqrt(du * du + dv * dv);
     // The ray turns by about 8 cells / distance over the block; 1 % of what lies across covers that.
-    const float margin = 0.01F * aside;
-    return {plane - std::max(u_low, u_high) - std::max(v_low, v_high) - margin,
-            plane - std::min(u_low, u_high) - std::min(v_low, v_high) + margin, aside};
-}
-
-struct Path {
-    Search search = Search::March;
-    float reach = 0.0F, early = 0.0F; ///< as BlockItem has them
-};
-
-/// Newton's step contracts by about falls / rises - 1 times what is left; so many steps leave some hundredths of a texel.
-FRUSTUMSCREEN_INLINE Path path_of(const ReliefBlock& block, const Facing& facing) {
-    if (!(facing.rises < 0.0F)) {
-        return {};
-    }
-    const float residual = std::max(std::abs(block.residual_low), std::abs(block.residual_high()));
-    const float contraction = facing.falls / facing.rises - 1.0F;
-    const float shift = residual * facing.aside / -facing.rises;
-    constexpr float marched_above = 6.0F;
-    constexpr float one_step_below = 0.03F; // texels
-    constexpr float two_steps_below = 0.6F;
-    if (contraction > marched_above) {
-        return {};
-    }
-    const Search search = contraction * shift < one_step_below ? Search::Newton1
-                          : contraction < two_steps_below      ? Search::Newton2
-                                                               : Search::Newton3;
-    return {search, 1.1F * shift + 0.05F, 1.1F * residual / -facing.rises + 1e-4F};
+    const float margin = 0.01F * std::sqrt(du * du + dv * dv);
+    return plane - std::max(block.gradient_u.x * du, block.gradient_u.y * du) -
+               std::max(block.gradient_v.x * dv, block.gradient_v.y * dv) - margin <=
+           0.0F;
 }
 
 struct Bounds {
     float left, right, top, bottom;
+    float nearest; ///< 1 / t
     bool in_front; ///< all of the block; else the others say nothing
     bool outside;  ///< of an edge of the face
 };
@@ -106,26 +71,28 @@ FRUSTUMSCREEN_INLINE Bounds bounds_of(const ReliefBlock& block, const GridView& 
     const Floats u = block.u0 + i;
     const Floats v = block.v0 + j;
     const Floats w = block.w0 + block.w_u * i + block.w_v * j + r;
-    const auto row = [&](std::size_t k) {
+    const auto row = [&](std::size_t k) FRUSTUMSCREEN_INLINED {
         const glm::vec4& of = grid.pixel[k];
         return of.x * u + of.y * v + of.z * w + of.w;
     };
-    const Floats xw = row(0);
-    const Floats yw = row(1);
-    const Floats nearness = row(2);
-    if (least_of(nearness) > 0.0F) {
-        const Floats x = xw / nearness;
-        const Floats y = yw / nearness;
-        return {least_of(x), most_of(x), least_of(y), most_of(y), true, false};
+    const Floats xt = row(0);
+    const Floats yt = row(1);
+    const Floats t = row(2);
+    const float shortest = least_of(t);
+    if (shortest > 0.0F) {
+        const Floats x = xt / t;
+        const Floats y = yt / t;
+        constexpr float rounding = 1.0001F;
+        return {least_of(x), most_of(x), least_of(y), most_of(y), rounding / shortest, true, false};
     }
     // An edge and the eye span a plane of the box's frame, on whose sides the corners are also where they have no pixel.
     bool outside = false;
     for (const glm::dvec3& edge : face.edges) {
-        const Floats inside = static_cast<float>(edge.x) * xw + static_cast<float>(edge.y) * yw +
-                              static_cast<float>(edge.z) * nearness;
+        const Floats inside = static_cast<float>(edge.x) * xt + static_cast<float>(edge.y) * yt +
+                              static_cast<float>(edge.z) * t;
         outside = outside || most_of(inside) < 0.0F;
     }
-    return {0.0F, 0.0F, 0.0F, 0.0F, false, outside};
+    return {0.0F, 0.0F, 0.0F, 0.0F, std::numeric_limits<float>::infinity(), false, outside};
 }
 
 enum class Place { Outside, Across, Inside };
@@ -151,36 +118,28 @@ FRUSTUMSCREEN_INLINE Place place_of(const Bounds& bounds, const CastFace& face) 
     return place;
 }
 
-/// The tiles that hold some of the pixels [left, right) x [top, bottom).
-FRUSTUMSCREEN_INLINE TileRectangle tiles_of(int left, int right, int top, int bottom) {
-    if (left >= right || top >= bottom) {
-        return {};
-    }
-    return {static_cast<std::uint16_t>(left / tile_width),
-            static_cast<std::uint16_t>((right + tile_width - 1) / tile_width),
-            static_cast<std::uint16_t>(top / tile_height),
-            static_cast<std::uint16_t>((bottom + tile_height - 1) / tile_height)};
-}
-
 /// False: none of the face's pixels.
-FRUSTUMSCREEN_INLINE bool set_tiles(BlockItem& item, const Bounds& bounds, const PixelRectangle& lit) {
-    const int right = lit.x + lit.width;
-    const int bottom = lit.y + lit.height;
-    if (!bounds.in_front) {
-        item.centres = item.area = tiles_of(lit.x, right, lit.y, bottom);
-        return !lit.empty();
+FRUSTUMSCREEN_INLINE bool set_area(BlockItem& item, const Bounds& bounds, const PixelRectangle& lit) {
+    int left = lit.x;
+    int right = lit.x + lit.width;
+    int top = lit.y;
+    int bottom = lit.y + lit.height;
+    if (bounds.in_front) {
+        constexpr float slack = 0.05F; // pixels: cells are drawn wider than they are by `grown` (cell_row.h)
+        const auto first = [](float at) { return static_cast<int>(std::floor(std::max(at - slack, -1.0F))); };
+        const auto end = [](float at) {
+            return static_cast<int>(std::floor(std::min(at + slack, 65e3F))) + 1;
+        };
+        left = std::max(left, first(bounds.left));
+        right = std::min(right, end(bounds.right));
+        top = std::max(top, first(bounds.top));
+        bottom = std::min(bottom, end(bounds.bottom));
     }
-    constexpr float slack = 0.01F; // pixels: of 32-bit rounding
-    const auto first = [](float at) { return static_cast<int>(std::floor(std::max(at - slack, -1.0F))); };
-    const auto end = [](float at) { return static_cast<int>(std::floor(std::min(at + slack, 65e3F))) + 1; };
-    item.area = tiles_of(std::max(first(bounds.left), lit.x), std::min(end(bounds.right), right),
-                         std::max(first(bounds.top), lit.y), std::min(end(bounds.bottom), bottom));
-    if (item.area.first_column == item.area.end_column) {
+    if (left >= right || top >= bottom) {
         return false;
     }
-    item.centres =
-        tiles_of(std::max(first(bounds.left + 0.5F), lit.x), std::min(end(bounds.right - 0.5F), right),
-                 std::max(first(bounds.top + 0.5F), lit.y), std::min(end(bounds.bottom - 0.5F), bottom));
+    item.area = {static_cast<std::uint16_t>(left), static_cast<std::uint16_t>(right),
+                 static_cast<std::uint16_t>(top), static_cast<std::uint16_t>(bottom)};
     return true;
 }
 
@@ -212,7 +171,8 @@ FRUSTUMSCREEN_INLINE void list_block(std::vector<BlockItem>& list, const BlockIt
         const Place place = place_of(bounds, view.faces[f]);
         item.face = static_cast<std::uint8_t>(f);
         item.inside = place == Place::Inside;
-        if (place != Place::Outside && set_tiles(item, bounds, view.faces[f].lit)) {
+        item.nearest = bounds.nearest;
+        if (place != Place::Outside && set_area(item, bounds, view.faces[f].lit)) {
             list.push_back(item);
         }
         if (item.inside) {
@@ -221,10 +181,10 @@ FRUSTUMSCREEN_INLINE void list_block(std::vector<BlockItem>& list, const BlockIt
     }
 }
 
-/// Bands of tile rows that the item's area meets: first, one past the last.
+/// Bands of rows that the item's area meets: first, one past the last.
 std::array<std::size_t, 2> bands_of(const BlockItem& item) {
-    return {item.area.first_row / std::size_t{rows_of_band},
-            (item.area.end_row + std::size_t{rows_of_band} - 1) / rows_of_band};
+    return {item.area.top / std::size_t{rows_of_band},
+            (item.area.bottom + std::size_t{rows_of_band} - 1) / rows_of_band};
 }
 
 void sort_into_bands(BlockItems& items) {
@@ -268,18 +228,13 @@ FRUSTUMSCREEN_INLINE void list(BlockItems& items, const BlockRelief& relief, con
         }
         const glm::vec3& eye = items.grids[0][direction].eye;
         const ReliefBlock& block = relief.blocks[k];
-        const Facing facing = facing_of(block, eye);
-        if (facing.falls > 0.0F) {
+        if (!may_face(block, eye)) {
             continue;
         }
-        const Path path = path_of(block, facing);
         BlockItem item;
         item.block = static_cast<std::uint32_t>(k);
         item.direction = static_cast<std::uint8_t>(direction);
-        item.search = path.search;
         item.bin = bin_of(block, eye, range);
-        item.reach = path.reach;
-        item.early = path.early;
         list_block(list, items, view, block, item);
     }
 }

@@ -1,7 +1,6 @@
 /// Which blocks a frame casts, and where: culled by their gradients, projected through each face's collineation, sorted front to
 /// back.
 ///
-/// Tiles    4 x 2 pixels; a picture has ceil(width / 4) x ceil(height / 2) of them.
 /// Frames   a direction's grid (block_relief.h), texels; pixels as in cast_view.h. 64-bit to the matrices, 32-bit from there on.
 /// Threads  pure; any.
 /// SIMD     as cast_blocks.h; the lists are equal.
@@ -16,42 +15,28 @@
 
 namespace frustumscreen {
 
-inline constexpr int tile_width = 4;
-inline constexpr int tile_height = 2;
-inline constexpr int rows_of_band = 8; ///< of tiles: small enough that threads end together
+inline constexpr int rows_of_band = 64; ///< of pixels: small enough that threads end together
 
-/// A face's rays and pixels in one direction's grid.
+/// A face's pixels as one direction's grid knows them.
 struct GridView {
-    std::array<glm::vec3, 3> ray{};   ///< (u, v, w) of the ray, each from the pixel (x, y, 1)
-    std::array<glm::vec4, 3> pixel{}; ///< (x w, y w, w) from the grid's (u, v, w, 1)
+    /// (x t, y t, t) from the grid's (u, v, w, 1): the pixel that lights a point, and the length of its ray (cast_view.h).
+    std::array<glm::vec4, 3> pixel{};
     glm::vec3 eye{0.0F};
 };
 
-/// How a ray's meeting with a block's surface is found.
-enum class Search : std::uint8_t {
-    Newton1, ///< this many steps from where the ray meets the block's plane
-    Newton2,
-    Newton3,
-    March ///< some cells may face away: from the front of the block's slab to its back
-};
-
-/// Columns and rows of tiles, the last ones excluded.
-struct TileRectangle {
-    std::uint16_t first_column = 0, end_column = 0, first_row = 0, end_row = 0;
-    [[nodiscard]] bool operator==(const TileRectangle&) const = default;
+/// Columns and rows of pixels, the last ones excluded.
+struct PixelSpan {
+    std::uint16_t left = 0, right = 0, top = 0, bottom = 0;
+    [[nodiscard]] bool operator==(const PixelSpan&) const = default;
 };
 
 struct BlockItem {
     std::uint32_t block = 0;
-    TileRectangle
-        centres; ///< may have a pixel's centre in the block; empty where the block lies between centres
-    TileRectangle area; ///< may have any part of it
+    PixelSpan area; ///< may show some of it
     std::uint8_t face = 0, direction = 0;
-    Search search = Search::Newton1;
-    bool inside = false; ///< no edge of the face comes near
+    bool inside = false; ///< no edge of the face comes near, and all of it lies in front of the eye
     std::uint8_t bin = 0;
-    float reach = 0.0F; ///< cells by which a ray may stray in the block between its plane and its surface
-    float early = 0.0F; ///< share of the way to its plane by which a ray may meet its surface before
+    float nearest = 0.0F; ///< no ray meets it at a greater 1 / t
     [[nodiscard]] bool operator==(const BlockItem&) const = default;
 };
 

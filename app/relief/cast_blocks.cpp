@@ -1,18 +1,108 @@
 #include "app/relief/cast_blocks.h"
 
-#include "app/relief/block_surface.h"
+#include "app/relief/cell_row.h"
 #include "app/relief/lanes.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <limits>
 #include <span>
 
 namespace frustumscreen {
 
 namespace {
 
-static_assert(lanes == tile_width * tile_height);
+/// An item, ready for its rows of cells.
+struct ReadyItem {
+    const BlockItem& item;
+    const ReliefBlock& block;
+    const CastFace& face;
+    const std::uint32_t* codes;
+    const std::uint64_t* covers;
+    CornerMap map;
+    float outward; ///< the sign of a cell's area in the picture, where it faces the eye
+};
+
+FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const CastView& view, const BlockItems& items,
+                                     const BlockItem& item) {
+    const ReliefBlock& block = relief.blocks[item.block];
+    const GridView& grid = items.grids[item.face][item.direction];
+    const float turn =
+        glm::dot(glm::vec3(grid.pixel[0]), glm::cross(glm::vec3(grid.pixel[1]), glm::vec3(grid.pixel[2])));
+    return {item,
+            block,
+            view.faces[item.face],
+            &relief.corner_codes[std::size_t{item.block} * block_cells * block_cells],
+            relief.covers.data() + block.first_cover,
+            corner_map(block, grid),
+            turn > 0.0F ? -1.0F : 1.0F};
+}
+
+/// Whether a place of the block is where its surface is.
+FRUSTUMSCREEN_INLINE bool is_covered(const ReadyItem& ready, std::uint32_t place) {
+    constexpr std::uint32_t unit = CastSamples::places_per_cell;
+    const std::uint32_t u = place & 0xFFFFU;
+    const std::uint32_t v = place >> 16U;
+    const std::uint64_t bit = std::uint64_t{1} << (v / unit * block_cells + u / unit);
+    if ((ready.block.cut & bit) == 0) {
+        return true;
+    }
+    const std::uint64_t cover = ready.covers[std::popcount(ready.block.cut & (bit - 1))];
+    return (cover >> (v % unit / (unit / 8) * 8 + u % unit / (unit / 8)) & 1U) != 0;
+}
+
+/// Meetings on their way into the picture. To take them at once, a lane each, would be a branch for each that nobody foresees: they
+/// are kept in eights, `list` names those that count, and all are taken in one loop.
+class Meetings {
+public:
+    FRUSTUMSCREEN_INLINE bool full() const { return eights_ == most_eights; }
+    FRUSTUMSCREEN_INLINE void add(const Meeting& meeting, Ints in, int row, Ints sample) {
+        constexpr auto unit = static_cast<std::int32_t>(CastSamples::places_per_cell);
+        constexpr Ints columns = {0, unit, 2 * unit, 3 * unit, 4 * unit, 5 * unit, 6 * unit, 7 * unit};
+        const auto part = [](Floats at) FRUSTUMSCREEN_INLINED {
+            return __builtin_convertvector(
+                least(most(at * static_cast<float>(unit), Floats{}), all(static_cast<float>(unit - 1))),
+                Ints);
+        };
+        const std::size_t at = eights_ * lanes;
+        store(&nearness_[at], meeting.nearness);
+        store(&place_[at], (part(meeting.u) + columns) | ((part(meeting.v) + row * unit) << 16));
+        store(&sample_[at], sample);
+        const unsigned bits = bits_of(meeting.met & in);
+        for (unsigned lane = 0; lane < lanes; ++lane) {
+            list_[count_] = static_cast<std::uint16_t>(at + lane);
+            count_ += bits >> lane & 1U;
+        }
+        ++eights_;
+    }
+    /// Those that are nearer than what was met before.
+    FRUSTUMSCREEN_INLINE void take(CastSamples& samples, const ReadyItem& ready) {
+        float* const nearness = samples.nearness.data();
+        std::uint32_t* const block = samples.block.data();
+        std::uint32_t* const place = samples.place.data();
+        for (std::size_t k = 0; k < count_; ++k) {
+            const std::size_t from = list_[k];
+            const auto to = static_cast<std::size_t>(sample_[from]);
+            bool taken = nearness_[from] > nearness[to];
+            if (ready.block.cut != 0) {
+                taken = taken && is_covered(ready, place_[from]);
+            }
+            nearness[to] = taken ? nearness_[from] : nearness[to];
+            block[to] = taken ? ready.item.block : block[to];
+            place[to] = taken ? place_[from] : place[to];
+        }
+        eights_ = count_ = 0;
+    }
+
+private:
+    static constexpr std::size_t most_eights = 64;
+    std::size_t eights_ = 0, count_ = 0;
+    std::array<float, most_eights * lanes> nearness_;
+    std::array<std::uint32_t, most_eights * lanes> place_;
+    std::array<std::int32_t, most_eights * lanes> sample_;
+    std::array<std::uint16_t, most_eights * lanes + 1>
+        list_; ///< the last is written before it is known not to count
+};
 
 FRUSTUMSCREEN_INLINE Ints in_face(const CastFace& face, Floats x, Floats y) {
     Ints inside = Ints{} - 1;
@@ -24,151 +114,108 @@ FRUSTUMSCREEN_INLINE Ints in_face(const CastFace& face, Floats x, Floats y) {
     return inside;
 }
 
-/// What eight rays have met so far.
-struct Hits {
-    float* t;
-    std::uint32_t* block;
-    std::uint32_t* place;
-};
-
-/// An item, ready for any eight rays.
-struct ReadyItem {
-    const BlockItem& item;
-    const ReliefBlock& block;
-    const GridView& grid;
-    const CastFace& face;
-    Surface surface;
-    Rays eye; ///< without what the rays add
-};
-
-FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const CastView& view, const BlockItems& items,
-                                     const BlockItem& item) {
-    const ReliefBlock& block = relief.blocks[item.block];
-    const GridView& grid = items.grids[item.face][item.direction];
-    Rays eye{};
-    eye.u = grid.eye.x - block.u0;
-    eye.v = grid.eye.y - block.v0;
-    eye.height = grid.eye.z - block.w0 - block.w_u * eye.u - block.w_v * eye.v;
-    return {item,
-            block,
-            grid,
-            view.faces[item.face],
-            {&relief.corner_codes[std::size_t{item.block} * block_cells * block_cells],
-             Ints{} + static_cast<std::int32_t>(static_cast<std::uint32_t>(block.mask)),
-             Ints{} + static_cast<std::int32_t>(static_cast<std::uint32_t>(block.mask >> 32U)),
-             all(block.residual_low), all(block.residual_step),
-             block.mask == ~std::uint64_t{0} && block.cut == 0, block.cut,
-             relief.covers.data() + block.first_cover},
-            eye};
+/// Calls meet(corners, which cells, row) for each row of the item's cells.
+template <typename Meet> FRUSTUMSCREEN_INLINE void for_each_row(const ReadyItem& ready, const Meet& meet) {
+    constexpr Floats columns = {0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F};
+    constexpr Ints lane_bits = {1, 2, 4, 8, 16, 32, 64, 128};
+    CellCorners at{};
+    bool known = false; // the row before has this one's corners
+    for (int row = ready.block.cells[2]; row < ready.block.cells[3]; ++row) {
+        const auto here = static_cast<std::int32_t>(ready.block.mask >> (row * block_cells) & 255U);
+        if (here == 0) {
+            known = false;
+            continue;
+        }
+        Ints codes;
+        std::memcpy(&codes, ready.codes + row * block_cells, sizeof codes);
+        const auto corners = [&](int column, int up, int shift) FRUSTUMSCREEN_INLINED {
+            return corners_at(ready.map, columns + static_cast<float>(column), row + up,
+                              codes >> shift & 255);
+        };
+        at.a = known ? at.c : corners(0, 0, 0);
+        at.b = known ? at.d : corners(1, 0, 8);
+        at.c = corners(0, 1, 16);
+        at.d = corners(1, 1, 24);
+        known = true;
+        Ints cells = (here & lane_bits) != 0;
+        if (!ready.item.inside) {
+            cells &= (at.a.nearness > 0.0F) & (at.b.nearness > 0.0F) & (at.c.nearness > 0.0F) &
+                     (at.d.nearness > 0.0F);
+        }
+        meet(at, cells, row);
+    }
 }
 
-FRUSTUMSCREEN_INLINE Rays rays_of(const ReadyItem& ready, Floats x, Floats y) {
-    const auto along = [&](std::size_t k) {
-        const glm::vec3& ray = ready.grid.ray[k];
-        return ray.x * x + ray.y * y + ray.z;
-    };
-    Rays rays = ready.eye;
-    rays.du = along(0);
-    rays.dv = along(1);
-    rays.fall = along(2) - ready.block.w_u * rays.du - ready.block.w_v * rays.dv;
-    return rays;
-}
-
-/// Where the rays through (x, y) meet the item's block nearer than `before`, if they do.
-FRUSTUMSCREEN_INLINE Meeting meeting_of(const ReadyItem& ready, const Rays& rays, Floats x, Floats y,
-                                        Floats before) {
-    const ReliefBlock& block = ready.block;
-    const float u_low = block.cells[0] - rays.u;
-    const float u_high = block.cells[1] - rays.u;
-    const float v_low = block.cells[2] - rays.v;
-    const float v_high = block.cells[3] - rays.v;
-    Meeting meeting{};
-    Floats end{};
-    if (ready.item.search != Search::March) {
-        meeting.t = -rays.height / rays.fall;
-        const Floats u = meeting.t * rays.du;
-        const Floats v = meeting.t * rays.dv;
-        const float reach = ready.item.reach;
-        meeting.met = (u >= u_low - reach) & (u <= u_high + reach) & (v >= v_low - reach) &
-                      (v <= v_high + reach) & (meeting.t * (1.0F - ready.item.early) < before);
-    } else {
-        constexpr float slack = 0.04F; // cells
-        end = before;
-        narrow(meeting.t, end, rays.du, u_low - slack, u_high + slack);
-        narrow(meeting.t, end, rays.dv, v_low - slack, v_high + slack);
-        narrow(meeting.t, end, rays.fall, block.residual_low - slack - rays.height,
-               block.residual_high() + slack - rays.height);
-        meeting.met = meeting.t < end;
-    }
-    if (!ready.item.inside) {
-        meeting.met &= in_face(ready.face, x, y);
-    }
-    if (!any(meeting.met)) {
-        return meeting;
-    }
-    meeting = ready.item.search == Search::March ? by_march(ready.surface, rays, meeting.t, end, meeting.met)
-                                                 : by_newton(ready.surface, rays, meeting.t, meeting.met,
-                                                             1 + static_cast<int>(ready.item.search));
-    meeting.met &= (meeting.t < before) & (meeting.t > 0.0F);
-    return meeting;
-}
-
-FRUSTUMSCREEN_INLINE void cast_eight(const ReadyItem& ready, Floats x, Floats y, const Hits& hits) {
-    const Floats before = load(hits.t);
-    const Rays rays = rays_of(ready, x, y);
-    const Meeting meeting = meeting_of(ready, rays, x, y, before);
-    if (!any(meeting.met)) {
+/// What eight cells of a row show in sample `k` of the pixels within `limits`.
+FRUSTUMSCREEN_INLINE void cast_cells(CastSamples& samples, Meetings& meetings, const ReadyItem& ready,
+                                     const CellCorners& corners, Ints cells, int row, const PixelSpan& limits,
+                                     int k) {
+    const glm::vec2& sample = samples.places()[static_cast<std::size_t>(k)];
+    const CellRow at = cell_row(corners, cells, ready.outward, limits, sample);
+    if (!any(at.there)) {
         return;
     }
-    store(hits.t, meeting.met ? meeting.t : before);
-    const Local place = place_on(rays, meeting.t);
-    constexpr auto scale = static_cast<float>(CastPicture::places_per_cell);
-    const Ints u = __builtin_convertvector(least(most(place.u, Floats{}), all(block_cells)) * scale, Ints);
-    const Ints v = __builtin_convertvector(least(most(place.v, Floats{}), all(block_cells)) * scale, Ints);
-    const Ints packed = u | (v << 16);
-    for (int lane = 0; lane < lanes; ++lane) {
-        if (meeting.met[lane] != 0) {
-            hits.block[lane] = ready.item.block;
-            hits.place[lane] = static_cast<std::uint32_t>(packed[lane]);
+    const auto count = static_cast<int>(samples.places().size());
+    const PixelRectangle& pixels = samples.pixels();
+    const Ints first = ((at.top - pixels.y) * pixels.width + (at.left - pixels.x)) * count + k;
+    const auto visit = [&](const Weights& weights, Ints in, int x, int y) FRUSTUMSCREEN_INLINED {
+        if (!ready.item.inside) {
+            in &= in_face(ready.face, __builtin_convertvector(at.left + x, Floats) + sample.x,
+                          __builtin_convertvector(at.top + y, Floats) + sample.y);
         }
-    }
+        meetings.add(meeting_at(at, corners, weights), in, row, first + (y * pixels.width + x) * count);
+        if (meetings.full()) {
+            meetings.take(samples, ready);
+        }
+    };
+    for_each_pixel(at, cell_weights(at, corners), sample, visit);
 }
 
-FRUSTUMSCREEN_INLINE void cast_item(CastPicture& picture, const ReadyItem& ready, TileBand band) {
-    const Floats lane_x = {0.5F, 1.5F, 2.5F, 3.5F, 0.5F, 1.5F, 2.5F, 3.5F};
-    const Floats lane_y = {0.5F, 0.5F, 0.5F, 0.5F, 1.5F, 1.5F, 1.5F, 1.5F};
-    const TileRectangle& tiles = ready.item.centres;
-    const int end_row = std::min<int>(tiles.end_row, band.end);
-    for (int row = std::max<int>(tiles.first_row, band.first); row < end_row; ++row) {
-        std::size_t at =
-            (static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.columns) + tiles.first_column) *
-            lanes;
-        const Floats y = lane_y + static_cast<float>(row * tile_height);
-        for (int column = tiles.first_column; column < tiles.end_column; ++column, at += lanes) {
-            const Floats x = lane_x + static_cast<float>(column * tile_width);
-            cast_eight(ready, x, y, {&picture.t[at], &picture.block[at], &picture.place[at]});
-        }
-    }
+/// Of the item's area what lies in the rows.
+FRUSTUMSCREEN_INLINE PixelSpan within(const PixelSpan& area, const PixelRectangle& pixels, int k) {
+    const int first = std::max(pixels.y, k * rows_of_band);
+    const int end = std::min(pixels.y + pixels.height, (k + 1) * rows_of_band);
+    PixelSpan span = area;
+    span.top = static_cast<std::uint16_t>(std::max<int>(area.top, first));
+    span.bottom = static_cast<std::uint16_t>(std::min<int>(area.bottom, end));
+    return span;
 }
 
-FRUSTUMSCREEN_INLINE void cast_item(CastRays& rays, const ReadyItem& ready, TileBand rows) {
-    const TileRectangle& tiles = ready.item.area;
-    const int first_column = std::max<int>(tiles.first_column, rays.first_column);
-    const int end_column = std::min<int>(tiles.end_column, rays.first_column + rays.columns);
-    const int end_row = std::min<int>(tiles.end_row, rows.end);
-    for (int row = std::max<int>(tiles.first_row, rows.first); row < end_row; ++row) {
-        const std::size_t at = rays.tile(first_column, row);
-        const std::size_t end = rays.first[at + static_cast<std::size_t>(end_column - first_column)];
-        for (std::size_t k = rays.first[at] * lanes; k < end * lanes; k += lanes) {
-            cast_eight(ready, load(&rays.x[k]), load(&rays.y[k]),
-                       {&rays.t[k], &rays.block[k], &rays.place[k]});
+/// Whether all of the area's samples show something nearer.
+FRUSTUMSCREEN_INLINE bool is_hidden(const CastSamples& samples, const PixelSpan& area, float nearest) {
+    for (int y = area.top; y < area.bottom; ++y) {
+        const float* at = &samples.nearness[samples.at(area.left, y)];
+        const float* const end = &samples.nearness[samples.at(area.right - 1, y)] + samples.places().size();
+        for (; at + lanes <= end; at += lanes) {
+            if (any(load(at) < nearest)) {
+                return false;
+            }
+        }
+        for (; at < end; ++at) {
+            if (*at < nearest) {
+                return false;
+            }
         }
     }
+    return true;
 }
 
-/// Of a band's rows, those within band `k` of the list.
-TileBand within(TileBand band, int k) {
-    return {std::max(band.first, k * rows_of_band), std::min(band.end, (k + 1) * rows_of_band)};
+FRUSTUMSCREEN_INLINE void cast_item(CastSamples& samples, const ReadyItem& ready, const PixelSpan& limits,
+                                    Meetings& meetings) {
+    if (is_hidden(samples, limits, ready.item.nearest)) {
+        return;
+    }
+    for (int y = limits.top; y < limits.bottom; ++y) {
+        samples.widen(y, {limits.left, limits.right});
+    }
+    const auto count = static_cast<int>(samples.places().size());
+    const auto meet = [&](const CellCorners& corners, Ints cells, int row) FRUSTUMSCREEN_INLINED {
+        for (int k = 0; k < count; ++k) {
+            cast_cells(samples, meetings, ready, corners, cells, row, limits, k);
+        }
+    };
+    for_each_row(ready, meet);
+    meetings.take(samples, ready);
 }
 
 /// The list's items that may meet its band `k`, front to back.
@@ -182,87 +229,65 @@ std::span<const std::uint32_t> items_of(const BlockItems& items, int k) {
                           items.first_of_band[band + 1] - items.first_of_band[band]);
 }
 
-FRUSTUMSCREEN_INLINE void cast_all(CastPicture& picture, const BlockRelief& relief, const CastView& view,
-                                   const BlockItems& items, TileBand band) {
-    for (int k = band.first / rows_of_band; k * rows_of_band < band.end; ++k) {
-        const TileBand rows = within(band, k);
+FRUSTUMSCREEN_INLINE void cast_all(CastSamples& samples, const BlockRelief& relief, const CastView& view,
+                                   const BlockItems& items) {
+    Meetings meetings;
+    const PixelRectangle& pixels = samples.pixels();
+    for (int k = pixels.y / rows_of_band; k * rows_of_band < pixels.y + pixels.height; ++k) {
         for (const std::uint32_t place : items_of(items, k)) {
             const BlockItem& item = items.sorted[place];
-            if (item.centres.first_row < rows.end && item.centres.end_row > rows.first) {
-                cast_item(picture, ready(relief, view, items, item), rows);
-            }
-        }
-    }
-}
-
-FRUSTUMSCREEN_INLINE void cast_all(CastRays& rays, const BlockRelief& relief, const CastView& view,
-                                   const BlockItems& items) {
-    for (int k = rays.band.first / rows_of_band; k * rows_of_band < rays.band.end; ++k) {
-        const TileBand rows = within(rays.band, k);
-        for (const std::uint32_t place : items_of(items, k)) {
-            cast_item(rays, ready(relief, view, items, items.sorted[place]), rows);
+            cast_item(samples, ready(relief, view, items, item), within(item.area, pixels, k), meetings);
         }
     }
 }
 
 #if defined(__x86_64__)
-template <typename... Arguments> [[gnu::target("avx2")]] void cast_with_avx2(Arguments&... arguments) {
-    cast_all(arguments...);
+[[gnu::target("avx2")]] void cast_with_avx2(CastSamples& samples, const BlockRelief& relief,
+                                            const CastView& view, const BlockItems& items) {
+    cast_all(samples, relief, view, items);
 }
 #endif
 
-template <typename... Arguments> void cast_plainly(Arguments&... arguments) {
-    cast_all(arguments...);
+void cast_plainly(CastSamples& samples, const BlockRelief& relief, const CastView& view,
+                  const BlockItems& items) {
+    cast_all(samples, relief, view, items);
 }
 
-template <typename... Arguments> void cast_by(Instructions instructions, Arguments&... arguments) {
-#if defined(__x86_64__)
-    if (instructions == Instructions::Best && __builtin_cpu_supports("avx2")) {
-        cast_with_avx2(arguments...);
-        return;
+/// Sample k of n: the k-th column and a row of its own in a grid of n x n, rows in the order of reversed bits (Hammersley 1960), so
+/// that every edge of whatever slope passes one after another.
+glm::vec2 sample_place(int k, int n) {
+    int reversed = 0;
+    for (int bit = 1, of = n / 2; bit < n; bit *= 2, of /= 2) {
+        reversed += (k & bit) != 0 ? of : 0;
     }
-#endif
-    cast_plainly(arguments...);
+    return (glm::vec2(k, reversed) + 0.5F) / static_cast<float>(n);
 }
 
 } // namespace
 
-void CastPicture::resize(int width, int height) {
-    columns = (width + tile_width - 1) / tile_width;
-    rows = (height + tile_height - 1) / tile_height;
-    const std::size_t pixels = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) * lanes;
-    t.assign(pixels, std::numeric_limits<float>::infinity());
-    block.assign(pixels, 0);
-    place.assign(pixels, 0);
-}
-
-void cast(CastPicture& picture, const BlockRelief& relief, const CastView& view, const BlockItems& items,
-          TileBand band, Instructions instructions) {
-    const int left = view.lit.x / tile_width;
-    const int right = std::min((view.lit.x + view.lit.width + tile_width - 1) / tile_width, picture.columns);
-    for (int row = band.first; row < band.end && left < right; ++row) {
-        const std::size_t begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.columns);
-        std::fill_n(&picture.t[(begin + static_cast<std::size_t>(left)) * lanes],
-                    static_cast<std::size_t>(right - left) * lanes, std::numeric_limits<float>::infinity());
+void CastSamples::begin(const PixelRectangle& pixels, int count) {
+    pixels_ = pixels;
+    places_.clear();
+    for (int k = 0; k < count; ++k) {
+        places_.push_back(sample_place(k, count));
     }
-    cast_by(instructions, picture, relief, view, items, band);
+    extents_.assign(static_cast<std::size_t>(pixels.height), {pixels.x + pixels.width, pixels.x});
+    const std::size_t samples = static_cast<std::size_t>(pixels.width) *
+                                static_cast<std::size_t>(pixels.height) * static_cast<std::size_t>(count);
+    nearness.assign(samples, 0.0F);
+    block.resize(std::max(block.size(), samples));
+    place.resize(std::max(place.size(), samples));
 }
 
-void CastRays::begin(TileBand rows, int first_tile_column, int tile_columns) {
-    band = rows;
-    first_column = first_tile_column;
-    columns = tile_columns;
-    first.clear();
-    x.clear();
-    y.clear();
-}
-
-void cast(CastRays& rays, const BlockRelief& relief, const CastView& view, const BlockItems& items,
+void cast(CastSamples& samples, const BlockRelief& relief, const CastView& view, const BlockItems& items,
           Instructions instructions) {
-    rays.t.assign(rays.x.size(), std::numeric_limits<float>::infinity());
-    rays.block.resize(rays.x.size());
-    rays.place.resize(rays.x.size());
-    cast_by(instructions, rays, relief, view, items);
+#if defined(__x86_64__)
+    if (instructions == Instructions::Best && __builtin_cpu_supports("avx2")) {
+        cast_with_avx2(samples, relief, view, items);
+        return;
+    }
+#endif
+    cast_plainly(samples, relief, view, items);
 }
 
 namespace {
@@ -276,7 +301,7 @@ std::uint32_t blend(std::uint32_t from, std::uint32_t to, std::uint32_t share) {
 } // namespace
 
 glm::u8vec4 colour_at(const BlockRelief& relief, std::uint32_t block, std::uint32_t place) {
-    constexpr std::uint32_t unit = CastPicture::places_per_cell;
+    constexpr std::uint32_t unit = CastSamples::places_per_cell;
     constexpr std::uint32_t end = block_cells * unit - 1;
     const std::uint32_t u = std::min(place & 0xFFFFU, end);
     const std::uint32_t v = std::min(place >> 16U, end);

@@ -1,64 +1,65 @@
-/// The picture of a block relief: for each pixel the first block that its eye ray meets, where, and in which colour.
+/// A block relief as the eye sees it: for each sample of each pixel the nearest block that its ray meets, where, and how near.
 ///
-/// Shape    `CastPicture` is laid out in tiles of 4 x 2 pixels, a picture's rows of tiles one after another.
-/// Units    t: of the pixel's ray (cast_view.h), infinite where nothing is met; place: 1 / 4096 of a cell.
-/// Threads  rows of tiles are apart: `cast` may be called for several bands at once.
+/// Units    nearness: 1 / t of the pixel's ray (cast_view.h), 0 where nothing is met; place: 1 / 4096 of a cell, column in the
+///          lower half, row in the upper.
+/// Threads  the samples of one call are its own: `cast` may be called for several rectangles at once.
 /// SIMD     eight lanes by the compiler's vectors; AVX2 where the processor has it, else what the compiler was told; the pictures
 ///          are equal, since nothing is contracted, approximated or summed in another order.
 #pragma once
 
 #include "app/relief/block_items.h"
+#include "firmware_host/base/pixel_rectangle.h"
 
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace frustumscreen {
 
-struct CastPicture {
-    int columns = 0, rows = 0; ///< of tiles
-    std::vector<float> t;
-    std::vector<std::uint32_t> block;
-    std::vector<std::uint32_t> place; ///< column in the lower half, row in the upper
-
+/// The samples of a rectangle of pixels, those of a pixel one after another, pixels row by row.
+class CastSamples {
+public:
     static constexpr std::uint32_t places_per_cell = 4096;
+    static constexpr std::uint32_t most = 16; ///< of a pixel
 
-    void resize(int width, int height);
+    /// Of `count` samples a pixel, a power of two; nothing is met. Keeps its memory.
+    void begin(const PixelRectangle& pixels, int count);
+
+    [[nodiscard]] const PixelRectangle& pixels() const { return pixels_; }
+    /// Of each pixel, from its corner: one is at its centre; of more each has a column and a row of its own.
+    [[nodiscard]] const std::vector<glm::vec2>& places() const { return places_; }
+    /// A pixel's first sample.
     [[nodiscard]] std::size_t at(int x, int y) const {
-        return (static_cast<std::size_t>(y / tile_height) * static_cast<std::size_t>(columns) +
-                static_cast<std::size_t>(x / tile_width)) *
-                   (tile_width * tile_height) +
-               static_cast<std::size_t>(y % tile_height * tile_width + x % tile_width);
+        return (static_cast<std::size_t>(y - pixels_.y) * static_cast<std::size_t>(pixels_.width) +
+                static_cast<std::size_t>(x - pixels_.x)) *
+               places_.size();
     }
-};
-
-/// Rows of tiles [first, end).
-struct TileBand {
-    int first = 0, end = 0;
-};
-
-/// Rays through any places of a band's tiles, by eights: those of a tile one after another, the last eight filled up with copies.
-struct CastRays {
-    TileBand band;
-    int first_column = 0, columns = 0; ///< of tiles
-    std::vector<std::uint32_t> first;  ///< eights before each tile, row by row; one more at the end
-    std::vector<float> x, y;           ///< pixels
-    std::vector<float> t;              ///< as in CastPicture, as the next two
-    std::vector<std::uint32_t> block, place;
-
-    /// No ray yet; keeps its memory.
-    void begin(TileBand rows, int first_tile_column, int tile_columns);
-    [[nodiscard]] std::size_t tile(int column, int row) const {
-        return static_cast<std::size_t>(row - band.first) * static_cast<std::size_t>(columns) +
-               static_cast<std::size_t>(column - first_column);
+    /// Columns of a row that may have met something, the last one excluded.
+    struct Extent {
+        int first = 0, end = 0;
+    };
+    [[nodiscard]] const Extent& extent(int y) const {
+        return extents_[static_cast<std::size_t>(y - pixels_.y)];
     }
+    void widen(int y, const Extent& by) {
+        Extent& extent = extents_[static_cast<std::size_t>(y - pixels_.y)];
+        extent = {std::min(extent.first, by.first), std::max(extent.end, by.end)};
+    }
+
+    std::vector<float> nearness;
+    std::vector<std::uint32_t> block, place; ///< where something is met
+
+private:
+    PixelRectangle pixels_;
+    std::vector<glm::vec2> places_;
+    std::vector<Extent> extents_; ///< of the rows
 };
 
-/// Clears the band of the view's lit part, then casts into it.
-void cast(CastPicture& picture, const BlockRelief& relief, const CastView& view, const BlockItems& items,
-          TileBand band, Instructions instructions = Instructions::Best);
-
-/// Clears what the rays have met, then casts them.
-void cast(CastRays& rays, const BlockRelief& relief, const CastView& view, const BlockItems& items,
+/// Adds what `items` show in the samples' pixels.
+void cast(CastSamples& samples, const BlockRelief& relief, const CastView& view, const BlockItems& items,
           Instructions instructions = Instructions::Best);
 
 /// sRGB codes at a hit, bilinear between the corners.

@@ -6,7 +6,7 @@ namespace frustumscreen {
 
 FrameWorkers::FrameWorkers(int threads) {
     for (int k = 1; k < threads; ++k) {
-        threads_.emplace_back([this] { work_until_closed(); });
+        threads_.emplace_back([this, k] { work_until_closed(k); });
     }
 }
 
@@ -31,19 +31,19 @@ void FrameWorkers::share(int count, Work work) {
         ++round_;
         begun_.notify_all();
     }
-    take(work, count);
+    take(work, count, 0);
     std::unique_lock lock(mutex_);
     done_.wait(lock, [this] { return busy_ == 0; });
 }
 
-void FrameWorkers::take(const Work& work, int count) {
+void FrameWorkers::take(const Work& work, int count, int thread) {
     for (int k = next_.fetch_add(1, std::memory_order_relaxed); k < count;
          k = next_.fetch_add(1, std::memory_order_relaxed)) {
-        work.call(work.body, k);
+        work.call(work.body, k, thread);
     }
 }
 
-void FrameWorkers::work_until_closed() {
+void FrameWorkers::work_until_closed(int thread) {
     begin_device_thread("relief");
     std::uint64_t seen = 0;
     std::unique_lock lock(mutex_);
@@ -56,7 +56,7 @@ void FrameWorkers::work_until_closed() {
         const Work work = work_;
         const int count = count_;
         lock.unlock();
-        take(work, count);
+        take(work, count, thread);
         lock.lock();
         if (--busy_ == 0) {
             done_.notify_one();

@@ -22,20 +22,22 @@ public:
 
     [[nodiscard]] int threads() const { return static_cast<int>(threads_.size()) + 1; }
 
-    /// Calls body(k) once for each k of [0, count), on all threads in any order; returns when all are done. `body` throws nothing.
+    /// Calls body(k, thread) once for each k of [0, count), on all threads (0 is the caller's) in any order; returns when all are done.
+    /// `body` throws nothing.
     template <typename Body> void share(int count, const Body& body) {
-        share(count, {&body, [](const void* of, int k) { (*static_cast<const Body*>(of))(k); }});
+        share(count,
+              {&body, [](const void* of, int k, int thread) { (*static_cast<const Body*>(of))(k, thread); }});
     }
 
 private:
     /// A body without its type, so that handing it over needs no memory.
     struct Work {
         const void* body = nullptr;
-        void (*call)(const void* body, int k) = nullptr;
+        void (*call)(const void* body, int k, int thread) = nullptr;
     };
     void share(int count, Work work);
-    void take(const Work& work, int count);
-    void work_until_closed();
+    void take(const Work& work, int count, int thread);
+    void work_until_closed(int thread);
 
     std::atomic<int> next_{0};
     std::mutex mutex_; ///< of all that follows

@@ -15,6 +15,8 @@ using Ints = std::int32_t __attribute__((vector_size(4 * lanes)));
 
 /// For what is inlined into one function for each instruction set.
 #define FRUSTUMSCREEN_INLINE [[gnu::always_inline]] inline
+/// The same of a lambda, after its parameters.
+#define FRUSTUMSCREEN_INLINED __attribute__((always_inline))
 
 FRUSTUMSCREEN_INLINE Floats all(float value) {
     return Floats{} + value;
@@ -29,6 +31,14 @@ FRUSTUMSCREEN_INLINE bool any(Ints mask) {
     std::array<std::uint64_t, lanes / 2> words;
     std::memcpy(words.data(), &mask, sizeof mask);
     return (words[0] | words[1] | words[2] | words[3]) != 0;
+}
+/// Bit k for lane k.
+FRUSTUMSCREEN_INLINE unsigned bits_of(Ints mask) {
+    mask &= Ints{1, 2, 4, 8, 16, 32, 64, 128};
+    std::array<std::uint64_t, lanes / 2> words;
+    std::memcpy(words.data(), &mask, sizeof mask);
+    const std::uint64_t both = words[0] | words[1] | words[2] | words[3];
+    return static_cast<unsigned>(both | both >> 32U) & 255U;
 }
 FRUSTUMSCREEN_INLINE Floats load(const float* from) {
     Floats value;

@@ -2,23 +2,19 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <limits>
 
 namespace frustumscreen {
 
 namespace {
 
-/// The view's lit part, widened to whole tiles and cut to the picture.
-PixelRectangle tiles_around(const PixelRectangle& lit, int width, int height) {
-    if (lit.empty()) {
-        return {};
-    }
-    const int x = lit.x / tile_width * tile_width;
-    const int y = lit.y / tile_height * tile_height;
-    const int right = (lit.x + lit.width + tile_width - 1) / tile_width * tile_width;
-    const int bottom = (lit.y + lit.height + tile_height - 1) / tile_height * tile_height;
-    return intersected({x, y, right - x, bottom - y}, {0, 0, width, height});
+/// Bands of `rows_of_band` rows, counted from the first that meets `lit`.
+int bands_of(const PixelRectangle& lit) {
+    return (lit.y + lit.height + rows_of_band - 1) / rows_of_band - lit.y / rows_of_band;
+}
+
+PixelRectangle band_of(const PixelRectangle& lit, int k) {
+    return intersected(lit, {lit.x, (lit.y / rows_of_band + k) * rows_of_band, lit.width, rows_of_band});
 }
 
 /// The face that a pixel lights: the one whose nearest edge is farthest away.
@@ -36,78 +32,80 @@ const CastFace& face_at(const CastView& view, const glm::dvec3& pixel) {
 
 } // namespace
 
-ReliefPainter::ReliefPainter(int threads) : workers_(threads) {}
+ReliefPainter::ReliefPainter(int threads) : samples_(static_cast<std::size_t>(threads)), workers_(threads) {}
 
-void ReliefPainter::cast_picture(const BlockRelief& relief, const CastView& view, int width, int height) {
-    if (cast_.columns != (width + tile_width - 1) / tile_width ||
-        cast_.rows != (height + tile_height - 1) / tile_height) {
-        cast_.resize(width, height);
-    }
+void ReliefPainter::list(const BlockRelief& relief, const CastView& view) {
     begin_list(items_, relief, view);
     workers_.share(static_cast<int>(items_.parts.size()),
-                   [&](int k) { list_part(items_, relief, view, static_cast<std::size_t>(k)); });
+                   [&](int k, int) { list_part(items_, relief, view, static_cast<std::size_t>(k)); });
     end_list(items_);
-    first_row_ = view.lit.y / tile_height;
-    end_row_ = std::min((view.lit.y + view.lit.height + tile_height - 1) / tile_height, cast_.rows);
 }
 
-int ReliefPainter::bands() const {
-    return (end_row_ + rows_of_band - 1) / rows_of_band - first_row_ / rows_of_band;
-}
-
-TileBand ReliefPainter::band(int k) const {
-    const int first = (first_row_ / rows_of_band + k) * rows_of_band;
-    return {std::max(first, first_row_), std::min(first + rows_of_band, end_row_)};
-}
-
-void ReliefPainter::shade(const BlockRelief& relief, const TileBand& band) {
-    const PixelRectangle& lit = codes_.lit();
-    const int bottom = std::min(band.end * tile_height, lit.y + lit.height);
-    for (int y = band.first * tile_height; y < bottom; ++y) {
-        glm::u8vec4* const row = codes_.row(y);
-        LitCodes::Extent& extent = codes_.extent(y);
-        for (int x = 0; x < lit.width; ++x) {
-            const std::size_t at = cast_.at(lit.x + x, y);
-            if (cast_.t[at] < std::numeric_limits<float>::infinity()) {
-                row[x] = colour_at(relief, cast_.block[at], cast_.place[at]);
-                extent = {std::min(extent.first, x), x + 1};
-            }
+glm::u8vec4 ReliefPainter::code_at(const CastSamples& samples, std::size_t first,
+                                   const BlockRelief& relief) const {
+    const std::size_t count = samples.places().size();
+    const std::uint32_t block = samples.block[first];
+    if (count == 1) {
+        return colour_at(relief, block, samples.place[first]);
+    }
+    glm::uvec2 low(std::numeric_limits<unsigned>::max());
+    glm::uvec2 high(0);
+    glm::uvec2 sum(0);
+    std::size_t together = 0;
+    for (std::size_t k = first; k < first + count; ++k) {
+        const glm::uvec2 place(samples.place[k] & 0xFFFFU, samples.place[k] >> 16U);
+        together += samples.nearness[k] > 0.0F && samples.block[k] == block ? 1 : 0;
+        low = glm::min(low, place);
+        high = glm::max(high, place);
+        sum += place;
+    }
+    // Within a cell the codes are nearly even: their mean is the one in the middle.
+    const glm::uvec2 spread = high - low;
+    if (together == count && std::max(spread.x, spread.y) < CastSamples::places_per_cell) {
+        const auto middle = sum / static_cast<unsigned>(count);
+        return colour_at(relief, block, middle.x | middle.y << 16U);
+    }
+    glm::uvec3 light(0);
+    bool met = false;
+    for (std::size_t k = first; k < first + count; ++k) {
+        if (samples.nearness[k] > 0.0F) {
+            light += light_.light(colour_at(relief, samples.block[k], samples.place[k]));
+            met = true;
         }
     }
+    return met ? light_.mean(light, static_cast<unsigned>(count)) : glm::u8vec4(0);
 }
 
-void ReliefPainter::copy(const TileBand& band, const PictureSpan<glm::u8vec4>& picture) {
-    const PixelRectangle& lit = codes_.lit();
-    const int bottom = std::min(band.end * tile_height, lit.y + lit.height);
-    for (int y = band.first * tile_height; y < bottom; ++y) {
-        std::copy_n(codes_.row(y), lit.width, &picture.at(lit.x, y));
+void ReliefPainter::resolve(const CastSamples& samples, const BlockRelief& relief,
+                            const PictureSpan<glm::u8vec4>& picture) const {
+    const PixelRectangle& pixels = samples.pixels();
+    const std::size_t count = samples.places().size();
+    for (int y = pixels.y; y < pixels.y + pixels.height; ++y) {
+        std::fill_n(&picture.at(pixels.x, y), pixels.width, glm::u8vec4(0));
+        const CastSamples::Extent& extent = samples.extent(y);
+        for (int x = extent.first; x < extent.end; ++x) {
+            const float* const nearness = &samples.nearness[samples.at(x, y)];
+            if (std::any_of(nearness, nearness + count, [](float met) { return met > 0.0F; })) {
+                picture.at(x, y) = code_at(samples, samples.at(x, y), relief);
+            }
+        }
     }
 }
 
 PixelRectangle ReliefPainter::paint(const BlockRelief& relief, const CastView& view, int samples,
                                     const PictureSpan<glm::u8vec4>& picture) {
     assert(samples == 1 || samples == 2 || samples == 4 || samples == 8 || samples == 16);
-    const PixelRectangle lit = tiles_around(view.lit, picture.width, picture.height);
-    if (lit.empty()) {
+    if (view.lit.empty()) {
         return {};
     }
-    cast_picture(relief, view, picture.width, picture.height);
-    codes_.begin(lit);
-    workers_.share(bands(), [&](int k) {
-        cast(cast_, relief, view, items_, band(k));
-        shade(relief, band(k));
+    list(relief, view);
+    workers_.share(bands_of(view.lit), [&](int k, int worker) {
+        CastSamples& band = samples_[static_cast<std::size_t>(worker)];
+        band.begin(band_of(view.lit, k), samples);
+        cast(band, relief, view, items_);
+        resolve(band, relief, picture);
     });
-    fine_.resize(std::max(fine_.size(), static_cast<std::size_t>(bands())));
-    workers_.share(bands(), [&](int k) {
-        copy(band(k), picture);
-        if (samples > 1) {
-            FineBand& fine = fine_[static_cast<std::size_t>(k)];
-            fine.gather(codes_, band(k), samples);
-            cast(fine.rays(), relief, view, items_);
-            fine.resolve(relief, light_, samples, picture);
-        }
-    });
-    return lit;
+    return view.lit;
 }
 
 void ReliefPainter::hit_points(const BlockRelief& relief, const CastView& view,
@@ -115,19 +113,20 @@ void ReliefPainter::hit_points(const BlockRelief& relief, const CastView& view,
     for (int y = 0; y < points.height; ++y) {
         std::fill_n(&points.at(0, y), points.width, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
     }
-    const PixelRectangle lit = tiles_around(view.lit, points.width, points.height);
+    const PixelRectangle& lit = view.lit;
     if (lit.empty()) {
         return;
     }
-    cast_picture(relief, view, points.width, points.height);
-    cast(cast_, relief, view, items_, {first_row_, end_row_});
+    list(relief, view);
+    CastSamples& centres = samples_[0];
+    centres.begin(lit, 1);
+    cast(centres, relief, view, items_);
     for (int y = lit.y; y < lit.y + lit.height; ++y) {
         for (int x = lit.x; x < lit.x + lit.width; ++x) {
-            const std::size_t at = cast_.at(x, y);
-            if (std::isfinite(cast_.t[at])) {
+            const auto nearness = static_cast<double>(centres.nearness[centres.at(x, y)]);
+            if (nearness > 0.0) {
                 const glm::dvec3 pixel(x + 0.5, y + 0.5, 1.0);
-                points.at(x, y) = glm::vec3(view.eye_box + static_cast<double>(cast_.t[at]) *
-                                                               (face_at(view, pixel).direction * pixel));
+                points.at(x, y) = glm::vec3(view.eye_box + face_at(view, pixel).direction * pixel / nearness);
             }
         }
     }

@@ -8,9 +8,9 @@
 #pragma once
 
 #include "app/relief/cast_blocks.h"
-#include "app/relief/fine_samples.h"
 #include "app/relief/frame_workers.h"
 #include "app/relief/picture_span.h"
+#include "app/relief/sample_light.h"
 
 #include <vector>
 
@@ -20,8 +20,8 @@ class ReliefPainter {
 public:
     explicit ReliefPainter(int threads);
 
-    /// What `view` shows of `relief`. Writes every pixel of the rectangle that it returns and none outside: the view's lit part,
-    /// rounded to tiles. `samples` (1, 2, 4, 8 or 16) a pixel where outlines or colours ask for them, one elsewhere.
+    /// What `view` shows of `relief`. Writes every pixel of the rectangle that it returns and none outside: the view's lit part.
+    /// `samples` (1, 2, 4, 8 or 16) a pixel.
     PixelRectangle paint(const BlockRelief& relief, const CastView& view, int samples,
                          const PictureSpan<glm::u8vec4>& picture);
 
@@ -29,19 +29,17 @@ public:
     void hit_points(const BlockRelief& relief, const CastView& view, const PictureSpan<glm::vec3>& points);
 
 private:
-    void cast_picture(const BlockRelief& relief, const CastView& view, int width, int height);
-    [[nodiscard]] int bands() const;
-    [[nodiscard]] TileBand band(int k) const;
-    void shade(const BlockRelief& relief, const TileBand& band);
-    void copy(const TileBand& band, const PictureSpan<glm::u8vec4>& picture);
+    void list(const BlockRelief& relief, const CastView& view);
+    /// The pixels of `samples`, as codes.
+    void resolve(const CastSamples& samples, const BlockRelief& relief,
+                 const PictureSpan<glm::u8vec4>& picture) const;
+    [[nodiscard]] glm::u8vec4 code_at(const CastSamples& samples, std::size_t first,
+                                      const BlockRelief& relief) const;
 
     BlockItems items_;
-    CastPicture cast_;
-    int first_row_ = 0, end_row_ = 0; ///< of tiles, that the view lights
-    LitCodes codes_;
+    std::vector<CastSamples> samples_; ///< of a band at a time, one for each thread
     SampleLight light_;
-    std::vector<FineBand> fine_; ///< one for each band
-    FrameWorkers workers_;       ///< last: its threads use the others
+    FrameWorkers workers_; ///< last: its threads use the others
 };
 
 } // namespace frustumscreen

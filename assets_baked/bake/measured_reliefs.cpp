@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t cells_of_block = std::size_t{block_cells} * block_cells;
 constexpr std::size_t triangles_of_cell = 2;
-/// Corners of a cell's two triangles: bit 0 the next column, bit 1 the next row.
-constexpr std::array<std::uint32_t, 6> corners_of_cell{0, 1, 3, 0, 3, 2};
+/// Corners of a cell's two triangles, as it is cast (cell_row.h): bit 0 the next column, bit 1 the next row.
+constexpr std::array<std::uint32_t, 6> corners_of_cell{0, 1, 2, 3, 2, 1};
 
 /// A cell that is there, in the order of the surface's triangles.
 struct Cell {
@@ -55,7 +55,7 @@ glm::vec3 corner_in_box(const BlockRelief& relief, const ReliefGrid& grid, const
 
 /// The place of a surface's hit in its block, as the cast tells it.
 std::uint32_t place_of(std::uint32_t cell, const SurfaceHit& hit) {
-    constexpr auto unit = static_cast<float>(CastPicture::places_per_cell);
+    constexpr auto unit = static_cast<float>(CastSamples::places_per_cell);
     const std::size_t first = hit.triangle % triangles_of_cell * 3;
     const std::array<float, 3> weights{1.0F - hit.u - hit.v, hit.u, hit.v};
     glm::vec2 at(static_cast<float>(cell % block_cells), static_cast<float>(cell / block_cells));
@@ -101,10 +101,10 @@ private:
         }
         const auto before = static_cast<std::uint32_t>(std::popcount(block.cut & (bit - 1)));
         const std::uint64_t cover = relief_.covers[block.first_cover + before];
-        constexpr std::uint32_t part = CastPicture::places_per_cell / 8;
+        constexpr std::uint32_t part = CastSamples::places_per_cell / 8;
         const std::uint32_t place = place_of(cell.cell, hit);
-        const std::uint32_t column = (place & 0xFFFFU) % CastPicture::places_per_cell / part;
-        const std::uint32_t row = (place >> 16U) % CastPicture::places_per_cell / part;
+        const std::uint32_t column = (place & 0xFFFFU) % CastSamples::places_per_cell / part;
+        const std::uint32_t row = (place >> 16U) % CastSamples::places_per_cell / part;
         return (cover >> (8 * row + column) & 1U) != 0;
     }
 

@@ -30,13 +30,13 @@ void require_cast(const BlockRelief& relief) {
     fuzz::require(!view.faces.empty(), "the box is seen");
     BlockItems items;
     list_blocks(items, relief, view);
-    CastPicture picture;
-    picture.resize(32, 24);
-    cast(picture, relief, view, items, {0, picture.rows});
-    for (std::size_t k = 0; k < picture.t.size(); ++k) {
-        if (std::isfinite(picture.t[k])) {
-            fuzz::require(picture.block[k] < relief.blocks.size(), "a pixel shows a block that is there");
-            fuzz::require(colour_at(relief, picture.block[k], picture.place[k]).a == 255,
+    CastSamples samples;
+    samples.begin(view.lit, 2);
+    cast(samples, relief, view, items);
+    for (std::size_t k = 0; k < samples.nearness.size(); ++k) {
+        if (samples.nearness[k] > 0.0F) {
+            fuzz::require(samples.block[k] < relief.blocks.size(), "a sample shows a block that is there");
+            fuzz::require(colour_at(relief, samples.block[k], samples.place[k]).a == 255,
                           "what is shown is opaque");
         }
     }

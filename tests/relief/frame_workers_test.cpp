@@ -25,7 +25,13 @@ TEST(FrameWorkers, DoEachPieceOnce) {
         FrameWorkers workers(threads);
         for (const int count : {0, 1, 2, 1000}) {
             std::vector<int> done(static_cast<std::size_t>(count), 0);
-            workers.share(count, [&](int k) { ++done[static_cast<std::size_t>(k)]; });
+            std::vector<int> of_thread(static_cast<std::size_t>(threads),
+                                       0); // two that shared a number would race
+            workers.share(count, [&](int k, int thread) {
+                ++done[static_cast<std::size_t>(k)];
+                ++of_thread.at(static_cast<std::size_t>(thread));
+            });
+            EXPECT_EQ(std::accumulate(of_thread.begin(), of_thread.end(), 0), count) << threads;
             EXPECT_EQ(std::accumulate(done.begin(), done.end(), 0), count) << threads;
             EXPECT_EQ(std::count(done.begin(), done.end(), 1), count) << threads;
         }
@@ -39,7 +45,7 @@ TEST(FrameWorkers, LeaveTheStopSignalsToTheCaller) {
     std::barrier all(threads); // so that each thread takes one piece
     const std::thread::id caller = std::this_thread::get_id();
     std::vector<int> leaves(threads, 0);
-    workers.share(threads, [&](int k) {
+    workers.share(threads, [&](int k, int) {
         all.arrive_and_wait();
         leaves[static_cast<std::size_t>(k)] =
             std::this_thread::get_id() == caller || (leaves_to_others(SIGTERM) && leaves_to_others(SIGINT))

@@ -1,0 +1,175 @@
+/// A row of a block's eight cells as a face's picture shows them: which pixels they cover, where, and how near.
+///
+/// Frames   pixels as in cast_view.h; places in cells of the block.
+/// Method   micropolygons (Cook 1987): a cell is smaller than a few pixels, so its two triangles are tested at the pixels around it;
+///          eight cells at once, a cell a lane. Places and nearness are linear over a triangle: within a cell, perspective does
+///          not show.
+/// Threads  pure; any. Inlined into one function for each instruction set; other files have no use for it than cast_blocks.cpp.
+#pragma once
+
+#include "app/relief/block_items.h"
+#include "app/relief/lanes.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstring>
+
+namespace frustumscreen {
+
+static_assert(lanes == block_cells);
+
+/// The block's corners are (x t, y t, t) = origin + column * i + row * j + code * residual code.
+struct CornerMap {
+    std::array<float, 3> origin{}, column{}, row{}, code{};
+};
+
+FRUSTUMSCREEN_INLINE CornerMap corner_map(const ReliefBlock& block, const GridView& grid) {
+    CornerMap map;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::vec4& of = grid.pixel[k];
+        map.origin[k] = of.x * block.u0 + of.y * block.v0 + of.z * (block.w0 + block.residual_low) + of.w;
+        map.column[k] = of.x + of.z * block.w_u;
+        map.row[k] = of.y + of.z * block.w_v;
+        map.code[k] = of.z * block.residual_step;
+    }
+    return map;
+}
+
+/// One corner of each cell.
+struct Corners {
+    Floats x, y;     ///< pixel
+    Floats nearness; ///< 1 / t; not positive: not in front of the eye
+};
+
+FRUSTUMSCREEN_INLINE Corners corners_at(const CornerMap& map, Floats column, int row, Ints code) {
+    const Floats codes = __builtin_convertvector(code, Floats);
+    const auto at = [&](std::size_t k) FRUSTUMSCREEN_INLINED {
+        return (map.origin[k] + static_cast<float>(row) * map.row[k]) + column * map.column[k] +
+               codes * map.code[k];
+    };
+    const Floats nearness = 1.0F / at(2);
+    return {at(0) * nearness, at(1) * nearness, nearness};
+}
+
+/// Corners (0, 0), (1, 0), (0, 1), (1, 1) of each cell.
+struct CellCorners {
+    Corners a, b, c, d;
+};
+
+/// Where a point lies in a cell's two triangles: in units of the edges that leave corner a towards b and c, and of those that leave d
+/// towards c and b.
+struct Weights {
+    Floats to_b, to_c;
+    Floats from_d_to_c, from_d_to_b;
+
+    FRUSTUMSCREEN_INLINE Weights plus(const Weights& step, Floats times) const {
+        return {to_b + times * step.to_b, to_c + times * step.to_c, from_d_to_c + times * step.from_d_to_c,
+                from_d_to_b + times * step.from_d_to_b};
+    }
+    FRUSTUMSCREEN_INLINE Weights plus(const Weights& step) const {
+        return {to_b + step.to_b, to_c + step.to_c, from_d_to_c + step.from_d_to_c,
+                from_d_to_b + step.from_d_to_b};
+    }
+};
+
+/// Which pixels [left, right) x [top, bottom) may have each cell at their sample.
+struct CellRow {
+    Ints there; ///< cells that face the eye and have such pixels
+    Ints left, right, top, bottom;
+    Ints first_faces, second_faces; ///< of the triangles at a and at d
+};
+
+struct CellWeights {
+    Weights first; ///< at the pixel (left, top)'s own corner
+    Weights along_x, along_y;
+};
+
+/// Cells are drawn wider by this, so that blocks whose residuals have other steps leave no gap.
+constexpr float seam = 0.04F;  // cells
+constexpr float grown = 0.02F; // pixels at most
+
+/// Of the `cells`, within `limits`; `sample` from the pixel's corner. `outward` is 1 or -1, for how the grid lies to the picture.
+FRUSTUMSCREEN_INLINE CellRow cell_row(const CellCorners& at, Ints cells, float outward,
+                                      const PixelSpan& limits, const glm::vec2& sample) {
+    const auto& [a, b, c, d] = at;
+    const Floats ab_x = b.x - a.x, ab_y = b.y - a.y, ac_x = c.x - a.x, ac_y = c.y - a.y;
+    const Floats dc_x = c.x - d.x, dc_y = c.y - d.y, db_x = b.x - d.x, db_y = b.y - d.y;
+    const Floats first_area = ab_x * ac_y - ab_y * ac_x;
+    const Floats second_area = dc_x * db_y - dc_y * db_x;
+    constexpr float least_area = 1e-6F; // pixels
+    CellRow row;
+    row.first_faces = outward * first_area > least_area;
+    row.second_faces = outward * second_area > least_area;
+    constexpr float before = 1.0F - grown;
+    constexpr float after = 1.0F + grown;
+    const auto whole = [](Floats pixel, int low, int high) FRUSTUMSCREEN_INLINED {
+        return __builtin_convertvector(
+            least(most(pixel, all(static_cast<float>(low))), all(static_cast<float>(high))), Ints);
+    };
+    row.left =
+        whole(least(least(a.x, b.x), least(c.x, d.x)) + (before - sample.x), limits.left, limits.right);
+    row.right = whole(most(most(a.x, b.x), most(c.x, d.x)) + (after - sample.x), limits.left, limits.right);
+    row.top = whole(least(least(a.y, b.y), least(c.y, d.y)) + (before - sample.y), limits.top, limits.bottom);
+    row.bottom = whole(most(most(a.y, b.y), most(c.y, d.y)) + (after - sample.y), limits.top, limits.bottom);
+    row.there =
+        cells & (row.first_faces | row.second_faces) & (row.left < row.right) & (row.top < row.bottom);
+    return row;
+}
+
+/// Of a row with some cell that is there.
+FRUSTUMSCREEN_INLINE CellWeights cell_weights(const CellRow& row, const CellCorners& at) {
+    const auto& [a, b, c, d] = at;
+    const Floats ab_x = b.x - a.x, ab_y = b.y - a.y, ac_x = c.x - a.x, ac_y = c.y - a.y;
+    const Floats dc_x = c.x - d.x, dc_y = c.y - d.y, db_x = b.x - d.x, db_y = b.y - d.y;
+    const Floats first_scale = 1.0F / (ab_x * ac_y - ab_y * ac_x);
+    const Floats second_scale = 1.0F / (dc_x * db_y - dc_y * db_x);
+    CellWeights weights;
+    weights.along_x = {ac_y * first_scale, -ab_y * first_scale, db_y * second_scale, -dc_y * second_scale};
+    weights.along_y = {-ac_x * first_scale, ab_x * first_scale, -db_x * second_scale, dc_x * second_scale};
+    const Floats x = __builtin_convertvector(row.left, Floats);
+    const Floats y = __builtin_convertvector(row.top, Floats);
+    weights.first = {(x - a.x) * weights.along_x.to_b + (y - a.y) * weights.along_y.to_b,
+                     (x - a.x) * weights.along_x.to_c + (y - a.y) * weights.along_y.to_c,
+                     (x - d.x) * weights.along_x.from_d_to_c + (y - d.y) * weights.along_y.from_d_to_c,
+                     (x - d.x) * weights.along_x.from_d_to_b + (y - d.y) * weights.along_y.from_d_to_b};
+    return weights;
+}
+
+struct Meeting {
+    Ints met;
+    Floats u, v; ///< in the cell
+    Floats nearness;
+};
+
+FRUSTUMSCREEN_INLINE Meeting meeting_at(const CellRow& row, const CellCorners& at, const Weights& weights) {
+    const auto& [to_b, to_c, from_d_to_c, from_d_to_b] = weights;
+    const Ints first = row.first_faces & (to_b >= -seam) & (to_c >= -seam) & (to_b + to_c <= 1.0F);
+    constexpr float diagonal = 1.001F; // so that no rounding parts the two
+    const Ints second = row.second_faces & (from_d_to_c >= -seam) & (from_d_to_b >= -seam) &
+                        (from_d_to_c + from_d_to_b <= diagonal);
+    const Floats a = at.a.nearness, b = at.b.nearness, c = at.c.nearness, d = at.d.nearness;
+    return {first | second, first ? to_b : 1.0F - from_d_to_c, first ? to_c : 1.0F - from_d_to_b,
+            first ? a + to_b * (b - a) + to_c * (c - a) : d + from_d_to_c * (c - d) + from_d_to_b * (b - d)};
+}
+
+/// Calls visit(weights, lanes, column, row) for the samples of the pixels (left + column, top + row) of all cells.
+template <typename Visit>
+FRUSTUMSCREEN_INLINE void for_each_pixel(const CellRow& row, const CellWeights& of, const glm::vec2& sample,
+                                         const Visit& visit) {
+    Weights begin = of.first.plus(of.along_x, all(sample.x)).plus(of.along_y, all(sample.y));
+    const Ints columns = row.right - row.left;
+    const Ints rows = row.bottom - row.top;
+    int y = 0;
+    for (Ints in_y = row.there; any(in_y); ++y, in_y = row.there & (y < rows)) {
+        Weights weights = begin;
+        int x = 0;
+        for (Ints in_x = in_y; any(in_x); ++x, in_x = in_y & (x < columns)) {
+            visit(weights, in_x, x, y);
+            weights = weights.plus(of.along_x);
+        }
+        begin = begin.plus(of.along_y);
+    }
+}
+
+} // namespace frustumscreen
