@@ -146,29 +146,38 @@ template <typename Meet> FRUSTUMSCREEN_INLINE void for_each_row(const ReadyItem&
     }
 }
 
-/// What eight cells of a row show in sample `k` of the pixels within `limits`.
+/// What eight cells of a row show in the samples of the pixels within `limits`.
 FRUSTUMSCREEN_INLINE void cast_cells(CastSamples& samples, Meetings& meetings, const ReadyItem& ready,
-                                     const CellCorners& corners, Ints cells, int row, const PixelSpan& limits,
-                                     int k) {
-    const glm::vec2& sample = samples.places()[static_cast<std::size_t>(k)];
-    const CellRow at = cell_row(corners, cells, ready.outward, limits, sample);
-    if (!any(at.there)) {
-        return;
-    }
+                                     const CellCorners& corners, Ints cells, int row,
+                                     const PixelSpan& limits) {
+    const CellRow at = cell_row(corners, cells, ready.outward);
     const auto count = static_cast<int>(samples.places().size());
-    const PixelRectangle& pixels = samples.pixels();
-    const Ints first = ((at.top - pixels.y) * pixels.width + (at.left - pixels.x)) * count + k;
-    const auto visit = [&](const Weights& weights, Ints in, int x, int y) FRUSTUMSCREEN_INLINED {
-        if (!ready.item.inside) {
-            in &= in_face(ready.face, __builtin_convertvector(at.left + x, Floats) + sample.x,
-                          __builtin_convertvector(at.top + y, Floats) + sample.y);
+    const PixelRectangle& all_pixels = samples.pixels();
+    CellSteps steps{};
+    bool ready_to_step = false; // many rows have no sample in any cell
+    for (int k = 0; k < count; ++k) {
+        const glm::vec2& sample = samples.places()[static_cast<std::size_t>(k)];
+        const CellPixels pixels = cell_pixels(at, limits, sample);
+        if (!any(pixels.there)) {
+            continue;
         }
-        meetings.add(meeting_at(at, corners, weights), in, row, first + (y * pixels.width + x) * count);
-        if (meetings.full()) {
-            meetings.take(samples, ready);
-        }
-    };
-    for_each_pixel(at, cell_weights(at, corners), sample, visit);
+        steps = ready_to_step ? steps : cell_steps(corners);
+        ready_to_step = true;
+        const Ints first =
+            ((pixels.top - all_pixels.y) * all_pixels.width + (pixels.left - all_pixels.x)) * count + k;
+        const auto visit = [&](const Weights& weights, Ints in, int x, int y) FRUSTUMSCREEN_INLINED {
+            if (!ready.item.inside) {
+                in &= in_face(ready.face, __builtin_convertvector(pixels.left + x, Floats) + sample.x,
+                              __builtin_convertvector(pixels.top + y, Floats) + sample.y);
+            }
+            meetings.add(meeting_at(at, corners, weights), in, row,
+                         first + (y * all_pixels.width + x) * count);
+            if (meetings.full()) {
+                meetings.take(samples, ready);
+            }
+        };
+        for_each_pixel(pixels, corners, steps, sample, visit);
+    }
 }
 
 /// Of the item's area what lies in the rows.
@@ -208,11 +217,8 @@ FRUSTUMSCREEN_INLINE void cast_item(CastSamples& samples, const ReadyItem& ready
     for (int y = limits.top; y < limits.bottom; ++y) {
         samples.widen(y, {limits.left, limits.right});
     }
-    const auto count = static_cast<int>(samples.places().size());
     const auto meet = [&](const CellCorners& corners, Ints cells, int row) FRUSTUMSCREEN_INLINED {
-        for (int k = 0; k < count; ++k) {
-            cast_cells(samples, meetings, ready, corners, cells, row, limits, k);
-        }
+        cast_cells(samples, meetings, ready, corners, cells, row, limits);
     };
     for_each_row(ready, meet);
     meetings.take(samples, ready);

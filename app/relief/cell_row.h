@@ -63,77 +63,76 @@ struct Weights {
     Floats to_b, to_c;
     Floats from_d_to_c, from_d_to_b;
 
-    FRUSTUMSCREEN_INLINE Weights plus(const Weights& step, Floats times) const {
-        return {to_b + times * step.to_b, to_c + times * step.to_c, from_d_to_c + times * step.from_d_to_c,
-                from_d_to_b + times * step.from_d_to_b};
-    }
     FRUSTUMSCREEN_INLINE Weights plus(const Weights& step) const {
         return {to_b + step.to_b, to_c + step.to_c, from_d_to_c + step.from_d_to_c,
                 from_d_to_b + step.from_d_to_b};
     }
 };
 
-/// Which pixels [left, right) x [top, bottom) may have each cell at their sample.
 struct CellRow {
-    Ints there; ///< cells that face the eye and have such pixels
-    Ints left, right, top, bottom;
+    Ints there;                     ///< cells that face the eye
     Ints first_faces, second_faces; ///< of the triangles at a and at d
+    Floats left, right, top, bottom;
 };
 
-struct CellWeights {
-    Weights first; ///< at the pixel (left, top)'s own corner
+/// Of the `cells`. `outward` is 1 or -1, for how the grid lies to the picture.
+FRUSTUMSCREEN_INLINE CellRow cell_row(const CellCorners& at, Ints cells, float outward) {
+    const auto& [a, b, c, d] = at;
+    const Floats first_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    const Floats second_area = (c.x - d.x) * (b.y - d.y) - (c.y - d.y) * (b.x - d.x);
+    constexpr float least_area = 1e-6F; // pixels
+    const Ints first_faces = outward * first_area > least_area;
+    const Ints second_faces = outward * second_area > least_area;
+    return {cells & (first_faces | second_faces),
+            first_faces,
+            second_faces,
+            least(least(a.x, b.x), least(c.x, d.x)),
+            most(most(a.x, b.x), most(c.x, d.x)),
+            least(least(a.y, b.y), least(c.y, d.y)),
+            most(most(a.y, b.y), most(c.y, d.y))};
+}
+
+/// What weights change by from pixel to pixel.
+struct CellSteps {
     Weights along_x, along_y;
 };
+
+FRUSTUMSCREEN_INLINE CellSteps cell_steps(const CellCorners& at) {
+    const auto& [a, b, c, d] = at;
+    const Floats ab_x = b.x - a.x, ab_y = b.y - a.y, ac_x = c.x - a.x, ac_y = c.y - a.y;
+    const Floats dc_x = c.x - d.x, dc_y = c.y - d.y, db_x = b.x - d.x, db_y = b.y - d.y;
+    const Floats first = 1.0F / (ab_x * ac_y - ab_y * ac_x);
+    const Floats second = 1.0F / (dc_x * db_y - dc_y * db_x);
+    return {{ac_y * first, -ab_y * first, db_y * second, -dc_y * second},
+            {-ac_x * first, ab_x * first, -db_x * second, dc_x * second}};
+}
 
 /// Cells are drawn wider by this, so that blocks whose residuals have other steps leave no gap.
 constexpr float seam = 0.04F;  // cells
 constexpr float grown = 0.02F; // pixels at most
 
-/// Of the `cells`, within `limits`; `sample` from the pixel's corner. `outward` is 1 or -1, for how the grid lies to the picture.
-FRUSTUMSCREEN_INLINE CellRow cell_row(const CellCorners& at, Ints cells, float outward,
-                                      const PixelSpan& limits, const glm::vec2& sample) {
-    const auto& [a, b, c, d] = at;
-    const Floats ab_x = b.x - a.x, ab_y = b.y - a.y, ac_x = c.x - a.x, ac_y = c.y - a.y;
-    const Floats dc_x = c.x - d.x, dc_y = c.y - d.y, db_x = b.x - d.x, db_y = b.y - d.y;
-    const Floats first_area = ab_x * ac_y - ab_y * ac_x;
-    const Floats second_area = dc_x * db_y - dc_y * db_x;
-    constexpr float least_area = 1e-6F; // pixels
-    CellRow row;
-    row.first_faces = outward * first_area > least_area;
-    row.second_faces = outward * second_area > least_area;
+/// Pixels [left, right) x [top, bottom) whose sample each cell may have.
+struct CellPixels {
+    Ints there; ///< cells that have any
+    Ints left, right, top, bottom;
+};
+
+/// `sample` from a pixel's corner.
+FRUSTUMSCREEN_INLINE CellPixels cell_pixels(const CellRow& row, const PixelSpan& limits,
+                                            const glm::vec2& sample) {
     constexpr float before = 1.0F - grown;
     constexpr float after = 1.0F + grown;
     const auto whole = [](Floats pixel, int low, int high) FRUSTUMSCREEN_INLINED {
         return __builtin_convertvector(
             least(most(pixel, all(static_cast<float>(low))), all(static_cast<float>(high))), Ints);
     };
-    row.left =
-        whole(least(least(a.x, b.x), least(c.x, d.x)) + (before - sample.x), limits.left, limits.right);
-    row.right = whole(most(most(a.x, b.x), most(c.x, d.x)) + (after - sample.x), limits.left, limits.right);
-    row.top = whole(least(least(a.y, b.y), least(c.y, d.y)) + (before - sample.y), limits.top, limits.bottom);
-    row.bottom = whole(most(most(a.y, b.y), most(c.y, d.y)) + (after - sample.y), limits.top, limits.bottom);
-    row.there =
-        cells & (row.first_faces | row.second_faces) & (row.left < row.right) & (row.top < row.bottom);
-    return row;
-}
-
-/// Of a row with some cell that is there.
-FRUSTUMSCREEN_INLINE CellWeights cell_weights(const CellRow& row, const CellCorners& at) {
-    const auto& [a, b, c, d] = at;
-    const Floats ab_x = b.x - a.x, ab_y = b.y - a.y, ac_x = c.x - a.x, ac_y = c.y - a.y;
-    const Floats dc_x = c.x - d.x, dc_y = c.y - d.y, db_x = b.x - d.x, db_y = b.y - d.y;
-    const Floats first_scale = 1.0F / (ab_x * ac_y - ab_y * ac_x);
-    const Floats second_scale = 1.0F / (dc_x * db_y - dc_y * db_x);
-    CellWeights weights;
-    weights.along_x = {ac_y * first_scale, -ab_y * first_scale, db_y * second_scale, -dc_y * second_scale};
-    weights.along_y = {-ac_x * first_scale, ab_x * first_scale, -db_x * second_scale, dc_x * second_scale};
-    const Floats x = __builtin_convertvector(row.left, Floats);
-    const Floats y = __builtin_convertvector(row.top, Floats);
-    weights.first = {(x - a.x) * weights.along_x.to_b + (y - a.y) * weights.along_y.to_b,
-                     (x - a.x) * weights.along_x.to_c + (y - a.y) * weights.along_y.to_c,
-                     (x - d.x) * weights.along_x.from_d_to_c + (y - d.y) * weights.along_y.from_d_to_c,
-                     (x - d.x) * weights.along_x.from_d_to_b + (y - d.y) * weights.along_y.from_d_to_b};
-    return weights;
+    CellPixels pixels;
+    pixels.left = whole(row.left + (before - sample.x), limits.left, limits.right);
+    pixels.right = whole(row.right + (after - sample.x), limits.left, limits.right);
+    pixels.top = whole(row.top + (before - sample.y), limits.top, limits.bottom);
+    pixels.bottom = whole(row.bottom + (after - sample.y), limits.top, limits.bottom);
+    pixels.there = row.there & (pixels.left < pixels.right) & (pixels.top < pixels.bottom);
+    return pixels;
 }
 
 struct Meeting {
@@ -153,22 +152,31 @@ FRUSTUMSCREEN_INLINE Meeting meeting_at(const CellRow& row, const CellCorners& a
             first ? a + to_b * (b - a) + to_c * (c - a) : d + from_d_to_c * (c - d) + from_d_to_b * (b - d)};
 }
 
-/// Calls visit(weights, lanes, column, row) for the samples of the pixels (left + column, top + row) of all cells.
+/// Calls visit(weights, lanes, column, row) for the `sample` of the pixels (left + column, top + row) of all cells.
 template <typename Visit>
-FRUSTUMSCREEN_INLINE void for_each_pixel(const CellRow& row, const CellWeights& of, const glm::vec2& sample,
+FRUSTUMSCREEN_INLINE void for_each_pixel(const CellPixels& pixels, const CellCorners& at,
+                                         const CellSteps& steps, const glm::vec2& sample,
                                          const Visit& visit) {
-    Weights begin = of.first.plus(of.along_x, all(sample.x)).plus(of.along_y, all(sample.y));
-    const Ints columns = row.right - row.left;
-    const Ints rows = row.bottom - row.top;
+    const auto& [along_x, along_y] = steps;
+    const Floats left = __builtin_convertvector(pixels.left, Floats) + sample.x;
+    const Floats top = __builtin_convertvector(pixels.top, Floats) + sample.y;
+    const Floats from_a_x = left - at.a.x, from_a_y = top - at.a.y;
+    const Floats from_d_x = left - at.d.x, from_d_y = top - at.d.y;
+    Weights begin = {from_a_x * along_x.to_b + from_a_y * along_y.to_b,
+                     from_a_x * along_x.to_c + from_a_y * along_y.to_c,
+                     from_d_x * along_x.from_d_to_c + from_d_y * along_y.from_d_to_c,
+                     from_d_x * along_x.from_d_to_b + from_d_y * along_y.from_d_to_b};
+    const Ints columns = pixels.right - pixels.left;
+    const Ints rows = pixels.bottom - pixels.top;
     int y = 0;
-    for (Ints in_y = row.there; any(in_y); ++y, in_y = row.there & (y < rows)) {
+    for (Ints in_y = pixels.there; any(in_y); ++y, in_y = pixels.there & (y < rows)) {
         Weights weights = begin;
         int x = 0;
         for (Ints in_x = in_y; any(in_x); ++x, in_x = in_y & (x < columns)) {
             visit(weights, in_x, x, y);
-            weights = weights.plus(of.along_x);
+            weights = weights.plus(along_x);
         }
-        begin = begin.plus(of.along_y);
+        begin = begin.plus(along_y);
     }
 }
 
