@@ -13,7 +13,7 @@ packages=(
     # tools
     build-essential cmake ninja-build pkg-config
     # small libraries
-    libglm-dev libfmt-dev libexpected-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libsodium-dev
+    libglm-dev libeigen3-dev libceres-dev libfmt-dev libexpected-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libsodium-dev
     libminizip-dev zlib1g-dev
     # meshes and ray casting
     libembree-dev libmeshoptimizer-dev libdraco-dev libtinyobjloader-dev

@@ -3,6 +3,8 @@ find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(glm REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_path(CERES_HEADERS ceres/tiny_solver.h REQUIRED) # headers alone: nothing links Ceres
 find_package(embree 3 REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(nlohmann_json REQUIRED)

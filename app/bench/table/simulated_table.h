@@ -1,0 +1,60 @@
+/// A table whose truth is known: touches with noise as a technician makes them, and what a calibration is worth on it.
+///
+/// The arithmetic is its own, and shares nothing with what it is held against but the structs.
+/// Frames   table T, tracker K, projector J; metres, pixels.
+/// Threads  values; any. The same seed gives the same numbers on every machine.
+#pragma once
+
+#include "app/calibration/calibrated_table.h"
+#include "app/calibration/choose_crosses.h"
+#include "app/calibration/touch.h"
+
+#include <cstdint>
+
+namespace frustumscreen {
+
+/// Even and normal numbers of a seed. The standard's distributions differ between libraries; these do not.
+class SeededNumbers {
+public:
+    explicit SeededNumbers(std::uint64_t seed) : state_(seed) {}
+    double between(double low, double high);
+    double normal();
+    glm::dvec3 normals() { return {normal(), normal(), normal()}; }
+    glm::dquat rotation();
+    std::size_t below(std::size_t count);
+
+private:
+    std::uint64_t state_;
+};
+
+struct SimulatedTable {
+    CalibratedTable truth;
+    glm::dquat sensor_from_prop{1.0, 0.0, 0.0, 0.0}; ///< how the sensor sits in the prop
+    double sensor_height_m = 0.0;                    ///< above the touched place, upright
+};
+
+/// Some projector above some table, and some tracker beside it, as kiosks have them: throw 0.8 to 2.5, a lens shift or a fixed
+/// offset, aimed roughly at the table, distortion up to a per cent at the corner.
+[[nodiscard]] SimulatedTable some_table(std::uint64_t seed);
+
+/// Where the true light of a pixel is at a height above the table.
+[[nodiscard]] glm::dvec3 true_light(const CalibratedTable& truth, const glm::dvec2& pixel, double height_m);
+
+/// What is touched: the prop on a cross, upright and turned, or leaning by `lean_rad` about its own X axis.
+struct PlacedProp {
+    Cross cross;
+    double lean_rad = 0.0;
+};
+[[nodiscard]] Touch simulated_touch(const SimulatedTable& table, const PlacedProp& placed,
+                                    const TouchNoise& noise, SeededNumbers& numbers);
+
+/// How far the light lies beside what it should light, over the picture and from the table up to `top_m`: a prop's
+/// place is taken from the tracker, lit by the calibrated projector, and looked at where the true projector's light is.
+struct PictureError {
+    double mean_m = 0.0;
+    double worst_m = 0.0;
+};
+[[nodiscard]] PictureError picture_error(const SimulatedTable& table, const CalibratedTable& calibrated,
+                                         double top_m);
+
+} // namespace frustumscreen

@@ -1,0 +1,216 @@
+#include "app/calibration/calibrate_touch.h"
+
+#include "app/calibration/agreement.h"
+#include "app/calibration/check_touches.h"
+#include "app/calibration/reliability.h"
+#include "app/calibration/starts.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+/// What the verdicts ask for (docs/calibration.md): standard deviations of the picture, and what a wrong touch could hide.
+struct Limits {
+    double mean_m;
+    double worst_m;
+    double hidden_m;
+};
+constexpr Limits for_good{0.7e-3, 1.4e-3, 16e-3};
+/// Beyond, the touches that are left cannot tell which ones are wrong.
+constexpr double most_hidden_m = 60e-3;
+constexpr Limits for_usable{1.2e-3, 2.5e-3, 40e-3};
+
+double hidden_error_of(std::span<const Touch> touches, const FitSetup& setup, const Fit& fit,
+                       const ZoneSetup& zone) {
+    return hidden_error_m(whitened_touches(touches, setup, fit.model, fit.middle).rows,
+                          fit.information().ldlt().solve(Covariance::Identity()),
+                          zone_places(fit.model, fit.middle, zone));
+}
+
+bool keeps(const TouchCalibration& calibration, const Limits& limits) {
+    return calibration.uncertainty.mean_m <= limits.mean_m &&
+           calibration.uncertainty.worst_m <= limits.worst_m && calibration.hidden_error_m <= limits.hidden_m;
+}
+
+TouchCalibration refused(std::string reason) {
+    TouchCalibration calibration;
+    calibration.reason = std::move(reason);
+    return calibration;
+}
+
+Touches with_unit_rotations(std::span<const Touch> touches) {
+    Touches out(touches.begin(), touches.end());
+    for (Touch& touch : out) {
+        touch.tracker_from_sensor.rotation = glm::normalize(touch.tracker_from_sensor.rotation);
+    }
+    return out;
+}
+
+/// The touches in which the prop stands as in most of them: up lies alike in the sensor's frame.
+std::vector<bool> upright_ones(std::span<const Touch> touches, const glm::dvec3& up) {
+    constexpr double within = 0.97; // cosine of 14 degrees
+    std::vector<bool> best(touches.size(), false);
+    std::ptrdiff_t most = 0;
+    for (const Touch& mine : touches) {
+        const glm::dvec3 my_up = glm::conjugate(mine.tracker_from_sensor.rotation) * up;
+        std::vector<bool> like;
+        for (const Touch& other : touches) {
+            like.push_back(glm::dot(my_up, glm::conjugate(other.tracker_from_sensor.rotation) * up) > within);
+        }
+        if (const auto count = std::count(like.begin(), like.end(), true); count > most) {
+            most = count;
+            best = like;
+        }
+    }
+    return best;
+}
+
+/// What all other touches say of each.
+std::vector<TouchResidual> residuals_of(std::span<const Touch> touches, std::span<const std::size_t> wrong,
+                                        const FitSetup& setup, const TouchModel& model) {
+    std::vector<TouchResidual> residuals;
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+        std::vector<double> weights(touches.size(), 1.0);
+        for (const std::size_t other : wrong) {
+            weights[other] = 0.0;
+        }
+        weights[k] = 0.0;
+        const TouchModel others = fit_touches(touches, weights, setup, model).model;
+        const glm::dvec3 touched = others.touched(touches[k].tracker_from_sensor);
+        const auto lit = others.lit(touches[k].pixel, touches[k].block_m);
+        const auto pixel = others.pixel(touched);
+        constexpr double nowhere = 1e3; // metres and pixels: no light comes there
+        residuals.push_back({lit ? glm::distance(*lit, touched) : nowhere,
+                             pixel ? glm::distance(*pixel, touches[k].pixel) : nowhere});
+    }
+    return residuals;
+}
+
+void summarise_residuals(TouchCalibration& calibration) {
+    double count = 0.0;
+    for (std::size_t k = 0; k < calibration.residuals.size(); ++k) {
+        if (std::find(calibration.repeat.begin(), calibration.repeat.end(), k) == calibration.repeat.end()) {
+            const TouchResidual& residual = calibration.residuals[k];
+            calibration.mean_residual_m += residual.on_table_m;
+            calibration.mean_residual_px += residual.pixel;
+            calibration.worst_residual_m = std::fmax(calibration.worst_residual_m, residual.on_table_m);
+            calibration.worst_residual_px = std::fmax(calibration.worst_residual_px, residual.pixel);
+            count += 1.0;
+        }
+    }
+    calibration.mean_residual_m /= count;
+    calibration.mean_residual_px /= count;
+}
+
+std::string rows_in_words(std::span<const std::size_t> rows) {
+    std::vector<std::string> words;
+    for (const std::size_t row : rows) {
+        words.push_back(fmt::format("{}", row + 1));
+    }
+    const std::string last = words.back();
+    words.pop_back();
+    return words.empty() ? last : fmt::format("{} and {}", fmt::join(words, ", "), last);
+}
+
+/// Whether what is left without the wrong touches cannot check itself: then others may be wrong, and not those.
+bool too_few_left(const AgreeingTouches& found, std::span<const Touch> touches, const FitSetup& setup,
+                  const ZoneSetup& zone) {
+    if (found.agreement != Agreement::Without) {
+        return false;
+    }
+    Touches kept;
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+        if (std::find(found.wrong.begin(), found.wrong.end(), k) == found.wrong.end()) {
+            kept.push_back(touches[k]);
+        }
+    }
+    return hidden_error_of(kept, setup, found.fit, zone) > most_hidden_m;
+}
+
+void judge(TouchCalibration& calibration, const AgreeingTouches& found) {
+    calibration.repeat = found.wrong;
+    const std::string expected = fmt::format(
+        "the picture is within {:.1f} mm on average and {:.1f} mm at the worst place, one standard deviation",
+        1e3 * calibration.uncertainty.mean_m, 1e3 * calibration.uncertainty.worst_m);
+    if (found.agreement == Agreement::Exchanged) {
+        calibration.verdict = Verdict::Repeat;
+        calibration.reason =
+            fmt::format("touches {} look exchanged: each fits the other's cross", rows_in_words(found.wrong));
+    } else if (found.agreement == Agreement::Without) {
+        calibration.verdict = Verdict::Repeat;
+        calibration.reason =
+            found.wrong.size() == 1
+                ? fmt::format("touch {} does not fit the others: do it again", rows_in_words(found.wrong))
+                : fmt::format("touches {} do not fit the others: do them again", rows_in_words(found.wrong));
+    } else if (found.agreement == Agreement::All && keeps(calibration, for_good)) {
+        calibration.verdict = Verdict::Good;
+        calibration.reason = expected;
+    } else if (keeps(calibration, for_usable)) {
+        calibration.verdict = Verdict::Usable;
+        calibration.reason =
+            found.agreement == Agreement::Scattered
+                ? fmt::format("{}; the touches scatter {:.1f} times as much as they should: is "
+                              "metal near, or was the prop moved too early?",
+                              expected, found.scatter)
+                : fmt::format("{}; with more touches it would be good", expected);
+    } else {
+        calibration.verdict = Verdict::Repeat;
+        calibration.reason =
+            calibration.hidden_error_m > for_usable.hidden_m
+                ? "the touches agree, but are too few to check each other, and a wrong one would stay "
+                  "unnoticed: touch "
+                  "three more crosses"
+                : fmt::format(
+                      "{}, which is too much: touch more crosses, spread over the picture and both heights",
+                      expected);
+    }
+}
+
+} // namespace
+
+TouchCalibration calibrate_touch(std::span<const Touch> reported, const TouchSetup& setup) {
+    if (auto reason = refusal_of(reported, setup.width, setup.height)) {
+        return refused(std::move(*reason));
+    }
+    const Touches touches = with_unit_rotations(reported);
+    const std::vector<TouchModel> starts = starting_models(touches, setup.width, setup.height);
+    FitSetup fit_setup{setup.noise, setup.priors, setup.sensor_height_m,
+                       upright_ones(touches, starts[0].table_up)};
+    const AgreeingTouches found = find_agreement(touches, fit_setup, starts);
+    const auto some_upright = std::find(fit_setup.upright.begin(), fit_setup.upright.end(), true);
+    const ZoneSetup zone{setup.top_m,
+                         touches[static_cast<std::size_t>(some_upright - fit_setup.upright.begin())]
+                             .tracker_from_sensor.rotation};
+    if (auto reason = undetermined(found.fit, zone)) {
+        return refused(std::move(*reason));
+    }
+    if (found.agreement == Agreement::None || too_few_left(found, touches, fit_setup, zone)) {
+        return refused(
+            "the touches contradict each other, and no few of them are to blame: were the crosses touched "
+            "in another order, is metal near the tracker, or did the projector move?");
+    }
+    TouchCalibration calibration;
+    calibration.table = in_table_frame(found.fit.model);
+    if (!calibration.table) {
+        return refused("the light of the picture's middle does not come down on the table");
+    }
+    const Covariance covariance =
+        found.scatter * found.scatter * found.fit.information().ldlt().solve(Covariance::Identity());
+    const std::vector<ZonePlace> places = zone_places(found.fit.model, found.fit.middle, zone);
+    calibration.uncertainty = picture_uncertainty(places, covariance);
+    calibration.hidden_error_m = hidden_error_of(touches, fit_setup, found.fit, zone);
+    calibration.prior_shares = prior_shares(found.fit);
+    calibration.residuals = residuals_of(touches, found.wrong, fit_setup, found.fit.model);
+    judge(calibration, found);
+    summarise_residuals(calibration);
+    return calibration;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,55 @@
+/// A calibration by touch: the prop was laid on crosses that the projector shows, and from that come projector and tracker, with a verdict.
+///
+/// Frames   calibrated_table.h.
+/// Units    metres, pixels.
+/// Errors   none: touches from which nothing follows are refused with a reason for the technician. docs/calibration.md says what each verdict promises.
+/// Time     a millisecond or two for touches that agree; below a second for those that do not.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/calibration/calibrated_table.h"
+#include "app/calibration/determinacy.h"
+#include "app/calibration/priors.h"
+#include "app/calibration/touch.h"
+#include "app/calibration/verdict.h"
+#include "app/calibration/zone.h"
+
+#include <span>
+#include <string>
+
+namespace frustumscreen {
+
+struct TouchSetup {
+    int width = 0; ///< the projector's picture
+    int height = 0;
+    std::optional<double>
+        sensor_height_m; ///< the sensor above the touched place while the prop stands upright
+    double top_m = 0.12; ///< the prop's height: how far up the zone reaches
+    TouchNoise noise;
+    Priors priors;
+};
+
+/// How far a touch is off what all others say of it.
+struct TouchResidual {
+    double on_table_m = 0.0; ///< from where the cross's light is to where the prop was
+    double pixel = 0.0;
+};
+
+struct TouchCalibration {
+    Verdict verdict = Verdict::Refused;
+    std::string reason;                   ///< one sentence
+    std::vector<std::size_t> repeat;      ///< touches to do again, counted from 0
+    std::optional<CalibratedTable> table; ///< none if refused
+    std::vector<TouchResidual> residuals; ///< of each touch, left out
+    double mean_residual_m = 0.0;         ///< of the touches that agree
+    double worst_residual_m = 0.0;
+    double mean_residual_px = 0.0;
+    double worst_residual_px = 0.0;
+    PictureUncertainty uncertainty; ///< of the picture over the zone, one standard deviation
+    double hidden_error_m = 0.0;    ///< what one wrong touch could do to it and yet agree with the others
+    PriorShares prior_shares;
+};
+
+[[nodiscard]] TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetup& setup);
+
+} // namespace frustumscreen

@@ -1,0 +1,22 @@
+/// A calibrated table: the model in the table's frame, as programs take it.
+///
+/// Frames   table T: z = 0 on the table, its origin where the light of the picture's middle meets it, +X along the picture's u there.
+/// Threads  values; any.
+#pragma once
+
+#include "app/calibration/touch_model.h"
+
+namespace frustumscreen {
+
+struct CalibratedTable {
+    Pinhole pinhole;
+    Lens lens;
+    RigidTransform table_from_projector;
+    RigidTransform table_from_tracker;
+    glm::dvec3 sensor_offset_m{0.0}; ///< the touched place in the sensor's frame
+};
+
+/// Nothing if the light of the picture's middle does not come down on the table.
+[[nodiscard]] std::optional<CalibratedTable> in_table_frame(const TouchModel& model);
+
+} // namespace frustumscreen

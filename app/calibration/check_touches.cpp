@@ -1,0 +1,175 @@
+#include "app/calibration/check_touches.h"
+
+#include "app/calibration/starts.h"
+#include "app/calibration/unknowns.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+using Refusal = std::optional<std::string>;
+
+/// A table is some metres at most, and a tracker reaches no farther.
+constexpr double farthest_m = 6.0;
+constexpr double highest_block_m = 1.0;
+constexpr double least_height_m = 0.02;
+/// Shares of the picture's width: how far apart touches are at least, along their line and across it.
+constexpr double least_length = 0.25;
+constexpr double least_breadth = 0.08;
+
+Refusal bad_numbers(std::span<const Touch> touches) {
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+        const Touch& touch = touches[k];
+        const glm::dvec3& t = touch.tracker_from_sensor.translation;
+        const double length = glm::length(touch.tracker_from_sensor.rotation);
+        if (!std::isfinite(t.x + t.y + t.z + touch.pixel.x + touch.pixel.y + touch.block_m + length)) {
+            return fmt::format("touch {} has a number that is not finite", k + 1);
+        }
+        if (std::abs(length - 1.0) > 0.02) {
+            return fmt::format(
+                "touch {}: the quaternion's length is {:.3g} and not 1; are these angles in degrees, or "
+                "in another order than w, x, y, z?",
+                k + 1, length);
+        }
+    }
+    return std::nullopt;
+}
+
+Refusal wrong_units(std::span<const Touch> touches, const glm::dvec2& picture) {
+    double reach = 0.0;
+    double highest = 0.0;
+    double pixel = 0.0;
+    const glm::dvec3& first = touches[0].tracker_from_sensor.translation;
+    for (const Touch& touch : touches) {
+        reach = std::fmax(reach, glm::distance(touch.tracker_from_sensor.translation, first));
+        highest = std::fmax(highest, std::abs(touch.block_m));
+        pixel = std::fmax(pixel, std::fmax(std::abs(touch.pixel.x), std::abs(touch.pixel.y)));
+    }
+    if (reach > farthest_m) {
+        return fmt::format(
+            "the tracker's places lie {:.0f} m apart: are they in millimetres or inches? Metres are wanted",
+            reach);
+    }
+    if (highest > highest_block_m) {
+        return fmt::format("a block is {:.3g} m high: is that in millimetres or inches? Metres are wanted",
+                           highest);
+    }
+    if (pixel <= 1.5) {
+        return "the pixels are all below 1.5: are they shares of the picture? Pixels are wanted";
+    }
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+        const glm::dvec2& p = touches[k].pixel;
+        if (p.x < 0.0 || p.y < 0.0 || p.x > picture.x || p.y > picture.y) {
+            return fmt::format(
+                "touch {} is at pixel ({:.0f}, {:.0f}), outside the picture of {:.0f} x {:.0f}: is "
+                "that the projector's picture?",
+                k + 1, p.x, p.y, picture.x, picture.y);
+        }
+    }
+    return std::nullopt;
+}
+
+/// How far points spread along and across their line: four standard deviations, which is the length of what is evenly filled to some tenths.
+glm::dvec2 spread(std::span<const Touch> touches) {
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
+    const auto count = static_cast<double>(touches.size());
+    for (const Touch& touch : touches) {
+        mean += Eigen::Vector2d(touch.pixel.x, touch.pixel.y) / count;
+    }
+    for (const Touch& touch : touches) {
+        const Eigen::Vector2d off = Eigen::Vector2d(touch.pixel.x, touch.pixel.y) - mean;
+        square += off * off.transpose() / count;
+    }
+    const Eigen::Vector2d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(square).eigenvalues();
+    return {4.0 * std::sqrt(std::fmax(0.0, values[1])), 4.0 * std::sqrt(std::fmax(0.0, values[0]))};
+}
+
+std::size_t different_places(std::span<const Touch> touches) {
+    std::vector<Touch> found;
+    for (const Touch& touch : touches) {
+        const bool known = std::any_of(found.begin(), found.end(), [&](const Touch& other) {
+            return glm::distance(other.pixel, touch.pixel) < 2.0 &&
+                   std::abs(other.block_m - touch.block_m) < 1e-3;
+        });
+        if (!known) {
+            found.push_back(touch);
+        }
+    }
+    return found.size();
+}
+
+Refusal degenerate(std::span<const Touch> touches, double width) {
+    if (const std::size_t places = different_places(touches); places < least_touches) {
+        return fmt::format("{} different places were touched; {} at least are needed, and 9 are recommended",
+                           places, least_touches);
+    }
+    const auto [low, high] = std::minmax_element(
+        touches.begin(), touches.end(), [](const Touch& a, const Touch& b) { return a.block_m < b.block_m; });
+    if (high->block_m - low->block_m < least_height_m) {
+        return "all touches are at one height, which does not tell a near projector from a far one: touch "
+               "half of them "
+               "on a block, as high as the prop";
+    }
+    const glm::dvec2 spread_px = spread(touches);
+    if (spread_px.x < least_length * width) {
+        return "the touches are too near to each other, so that the picture's edges would be guessed: spread "
+               "them over "
+               "the whole picture";
+    }
+    if (spread_px.y < least_breadth * width) {
+        return "the touches lie nearly in one line, which does not say how the picture lies beside it: "
+               "spread them "
+               "over the whole picture";
+    }
+    return std::nullopt;
+}
+
+/// Whether places, pixels and heights fit each other at all, by affine fits.
+Refusal inconsistent(std::span<const Touch> touches) {
+    const HeightFit heights = fit_heights(touches);
+    const double scale = glm::length(heights.up);
+    if (scale < 0.2 || scale > 5.0) {
+        // A unit of the tracker or of the blocks: 1000, 100, 39.37, 25.4. Between, it is noise or the sensor's arm.
+        return fmt::format(
+            "the blocks' heights change by {:.3g} m where the tracker moved by 1 m upwards: are places and "
+            "heights in the same unit, and the heights those of the touched places?",
+            scale);
+    }
+    const PixelFit pixels = fit_pixels(touches);
+    // Seen from the projector's side, u to the right and v down make a left-handed system with up.
+    const glm::dvec3 u = glm::normalize(pixels.across_u);
+    const glm::dvec3 v = glm::normalize(pixels.across_v);
+    const double handed = glm::dot(glm::cross(u, v), heights.up / scale);
+    if (handed > 0.3) {
+        return "the touches are mirrored: is the projector set to rear projection, or are two of the "
+               "tracker's columns "
+               "exchanged?";
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+std::optional<std::string> refusal_of(std::span<const Touch> touches, int width, int height) {
+    if (touches.size() < least_touches) {
+        return fmt::format("{} touches are too few: 6 at least are needed, and 9 are recommended",
+                           touches.size());
+    }
+    for (Refusal found :
+         {bad_numbers(touches), wrong_units(touches, {width, height}), degenerate(touches, width)}) {
+        if (found) {
+            return found;
+        }
+    }
+    return inconsistent(touches);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,217 @@
+#include "app/calibration/corners.h"
+
+#include "app/calibration/calibrated_table.h"
+#include "app/calibration/unknowns.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace frustumscreen {
+
+namespace {
+
+using Place = Eigen::Vector3d;
+
+/// The places of a corner, at all distances.
+using Lines = std::array<std::vector<Place>, 4>;
+
+struct Line {
+    Place middle;
+    Place along; ///< unit
+};
+
+/// Least squares through places.
+Line line_through(std::span<const Place> places) {
+    Place middle = Place::Zero();
+    for (const Place& place : places) {
+        middle += place / static_cast<double>(places.size());
+    }
+    Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+    for (const Place& place : places) {
+        square += (place - middle) * (place - middle).transpose();
+    }
+    return {middle, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(square).eigenvectors().col(2)};
+}
+
+/// The place with the least sum of squared distances from the lines, and how well it is determined.
+struct Meeting {
+    Place place;
+    double condition;
+};
+Meeting meeting_of(std::span<const Line> lines) {
+    Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+    Place goal = Place::Zero();
+    for (const Line& line : lines) {
+        const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - line.along * line.along.transpose();
+        square += across;
+        goal += across * line.middle;
+    }
+    const Eigen::Vector3d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(square).eigenvalues();
+    return {square.ldlt().solve(goal), std::sqrt(values[2] / std::fmax(values[0], 1e-30))};
+}
+
+double least_way(std::span<const Place> places, const Place& along) {
+    double low = along.dot(places[0]);
+    double high = low;
+    for (const Place& place : places) {
+        low = std::fmin(low, along.dot(place));
+        high = std::fmax(high, along.dot(place));
+    }
+    return high - low;
+}
+
+/// From the centre of projection to the corners.
+struct Rays {
+    Place centre;
+    std::array<Place, 4> along; ///< unit
+};
+
+/// fx, fy, cx, cy and the rotation, from four rays: the homography from pixels to rays, split by RQ as a camera's.
+std::optional<std::pair<Pinhole, Eigen::Matrix3d>> projector_of(const Rays& rays, int width, int height) {
+    const double w = width;
+    const double h = height;
+    // Directions d_k = s_k ray_k, with d linear in (u, v, 1): d0 - d1 + d2 - d3 = 0 fixes the lengths s up to one factor.
+    Eigen::Matrix3d three;
+    three << rays.along[0], -rays.along[1], rays.along[2];
+    const Eigen::Vector3d lengths = three.fullPivLu().solve(rays.along[3]);
+    if (!(lengths.minCoeff() > 0.0)) {
+        return std::nullopt;
+    }
+    const Place d0 = lengths[0] * rays.along[0];
+    const Place d1 = lengths[1] * rays.along[1];
+    const Place d3 = rays.along[3];
+    // M from J: a pixel's direction is rotation * inverse(intrinsics) * (u, v, 1).
+    Eigen::Matrix3d direction_by_pixel;
+    direction_by_pixel << (d1 - d0) / w, (d3 - d0) / h, d0;
+    const Eigen::Matrix3d pixel_by_direction = direction_by_pixel.inverse();
+    const Eigen::Matrix3d m = pixel_by_direction / pixel_by_direction.row(2).norm();
+    if (!(m.determinant() > 0.0)) {
+        return std::nullopt;
+    }
+    const Eigen::Vector3d axis = m.row(2);
+    const double cx = m.row(0).dot(axis);
+    const double cy = m.row(1).dot(axis);
+    const Eigen::Vector3d down = m.row(1).transpose() - cy * axis;
+    const double fy = down.norm();
+    const Eigen::Vector3d y = down / fy;
+    const double fx = m.row(0).dot(y.cross(axis));
+    Eigen::Matrix3d j_from_m;
+    j_from_m << y.cross(axis).transpose(), y.transpose(), axis.transpose();
+    if (!(fx > 0.0)) {
+        return std::nullopt;
+    }
+    return std::pair{Pinhole{width, height, fx, fy, cx, cy}, j_from_m};
+}
+
+double degrees_between(const Place& a, const Place& b) {
+    return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi;
+}
+
+CornerCalibration refused(std::string reason) {
+    CornerCalibration calibration;
+    calibration.reason = std::move(reason);
+    return calibration;
+}
+
+std::optional<std::string> refusal_of(const Lines& lines) {
+    for (const std::vector<Place>& places : lines) {
+        if (places.size() < 2) {
+            return "each of the four corners is needed at two distances or more";
+        }
+        for (const Place& place : places) {
+            if (place.norm() > 50.0) {
+                return fmt::format(
+                    "a corner is {:.0f} m away: are these millimetres or inches? Metres are wanted",
+                    place.norm());
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int width, int height) {
+    Lines lines;
+    for (const MeasuredCorner& corner : corners) {
+        lines[static_cast<std::size_t>(corner.corner)].push_back(eigen(corner.place_m));
+    }
+    if (auto reason = refusal_of(lines)) {
+        return refused(std::move(*reason));
+    }
+    std::array<Line, 4> fitted;
+    for (std::size_t k = 0; k < 4; ++k) {
+        fitted[k] = line_through(lines[k]);
+        const double way = least_way(lines[k], fitted[k].along);
+        const double off = (fitted[k].middle - fitted[(k + 2) % 4].middle).norm();
+        if (way < 0.05 * off) {
+            return refused("the two distances are too near to each other to say where the lines meet: "
+                           "measure one of them on a "
+                           "board held much nearer to the projector");
+        }
+    }
+    const Meeting meeting = meeting_of(fitted);
+    Rays rays{meeting.place, {}};
+    for (std::size_t k = 0; k < 4; ++k) {
+        rays.along[k] = (fitted[k].middle - meeting.place).normalized();
+    }
+    const auto projector = projector_of(rays, width, height);
+    if (!projector) {
+        return refused(
+            "these corners are no picture's: are two of them exchanged, or is the picture mirrored?");
+    }
+    CornerCalibration calibration;
+    TouchModel model;
+    model.pinhole = projector->first;
+    const Eigen::Quaterniond q(projector->second);
+    model.projector_from_tracker.rotation = glm::normalize(glm::dquat(q.w(), q.x(), q.y(), q.z()));
+    model.projector_from_tracker.translation =
+        -(model.projector_from_tracker.rotation * glm_vector(meeting.place));
+    const auto table = in_table_frame(model);
+    if (!table) {
+        return refused("the light of the picture's middle does not come down on z = 0");
+    }
+    calibration.table_from_projector = table->table_from_projector;
+    calibration.measured_from_projector = model.projector_from_tracker.inverse();
+    calibration.pinhole = model.pinhole;
+    calibration.centre_m = glm_vector(meeting.place);
+    calibration.condition = meeting.condition;
+    calibration.horizontal_deg = degrees_between((rays.along[0] + rays.along[3]).normalized(),
+                                                 (rays.along[1] + rays.along[2]).normalized());
+    calibration.vertical_deg = degrees_between((rays.along[0] + rays.along[1]).normalized(),
+                                               (rays.along[3] + rays.along[2]).normalized());
+    const std::array<glm::dvec2, 4> pixels{{{0.0, 0.0}, {width, 0.0}, {width, height}, {0.0, height}}};
+    double count = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        for (const Place& place : lines[k]) {
+            const Place from = place - meeting.place;
+            const double off = (from - from.dot(rays.along[k]) * rays.along[k]).norm();
+            const auto pixel = model.pixel(glm_vector(place));
+            const double off_px = pixel ? glm::distance(*pixel, pixels[k]) : 1e3;
+            calibration.mean_residual_m += off;
+            calibration.worst_residual_m = std::fmax(calibration.worst_residual_m, off);
+            calibration.mean_residual_px += off_px;
+            calibration.worst_residual_px = std::fmax(calibration.worst_residual_px, off_px);
+            count += 1.0;
+        }
+    }
+    calibration.mean_residual_m /= count;
+    calibration.mean_residual_px /= count;
+    const bool holds = calibration.worst_residual_m < 0.015;
+    calibration.verdict = holds ? Verdict::Usable : Verdict::Repeat;
+    calibration.reason =
+        holds
+            ? fmt::format(
+                  "the corners lie within {:.1f} mm of four rays through one point; by touch it gets better",
+                  1e3 * calibration.worst_residual_m)
+            : fmt::format("a corner lies {:.0f} mm beside its ray: measure the corners again",
+                          1e3 * calibration.worst_residual_m);
+    return calibration;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,118 @@
+#include "app/calibration/point_files.h"
+
+#include "firmware_host/tracker/text_rows.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::array<std::string_view, 10> touch_columns{"tx_m", "ty_m", "tz_m", "qw",   "qx",
+                                                         "qy",   "qz",   "u_px", "v_px", "block_m"};
+constexpr std::array<std::string_view, 5> corner_columns{"distance", "corner", "x_m", "y_m", "z_m"};
+constexpr std::array<std::string_view, 4> corner_names{"top_left", "top_right", "bottom_right",
+                                                       "bottom_left"};
+/// More than any table has; a file of millions is some other file.
+constexpr std::size_t most_rows = 1000;
+
+Result<void> read_header(TextRows& rows, std::span<const std::string_view> columns) {
+    if (!rows.next() ||
+        !std::equal(columns.begin(), columns.end(), rows.fields().begin(), rows.fields().end())) {
+        return bad_input(rows.located(
+            fmt::format("the first line is not the header; allowed is {}", fmt::join(columns, ","))));
+    }
+    return {};
+}
+
+Result<void> check_row(const TextRows& rows, std::span<const std::string_view> columns, std::size_t so_far) {
+    if (rows.fields().size() != columns.size()) {
+        return bad_input(
+            rows.located(fmt::format("the row has {} fields; allowed are {}: {}", rows.fields().size(),
+                                     columns.size(), fmt::join(columns, ","))));
+    }
+    if (so_far >= most_rows) {
+        return bad_input(rows.located(fmt::format("there are more than {} rows", most_rows)));
+    }
+    return {};
+}
+
+Result<double> number_at(const TextRows& rows, std::span<const std::string_view> columns,
+                         std::size_t column) {
+    const std::optional<double> number = number_in(rows.fields()[column]);
+    if (!number || !std::isfinite(*number)) {
+        return bad_input(rows.located(fmt::format("{} is {}; allowed is a finite number", columns[column],
+                                                  quoted(rows.fields()[column]))));
+    }
+    return *number;
+}
+
+} // namespace
+
+Result<Touches> parse_touches(std::string_view text, std::string_view name) {
+    TextRows rows(text, name);
+    if (const Result<void> header = read_header(rows, touch_columns); !header) {
+        return tl::unexpected(header.error());
+    }
+    Touches touches;
+    while (rows.next()) {
+        if (const Result<void> row = check_row(rows, touch_columns, touches.size()); !row) {
+            return tl::unexpected(row.error());
+        }
+        std::array<double, touch_columns.size()> n{};
+        for (std::size_t k = 0; k < n.size(); ++k) {
+            const Result<double> number = number_at(rows, touch_columns, k);
+            if (!number) {
+                return tl::unexpected(number.error());
+            }
+            n[k] = *number;
+        }
+        touches.push_back(
+            {{glm::dquat(n[3], n[4], n[5], n[6]), glm::dvec3(n[0], n[1], n[2])}, {n[7], n[8]}, n[9]});
+    }
+    return touches;
+}
+
+Result<std::vector<MeasuredCorner>> parse_corners(std::string_view text, std::string_view name) {
+    TextRows rows(text, name);
+    if (const Result<void> header = read_header(rows, corner_columns); !header) {
+        return tl::unexpected(header.error());
+    }
+    std::vector<MeasuredCorner> corners;
+    while (rows.next()) {
+        if (const Result<void> row = check_row(rows, corner_columns, corners.size()); !row) {
+            return tl::unexpected(row.error());
+        }
+        const auto distance = integer_in(rows.fields()[0]);
+        if (!distance || *distance < 1 || *distance > 1000) {
+            return bad_input(rows.located(
+                fmt::format("distance is {}; allowed are 1, 2, ...: which distance it was measured at",
+                            quoted(rows.fields()[0]))));
+        }
+        const auto corner = std::find(corner_names.begin(), corner_names.end(), rows.fields()[1]);
+        if (corner == corner_names.end()) {
+            return bad_input(rows.located(fmt::format(
+                "corner is {}; allowed are {}", quoted(rows.fields()[1]), fmt::join(corner_names, ", "))));
+        }
+        MeasuredCorner measured;
+        measured.distance = static_cast<int>(*distance);
+        measured.corner = static_cast<PictureCorner>(corner - corner_names.begin());
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Result<double> number = number_at(rows, corner_columns, k + 2);
+            if (!number) {
+                return tl::unexpected(number.error());
+            }
+            measured.place_m[static_cast<glm::length_t>(k)] = *number;
+        }
+        corners.push_back(measured);
+    }
+    return corners;
+}
+
+} // namespace frustumscreen

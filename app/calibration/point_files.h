@@ -1,0 +1,21 @@
+/// Touches and corners in files: CSV with a header, `#` begins a comment.
+///
+/// Touches  tx_m,ty_m,tz_m,qw,qx,qy,qz,u_px,v_px,block_m
+/// Corners  distance,corner,x_m,y_m,z_m
+/// Errors   one sentence with file and line. Numbers are taken as they stand: whether they make sense is the calibration's to say.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/calibration/corners.h"
+#include "app/calibration/touch.h"
+#include "firmware_host/base/result.h"
+
+#include <string_view>
+
+namespace frustumscreen {
+
+/// `name` stands in messages. Quaternions keep their length.
+[[nodiscard]] Result<Touches> parse_touches(std::string_view text, std::string_view name);
+[[nodiscard]] Result<std::vector<MeasuredCorner>> parse_corners(std::string_view text, std::string_view name);
+
+} // namespace frustumscreen

@@ -1,0 +1,38 @@
+/// Where the fit of a model to touches begins: rough models, of which the best one after the fit counts.
+///
+/// By the direct linear transformation, if the touches determine one; and by projectors that look straight down, of several throws.
+/// Both take the sensor for the touched place: the fit finds how far it is off.
+/// Threads  pure; any.
+/// Source   Hartley, In defense of the eight-point algorithm, 1997 (the scaling); Hartley and Zisserman, Multiple view
+///          geometry, 2004, 6.1 and 7.1 (camera matrix from points)
+#pragma once
+
+#include "app/calibration/touch.h"
+#include "app/calibration/touch_model.h"
+
+#include <span>
+
+namespace frustumscreen {
+
+/// Least squares: height above the table = dot(up, x) + offset. `up` is not made a unit: its length tells units apart.
+struct HeightFit {
+    glm::dvec3 up{0.0};
+    double offset_m = 0.0;
+};
+[[nodiscard]] HeightFit fit_heights(std::span<const Touch> touches);
+
+/// Least squares: pixel = across * x + at_origin.
+struct PixelFit {
+    glm::dvec3 across_u{0.0}, across_v{0.0}; ///< pixels a metre, in K
+    glm::dvec2 at_origin{0.0};
+};
+[[nodiscard]] PixelFit fit_pixels(std::span<const Touch> touches);
+
+/// None, if the touches do not say where up is.
+[[nodiscard]] std::vector<TouchModel> starting_models(std::span<const Touch> touches, int width, int height);
+
+/// The one of them that looks straight down, with a focal length in pixels.
+[[nodiscard]] std::optional<TouchModel> start_with(std::span<const Touch> touches, int width, int height,
+                                                   double focal_px);
+
+} // namespace frustumscreen

@@ -1,0 +1,34 @@
+/// What touches determine: the projector, the table and the sensor in the prop, as the tracker's frame has them.
+///
+/// Frames   K, the tracker's own; J, the projector's. table_frame.h takes it into the table's frame.
+/// Units    metres, pixels.
+/// Threads  values; any.
+#pragma once
+
+#include "app/geometry/lens.h"
+#include "app/geometry/transform.h"
+
+namespace frustumscreen {
+
+struct TouchModel {
+    Pinhole pinhole;
+    Lens lens;
+    RigidTransform projector_from_tracker;
+    glm::dvec3 sensor_offset_m{0.0};    ///< the touched place in the sensor's frame
+    glm::dvec3 table_up{0.0, 0.0, 1.0}; ///< unit, in K
+    double table_offset_m = 0.0;        ///< height above the table = dot(table_up, x) + table_offset_m
+
+    [[nodiscard]] glm::dvec3 touched(const RigidTransform& tracker_from_sensor) const {
+        return tracker_from_sensor.point(sensor_offset_m);
+    }
+    [[nodiscard]] double height(const glm::dvec3& tracker_point) const {
+        return glm::dot(table_up, tracker_point) + table_offset_m;
+    }
+    [[nodiscard]] std::optional<glm::dvec2> pixel(const glm::dvec3& tracker_point) const {
+        return pixel_of(pinhole, lens, projector_from_tracker.point(tracker_point));
+    }
+    /// Where the light of a pixel is at a height above the table; nothing if it does not come down there.
+    [[nodiscard]] std::optional<glm::dvec3> lit(const glm::dvec2& pixel, double height_m) const;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,42 @@
+/// How uncertain the picture is on the prop, all over the zone: from the table up to the prop's top, all of the projector's picture.
+///
+/// A prop's place is taken from the tracker and lit by the projector: what counts is where that light is, beside where it should be.
+/// So the tracker's registration is in it as much as the projector.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/calibration/unknowns.h"
+
+#include <span>
+
+namespace frustumscreen {
+
+/// How far the light of a place moves on the table's plane for a small change of each unknown, in metres.
+using LightRows = Eigen::Matrix<double, 2, unknown_count>;
+
+/// A place of the zone, with a prop upright on it.
+struct ZonePlace {
+    glm::dvec2 pixel{0.0};
+    double height_m = 0.0;
+    LightRows rows;
+};
+
+struct ZoneSetup {
+    double top_m = 0.12; ///< the prop's height
+    glm::dquat upright{1.0, 0.0, 0.0,
+                       0.0}; ///< an upright prop's sensor, in K; it is turned about the vertical
+};
+
+/// Places all over the zone, for four turns of the prop each; `middle` as the unknowns have it.
+[[nodiscard]] std::vector<ZonePlace> zone_places(const TouchModel& model, const glm::dvec3& middle,
+                                                 const ZoneSetup& setup);
+
+/// Root mean square of how far the light is off, one standard deviation.
+struct PictureUncertainty {
+    double mean_m = 0.0;  ///< over the zone
+    double worst_m = 0.0; ///< where it is largest
+};
+[[nodiscard]] PictureUncertainty picture_uncertainty(std::span<const ZonePlace> places,
+                                                     const Covariance& covariance);
+
+} // namespace frustumscreen

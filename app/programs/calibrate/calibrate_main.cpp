@@ -1,0 +1,34 @@
+/// frustumscreen-calibrate: projector and tracker of a table, from points that were touched or measured.
+#include "app/programs/calibrate/corners_command.h"
+#include "app/programs/calibrate/touch_command.h"
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/common/read_arguments.h"
+
+namespace frustumscreen {
+namespace {
+
+int run(int argc, char** argv) {
+    CLI::App app(
+        "Projector and tracker of a table, from points that were touched or measured on it. Needs no device.",
+        "frustumscreen-calibrate");
+    app.set_version_flag("--version", "frustumscreen-calibrate " FRUSTUMSCREEN_VERSION);
+    app.require_subcommand(1);
+    app.footer("Status 0: a calibration that is good or usable; 1: points are to be done again, or say "
+               "nothing (with --json the "
+               "verdict is printed all the same); 2: wrong use.");
+    CalibrateRequest request;
+    std::function<int()> chosen;
+    add_touch_command(app, request, chosen);
+    add_corners_command(app, request, chosen);
+    if (const auto end = end_of_arguments(app, argc, argv, [&] { check_request(request); })) {
+        return *end;
+    }
+    return chosen();
+}
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    return frustumscreen::guarded_main("frustumscreen-calibrate", frustumscreen::run, argc, argv);
+}

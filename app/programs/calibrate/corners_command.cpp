@@ -1,0 +1,83 @@
+#include "app/programs/calibrate/corners_command.h"
+
+#include "app/calibration/corners.h"
+#include "app/calibration/point_files.h"
+#include "app/programs/common/guarded_main.h"
+#include "firmware_host/base/file.h"
+
+#include <fmt/format.h>
+
+namespace frustumscreen {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The same shape as that of a calibration by touch, as far as it goes: there is no tracker in it.
+Json corners_json(const CornerCalibration& c) {
+    Json json{{"projector", nullptr},   {"table_from_tracker", nullptr}, {"sensor_offset_m", nullptr},
+              {"residual_mm", nullptr}, {"residual_px", nullptr},        {"centre_m", nullptr},
+              {"angles_deg", nullptr},  {"condition", nullptr},          {"verdict", name_of(c.verdict)},
+              {"reason", c.reason},     {"repeat", Json::array()}};
+    if (c.pinhole) {
+        json["projector"] = {{"width", c.pinhole->width},
+                             {"height", c.pinhole->height},
+                             {"fx", c.pinhole->fx},
+                             {"fy", c.pinhole->fy},
+                             {"cx", c.pinhole->cx},
+                             {"cy", c.pinhole->cy},
+                             {"k1", 0.0},
+                             {"k2", 0.0},
+                             {"table_from_projector", matrix_json(c.table_from_projector)}};
+        json["residual_mm"] = {{"mean", 1e3 * c.mean_residual_m}, {"worst", 1e3 * c.worst_residual_m}};
+        json["residual_px"] = {{"mean", c.mean_residual_px}, {"worst", c.worst_residual_px}};
+        json["centre_m"] = {c.centre_m.x, c.centre_m.y, c.centre_m.z};
+        json["angles_deg"] = {{"horizontal", c.horizontal_deg}, {"vertical", c.vertical_deg}};
+        json["condition"] = c.condition;
+    }
+    return json;
+}
+
+std::string corners_text(const CornerCalibration& c) {
+    std::string text = fmt::format("{}: {}\n", name_of(c.verdict), c.reason);
+    if (c.pinhole) {
+        text += fmt::format(
+            "The light comes from ({:.3f}, {:.3f}, {:.3f}) m, {:.1f} degrees wide and {:.1f} high.\n",
+            c.centre_m.x, c.centre_m.y, c.centre_m.z, c.horizontal_deg, c.vertical_deg);
+        text += fmt::format("Along its axis that is {:.0f} times as uncertain as across it.\n", c.condition);
+    }
+    return text;
+}
+
+int corners(const CalibrateRequest& request) {
+    const Result<PictureSize> size = picture_size(request);
+    if (!size) {
+        return exit_status("frustumscreen-calibrate", tl::unexpected<Error>(size.error()));
+    }
+    const Result<Bytes> bytes = read_file(request.from);
+    if (!bytes) {
+        return exit_status("frustumscreen-calibrate", tl::unexpected<Error>(bytes.error()));
+    }
+    const auto measured = parse_corners(as_text(*bytes), request.from.string());
+    if (!measured) {
+        return exit_status("frustumscreen-calibrate", tl::unexpected<Error>(measured.error()));
+    }
+    const CornerCalibration calibration = calibrate_corners(*measured, size->width, size->height);
+    if (request.json) {
+        fmt::print("{}\n", corners_json(calibration).dump(2));
+    } else {
+        fmt::print("{}", corners_text(calibration));
+    }
+    return status_of(calibration.verdict, request, calibration.reason);
+}
+
+} // namespace
+
+void add_corners_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
+    CLI::App* const command = app.add_subcommand(
+        "corners", "from the picture's four corners, measured by hand at two distances: the projector");
+    add_common_options(*command, request);
+    command->callback([&] { chosen = [&] { return corners(request); }; });
+}
+
+} // namespace frustumscreen

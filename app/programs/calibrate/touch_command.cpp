@@ -1,0 +1,128 @@
+#include "app/programs/calibrate/touch_command.h"
+
+#include "app/calibration/calibrate_touch.h"
+#include "app/calibration/point_files.h"
+#include "app/programs/common/guarded_main.h"
+#include "firmware_host/base/file.h"
+
+#include <fmt/format.h>
+
+namespace frustumscreen {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json mm(double mean_m, double worst_m) {
+    return {{"mean", 1e3 * mean_m}, {"worst", 1e3 * worst_m}};
+}
+
+Json rows_json(const TouchCalibration& calibration) {
+    Json rows = Json::array();
+    for (std::size_t k = 0; k < calibration.residuals.size(); ++k) {
+        rows.push_back({{"row", k + 1},
+                        {"residual_mm", 1e3 * calibration.residuals[k].on_table_m},
+                        {"residual_px", calibration.residuals[k].pixel}});
+    }
+    return rows;
+}
+
+/// Every key is always there; what is not known is null.
+Json touch_json(const TouchCalibration& c) {
+    Json json{{"projector", nullptr},       {"table_from_tracker", nullptr},
+              {"sensor_offset_m", nullptr}, {"residual_mm", nullptr},
+              {"residual_px", nullptr},     {"uncertainty_mm", nullptr},
+              {"hidden_error_mm", nullptr}, {"prior_share", nullptr},
+              {"rows", Json::array()},      {"verdict", name_of(c.verdict)},
+              {"reason", c.reason},         {"repeat", Json::array()}};
+    for (const std::size_t row : c.repeat) {
+        json["repeat"].push_back(row + 1);
+    }
+    if (c.table) {
+        const Pinhole& p = c.table->pinhole;
+        const glm::dvec3& s = c.table->sensor_offset_m;
+        json["projector"] = {{"width", p.width},
+                             {"height", p.height},
+                             {"fx", p.fx},
+                             {"fy", p.fy},
+                             {"cx", p.cx},
+                             {"cy", p.cy},
+                             {"k1", c.table->lens.k1},
+                             {"k2", c.table->lens.k2},
+                             {"table_from_projector", matrix_json(c.table->table_from_projector)}};
+        json["table_from_tracker"] = matrix_json(c.table->table_from_tracker);
+        json["sensor_offset_m"] = {s.x, s.y, s.z};
+        json["residual_mm"] = mm(c.mean_residual_m, c.worst_residual_m);
+        json["residual_px"] = {{"mean", c.mean_residual_px}, {"worst", c.worst_residual_px}};
+        json["uncertainty_mm"] = mm(c.uncertainty.mean_m, c.uncertainty.worst_m);
+        json["hidden_error_mm"] = 1e3 * c.hidden_error_m;
+        json["prior_share"] = {{"aspect", c.prior_shares.aspect},
+                               {"cx", c.prior_shares.centre_u},
+                               {"cy", c.prior_shares.centre_v},
+                               {"k1", c.prior_shares.k1},
+                               {"k2", c.prior_shares.k2}};
+        json["rows"] = rows_json(c);
+    }
+    return json;
+}
+
+std::string touch_text(const TouchCalibration& c) {
+    std::string text = fmt::format("{}: {}\n", name_of(c.verdict), c.reason);
+    if (!c.table) {
+        return text;
+    }
+    const glm::dvec3& lens = c.table->table_from_projector.translation;
+    text += fmt::format("The projector is {:.3f} m above the table, {:.0f} mm beside and {:.0f} mm behind "
+                        "its picture's middle.\n",
+                        lens.z, 1e3 * lens.x, 1e3 * lens.y);
+    text += fmt::format("Each touch lies {:.1f} mm ({:.1f} pixels) from where the others expect it, on "
+                        "average; {:.1f} mm at worst.\n",
+                        1e3 * c.mean_residual_m, c.mean_residual_px, 1e3 * c.worst_residual_m);
+    for (const std::size_t row : c.repeat) {
+        text +=
+            fmt::format("Touch {} lies {:.1f} mm from there.\n", row + 1, 1e3 * c.residuals[row].on_table_m);
+    }
+    return text;
+}
+
+int touch(const CalibrateRequest& request) {
+    const Result<PictureSize> size = picture_size(request);
+    if (!size) {
+        return exit_status("frustumscreen-calibrate", tl::unexpected<Error>(size.error()));
+    }
+    const Result<Bytes> bytes = read_file(request.from);
+    if (!bytes) {
+        return exit_status("frustumscreen-calibrate", tl::unexpected<Error>(bytes.error()));
+    }
+    const Result<Touches> touches = parse_touches(as_text(*bytes), request.from.string());
+    if (!touches) {
+        return exit_status("frustumscreen-calibrate", tl::unexpected<Error>(touches.error()));
+    }
+    TouchSetup setup;
+    setup.width = size->width;
+    setup.height = size->height;
+    setup.top_m = size->top_m;
+    setup.sensor_height_m = request.sensor_height_m;
+    const TouchCalibration calibration = calibrate_touch(*touches, setup);
+    if (request.json) {
+        fmt::print("{}\n", touch_json(calibration).dump(2));
+    } else {
+        fmt::print("{}", touch_text(calibration));
+    }
+    return status_of(calibration.verdict, request, calibration.reason);
+}
+
+} // namespace
+
+void add_touch_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
+    CLI::App* const command = app.add_subcommand(
+        "touch", "from the prop laid on crosses: projector, tracker and the sensor's place in the prop");
+    add_common_options(*command, request);
+    command
+        ->add_option("--sensor-height", request.sensor_height_m,
+                     "the sensor above the touched place while the prop stands upright, metres")
+        ->check(CLI::Range(-2.0, 2.0));
+    command->callback([&] { chosen = [&] { return touch(request); }; });
+}
+
+} // namespace frustumscreen

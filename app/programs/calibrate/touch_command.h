@@ -1,0 +1,15 @@
+/// frustumscreen-calibrate touch: from touches to projector and tracker.
+///
+/// Threads  the main one.
+#pragma once
+
+#include "app/programs/calibrate/calibrate_request.h"
+
+#include <functional>
+
+namespace frustumscreen {
+
+/// Sets `chosen` if this is the command; what it returns is the exit status.
+void add_touch_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen);
+
+} // namespace frustumscreen

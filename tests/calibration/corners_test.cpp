@@ -1,0 +1,96 @@
+// By hand with a ruler: exact without error, and what 5 mm cost beside touches.
+#include "app/calibration/corners.h"
+#include "tests/calibration/simulated_touches.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace frustumscreen {
+namespace {
+
+/// The picture's corners on the table and on a board above it, by the truth's own ray, with a ruler's error.
+std::vector<MeasuredCorner> measured(const SimulatedTable& table, double board_m, double ruler_m,
+                                     SeededNumbers& numbers) {
+    const Pinhole& p = table.truth.pinhole;
+    const std::array<glm::dvec2, 4> pixels{
+        {{0.0, 0.0}, {p.width, 0.0}, {p.width, p.height}, {0.0, p.height}}};
+    std::vector<MeasuredCorner> corners;
+    for (int distance = 1; distance <= 2; ++distance) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const glm::dvec3 place = true_light(table.truth, pixels[k], distance == 1 ? 0.0 : board_m);
+            corners.push_back({distance, static_cast<PictureCorner>(k), place + ruler_m * numbers.normals()});
+        }
+    }
+    return corners;
+}
+
+TEST(Corners, WithoutErrorTheProjectorIsFound) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        SimulatedTable table = some_table(seed);
+        table.truth.lens = {};
+        SeededNumbers numbers(seed);
+        const Pinhole& p = table.truth.pinhole;
+        const CornerCalibration found =
+            calibrate_corners(measured(table, 0.4, 0.0, numbers), p.width, p.height);
+        ASSERT_TRUE(found.pinhole) << found.reason;
+        EXPECT_NEAR(found.pinhole->fx, p.fx, 1e-7 * p.fx);
+        EXPECT_NEAR(found.pinhole->fy, p.fy, 1e-7 * p.fy);
+        EXPECT_NEAR(found.pinhole->cx, p.cx, 1e-6 * p.width);
+        EXPECT_NEAR(found.pinhole->cy, p.cy, 1e-6 * p.width);
+        EXPECT_LT(glm::distance(found.centre_m, table.truth.table_from_projector.translation), 1e-6);
+        EXPECT_LT(found.worst_residual_m, 1e-8);
+    }
+}
+
+TEST(Corners, WhatSaysNothingIsRefused) {
+    const SimulatedTable table = some_table(3);
+    SeededNumbers numbers(3);
+    const Pinhole& p = table.truth.pinhole;
+    std::vector<MeasuredCorner> corners = measured(table, 0.4, 0.0, numbers);
+    const std::vector<MeasuredCorner> once(corners.begin(), corners.begin() + 4);
+    EXPECT_EQ(calibrate_corners(once, p.width, p.height).verdict, Verdict::Refused);
+    EXPECT_EQ(calibrate_corners(measured(table, 0.001, 0.0, numbers), p.width, p.height).verdict,
+              Verdict::Refused);
+    for (MeasuredCorner& corner : corners) {
+        corner.corner = static_cast<PictureCorner>((5 - static_cast<int>(corner.corner)) % 4); // mirrored
+    }
+    EXPECT_EQ(calibrate_corners(corners, p.width, p.height).verdict, Verdict::Refused);
+}
+
+// The registration of the tracker is left to the truth here: with a ruler, too, the picture by hand is many times worse.
+TEST(Corners, ByHandThePictureIsFiveTimesWorseThanByTouch) {
+    ChosenCrosses crosses;
+    double by_hand = 0.0;
+    double by_touch = 0.0;
+    int refused = 0;
+    constexpr int seeds = 40;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        const SimulatedTable table = some_table(seed);
+        SeededNumbers numbers(4000 + seed);
+        const Pinhole& p = table.truth.pinhole;
+        const CornerCalibration hand =
+            calibrate_corners(measured(table, 0.4, 0.005, numbers), p.width, p.height);
+        const TouchCalibration touch =
+            calibrate_touch(touches_of(table, crosses.of(table, 9), {}, numbers), setup_for(table));
+        ASSERT_TRUE(touch.table);
+        if (!hand.pinhole) {
+            ++refused;
+            continue;
+        }
+        CalibratedTable calibrated = table.truth;
+        calibrated.pinhole = *hand.pinhole;
+        calibrated.lens = {};
+        calibrated.table_from_projector = hand.measured_from_projector;
+        by_hand += picture_error(table, calibrated, 0.12).mean_m;
+        by_touch += picture_error(table, *touch.table, 0.12).mean_m;
+    }
+    std::printf("by hand %.2f mm, by touch %.2f mm on average; %d of %d refused\n",
+                1e3 * by_hand / (seeds - refused), 1e3 * by_touch / (seeds - refused), refused, seeds);
+    EXPECT_GE(by_hand, 5.0 * by_touch);
+    EXPECT_LE(refused, seeds / 10);
+}
+
+} // namespace
+} // namespace frustumscreen

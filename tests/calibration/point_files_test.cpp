@@ -1,0 +1,47 @@
+#include "app/calibration/point_files.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen {
+namespace {
+
+constexpr const char* touch_header = "tx_m,ty_m,tz_m,qw,qx,qy,qz,u_px,v_px,block_m\n";
+constexpr const char* corner_header = "distance,corner,x_m,y_m,z_m\n";
+
+std::string touch_error(const std::string& rows) {
+    const auto read = parse_touches(touch_header + rows, "t.csv");
+    return read ? "" : read.error().message;
+}
+
+TEST(PointFiles, ATouchIsReadAsItStands) {
+    const auto read = parse_touches(std::string("# by hand\n") + touch_header +
+                                        "0.1,-0.2,0.3,0.5,-0.5,0.5,-0.5,100.5,200,0.04\n",
+                                    "t.csv");
+    ASSERT_TRUE(read);
+    ASSERT_EQ(read->size(), 1U);
+    const Touch& touch = (*read)[0];
+    EXPECT_EQ(touch.tracker_from_sensor.translation, glm::dvec3(0.1, -0.2, 0.3));
+    EXPECT_EQ(touch.tracker_from_sensor.rotation, glm::dquat(0.5, -0.5, 0.5, -0.5));
+    EXPECT_EQ(touch.pixel, glm::dvec2(100.5, 200.0));
+    EXPECT_EQ(touch.block_m, 0.04);
+}
+
+TEST(PointFiles, WhatIsWrongIsSaidWithItsLine) {
+    EXPECT_NE(touch_error("1,2,3\n").find("t.csv:2: the row has 3 fields"), std::string::npos);
+    EXPECT_NE(touch_error("0,0,0,1,0,0,x,1,2,0\n").find("t.csv:2: qz is"), std::string::npos);
+    EXPECT_NE(touch_error("0,0,0,1,0,0,nan,1,2,0\n").find("qz is"), std::string::npos);
+    EXPECT_FALSE(parse_touches("tx_mm,ty_m\n", "t.csv"));
+    EXPECT_FALSE(parse_touches("", "t.csv"));
+}
+
+TEST(PointFiles, CornersHaveNames) {
+    const auto read = parse_corners(std::string(corner_header) + "2,bottom_left,0.1,0.2,0\n", "c.csv");
+    ASSERT_TRUE(read);
+    EXPECT_EQ((*read)[0].corner, PictureCorner::BottomLeft);
+    EXPECT_EQ((*read)[0].distance, 2);
+    EXPECT_FALSE(parse_corners(std::string(corner_header) + "1,left,0,0,0\n", "c.csv"));
+    EXPECT_FALSE(parse_corners(std::string(corner_header) + "0,top_left,0,0,0\n", "c.csv"));
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,76 @@
+// Touches that determine nothing are refused, each with its own reason.
+#include "tests/calibration/simulated_touches.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen {
+namespace {
+
+/// A grid of crosses, so that sets can be made degenerate at will.
+std::vector<Cross> grid(const SimulatedTable& table, double share_u, double share_v) {
+    const Pinhole& p = table.truth.pinhole;
+    std::vector<Cross> crosses;
+    for (int k = 0; k < 12; ++k) {
+        const glm::dvec2 at(k % 4 / 3.0 - 0.5, k / 4 / 2.0 - 0.5);
+        crosses.push_back({{p.width * (0.5 + share_u * at.x), p.height * (0.5 + share_v * at.y)},
+                           k % 2 == 0 ? 0.0 : 0.1,
+                           1.5708 * (k % 3)});
+    }
+    return crosses;
+}
+
+TouchCalibration calibrated(std::uint64_t seed, const std::vector<Cross>& crosses, bool height_known = true) {
+    const SimulatedTable table = some_table(seed);
+    SeededNumbers numbers(seed);
+    TouchSetup setup = setup_for(table);
+    if (!height_known) {
+        setup.sensor_height_m.reset();
+    }
+    return calibrate_touch(touches_of(table, crosses, {}, numbers), setup);
+}
+
+void expect_refused(const TouchCalibration& found, const std::string& word) {
+    EXPECT_EQ(found.verdict, Verdict::Refused) << found.reason;
+    EXPECT_FALSE(found.table);
+    EXPECT_NE(found.reason.find(word), std::string::npos) << found.reason;
+}
+
+TEST(Refusals, AGridIsNone) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const TouchCalibration found = calibrated(seed, grid(some_table(seed), 0.9, 0.9));
+        EXPECT_TRUE(found.verdict == Verdict::Good || found.verdict == Verdict::Usable) << found.reason;
+    }
+}
+
+TEST(Refusals, EachDegenerateSetHasItsReason) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const SimulatedTable table = some_table(seed);
+        const std::vector<Cross> usual = grid(table, 0.9, 0.9);
+
+        std::vector<Cross> few(usual.begin(), usual.begin() + 5);
+        expect_refused(calibrated(seed, few), "too few");
+
+        std::vector<Cross> again = few;
+        again.insert(again.end(), few.begin(), few.end());
+        expect_refused(calibrated(seed, again), "different places");
+
+        std::vector<Cross> flat = usual;
+        for (Cross& cross : flat) {
+            cross.block_m = 0.0;
+        }
+        expect_refused(calibrated(seed, flat), "one height");
+
+        expect_refused(calibrated(seed, grid(table, 0.15, 0.15)), "too near");
+        expect_refused(calibrated(seed, grid(table, 0.9, 0.03)), "one line");
+
+        std::vector<Cross> unturned = usual;
+        for (Cross& cross : unturned) {
+            cross.yaw_rad = 0.4;
+        }
+        expect_refused(calibrated(seed, unturned), "turned the same way");
+        expect_refused(calibrated(seed, usual, false), "--sensor-height");
+    }
+}
+
+} // namespace
+} // namespace frustumscreen

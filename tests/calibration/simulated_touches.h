@@ -1,0 +1,60 @@
+/// Touches of simulated tables, as a technician makes them on the crosses that the room chooses.
+#pragma once
+
+#include "app/bench/table/simulated_table.h"
+#include "app/calibration/calibrate_touch.h"
+
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace frustumscreen {
+
+/// Crosses for pictures of one shape and of about one throw: what a data sheet says of the projector, and no more.
+class ChosenCrosses {
+public:
+    const std::vector<Cross>& of(const SimulatedTable& table, int count) {
+        Pinhole pinhole = table.truth.pinhole;
+        const double throw_ratio = pinhole.fx / pinhole.width < 1.5 ? 1.1 : 1.9;
+        const auto key = std::tuple(pinhole.width * 10 / pinhole.height, throw_ratio, count);
+        std::vector<Cross>& crosses = chosen_[key];
+        if (crosses.empty()) {
+            pinhole = {1920, 19200 / std::get<0>(key), 1920 * throw_ratio, 1920 * throw_ratio,
+                       960,  9600.0 / std::get<0>(key)};
+            CrossSetup setup;
+            setup.count = count;
+            crosses = choose_crosses(rough_model(pinhole, 0.9 * throw_ratio, 0.06), setup);
+        }
+        scaled_ = crosses;
+        for (Cross& cross : scaled_) {
+            cross.pixel *= glm::dvec2(table.truth.pinhole.width / 1920.0,
+                                      table.truth.pinhole.height / (19200.0 / std::get<0>(key)));
+        }
+        return scaled_;
+    }
+
+private:
+    std::map<std::tuple<int, double, int>, std::vector<Cross>> chosen_;
+    std::vector<Cross> scaled_;
+};
+
+inline Touches touches_of(const SimulatedTable& table, const std::vector<Cross>& crosses,
+                          const TouchNoise& noise, SeededNumbers& numbers) {
+    Touches touches;
+    for (const Cross& cross : crosses) {
+        touches.push_back(simulated_touch(table, {cross, 0.0}, noise, numbers));
+    }
+    return touches;
+}
+
+inline TouchSetup setup_for(const SimulatedTable& table) {
+    TouchSetup setup;
+    setup.width = table.truth.pinhole.width;
+    setup.height = table.truth.pinhole.height;
+    setup.sensor_height_m = table.sensor_height_m;
+    return setup;
+}
+
+inline constexpr TouchNoise no_noise{0.0, 0.0, 0.0, 0.0};
+
+} // namespace frustumscreen
