@@ -3,7 +3,7 @@
 #   kiosk  what makes a PC the exhibit: units, rules, users, settings; needs base
 #   bake   what curators use on their own computers; needs base
 # The paths are those of the units: a kiosk is one image, not a prefix.
-install(TARGETS frustumscreen frustumscreen-pack frustumscreen-import
+install(TARGETS frustumscreen frustumscreen-pack frustumscreen-import frustumscreen-calibrate
     DESTINATION /usr/bin COMPONENT base EXCLUDE_FROM_ALL)
 
 install(TARGETS frustumscreen-bake frustumscreen-artifact frustumscreen-poses frustumscreen-sheet

@@ -10,7 +10,6 @@ namespace frustumscreen {
 
 struct CalibratedTable {
     Pinhole pinhole;
-    Lens lens;
     RigidTransform table_from_projector;
     RigidTransform table_from_tracker;
     glm::dvec3 sensor_offset_m{0.0}; ///< the touched place in the sensor's frame

@@ -54,8 +54,8 @@ struct Residuals {
         out[0] = (change[aspect_log] + std::log(p.fx / p.fy)) / setup.priors.aspect;
         out[1] = (change[centre_u] + (p.cx / width - 0.5)) / setup.priors.centre_u;
         out[2] = (change[centre_v] + (p.cy - 0.5 * p.height) / width) / setup.priors.centre_v;
-        out[3] = (change[lens_k1] + base.lens.k1) / setup.priors.k1;
-        out[4] = (change[lens_k2] + base.lens.k2) / setup.priors.k2;
+        out[3] = (change[lens_k1] + base.pinhole.lens.k1) / setup.priors.k1;
+        out[4] = (change[lens_k2] + base.pinhole.lens.k2) / setup.priors.k2;
     }
     template <typename T> bool operator()(const T* change, T* out) const {
         const ChangedModel<T> model(base, middle, change);

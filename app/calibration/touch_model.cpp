@@ -3,12 +3,8 @@
 namespace frustumscreen {
 
 std::optional<glm::dvec3> TouchModel::lit(const glm::dvec2& pixel, double height_m) const {
-    const std::optional<glm::dvec3> ray = ray_of(pinhole, lens, pixel);
-    if (!ray) {
-        return std::nullopt;
-    }
     const RigidTransform tracker_from_projector = projector_from_tracker.inverse();
-    const glm::dvec3 along = tracker_from_projector.direction(*ray);
+    const glm::dvec3 along = tracker_from_projector.direction(pinhole.ray(pixel));
     const double steep = glm::dot(table_up, along);
     const double way = (height_m - height(tracker_from_projector.translation)) / steep;
     return steep < 0.0 && way > 0.0 ? std::optional(tracker_from_projector.translation + way * along)

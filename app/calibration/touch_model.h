@@ -5,14 +5,13 @@
 /// Threads  values; any.
 #pragma once
 
-#include "app/geometry/lens.h"
+#include "app/geometry/pinhole.h"
 #include "app/geometry/transform.h"
 
 namespace frustumscreen {
 
 struct TouchModel {
     Pinhole pinhole;
-    Lens lens;
     RigidTransform projector_from_tracker;
     glm::dvec3 sensor_offset_m{0.0};    ///< the touched place in the sensor's frame
     glm::dvec3 table_up{0.0, 0.0, 1.0}; ///< unit, in K
@@ -25,7 +24,7 @@ struct TouchModel {
         return glm::dot(table_up, tracker_point) + table_offset_m;
     }
     [[nodiscard]] std::optional<glm::dvec2> pixel(const glm::dvec3& tracker_point) const {
-        return pixel_of(pinhole, lens, projector_from_tracker.point(tracker_point));
+        return pinhole.pixel(projector_from_tracker.point(tracker_point));
     }
     /// Where the light of a pixel is at a height above the table; nothing if it does not come down there.
     [[nodiscard]] std::optional<glm::dvec3> lit(const glm::dvec2& pixel, double height_m) const;

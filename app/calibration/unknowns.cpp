@@ -16,7 +16,7 @@ TouchModel changed(const TouchModel& base, const glm::dvec3& middle, const Chang
     const ChangedModel<double> now(base, middle, change.data());
     TouchModel model;
     model.pinhole = {base.pinhole.width, base.pinhole.height, now.fx, now.fy, now.cx, now.cy};
-    model.lens = {now.k1, now.k2};
+    model.pinhole.lens = {now.k1, now.k2};
     const Eigen::Quaterniond q(now.turn);
     model.projector_from_tracker.rotation = glm::normalize(glm::dquat(q.w(), q.x(), q.y(), q.z()));
     model.projector_from_tracker.translation =

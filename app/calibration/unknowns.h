@@ -100,8 +100,8 @@ ChangedModel<T>::ChangedModel(const TouchModel& base, const glm::dvec3& about, c
     fy = focal / aspect;
     cx = change[centre_u] * static_cast<double>(p.width) + p.cx;
     cy = change[centre_v] * static_cast<double>(p.width) + p.cy;
-    k1 = change[lens_k1] + base.lens.k1;
-    k2 = change[lens_k2] + base.lens.k2;
+    k1 = change[lens_k1] + base.pinhole.lens.k1;
+    k2 = change[lens_k2] + base.pinhole.lens.k2;
     turn = small_rotation(change[turn_x], change[turn_y], change[turn_z]) *
            eigen(base.projector_from_tracker.rotation).cast<T>();
     middle_in_j = eigen(base.projector_from_tracker.point(about)).cast<T>() +

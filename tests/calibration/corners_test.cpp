@@ -29,7 +29,7 @@ std::vector<MeasuredCorner> measured(const SimulatedTable& table, double board_m
 TEST(Corners, WithoutErrorTheProjectorIsFound) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         SimulatedTable table = some_table(seed);
-        table.truth.lens = {};
+        table.truth.pinhole.lens = {};
         SeededNumbers numbers(seed);
         const Pinhole& p = table.truth.pinhole;
         const CornerCalibration found =
@@ -81,7 +81,7 @@ TEST(Corners, ByHandThePictureIsFiveTimesWorseThanByTouch) {
         }
         CalibratedTable calibrated = table.truth;
         calibrated.pinhole = *hand.pinhole;
-        calibrated.lens = {};
+        calibrated.pinhole.lens = {};
         calibrated.table_from_projector = hand.measured_from_projector;
         by_hand += picture_error(table, calibrated, 0.12).mean_m;
         by_touch += picture_error(table, *touch.table, 0.12).mean_m;

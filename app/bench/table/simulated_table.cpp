@@ -28,7 +28,7 @@ glm::dvec2 calibrated_pixel(const CalibratedTable& calibrated, const glm::dvec3&
     const double x = q.x / q.z;
     const double y = q.y / q.z;
     const double r2 = x * x + y * y;
-    const double factor = 1.0 + calibrated.lens.k1 * r2 + calibrated.lens.k2 * r2 * r2;
+    const double factor = 1.0 + calibrated.pinhole.lens.k1 * r2 + calibrated.pinhole.lens.k2 * r2 * r2;
     return {calibrated.pinhole.fx * x * factor + calibrated.pinhole.cx,
             calibrated.pinhole.fy * y * factor + calibrated.pinhole.cy};
 }
@@ -62,7 +62,7 @@ glm::dvec3 true_light(const CalibratedTable& truth, const glm::dvec2& pixel, dou
     const Pinhole& p = truth.pinhole;
     const glm::dvec2 real((pixel.x - p.cx) / p.fx, (pixel.y - p.cy) / p.fy);
     const double r = glm::length(real);
-    const glm::dvec2 ideal = r > 0.0 ? real * (unbent(r, truth.lens) / r) : real;
+    const glm::dvec2 ideal = r > 0.0 ? real * (unbent(r, truth.pinhole.lens) / r) : real;
     const glm::dmat4 table_from_projector = truth.table_from_projector.matrix();
     const glm::dvec3 lens(table_from_projector[3]);
     const glm::dvec3 ray(table_from_projector * glm::dvec4(ideal, 1.0, 0.0));
@@ -114,8 +114,8 @@ SimulatedTable some_table(std::uint64_t seed) {
                      (0.5 + shift) * size.y};
     // At the corner of the picture: some per mille to a per cent.
     const double corner2 = (0.25 + 0.25 * size.y * size.y / (width * width)) / (throw_ratio * throw_ratio);
-    truth.lens = {numbers.between(-0.01, 0.01) / corner2, 0.0};
-    truth.lens.k1 = std::fmax(-0.1, std::fmin(0.1, truth.lens.k1));
+    truth.pinhole.lens = {numbers.between(-0.01, 0.01) / corner2, 0.0};
+    truth.pinhole.lens.k1 = std::fmax(-0.1, std::fmin(0.1, truth.pinhole.lens.k1));
     // Looking down, aimed at the table's middle within some degrees.
     const glm::dquat down(0.0, 1.0, 0.0, 0.0);
     const glm::dvec3 off{numbers.between(-0.15, 0.15), numbers.between(-0.15, 0.15),
@@ -125,7 +125,6 @@ SimulatedTable some_table(std::uint64_t seed) {
     // Then the table's frame is what the conventions say, whatever the aim.
     TouchModel model;
     model.pinhole = truth.pinhole;
-    model.lens = truth.lens;
     model.projector_from_tracker = truth.table_from_projector.inverse();
     truth.table_from_projector = in_table_frame(model)->table_from_projector;
     truth.table_from_tracker = {

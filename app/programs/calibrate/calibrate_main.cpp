@@ -1,5 +1,7 @@
 /// frustumscreen-calibrate: projector and tracker of a table, from points that were touched or measured.
 #include "app/programs/calibrate/corners_command.h"
+#include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/table_command.h"
 #include "app/programs/calibrate/touch_command.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/read_arguments.h"
@@ -8,9 +10,10 @@ namespace frustumscreen {
 namespace {
 
 int run(int argc, char** argv) {
-    CLI::App app(
-        "Projector and tracker of a table, from points that were touched or measured on it. Needs no device.",
-        "frustumscreen-calibrate");
+    CLI::App app("Projector and tracker of a table, from points that were touched or measured on it: on the "
+                 "table itself (table), or "
+                 "without a device from a file (touch, corners); and what is kept of it (kept).",
+                 "frustumscreen-calibrate");
     app.set_version_flag("--version", "frustumscreen-calibrate " FRUSTUMSCREEN_VERSION);
     app.require_subcommand(1);
     app.footer("Status 0: a calibration that is good or usable; 1: points are to be done again, or say "
@@ -20,6 +23,8 @@ int run(int argc, char** argv) {
     std::function<int()> chosen;
     add_touch_command(app, request, chosen);
     add_corners_command(app, request, chosen);
+    add_table_command(app, request, chosen);
+    add_kept_command(app, request, chosen);
     if (const auto end = end_of_arguments(app, argc, argv, [&] { check_request(request); })) {
         return *end;
     }

@@ -19,7 +19,7 @@ void add_common_options(CLI::App& command, CalibrateRequest& request) {
 }
 
 void check_request(const CalibrateRequest& request) {
-    if (request.picture.empty() && request.config.empty()) {
+    if (!request.from.empty() && request.picture.empty() && request.config.empty()) {
         throw CLI::RequiredError("--picture W H, or --config FILE,");
     }
 }

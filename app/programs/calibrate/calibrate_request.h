@@ -22,6 +22,13 @@ struct CalibrateRequest {
     std::filesystem::path config;
     std::vector<int> picture; ///< width, height
     std::optional<double> sensor_height_m;
+    bool keep = false;
+    bool undo = false;
+    // On the table:
+    int touches = 9;
+    std::vector<double> blocks_m{0.0, 0.04, 0.08, 0.12};
+    std::filesystem::path out;
+    bool headless = false;
     bool json = false;
 };
 

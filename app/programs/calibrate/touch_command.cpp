@@ -2,6 +2,7 @@
 
 #include "app/calibration/calibrate_touch.h"
 #include "app/calibration/point_files.h"
+#include "app/programs/calibrate/kept_command.h"
 #include "app/programs/common/guarded_main.h"
 #include "firmware_host/base/file.h"
 
@@ -47,8 +48,8 @@ Json touch_json(const TouchCalibration& c) {
                              {"fy", p.fy},
                              {"cx", p.cx},
                              {"cy", p.cy},
-                             {"k1", c.table->lens.k1},
-                             {"k2", c.table->lens.k2},
+                             {"k1", c.table->pinhole.lens.k1},
+                             {"k2", c.table->pinhole.lens.k2},
                              {"table_from_projector", matrix_json(c.table->table_from_projector)}};
         json["table_from_tracker"] = matrix_json(c.table->table_from_tracker);
         json["sensor_offset_m"] = {s.x, s.y, s.z};
@@ -109,7 +110,10 @@ int touch(const CalibrateRequest& request) {
     } else {
         fmt::print("{}", touch_text(calibration));
     }
-    return status_of(calibration.verdict, request, calibration.reason);
+    const int status = status_of(calibration.verdict, request, calibration.reason);
+    return status == 0 && request.keep
+               ? exit_status("frustumscreen-calibrate", keep_touch(request, calibration, *touches))
+               : status;
 }
 
 } // namespace
@@ -122,6 +126,10 @@ void add_touch_command(CLI::App& app, CalibrateRequest& request, std::function<i
         ->add_option("--sensor-height", request.sensor_height_m,
                      "the sensor above the touched place while the prop stands upright, metres")
         ->check(CLI::Range(-2.0, 2.0));
+    command
+        ->add_flag("--keep", request.keep,
+                   "keeps what is good or usable, in the settings' calibration.folder")
+        ->needs("--config");
     command->callback([&] { chosen = [&] { return touch(request); }; });
 }
 

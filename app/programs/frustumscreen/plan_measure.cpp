@@ -1,7 +1,7 @@
 #include "app/programs/frustumscreen/plan_measure.h"
 
 #include "app/programs/common/progress_line.h"
-#include "app/programs/frustumscreen/wiring.h"
+#include "app/programs/devices/wiring.h"
 #include "app/render/gl_memory.h"
 #include "app/render/read_back.h"
 #include "app/tracking/situation.h"

@@ -5,7 +5,7 @@
 #include "app/programs/common/read_arguments.h"
 #include "app/programs/frustumscreen/run_mode.h"
 #include "app/programs/frustumscreen/staff_service.h"
-#include "app/programs/frustumscreen/wiring.h"
+#include "app/programs/devices/wiring.h"
 #include "app/settings/settings.h"
 #include "app/show/artifact_show.h"
 #include "app/show/installed_show.h"

@@ -1,4 +1,4 @@
-#include "app/programs/frustumscreen/wiring.h"
+#include "app/programs/devices/wiring.h"
 
 #include "app/settings/command.h"
 #include "app/settings/lit_zone.h"

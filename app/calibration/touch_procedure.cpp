@@ -1,0 +1,161 @@
+#include "app/calibration/touch_procedure.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+bool is_near(const RigidTransform& a, const RigidTransform& b, double distance_m, double angle_rad) {
+    return glm::distance(a.translation, b.translation) <= distance_m &&
+           2.0 * std::acos(std::fmin(1.0, std::abs(glm::dot(a.rotation, b.rotation)))) <= angle_rad;
+}
+
+/// Of poses that hardly differ: the sum of quaternions on one side is their mean to the second order.
+RigidTransform mean_of(const std::vector<RigidTransform>& poses) {
+    glm::dvec3 translation(0.0);
+    glm::dquat rotation(0.0, 0.0, 0.0, 0.0);
+    for (const RigidTransform& pose : poses) {
+        translation += pose.translation / static_cast<double>(poses.size());
+        rotation += glm::dot(pose.rotation, poses.front().rotation) < 0.0 ? -pose.rotation : pose.rotation;
+    }
+    return {glm::normalize(rotation), translation};
+}
+
+} // namespace
+
+void TouchProcedure::step(const Input& input) {
+    switch (stage_) {
+    case TouchStage::Lay:
+        lay(input);
+        break;
+    case TouchStage::HoldStill:
+        hold_still(input);
+        break;
+    case TouchStage::Judged:
+        after_judgement(input);
+        break;
+    case TouchStage::Solve:
+    case TouchStage::Done:
+        break;
+    }
+}
+
+void TouchProcedure::lay(const Input& input) {
+    if (input.back && at_ > 0) {
+        touches_[--at_].reset();
+        word_ = TouchWord::None;
+    } else if (input.next) {
+        begin_rest(input.now);
+        word_ = TouchWord::None;
+        stage_ = TouchStage::HoldStill;
+    }
+}
+
+void TouchProcedure::begin_rest(MonotonicTime now) {
+    reports_.clear();
+    rest_began_ = now;
+    seen_ = now;
+}
+
+void TouchProcedure::hold_still(const Input& input) {
+    if (input.back) {
+        stage_ = TouchStage::Lay;
+        word_ = TouchWord::None;
+        return;
+    }
+    if (input.report) {
+        seen_ = input.now;
+        if (!reports_.empty() && !is_near(*input.report, reports_.front(), still_m, still_rad)) {
+            begin_rest(input.now);
+            word_ = TouchWord::Moved;
+        }
+        reports_.push_back(*input.report);
+    }
+    if (input.now - seen_ > patience) {
+        stage_ = TouchStage::Lay;
+        word_ = TouchWord::NotSeen;
+    } else if (input.now - rest_began_ >= rest && reports_.size() >= least_reports) {
+        take();
+    }
+}
+
+/// Next was pressed again before the prop was moved on. Two crosses of a plan may be alike.
+bool TouchProcedure::lies_where_another_lay(const RigidTransform& pose) const {
+    for (std::size_t k = 0; k < touches_.size(); ++k) {
+        const Cross& other = crosses_[k];
+        const bool is_alike = other.pixel == cross().pixel && other.block_m == cross().block_m &&
+                              other.yaw_rad == cross().yaw_rad;
+        if (touches_[k] && !is_alike &&
+            is_near(touches_[k]->tracker_from_sensor, pose, same_place_m, same_place_rad)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void TouchProcedure::take() {
+    const RigidTransform pose = mean_of(reports_);
+    if (lies_where_another_lay(pose)) {
+        stage_ = TouchStage::Lay;
+        word_ = TouchWord::SamePlace;
+        return;
+    }
+    touches_[at_] = Touch{pose, crosses_[at_].pixel, crosses_[at_].block_m};
+    word_ = TouchWord::Taken;
+    go_to_next_open();
+}
+
+void TouchProcedure::go_to_next_open() {
+    const auto open = std::find(touches_.begin(), touches_.end(), std::nullopt);
+    stage_ = open == touches_.end() ? TouchStage::Solve : TouchStage::Lay;
+    at_ = open == touches_.end() ? at_ : static_cast<std::size_t>(open - touches_.begin());
+}
+
+void TouchProcedure::judge(TouchCalibration calibration) {
+    assert(stage_ == TouchStage::Solve);
+    word_ = TouchWord::None;
+    stage_ = TouchStage::Judged;
+    judged_ = std::move(calibration);
+}
+
+/// Back does one touch again, whatever the verdict: the farthest off, or where none is known, the last.
+void TouchProcedure::after_judgement(const Input& input) {
+    const TouchCalibration& judged = *judged_;
+    const bool may_be_kept = judged.verdict == Verdict::Good || judged.verdict == Verdict::Usable;
+    if (input.next && may_be_kept) {
+        stage_ = TouchStage::Done;
+        return;
+    }
+    if (input.next && judged.verdict == Verdict::Refused) {
+        std::fill(touches_.begin(), touches_.end(), std::nullopt);
+    } else if (input.next && !judged.repeat.empty()) {
+        for (const std::size_t row : judged.repeat) {
+            touches_[row].reset();
+        }
+    } else if (input.next || input.back) {
+        const auto worst = std::max_element(
+            judged.residuals.begin(), judged.residuals.end(),
+            [](const TouchResidual& a, const TouchResidual& b) { return a.on_table_m < b.on_table_m; });
+        touches_[judged.residuals.empty() ? touches_.size() - 1
+                                          : static_cast<std::size_t>(worst - judged.residuals.begin())]
+            .reset();
+    } else {
+        return;
+    }
+    go_to_next_open();
+}
+
+Touches TouchProcedure::touches() const {
+    Touches all;
+    for (const std::optional<Touch>& touch : touches_) {
+        if (touch) {
+            all.push_back(*touch);
+        }
+    }
+    return all;
+}
+
+} // namespace frustumscreen

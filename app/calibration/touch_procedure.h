@@ -1,0 +1,93 @@
+/// The way through a calibration by touch, for one technician with two buttons: which cross the projector shows, what is said,
+/// and which of the tracker's reports become touches.
+///
+/// Steps    The cross is shown; the prop is laid on it; Next; a second of rest is taken, and begins anew if the prop moves; the
+///          next cross. After the last one whoever calls solves and tells the verdict: Next keeps it, Back does the touch again
+///          that lies farthest off; touches that are to be repeated come again by themselves.
+/// Time     a parameter; the tracker's own rate, whatever it is.
+/// Frames   tracker K, as the device reports.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/calibration/calibrate_touch.h"
+#include "app/calibration/choose_crosses.h"
+#include "firmware_host/base/time.h"
+
+#include <optional>
+#include <vector>
+
+namespace frustumscreen {
+
+enum class TouchStage {
+    Lay,       ///< the prop is to be laid on the cross
+    HoldStill, ///< its rest is taken
+    Solve,     ///< all touches are there: call `judge`
+    Judged,    ///< the verdict is told
+    Done       ///< it is to be kept
+};
+
+/// What is said beside the cross.
+enum class TouchWord {
+    None,
+    Moved,     ///< it was not at rest: the second begins anew
+    NotSeen,   ///< the tracker does not see the prop
+    SamePlace, ///< the prop still lies where the touch before was
+    Taken      ///< well done
+};
+
+class TouchProcedure {
+public:
+    static constexpr Nanoseconds rest = std::chrono::seconds(1);
+    static constexpr Nanoseconds patience = std::chrono::seconds(2); ///< for the tracker's reports
+    static constexpr double still_m = 1.5e-3;                        ///< from the first report of the rest
+    static constexpr double still_rad = 0.02;
+    static constexpr double same_place_m = 5e-3;
+    static constexpr double same_place_rad = 0.2;
+    static constexpr std::size_t least_reports = 5; ///< in the second of rest
+
+    /// `crosses`: at least one, in the order in which they come.
+    explicit TouchProcedure(std::vector<Cross> crosses)
+        : crosses_(std::move(crosses)), touches_(crosses_.size()) {}
+
+    struct Input {
+        MonotonicTime now;
+        std::optional<RigidTransform> report; ///< a new one of the prop's sensor; nothing new: none
+        bool next = false;                    ///< a button was pressed
+        bool back = false;
+    };
+    void step(const Input& input);
+    /// In stage Solve: what came of the touches.
+    void judge(TouchCalibration calibration);
+
+    [[nodiscard]] TouchStage stage() const { return stage_; }
+    [[nodiscard]] TouchWord word() const { return word_; }
+    /// Which cross is shown, counted from 0; in the stages Lay and HoldStill.
+    [[nodiscard]] std::size_t at() const { return at_; }
+    [[nodiscard]] const Cross& cross() const { return crosses_[at_]; }
+    [[nodiscard]] std::size_t count() const { return crosses_.size(); }
+    [[nodiscard]] bool is_taken(std::size_t cross) const { return touches_[cross].has_value(); }
+    /// All of them, in stage Solve and after it.
+    [[nodiscard]] Touches touches() const;
+    [[nodiscard]] const std::optional<TouchCalibration>& judged() const { return judged_; }
+
+private:
+    void lay(const Input& input);
+    void hold_still(const Input& input);
+    void take();
+    [[nodiscard]] bool lies_where_another_lay(const RigidTransform& pose) const;
+    void begin_rest(MonotonicTime now);
+    void after_judgement(const Input& input);
+    void go_to_next_open();
+
+    std::vector<Cross> crosses_;
+    std::vector<std::optional<Touch>> touches_; ///< one for each cross
+    std::size_t at_ = 0;
+    TouchStage stage_ = TouchStage::Lay;
+    TouchWord word_ = TouchWord::None;
+    std::vector<RigidTransform> reports_; ///< of the rest so far
+    MonotonicTime rest_began_{};
+    MonotonicTime seen_{};
+    std::optional<TouchCalibration> judged_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,143 @@
+#include "app/programs/calibrate/kept_command.h"
+
+#include "app/programs/calibrate/kept_table.h"
+#include "app/programs/common/guarded_main.h"
+#include "app/settings/kept_calibrations.h"
+#include "app/settings/settings.h"
+#include "firmware_host/base/disk_tree.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <ctime>
+
+namespace frustumscreen {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Result<std::filesystem::path> folder_of(const CalibrateRequest& request, const Settings& settings) {
+    const std::filesystem::path& folder = settings.calibration.folder;
+    if (folder.empty()) {
+        return bad_input(fmt::format("{}: calibration.folder is empty; name a folder for calibrations there",
+                                     request.config.string()));
+    }
+    return folder;
+}
+
+Json kept_json(const std::vector<KeptCalibration>& kept, FileTree& folder) {
+    Json list = Json::array();
+    for (const KeptCalibration& each : kept) {
+        const Result<Calibration> read = read_calibration(folder, each);
+        if (!read) {
+            list.push_back({{"file", each.name}, {"unusable", read.error().message}});
+            continue;
+        }
+        list.push_back({{"file", each.name},
+                        {"made", read->made},
+                        {"method", name_of(read->method)},
+                        {"places", read->places},
+                        {"residual_mm", {{"mean", read->mean_mm}, {"worst", read->worst_mm}}},
+                        {"residual_px", {{"mean", read->mean_px}}}});
+    }
+    return {{"kept", list}};
+}
+
+std::string kept_text(const std::vector<KeptCalibration>& kept, FileTree& folder) {
+    if (kept.empty()) {
+        return "No calibration is kept; the set-up is as the settings describe it.\n";
+    }
+    std::string text;
+    for (const KeptCalibration& each : kept) {
+        const Result<Calibration> read = read_calibration(folder, each);
+        text +=
+            read ? fmt::format("{}: {}, {}, {} places; {:.2f} mm on average, {:.2f} mm at worst\n", each.name,
+                               read->made, name_of(read->method), read->places, read->mean_mm, read->worst_mm)
+                 : fmt::format("{}: cannot be used: {}\n", each.name, read.error().message);
+    }
+    return text + "The first one that can be used counts.\n";
+}
+
+Result<void> show_kept(const CalibrateRequest& request) {
+    const Result<CheckedSettings> settings = load_settings(request.config);
+    if (!settings) {
+        return tl::unexpected<Error>(settings.error());
+    }
+    const Result<std::filesystem::path> folder = folder_of(request, **settings);
+    if (!folder) {
+        return tl::unexpected<Error>(folder.error());
+    }
+    const Result<std::unique_ptr<WritableTree>> tree = open_tree(*folder);
+    if (!tree) {
+        return tl::unexpected<Error>(tree.error());
+    }
+    if (request.undo) {
+        const Result<KeptCalibration> undone = undo_calibration(**tree);
+        if (!undone) {
+            return tl::unexpected<Error>(undone.error());
+        }
+        fmt::print(
+            stderr,
+            "frustumscreen-calibrate: {} is undone; the exhibit takes the one before when it starts again\n",
+            undone->name);
+    }
+    const Result<std::vector<KeptCalibration>> kept = list_calibrations(**tree);
+    if (!kept) {
+        return tl::unexpected<Error>(kept.error());
+    }
+    if (request.json) {
+        fmt::print("{}\n", kept_json(*kept, **tree).dump(2));
+    } else {
+        fmt::print("{}", kept_text(*kept, **tree));
+    }
+    return {};
+}
+
+} // namespace
+
+Result<void> keep_touch(const CalibrateRequest& request, const TouchCalibration& calibration,
+                        std::span<const Touch> touches) {
+    const Result<CheckedSettings> settings = load_settings(request.config);
+    if (!settings) {
+        return tl::unexpected<Error>(settings.error());
+    }
+    const Result<std::filesystem::path> folder = folder_of(request, **settings);
+    if (!folder) {
+        return tl::unexpected<Error>(folder.error());
+    }
+    Calibration next = kept_table(*calibration.table, touches, **settings);
+    next.method = CalibrationMethod::Touch;
+    next.places = static_cast<int>(touches.size());
+    next.mean_mm = 1e3 * calibration.mean_residual_m;
+    next.worst_mm = 1e3 * calibration.worst_residual_m;
+    next.mean_px = calibration.mean_residual_px;
+    std::error_code failed; // open_tree says what is wrong with it
+    std::filesystem::create_directories(*folder, failed);
+    const Result<std::unique_ptr<WritableTree>> tree = open_tree(*folder);
+    if (!tree) {
+        return tl::unexpected<Error>(tree.error());
+    }
+    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    next.made = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(now));
+    const Result<KeptCalibration> kept = keep_calibration(**tree, next);
+    if (!kept) {
+        return tl::unexpected<Error>(kept.error());
+    }
+    fmt::print(stderr, "frustumscreen-calibrate: kept as {}; the exhibit takes it when it starts again\n",
+               (*folder / kept->name).string());
+    return {};
+}
+
+void add_kept_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
+    CLI::App* const command = app.add_subcommand(
+        "kept", "lists the calibrations that this kiosk keeps, the newest first; undoes the newest");
+    command->add_option("--config", request.config, "the kiosk's settings, TOML")->required();
+    command->add_flag("--undo", request.undo, "the one before the newest counts again");
+    command->add_flag("--json", request.json, "for programs");
+    command->callback(
+        [&] { chosen = [&] { return exit_status("frustumscreen-calibrate", show_kept(request)); }; });
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,21 @@
+/// What is kept of calibrations: kept, listed, undone.
+///
+/// Errors   one line: which folder or file, what, what to do.
+/// Threads  the main one.
+#pragma once
+
+#include "app/calibration/calibrate_touch.h"
+#include "app/programs/calibrate/calibrate_request.h"
+
+#include <functional>
+#include <span>
+
+namespace frustumscreen {
+
+void add_kept_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen);
+
+/// Keeps a calibration that is good or usable in the settings' folder, dated by this machine's clock, and says where.
+[[nodiscard]] Result<void> keep_touch(const CalibrateRequest& request, const TouchCalibration& calibration,
+                                      std::span<const Touch> touches);
+
+} // namespace frustumscreen

@@ -1,0 +1,212 @@
+#include "app/programs/calibrate/table_command.h"
+
+#include "app/calibration/touch_procedure.h"
+#include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/touch_picture.h"
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/devices/wiring.h"
+#include "app/render/picture_upload.h"
+#include "app/settings/settings.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
+#include "firmware_host/service/stop_signals.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <thread>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr int back_button = 0;
+constexpr int next_button = 1;
+constexpr Nanoseconds between_frames = std::chrono::milliseconds(20);
+
+/// The projector as the settings describe it decides where the crosses lie: what a cross tells hardly depends on it.
+std::vector<Cross> crosses_for(const Settings& settings, const CalibrateRequest& request) {
+    CrossSetup setup;
+    setup.count = request.touches;
+    setup.blocks_m = request.blocks_m;
+    setup.top_m = settings.prop.height_m;
+    const double above_m = settings.projector.table_from_projector.translation.z;
+    return choose_crosses(
+        rough_model(settings.projector.pinhole.ideal(), above_m, request.sensor_height_m.value_or(0.0)),
+        setup);
+}
+
+std::string csv_of(const Touches& touches) {
+    std::string text = "tx_m,ty_m,tz_m,qw,qx,qy,qz,u_px,v_px,block_m\n";
+    for (const Touch& touch : touches) {
+        const glm::dvec3& t = touch.tracker_from_sensor.translation;
+        const glm::dquat& q = touch.tracker_from_sensor.rotation;
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", t.x, t.y, t.z, q.w, q.x, q.y, q.z,
+                            touch.pixel.x, touch.pixel.y, touch.block_m);
+    }
+    return text;
+}
+
+/// The devices, and what is shown.
+class Table {
+public:
+    Table(const Settings& settings, Inputs inputs, std::unique_ptr<Display> display, Typesetter typesetter)
+        : settings_(settings), inputs_(std::move(inputs)), display_(std::move(display)),
+          typesetter_(std::move(typesetter)), upload_(display_->width(), display_->height()) {}
+
+    /// False: a stop was asked for.
+    [[nodiscard]] Result<bool> run(TouchProcedure& procedure, const TouchSetup& setup) {
+        const StopSignals stop;
+        while (!stop.received()) {
+            const MonotonicTime now = monotonic_now();
+            if (Result<void> shown = show(procedure, now); !shown) {
+                return tl::unexpected<Error>(shown.error());
+            }
+            if (procedure.stage() == TouchStage::Done) {
+                return true;
+            }
+            if (procedure.stage() == TouchStage::Solve) {
+                procedure.judge(calibrate_touch(procedure.touches(), setup));
+            }
+            poll(procedure, now);
+            std::this_thread::sleep_for(between_frames);
+        }
+        return false;
+    }
+
+private:
+    void poll(TouchProcedure& procedure, MonotonicTime now) {
+        TouchProcedure::Input input{now, std::nullopt, false, false};
+        samples_.clear();
+        static_cast<void>(inputs_.tracker->poll(now, samples_)); // its state says what is wrong
+        for (const PoseSample& sample : samples_) {
+            if (sample.station == prop_station && sample.ok) {
+                input.report = RigidTransform{sample.rotation, sample.position_m};
+            }
+        }
+        events_.clear();
+        static_cast<void>(inputs_.panel->poll(now, events_));
+        for (const PanelEvent& event : events_) {
+            input.next |= event.kind == PressKind::Press && event.button == next_button;
+            input.back |= event.kind == PressKind::Press && event.button == back_button;
+        }
+        procedure.step(input);
+        tell(inputs_.tracker->state(), "tracker", tracker_state_);
+        tell(inputs_.panel->state(), "panel", panel_state_);
+    }
+    static void tell(std::string_view state, std::string_view device, Sentence& told) {
+        if (const Sentence now(state); now != told) {
+            told = now;
+            say_line("frustumscreen-calibrate", fmt::format("{}: {}", device, state));
+        }
+    }
+    [[nodiscard]] Result<void> show(const TouchProcedure& procedure, MonotonicTime now) {
+        std::vector<std::string> words = touch_words(procedure);
+        words.push_back(fmt::format("{} {}", static_cast<int>(procedure.stage()), procedure.at()));
+        if (words != shown_) {
+            shown_ = words;
+            say_line("frustumscreen-calibrate",
+                     fmt::format("{}", fmt::join(words.begin(), words.end() - 1, " ")));
+            picture_ = touch_picture(procedure, display_->width(), display_->height(), typesetter_);
+        }
+        upload_.show(picture_, display_->framebuffer());
+        const Result<MonotonicTime> lit = display_->present(now);
+        return lit ? Result<void>() : tl::unexpected<Error>(lit.error());
+    }
+
+    const Settings& settings_;
+    Inputs inputs_;
+    std::unique_ptr<Display> display_;
+    Typesetter typesetter_;
+    PictureUpload upload_;
+    Image8 picture_;
+    std::vector<std::string> shown_;
+    std::vector<PoseSample> samples_;
+    std::vector<PanelEvent> events_;
+    Sentence tracker_state_, panel_state_;
+};
+
+Result<void> calibrate_table(const CalibrateRequest& request) {
+    const Result<CheckedSettings> checked = load_settings(request.config);
+    if (!checked) {
+        return tl::unexpected<Error>(checked.error());
+    }
+    const std::vector<Cross> crosses = crosses_for(**checked, request);
+    if (request.json) {
+        nlohmann::ordered_json list = nlohmann::ordered_json::array();
+        for (const Cross& cross : crosses) {
+            list.push_back({{"u_px", cross.pixel.x},
+                            {"v_px", cross.pixel.y},
+                            {"block_m", cross.block_m},
+                            {"turn_deg", glm::degrees(cross.yaw_rad)}});
+        }
+        fmt::print("{}\n", nlohmann::ordered_json{{"crosses", list}}.dump(2));
+        return {};
+    }
+    Settings raw = **checked;
+    raw.tracker.registration = {}; // the device's own reports
+    const DevicePlan plan = plan_devices(raw, false, false);
+    if (plan.tracker == TrackerKind::None || !plan.panel) {
+        return fail(ErrorKind::BadConfiguration,
+                    fmt::format("{}: a calibration on the table needs a tracker and two buttons; set "
+                                "tracker.kind and panel.kind",
+                                request.config.string()));
+    }
+    Result<std::unique_ptr<Display>> display = make_display(raw, request.headless);
+    if (!display) {
+        return tl::unexpected<Error>(display.error());
+    }
+    Result<Typesetter> typesetter = Typesetter::open();
+    if (!typesetter) {
+        return tl::unexpected<Error>(typesetter.error());
+    }
+    Result<Inputs> inputs = make_inputs(raw, plan, std::nullopt, monotonic_now());
+    if (!inputs) {
+        return tl::unexpected<Error>(inputs.error());
+    }
+    const Pinhole& pinhole = raw.projector.pinhole;
+    TouchSetup setup;
+    setup.width = pinhole.width;
+    setup.height = pinhole.height;
+    setup.top_m = raw.prop.height_m;
+    setup.sensor_height_m = request.sensor_height_m;
+    TouchProcedure procedure(crosses);
+    Table table(raw, *std::move(inputs), *std::move(display), *std::move(typesetter));
+    const Result<bool> ended = table.run(procedure, setup);
+    if (!request.out.empty() && !procedure.touches().empty()) { // nothing that was touched is lost
+        if (Result<void> written = write_file(request.out, as_bytes(csv_of(procedure.touches()))); !written) {
+            return written;
+        }
+    }
+    if (!ended) {
+        return tl::unexpected<Error>(ended.error());
+    }
+    return *ended ? keep_touch(request, *procedure.judged(), procedure.touches())
+                  : Result<void>(fail(ErrorKind::BadInput,
+                                      "stopped before the calibration was kept; the one before counts"));
+}
+
+} // namespace
+
+void add_table_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
+    CLI::App* const command =
+        app.add_subcommand("table", "on the table itself, step by step: the projector shows crosses, the "
+                                    "prop is laid on them; Back and Next are the "
+                                    "first and the second button");
+    command->add_option("--config", request.config, "the kiosk's settings, TOML")->required();
+    command->add_option("--touches", request.touches, "how many crosses, 6 to 30")->check(CLI::Range(6, 30));
+    command
+        ->add_option("--blocks", request.blocks_m,
+                     "heights of the blocks that there are, metres, with 0 for the table itself")
+        ->check(CLI::Range(0.0, 0.5));
+    command
+        ->add_option("--sensor-height", request.sensor_height_m, "the sensor above the prop's bottom, metres")
+        ->check(CLI::Range(-2.0, 2.0));
+    command->add_option("--out", request.out, "writes the touches, CSV, for frustumscreen-calibrate touch");
+    command->add_flag("--headless", request.headless, "without a screen, for tests");
+    command->add_flag("--json", request.json, "prints the crosses and ends");
+    command->callback(
+        [&] { chosen = [&] { return exit_status("frustumscreen-calibrate", calibrate_table(request)); }; });
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,153 @@
+#include "app/programs/calibrate/touch_picture.h"
+
+#include "app/exhibit/canvas.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr Colour white{255, 255, 255};
+constexpr Colour dim{150, 150, 150};
+constexpr Colour front_colour{255, 184, 92};
+constexpr Colour good_colour{120, 240, 120};
+constexpr Colour bad_colour{255, 110, 90};
+
+std::string_view words_of(TouchWord word) {
+    switch (word) {
+    case TouchWord::None:
+        return "";
+    case TouchWord::Moved:
+        return "The block moved. Keep it still; the second begins anew.";
+    case TouchWord::NotSeen:
+        return "The tracker does not see the block. Look at its cable and its sensor, then press Next again.";
+    case TouchWord::SamePlace:
+        return "The block still lies where it lay before. Lay it on this cross, then press Next.";
+    case TouchWord::Taken:
+        return "Good.";
+    }
+    return "";
+}
+
+std::string height_of(const Cross& cross) {
+    return cross.block_m > 0.0 ? fmt::format(" on top of {:.0f} mm", 1e3 * cross.block_m)
+                               : std::string(" on the table");
+}
+
+std::vector<std::string> words_of_verdict(const TouchCalibration& judged) {
+    std::vector<std::string> words{fmt::format("The calibration is: {}", name_of(judged.verdict)),
+                                   judged.reason};
+    if (judged.table) {
+        words.push_back(
+            fmt::format("Each touch lies {:.1f} mm from where the others expect it, {:.1f} mm at worst.",
+                        1e3 * judged.mean_residual_m, 1e3 * judged.worst_residual_m));
+    }
+    switch (judged.verdict) {
+    case Verdict::Good:
+    case Verdict::Usable:
+        words.emplace_back("Next keeps it. Back does the touch again that lies farthest off.");
+        break;
+    case Verdict::Repeat:
+        words.emplace_back("Next does the doubtful touches again.");
+        break;
+    case Verdict::Refused:
+        words.emplace_back("Next begins anew.");
+        break;
+    }
+    return words;
+}
+
+Colour colour_of(const TouchProcedure& procedure) {
+    if (procedure.stage() == TouchStage::HoldStill) {
+        return procedure.word() == TouchWord::Moved ? bad_colour : good_colour;
+    }
+    return white;
+}
+
+/// Directions of the picture: u to the right, v down; a turn is counter-clockwise as one looks at the table.
+glm::dvec2 turned(const glm::dvec2& direction, double yaw_rad) {
+    const double c = std::cos(yaw_rad);
+    const double s = std::sin(yaw_rad);
+    return {c * direction.x + s * direction.y, -s * direction.x + c * direction.y};
+}
+
+/// Its arms reach out from under the prop, along whose sides they lie; the thick one leads to its front.
+void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit) {
+    const Cross& cross = procedure.cross();
+    const Colour colour = colour_of(procedure);
+    const double arm = 16.0 * unit;
+    const auto line = [&](const glm::dvec2& from, const glm::dvec2& to, double width, Colour of) {
+        canvas.line(cross.pixel + turned(from, cross.yaw_rad), cross.pixel + turned(to, cross.yaw_rad), width,
+                    of);
+    };
+    line({-arm, 0.0}, {arm, 0.0}, 1.0, colour);
+    line({0.0, -arm}, {0.0, arm}, 1.0, colour);
+    line({0.0, 2.0 * unit}, {0.0, arm}, 3.0, front_colour);
+    line({0.0, arm}, {-unit, arm - 1.5 * unit}, 3.0, front_colour);
+    line({0.0, arm}, {unit, arm - 1.5 * unit}, 3.0, front_colour);
+    canvas.circle(cross.pixel, 1.5 * unit, 1.0, colour);
+}
+
+} // namespace
+
+std::vector<std::string> touch_words(const TouchProcedure& procedure) {
+    switch (procedure.stage()) {
+    case TouchStage::Lay:
+    case TouchStage::HoldStill: {
+        std::vector<std::string> words{fmt::format("Touch {} of {}", procedure.at() + 1, procedure.count())};
+        words.push_back(
+            procedure.stage() == TouchStage::HoldStill
+                ? "Hold still: one second."
+                : fmt::format(
+                      "Lay the middle of the block's bottom on the cross,{}, its front along the arrow. "
+                      "Then press Next.",
+                      height_of(procedure.cross())));
+        if (const std::string_view more = words_of(procedure.word()); !more.empty()) {
+            words.emplace_back(more);
+        }
+        return words;
+    }
+    case TouchStage::Solve:
+        return {"One moment, please."};
+    case TouchStage::Judged:
+        return words_of_verdict(*procedure.judged());
+    case TouchStage::Done:
+        return {"The calibration is kept."};
+    }
+    return {};
+}
+
+Image8 touch_picture(const TouchProcedure& procedure, int width, int height, const Typesetter& typesetter) {
+    Canvas canvas(width, height, {0, 0, 0});
+    const double unit = width / 160.0;
+    const bool has_cross = procedure.stage() == TouchStage::Lay || procedure.stage() == TouchStage::HoldStill;
+    if (has_cross) {
+        draw_cross(canvas, procedure, unit);
+    }
+    // The words stand in the half of the picture where the cross is not, so that the prop hides none of them.
+    const bool below = !has_cross || procedure.cross().pixel.y < 0.5 * height;
+    std::vector<Paragraph> paragraphs;
+    for (const std::string& line : touch_words(procedure)) {
+        const bool is_first = paragraphs.empty();
+        paragraphs.push_back({line, (is_first ? 4.0 : 2.6) * unit, is_first, 1.0, is_first ? 0.0 : unit});
+    }
+    const Image<std::uint8_t> coverage = typesetter.set(paragraphs, 0.6 * width);
+    const double top = below ? (has_cross ? 0.62 : 0.4) * height : 0.38 * height - coverage.height;
+    canvas.coverage(
+        coverage, {(width - coverage.width) / 2, static_cast<int>(std::max(top, unit))},
+        procedure.word() == TouchWord::Taken || procedure.word() == TouchWord::None ? white : front_colour);
+    for (int k = 0; k < static_cast<int>(procedure.count()); ++k) { // one dot for each touch
+        const glm::dvec2 at((0.5 * width) +
+                                (k - 0.5 * (static_cast<int>(procedure.count()) - 1)) * 4.0 * unit,
+                            height - 3.0 * unit);
+        canvas.circle(at, unit, procedure.is_taken(static_cast<std::size_t>(k)) ? 4.0 : 1.0,
+                      procedure.is_taken(static_cast<std::size_t>(k)) ? good_colour : dim);
+    }
+    return canvas.take();
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,21 @@
+/// What the projector shows a technician during a calibration by touch: the cross, how the prop is to lie on it, what to do.
+///
+/// Units    pixels of the projector's picture. Words in English, as in the alignment pattern.
+/// Threads  as Canvas.
+#pragma once
+
+#include "app/calibration/touch_procedure.h"
+#include "app/exhibit/text_image.h"
+#include "app/image/image.h"
+
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// The first line is the largest.
+[[nodiscard]] std::vector<std::string> touch_words(const TouchProcedure& procedure);
+[[nodiscard]] Image8 touch_picture(const TouchProcedure& procedure, int width, int height,
+                                   const Typesetter& typesetter);
+
+} // namespace frustumscreen

@@ -1,0 +1,197 @@
+// A technician at the table, played by the second: what is taken, what is not, and that nothing is lost on the way.
+#include "app/calibration/touch_procedure.h"
+#include "tests/calibration/simulated_touches.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen {
+namespace {
+
+using Input = TouchProcedure::Input;
+
+constexpr Nanoseconds tick = std::chrono::milliseconds(20); // 50 reports a second
+
+class Procedure : public ::testing::Test {
+protected:
+    Procedure() : procedure(crosses()) {}
+    static std::vector<Cross> crosses() {
+        return {{{100, 100}, 0.0, 0.0}, {{900, 100}, 0.0, 1.5}, {{500, 600}, 0.05, 0.0}};
+    }
+    /// The prop as it lies on the cross `k`.
+    static RigidTransform on(std::size_t k) {
+        return {glm::angleAxis(0.5 * static_cast<double>(k), glm::dvec3(0, 0, 1)),
+                {0.1 * static_cast<double>(k), 0.05, 0.1}};
+    }
+    void press(bool next) {
+        now += tick;
+        procedure.step({now, std::nullopt, next, !next});
+    }
+    /// Reports for so long, each a little aside.
+    void rest(const RigidTransform& pose, Nanoseconds time, double noise_m = 2e-4) {
+        for (const MonotonicTime end = now + time; now < end;) {
+            now += tick;
+            RigidTransform report = pose;
+            report.translation += noise_m * numbers.normals();
+            procedure.step({now, report, false, false});
+        }
+    }
+    void touch(std::size_t k) {
+        press(true);
+        rest(on(k), TouchProcedure::rest + 2 * tick);
+    }
+
+    TouchProcedure procedure;
+    SeededNumbers numbers{5};
+    MonotonicTime now = from_microseconds(1'000'000);
+};
+
+TEST_F(Procedure, EachRestOfASecondBecomesATouchAtTheMeanOfItsReports) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(procedure.stage(), TouchStage::Lay);
+        EXPECT_EQ(procedure.at(), k);
+        rest(on(k), tick * 10);
+        EXPECT_EQ(procedure.stage(), TouchStage::Lay) << "nothing is taken before Next";
+        touch(k);
+        EXPECT_EQ(procedure.word(), TouchWord::Taken);
+    }
+    ASSERT_EQ(procedure.stage(), TouchStage::Solve);
+    const Touches touches = procedure.touches();
+    ASSERT_EQ(touches.size(), 3U);
+    for (std::size_t k = 0; k < 3; ++k) {
+        // Some 50 reports of .2 mm each: four standard deviations of their mean
+        EXPECT_LT(glm::distance(touches[k].tracker_from_sensor.translation, on(k).translation),
+                  4 * 2e-4 * std::sqrt(3.0 / 50.0));
+        EXPECT_NEAR(std::abs(glm::dot(touches[k].tracker_from_sensor.rotation, on(k).rotation)), 1.0, 1e-12);
+        EXPECT_EQ(touches[k].pixel, crosses()[k].pixel);
+        EXPECT_EQ(touches[k].block_m, crosses()[k].block_m);
+    }
+}
+
+TEST_F(Procedure, APropThatMovesBeginsItsSecondAnew) {
+    press(true);
+    rest(on(0), TouchProcedure::rest / 2);
+    RigidTransform pushed = on(0);
+    pushed.translation.x += 0.01;
+    rest(pushed, TouchProcedure::rest / 2);
+    EXPECT_EQ(procedure.stage(), TouchStage::HoldStill);
+    EXPECT_EQ(procedure.word(), TouchWord::Moved);
+    rest(pushed, TouchProcedure::rest);
+    EXPECT_EQ(procedure.at(), 1U);
+    press(true); // and a turn alone counts too
+    rest(on(1), TouchProcedure::rest / 2);
+    RigidTransform turned = on(1);
+    turned.rotation = glm::angleAxis(0.1, glm::dvec3(0, 0, 1)) * turned.rotation;
+    rest(turned, tick * 2);
+    EXPECT_EQ(procedure.word(), TouchWord::Moved);
+}
+
+TEST_F(Procedure, WhatTheTrackerDoesNotSeeIsSaid) {
+    press(true);
+    rest(on(0), TouchProcedure::rest / 2);
+    now += TouchProcedure::patience + tick;
+    procedure.step({now, std::nullopt, false, false});
+    EXPECT_EQ(procedure.stage(), TouchStage::Lay);
+    EXPECT_EQ(procedure.word(), TouchWord::NotSeen);
+    touch(0);
+    EXPECT_EQ(procedure.at(), 1U);
+}
+
+TEST_F(Procedure, ATrackerOfOneReportASecondTakesLonger) {
+    press(true);
+    for (int k = 0; k < 4; ++k) {
+        now += std::chrono::seconds(1);
+        procedure.step({now, on(0), false, false});
+        EXPECT_EQ(procedure.stage(), TouchStage::HoldStill) << k;
+    }
+    now += std::chrono::seconds(1);
+    procedure.step({now, on(0), false, false});
+    EXPECT_EQ(procedure.at(), 1U);
+}
+
+TEST_F(Procedure, NextWithoutMovingThePropIsNoTouch) {
+    touch(0);
+    touch(0);
+    EXPECT_EQ(procedure.at(), 1U);
+    EXPECT_EQ(procedure.word(), TouchWord::SamePlace);
+    touch(1);
+    EXPECT_EQ(procedure.at(), 2U);
+}
+
+TEST_F(Procedure, BackDoesTheTouchBeforeAgain) {
+    press(false);
+    EXPECT_EQ(procedure.at(), 0U);
+    touch(0);
+    press(true);
+    press(false); // out of the rest
+    EXPECT_EQ(procedure.stage(), TouchStage::Lay);
+    EXPECT_EQ(procedure.at(), 1U);
+    press(false);
+    EXPECT_EQ(procedure.at(), 0U);
+    EXPECT_TRUE(procedure.touches().empty());
+}
+
+TEST_F(Procedure, TheVerdictDecidesWhatComesNext) {
+    const auto judged = [&](Verdict verdict, std::vector<std::size_t> repeat) {
+        TouchCalibration c;
+        c.verdict = verdict;
+        c.repeat = std::move(repeat);
+        c.residuals = {{1e-4, 0.1}, {5e-4, 0.5}, {2e-4, 0.2}};
+        procedure.judge(std::move(c));
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        touch(k);
+    }
+    judged(Verdict::Repeat, {2});
+    EXPECT_EQ(procedure.stage(), TouchStage::Judged);
+    press(true);
+    EXPECT_EQ(procedure.stage(), TouchStage::Lay);
+    EXPECT_EQ(procedure.at(), 2U);
+    touch(2);
+    judged(Verdict::Usable, {});
+    press(false); // the farthest off again
+    EXPECT_EQ(procedure.at(), 1U);
+    touch(1);
+    judged(Verdict::Good, {});
+    press(true);
+    EXPECT_EQ(procedure.stage(), TouchStage::Done);
+    EXPECT_EQ(procedure.touches().size(), 3U);
+    press(true);
+    EXPECT_EQ(procedure.stage(), TouchStage::Done);
+}
+
+TEST_F(Procedure, AfterARefusalItBeginsAnew) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        touch(k);
+    }
+    procedure.judge({});
+    press(true);
+    EXPECT_EQ(procedure.at(), 0U);
+    EXPECT_TRUE(procedure.touches().empty());
+}
+
+/// The whole of it on a simulated table: crosses chosen for the projector that the settings describe, touches on another one.
+TEST(ProcedureOnATable, EndsWithACalibrationThatIsRight) {
+    const SimulatedTable table = some_table(3);
+    ChosenCrosses chosen;
+    const std::vector<Cross> crosses = chosen.of(table, 9);
+    TouchProcedure procedure(crosses);
+    SeededNumbers numbers(4);
+    MonotonicTime now = from_microseconds(0);
+    while (procedure.stage() != TouchStage::Solve) {
+        procedure.step({now, std::nullopt, true, false});
+        const Touch lies = simulated_touch(table, {procedure.cross(), 0.0}, {}, numbers);
+        for (int k = 0; k < 60 && procedure.stage() == TouchStage::HoldStill; ++k) {
+            now += tick;
+            procedure.step({now, lies.tracker_from_sensor, false, false});
+        }
+        ASSERT_NE(procedure.word(), TouchWord::SamePlace);
+    }
+    procedure.judge(calibrate_touch(procedure.touches(), setup_for(table)));
+    ASSERT_TRUE(procedure.judged()->table) << procedure.judged()->reason;
+    procedure.step({now, std::nullopt, true, false});
+    EXPECT_EQ(procedure.stage(), TouchStage::Done) << procedure.judged()->reason;
+    EXPECT_LT(picture_error(table, *procedure.judged()->table, 0.12).mean_m, 1e-3);
+}
+
+} // namespace
+} // namespace frustumscreen
