@@ -32,7 +32,7 @@ struct SeenEye {
 
 /// What one eye sees of a level.
 struct SeenError {
-    float mean_box = 0.0F; ///< distance between what a ray meets on the level and on the source
+    float mean_box = 0.0F; ///< to be expected between what a ray meets on the level and on the source
     float p95_box = 0.0F;
     /// The width of an even band along the source's outline made of the rays that meet only one of the two.
     float outline_shift_box = 0.0F;

@@ -7,6 +7,10 @@
 ///             edge hides something else, by as much as lies between. Both change slowly with the eye, but for noise, so
 ///             the eye's own figure is the mean of its neighbours', weighted by exp(-(angle / spread)^2 / 2). Scaled to the
 ///             prop: an error is a length, and the placement's scale is all that a larger prop changes.
+///   Edges     Where an edge lies wrong, a ray meets what is behind it: a few of ten thousand rays, and each counts a thousand
+///             times as much as another. What one eye's rays happen to meet of that says little about what a picture's pixels will.
+///             So the bake finds how far a level's edges move from all eyes together, and what an eye sees of it from how much
+///             lies behind the edges that it sees (assets_baked/bake/seen_error.cpp).
 ///   Faces     The bake's rays are even; pixels are not. The projector gives a face that is turned to it up to three times
 ///             as many of them, for what the eye sees through it, as a steep one, and an artifact's parts are not equally
 ///             wrong. So each patch of what an eye saw counts by its share of rays times the pixels a square metre
@@ -22,6 +26,8 @@
 ///             surface, the mean of d / cos is the sum of d over its visible area, divided by its silhouette: D times visible
 ///             area over silhouette. That is 2 for a convex body, in the mean of all eyes (Cauchy: a silhouette is a quarter of
 ///             the surface, and half of it is seen). What edges hide is left out, so these estimates are too small.
+///   Chance    A finest level moves edges by a thousandth of a pixel. Then it depends on where pixels' centres lie whether any, or
+///             three, show what is behind them, and that is half of the mean: no estimate knows it.
 /// Held against  models that it was not made with: `frustumscreen-bench estimate`, docs/bench.md.
 ///
 /// Units    millimetres on the configured prop.

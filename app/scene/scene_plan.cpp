@@ -78,11 +78,15 @@ void leave_out_levels(const PackOutline& pack, const SceneRequest& request, doub
     std::vector<std::string> others;
     std::vector<std::uint32_t> unused;
     for (std::uint32_t level = 0; level < pack.levels.size(); ++level) {
-        if (!in(plan.levels, level)) {
-            (governed && !plan.levels.empty() && level > plan.levels.front() ? finer : others)
-                .push_back(fmt::format("{}", level));
-            unused.push_back(level);
+        if (in(plan.levels, level)) {
+            continue;
         }
+        unused.push_back(level);
+        if (plan.levels.empty() && level == plan.exposure_level) {
+            continue; // it is not drawn, and read all the same
+        }
+        (governed && !plan.levels.empty() && level > plan.levels.front() ? finer : others)
+            .push_back(fmt::format("{}", level));
     }
     if ((plan.economies & UnusedLevels) == 0) {
         plan.levels.insert(plan.levels.end(), unused.begin(), unused.end());

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 namespace frustumscreen {
@@ -98,27 +99,68 @@ std::size_t outline_of(const Image<float>& distances) {
     return found;
 }
 
-/// What a ray meets when it moves to its neighbour's place, over how far it moves; the mean of those that meet something in both.
-float steepness_of(const EyeRays& rays, const Image<float>& source) {
+/// How what a ray meets moves when the ray moves to its neighbour's place, over how far the ray moves.
+struct Slopes {
+    float steepness = 1.0F; ///< the mean of all neighbours
+    /// Of each patch: how far those lie apart that do not meet one surface, over all neighbours. What edges hide is there, and a ray
+    /// meets it when an edge moves.
+    std::array<double, seen_patches> over_edges{};
+    double edges = 0.0; ///< neighbours that do not meet one surface
+    double gaps = 0.0;  ///< the sum of how far they lie apart
+};
+
+/// Hits of neighbouring rays that lie as far apart as this many rays, more than their own neighbours do, lie on two surfaces, or
+/// about an edge of one. A plane that is seen edge-on has neighbours far apart too, but all of them.
+constexpr double edge_slope = 4.0;
+
+Slopes slopes_of(const EyeRays& rays, const Image<float>& source) {
     double sum = 0.0;
-    std::size_t count = 0;
-    const auto add = [&](float here, float there) {
-        if (here != no_hit && there != no_hit) {
-            sum += std::hypot(1.0, static_cast<double>(there - here) / rays.spacing_box());
-            ++count;
+    double count = 0.0;
+    Slopes slopes;
+    std::array<double, seen_patches> counts{};
+    const auto slope = [&](const glm::ivec2& from, const glm::ivec2& to) -> std::optional<double> {
+        const auto inside = [&](const glm::ivec2& at) {
+            return at.x >= 0 && at.y >= 0 && at.x < source.width && at.y < source.height;
+        };
+        if (!inside(from) || !inside(to) || source.at(from.x, from.y) == no_hit ||
+            source.at(to.x, to.y) == no_hit) {
+            return std::nullopt;
         }
+        return std::abs(static_cast<double>(source.at(to.x, to.y) - source.at(from.x, from.y))) /
+               rays.spacing_box();
     };
-    for (int y = 0; y + 1 < source.height; ++y) {
-        for (int x = 0; x + 1 < source.width; ++x) {
-            add(source.at(x, y), source.at(x + 1, y));
-            add(source.at(x, y), source.at(x, y + 1));
+    for (int y = 0; y < source.height; ++y) {
+        for (int x = 0; x < source.width; ++x) {
+            for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(0, 1)}) {
+                const glm::ivec2 here(x, y);
+                const std::optional<double> found = slope(here, here + step);
+                if (!found) {
+                    continue;
+                }
+                const std::optional<double> before = slope(here - step, here);
+                const std::optional<double> after = slope(here + step, here + 2 * step);
+                const double usual =
+                    std::min(before.value_or(after.value_or(0.0)), after.value_or(before.value_or(0.0)));
+                counts[rays.patch(x, y)] += 1.0;
+                sum += std::hypot(1.0, *found);
+                count += 1.0;
+                if (*found - usual >= edge_slope) {
+                    slopes.over_edges[rays.patch(x, y)] += *found;
+                    slopes.gaps += *found * rays.spacing_box();
+                    slopes.edges += 1.0;
+                }
+            }
         }
     }
-    return count > 0 ? static_cast<float>(sum / static_cast<double>(count)) : 1.0F;
+    for (std::size_t k = 0; k < seen_patches; ++k) {
+        slopes.over_edges[k] /= std::max(counts[k], 1.0);
+    }
+    slopes.steepness = count > 0.0 ? static_cast<float>(sum / count) : 1.0F;
+    return slopes;
 }
 
-SeenEye eye_of(const glm::dvec3& towards, const EyeRays& rays, const Image<float>& source) {
-    SeenEye eye{towards, steepness_of(rays, source), {}};
+SeenEye eye_of(const glm::dvec3& towards, const EyeRays& rays, const Image<float>& source, float steepness) {
+    SeenEye eye{towards, steepness, {}};
     double hits = 0.0;
     for (int y = 0; y < source.height; ++y) {
         for (int x = 0; x < source.width; ++x) {
@@ -137,11 +179,20 @@ SeenEye eye_of(const glm::dvec3& towards, const EyeRays& rays, const Image<float
     return eye;
 }
 
-SeenError compare(const EyeRays& rays, const Image<float>& level, const Image<float>& source) {
+/// What one eye sees of a level.
+struct Compared {
+    SeenError error;   ///< its means are of the rays that meet the same surface in both
+    double both = 0.0; ///< rays that meet something in both
+    double beyond_edges =
+        0.0; ///< of them, those that meet another surface: the sum of their errors, box units
+};
+
+Compared compare(const EyeRays& rays, const Image<float>& level, const Image<float>& source) {
     std::vector<double> off;
     std::array<double, seen_patches> sums{};
     std::array<double, seen_patches> counts{};
     std::size_t one = 0;
+    Compared found;
     for (int y = 0; y < source.height; ++y) {
         for (int x = 0; x < source.width; ++x) {
             const bool hit = source.at(x, y) != no_hit;
@@ -150,16 +201,21 @@ SeenError compare(const EyeRays& rays, const Image<float>& level, const Image<fl
             } else if (hit) {
                 off.push_back(
                     std::abs(static_cast<double>(level.at(x, y)) - static_cast<double>(source.at(x, y))));
-                sums[rays.patch(x, y)] += off.back();
-                counts[rays.patch(x, y)] += 1.0;
+                if (off.back() < rays.spacing_box()) {
+                    sums[rays.patch(x, y)] += off.back();
+                    counts[rays.patch(x, y)] += 1.0;
+                } else {
+                    found.beyond_edges += off.back();
+                }
             }
         }
     }
-    SeenError seen;
+    SeenError& seen = found.error;
+    found.both = static_cast<double>(off.size());
     if (!off.empty()) {
-        const auto both = static_cast<double>(off.size());
-        seen.mean_box = static_cast<float>(std::accumulate(off.begin(), off.end(), 0.0) / both);
-        seen.silhouette_share = static_cast<float>(static_cast<double>(one) / both);
+        seen.mean_box = static_cast<float>(std::accumulate(sums.begin(), sums.end(), 0.0) /
+                                           std::max(std::accumulate(counts.begin(), counts.end(), 0.0), 1.0));
+        seen.silhouette_share = static_cast<float>(static_cast<double>(one) / found.both);
         seen.p95_box = static_cast<float>(quantile(std::move(off), 0.95));
     }
     for (std::size_t k = 0; k < seen_patches; ++k) {
@@ -169,7 +225,64 @@ SeenError compare(const EyeRays& rays, const Image<float>& level, const Image<fl
         seen.outline_shift_box =
             static_cast<float>(rays.spacing_box() * static_cast<double>(one) / static_cast<double>(outline));
     }
-    return seen;
+    return found;
+}
+
+/// What one eye's rays meet of the source.
+struct SeenSource {
+    EyeRays rays;
+    Image<float> distances;
+    Slopes slopes;
+};
+
+/// How far a level's edges move, box units, from all eyes together.
+///
+/// As if `taken` more of an edge's places had been met where it moves as far as the surface lies off, half of what is seen along
+/// rays (Cauchy; error_estimate.h): of a level whose edges move so little that hardly a ray tells, that is known better.
+double edges_moved(const std::vector<Compared>& compared, const std::vector<SeenSource>& eyes,
+                   const std::vector<double>& over_edges) {
+    constexpr double taken = 4.0; // a count of four is known to a half of itself
+    double found = 0.0;
+    double of_one = 0.0; // if edges moved by 1
+    double gaps = 0.0;
+    double edges = 0.0;
+    double surface_box = 0.0;
+    for (std::size_t k = 0; k < compared.size(); ++k) {
+        found += compared[k].beyond_edges;
+        of_one += compared[k].both * over_edges[k];
+        gaps += eyes[k].slopes.gaps;
+        edges += eyes[k].slopes.edges;
+        surface_box +=
+            0.5 * static_cast<double>(compared[k].error.mean_box) / static_cast<double>(compared.size());
+    }
+    if (!(of_one > 0.0)) {
+        return 0.0;
+    }
+    const double gap = gaps / edges;
+    return surface_box > 0.0 ? (found + taken * gap) / (of_one + taken * gap / surface_box) : found / of_one;
+}
+
+/// Adds what edges that lie wrong show of what they hide. An eye's rays meet a handful of such places and miss others, so that
+/// their sum is mostly chance. How far a level's edges move is the same for all eyes; what an eye then sees follows from how much
+/// there is behind its edges.
+std::vector<SeenError> with_edges(const std::vector<Compared>& compared, const std::vector<SeenSource>& eyes,
+                                  const SeenErrors& seen) {
+    std::vector<double> over_edges(compared.size(), 0.0);
+    for (std::size_t eye = 0; eye < compared.size(); ++eye) {
+        for (std::size_t k = 0; k < seen_patches; ++k) {
+            over_edges[eye] += seen.eyes[eye].patches[k].share * eyes[eye].slopes.over_edges[k];
+        }
+    }
+    const double moved_box = edges_moved(compared, eyes, over_edges);
+    std::vector<SeenError> errors;
+    for (std::size_t eye = 0; eye < compared.size(); ++eye) {
+        SeenError& error = errors.emplace_back(compared[eye].error);
+        error.mean_box += static_cast<float>(moved_box * over_edges[eye]);
+        for (std::size_t k = 0; k < seen_patches; ++k) {
+            error.patches_box[k] += static_cast<float>(moved_box * eyes[eye].slopes.over_edges[k]);
+        }
+    }
+    return errors;
 }
 
 /// Evenly over the zone, by a spiral of golden angles.
@@ -196,20 +309,22 @@ std::vector<glm::dvec3> eyes_of(const ViewingZone& zone) {
 SeenErrors seen_errors(const Pack& pack, const SourceScene& source, const ViewingZone& zone) {
     constexpr double rays_an_eye = 10'000.0;
     SeenErrors seen;
-    std::vector<EyeRays> rays;
-    std::vector<Image<float>> truth;
+    std::vector<SeenSource> eyes;
     for (const glm::dvec3& towards : eyes_of(zone)) {
-        rays.emplace_back(towards, pack.box_size, rays_an_eye);
-        truth.push_back(rays.back().cast(source));
-        seen.eyes.push_back(eye_of(towards, rays.back(), truth.back()));
+        const EyeRays rays(towards, pack.box_size, rays_an_eye);
+        Image<float> distances = rays.cast(source);
+        const Slopes slopes = slopes_of(rays, distances);
+        seen.eyes.push_back(eye_of(towards, rays, distances, slopes.steepness));
+        eyes.push_back({rays, std::move(distances), slopes});
     }
     for (const PackLevel& level : pack.levels) {
         const SourceMesh mesh = textured_source(level, pack.textures[level.texture], pack.box_size);
         const SourceScene scene(mesh, mesh.positions, Sides::Front);
-        std::vector<SeenError>& errors = seen.levels.emplace_back();
-        for (std::size_t k = 0; k < rays.size(); ++k) {
-            errors.push_back(compare(rays[k], rays[k].cast(scene), truth[k]));
+        std::vector<Compared> compared;
+        for (const SeenSource& eye : eyes) {
+            compared.push_back(compare(eye.rays, eye.rays.cast(scene), eye.distances));
         }
+        seen.levels.push_back(with_edges(compared, eyes, seen));
     }
     return seen;
 }

@@ -1,11 +1,11 @@
 #include "assets_baked/bake/texture_bake.h"
 
+#include "assets_baked/bake/museum_light.h"
 #include "firmware_host/base/parallel.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace frustumscreen {
 
@@ -102,56 +102,6 @@ float coverage_of(const SourceScene& source, const SurfaceHit& hit) {
 
 glm::vec3 clamped_rgb(const glm::vec4& colour) {
     return glm::clamp(glm::vec3(colour), glm::vec3(0.0F), glm::vec3(1.0F));
-}
-
-/// The museum: a soft dome, brighter above, and a broad key light from the upper left of the artifact's
-/// front.
-float radiance(const glm::vec3& direction) {
-    static const glm::vec3 key = glm::normalize(glm::vec3(-0.45F, -0.60F, 0.80F));
-    const float dome = 0.42F + 0.30F * direction.z;
-    const float towards_key = std::fmax(glm::dot(direction, key), 0.0F);
-    const float lobe = towards_key * towards_key * towards_key * towards_key;
-    return dome + 1.1F * lobe;
-}
-
-/// Cosine-weighted directions about +Z, even over the hemisphere (Hammersley points).
-std::vector<glm::vec3> cosine_directions(int count) {
-    std::vector<glm::vec3> directions;
-    for (int k = 0; k < count; ++k) {
-        std::uint32_t bits = static_cast<std::uint32_t>(k);
-        float inverse = 0.0F;
-        for (float digit = 0.5F; bits != 0; bits >>= 1, digit *= 0.5F) {
-            inverse += digit * static_cast<float>(bits & 1U);
-        }
-        const float radius = std::sqrt((static_cast<float>(k) + 0.5F) / static_cast<float>(count));
-        const float angle = 2.0F * std::numbers::pi_v<float> * inverse;
-        directions.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
-                                std::sqrt(std::fmax(0.0F, 1.0F - radius * radius)));
-    }
-    return directions;
-}
-
-float light_at(const SourceScene& source, const SurfacePoint& at, const std::vector<glm::vec3>& directions) {
-    constexpr float lift = 1.5e-3F; // so far may a simplified surface lie below its source
-    constexpr float dome_reach = 1.5F;
-    const glm::vec3 side = std::abs(at.normal.z) < 0.9F ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
-    const glm::vec3 tangent = glm::normalize(glm::cross(side, at.normal));
-    const glm::vec3 bitangent = glm::cross(at.normal, tangent);
-    const glm::vec3 origin = at.position + at.normal * lift;
-    float sum = 0.0F;
-    for (const glm::vec3& d : directions) {
-        const glm::vec3 direction = tangent * d.x + bitangent * d.y + at.normal * d.z;
-        if (direction.z < 0.0F) {
-            sum += 0.10F; // light that the dark table reflects
-            continue;
-        }
-        if (!source.occluded(origin, direction, 0.0F, dome_reach)) {
-            sum += radiance(direction);
-        } else {
-            sum += 0.12F; // stands for light that bounced once; keeps hollows readable
-        }
-    }
-    return sum / static_cast<float>(directions.size());
 }
 
 /// Means over the covered texels of each 3 x 3 neighbourhood; `known` marks them.
@@ -300,8 +250,7 @@ ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, 
                       float reach_box) {
     // Light is smooth, so only every third texel in each direction is computed, then spread and smoothed.
     constexpr int stride = 3;
-    constexpr int rays = 96;
-    const std::vector<glm::vec3> directions = cosine_directions(rays);
+    const MuseumLight museum(source);
     ImageFloat light(texels.width, texels.height, glm::vec3(0.0F));
     Image<std::uint8_t> known(texels.width, texels.height, 0);
     for_each_texel(texels, [&](int x, int y, const AtlasTexel& texel) {
@@ -310,7 +259,7 @@ ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, 
             const SurfaceHit hit = source.facing(at.position, at.normal, reach_box);
             at.position =
                 hit.hit ? hit.point : at.position; // a coarse surface below it would be in its shadow
-            light.at(x, y) = glm::vec3(light_at(source, at, directions));
+            light.at(x, y) = glm::vec3(museum.at(at.position, at.normal));
             known.at(x, y) = 1;
         }
     });

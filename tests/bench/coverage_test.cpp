@@ -67,7 +67,7 @@ void expect_covered(const std::shared_ptr<const SourceMesh>& mesh) {
     SetUp set_up{"near", near_settings()};
     set_up.settings.projector.pinhole = set_up.settings.projector.pinhole.scaled_to(1280, 800);
     const SetUpResult result =
-        measure_estimates(set_up, pack, mesh, {12, 7}, [](const std::string&, double) {}).value();
+        measure_estimates(set_up, pack, mesh, {12, 7, 4}, [](const std::string&, double) {}).value();
     const std::vector<NamedCoverage> rows = coverages_of("shape", result);
     EXPECT_EQ(rows.size(), pack.levels.size() + 1); // and what `auto` takes
     double poses = 0.0;

@@ -50,6 +50,14 @@ std::vector<Verdict> verdicts_beside(const TechniqueResult& peer) {
     return verdicts;
 }
 
+TEST(Dominance, ByColourNobodyIsJudgedWhoLacksThePacksLight) {
+    SetUpResult result = with({technique("LOD 10k", TechniqueKind::Lod, 3.0, middling)});
+    result.baked_light = true;
+    const std::vector<Verdict> verdicts = judge_dominance(result);
+    ASSERT_EQ(verdicts.size(), 1U);
+    EXPECT_NE(verdicts.front().what.find("shape"), std::string::npos);
+}
+
 TEST(Dominance, APeerThatIsCheaperAndNowhereWorseDominatesInBoth) {
     const TechniqueResult peer = technique("LOD 10k", TechniqueKind::Lod, 3.0, middling);
     for (const Verdict& verdict : verdicts_beside(peer)) {

@@ -59,6 +59,17 @@ TEST_F(PackRelief, ThereIsARowForEachByTheNameThatDrawsIt) {
     EXPECT_LT(reliefs[1].error.mean.sixteen_rays.rmse, reliefs[0].error.mean.sixteen_rays.rmse);
 }
 
+TEST_F(PackRelief, TheDefaultLevelIsDrawnWhereItsMeshIs) {
+    const std::vector<std::uint32_t> levels{pack_.default_level};
+    Result<Comparison> opened = open_comparison({"near", stage_.settings}, pack_, levels, mesh_, {{}, 3, 3});
+    ASSERT_TRUE(opened) << opened.error().message;
+    ASSERT_TRUE(opened->set->measure_errors(opened->truth, opened->poses, 0, [](double) {}));
+    const TechniqueResult& level = opened->set->results().back();
+    ASSERT_EQ(level.kind, TechniqueKind::PackLevel);
+    EXPECT_GT(level.error.worst.drawn_shift_px, 0.0);
+    EXPECT_LT(level.error.worst.drawn_shift_px, 0.05);
+}
+
 /// What the bench bakes by itself is what the bake puts into a pack.
 TEST_F(PackRelief, TheBenchBakesTheReliefsThatThePackHas) {
     const std::vector<ReliefOutline> outlines = reliefs_of(pack_).value();

@@ -292,6 +292,27 @@ TEST(Truth, ScaleAndPlaceOfTheFileDoNotMatter) {
     }
 }
 
+TEST(Truth, FrontSidesAloneAreMetWhereTheyAreAskedFor) {
+    auto mesh = std::make_shared<SourceMesh>();
+    mesh->positions = {{0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}, {0.0, 1.0, 1.0},
+                       {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}};
+    mesh->triangles = {{0, 1, 2}, {3, 4, 5}}; // the upper one faces up, the lower one down
+    mesh->triangle_materials = {0, 0};
+    mesh->materials = {SourceMaterial{}};
+    const Truth both = Truth::build(mesh, glm::dmat4(1.0)).value();
+    const Truth front = Truth::build(mesh, glm::dmat4(1.0), Sides::Front).value();
+    const glm::dvec3 between(0.2, 0.2, 0.5);
+    const glm::dvec3 above(0.2, 0.2, 2.0);
+    const glm::dvec3 up(0.0, 0.0, 1.0);
+    Truth::Hit hit;
+    EXPECT_TRUE(both.first_hit(between, up, hit));
+    EXPECT_TRUE(both.first_hit(between, -up, hit));
+    EXPECT_FALSE(front.first_hit(between, up, hit));
+    EXPECT_FALSE(front.first_hit(between, -up, hit));
+    ASSERT_TRUE(front.first_hit(above, -up, hit));
+    EXPECT_EQ(hit.triangle, 0U);
+}
+
 TEST(Truth, AMeshWithoutTrianglesIsRefused) {
     EXPECT_FALSE(Truth::build(std::make_shared<SourceMesh>(), glm::dmat4(1.0)));
     EXPECT_FALSE(Truth::build(random_mesh(1), glm::dmat4(std::nan(""))));

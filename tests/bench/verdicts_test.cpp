@@ -77,6 +77,19 @@ TEST(Verdicts, OneBadPoseMissesALimit) {
     EXPECT_EQ(missed(judge(level, default_level_limits)), 1U);
 }
 
+TEST(Verdicts, APictureLiesWhereItsMeshDoesAndMayLieBesideTheScanAsItsOutlineMay) {
+    const auto missed_at = [](double drawn_px, double shown_px) {
+        PictureError error = picture_error(0, 0, 0.01, 1.0);
+        error.drawn_shift_px = drawn_px;
+        error.picture_shift_px = shown_px;
+        return missed(judge(technique("t", TechniqueKind::PackLevel, 0, 1.0, {error}), default_level_limits));
+    };
+    EXPECT_EQ(missed_at(0.049, 0.29), 0U);
+    EXPECT_EQ(missed_at(0.051, 0.29), 1U);
+    EXPECT_EQ(missed_at(0.0, 0.31), 1U);
+    EXPECT_EQ(missed_at(0.5, 0.5), 2U); // half a pixel beside its place
+}
+
 TEST(Verdicts, TheTwoPassMethodIsComparedWithTheCheapestLevelThatIsAsGood) {
     const SetUpResult result = example();
     const TechniqueResult* level = cheapest_as_good(result, result.techniques[3]);

@@ -109,6 +109,8 @@ TEST(ScenePlan, ReadsTheReliefOfATechniqueAlone) {
         const ScenePlan plan = plan_scene(settings, pack, asked).value();
         EXPECT_TRUE(plan.levels.empty());
         EXPECT_EQ(plan.exposure_level, pack.description.default_level);
+        EXPECT_TRUE(leaves_out(plan, UnusedLevels, "levels 0, 1 and 3"))
+            << "level 2 is read for the exposure";
         ASSERT_EQ(plan.reliefs.size(), 1U);
         EXPECT_EQ(plan.reliefs.front().texels, texels);
         EXPECT_EQ(name_of(plan.rungs.front()), fmt::format("relief{}", texels));

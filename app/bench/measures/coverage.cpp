@@ -42,14 +42,14 @@ Result<SetUpResult> measure_estimates(const SetUp& set_up, const Pack& pack,
     }
     TechniqueSet& set = *opened->set;
     const Result<void> measured = set.add_auto(pack, {}).and_then([&] {
-        return set.measure_errors(
-            opened->truth, opened->poses, 0, [&](double done) { progress(step, done); },
-            TechniqueSet::Figures::Shape);
+        return set.measure_shape(opened->truth, opened->poses, options.rays,
+                                 [&](double done) { progress(step, done); });
     });
     if (!measured) {
         return at(set_up.name, measured.error());
     }
-    SetUpResult result{set_up.name, set.driver(), pack.default_level, levels.back(), {}, set.results(), {}};
+    SetUpResult result{set_up.name, set.driver(), pack.default_level, levels.back(),
+                       !pack.unlit, {},           set.results(),      {}};
     result.poses = std::move(opened->poses);
     return result;
 }

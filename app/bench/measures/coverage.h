@@ -31,6 +31,9 @@ struct Coverage {
 struct EstimateOptions {
     int poses = 50;
     std::uint64_t seed = 1;
+    /// A pixel, of which the true mean is taken: 1, 2, 4, 8 or 16. A handful of pixels, where an edge lies wrong, are half of a
+    /// finest level's mean, and which places one ray a pixel meets is chance; more rays say how much of a miss that is.
+    int rays = 1;
 };
 /// Every level of the pack and what `auto` takes, without times.
 [[nodiscard]] Result<SetUpResult> measure_estimates(const SetUp& set_up, const Pack& pack,

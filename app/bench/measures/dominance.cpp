@@ -53,6 +53,9 @@ bool errs_no_more_by(Dominance by, const TechniqueResult& a, const TechniqueResu
 std::vector<const TechniqueResult*> rivals(const SetUpResult& result, const TechniqueResult& level,
                                            Dominance by) {
     std::vector<const TechniqueResult*> found;
+    if (by == Dominance::Colour && result.baked_light) {
+        return found;
+    }
     for (const TechniqueResult& peer : result.techniques) {
         if (is_judged_peer(peer.kind) && (by == Dominance::Colour || peer.samples == level.samples)) {
             found.push_back(&peer);

@@ -30,8 +30,8 @@ enum class Dominance { Shape, Colour };
 /// that no other betters at about the same cost.
 [[nodiscard]] std::vector<const TechniqueResult*> at_best_eye_images(const SetUpResult& result);
 
-/// Two verdicts for each level and relief of the pack; none without peers, and none by shape where no peer has as many samples. Every eye
-/// image counts here.
+/// Two verdicts for each level and relief of the pack; none without peers, none by shape where no peer has as many samples, none by colour
+/// of a pack with baked light. Every eye image counts here.
 [[nodiscard]] std::vector<Verdict> judge_dominance(const SetUpResult& result);
 
 } // namespace frustumscreen

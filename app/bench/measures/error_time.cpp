@@ -94,7 +94,8 @@ Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
     set->measure_times(poses, rounds_of(options),
                        [&](double done) { progress(set_up.name + ": times", done); });
     const auto finest = static_cast<std::uint32_t>(pack.levels.size() - 1);
-    SetUpResult result{set_up.name, set->driver(), pack.default_level, finest, {}, set->results(), {}};
+    SetUpResult result{
+        set_up.name, set->driver(), pack.default_level, finest, !pack.unlit, {}, set->results(), {}};
     for (const auto& [name, level] :
          {std::pair("default", pack.default_level), std::pair("finest", finest)}) {
         Result<Image8> picture = worst_picture(*set, truth, poses, level);

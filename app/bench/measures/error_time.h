@@ -15,6 +15,8 @@ struct SetUpResult {
     std::string driver;
     std::uint32_t default_level = 0;
     std::uint32_t finest_level = 0;
+    bool baked_light =
+        false; ///< the levels' colours hold it, peers' do not: those are compared by shape alone
     std::vector<BenchPose> poses;
     std::vector<TechniqueResult> techniques; ///< the floor first
     /// `error_picture` of the default and the finest level, each in the pose of its greatest geometric error.

@@ -92,9 +92,9 @@ PictureError measure(const TruthPicture& truth, const Drawn& drawn) {
 }
 
 ErrorSummary summarise(std::span<const PictureError> errors) {
-    constexpr std::array figures = {&PictureError::geometric_mean_mm, &PictureError::geometric_p95_mm,
+    constexpr std::array figures = {&PictureError::geometric_mean_mm,  &PictureError::geometric_p95_mm,
                                     &PictureError::silhouette_percent, &PictureError::outline_shift_px,
-                                    &PictureError::picture_shift_px};
+                                    &PictureError::picture_shift_px,   &PictureError::drawn_shift_px};
     constexpr std::array counts = {&PictureError::truth_pixels, &PictureError::outline_pixels,
                                    &PictureError::mismatched_pixels};
     constexpr std::array colours = {&PictureError::one_ray, &PictureError::sixteen_rays};

@@ -21,6 +21,7 @@ constexpr std::array figures = {
     Figure{"silhouette_percent", [](const PictureError& e) { return e.silhouette_percent; }},
     Figure{"outline_shift_px", [](const PictureError& e) { return e.outline_shift_px; }},
     Figure{"picture_shift_px", [](const PictureError& e) { return e.picture_shift_px; }},
+    Figure{"drawn_shift_px", [](const PictureError& e) { return e.drawn_shift_px; }},
     Figure{"geometric_mean_mm", [](const PictureError& e) { return e.geometric_mean_mm; }},
     Figure{"geometric_p95_mm", [](const PictureError& e) { return e.geometric_p95_mm; }},
     Figure{"rmse_1_ray", [](const PictureError& e) { return e.one_ray.rmse; }},

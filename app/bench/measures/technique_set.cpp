@@ -5,6 +5,7 @@
 #include "app/bench/techniques/ray_cast.h"
 #include "app/bench/techniques/relief/relief_peers.h"
 #include "app/bench/techniques/relief_cast.h"
+#include "app/bench/truth/lit_source.h"
 #include "app/pack/pack_relief.h"
 #include "app/render/read_back.h"
 #include "app/scene/scene_plan.h"
@@ -114,6 +115,11 @@ Result<void> TechniqueSet::add_level(const Pack& pack, std::uint32_t level, cons
         options.samples =
             std::max(options.samples, finest_samples); // as `render --technique finest` draws it
     }
+    if (level == pack.default_level || level + 1 == pack.levels.size()) {
+        if (const Result<void> kept = keep_drawn(pack, level); !kept) {
+            return kept;
+        }
+    }
     TechniqueResult result =
         described(TechniqueKind::PackLevel, static_cast<int>(level), pack.levels[level].indices.size() / 3);
     result.samples = options.samples;
@@ -132,6 +138,9 @@ Result<void> TechniqueSet::add_auto(const Pack& pack, const PictureOptions& opti
     const auto mesh =
         std::find_if(plan->rungs.begin(), plan->rungs.end(), [](const Rung& each) { return !each.relief; });
     const Rung& rung = *mesh;
+    if (const Result<void> kept = keep_drawn(pack, rung.level); !kept) {
+        return kept;
+    }
     PictureOptions taken = options;
     taken.samples = rung.samples;
     TechniqueResult result = described(TechniqueKind::Auto, static_cast<int>(rung.level),
@@ -280,30 +289,6 @@ Result<Drawn> TechniqueSet::places(std::size_t k, const BenchPose& pose) {
     return Drawn{Image8(stage_.width(), stage_.height()), std::move(*points)};
 }
 
-Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<BenchPose>& poses,
-                                          std::size_t first, const Progress& progress, Figures figures) {
-    const bool all = figures == Figures::All;
-    for (std::size_t pose = 0; pose < poses.size(); ++pose) {
-        const TruthPicture cast = truth.cast(stage_.prop, view_of(stage_.settings, poses[pose]), all);
-        for (std::size_t k = first; k < techniques_.size(); ++k) {
-            if (results_[k].kind == TechniqueKind::Floor) {
-                continue;
-            }
-            const Result<Drawn> seen = all ? drawn(k, poses[pose]) : places(k, poses[pose]);
-            if (!seen) {
-                return tl::unexpected<Error>(seen.error());
-            }
-            results_[k].errors.push_back(measure(cast, *seen));
-            results_[k].estimates.push_back(techniques_[k]->estimate(poses[pose]));
-        }
-        progress(static_cast<double>(pose + 1) / static_cast<double>(poses.size()));
-    }
-    for (std::size_t k = first; k < results_.size(); ++k) {
-        results_[k].error = summarise(results_[k].errors);
-    }
-    return {};
-}
-
 void TechniqueSet::measure_times(const std::vector<BenchPose>& poses, int rounds, const Progress& progress) {
     std::vector<Technique*> techniques;
     for (const std::unique_ptr<Technique>& technique : techniques_) {
@@ -349,6 +334,9 @@ Result<Comparison> open_comparison(const SetUp& set_up, const Pack& pack,
     Result<Truth> truth = Truth::build(mesh, prop_from_artifact);
     if (!truth) {
         return tl::unexpected<Error>(truth.error());
+    }
+    if (!pack.unlit) {
+        truth->light_by(std::make_shared<const LitSource>(mesh, pack.box_from_file));
     }
     for (const std::uint32_t level : levels) {
         if (const Result<void> added = (*set)->add_level(pack, level, options.picture); !added) {

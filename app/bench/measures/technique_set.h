@@ -94,12 +94,12 @@ public:
 
     [[nodiscard]] Result<Drawn> drawn(std::size_t k, const BenchPose& pose);
 
-    /// Draws `poses` with techniques [first, end) and measures each picture against the truth. `Shape`: its places
-    /// alone; errors of colour mean nothing then.
-    enum class Figures { All, Shape };
+    /// Draws `poses` with techniques [first, end) and measures each picture against the truth.
     [[nodiscard]] Result<void> measure_errors(const Truth& truth, const std::vector<BenchPose>& poses,
-                                              std::size_t first, const Progress& progress,
-                                              Figures figures = Figures::All);
+                                              std::size_t first, const Progress& progress);
+    /// The same for all techniques of the places alone, `rays` a pixel, 1, 2, 4, 8 or 16; errors of colour mean nothing then.
+    [[nodiscard]] Result<void> measure_shape(const Truth& truth, const std::vector<BenchPose>& poses,
+                                             int rays, const Progress& progress);
     void measure_times(const std::vector<BenchPose>& poses, int rounds, const Progress& progress);
 
     [[nodiscard]] const Stage& stage() const { return stage_; }
@@ -111,10 +111,14 @@ private:
         : display_(std::move(display)), stage_(std::move(stage)) {}
     /// Without colour.
     [[nodiscard]] Result<Drawn> places(std::size_t k, const BenchPose& pose);
+    /// Of each technique; the floor's mean nothing.
+    [[nodiscard]] Result<std::vector<PictureError>> shape_errors(const Truth& truth, const BenchPose& pose);
     [[nodiscard]] Result<void> add_relief(const Pack& pack, TechniqueKind kind, BlockRelief relief,
                                           const std::optional<SeenLevel>& seen, const PictureOptions& options,
                                           const std::string& name);
     [[nodiscard]] Result<void> add(Result<std::unique_ptr<Technique>> technique, TechniqueResult result);
+    /// Its pictures are then held against rays at the level itself, too.
+    [[nodiscard]] Result<void> keep_drawn(const Pack& pack, std::uint32_t level);
     using MakePeer =
         std::function<Result<std::unique_ptr<Technique>>(const std::shared_ptr<const PeerSamples>&)>;
     [[nodiscard]] Result<void> add_sampled(const MakePeer& make, const TechniqueResult& result,
@@ -122,6 +126,7 @@ private:
 
     std::unique_ptr<Display> display_; ///< first: its context outlives everything below
     Stage stage_;
+    std::map<int, Truth> drawn_;                                     ///< by the level that they are of
     std::map<int, std::shared_ptr<const PeerSamples>> peer_samples_; ///< by their number; none for one
     std::vector<std::unique_ptr<Technique>> techniques_;
     std::vector<TechniqueResult> results_; ///< one for each technique

@@ -71,9 +71,12 @@ std::vector<Verdict> judge(const TechniqueResult& level, const Limits& limits) {
         {fmt::format("colour RMSE <= {:g}", limits.colour_rmse),
          fmt::format("worst pose {:.2f}", worst.sixteen_rays.rmse),
          worst.sixteen_rays.rmse <= limits.colour_rmse},
-        {fmt::format("shown within {:g} px of its place", most_picture_shift_px),
+        {fmt::format("drawn within {:g} px of its place", most_drawn_shift_px),
+         fmt::format("worst pose {:.3f} px", worst.drawn_shift_px),
+         worst.drawn_shift_px <= most_drawn_shift_px},
+        {fmt::format("shown within {:g} px of the scan's place", limits.outline_shift_px),
          fmt::format("worst pose {:.3f} px", worst.picture_shift_px),
-         worst.picture_shift_px <= most_picture_shift_px}};
+         worst.picture_shift_px <= limits.outline_shift_px}};
     if (limits.times_floor > 0.0) {
         verdicts.push_back({fmt::format("median cost <= {:g} x floor", limits.times_floor),
                             fmt::format("{:.2f} x", level.times_floor),

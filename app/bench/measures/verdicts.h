@@ -18,8 +18,9 @@ struct Limits {
     double colour_rmse = 0.0; ///< against 16 rays
     double times_floor = 0.0; ///< 0: no limit
 };
-/// Of a level's picture, as it is shown, from its place: less than a person can see, and far less than half a pixel.
-inline constexpr double most_picture_shift_px = 0.05;
+/// Of a level's picture, as it is shown, from where its mesh is: less than a person can see, and far less than half a pixel. From
+/// where the scan is it may lie as far as its outlines may.
+inline constexpr double most_drawn_shift_px = 0.05;
 inline constexpr Limits default_level_limits{0.6, 0.3, 0.2, 14.0, 4.0};
 inline constexpr Limits finest_level_limits{0.15, 0.1, 0.05, 8.0, 0.0};
 /// Stricter limits: for the default level again, and for some fine level of the pack.

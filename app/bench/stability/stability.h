@@ -1,11 +1,11 @@
 /// Numerical stability on stiff and extreme cases, as a table: what was measured, against which bound, and
 /// whether it held. docs/stability.md says why each bound holds.
 ///
-/// Each case is a pure function. It compares the program's 64-bit (or, where the GPU takes over, 32-bit)
+/// Each case is a pure function, but for those that ask a driver. It compares the program's 64-bit (or, where the GPU takes over, 32-bit)
 /// numbers with long double arithmetic of its own: rays, planes and pinholes the ordinary way, exponentials
 /// from the library's long double.
 ///
-/// Errors   none: what a case cannot find (recordings) it leaves out, with a sentence.
+/// Errors   none: what a case cannot find (recordings, a driver) it leaves out, with a sentence.
 /// Threads  one caller: floating-point exceptions are flags of the thread.
 #pragma once
 

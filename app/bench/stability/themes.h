@@ -1,6 +1,6 @@
 /// The cases, one function and one file for each theme.
 ///
-/// Threads  pure; any.
+/// Threads  pure, any; the driver's: one at a time.
 #pragma once
 
 #include "app/bench/stability/stability.h"
@@ -19,6 +19,8 @@ namespace frustumscreen {
 [[nodiscard]] std::vector<StabilityCase> fade_cases();
 [[nodiscard]] std::vector<StabilityCase> estimator_cases();
 [[nodiscard]] std::vector<StabilityCase> governor_cases();
+/// They draw, in a context of their own.
+[[nodiscard]] std::vector<StabilityCase> driver_cases();
 
 /// Parts of program_step_errors.
 [[nodiscard]] std::vector<StepError> frame_time_step_errors();

@@ -31,18 +31,28 @@ bool TracedMesh::refine(std::uint32_t triangle, const glm::dvec3& origin, const 
     return true;
 }
 
-/// Embree asks before it accepts a hit: cut where the material's alpha is below its cut-off.
-void TracedMesh::cut_masked(const RTCFilterFunctionNArguments* arguments) {
-    const auto& mesh = *static_cast<const SourceMesh*>(arguments->geometryUserPtr);
+bool TracedMesh::is_cut(std::uint32_t triangle, double u, double v) const {
+    const SourceMaterial& material = mesh_->materials[mesh_->triangle_materials[triangle]];
+    return material.alpha_mask && surface_colour(*mesh_, triangle, u, v).alpha < material.alpha_cutoff;
+}
+
+/// Embree asks before it accepts a hit.
+void TracedMesh::cut(const RTCFilterFunctionNArguments* arguments) {
+    const auto& traced = *static_cast<const TracedMesh*>(arguments->geometryUserPtr);
     for (unsigned lane = 0; lane < arguments->N; ++lane) {
         if (arguments->valid[lane] == 0) {
             continue;
         }
         const unsigned triangle = RTCHitN_primID(arguments->hit, arguments->N, lane);
-        const SourceMaterial& material = mesh.materials[mesh.triangle_materials[triangle]];
-        const double u = RTCHitN_u(arguments->hit, arguments->N, lane);
-        const double v = RTCHitN_v(arguments->hit, arguments->N, lane);
-        if (material.alpha_mask && surface_colour(mesh, triangle, u, v).alpha < material.alpha_cutoff) {
+        const glm::vec3 normal(RTCHitN_Ng_x(arguments->hit, arguments->N, lane),
+                               RTCHitN_Ng_y(arguments->hit, arguments->N, lane),
+                               RTCHitN_Ng_z(arguments->hit, arguments->N, lane));
+        const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, lane),
+                                  RTCRayN_dir_y(arguments->ray, arguments->N, lane),
+                                  RTCRayN_dir_z(arguments->ray, arguments->N, lane));
+        const bool from_behind = traced.sides_ == Sides::Front && glm::dot(normal, direction) > 0.0F;
+        if (from_behind || traced.is_cut(triangle, RTCHitN_u(arguments->hit, arguments->N, lane),
+                                         RTCHitN_v(arguments->hit, arguments->N, lane))) {
             arguments->valid[lane] = 0;
         }
     }
@@ -69,9 +79,9 @@ void TracedMesh::add_triangles() {
     }
     const bool masked = std::any_of(mesh_->materials.begin(), mesh_->materials.end(),
                                     [](const SourceMaterial& material) { return material.alpha_mask; });
-    if (masked) {
-        rtcSetGeometryUserData(geometry.get(), const_cast<SourceMesh*>(mesh_.get()));
-        rtcSetGeometryIntersectFilterFunction(geometry.get(), cut_masked);
+    if (masked || sides_ == Sides::Front) {
+        rtcSetGeometryUserData(geometry.get(), this);
+        rtcSetGeometryIntersectFilterFunction(geometry.get(), cut);
     }
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometryByID(scene_.get(), geometry.get(), 0);
@@ -79,14 +89,15 @@ void TracedMesh::add_triangles() {
     rtcCommitScene(scene_.get());
 }
 
-Result<std::shared_ptr<const TracedMesh>> TracedMesh::build(std::shared_ptr<const SourceMesh> mesh,
-                                                            const glm::dmat4& prop_from_artifact) {
+Result<std::shared_ptr<const TracedMesh>>
+TracedMesh::build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop_from_artifact, Sides sides) {
     if (!mesh || mesh->triangles.empty()) {
         return bad_input(
             "the mesh has no triangles to cast rays at; give the file that the pack was baked from");
     }
     std::shared_ptr<TracedMesh> traced(new TracedMesh());
     traced->mesh_ = std::move(mesh);
+    traced->sides_ = sides;
     traced->positions_.reserve(traced->mesh_->positions.size());
     for (const glm::dvec3& position : traced->mesh_->positions) {
         traced->positions_.emplace_back(prop_from_artifact * glm::dvec4(position, 1.0));

@@ -6,6 +6,7 @@
 
 #include "app/geometry/collineation.h"
 #include "assets_baked/bake/source_mesh.h"
+#include "assets_baked/bake/source_scene.h"
 #include "firmware_host/base/result.h"
 
 #include <embree3/rtcore.h>
@@ -18,12 +19,13 @@ class TracedMesh {
 public:
     /// Errors: no triangles; a placement that is not finite; Embree has no memory.
     [[nodiscard]] static Result<std::shared_ptr<const TracedMesh>>
-    build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop_from_artifact);
+    build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop_from_artifact,
+          Sides sides = Sides::Both);
 
     [[nodiscard]] const SourceMesh& mesh() const { return *mesh_; }
     /// The box of the triangles' corners, with a margin for float rounding.
     [[nodiscard]] const Box& box() const { return box_; }
-    /// Rays pass through what a material masks.
+    /// Rays pass through what a material masks, and through sides that are not asked for.
     [[nodiscard]] RTCScene scene() const { return scene_.get(); }
     /// (t, u, v) of the ray on the triangle's plane in 64-bit; false if it is edge-on.
     [[nodiscard]] bool refine(std::uint32_t triangle, const glm::dvec3& origin, const glm::dvec3& direction,
@@ -38,11 +40,13 @@ private:
 
     TracedMesh() = default;
     void add_triangles();
-    static void cut_masked(const RTCFilterFunctionNArguments* arguments);
+    static void cut(const RTCFilterFunctionNArguments* arguments);
+    [[nodiscard]] bool is_cut(std::uint32_t triangle, double u, double v) const;
 
     std::shared_ptr<const SourceMesh> mesh_;
     std::vector<glm::dvec3> positions_; ///< prop frame
     Box box_;
+    Sides sides_ = Sides::Both;
     std::unique_ptr<RTCDeviceTy, Release> device_;
     std::unique_ptr<RTCSceneTy, Release> scene_;
 };

@@ -1,9 +1,11 @@
 #include "app/bench/truth/truth.h"
 
+#include "app/bench/truth/lit_source.h"
 #include "app/bench/truth/traced_mesh.h"
 #include "firmware_host/base/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -71,14 +73,50 @@ bool hit_around(const Image<std::uint8_t>& hit, int x, int y) {
     return false;
 }
 
+/// Lights the colours of one pixel's hits. Light is smooth: what lies within a texel of a usual pack of what is known, and faces the
+/// same way, has its light.
+class PixelLight {
+public:
+    explicit PixelLight(const LitSource* lit) : lit_(lit) {}
+    void apply(const glm::dvec3& direction, Truth::Hit& hit) {
+        if (lit_ == nullptr) {
+            return;
+        }
+        constexpr float near_box = 1.0F / 512.0F;
+        constexpr float same_way = 0.97F;
+        const LitSource::Place place = lit_->place(hit.triangle, hit.u, hit.v, direction);
+        const auto end = known_.begin() + count_;
+        const auto known = std::find_if(known_.begin(), end, [&](const Known& each) {
+            return glm::distance(each.place.at, place.at) < near_box &&
+                   glm::dot(each.place.normal, place.normal) > same_way;
+        });
+        const float light = known != end ? known->light : lit_->light(place);
+        if (known == end && count_ < std::ssize(known_)) {
+            known_[static_cast<std::size_t>(count_++)] = {place, light};
+        }
+        hit.colour.linear = glm::min(light * glm::clamp(hit.colour.linear, 0.0F, 1.0F), glm::vec3(1.0F));
+    }
+
+private:
+    struct Known {
+        LitSource::Place place;
+        float light = 0.0F;
+    };
+    const LitSource* lit_;
+    std::array<Known, 8> known_;
+    std::ptrdiff_t count_ = 0;
+};
+
 glm::u8vec4 code_of(const glm::vec3& linear) {
     return {srgb8_from_linear(linear.r), srgb8_from_linear(linear.g), srgb8_from_linear(linear.b), 255};
 }
 
 } // namespace
 
-Result<Truth> Truth::build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop_from_artifact) {
-    Result<std::shared_ptr<const TracedMesh>> traced = TracedMesh::build(std::move(mesh), prop_from_artifact);
+Result<Truth> Truth::build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop_from_artifact,
+                           Sides sides) {
+    Result<std::shared_ptr<const TracedMesh>> traced =
+        TracedMesh::build(std::move(mesh), prop_from_artifact, sides);
     if (!traced) {
         return tl::unexpected<Error>(traced.error());
     }
@@ -112,7 +150,7 @@ bool Truth::first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit
     }
     glm::dvec3 t_u_v(ray.ray.tfar, ray.hit.u, ray.hit.v);
     (void)traced_->refine(ray.hit.primID, start, unit, t_u_v); // if false, Embree's own values stay
-    hit = {ray.hit.primID, start + t_u_v.x * unit,
+    hit = {ray.hit.primID, t_u_v.y, t_u_v.z, start + t_u_v.x * unit,
            surface_colour(traced_->mesh(), ray.hit.primID, t_u_v.y, t_u_v.z)};
     return true;
 }
@@ -129,18 +167,23 @@ TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixt
     /// What the projector's ray through (u, v) must show: false if it does not light the prop.
     enum class Seen { Nothing, Prop, Artifact };
     const glm::dvec3 projector = view.prop_from_projector.translation;
-    const auto look = [&](double u, double v, Hit& hit) {
-        const glm::dvec3 light = view.prop_from_projector.direction(view.projector.ray({u, v}));
-        PropHit lit;
-        if (!intersect(prop, projector, light, lit)) {
+    const LitSource* const lit = sixteen_rays ? lit_.get() : nullptr;
+    const auto look = [&](double u, double v, PixelLight& light, Hit& hit) {
+        const glm::dvec3 ray = view.prop_from_projector.direction(view.projector.ray({u, v}));
+        PropHit on_prop;
+        if (!intersect(prop, projector, ray, on_prop)) {
             return Seen::Nothing;
         }
-        const Plane& face = prop.faces[static_cast<std::size_t>(lit.face)].plane;
+        const Plane& face = prop.faces[static_cast<std::size_t>(on_prop.face)].plane;
         if (!(face.distance(view.eye_m) > 0.0)) {
             return Seen::Prop;
         }
-        const glm::dvec3 on_face = projector + lit.t * light;
-        return first_hit(view.eye_m, on_face - view.eye_m, hit) ? Seen::Artifact : Seen::Prop;
+        const glm::dvec3 direction = projector + on_prop.t * ray - view.eye_m;
+        if (!first_hit(view.eye_m, direction, hit)) {
+            return Seen::Prop;
+        }
+        light.apply(direction, hit);
+        return Seen::Artifact;
     };
     const PixelArea area = pixels_of_prop(prop, view);
     const auto for_each_row = [&area](const auto& row) {
@@ -150,7 +193,8 @@ TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixt
     for_each_row([&](int y) {
         Hit hit;
         for (int x = area.left; x < area.right; ++x) {
-            const Seen seen = look(x + 0.5, y + 0.5, hit);
+            PixelLight light(lit);
+            const Seen seen = look(x + 0.5, y + 0.5, light, hit);
             picture.prop.at(x, y) = seen != Seen::Nothing ? 1 : 0;
             if (seen == Seen::Artifact) {
                 picture.hit.at(x, y) = 1;
@@ -170,10 +214,11 @@ TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixt
                 continue;
             }
             glm::vec3 sum(0.0F);
+            PixelLight light(lit);
             for (int sub = 0; sub < 16; ++sub) {
                 const int column = sub % 4;
                 const int row = sub / 4;
-                if (look(x + (column + 0.5) / 4.0, y + (row + 0.5) / 4.0, hit) == Seen::Artifact) {
+                if (look(x + (column + 0.5) / 4.0, y + (row + 0.5) / 4.0, light, hit) == Seen::Artifact) {
                     sum += glm::clamp(hit.colour.linear, 0.0F, 1.0F);
                 }
             }

@@ -3,7 +3,7 @@
 ///
 /// For a projector pixel whose ray lights the prop at S, on a face turned towards the eye E, the colour is
 /// that of the first hit of E + t (S - E), t > 0; black where there is none. Triangles are two-sided; alpha
-/// MASK is cut at its cut-off, BLEND is opaque. Colour = base colour * texture (bilinear, base level, linear
+/// MASK is cut at its cut-off, BLEND is opaque. (Of what a pack holds, front sides alone are drawn.) Colour = base colour * texture (bilinear, base level, linear
 /// light) * vertex colour.
 ///
 /// Frames   points and the eye in the prop's frame, metres; pixels as `Pinhole` has them.
@@ -16,6 +16,7 @@
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
 #include "app/image/image.h"
+#include "assets_baked/bake/source_scene.h"
 #include "firmware_host/base/result.h"
 
 #include <glm/glm.hpp>
@@ -25,6 +26,7 @@
 
 namespace frustumscreen {
 
+class LitSource;
 class TracedMesh;
 
 /// Who looks and who projects, seen from the prop.
@@ -48,9 +50,10 @@ class Truth {
 public:
     /// Errors: no triangles; a placement that is not finite; Embree has no memory.
     [[nodiscard]] static Result<Truth> build(std::shared_ptr<const SourceMesh> mesh,
-                                             const glm::dmat4& prop_from_artifact);
+                                             const glm::dmat4& prop_from_artifact, Sides sides = Sides::Both);
     struct Hit {
         std::uint32_t triangle = 0;
+        double u = 0.0, v = 0.0; ///< corner weights (1 - u - v, u, v)
         glm::dvec3 point_m{0.0}; ///< prop frame
         SurfaceColour colour;
     };
@@ -60,12 +63,17 @@ public:
     /// The whole picture; `sixteen_rays` false leaves `colour16` empty.
     [[nodiscard]] TruthPicture cast(const PropShape& prop, const TruthView& view, bool sixteen_rays) const;
 
+    /// From now on `cast` multiplies colours by the museum's light on the same source, where it takes sixteen rays: for packs that
+    /// were baked with light.
+    void light_by(std::shared_ptr<const LitSource> lit) { lit_ = std::move(lit); }
+
     /// What the rays are cast at, for the ray-cast peer.
     [[nodiscard]] const std::shared_ptr<const TracedMesh>& traced() const { return traced_; }
 
 private:
     explicit Truth(std::shared_ptr<const TracedMesh> traced) : traced_(std::move(traced)) {}
     std::shared_ptr<const TracedMesh> traced_;
+    std::shared_ptr<const LitSource> lit_; ///< null: colours are the source's own
 };
 
 } // namespace frustumscreen

@@ -42,7 +42,7 @@ void add_pose_options(CLI::App& command, int& poses, std::uint64_t& seed) {
 }
 
 void add_artifact_options(CLI::App& command, BenchArtifact& artifact) {
-    command.add_option("--pack", artifact.pack, "pack, baked with --unlit")->required();
+    command.add_option("--pack", artifact.pack, "pack")->required();
     command.add_option("--mesh", artifact.mesh, "the file that the pack was baked from")->required();
 }
 
@@ -62,9 +62,6 @@ Result<LoadedArtifact> load_artifact(const BenchArtifact& artifact) {
     const Result<Bytes> bytes = read_file(artifact.mesh);
     if (!bytes) {
         return tl::unexpected<Error>(bytes.error());
-    }
-    if (!(*pack)->unlit) {
-        warn(artifact.pack, "baked with light, so its colour errors say nothing; bake it with --unlit");
     }
     if (sha256_hex(*bytes) != (*pack)->provenance.source_sha256) {
         warn(artifact.mesh,

@@ -68,7 +68,7 @@ struct LoadedArtifact {
     VerifiedPack pack;
     std::shared_ptr<const SourceMesh> mesh;
 };
-/// Warns on standard error if the pack was not baked with --unlit, or if the mesh is not its source.
+/// Warns on standard error if the mesh is not the pack's source.
 [[nodiscard]] Result<LoadedArtifact> load_artifact(const BenchArtifact& artifact);
 [[nodiscard]] Result<std::vector<SetUp>> load_set_ups(const BenchPlace& place);
 

@@ -73,6 +73,13 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     if (!artifact) {
         return tl::unexpected<Error>(artifact.error());
     }
+    if (!artifact->pack->unlit) {
+        fmt::print(stderr,
+                   "frustumscreen-bench: {}: baked with light; its levels are held against that light at "
+                   "each ray's hit, "
+                   "peers have none and are compared by shape alone\n",
+                   arguments.artifact.pack.string());
+    }
     progress.plan(all_steps(*set_ups, *artifact, arguments.options));
     const std::vector<Verdict> figures = judge_figures(*artifact, set_ups->front(), progress);
     std::vector<SetUpResult> results;

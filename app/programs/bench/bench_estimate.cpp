@@ -84,6 +84,9 @@ BenchCommand estimate_command(CLI::App& app) {
     command->add_option("--mesh", arguments->meshes, "for each pack the file that it was baked from")
         ->required();
     add_pose_options(*command, arguments->options.poses, arguments->options.seed);
+    command->add_option("--rays", arguments->options.rays, "rays a pixel, of which the true mean is taken")
+        ->check(CLI::IsMember({1, 2, 4, 8, 16}))
+        ->capture_default_str();
     command
         ->add_option("--limits", arguments->limits,
                      "all: exit with 1 when too few poses are covered; none: only measure")

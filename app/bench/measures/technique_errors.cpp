@@ -1,0 +1,108 @@
+#include "app/bench/measures/picture_shift.h"
+#include "app/bench/measures/technique_set.h"
+#include "app/pack/pack_file.h"
+#include "app/render/sample_grid.h"
+#include "assets_baked/bake/level.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace frustumscreen {
+
+Result<void> TechniqueSet::keep_drawn(const Pack& pack, std::uint32_t level) {
+    if (drawn_.contains(static_cast<int>(level))) {
+        return {};
+    }
+    const PackLevel& shown = pack.levels[level];
+    const double metres_per_box = place(pack, stage_.prop).metres_per_box;
+    Result<Truth> truth = Truth::build(std::make_shared<const SourceMesh>(textured_source(
+                                           shown, pack.textures[shown.texture], pack.box_size)),
+                                       glm::scale(glm::dmat4(1.0), glm::dvec3(metres_per_box)), Sides::Front);
+    if (!truth) {
+        return tl::unexpected<Error>(truth.error());
+    }
+    drawn_.emplace(static_cast<int>(level), *std::move(truth));
+    return {};
+}
+
+Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<BenchPose>& poses,
+                                          std::size_t first, const Progress& progress) {
+    for (std::size_t pose = 0; pose < poses.size(); ++pose) {
+        const TruthView view = view_of(stage_.settings, poses[pose]);
+        const TruthPicture cast = truth.cast(stage_.prop, view, true);
+        std::map<int, Image8> of_levels;
+        for (const auto& [level, as_drawn] : drawn_) {
+            of_levels[level] = as_drawn.cast(stage_.prop, view, true).colour16;
+        }
+        for (std::size_t k = first; k < techniques_.size(); ++k) {
+            if (results_[k].kind == TechniqueKind::Floor) {
+                continue;
+            }
+            const Result<Drawn> seen = drawn(k, poses[pose]);
+            if (!seen) {
+                return tl::unexpected<Error>(seen.error());
+            }
+            PictureError& error = results_[k].errors.emplace_back(measure(cast, *seen));
+            if (const auto own = of_levels.find(results_[k].level); own != of_levels.end()) {
+                error.drawn_shift_px =
+                    glm::length(picture_shift(own->second, seen->colour).value_or(glm::dvec2(0.0)));
+            }
+            results_[k].estimates.push_back(techniques_[k]->estimate(poses[pose]));
+        }
+        progress(static_cast<double>(pose + 1) / static_cast<double>(poses.size()));
+    }
+    for (std::size_t k = first; k < results_.size(); ++k) {
+        results_[k].error = summarise(results_[k].errors);
+    }
+    return {};
+}
+
+Result<std::vector<PictureError>> TechniqueSet::shape_errors(const Truth& truth, const BenchPose& pose) {
+    const TruthPicture cast = truth.cast(stage_.prop, view_of(stage_.settings, pose), false);
+    std::vector<PictureError> errors(techniques_.size());
+    for (std::size_t k = 0; k < techniques_.size(); ++k) {
+        if (results_[k].kind != TechniqueKind::Floor) {
+            const Result<Drawn> seen = places(k, pose);
+            if (!seen) {
+                return tl::unexpected<Error>(seen.error());
+            }
+            errors[k] = measure(cast, *seen);
+        }
+    }
+    return errors;
+}
+
+Result<void> TechniqueSet::measure_shape(const Truth& truth, const std::vector<BenchPose>& poses, int rays,
+                                         const Progress& progress) {
+    const glm::ivec2 grid = SampleGrid::of(rays);
+    const Pinhole centres = stage_.settings.projector.pinhole;
+    for (std::size_t pose = 0; pose < poses.size(); ++pose) {
+        std::vector<std::vector<PictureError>> errors(techniques_.size());
+        for (int ray = 0; ray < rays; ++ray) {
+            // The picture and the truth of pixels whose centres lie beside those that are shown.
+            Pinhole& pinhole = stage_.settings.projector.pinhole;
+            pinhole.cx = centres.cx + 0.5 - (ray % grid.x + 0.5) / grid.x;
+            pinhole.cy = centres.cy + 0.5 - (ray / grid.x + 0.5) / grid.y;
+            const Result<std::vector<PictureError>> found = shape_errors(truth, poses[pose]);
+            pinhole = centres;
+            if (!found) {
+                return tl::unexpected<Error>(found.error());
+            }
+            for (std::size_t k = 0; k < errors.size(); ++k) {
+                errors[k].push_back((*found)[k]);
+            }
+        }
+        for (std::size_t k = 0; k < errors.size(); ++k) {
+            if (results_[k].kind != TechniqueKind::Floor) {
+                results_[k].errors.push_back(summarise(errors[k]).mean);
+                results_[k].estimates.push_back(techniques_[k]->estimate(poses[pose]));
+            }
+        }
+        progress(static_cast<double>(pose + 1) / static_cast<double>(poses.size()));
+    }
+    for (TechniqueResult& result : results_) {
+        result.error = summarise(result.errors);
+    }
+    return {};
+}
+
+} // namespace frustumscreen

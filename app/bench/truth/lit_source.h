@@ -1,0 +1,40 @@
+/// The museum's light where a ray meets a source mesh: what the textures of a pack that was baked with light hold, at the exact place
+/// instead of at some texels, and not smoothed.
+///
+/// Frame    box; directions in its axes.
+/// Threads  immutable once built; any.
+#pragma once
+
+#include "assets_baked/bake/museum_light.h"
+#include "assets_baked/bake/source_mesh.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace frustumscreen {
+
+class LitSource {
+public:
+    LitSource(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& box_from_file);
+
+    struct Place {
+        glm::vec3 at{0.0F};
+        glm::vec3 normal{
+            0.0F}; ///< unit, towards where the ray comes from; smooth but across sharp edges, as the bake has it
+    };
+    /// Of triangle `triangle` at the corner weights (1 - u - v, u, v), for a ray of that direction.
+    [[nodiscard]] Place place(std::uint32_t triangle, double u, double v, const glm::dvec3& direction) const;
+    [[nodiscard]] float light(const Place& place) const { return museum_.at(place.at, place.normal); }
+
+private:
+    std::shared_ptr<const SourceMesh> mesh_;
+    std::vector<glm::dvec3> points_; ///< of each of the mesh's positions
+    std::vector<glm::dvec3> normals_;
+    SourceScene scene_;
+    MuseumLight museum_;
+};
+
+} // namespace frustumscreen
