@@ -210,6 +210,23 @@ void check_devices(const Settings& settings, Fitness& fitness) {
                     settings.panel.repeat_s, last_s, least_repeat_s));
 }
 
+void check_camera(const Settings& settings, Fitness& fitness) {
+    const CameraSettings& camera = settings.camera;
+    fitness.require(!camera.device.empty(), "camera.device",
+                    "is empty; allowed are \"any\", a path such as \"/dev/video0\", and a camera's name");
+    const double frame_ms = 1000.0 / camera.rate_hz;
+    fitness.require(
+        camera.exposure_ms <= frame_ms, "camera.exposure_ms",
+        fmt::format("is {}; a frame at camera.rate_hz, {} hertz, takes {:.1f} milliseconds, allowed are 0 "
+                    "and times up to that",
+                    camera.exposure_ms, camera.rate_hz, frame_ms));
+    constexpr int least_kelvin = 2000; // a candle's light
+    fitness.require(camera.white_balance_k == 0 || camera.white_balance_k >= least_kelvin,
+                    "camera.white_balance_k",
+                    fmt::format("is {}; allowed are 0 (the camera's own) and {} to 10000 kelvin",
+                                camera.white_balance_k, least_kelvin));
+}
+
 /// A name for two keys would make messages say nothing.
 void check_keys(const Settings& settings, Fitness& fitness) {
     std::set<std::string_view> names;
@@ -251,6 +268,7 @@ std::optional<std::string> unfit(const Settings& settings, const std::string& fi
     check_projector(settings, fitness);
     check_eye(settings, fitness);
     check_devices(settings, fitness);
+    check_camera(settings, fitness);
     check_sound(settings, fitness);
     check_keys(settings, fitness);
     check_hours(settings, fitness);

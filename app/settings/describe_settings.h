@@ -50,6 +50,7 @@ inline constexpr std::array<std::string_view, 2> prop_zone_names{"table", "hand"
 inline constexpr std::array<std::string_view, 5> tracker_names{"simulated", "replay", "usb", "spacemouse",
                                                                "none"};
 inline constexpr std::array<std::string_view, 3> panel_names{"scripted", "gpio", "keys"};
+inline constexpr std::array<std::string_view, 2> camera_names{"none", "v4l2"};
 inline constexpr std::array<std::string_view, 2> sound_names{"none", "alsa"};
 inline constexpr std::array<std::string_view, 2> unsigned_names{"refuse", "allow"};
 inline constexpr std::array<std::string_view, 4> bias_names{"as-is", "pull-up", "pull-down", "disabled"};
@@ -254,6 +255,24 @@ void panel_settings(auto& fields, auto& panel) {
                   "gpio, keys: a button that is down for longer is ignored until it comes up");
 }
 
+void camera_settings(auto& fields, auto& camera) {
+    fields.choice(
+        "kind", camera.kind, camera_names,
+        "v4l2: a camera at USB, or another that the kernel has a driver for. Its frames are never kept");
+    fields.text("device", camera.device,
+                "\"any\": the first that can be read; or a path such as \"/dev/video0\"; or the name that "
+                "frustumscreen camera says");
+    fields.integer("width", camera.width, 16, 8192,
+                   "columns; of what the camera offers, the size next to it");
+    fields.integer("height", camera.height, 16, 8192, "rows");
+    fields.number("rate_hz", camera.rate_hz, {1.0, 240.0, "hertz"}, "frames a second");
+    fields.number(
+        "exposure_ms", camera.exposure_ms, {0.0, 1000.0, "milliseconds"},
+        "0: the camera's own; locked in any case, so that the picture on the table does not change it");
+    fields.integer("gain", camera.gain, -1, 65535, "in the camera's own steps; -1: the camera's own");
+    fields.integer("white_balance_k", camera.white_balance_k, 0, 10000, "kelvin; 0: the camera's own");
+}
+
 template <typename Fields> void key_settings(Fields& fields, auto& key) {
     fields.text("name", key.name, "whose it is, for messages");
     fields.parsed(
@@ -362,6 +381,8 @@ void all_settings(auto& file, auto& settings) {
     table("calibration", "What was measured of projector and tracker.",
           [&](auto& fields) { calibration_settings(fields, settings.calibration); });
     table("panel", "The buttons.", [&](auto& fields) { panel_settings(fields, settings.panel); });
+    table("camera", "What looks at the table.",
+          [&](auto& fields) { camera_settings(fields, settings.camera); });
     table("exhibit", "What is shown and said.",
           [&](auto& fields) { exhibit_settings(fields, settings.exhibit); });
     table("sound", "What is said aloud, and how loud.",

@@ -106,6 +106,10 @@ std::string_view name_of(SoundKind kind) {
     return sound_names[static_cast<std::size_t>(kind)];
 }
 
+std::string_view name_of(CameraKind kind) {
+    return camera_names[static_cast<std::size_t>(kind)];
+}
+
 std::string_view name_of(LineBias bias) {
     return bias_names[static_cast<std::size_t>(bias)];
 }

@@ -156,6 +156,20 @@ struct SoundSettings {
     std::vector<SoundHour> hours; ///< ascending; on top of the gain, each until the next
 };
 
+/// V4l2: a camera that the kernel has a driver for, most at USB.
+enum class CameraKind { None, V4l2 };
+[[nodiscard]] std::string_view name_of(CameraKind kind);
+struct CameraSettings {
+    CameraKind kind = CameraKind::None;
+    std::string device = "any";
+    int width = 1280, height = 720;
+    double rate_hz = 30.0;
+    /// 0, below 0, 0: the camera's own value.
+    double exposure_ms = 0.0;
+    int gain = -1;
+    int white_balance_k = 0;
+};
+
 struct RenderSettings {
     double error_tolerance_px = 0.5;
     int highlight_code = 235; ///< sRGB code of the artifact's brightest places; 0: as in the pack
@@ -179,6 +193,7 @@ struct Settings {
     TrackerSettings tracker;
     CalibrationSettings calibration;
     PanelSettings panel;
+    CameraSettings camera;
     ExhibitSettings exhibit;
     SoundSettings sound;
     HoursSettings hours;

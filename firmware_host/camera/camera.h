@@ -4,8 +4,8 @@
 /// Frame    pixels of camera C, row 0 at the top, as the camera sends them.
 /// Units    luma codes from 0 to 255, in the camera's own range.
 /// Threads  one caller; nothing here waits for the device.
-/// Memory   frames live in memory alone: no file is opened for writing, and nothing leaves the process
-///          (tests/camera/keeps_nothing_test.cpp).
+/// Memory   frames live in memory alone: no file but the camera itself is opened for writing, nothing is written to that, and
+///          nothing leaves the process (tests/camera/keeps_nothing_test.cpp, tests/hil/test_camera.py).
 #pragma once
 
 #include "firmware_host/base/time.h"

@@ -42,7 +42,8 @@ public:
     [[nodiscard]] virtual tl::expected<std::unique_ptr<V4l2Device>, int> open(const std::string& path) = 0;
 };
 
-/// Those of the machine's kernel. A camera is opened to be read only: V4L2 wants no more, and so no file at all is open for writing.
+/// Those of the machine's kernel. A camera is open for writing too, although nothing is ever written to it: the kernel shares its
+/// buffers with nobody who may only read.
 [[nodiscard]] std::unique_ptr<V4l2Devices> kernel_v4l2_devices();
 
 } // namespace frustumscreen

@@ -91,7 +91,7 @@ public:
         return paths;
     }
     [[nodiscard]] tl::expected<std::unique_ptr<V4l2Device>, int> open(const std::string& path) override {
-        const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+        const int file = ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
         if (file < 0) {
             return tl::unexpected(errno);
         }

@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
     // The machine's own devices too: whatever is there is only looked at.
     const auto devices = kernel_v4l2_devices();
     static_cast<void>(list_cameras(*devices, {}));
-    static_cast<void>(devices->open("/dev/null"));
+    static_cast<void>(devices->open("/dev/video_that_is_none"));
     if (argc > 1) {
         std::FILE* const file = std::fopen(argv[1], "wb");
         std::fwrite(frame.luma.data(), 1, frame.luma.size(), file);

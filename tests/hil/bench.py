@@ -103,11 +103,12 @@ class Bench:
         self.other_trackers = {device: Mock("mock_tracker", device, self._sockets, out, "--device", device,
                                             "--at", "0s unplug") for device in OTHER_TRACKERS}
         self.buttons = Mock("mock_buttons", "buttons", self._sockets, out)
+        self.camera = Mock("mock_camera", "camera", self._sockets, out, "--at", "0s unplug")
         self.machine = Machine(files, disk, self._sockets, out, WIDTH, HEIGHT,
                                {mock.usb.name: mock.usb for mock in self._mocks()})
 
     def _mocks(self):
-        return (self.tracker, self.buttons, *self.other_trackers.values())
+        return (self.tracker, self.buttons, self.camera, *self.other_trackers.values())
 
     def start(self):
         """Returns the seconds that it took."""

@@ -3,6 +3,7 @@
 #include "app/settings/command.h"
 #include "app/settings/lit_zone.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/camera/v4l2_camera.h"
 #include "firmware_host/display/kms_display.h"
 #include "firmware_host/display/surfaceless_display.h"
 #include "firmware_host/panel/button_panel.h"
@@ -174,6 +175,24 @@ std::unique_ptr<Sound> make_sound(const SoundSettings& settings) {
         return nullptr;
     }
     return std::make_unique<DeviceSound>([device = settings.device] { return open_alsa(device); });
+}
+
+CameraWish camera_wish(const CameraSettings& settings) {
+    CameraWish wish{settings.device, settings.width, settings.height, settings.rate_hz, {}, {}, {}};
+    if (settings.exposure_ms > 0.0) {
+        wish.exposure_ms = settings.exposure_ms;
+    }
+    if (settings.gain >= 0) {
+        wish.gain = settings.gain;
+    }
+    if (settings.white_balance_k > 0) {
+        wish.white_balance_k = settings.white_balance_k;
+    }
+    return wish;
+}
+
+std::unique_ptr<Camera> make_camera(const CameraSettings& settings) {
+    return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_wish(settings));
 }
 
 Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,

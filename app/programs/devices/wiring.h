@@ -9,6 +9,7 @@
 #include "app/settings/settings.h"
 #include "app/show/inputs.h"
 #include "firmware_host/base/result.h"
+#include "firmware_host/camera/camera.h"
 #include "firmware_host/display/display.h"
 #include "firmware_host/tracker/packet_recorder.h"
 
@@ -31,5 +32,9 @@ namespace frustumscreen {
 
 /// None: the settings switch it off.
 [[nodiscard]] std::unique_ptr<Sound> make_sound(const SoundSettings& settings);
+
+[[nodiscard]] CameraWish camera_wish(const CameraSettings& settings);
+/// Starts its thread. The settings have one.
+[[nodiscard]] std::unique_ptr<Camera> make_camera(const CameraSettings& settings);
 
 } // namespace frustumscreen

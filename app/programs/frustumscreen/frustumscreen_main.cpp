@@ -1,5 +1,6 @@
 /// frustumscreen: the exhibit, and what it shows without devices.
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/frustumscreen/camera_command.h"
 #include "app/programs/frustumscreen/config_command.h"
 #include "app/programs/frustumscreen/drawing_command.h"
 #include "app/programs/frustumscreen/guide_command.h"
@@ -22,33 +23,36 @@ namespace frustumscreen {
 namespace {
 
 void print_usage(std::FILE* to) {
-    fmt::print(to,
-               "usage: frustumscreen run|status|record|render|guide|states|plan|config|drawing [--help] ...\n"
-               "  run     the exhibit\n"
-               "  status  how the exhibit on this machine is, and its picture\n"
-               "  record  what the tracker sends, into a file\n"
-               "  render  a pose file into pictures, without devices\n"
-               "  guide   what the visitor of each pose sees unlit, and the move that mends it\n"
-               "  states  what the exhibit does, and what leads from one thing to the other\n"
-               "  plan    what a scene needs, what it leaves out, and what that saves\n"
-               "  config  the resolved, checked settings; what they mean on the table\n"
-               "  drawing the table, the projector and the prop to build, to scale\n"
-               "  --version\n");
+    fmt::print(
+        to,
+        "usage: frustumscreen run|status|record|camera|render|guide|states|plan|config|drawing [--help] ...\n"
+        "  run     the exhibit\n"
+        "  status  how the exhibit on this machine is, and its picture\n"
+        "  record  what the tracker sends, into a file\n"
+        "  camera  which cameras are there, and how that of the settings is\n"
+        "  render  a pose file into pictures, without devices\n"
+        "  guide   what the visitor of each pose sees unlit, and the move that mends it\n"
+        "  states  what the exhibit does, and what leads from one thing to the other\n"
+        "  plan    what a scene needs, what it leaves out, and what that saves\n"
+        "  config  the resolved, checked settings; what they mean on the table\n"
+        "  drawing the table, the projector and the prop to build, to scale\n"
+        "  --version\n");
 }
 
 struct Command {
     std::string_view name;
     int (*run)(int argc, char** argv);
 };
-constexpr std::array<Command, 9> commands{{{"run", run_command},
-                                           {"status", status_command},
-                                           {"record", record_command},
-                                           {"render", render_command},
-                                           {"guide", guide_command},
-                                           {"states", states_command},
-                                           {"plan", plan_command},
-                                           {"config", config_command},
-                                           {"drawing", drawing_command}}};
+constexpr std::array<Command, 10> commands{{{"run", run_command},
+                                            {"status", status_command},
+                                            {"record", record_command},
+                                            {"camera", camera_command},
+                                            {"render", render_command},
+                                            {"guide", guide_command},
+                                            {"states", states_command},
+                                            {"plan", plan_command},
+                                            {"config", config_command},
+                                            {"drawing", drawing_command}}};
 
 const Command* command_named(std::string_view name) {
     const auto* const found = std::find_if(commands.begin(), commands.end(),

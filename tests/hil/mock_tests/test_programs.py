@@ -11,6 +11,7 @@ from mocks import control, pose_file
 FOLDER = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 TRACKER = os.path.join(FOLDER, "mock_tracker")
 BUTTONS = os.path.join(FOLDER, "mock_buttons")
+CAMERA = os.path.join(FOLDER, "mock_camera")
 
 
 def run(*arguments):
@@ -19,7 +20,7 @@ def run(*arguments):
 
 class CommandLine(unittest.TestCase):
     def test_help_lists_the_commands(self):
-        for program, word in ((TRACKER, "sensor-missing"), (BUTTONS, "bounce PIN")):
+        for program, word in ((TRACKER, "sensor-missing"), (BUTTONS, "bounce PIN"), (CAMERA, "garbage-headers")):
             found = run(program, "--help")
             self.assertEqual(found.returncode, 0)
             self.assertIn(word, found.stdout)

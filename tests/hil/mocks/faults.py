@@ -59,14 +59,17 @@ def parse_duration(text):
 
 
 class Faults:
-    def __init__(self, seed=1, clock=time.monotonic):
+    """`kinds`: those of this device; a tracker's unless said."""
+
+    def __init__(self, seed=1, clock=time.monotonic, kinds=None):
+        self._kinds = KINDS if kinds is None else kinds
         self.random = random.Random(seed)
         self._clock = clock
         self._active = {}  # name -> (value, end or None)
 
     def tell(self, name, words):
         """Begins or ends a fault; returns its duration in seconds, None: until it is ended. Errors: ValueError."""
-        kind = KINDS[name]
+        kind = self._kinds[name]
         if words == ["off"]:
             self._active.pop(name, None)
             return None

@@ -39,7 +39,7 @@ class Request(NamedTuple):
 
 
 class UsbDevice:
-    """What devices of one interface have in common; subclasses add their own part."""
+    """What devices have in common; subclasses add their own part, and those of several interfaces their descriptors."""
 
     vendor_id = product_id = 0
     version_bcd = 0x0100
@@ -57,7 +57,16 @@ class UsbDevice:
         self.waiting = {e.address: collections.deque() for e in self.endpoints if e.address & IN}
         self._streams = {e.address for e in self.endpoints if e.kind == BULK}
 
+    @property
+    def interfaces(self):
+        """(number, class, subclass, protocol) of each."""
+        return ((0, *self.interface_class),)
+
     # For subclasses to override.
+
+    def interface_of(self, endpoint):
+        """The number of the interface to which an endpoint belongs."""
+        return 0
 
     def received(self, endpoint, data):
         """The host sent bytes to an OUT endpoint."""

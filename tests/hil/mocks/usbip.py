@@ -28,7 +28,7 @@ def speed_number(device):
 
 def device_record(device):
     return struct.pack(">256s32sIIIHHHBBBBBB", b"/sys/devices/mock/" + BUS_ID, BUS_ID, BUS_NUMBER, DEVICE_NUMBER,
-                       speed_number(device), device.vendor_id, device.product_id, device.version_bcd, 0, 0, 0, 1, 1, 1)
+                       speed_number(device), device.vendor_id, device.product_id, device.version_bcd, 0, 0, 0, 1, 1, len(device.interfaces))
 
 
 def ret_submit(number, status, actual_length, data=b""):
@@ -146,7 +146,8 @@ class UsbipServerLink(_UsbipLink):
             if request == REQ_DEVLIST:
                 devices = b""
                 if self._plugged:
-                    devices = device_record(self._device) + bytes([*self._device.interface_class, 0])
+                    devices = device_record(self._device)
+                    devices += b"".join(bytes([*triple, 0]) for _, *triple in self._device.interfaces)
                 writer.write(struct.pack(">HHII", VERSION, REP_DEVLIST, 0, bool(devices)) + devices)
             elif request == REQ_IMPORT:
                 wanted = (await reader.readexactly(32)).rstrip(b"\0")

@@ -37,8 +37,9 @@ def hello_body():
 
 
 def interface_info_body(device):
-    triple = device.interface_class
-    return struct.pack("<I", 1) + b"".join(bytes([number]).ljust(32, b"\0") for number in (0, *triple))
+    """Their numbers, classes, subclasses and protocols, 32 of each."""
+    columns = zip(*device.interfaces)
+    return struct.pack("<I", len(device.interfaces)) + b"".join(bytes(column).ljust(32, b"\0") for column in columns)
 
 
 def endpoint_info_body(device, with_packet_sizes):
@@ -49,6 +50,7 @@ def endpoint_info_body(device, with_packet_sizes):
     for e in device.described_endpoints:
         index = (e.address & 0x0F) + (16 if e.address & IN else 0)
         kinds[index], intervals[index], sizes[index] = e.kind, e.interval, e.packet_bytes
+        interfaces[index] = device.interface_of(e.address)
     body = bytes(kinds) + bytes(intervals) + bytes(interfaces)
     return body + struct.pack("<32H", *sizes) if with_packet_sizes else body
 
