@@ -38,6 +38,7 @@ for part; do
         tests)
             packages+=(
                 libgtest-dev umockdev libumockdev-dev python3
+                python3-scipy                     # another solver for the calibration
                 systemd                           # its tools check the units
                 libharfbuzz-dev fonts-noto-cjk    # texts in all languages
                 minisign                          # signatures

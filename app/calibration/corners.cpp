@@ -145,8 +145,8 @@ CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int
         return refused(std::move(*reason));
     }
     std::array<Line, 4> fitted;
+    std::transform(lines.begin(), lines.end(), fitted.begin(), line_through);
     for (std::size_t k = 0; k < 4; ++k) {
-        fitted[k] = line_through(lines[k]);
         const double way = least_way(lines[k], fitted[k].along);
         const double off = (fitted[k].middle - fitted[(k + 2) % 4].middle).norm();
         if (way < 0.05 * off) {

@@ -212,8 +212,6 @@ void check_devices(const Settings& settings, Fitness& fitness) {
 
 void check_camera(const Settings& settings, Fitness& fitness) {
     const CameraSettings& camera = settings.camera;
-    fitness.require(!camera.device.empty(), "camera.device",
-                    "is empty; allowed are \"any\", a path such as \"/dev/video0\", and a camera's name");
     const double frame_ms = 1000.0 / camera.rate_hz;
     fitness.require(
         camera.exposure_ms <= frame_ms, "camera.exposure_ms",

@@ -170,7 +170,8 @@ void run_faults(std::uint64_t seeds) {
         const Count count = count_of(fault, seeds, crosses);
         EXPECT_EQ(count.wrong, 0) << fault.name;
         if (fault.single) {
-            EXPECT_GE(10 * count.among, 9 * count.sets) << fault.name;
+            EXPECT_GE(count.among + 1 + count.sets / 10, count.sets)
+                << fault.name; // one of a few, a tenth of many
         }
     }
 }

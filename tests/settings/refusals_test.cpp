@@ -176,7 +176,6 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
          {":2: camera.exposure_ms is 40", "at camera.rate_hz, 30 hertz, takes 33.3 milliseconds"}},
         {"[camera]\nwhite_balance_k = 500",
          {":2: camera.white_balance_k is 500", "0 (the camera's own) and 2000 to 10000 kelvin"}},
-        {"[camera]\ndevice = \"\"", {":2: camera.device", "\"any\""}},
         {"[camera]\nkind = \"usb\"", {":2: camera.kind", "\"none\"", "\"v4l2\""}},
         {"[panel]\nscript = [{at_s = 2}]\nrepeat_s = 2",
          {":3: panel.repeat_s is 2", "after the last press, 2"}},

@@ -251,8 +251,7 @@ StabilityResult atlases() {
         const long double share = place - whole;
         const bool rises = std::fmod(whole, 2.0L) == 0.0L;
         const long double seen = picture[static_cast<std::size_t>(width + x)] / 255.0L;
-        farthest = std::max(farthest,
-                            static_cast<double>(std::abs(seen - (rises ? share : 1.0L - share))));
+        farthest = std::max(farthest, static_cast<double>(std::abs(seen - (rises ? share : 1.0L - share))));
     }
     double stored = 0.0;
     for (int k = 0; k <= 100'000; ++k) {

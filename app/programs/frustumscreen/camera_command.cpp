@@ -4,8 +4,8 @@
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
 #include "app/programs/common/read_arguments.h"
+#include "app/programs/devices/wiring.h"
 #include "app/programs/frustumscreen/camera_report.h"
-#include "app/programs/frustumscreen/wiring.h"
 #include "firmware_host/service/stop_signals.h"
 
 #include <CLI/CLI.hpp>

@@ -3,8 +3,8 @@
 #include "app/programs/common/argument_checks.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/read_arguments.h"
-#include "app/programs/frustumscreen/plan_report.h"
 #include "app/programs/devices/wiring.h"
+#include "app/programs/frustumscreen/plan_report.h"
 #include "app/settings/settings.h"
 
 #include <CLI/CLI.hpp>

@@ -1,0 +1,160 @@
+"""frustumscreen-calibrate table from its beginning to its end, without a person: a recording in which the prop is laid on each cross that the program
+shows, under a projector that hangs elsewhere than the settings say, and a script that presses Next.
+
+The truth's arithmetic is this file's own. The recording has no noise: afterwards each place lights within two pixels of where it should.
+"""
+
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import tomllib
+import unittest
+
+import numpy as np
+
+PROGRAMS = pathlib.Path(sys.argv.pop(1))
+PROGRAM = PROGRAMS / "frustumscreen-calibrate"
+EACH_S, PRESS_S = 2.4, 0.9
+SENSOR_M = 0.085
+
+SETTINGS = """
+[projector]
+width = 1280
+height = 800
+throw_ratio = 1.875
+position_m = [0.0, 0.0, 1.5]
+[tracker]
+kind = "replay"
+poses = "poses.csv"
+[panel]
+kind = "scripted"
+script = [{script}]
+[exhibit]
+library = "none"
+[calibration]
+folder = "kept"
+"""
+
+
+def turn(axis, angle):
+    """Rodrigues' formula."""
+    x, y, z = np.array(axis) / np.linalg.norm(axis)
+    k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + math.sin(angle) * k + (1 - math.cos(angle)) * k @ k
+
+
+class Truth:
+    """The projector as it hangs: lower, aside, leaning, with a lens shift and a lens that distorts."""
+    f, cx, cy, k1 = 2350.0, 655.0, 470.0, 0.05
+    rotation = turn((0, 0, 1), 0.06) @ turn((1, 0.3, 0), 0.05) @ np.diag([1.0, -1.0, -1.0])
+    place = np.array([0.06, -0.04, 1.44])
+
+    def light(self, u, v, height):
+        real = np.array([(u - self.cx) / self.f, (v - self.cy) / self.f])
+        ideal = real.copy()
+        for _ in range(50):
+            ideal = real / (1 + self.k1 * ideal @ ideal)
+        ray = self.rotation @ np.array([*ideal, 1.0])
+        return self.place + ray * ((height - self.place[2]) / ray[2])
+
+    def pixel(self, point):
+        x, y, z = self.rotation.T @ (point - self.place)
+        bend = 1 + self.k1 * (x * x + y * y) / (z * z)
+        return np.array([self.f * bend * x / z + self.cx, self.f * bend * y / z + self.cy])
+
+
+def matrix(numbers):
+    return np.array(numbers).reshape(4, 4).T
+
+
+class Table(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.config = self.folder / "kiosk.toml"
+
+    def write(self, presses_s):
+        script = ", ".join(f"{{ at_s = {at:.2f}, button = 1 }}" for at in presses_s)
+        self.config.write_text(SETTINGS.replace("{script}", script))
+
+    def run_program(self, *words):
+        return subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=120, check=False)
+
+    def record(self, crosses, yaw_of_tracker):
+        """The prop on one cross after the other; the tracker's frame is the table's, turned and shifted."""
+        rows, truth = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"], Truth()
+        tracker = turn((0, 0, 1), yaw_of_tracker)
+        end_s = EACH_S * len(crosses) + 6.0
+        for k in range(int(50 * end_s)):
+            cross = crosses[min(int(k / 50 / EACH_S), len(crosses) - 1)]
+            place = truth.light(cross["u_px"], cross["v_px"], cross["block_m"]) + np.array([0, 0, SENSOR_M])
+            p = tracker @ place + np.array([0.1, 0.2, -0.05])
+            half = 0.5 * (math.radians(cross["turn_deg"]) + yaw_of_tracker)
+            rows.append(f"{k * 20000},1,{p[0]:.9f},{p[1]:.9f},{p[2]:.9f},{math.cos(half):.9f},0,0,{math.sin(half):.9f},1")
+        (self.folder / "poses.csv").write_text("\n".join(rows) + "\n")
+
+    def test_from_the_first_cross_to_the_kept_file(self):
+        self.write([])
+        self.record([{"u_px": 640, "v_px": 400, "block_m": 0, "turn_deg": 0}], 0.0)
+        printed = self.run_program("table", "--config", self.config, "--sensor-height", str(SENSOR_M), "--json")
+        self.assertEqual(printed.returncode, 0, printed.stderr)
+        crosses = json.loads(printed.stdout)["crosses"]
+        self.assertEqual(len(crosses), 9)
+        self.assertGreater(len({cross["block_m"] for cross in crosses}), 1)
+        self.record(crosses, 0.4)
+        self.write([EACH_S * k + PRESS_S for k in range(9)] + [EACH_S * 9 + 2.0])
+        done = self.run_program("table", "--config", self.config, "--sensor-height", str(SENSOR_M), "--headless", "--out", self.folder / "touches.csv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len((self.folder / "touches.csv").read_text().splitlines()), 10)
+        self.check_kept(0.4)
+        self.check_listed()
+
+    def check_kept(self, yaw_of_tracker):
+        kept = tomllib.loads((self.folder / "kept/calibration-0001.toml").read_text())
+        self.assertEqual((kept["method"], kept["places"]), ("touch", 9))
+        p, truth = kept["projector"], Truth()
+        pixel_from_tracker = np.linalg.inv(matrix(p["table_from_projector"])) @ matrix(kept["tracker"]["table_from_tracker"])
+        tracker = turn((0, 0, 1), yaw_of_tracker)
+        worst = 0.0
+        for height in (0.0, 0.06, 0.12):
+            for u in range(100, 1281, 180):
+                for v in range(100, 801, 150):
+                    place = truth.light(u, v, height)
+                    x, y, z, _ = pixel_from_tracker @ np.array([*(tracker @ place + np.array([0.1, 0.2, -0.05])), 1.0])
+                    r2 = (x * x + y * y) / (z * z)
+                    bend = 1 + p["k1"] * r2 + p["k2"] * r2 * r2
+                    found = np.array([p["fx"] * bend * x / z + p["cx"], p["fy"] * bend * y / z + p["cy"]])
+                    worst = max(worst, np.linalg.norm(found - truth.pixel(place)))
+        print(f"{worst:.2f} pixels at the worst place")
+        self.assertLess(worst, 2.0)
+        self.assertAlmostEqual(kept["tracker"]["sensor_from_prop"][14], -SENSOR_M, delta=1e-3)
+
+    def check_listed(self):
+        """And the settings are read with it, until it is undone."""
+        config = [PROGRAMS / "frustumscreen", "config", "--config", self.config, "--json"]
+        used = json.loads(subprocess.run(config, capture_output=True, text=True, check=True).stdout)
+        self.assertEqual(used["calibration"]["used"]["file"], "calibration-0001.toml")
+        self.assertNotEqual(used["projector"]["fx"], 2400.0)
+        listed = self.run_program("kept", "--config", self.config, "--json")
+        self.assertEqual([each["file"] for each in json.loads(listed.stdout)["kept"]], ["calibration-0001.toml"])
+        undone = self.run_program("kept", "--config", self.config, "--undo")
+        self.assertEqual((undone.returncode, undone.stdout), (0, "No calibration is kept; the set-up is as the settings describe it.\n"))
+        again = self.run_program("kept", "--config", self.config, "--undo")
+        self.assertEqual(again.returncode, 1)
+        self.assertIn("there is no calibration to undo", again.stderr)
+        used = json.loads(subprocess.run(config, capture_output=True, text=True, check=True).stdout)
+        self.assertIsNone(used["calibration"]["used"])
+        self.assertEqual(used["projector"]["fx"], 2400.0)
+
+    def test_without_a_tracker_or_buttons_it_says_so(self):
+        self.write([1.0])
+        self.config.write_text(self.config.read_text().replace('kind = "replay"\nposes = "poses.csv"', 'kind = "none"'))
+        failed = self.run_program("table", "--config", self.config, "--headless")
+        self.assertEqual(failed.returncode, 1)
+        self.assertIn("needs a tracker and two buttons", failed.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
