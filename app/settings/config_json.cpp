@@ -139,13 +139,8 @@ Json light_json(const Settings& settings) {
             {"reference", even_light(settings)}};
 }
 
-/// Which calibration is used; null: none.
-Json calibration_json(const CalibrationSettings& calibration) {
-    if (!calibration.used) {
-        return nullptr;
-    }
-    const Calibration& used = *calibration.used;
-    return {{"file", calibration.used_name},
+Json calibration_json(const Calibration& used, const std::string& name) {
+    return {{"file", name},
             {"made", used.made},
             {"method", name_of(used.method)},
             {"places", used.places},
@@ -178,7 +173,10 @@ std::string config_json(const CheckedSettings& checked) {
             json[name]["faces"] = faces_json(make_prop(checked->prop));
         } else if (name == "calibration") {
             json[name] = table;
-            json[name]["used"] = calibration_json(checked->calibration);
+            if (checked->calibration.used) {
+                json[name]["used"] =
+                    calibration_json(*checked->calibration.used, checked->calibration.used_name);
+            }
         } else {
             json[name] = table;
         }
