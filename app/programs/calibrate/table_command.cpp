@@ -52,7 +52,9 @@ class Table {
 public:
     Table(const Settings& settings, Inputs inputs, std::unique_ptr<Display> display, Typesetter typesetter)
         : settings_(settings), inputs_(std::move(inputs)), display_(std::move(display)),
-          typesetter_(std::move(typesetter)), upload_(display_->width(), display_->height()) {}
+          typesetter_(std::move(typesetter)), upload_(display_->width(), display_->height()),
+          prop_px_(settings.prop.base_m * settings.projector.pinhole.fx /
+                   settings.projector.table_from_projector.translation.z) {}
 
     /// False: a stop was asked for.
     [[nodiscard]] Result<bool> run(TouchProcedure& procedure, const TouchSetup& setup) {
@@ -107,7 +109,7 @@ private:
             shown_ = words;
             say_line("frustumscreen-calibrate",
                      fmt::format("{}", fmt::join(words.begin(), words.end() - 1, " ")));
-            picture_ = touch_picture(procedure, display_->width(), display_->height(), typesetter_);
+            picture_ = touch_picture(procedure, display_->width(), display_->height(), prop_px_, typesetter_);
         }
         upload_.show(picture_, display_->framebuffer());
         const Result<MonotonicTime> lit = display_->present(now);
@@ -119,6 +121,7 @@ private:
     std::unique_ptr<Display> display_;
     Typesetter typesetter_;
     PictureUpload upload_;
+    double prop_px_;
     Image8 picture_;
     std::vector<std::string> shown_;
     std::vector<PoseSample> samples_;

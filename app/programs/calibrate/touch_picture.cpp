@@ -22,11 +22,11 @@ std::string_view words_of(TouchWord word) {
     case TouchWord::None:
         return "";
     case TouchWord::Moved:
-        return "The block moved. Keep it still; the second begins anew.";
+        return "The prop moved. Keep it still; the second begins anew.";
     case TouchWord::NotSeen:
-        return "The tracker does not see the block. Look at its cable and its sensor, then press Next again.";
+        return "The tracker does not see the prop. Look at its cable and its sensor, then press Next again.";
     case TouchWord::SamePlace:
-        return "The block still lies where it lay before. Lay it on this cross, then press Next.";
+        return "The prop still lies where it lay before. Lay it on this cross, then press Next.";
     case TouchWord::Taken:
         return "Good.";
     }
@@ -34,7 +34,7 @@ std::string_view words_of(TouchWord word) {
 }
 
 std::string height_of(const Cross& cross) {
-    return cross.block_m > 0.0 ? fmt::format(" on top of {:.0f} mm", 1e3 * cross.block_m)
+    return cross.block_m > 0.0 ? fmt::format(" on top of {:.0f} mm of board", 1e3 * cross.block_m)
                                : std::string(" on the table");
 }
 
@@ -76,10 +76,10 @@ glm::dvec2 turned(const glm::dvec2& direction, double yaw_rad) {
 }
 
 /// Its arms reach out from under the prop, along whose sides they lie; the thick one leads to its front.
-void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit) {
+void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, double prop_px) {
     const Cross& cross = procedure.cross();
     const Colour colour = colour_of(procedure);
-    const double arm = 16.0 * unit;
+    const double arm = std::fmax(0.75 * prop_px, 16.0 * unit);
     const auto line = [&](const glm::dvec2& from, const glm::dvec2& to, double width, Colour of) {
         canvas.line(cross.pixel + turned(from, cross.yaw_rad), cross.pixel + turned(to, cross.yaw_rad), width,
                     of);
@@ -103,7 +103,7 @@ std::vector<std::string> touch_words(const TouchProcedure& procedure) {
             procedure.stage() == TouchStage::HoldStill
                 ? "Hold still: one second."
                 : fmt::format(
-                      "Lay the middle of the block's bottom on the cross,{}, its front along the arrow. "
+                      "Lay the middle of the prop's bottom on the cross,{}, its front along the arrow. "
                       "Then press Next.",
                       height_of(procedure.cross())));
         if (const std::string_view more = words_of(procedure.word()); !more.empty()) {
@@ -121,12 +121,13 @@ std::vector<std::string> touch_words(const TouchProcedure& procedure) {
     return {};
 }
 
-Image8 touch_picture(const TouchProcedure& procedure, int width, int height, const Typesetter& typesetter) {
+Image8 touch_picture(const TouchProcedure& procedure, int width, int height, double prop_px,
+                     const Typesetter& typesetter) {
     Canvas canvas(width, height, {0, 0, 0});
     const double unit = width / 160.0;
     const bool has_cross = procedure.stage() == TouchStage::Lay || procedure.stage() == TouchStage::HoldStill;
     if (has_cross) {
-        draw_cross(canvas, procedure, unit);
+        draw_cross(canvas, procedure, unit, prop_px);
     }
     // The words stand in the half of the picture where the cross is not, so that the prop hides none of them.
     const bool below = !has_cross || procedure.cross().pixel.y < 0.5 * height;

@@ -15,7 +15,8 @@ namespace frustumscreen {
 
 /// The first line is the largest.
 [[nodiscard]] std::vector<std::string> touch_words(const TouchProcedure& procedure);
-[[nodiscard]] Image8 touch_picture(const TouchProcedure& procedure, int width, int height,
+/// `prop_px`: about the width of the prop's bottom, from under which the cross's arms reach out.
+[[nodiscard]] Image8 touch_picture(const TouchProcedure& procedure, int width, int height, double prop_px,
                                    const Typesetter& typesetter);
 
 } // namespace frustumscreen
