@@ -37,7 +37,7 @@ struct CameraWish {
 };
 
 enum class Lock : std::uint8_t {
-    Locked,   ///< read back as it was wished
+    Locked,   ///< read back as it was wished, from the driver, which may answer from memory
     Changed,  ///< locked, but the camera has taken another value than the one wished
     Refused,  ///< the camera goes on changing it, or does not say
     NotThere, ///< the camera has no such control
