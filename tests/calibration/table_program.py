@@ -98,6 +98,7 @@ class Table(unittest.TestCase):
     def test_from_the_first_cross_to_the_kept_file(self):
         self.write([])
         self.record([{"u_px": 640, "v_px": 400, "block_m": 0, "turn_deg": 0}], 0.0)
+        self.assertEqual(json.loads(self.run_program("kept", "--config", self.config, "--json").stdout), {"kept": []})
         printed = self.run_program("table", "--config", self.config, "--sensor-height", str(SENSOR_M), "--json")
         self.assertEqual(printed.returncode, 0, printed.stderr)
         crosses = json.loads(printed.stdout)["crosses"]

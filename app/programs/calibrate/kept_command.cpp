@@ -18,6 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* nothing_kept = "No calibration is kept; the set-up is as the settings describe it.\n";
+
 Result<std::filesystem::path> folder_of(const CalibrateRequest& request, const Settings& settings) {
     const std::filesystem::path& folder = settings.calibration.folder;
     if (folder.empty()) {
@@ -47,7 +49,7 @@ Json kept_json(const std::vector<KeptCalibration>& kept, FileTree& folder) {
 
 std::string kept_text(const std::vector<KeptCalibration>& kept, FileTree& folder) {
     if (kept.empty()) {
-        return "No calibration is kept; the set-up is as the settings describe it.\n";
+        return nothing_kept;
     }
     std::string text;
     for (const KeptCalibration& each : kept) {
@@ -68,6 +70,11 @@ Result<void> show_kept(const CalibrateRequest& request) {
     const Result<std::filesystem::path> folder = folder_of(request, **settings);
     if (!folder) {
         return tl::unexpected<Error>(folder.error());
+    }
+    std::error_code none;
+    if (!request.undo && !std::filesystem::exists(*folder, none)) { // nothing was ever kept
+        fmt::print("{}", request.json ? "{\n  \"kept\": []\n}\n" : nothing_kept);
+        return {};
     }
     const Result<std::unique_ptr<WritableTree>> tree = open_tree(*folder);
     if (!tree) {
