@@ -14,7 +14,6 @@ namespace {
 
 constexpr int prior_count = 5;
 using Jet = ceres::Jet<double, unknown_count>;
-using Rows = Eigen::Matrix<double, 3, unknown_count>;
 
 /// Residuals of touches at a model with changes, each touch's three whitened together.
 struct Residuals {

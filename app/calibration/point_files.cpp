@@ -79,6 +79,17 @@ Result<Touches> parse_touches(std::string_view text, std::string_view name) {
     return touches;
 }
 
+std::string touches_text(std::span<const Touch> touches) {
+    std::string text = fmt::format("{}\n", fmt::join(touch_columns, ","));
+    for (const Touch& touch : touches) {
+        const glm::dvec3& t = touch.tracker_from_sensor.translation;
+        const glm::dquat& q = touch.tracker_from_sensor.rotation;
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", t.x, t.y, t.z, q.w, q.x, q.y, q.z,
+                            touch.pixel.x, touch.pixel.y, touch.block_m);
+    }
+    return text;
+}
+
 Result<std::vector<MeasuredCorner>> parse_corners(std::string_view text, std::string_view name) {
     TextRows rows(text, name);
     if (const Result<void> header = read_header(rows, corner_columns); !header) {

@@ -10,12 +10,16 @@
 #include "app/calibration/touch.h"
 #include "firmware_host/base/result.h"
 
+#include <span>
+#include <string>
 #include <string_view>
 
 namespace frustumscreen {
 
 /// `name` stands in messages. Quaternions keep their length.
 [[nodiscard]] Result<Touches> parse_touches(std::string_view text, std::string_view name);
+/// What parse_touches reads.
+[[nodiscard]] std::string touches_text(std::span<const Touch> touches);
 [[nodiscard]] Result<std::vector<MeasuredCorner>> parse_corners(std::string_view text, std::string_view name);
 
 } // namespace frustumscreen

@@ -1,8 +1,9 @@
 #include "app/calibration/touch_procedure.h"
 
+#include "app/geometry/rotation_angle.h"
+
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 namespace frustumscreen {
 
@@ -10,7 +11,7 @@ namespace {
 
 bool is_near(const RigidTransform& a, const RigidTransform& b, double distance_m, double angle_rad) {
     return glm::distance(a.translation, b.translation) <= distance_m &&
-           2.0 * std::acos(std::fmin(1.0, std::abs(glm::dot(a.rotation, b.rotation)))) <= angle_rad;
+           rotation_angle(a.rotation, b.rotation) <= angle_rad;
 }
 
 /// Of poses that hardly differ: the sum of quaternions on one side is their mean to the second order.

@@ -17,6 +17,7 @@ struct Lens {
     double k1 = 0.0;
     double k2 = 0.0;
 
+    [[nodiscard]] bool operator==(const Lens&) const = default;
     [[nodiscard]] bool is_plain() const { return k1 == 0.0 && k2 == 0.0; }
     /// From a direction of the ideal pinhole to that of the real one.
     [[nodiscard]] std::optional<glm::dvec2> distort(const glm::dvec2& ideal) const;

@@ -23,6 +23,7 @@ struct Pinhole {
     double cy = 0.0;
     Lens lens{};
 
+    [[nodiscard]] bool operator==(const Pinhole&) const = default;
     /// Pixel of a point in the pinhole's frame; nothing if the point is not in front, or beyond the lens's fold.
     [[nodiscard]] std::optional<glm::dvec2> pixel(const glm::dvec3& point) const;
     /// Direction (not unit, Z = 1) of the ray through a pixel. Beyond the fold no ray goes through it: that of the ideal lens.

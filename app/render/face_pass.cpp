@@ -1,7 +1,5 @@
 #include "app/render/face_pass.h"
 
-#include "app/render/lens_uniforms.h"
-
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
@@ -18,13 +16,6 @@ GLuint stencil_value(std::size_t face) {
 
 /// Codes are multiplied by what light is multiplied by to this power: sRGB's own, away from black.
 constexpr float code_power = 1.0F / 2.4F;
-
-void use(const Shader& shader, const FramePlan& plan, bool bends) {
-    shader.use();
-    if (bends) {
-        set_lens(shader, plan.projector);
-    }
-}
 
 void set_uniform(const Shader& shader, Uniform uniform, const glm::dvec2& scale, const glm::dvec2& offset) {
     const glm::vec4 packed(scale, offset);
@@ -72,7 +63,7 @@ int FacePass::draw(const FramePlan& plan, const GpuStore& store, const ShaderCac
     }
     glEnable(GL_STENCIL_TEST);
     glEnable(GL_SCISSOR_TEST);
-    mark_faces(plan, *outline, raster, shaders.bends());
+    mark_faces(plan, *outline, raster);
     upload_indices(plan);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
@@ -99,7 +90,7 @@ int FacePass::draw(const FramePlan& plan, const GpuStore& store, const ShaderCac
         const GpuStore::Mesh* const mesh = store.find(draw.drawable.mesh);
         const GpuStore::Texture* const texture = store.find(draw.drawable.material.texture);
         if (shader != nullptr && mesh != nullptr && texture != nullptr) {
-            draw_surface(plan, draw, *mesh, *texture, *shader, raster, shaders.bends());
+            draw_surface(plan, draw, *mesh, *texture, *shader, raster);
             ++calls;
         }
     }
@@ -119,7 +110,7 @@ int FacePass::soften_edges(const FramePlan& plan, const ShaderCache& shaders, co
     if (plan.feathers.empty() || shader == nullptr) {
         return 0;
     }
-    use(*shader, plan, shaders.bends());
+    shader->use();
     glBindVertexArray(no_attributes_.get());
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
@@ -131,7 +122,7 @@ int FacePass::soften_edges(const FramePlan& plan, const ShaderCache& shaders, co
         set_scissor(plan.faces[face].bounds, raster);
         glUniform4fv(shader->location(Uniform::Corners), 4, glm::value_ptr(feather.corners_clip[0]));
         glUniform2f(shader->location(Uniform::EdgeShare), feather.share.x, feather.share.y);
-        draw_quad(shaders.bends());
+        shader->draw_quad();
     }
     glDisable(GL_BLEND);
     return static_cast<int>(plan.feathers.size());
@@ -145,8 +136,7 @@ void FacePass::upload_indices(const FramePlan& plan) const {
                  GL_STREAM_DRAW);
 }
 
-void FacePass::mark_faces(const FramePlan& plan, const Shader& outline, const Raster& raster,
-                          bool bends) const {
+void FacePass::mark_faces(const FramePlan& plan, const Shader& outline, const Raster& raster) const {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
@@ -154,14 +144,14 @@ void FacePass::mark_faces(const FramePlan& plan, const Shader& outline, const Ra
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     glStencilMask(0xFF);
     glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-    use(outline, plan, bends);
+    outline.use();
     glBindVertexArray(no_attributes_.get());
     for (std::size_t k = 0; k < plan.faces.size(); ++k) {
         // The prop is convex: faces that the projector sees do not hide each other.
         glStencilFunc(GL_ALWAYS, static_cast<GLint>(stencil_value(k)), 0xFF);
         set_scissor(plan.faces[k].bounds, raster);
         glUniform4fv(outline.location(Uniform::Corners), 4, glm::value_ptr(plan.faces[k].corners_clip[0]));
-        draw_quad(bends);
+        outline.draw_quad();
     }
     glDepthMask(GL_TRUE);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -187,16 +177,16 @@ void FacePass::draw_cast(const FramePlan& plan, const Draw& draw, const CastPass
     glDisable(GL_CULL_FACE);
     glStencilFunc(GL_EQUAL, static_cast<GLint>(stencil_value(face)), 0xFF);
     set_scissor(part, raster);
-    draw_quad(false);
+    shader.draw_quad();
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
 }
 
 void FacePass::draw_surface(const FramePlan& plan, const Draw& draw, const GpuStore::Mesh& mesh,
-                            const GpuStore::Texture& texture, const Shader& shader, const Raster& raster,
-                            bool bends) const {
+                            const GpuStore::Texture& texture, const Shader& shader,
+                            const Raster& raster) const {
     const auto face = static_cast<std::size_t>(draw.face);
-    use(shader, plan, bends);
+    shader.use();
     set_view(shader, plan.projector, raster);
     set_face(shader, plan.faces[face].light);
     set_draw(shader, draw);

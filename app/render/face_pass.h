@@ -31,15 +31,14 @@ public:
 
 private:
     void upload_indices(const FramePlan& plan) const;
-    void mark_faces(const FramePlan& plan, const Shader& outline, const Raster& raster, bool bends) const;
+    void mark_faces(const FramePlan& plan, const Shader& outline, const Raster& raster) const;
     /// Returns the number of draw calls.
     int soften_edges(const FramePlan& plan, const ShaderCache& shaders, const Raster& raster) const;
     /// What was cast, on the outline of the draw's face.
     void draw_cast(const FramePlan& plan, const Draw& draw, const CastPass::Picture& picture,
                    const Shader& shader, const Raster& raster) const;
     void draw_surface(const FramePlan& plan, const Draw& draw, const GpuStore::Mesh& mesh,
-                      const GpuStore::Texture& texture, const Shader& shader, const Raster& raster,
-                      bool bends) const;
+                      const GpuStore::Texture& texture, const Shader& shader, const Raster& raster) const;
 
     GlVertexArray no_attributes_ = GlVertexArray::generate();
     GlBuffer indices_ = GlBuffer::generate(); ///< the plan's, renewed with each picture

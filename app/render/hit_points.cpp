@@ -18,7 +18,7 @@ Result<HitPointRenderer> HitPointRenderer::create(const Renderer& shown) {
             shaders.insert(places_of(key));
         }
     }
-    if (Result<void> ready = renderer.shaders_.prepare(shaders, shown.bends()); !ready) {
+    if (Result<void> ready = renderer.shaders_.prepare(shaders, shown.bent_by()); !ready) {
         return tl::unexpected<Error>(ready.error());
     }
     renderer.framebuffer_ = GlFramebuffer::generate();

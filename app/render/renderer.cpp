@@ -53,7 +53,7 @@ Result<Renderer> Renderer::create(int width, int height, const RenderNeeds& need
 
 Result<void> Renderer::prepare(const RenderNeeds& needs) {
     const RenderNeeds all = united(needs_, needs);
-    if (Result<void> ready = shaders_.prepare(shaders_of(all), all.bends); !ready) {
+    if (Result<void> ready = shaders_.prepare(shaders_of(all), all.bent_by); !ready) {
         return ready;
     }
     if (Result<void> ready = casts_.prepare(all.casts, width_, height_); !ready) {

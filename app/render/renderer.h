@@ -71,8 +71,8 @@ public:
     [[nodiscard]] int height() const { return height_; }
     /// The shaders that were compiled.
     [[nodiscard]] std::set<ShaderKey> shaders() const { return shaders_.keys(); }
-    /// Whether they bend what they draw, for a lens that distorts.
-    [[nodiscard]] bool bends() const { return needs_.bends; }
+    /// Whose lens they bend what they draw for.
+    [[nodiscard]] const std::optional<Pinhole>& bent_by() const { return needs_.bent_by; }
     /// Bytes of GPU memory, as the driver says, without the indices that come with each picture.
     [[nodiscard]] std::uint64_t bytes() const;
 

@@ -14,12 +14,24 @@ constexpr std::array<const char*, static_cast<std::size_t>(Uniform::Count)> unif
     "corners",   "clip_from_unit",      "prop_from_unit",    "brightness",
     "dither",    "pixel_from_fragment", "ray_from_fragment", "inverse_depth",
     "face_gain", "edge_share",          "rectangles",        "picture",
-    "raster",    "lens_from_clip",      "distortion"};
+    "raster"};
+
+/// The lens never changes while a program lives, so its uniforms are set once.
+void set_lens(GLuint program, const Pinhole& pinhole) {
+    const glm::dvec2 half = 0.5 * glm::dvec2(pinhole.width, pinhole.height);
+    const glm::dvec2 focal(pinhole.fx, pinhole.fy);
+    const glm::vec4 lens_from_clip(half / focal, (half - glm::dvec2(pinhole.cx, pinhole.cy)) / focal);
+    // Beyond the picture, as far as the settings' check looks, the factor stays as it is, so that nothing folds back into it.
+    const double limit = 1.05 * pinhole.farthest_r2();
+    const glm::vec3 distortion(pinhole.lens.k1, pinhole.lens.k2, limit);
+    glUniform4fv(glGetUniformLocation(program, "lens_from_clip"), 1, &lens_from_clip.x);
+    glUniform3fv(glGetUniformLocation(program, "distortion"), 1, &distortion.x);
+}
 
 } // namespace
 
-Result<Shader> Shader::compile(const ShaderKey& key, bool bends) {
-    const ShaderSource source = source_of(key, bends);
+Result<Shader> Shader::compile(const ShaderKey& key, const std::optional<Pinhole>& bent_by) {
+    const ShaderSource source = source_of(key, bent_by.has_value());
     Result<GlProgram> program = make_program(source.defines, source.vertex, source.fragment);
     if (!program) {
         return tl::unexpected<Error>(program.error());
@@ -31,19 +43,31 @@ Result<Shader> Shader::compile(const ShaderKey& key, bool bends) {
     }
     made.use();
     glUniform1i(glGetUniformLocation(made.program_.get(), "image"), 0);
+    if (bent_by) {
+        made.bends_ = true;
+        set_lens(made.program_.get(), *bent_by);
+    }
     return made;
 }
 
-Result<void> ShaderCache::prepare(const std::set<ShaderKey>& keys, bool bends) {
-    if (bends != bends_) {
+void Shader::draw_quad() const {
+    if (bends_) {
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 2 * (quad_cells + 1), quad_cells);
+    } else {
+        glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
+    }
+}
+
+Result<void> ShaderCache::prepare(const std::set<ShaderKey>& keys, const std::optional<Pinhole>& bent_by) {
+    if (bent_by != bent_by_) {
         shaders_.clear();
-        bends_ = bends;
+        bent_by_ = bent_by;
     }
     for (const ShaderKey& key : keys) {
         if (find(key) != nullptr) {
             continue;
         }
-        Result<Shader> shader = Shader::compile(key, bends);
+        Result<Shader> shader = Shader::compile(key, bent_by);
         if (!shader) {
             return tl::unexpected<Error>(shader.error());
         }

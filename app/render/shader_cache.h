@@ -30,15 +30,15 @@ enum class Uniform : std::size_t {
     Rectangles,
     Picture,
     Raster,
-    LensFromClip,
-    Distortion,
     Count
 };
 
 class Shader {
 public:
-    [[nodiscard]] static Result<Shader> compile(const ShaderKey& key, bool bends);
+    [[nodiscard]] static Result<Shader> compile(const ShaderKey& key, const std::optional<Pinhole>& bent_by);
     void use() const { glUseProgram(program_.get()); }
+    /// Draws the quadrilateral of Uniform::Corners, in cells if it bends; `use` it first.
+    void draw_quad() const;
     /// -1, which OpenGL ignores, for one that the shader does not have.
     [[nodiscard]] GLint location(Uniform uniform) const {
         return locations_[static_cast<std::size_t>(uniform)];
@@ -46,20 +46,21 @@ public:
 
 private:
     GlProgram program_;
+    bool bends_ = false;
     std::array<GLint, static_cast<std::size_t>(Uniform::Count)> locations_{};
 };
 
 class ShaderCache {
 public:
-    /// Compiles the shaders that are not there yet. `bends`: the projector's lens distorts; shaders that were made without it go.
-    [[nodiscard]] Result<void> prepare(const std::set<ShaderKey>& keys, bool bends);
+    /// Compiles the shaders that are not there yet. `bent_by`: as RenderNeeds; shaders that were made for another lens go.
+    [[nodiscard]] Result<void> prepare(const std::set<ShaderKey>& keys,
+                                       const std::optional<Pinhole>& bent_by);
     /// Null if it was not prepared.
     [[nodiscard]] const Shader* find(const ShaderKey& key) const;
     [[nodiscard]] std::set<ShaderKey> keys() const;
-    [[nodiscard]] bool bends() const { return bends_; }
 
 private:
-    bool bends_ = false;
+    std::optional<Pinhole> bent_by_;
     std::map<ShaderKey, Shader> shaders_;
 };
 

@@ -1,6 +1,5 @@
 #include "app/render/shader_source.h"
 
-#include "app/render/lens_uniforms.h"
 #include "app/scene/lit_tiles.h"
 
 #include <fmt/format.h>

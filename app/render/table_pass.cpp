@@ -1,7 +1,5 @@
 #include "app/render/table_pass.h"
 
-#include "app/render/lens_uniforms.h"
-
 #include <GLES2/gl2ext.h>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -29,15 +27,12 @@ int TablePass::draw(const FramePlan& plan, const PixelRectangle& within, const G
         }
         (picture != TextureId::None ? glEnable : glDisable)(GL_BLEND);
         shader->use();
-        if (shaders.bends()) {
-            set_lens(*shader, plan.projector);
-        }
         // Black takes no texture: with whatever was bound before, a driver would compile for its format.
         glBindTexture(GL_TEXTURE_2D, texture != nullptr ? texture->texels.get() : 0);
         set_scissor(part, raster);
         glUniform1f(shader->location(Uniform::Brightness), draw.brightness);
         glUniform4fv(shader->location(Uniform::Corners), 4, glm::value_ptr(draw.clip_from_unit));
-        draw_quad(shaders.bends());
+        shader->draw_quad();
         ++calls;
     }
     glBindVertexArray(0);

@@ -111,6 +111,7 @@ void feather_edges(const PropShape& prop, const glm::dvec3& projector, FramePlan
         const PropFace& shape = prop.faces[static_cast<std::size_t>(own.face)];
         for (std::size_t k = 0; k < 4; ++k) {
             const std::optional<PictureEdge> edge = edge_of(own, k, ideal);
+            // Bounds lie where the lens brings what is drawn, edges where it comes from: behind a lens the scissor alone decides.
             if (!edge || (plan.projector.lens.is_plain() && !touches(*edge, own.bounds, outer_px))) {
                 continue;
             }

@@ -56,17 +56,12 @@ void bend(const Pinhole& pinhole, glm::dvec2& low, glm::dvec2& high) {
     high = (high - centre) / focal;
     const glm::dvec2 far = glm::max(glm::abs(low), glm::abs(high));
     const auto [below, most] = pinhole.lens.factors_within(glm::dot(far, far));
-    const double least = std::max(below, 0.0); // beyond the limit none is drawn with such a factor
+    const double least = std::max(below, 0.0); // none is drawn with such a factor (render/shader_cache.cpp)
     low = glm::min(low * least, low * most) * focal + centre;
     high = glm::max(high * least, high * most) * focal + centre;
 }
 
 } // namespace
-
-double lens_limit(const Pinhole& pinhole) {
-    constexpr double beyond = 1.05; // as far as the settings' check looks
-    return pinhole.lens.is_plain() ? std::numeric_limits<double>::infinity() : beyond * pinhole.farthest_r2();
-}
 
 PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const Pinhole& pinhole) {
     glm::dvec2 low(std::numeric_limits<double>::infinity());

@@ -27,10 +27,6 @@ struct FaceView {
     PixelRectangle bounds;          ///< of what may show on it
 };
 
-/// r^2 of ideal directions up to which the lens's own factor is taken; beyond it, outside of the picture, that of the limit, so
-/// that nothing folds back into the picture. Infinite if it does not distort.
-[[nodiscard]] double lens_limit(const Pinhole& pinhole);
-
 /// Pixels around points in clip coordinates of the ideal pinhole, where its lens brings them, with one pixel to spare on each
 /// side; the whole picture if a point is not in front.
 [[nodiscard]] PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const Pinhole& pinhole);

@@ -351,7 +351,7 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
                    plan);
     choose_faces(plan);
     plan.needs.outline = largest_outline(settings, plan.projector, plan.visibility);
-    plan.needs.bends = bends;
+    plan.needs.bent_by = if_it_bends(plan.projector);
     return plan;
 }
 

@@ -56,6 +56,10 @@ ShaderKey places_of(ShaderKey key) {
     return key;
 }
 
+std::optional<Pinhole> if_it_bends(const Pinhole& projector) {
+    return projector.lens.is_plain() ? std::nullopt : std::optional(projector);
+}
+
 RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b) {
     RenderNeeds both{std::max(a.samples, b.samples), a.draws, std::max(a.casts, b.casts)};
     if (a.samples <= 1 || b.samples <= 1) { // one sample needs no room
@@ -63,7 +67,7 @@ RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b) {
     } else if (a.outline && b.outline) {
         both.outline = united(*a.outline, *b.outline);
     }
-    both.bends = a.bends || b.bends;
+    both.bent_by = b.bent_by ? b.bent_by : a.bent_by;
     both.draws.insert(b.draws.begin(), b.draws.end());
     return both;
 }

@@ -4,6 +4,7 @@
 /// Threads  values; any.
 #pragma once
 
+#include "app/geometry/pinhole.h"
 #include "firmware_host/base/pixel_rectangle.h"
 
 #include <compare>
@@ -49,8 +50,11 @@ struct RenderNeeds {
     std::size_t casts = 0;     ///< pictures that one plan may cast into memory
     /// The largest rectangle around the prop in the picture (prop_outline.h); none: all of the picture.
     std::optional<PixelSize> outline = std::nullopt;
-    bool bends = false; ///< the projector's lens distorts: every shader bends what it draws
+    std::optional<Pinhole> bent_by =
+        std::nullopt; ///< a projector whose lens distorts: every shader bends what it draws
 };
+/// The projector, if its lens distorts: RenderNeeds::bent_by.
+[[nodiscard]] std::optional<Pinhole> if_it_bends(const Pinhole& projector);
 [[nodiscard]] RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b);
 /// Every shader that a renderer with these needs compiles: those of the draws, and those that it brings
 /// itself.

@@ -15,7 +15,6 @@ namespace frustumscreen {
 namespace {
 
 constexpr int form_version = 1;
-constexpr std::uintmax_t largest_bytes = 65536;
 constexpr std::array<std::string_view, 3> method_names{"corners", "touch", "auto"};
 
 /// A measured value has no default: a key that is left out is refused.
@@ -117,7 +116,7 @@ std::string calibration_text(const Calibration& calibration) {
 Result<Calibration> parse_calibration(std::string_view text, const std::filesystem::path& file) {
     ReadState state{printable(file.string(), 4096), {}, {}, std::nullopt};
     Calibration calibration;
-    read_toml(state, text, largest_bytes, [&](const toml::table& root) {
+    read_toml(state, text, largest_calibration_bytes, [&](const toml::table& root) {
         TableReader keys(state, &root, "");
         measured(keys, calibration);
         keys.finish();

@@ -12,6 +12,7 @@
 #include "app/geometry/transform.h"
 #include "firmware_host/base/result.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -22,6 +23,8 @@ namespace frustumscreen {
 /// Corners: the picture's corners at two heights, measured by hand. Touch: the prop laid on crosses. Auto: by a camera.
 enum class CalibrationMethod : std::uint8_t { Corners, Touch, Auto };
 [[nodiscard]] std::string_view name_of(CalibrationMethod method);
+
+inline constexpr std::size_t largest_calibration_bytes = 65536;
 
 struct Calibration {
     std::string made; ///< when, by the machine's clock: "2026-11-25 10:12 UTC"

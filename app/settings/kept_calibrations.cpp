@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::string_view head = "calibration-", kept_ending = ".toml", undone_ending = ".undone";
 constexpr const char* next_name = "calibration.next";
-constexpr std::size_t largest_bytes = 65536;
 
 std::string name_of(int number, std::string_view ending) {
     return fmt::format("{}{:04}{}", head, number, ending);
@@ -63,7 +62,7 @@ Result<std::vector<KeptCalibration>> list_calibrations(FileTree& folder) {
 }
 
 Result<Calibration> read_calibration(FileTree& folder, const KeptCalibration& kept) {
-    const FileResult<std::string> text = read_text(folder, kept.name, largest_bytes);
+    const FileResult<std::string> text = read_text(folder, kept.name, largest_calibration_bytes);
     if (!text) {
         return failed(kept.name, text.error(), "cannot be read");
     }

@@ -38,19 +38,15 @@ std::optional<Error> refusal(const ReadState& state, const Settings& settings) {
     return why ? std::optional(Error{ErrorKind::BadConfiguration, *std::move(why)}) : std::nullopt;
 }
 
-void take_over(Settings& settings, const Calibration& calibration) {
-    settings.projector.pinhole = calibration.pinhole;
-    settings.projector.table_from_projector = calibration.table_from_projector;
-    settings.tracker.registration = calibration.registration;
-}
-
 /// The settings with this calibration, or why it cannot be used.
 Result<Settings> calibrated(Settings settings, const Result<Calibration>& calibration,
                             const ReadState& state) {
     if (!calibration) {
         return tl::unexpected<Error>(calibration.error());
     }
-    take_over(settings, *calibration);
+    settings.projector.pinhole = calibration->pinhole;
+    settings.projector.table_from_projector = calibration->table_from_projector;
+    settings.tracker.registration = calibration->registration;
     if (const std::optional<std::string> why = unfit(settings, state.file, state.lines)) {
         return bad_input(*why);
     }
@@ -62,7 +58,7 @@ Result<Settings> calibrated(Settings settings, const Result<Calibration>& calibr
 void use_newest_calibration(Settings& settings, const ReadState& state) {
     const std::filesystem::path& folder = settings.calibration.folder;
     std::error_code none;
-    if (folder.empty() || !std::filesystem::exists(folder, none)) {
+    if (!std::filesystem::exists(folder, none)) {
         return;
     }
     std::vector<std::string> unused;
@@ -133,9 +129,13 @@ Result<CheckedSettings> load_settings(const std::filesystem::path& file) {
     if (!bytes) {
         return fail(ErrorKind::BadConfiguration, bytes.error().message);
     }
+    return kiosk_settings(as_text(*bytes), file);
+}
+
+Result<CheckedSettings> kiosk_settings(std::string_view text, const std::filesystem::path& file) {
     ReadState state = state_of(file);
     Settings settings;
-    read(state, as_text(*bytes), settings);
+    read(state, text, settings);
     if (!state.error) {
         use_newest_calibration(settings, state);
     }

@@ -177,7 +177,7 @@ struct RenderSettings {
 
 /// Where calibrations are kept (kept_calibrations.h), and which one is used.
 struct CalibrationSettings {
-    std::filesystem::path folder = "/var/lib/frustumscreen/calibration"; ///< empty: none is looked for
+    std::filesystem::path folder = "/var/lib/frustumscreen/calibration";
     std::optional<Calibration> used; ///< it stands in `projector` and `tracker` already
     std::string used_name;           ///< of its file
     std::vector<std::string> unused; ///< why newer ones are not used, one line each
@@ -211,14 +211,17 @@ public:
     [[nodiscard]] const Settings* operator->() const { return &settings_; }
 
 private:
-    friend Result<CheckedSettings> load_settings(const std::filesystem::path& file);
+    friend Result<CheckedSettings> kiosk_settings(std::string_view text, const std::filesystem::path& file);
     friend Result<CheckedSettings> parse_settings(std::string_view text, const std::filesystem::path& file);
     explicit CheckedSettings(Settings settings) : settings_(std::move(settings)) {}
     Settings settings_;
 };
 
-/// The newest kept calibration that is whole and fits these settings takes the place of what they say of projector and tracker.
 [[nodiscard]] Result<CheckedSettings> load_settings(const std::filesystem::path& file);
+/// The same of text that was read already. The newest kept calibration that is whole and fits these settings takes the place of what
+/// they say of projector and tracker.
+[[nodiscard]] Result<CheckedSettings> kiosk_settings(std::string_view text,
+                                                     const std::filesystem::path& file);
 /// Without a calibration. `file` names the text in messages and is what relative paths are relative to.
 [[nodiscard]] Result<CheckedSettings> parse_settings(std::string_view text,
                                                      const std::filesystem::path& file);

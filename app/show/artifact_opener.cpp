@@ -162,7 +162,7 @@ RenderNeeds needs_of_any_pack(const Settings& settings, int samples) {
     RenderNeeds needs;
     needs.samples = samples;
     needs.outline = largest_outline(settings, settings.projector.pinhole, visibility_of(settings));
-    needs.bends = !settings.projector.pinhole.lens.is_plain();
+    needs.bent_by = if_it_bends(settings.projector.pinhole);
     for (const bool dithered : {false, true}) {
         ShaderKey key;
         key.dithered = dithered;

@@ -21,7 +21,7 @@ Result<UsedSettings> read_from(const std::filesystem::path& file, const std::fil
         return fail(ErrorKind::BadConfiguration, bytes.error().message);
     }
     std::string text(as_text(*bytes));
-    Result<CheckedSettings> settings = parse_settings(text, as);
+    Result<CheckedSettings> settings = kiosk_settings(text, as);
     if (!settings) {
         return tl::unexpected<Error>(settings.error());
     }

@@ -26,6 +26,20 @@ TEST(PointFiles, ATouchIsReadAsItStands) {
     EXPECT_EQ(touch.block_m, 0.04);
 }
 
+TEST(PointFiles, TouchesAreReadAsTheyWereWritten) {
+    const Touches touches{{{glm::dquat(0.5, -0.5, 0.5, -0.5), {0.1, -0.2, 1.0 / 3.0}}, {100.5, 200.0}, 0.04},
+                          {{glm::dquat(1.0, 0.0, 0.0, 0.0), {1e-9, 0.0, -7.0}}, {0.5, 799.5}, 0.0}};
+    const auto read = parse_touches(touches_text(touches), "t.csv");
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_EQ(read->size(), 2U);
+    for (std::size_t k = 0; k < 2; ++k) {
+        EXPECT_EQ((*read)[k].tracker_from_sensor.translation, touches[k].tracker_from_sensor.translation);
+        EXPECT_EQ((*read)[k].tracker_from_sensor.rotation, touches[k].tracker_from_sensor.rotation);
+        EXPECT_EQ((*read)[k].pixel, touches[k].pixel);
+        EXPECT_EQ((*read)[k].block_m, touches[k].block_m);
+    }
+}
+
 TEST(PointFiles, WhatIsWrongIsSaidWithItsLine) {
     EXPECT_NE(touch_error("1,2,3\n").find("t.csv:2: the row has 3 fields"), std::string::npos);
     EXPECT_NE(touch_error("0,0,0,1,0,0,x,1,2,0\n").find("t.csv:2: qz is"), std::string::npos);

@@ -137,6 +137,9 @@ class Table(unittest.TestCase):
         config = [PROGRAMS / "frustumscreen", "config", "--config", self.config, "--json"]
         used = json.loads(subprocess.run(config, capture_output=True, text=True, check=True).stdout)
         self.assertEqual(used["calibration"]["used"]["file"], "calibration-0001.toml")
+        run = [PROGRAMS / "frustumscreen", "run", "--config", self.config, "--headless", "--pattern", "--seconds", "0.2"]
+        ran = subprocess.run(run, capture_output=True, text=True, check=True)
+        self.assertIn("calibration: calibration-0001.toml is used", ran.stderr)
         self.assertNotEqual(used["projector"]["fx"], 2400.0)
         listed = self.run_program("kept", "--config", self.config, "--json")
         self.assertEqual([each["file"] for each in json.loads(listed.stdout)["kept"]], ["calibration-0001.toml"])

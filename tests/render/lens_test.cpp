@@ -28,7 +28,7 @@ Stage wide(const Lens& lens) {
 TEST(BentPicture, HitPointsAreThoseOfARayCastThroughTheLens) {
     std::mt19937 random(17);
     for (const Lens& lens : lenses) {
-        Rig rig(256, 160, 1, rings(48, 24), true);
+        Rig rig(256, 160, 1, rings(48, 24), wide(lens).projector);
         const ReferenceCast cast(rig.pack, rig.level.metres_per_box);
         for (int pose = 0; pose < 2; ++pose) {
             Stage stage = wide(lens);
@@ -50,7 +50,7 @@ TEST(BentPicture, LiesWithinATwentiethOfAPixelOfARayCast) {
     for (const Lens& lens : std::span(lenses).first(2)) {
         Pack white = rings(16, 8);
         std::fill(white.textures[0].texels.begin(), white.textures[0].texels.end(), glm::u8vec4(255));
-        Rig rig(256, 160, 16, white, true);
+        Rig rig(256, 160, 16, white, wide(lens).projector);
         const ReferenceCast cast(rig.pack, metres_per_box(rig.pack, rig.prop));
         glm::dvec2 beside(0.0);
         for (const glm::dvec2& place : places) {
@@ -76,7 +76,7 @@ TEST(BentPicture, LiesWithinATwentiethOfAPixelOfARayCast) {
 TEST(BentPicture, CullingTakesNothingAway) {
     std::mt19937 random(12);
     for (const Lens& lens : lenses) {
-        Rig rig(256, 160, 1, rings(), true);
+        Rig rig(256, 160, 1, rings(), wide(lens).projector);
         for (int pose = 0; pose < 12; ++pose) {
             Stage stage = wide(lens);
             stage.shuffle(random);
@@ -105,7 +105,7 @@ double light_of_pixel(const Pinhole& pinhole, int x, int y) {
 
 TEST(BentPicture, AWhiteArtifactSendsBackTheSameFromEveryPlace) {
     for (const Lens& lens : lenses) {
-        Rig rig(256, 160, 1, rings(), true);
+        Rig rig(256, 160, 1, rings(), wide(lens).projector);
         rig.pack.textures[0] = Image8(8, 8, {255, 255, 255, 255});
         rig.upload_again();
         Stage stage = wide(lens);

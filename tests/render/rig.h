@@ -34,12 +34,13 @@ struct Rig {
     PlacedLevel level;
     FramePlan plan;
 
-    /// `bends`: the stage's projector has a lens that distorts.
-    Rig(int width, int height, int samples = 1, Pack shown = rings(), bool bends = false)
+    /// `bent_by`: the stage's projector, where its lens distorts.
+    Rig(int width, int height, int samples = 1, Pack shown = rings(),
+        const std::optional<Pinhole>& bent_by = std::nullopt)
         : pack(std::move(shown)) {
         display = SurfacelessDisplay::create(width, height).value();
         RenderNeeds all = needs(samples);
-        all.bends = bends;
+        all.bent_by = bent_by;
         renderer = Renderer::create(width, height, all).value();
         hit_points = HitPointRenderer::create(*renderer).value();
         level = placed(pack, 0, metres_per_box(pack, prop), renderer->store().upload(pack, 0).value());

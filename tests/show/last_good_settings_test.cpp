@@ -75,5 +75,29 @@ TEST_F(LastGoodSettings, TheirPathsAreThoseOfTheKiosksOwnFile) {
     EXPECT_EQ(used->settings->exhibit.packs.front(), folder / "etc/a.fspack");
 }
 
+TEST_F(LastGoodSettings, TheNewestKeptCalibrationIsUsedWithWhicheverSettingsCount) {
+    const Result<CheckedSettings> plain = parse_settings("", folder / "kiosk.toml");
+    ASSERT_TRUE(plain) << plain.error().message;
+    Calibration measured;
+    measured.made = "2026-11-25 10:12 UTC";
+    measured.places = 9;
+    measured.pinhole = (*plain)->projector.pinhole;
+    measured.pinhole.fx += 7.0;
+    measured.table_from_projector = (*plain)->projector.table_from_projector;
+    measured.registration = (*plain)->tracker.registration;
+    std::filesystem::create_directory(folder / "measured");
+    ASSERT_TRUE(write_file(folder / "measured/calibration-0001.toml", as_bytes(calibration_text(measured))));
+    const std::string text = "[calibration]\nfolder = \"measured\"\n";
+    ASSERT_TRUE(write_file(folder / "kept.toml", as_bytes(text)));
+    for (const std::string& own : {text, std::string("not TOML")}) {
+        ASSERT_TRUE(write_file(folder / "kiosk.toml", as_bytes(own)));
+        const Result<UsedSettings> used =
+            use_settings(folder / "kiosk.toml", SettingsFallback{folder / "kept.toml", {}});
+        ASSERT_TRUE(used) << used.error().message;
+        EXPECT_EQ(used->settings->calibration.used_name, "calibration-0001.toml");
+        EXPECT_EQ(used->settings->projector.pinhole.fx, measured.pinhole.fx);
+    }
+}
+
 } // namespace
 } // namespace frustumscreen

@@ -97,7 +97,7 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
     shader.even_light = options.lit;
     const int samples = options.samples > 0 ? options.samples : pack.samples;
     RenderNeeds needs{std::max(samples, default_samples), {shader, {ShaderKey::Pass::EdgeFeather}}};
-    needs.bends = !stage.settings.projector.pinhole.lens.is_plain();
+    needs.bent_by = if_it_bends(stage.settings.projector.pinhole);
     Result<Renderer> renderer = Renderer::create(stage.width(), stage.height(), needs);
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());

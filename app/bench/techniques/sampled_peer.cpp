@@ -17,7 +17,7 @@ Result<std::shared_ptr<const PeerSamples>> PeerSamples::create(const Stage& stag
     if (const Result<void> ready = shaders.prepare({{ShaderKey::Pass::TileClear},
                                                     {ShaderKey::Pass::TileAverage},
                                                     {ShaderKey::Pass::TileAverageMany}},
-                                                   false);
+                                                   std::nullopt);
         !ready) {
         return tl::unexpected<Error>(ready.error());
     }

@@ -1,6 +1,6 @@
 #include "app/programs/calibrate/calibrate_request.h"
 
-#include "app/settings/settings.h"
+#include "app/programs/common/guarded_main.h"
 
 #include <fmt/format.h>
 
@@ -24,16 +24,16 @@ void check_request(const CalibrateRequest& request) {
     }
 }
 
-Result<PictureSize> picture_size(const CalibrateRequest& request) {
+Result<Described> describe(const CalibrateRequest& request) {
     if (!request.picture.empty()) {
-        return PictureSize{request.picture[0], request.picture[1]};
+        return Described{std::nullopt, request.picture[0], request.picture[1]};
     }
     const Result<CheckedSettings> settings = load_settings(request.config);
     if (!settings) {
         return tl::unexpected<Error>(settings.error());
     }
     const Pinhole& pinhole = (*settings)->projector.pinhole;
-    return PictureSize{pinhole.width, pinhole.height, (*settings)->prop.height_m};
+    return Described{**settings, pinhole.width, pinhole.height, (*settings)->prop.height_m};
 }
 
 nlohmann::ordered_json matrix_json(const RigidTransform& transform) {
@@ -45,6 +45,22 @@ nlohmann::ordered_json matrix_json(const RigidTransform& transform) {
         }
     }
     return numbers;
+}
+
+nlohmann::ordered_json projector_json(const Pinhole& pinhole, const RigidTransform& table_from_projector) {
+    return {{"width", pinhole.width},
+            {"height", pinhole.height},
+            {"fx", pinhole.fx},
+            {"fy", pinhole.fy},
+            {"cx", pinhole.cx},
+            {"cy", pinhole.cy},
+            {"k1", pinhole.lens.k1},
+            {"k2", pinhole.lens.k2},
+            {"table_from_projector", matrix_json(table_from_projector)}};
+}
+
+int end_with(const Result<int>& status) {
+    return status ? *status : exit_status("frustumscreen-calibrate", tl::unexpected<Error>(status.error()));
 }
 
 int status_of(Verdict verdict, const CalibrateRequest& request, const std::string& reason) {

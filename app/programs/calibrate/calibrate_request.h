@@ -4,7 +4,9 @@
 #pragma once
 
 #include "app/calibration/verdict.h"
+#include "app/geometry/pinhole.h"
 #include "app/geometry/transform.h"
+#include "app/settings/settings.h"
 #include "firmware_host/base/result.h"
 
 #include <CLI/CLI.hpp>
@@ -32,21 +34,27 @@ struct CalibrateRequest {
     bool json = false;
 };
 
-/// Width and height of the picture, and the prop's height.
-struct PictureSize {
-    int width = 0;
+/// What is known before anything is measured.
+struct Described {
+    std::optional<Settings> settings; ///< none: --picture stands in their place
+    int width = 0;                    ///< of the picture
     int height = 0;
-    double top_m = 0.12;
+    double top_m = 0.12; ///< the prop's height
 };
 
 void add_common_options(CLI::App& command, CalibrateRequest& request);
 /// Throws a CLI::ParseError at what does not go.
 void check_request(const CalibrateRequest& request);
-[[nodiscard]] Result<PictureSize> picture_size(const CalibrateRequest& request);
+[[nodiscard]] Result<Described> describe(const CalibrateRequest& request);
 
 /// 16 numbers, column by column.
 [[nodiscard]] nlohmann::ordered_json matrix_json(const RigidTransform& transform);
+[[nodiscard]] nlohmann::ordered_json projector_json(const Pinhole& pinhole,
+                                                    const RigidTransform& table_from_projector);
 /// 0 if it may be used; else 1, and the reason on standard error.
 [[nodiscard]] int status_of(Verdict verdict, const CalibrateRequest& request, const std::string& reason);
+
+/// Says the error, if it is one, and returns the exit status.
+[[nodiscard]] int end_with(const Result<int>& status);
 
 } // namespace frustumscreen

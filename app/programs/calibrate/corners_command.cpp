@@ -2,7 +2,6 @@
 
 #include "app/calibration/corners.h"
 #include "app/calibration/point_files.h"
-#include "app/programs/common/guarded_main.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
@@ -20,15 +19,7 @@ Json corners_json(const CornerCalibration& c) {
               {"angles_deg", nullptr},  {"condition", nullptr},          {"verdict", name_of(c.verdict)},
               {"reason", c.reason},     {"repeat", Json::array()}};
     if (c.pinhole) {
-        json["projector"] = {{"width", c.pinhole->width},
-                             {"height", c.pinhole->height},
-                             {"fx", c.pinhole->fx},
-                             {"fy", c.pinhole->fy},
-                             {"cx", c.pinhole->cx},
-                             {"cy", c.pinhole->cy},
-                             {"k1", 0.0},
-                             {"k2", 0.0},
-                             {"table_from_projector", matrix_json(c.table_from_projector)}};
+        json["projector"] = projector_json(*c.pinhole, c.table_from_projector);
         json["residual_mm"] = {{"mean", 1e3 * c.mean_residual_m}, {"worst", 1e3 * c.worst_residual_m}};
         json["residual_px"] = {{"mean", c.mean_residual_px}, {"worst", c.worst_residual_px}};
         json["centre_m"] = {c.centre_m.x, c.centre_m.y, c.centre_m.z};
@@ -49,20 +40,20 @@ std::string corners_text(const CornerCalibration& c) {
     return text;
 }
 
-int corners(const CalibrateRequest& request) {
-    const Result<PictureSize> size = picture_size(request);
-    if (!size) {
-        return exit_status("frustumscreen-calibrate", tl::unexpected<Error>(size.error()));
+Result<int> corners(const CalibrateRequest& request) {
+    const Result<Described> described = describe(request);
+    if (!described) {
+        return tl::unexpected<Error>(described.error());
     }
     const Result<Bytes> bytes = read_file(request.from);
     if (!bytes) {
-        return exit_status("frustumscreen-calibrate", tl::unexpected<Error>(bytes.error()));
+        return tl::unexpected<Error>(bytes.error());
     }
     const auto measured = parse_corners(as_text(*bytes), request.from.string());
     if (!measured) {
-        return exit_status("frustumscreen-calibrate", tl::unexpected<Error>(measured.error()));
+        return tl::unexpected<Error>(measured.error());
     }
-    const CornerCalibration calibration = calibrate_corners(*measured, size->width, size->height);
+    const CornerCalibration calibration = calibrate_corners(*measured, described->width, described->height);
     if (request.json) {
         fmt::print("{}\n", corners_json(calibration).dump(2));
     } else {
@@ -77,7 +68,7 @@ void add_corners_command(CLI::App& app, CalibrateRequest& request, std::function
     CLI::App* const command = app.add_subcommand(
         "corners", "from the picture's four corners, measured by hand at two distances: the projector");
     add_common_options(*command, request);
-    command->callback([&] { chosen = [&] { return corners(request); }; });
+    command->callback([&] { chosen = [&] { return end_with(corners(request)); }; });
 }
 
 } // namespace frustumscreen

@@ -1,7 +1,6 @@
 #include "app/programs/calibrate/kept_command.h"
 
 #include "app/programs/calibrate/kept_table.h"
-#include "app/programs/common/guarded_main.h"
 #include "app/settings/kept_calibrations.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/disk_tree.h"
@@ -19,15 +18,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* nothing_kept = "No calibration is kept; the set-up is as the settings describe it.\n";
-
-Result<std::filesystem::path> folder_of(const CalibrateRequest& request, const Settings& settings) {
-    const std::filesystem::path& folder = settings.calibration.folder;
-    if (folder.empty()) {
-        return bad_input(fmt::format("{}: calibration.folder is empty; name a folder for calibrations there",
-                                     request.config.string()));
-    }
-    return folder;
-}
 
 Json kept_json(const std::vector<KeptCalibration>& kept, FileTree& folder) {
     Json list = Json::array();
@@ -62,21 +52,18 @@ std::string kept_text(const std::vector<KeptCalibration>& kept, FileTree& folder
     return text + "The first one that can be used counts.\n";
 }
 
-Result<void> show_kept(const CalibrateRequest& request) {
+Result<int> show_kept(const CalibrateRequest& request) {
     const Result<CheckedSettings> settings = load_settings(request.config);
     if (!settings) {
         return tl::unexpected<Error>(settings.error());
     }
-    const Result<std::filesystem::path> folder = folder_of(request, **settings);
-    if (!folder) {
-        return tl::unexpected<Error>(folder.error());
-    }
+    const std::filesystem::path& folder = (*settings)->calibration.folder;
     std::error_code none;
-    if (!request.undo && !std::filesystem::exists(*folder, none)) { // nothing was ever kept
+    if (!request.undo && !std::filesystem::exists(folder, none)) { // nothing was ever kept
         fmt::print("{}", request.json ? "{\n  \"kept\": []\n}\n" : nothing_kept);
-        return {};
+        return 0;
     }
-    const Result<std::unique_ptr<WritableTree>> tree = open_tree(*folder);
+    const Result<std::unique_ptr<WritableTree>> tree = open_tree(folder);
     if (!tree) {
         return tl::unexpected<Error>(tree.error());
     }
@@ -99,30 +86,23 @@ Result<void> show_kept(const CalibrateRequest& request) {
     } else {
         fmt::print("{}", kept_text(*kept, **tree));
     }
-    return {};
+    return 0;
 }
 
 } // namespace
 
-Result<void> keep_touch(const CalibrateRequest& request, const TouchCalibration& calibration,
+Result<void> keep_touch(const Settings& settings, const TouchCalibration& calibration,
                         std::span<const Touch> touches) {
-    const Result<CheckedSettings> settings = load_settings(request.config);
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
-    }
-    const Result<std::filesystem::path> folder = folder_of(request, **settings);
-    if (!folder) {
-        return tl::unexpected<Error>(folder.error());
-    }
-    Calibration next = kept_table(*calibration.table, touches, **settings);
+    Calibration next = kept_table(*calibration.table, touches, settings);
     next.method = CalibrationMethod::Touch;
     next.places = static_cast<int>(touches.size());
     next.mean_mm = 1e3 * calibration.mean_residual_m;
     next.worst_mm = 1e3 * calibration.worst_residual_m;
     next.mean_px = calibration.mean_residual_px;
+    const std::filesystem::path& folder = settings.calibration.folder;
     std::error_code failed; // open_tree says what is wrong with it
-    std::filesystem::create_directories(*folder, failed);
-    const Result<std::unique_ptr<WritableTree>> tree = open_tree(*folder);
+    std::filesystem::create_directories(folder, failed);
+    const Result<std::unique_ptr<WritableTree>> tree = open_tree(folder);
     if (!tree) {
         return tl::unexpected<Error>(tree.error());
     }
@@ -133,7 +113,7 @@ Result<void> keep_touch(const CalibrateRequest& request, const TouchCalibration&
         return tl::unexpected<Error>(kept.error());
     }
     fmt::print(stderr, "frustumscreen-calibrate: kept as {}; the exhibit takes it when it starts again\n",
-               (*folder / kept->name).string());
+               (folder / kept->name).string());
     return {};
 }
 
@@ -143,8 +123,7 @@ void add_kept_command(CLI::App& app, CalibrateRequest& request, std::function<in
     command->add_option("--config", request.config, "the kiosk's settings, TOML")->required();
     command->add_flag("--undo", request.undo, "the one before the newest counts again");
     command->add_flag("--json", request.json, "for programs");
-    command->callback(
-        [&] { chosen = [&] { return exit_status("frustumscreen-calibrate", show_kept(request)); }; });
+    command->callback([&] { chosen = [&] { return end_with(show_kept(request)); }; });
 }
 
 } // namespace frustumscreen

@@ -15,7 +15,7 @@ namespace frustumscreen {
 void add_kept_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen);
 
 /// Keeps a calibration that is good or usable in the settings' folder, dated by this machine's clock, and says where.
-[[nodiscard]] Result<void> keep_touch(const CalibrateRequest& request, const TouchCalibration& calibration,
+[[nodiscard]] Result<void> keep_touch(const Settings& settings, const TouchCalibration& calibration,
                                       std::span<const Touch> touches);
 
 } // namespace frustumscreen

@@ -1,8 +1,10 @@
 #include "app/programs/calibrate/kept_table.h"
 
-#include <glm/gtc/quaternion.hpp>
+#include "app/calibration/upright_touches.h"
 
-#include <algorithm>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtx/quaternion.hpp>
+
 #include <cmath>
 #include <vector>
 
@@ -19,34 +21,6 @@ glm::dvec3 on_table(const ProjectorSettings& projector, const glm::dvec2& pixel)
     return pose.translation - ray * (pose.translation.z / ray.z);
 }
 
-/// The shortest turn that takes one direction to another; both unit, not opposite.
-glm::dquat shortest_turn(const glm::dvec3& from, const glm::dvec3& to) {
-    const glm::dvec3 axis = glm::cross(from, to);
-    return glm::normalize(glm::dquat(1.0 + glm::dot(from, to), axis.x, axis.y, axis.z));
-}
-
-/// The mean of those directions that most others are within ten degrees of: a prop that was laid on a side does not count.
-glm::dvec3 most_common(const std::vector<glm::dvec3>& directions) {
-    const double near = std::cos(glm::radians(10.0));
-    glm::dvec3 best(0.0);
-    std::ptrdiff_t most = 0;
-    for (const glm::dvec3& each : directions) {
-        glm::dvec3 sum(0.0);
-        std::ptrdiff_t count = 0;
-        for (const glm::dvec3& other : directions) {
-            if (glm::dot(each, other) > near) {
-                sum += other;
-                ++count;
-            }
-        }
-        if (count > most) {
-            most = count;
-            best = glm::normalize(sum);
-        }
-    }
-    return best;
-}
-
 } // namespace
 
 RigidTransform settings_from_measured(const ProjectorSettings& projector) {
@@ -58,18 +32,19 @@ RigidTransform settings_from_measured(const ProjectorSettings& projector) {
 
 RigidTransform sensor_from_prop(const CalibratedTable& table, std::span<const Touch> touches,
                                 const RigidTransform& described) {
-    std::vector<glm::dvec3> axes; // the table's +Z in the sensor
-    for (const Touch& touch : touches) {
-        axes.push_back(glm::inverse(table.table_from_tracker.rotation * touch.tracker_from_sensor.rotation) *
-                       up);
+    const glm::dvec3 up_in_tracker = glm::inverse(table.table_from_tracker.rotation) * up;
+    const std::vector<bool> upright = upright_ones(touches, up_in_tracker);
+    glm::dvec3 axis(0.0); // the table's +Z in the sensor
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+        axis += upright[k] ? glm::inverse(touches[k].tracker_from_sensor.rotation) * up_in_tracker
+                           : glm::dvec3(0.0);
     }
-    const glm::dvec3 axis = most_common(axes);
-    const glm::dvec3 before = described.rotation * up;
+    axis = glm::normalize(axis);
     // A sensor that hangs upside down has no shortest turn: half a turn about its X axis comes first.
     const glm::dquat over(0.0, 1.0, 0.0, 0.0);
-    const bool is_opposite = glm::dot(before, axis) < -0.99;
+    const bool is_opposite = glm::dot(described.rotation * up, axis) < -0.99;
     const glm::dquat rotation = is_opposite ? described.rotation * over : described.rotation;
-    return {glm::normalize(shortest_turn(rotation * up, axis) * rotation), table.sensor_offset_m};
+    return {glm::normalize(glm::rotation(rotation * up, axis) * rotation), table.sensor_offset_m};
 }
 
 Calibration kept_table(const CalibratedTable& table, std::span<const Touch> touches,

@@ -1,9 +1,10 @@
 #include "app/programs/calibrate/table_command.h"
 
+#include "app/calibration/point_files.h"
 #include "app/calibration/touch_procedure.h"
 #include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/touch_command.h"
 #include "app/programs/calibrate/touch_picture.h"
-#include "app/programs/common/guarded_main.h"
 #include "app/programs/devices/wiring.h"
 #include "app/render/picture_upload.h"
 #include "app/settings/settings.h"
@@ -14,6 +15,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <optional>
 #include <thread>
 
 namespace frustumscreen {
@@ -36,23 +39,12 @@ std::vector<Cross> crosses_for(const Settings& settings, const CalibrateRequest&
         setup);
 }
 
-std::string csv_of(const Touches& touches) {
-    std::string text = "tx_m,ty_m,tz_m,qw,qx,qy,qz,u_px,v_px,block_m\n";
-    for (const Touch& touch : touches) {
-        const glm::dvec3& t = touch.tracker_from_sensor.translation;
-        const glm::dquat& q = touch.tracker_from_sensor.rotation;
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", t.x, t.y, t.z, q.w, q.x, q.y, q.z,
-                            touch.pixel.x, touch.pixel.y, touch.block_m);
-    }
-    return text;
-}
-
 /// The devices, and what is shown.
 class Table {
 public:
     Table(const Settings& settings, Inputs inputs, std::unique_ptr<Display> display, Typesetter typesetter)
-        : settings_(settings), inputs_(std::move(inputs)), display_(std::move(display)),
-          typesetter_(std::move(typesetter)), upload_(display_->width(), display_->height()),
+        : inputs_(std::move(inputs)), display_(std::move(display)), typesetter_(std::move(typesetter)),
+          upload_(display_->width(), display_->height()),
           prop_px_(settings.prop.base_m * settings.projector.pinhole.fx /
                    settings.projector.table_from_projector.translation.z) {}
 
@@ -103,38 +95,50 @@ private:
         }
     }
     [[nodiscard]] Result<void> show(const TouchProcedure& procedure, MonotonicTime now) {
-        std::vector<std::string> words = touch_words(procedure);
-        words.push_back(fmt::format("{} {}", static_cast<int>(procedure.stage()), procedure.at()));
-        if (words != shown_) {
-            shown_ = words;
-            say_line("frustumscreen-calibrate",
-                     fmt::format("{}", fmt::join(words.begin(), words.end() - 1, " ")));
+        const Shown next{procedure.stage(), procedure.word(), procedure.at()};
+        if (next != shown_) {
+            shown_ = next;
+            uploads_left_ = most_buffers;
+            say_line("frustumscreen-calibrate", fmt::format("{}", fmt::join(touch_words(procedure), " ")));
             picture_ = touch_picture(procedure, display_->width(), display_->height(), prop_px_, typesetter_);
         }
-        upload_.show(picture_, display_->framebuffer());
+        if (uploads_left_ > 0 || display_->buffer_age() == 0) {
+            uploads_left_ = std::max(uploads_left_ - 1, 0);
+            upload_.show(picture_, display_->framebuffer());
+        }
         const Result<MonotonicTime> lit = display_->present(now);
         return lit ? Result<void>() : tl::unexpected<Error>(lit.error());
     }
 
-    const Settings& settings_;
+    /// What the picture depends on.
+    struct Shown {
+        TouchStage stage = TouchStage::Lay;
+        TouchWord word = TouchWord::None;
+        std::size_t at = 0;
+        [[nodiscard]] bool operator==(const Shown&) const = default;
+    };
+    static constexpr int most_buffers = 4; ///< of a display: each gets the picture once
+
     Inputs inputs_;
     std::unique_ptr<Display> display_;
     Typesetter typesetter_;
     PictureUpload upload_;
     double prop_px_;
     Image8 picture_;
-    std::vector<std::string> shown_;
+    std::optional<Shown> shown_;
+    int uploads_left_ = 0;
     std::vector<PoseSample> samples_;
     std::vector<PanelEvent> events_;
     Sentence tracker_state_, panel_state_;
 };
 
-Result<void> calibrate_table(const CalibrateRequest& request) {
-    const Result<CheckedSettings> checked = load_settings(request.config);
-    if (!checked) {
-        return tl::unexpected<Error>(checked.error());
+Result<int> calibrate_table(const CalibrateRequest& request) {
+    const Result<Described> described = describe(request);
+    if (!described) {
+        return tl::unexpected<Error>(described.error());
     }
-    const std::vector<Cross> crosses = crosses_for(**checked, request);
+    const Settings& settings = *described->settings;
+    const std::vector<Cross> crosses = crosses_for(settings, request);
     if (request.json) {
         nlohmann::ordered_json list = nlohmann::ordered_json::array();
         for (const Cross& cross : crosses) {
@@ -144,9 +148,9 @@ Result<void> calibrate_table(const CalibrateRequest& request) {
                             {"turn_deg", glm::degrees(cross.yaw_rad)}});
         }
         fmt::print("{}\n", nlohmann::ordered_json{{"crosses", list}}.dump(2));
-        return {};
+        return 0;
     }
-    Settings raw = **checked;
+    Settings raw = settings;
     raw.tracker.registration = {}; // the device's own reports
     const DevicePlan plan = plan_devices(raw, false, false);
     if (plan.tracker == TrackerKind::None || !plan.panel) {
@@ -167,26 +171,22 @@ Result<void> calibrate_table(const CalibrateRequest& request) {
     if (!inputs) {
         return tl::unexpected<Error>(inputs.error());
     }
-    const Pinhole& pinhole = raw.projector.pinhole;
-    TouchSetup setup;
-    setup.width = pinhole.width;
-    setup.height = pinhole.height;
-    setup.top_m = raw.prop.height_m;
-    setup.sensor_height_m = request.sensor_height_m;
     TouchProcedure procedure(crosses);
     Table table(raw, *std::move(inputs), *std::move(display), *std::move(typesetter));
-    const Result<bool> ended = table.run(procedure, setup);
+    const Result<bool> ended = table.run(procedure, touch_setup(*described, request));
     if (!request.out.empty() && !procedure.touches().empty()) { // nothing that was touched is lost
-        if (Result<void> written = write_file(request.out, as_bytes(csv_of(procedure.touches()))); !written) {
-            return written;
+        if (const Result<void> written = write_file(request.out, as_bytes(touches_text(procedure.touches())));
+            !written) {
+            return tl::unexpected<Error>(written.error());
         }
     }
     if (!ended) {
         return tl::unexpected<Error>(ended.error());
     }
-    return *ended ? keep_touch(request, *procedure.judged(), procedure.touches())
-                  : Result<void>(fail(ErrorKind::BadInput,
-                                      "stopped before the calibration was kept; the one before counts"));
+    if (!*ended) {
+        return fail(ErrorKind::BadInput, "stopped before the calibration was kept; the one before counts");
+    }
+    return keep_touch(settings, *procedure.judged(), procedure.touches()).map([] { return 0; });
 }
 
 } // namespace
@@ -208,8 +208,7 @@ void add_table_command(CLI::App& app, CalibrateRequest& request, std::function<i
     command->add_option("--out", request.out, "writes the touches, CSV, for frustumscreen-calibrate touch");
     command->add_flag("--headless", request.headless, "without a screen, for tests");
     command->add_flag("--json", request.json, "prints the crosses and ends");
-    command->callback(
-        [&] { chosen = [&] { return exit_status("frustumscreen-calibrate", calibrate_table(request)); }; });
+    command->callback([&] { chosen = [&] { return end_with(calibrate_table(request)); }; });
 }
 
 } // namespace frustumscreen

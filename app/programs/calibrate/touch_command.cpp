@@ -1,9 +1,7 @@
 #include "app/programs/calibrate/touch_command.h"
 
-#include "app/calibration/calibrate_touch.h"
 #include "app/calibration/point_files.h"
 #include "app/programs/calibrate/kept_command.h"
-#include "app/programs/common/guarded_main.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
@@ -40,17 +38,8 @@ Json touch_json(const TouchCalibration& c) {
         json["repeat"].push_back(row + 1);
     }
     if (c.table) {
-        const Pinhole& p = c.table->pinhole;
         const glm::dvec3& s = c.table->sensor_offset_m;
-        json["projector"] = {{"width", p.width},
-                             {"height", p.height},
-                             {"fx", p.fx},
-                             {"fy", p.fy},
-                             {"cx", p.cx},
-                             {"cy", p.cy},
-                             {"k1", c.table->pinhole.lens.k1},
-                             {"k2", c.table->pinhole.lens.k2},
-                             {"table_from_projector", matrix_json(c.table->table_from_projector)}};
+        json["projector"] = projector_json(c.table->pinhole, c.table->table_from_projector);
         json["table_from_tracker"] = matrix_json(c.table->table_from_tracker);
         json["sensor_offset_m"] = {s.x, s.y, s.z};
         json["residual_mm"] = mm(c.mean_residual_m, c.worst_residual_m);
@@ -86,37 +75,42 @@ std::string touch_text(const TouchCalibration& c) {
     return text;
 }
 
-int touch(const CalibrateRequest& request) {
-    const Result<PictureSize> size = picture_size(request);
-    if (!size) {
-        return exit_status("frustumscreen-calibrate", tl::unexpected<Error>(size.error()));
+Result<int> touch(const CalibrateRequest& request) {
+    const Result<Described> described = describe(request);
+    if (!described) {
+        return tl::unexpected<Error>(described.error());
     }
     const Result<Bytes> bytes = read_file(request.from);
     if (!bytes) {
-        return exit_status("frustumscreen-calibrate", tl::unexpected<Error>(bytes.error()));
+        return tl::unexpected<Error>(bytes.error());
     }
     const Result<Touches> touches = parse_touches(as_text(*bytes), request.from.string());
     if (!touches) {
-        return exit_status("frustumscreen-calibrate", tl::unexpected<Error>(touches.error()));
+        return tl::unexpected<Error>(touches.error());
     }
-    TouchSetup setup;
-    setup.width = size->width;
-    setup.height = size->height;
-    setup.top_m = size->top_m;
-    setup.sensor_height_m = request.sensor_height_m;
-    const TouchCalibration calibration = calibrate_touch(*touches, setup);
+    const TouchCalibration calibration = calibrate_touch(*touches, touch_setup(*described, request));
     if (request.json) {
         fmt::print("{}\n", touch_json(calibration).dump(2));
     } else {
         fmt::print("{}", touch_text(calibration));
     }
     const int status = status_of(calibration.verdict, request, calibration.reason);
-    return status == 0 && request.keep
-               ? exit_status("frustumscreen-calibrate", keep_touch(request, calibration, *touches))
-               : status;
+    if (status == 0 && request.keep) {
+        return keep_touch(*described->settings, calibration, *touches).map([] { return 0; });
+    }
+    return status;
 }
 
 } // namespace
+
+TouchSetup touch_setup(const Described& described, const CalibrateRequest& request) {
+    TouchSetup setup;
+    setup.width = described.width;
+    setup.height = described.height;
+    setup.top_m = described.top_m;
+    setup.sensor_height_m = request.sensor_height_m;
+    return setup;
+}
 
 void add_touch_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
     CLI::App* const command = app.add_subcommand(
@@ -130,7 +124,7 @@ void add_touch_command(CLI::App& app, CalibrateRequest& request, std::function<i
         ->add_flag("--keep", request.keep,
                    "keeps what is good or usable, in the settings' calibration.folder")
         ->needs("--config");
-    command->callback([&] { chosen = [&] { return touch(request); }; });
+    command->callback([&] { chosen = [&] { return end_with(touch(request)); }; });
 }
 
 } // namespace frustumscreen

@@ -14,6 +14,17 @@ namespace {
 
 constexpr std::uintmax_t most_bytes = 64;
 
+void tell_of_calibration(const CalibrationSettings& calibration, const Journal& journal) {
+    for (const std::string& why : calibration.unused) {
+        journal.note(LogPriority::Error, why);
+    }
+    if (calibration.used) {
+        journal.note(LogPriority::Info,
+                     fmt::format("calibration: {} is used, made {}, of {} places", calibration.used_name,
+                                 calibration.used->made, calibration.used->places));
+    }
+}
+
 std::filesystem::path last_good(const RunPlaces& places) {
     return places.cache.empty() ? std::filesystem::path() : places.cache / "settings_last_good.toml";
 }
@@ -61,6 +72,7 @@ Result<RunMode> choose_run_mode(const RunPlaces& places, const Journal& journal)
     if (!used->instead.empty()) {
         journal.note(LogPriority::Error, used->instead);
     }
+    tell_of_calibration(used->settings->calibration, journal);
     return RunMode{mode, std::move(*used), std::move(packs)};
 }
 

@@ -36,7 +36,7 @@ public:
         clip.y = -clip.y; // the pinhole's is -1 at the top
         const Pinhole& p = projector_.pinhole;
         glm::dvec3 ray = projector_from_table_.point(point);
-        if (const auto bent = p.lens.distort(glm::dvec2(ray) / ray.z); bent && !p.lens.is_plain()) {
+        if (const auto bent = p.lens.distort(glm::dvec2(ray) / ray.z)) {
             ray = glm::dvec3(*bent * ray.z, ray.z);
         }
         return {glm::vec4(clip),
