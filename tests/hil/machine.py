@@ -126,7 +126,13 @@ class Machine:
             self._connect_agent()
         except (OSError, EOFError, MachineError) as error:
             self.stop()
-            raise MachineError(f"the guest did not start ({error}); see {self.logs}") from error
+            raise MachineError(f"the guest did not start ({error}); see {self.logs}; its last lines:\n{self.last_lines()}") from error
+
+    def last_lines(self, count=25):
+        """The end of what the guest has said on its serial line."""
+        log = self.logs / "serial.log"
+        said = log.read_text(encoding="utf-8", errors="replace").splitlines() if log.exists() else []
+        return "\n".join([line for line in said if line.strip()][-count:]) or "(it said nothing)"
 
     def _command(self):
         command = [
