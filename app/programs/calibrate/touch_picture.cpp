@@ -3,9 +3,12 @@
 #include "app/exhibit/canvas.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <set>
 
 namespace frustumscreen {
 
@@ -38,9 +41,18 @@ std::string height_of(const Cross& cross) {
                                : std::string(" on the table");
 }
 
+/// A reason is half a sentence, as programs say it behind a colon.
+std::string sentence(std::string reason) {
+    if (!reason.empty()) {
+        reason.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(reason.front())));
+        reason += '.';
+    }
+    return reason;
+}
+
 std::vector<std::string> words_of_verdict(const TouchCalibration& judged) {
     std::vector<std::string> words{fmt::format("The calibration is: {}", name_of(judged.verdict)),
-                                   judged.reason};
+                                   sentence(judged.reason)};
     if (judged.table) {
         words.push_back(
             fmt::format("Each touch lies {:.1f} mm from where the others expect it, {:.1f} mm at worst.",
@@ -59,6 +71,29 @@ std::vector<std::string> words_of_verdict(const TouchCalibration& judged) {
         break;
     }
     return words;
+}
+
+/// What a technician needs at hand: "boards of 40, 80 and 120 mm", from the heights that the crosses ask for.
+std::string boards_for(const std::vector<Cross>& crosses) {
+    std::set<int> heights_mm;
+    for (const Cross& cross : crosses) {
+        heights_mm.insert(static_cast<int>(std::lround(1e3 * cross.block_m)));
+    }
+    heights_mm.erase(0);
+    return fmt::format("boards that make {} mm", fmt::join(heights_mm, ", "));
+}
+
+std::vector<std::string> words_of_begin(const TouchProcedure& procedure) {
+    if (!procedure.problem().empty()) {
+        return {"The table cannot be measured", sentence(procedure.problem()),
+                "Back returns to the exhibit."};
+    }
+    return {
+        "Staff: measure the table anew",
+        fmt::format("Projector, tracker and the prop's sensor are measured with {} touches; that takes about "
+                    "five minutes. You need the prop and {}.",
+                    procedure.count(), boards_for(procedure.crosses())),
+        "Next begins. Back returns to the exhibit; so does a minute without a press."};
 }
 
 Colour colour_of(const TouchProcedure& procedure) {
@@ -96,6 +131,8 @@ void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, do
 
 std::vector<std::string> touch_words(const TouchProcedure& procedure) {
     switch (procedure.stage()) {
+    case TouchStage::Begin:
+        return words_of_begin(procedure);
     case TouchStage::Lay:
     case TouchStage::HoldStill: {
         std::vector<std::string> words{fmt::format("Touch {} of {}", procedure.at() + 1, procedure.count())};
@@ -116,7 +153,9 @@ std::vector<std::string> touch_words(const TouchProcedure& procedure) {
     case TouchStage::Judged:
         return words_of_verdict(*procedure.judged());
     case TouchStage::Done:
-        return {"The calibration is kept."};
+        return {"The calibration is kept.", "The exhibit comes back with it."};
+    case TouchStage::Left:
+        return {"Nothing was changed.", "The exhibit comes back."};
     }
     return {};
 }
