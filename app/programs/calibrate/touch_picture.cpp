@@ -37,8 +37,8 @@ std::string_view words_of(TouchWord word) {
 }
 
 std::string height_of(const Cross& cross) {
-    return cross.block_m > 0.0 ? fmt::format(" on top of {:.0f} mm of board", 1e3 * cross.block_m)
-                               : std::string(" on the table");
+    return cross.block_m > 0.0 ? fmt::format("on top of {:.0f} mm of board", 1e3 * cross.block_m)
+                               : std::string("on the table");
 }
 
 /// A reason is half a sentence, as programs say it behind a colon.
@@ -140,7 +140,7 @@ std::vector<std::string> touch_words(const TouchProcedure& procedure) {
             procedure.stage() == TouchStage::HoldStill
                 ? "Hold still: one second."
                 : fmt::format(
-                      "Lay the middle of the prop's bottom on the cross,{}, its front along the arrow. "
+                      "Lay the middle of the prop's bottom on the cross, {}, its front along the arrow. "
                       "Then press Next.",
                       height_of(procedure.cross())));
         if (const std::string_view more = words_of(procedure.word()); !more.empty()) {
