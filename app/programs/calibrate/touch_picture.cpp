@@ -110,7 +110,8 @@ glm::dvec2 turned(const glm::dvec2& direction, double yaw_rad) {
     return {c * direction.x + s * direction.y, -s * direction.x + c * direction.y};
 }
 
-/// Its arms reach out from under the prop, along whose sides they lie; the thick one leads to its front.
+/// Its arms reach out from under the prop, along whose sides they lie; the thick one leads to its front. Where that one leaves the picture,
+/// an arrow head on a side arm, beyond the prop, says the same: of two arms that are opposite each other at most one leaves it.
 void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, double prop_px) {
     const Cross& cross = procedure.cross();
     const Colour colour = colour_of(procedure);
@@ -122,8 +123,13 @@ void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, do
     line({-arm, 0.0}, {arm, 0.0}, 1.0, colour);
     line({0.0, -arm}, {0.0, arm}, 1.0, colour);
     line({0.0, 2.0 * unit}, {0.0, arm}, 3.0, front_colour);
-    line({0.0, arm}, {-unit, arm - 1.5 * unit}, 3.0, front_colour);
-    line({0.0, arm}, {unit, arm - 1.5 * unit}, 3.0, front_colour);
+    const auto arrow_head = [&](const glm::dvec2& tip) {
+        line(tip, tip + glm::dvec2(-2.0, -2.5) * unit, 3.0, front_colour);
+        line(tip, tip + glm::dvec2(2.0, -2.5) * unit, 3.0, front_colour);
+    };
+    arrow_head({0.0, arm});
+    arrow_head({-0.85 * arm, 2.0 * unit});
+    arrow_head({0.85 * arm, 2.0 * unit});
     canvas.circle(cross.pixel, 1.5 * unit, 1.0, colour);
 }
 
@@ -180,10 +186,11 @@ Image8 touch_picture(const TouchProcedure& procedure, int width, int height, dou
     canvas.coverage(
         coverage, {(width - coverage.width) / 2, static_cast<int>(std::max(top, unit))},
         procedure.word() == TouchWord::Taken || procedure.word() == TouchWord::None ? white : front_colour);
-    for (int k = 0; k < static_cast<int>(procedure.count()); ++k) { // one dot for each touch
+    for (int k = 0; k < static_cast<int>(procedure.count());
+         ++k) { // one dot for each touch, on the same side
         const glm::dvec2 at((0.5 * width) +
                                 (k - 0.5 * (static_cast<int>(procedure.count()) - 1)) * 4.0 * unit,
-                            height - 3.0 * unit);
+                            below ? height - 3.0 * unit : 3.0 * unit);
         canvas.circle(at, unit, procedure.is_taken(static_cast<std::size_t>(k)) ? 4.0 : 1.0,
                       procedure.is_taken(static_cast<std::size_t>(k)) ? good_colour : dim);
     }
