@@ -1,6 +1,6 @@
 // Draws what the table shows during its calibration, for the guide: the beginning, a cross, a verdict.
 //
-//   draw_calibration_pictures FOLDER
+//   draw_calibration_pictures FOLDER [WORDS LANGUAGE]
 
 #include "app/image/image.h"
 #include "app/programs/calibrate/touch_picture.h"
@@ -11,6 +11,8 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <span>
 
 namespace frustumscreen {
 namespace {
@@ -19,9 +21,34 @@ constexpr int width = 1280;
 constexpr int height = 800;
 constexpr double prop_px = 480.0; ///< 30 cm under a projector of throw ratio 1.875 at 1.5 m
 
-Result<void> draw(const TouchProcedure& procedure, const Typesetter& typesetter,
-                  const std::filesystem::path& file) {
-    return write_file(file, encode_png(touch_picture(procedure, width, height, prop_px, typesetter)));
+struct Means {
+    Typesetter typesetter;
+    std::optional<LanguageWords> house;
+};
+
+Result<void> draw(const TouchProcedure& procedure, const Means& means, const std::filesystem::path& file) {
+    return write_file(file, encode_png(touch_picture(procedure, width, height, prop_px, means.typesetter,
+                                                     means.house ? &*means.house : nullptr)));
+}
+
+/// `words`: file and language, or nothing.
+Result<Means> means_with(std::span<char*> words) {
+    Result<Typesetter> typesetter = Typesetter::open();
+    if (!typesetter) {
+        return tl::unexpected<Error>(typesetter.error());
+    }
+    if (words.empty()) {
+        return Means{*std::move(typesetter), std::nullopt};
+    }
+    const Result<Bytes> file = read_file(words[0]);
+    if (!file) {
+        return tl::unexpected<Error>(file.error());
+    }
+    Result<LanguageWords> house = read_words(*file, words[1]);
+    if (!house) {
+        return tl::unexpected<Error>(house.error());
+    }
+    return Means{*std::move(typesetter), *std::move(house)};
 }
 
 /// The prop is laid on every cross, as a tracker would report it.
@@ -37,10 +64,10 @@ void touch_all(TouchProcedure& procedure) {
     }
 }
 
-Result<void> draw_all(const std::filesystem::path& folder) {
-    const Result<Typesetter> typesetter = Typesetter::open();
-    if (!typesetter) {
-        return tl::unexpected<Error>(typesetter.error());
+Result<void> draw_all(const std::filesystem::path& folder, std::span<char*> words) {
+    const Result<Means> means = means_with(words);
+    if (!means) {
+        return tl::unexpected<Error>(means.error());
     }
     Pinhole pinhole;
     pinhole.width = width;
@@ -49,10 +76,10 @@ Result<void> draw_all(const std::filesystem::path& folder) {
     pinhole.cx = 0.5 * width;
     pinhole.cy = 0.5 * height;
     TouchProcedure procedure(choose_crosses(rough_model(pinhole, 1.5, 0.085), {}));
-    Result<void> drawn = draw(procedure, *typesetter, folder / "calibrate_begin.png");
+    Result<void> drawn = draw(procedure, *means, folder / "calibrate_begin.png");
     procedure.step({MonotonicTime{}, std::nullopt, true, false});
     if (drawn) {
-        drawn = draw(procedure, *typesetter, folder / "calibrate_cross.png");
+        drawn = draw(procedure, *means, folder / "calibrate_cross.png");
     }
     touch_all(procedure);
     TouchCalibration judged; // as a table with the usual noise gets it
@@ -62,18 +89,19 @@ Result<void> draw_all(const std::filesystem::path& folder) {
     judged.mean_residual_m = 6e-4;
     judged.worst_residual_m = 1.3e-3;
     procedure.judge(std::move(judged));
-    return drawn ? draw(procedure, *typesetter, folder / "calibrate_verdict.png") : drawn;
+    return drawn ? draw(procedure, *means, folder / "calibrate_verdict.png") : drawn;
 }
 
 } // namespace
 } // namespace frustumscreen
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        fmt::print(stderr, "usage: draw_calibration_pictures FOLDER\n");
+    if (argc != 2 && argc != 4) {
+        fmt::print(stderr, "usage: draw_calibration_pictures FOLDER [WORDS LANGUAGE]\n");
         return 2;
     }
-    const auto drawn = frustumscreen::draw_all(argv[1]);
+    const auto drawn =
+        frustumscreen::draw_all(argv[1], std::span(argv, static_cast<std::size_t>(argc)).subspan(2));
     if (!drawn) {
         fmt::print(stderr, "draw_calibration_pictures: {}\n", drawn.error().message);
         return 1;

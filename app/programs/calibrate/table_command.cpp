@@ -3,11 +3,13 @@
 #include "app/calibration/point_files.h"
 #include "app/calibration/touch_procedure.h"
 #include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/table_voice.h"
 #include "app/programs/calibrate/touch_command.h"
 #include "app/programs/calibrate/touch_picture.h"
 #include "app/programs/devices/wiring.h"
 #include "app/render/picture_upload.h"
 #include "app/settings/settings.h"
+#include "app/show/house_words.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/standard_error.h"
 #include "firmware_host/service/service_manager.h"
@@ -60,12 +62,33 @@ constexpr const char* no_sensor_height =
     "nobody knows how high the sensor is above the prop's bottom; measure it with a ruler and set "
     "calibration.sensor_height_m";
 
+/// A calibration goes on without them, in English.
+std::optional<LanguageWords> house_words(const Settings& settings) {
+    if (settings.exhibit.words.empty()) {
+        return std::nullopt;
+    }
+    Result<LanguageWords> words = read_house_words(settings, "calibration.lay");
+    if (!words) {
+        say_line("frustumscreen-calibrate", words.error().message);
+        return std::nullopt;
+    }
+    return *std::move(words);
+}
+
+std::optional<TableVoice> voice_of(const Settings& settings, const std::optional<LanguageWords>& words) {
+    if (!words || settings.sound.kind == SoundKind::None) {
+        return std::nullopt;
+    }
+    return TableVoice(*words, make_sound(settings.sound), settings.sound.gain_db);
+}
+
 /// The devices, and what is shown.
 class Table {
 public:
     Table(const Settings& settings, Inputs inputs, std::unique_ptr<Display> display, Typesetter typesetter)
         : inputs_(std::move(inputs)), display_(std::move(display)), typesetter_(std::move(typesetter)),
-          upload_(display_->width(), display_->height()),
+          upload_(display_->width(), display_->height()), house_(house_words(settings)),
+          voice_(voice_of(settings, house_)),
           prop_px_(settings.prop.base_m * settings.projector.pinhole.fx /
                    settings.projector.table_from_projector.translation.z) {}
 
@@ -91,6 +114,7 @@ public:
     void stay(const TouchProcedure& procedure) {
         const MonotonicTime end = monotonic_now() + last_words;
         while (!stop_.received() && monotonic_now() < end && show(procedure, monotonic_now())) {
+            speak(monotonic_now());
             std::this_thread::sleep_for(between_frames);
         }
     }
@@ -112,6 +136,7 @@ private:
             input.back |= event.kind == PressKind::Press && event.button == back_button;
         }
         procedure.step(input);
+        speak(now);
         tell(inputs_.tracker->state(), "tracker", tracker_state_);
         tell(inputs_.panel->state(), "panel", panel_state_);
     }
@@ -121,13 +146,22 @@ private:
             say_line("frustumscreen-calibrate", fmt::format("{}: {}", device, state));
         }
     }
+    void speak(MonotonicTime now) {
+        if (voice_) {
+            voice_->poll(now);
+        }
+    }
     [[nodiscard]] Result<void> show(const TouchProcedure& procedure, MonotonicTime now) {
         const Shown next{procedure.stage(), procedure.word(), procedure.at()};
         if (next != shown_) {
             shown_ = next;
             uploads_left_ = most_buffers;
             say_line("frustumscreen-calibrate", fmt::format("{}", fmt::join(touch_words(procedure), " ")));
-            picture_ = touch_picture(procedure, display_->width(), display_->height(), prop_px_, typesetter_);
+            picture_ = touch_picture(procedure, display_->width(), display_->height(), prop_px_, typesetter_,
+                                     house_ ? &*house_ : nullptr);
+            if (voice_) {
+                voice_->say(word_key(procedure));
+            }
         }
         if (uploads_left_ > 0 || display_->buffer_age() == 0) {
             uploads_left_ = std::max(uploads_left_ - 1, 0);
@@ -166,6 +200,8 @@ private:
     std::unique_ptr<Display> display_;
     Typesetter typesetter_;
     PictureUpload upload_;
+    std::optional<LanguageWords> house_; ///< none: it is silent, and in English alone
+    std::optional<TableVoice> voice_;
     double prop_px_;
     Image8 picture_;
     std::optional<Shown> shown_;

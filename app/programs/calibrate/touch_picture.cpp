@@ -1,6 +1,8 @@
 #include "app/programs/calibrate/touch_picture.h"
 
 #include "app/exhibit/canvas.h"
+#include "app/exhibit/coverage.h"
+#include "app/exhibit/glyph_image.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,6 +16,7 @@ namespace frustumscreen {
 
 namespace {
 
+constexpr double widest_em = 36.0; ///< what words are broken for at the bake
 constexpr Colour white{255, 255, 255};
 constexpr Colour dim{150, 150, 150};
 constexpr Colour front_colour{255, 184, 92};
@@ -133,6 +136,60 @@ void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, do
     canvas.circle(cross.pixel, 1.5 * unit, 1.0, colour);
 }
 
+std::string_view key_of_lay(const TouchProcedure& procedure) {
+    switch (procedure.word()) {
+    case TouchWord::NotSeen:
+        return "calibration.not_seen";
+    case TouchWord::SamePlace:
+        return "calibration.same_place";
+    case TouchWord::Taken: {
+        const bool is_raised =
+            procedure.at() > 0 && procedure.cross().block_m > procedure.crosses()[procedure.at() - 1].block_m;
+        return is_raised ? "calibration.on_boards" : "calibration.taken";
+    }
+    default:
+        return "calibration.lay";
+    }
+}
+
+std::string_view key_of(Verdict verdict) {
+    switch (verdict) {
+    case Verdict::Good:
+    case Verdict::Usable:
+        return "calibration.may_be_kept";
+    case Verdict::Repeat:
+        return "calibration.repeat";
+    case Verdict::Refused:
+        return "calibration.refused";
+    }
+    return "";
+}
+
+/// What is said now, set in the house's language; empty where that is English, which the other words are in.
+Image<std::uint8_t> house_sentence(const TouchProcedure& procedure, const LanguageWords* house,
+                                   double width_px) {
+    if (house == nullptr || house->language.starts_with("en")) {
+        return {};
+    }
+    const double em_px = width_px / widest_em;
+    const GlyphSetting* const setting = fitting_setting(house->runs.find(word_key(procedure)), widest_em);
+    return setting != nullptr ? glyph_image(house->runs, house->atlas, *setting, em_px).coverage
+                              : Image<std::uint8_t>();
+}
+
+/// One picture of two, from their left edges.
+Image<std::uint8_t> above(const Image<std::uint8_t>& upper, const Image<std::uint8_t>& lower,
+                          double between_px) {
+    if (upper.width == 0) {
+        return lower;
+    }
+    const int top = upper.height + static_cast<int>(between_px);
+    Image<std::uint8_t> both(std::max(upper.width, lower.width), top + lower.height);
+    draw_lighter(upper, 1.0, 0, 0, both);
+    draw_lighter(lower, 1.0, 0, top, both);
+    return both;
+}
+
 } // namespace
 
 std::vector<std::string> touch_words(const TouchProcedure& procedure) {
@@ -166,8 +223,28 @@ std::vector<std::string> touch_words(const TouchProcedure& procedure) {
     return {};
 }
 
+std::string_view word_key(const TouchProcedure& procedure) {
+    switch (procedure.stage()) {
+    case TouchStage::Begin:
+        return procedure.problem().empty() ? "calibration.begin" : "";
+    case TouchStage::Lay:
+        return key_of_lay(procedure);
+    case TouchStage::HoldStill:
+        return procedure.word() == TouchWord::Moved ? "calibration.moved" : "calibration.hold_still";
+    case TouchStage::Solve:
+        return "calibration.all_taken";
+    case TouchStage::Judged:
+        return key_of(procedure.judged()->verdict);
+    case TouchStage::Done:
+        return "calibration.kept";
+    case TouchStage::Left:
+        return "calibration.left";
+    }
+    return "";
+}
+
 Image8 touch_picture(const TouchProcedure& procedure, int width, int height, double prop_px,
-                     const Typesetter& typesetter) {
+                     const Typesetter& typesetter, const LanguageWords* house) {
     Canvas canvas(width, height, {0, 0, 0});
     const double unit = width / 160.0;
     const bool has_cross = procedure.stage() == TouchStage::Lay || procedure.stage() == TouchStage::HoldStill;
@@ -181,7 +258,8 @@ Image8 touch_picture(const TouchProcedure& procedure, int width, int height, dou
         const bool is_first = paragraphs.empty();
         paragraphs.push_back({line, (is_first ? 4.0 : 2.6) * unit, is_first, 1.0, is_first ? 0.0 : unit});
     }
-    const Image<std::uint8_t> coverage = typesetter.set(paragraphs, 0.6 * width);
+    const Image<std::uint8_t> coverage = above(house_sentence(procedure, house, 0.6 * width),
+                                               typesetter.set(paragraphs, 0.6 * width), 2.5 * unit);
     const double top = below ? (has_cross ? 0.62 : 0.4) * height : 0.38 * height - coverage.height;
     canvas.coverage(
         coverage, {(width - coverage.width) / 2, static_cast<int>(std::max(top, unit))},
