@@ -1,9 +1,8 @@
 #include "app/calibration/plane_view.h"
 
-#include <Eigen/Geometry>
-#include <Eigen/SVD>
+#include "app/calibration/homography.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -21,55 +20,20 @@ constexpr int sample_count = 120;
 
 using Points = std::vector<const PropPoint*>;
 
-/// Maps points about their middle to a mean distance of 1.
-Eigen::Matrix3d scaling(std::span<const Eigen::Vector2d> points) {
-    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-    for (const Eigen::Vector2d& point : points) {
-        middle += point / static_cast<double>(points.size());
-    }
-    double reach = 1e-12;
-    for (const Eigen::Vector2d& point : points) {
-        reach += (point - middle).norm() / static_cast<double>(points.size());
-    }
-    Eigen::Matrix3d scale = Eigen::Matrix3d::Identity() / reach;
-    scale.col(2) << -middle / reach, 1.0;
-    return scale;
-}
-
-/// By the direct linear transformation. Nothing if the points do not span a plane.
-std::optional<Eigen::Matrix3d> homography(const Points& points) {
+std::optional<Eigen::Matrix3d> homography_of(const Points& points) {
     std::vector<Eigen::Vector2d> from;
     std::vector<Eigen::Vector2d> to;
     for (const PropPoint* point : points) {
         from.emplace_back(point->prop_m.x, point->prop_m.y);
         to.emplace_back(point->pixel.x, point->pixel.y);
     }
-    const Eigen::Matrix3d scale_from = scaling(from);
-    const Eigen::Matrix3d scale_to = scaling(to);
-    Eigen::Matrix<double, Eigen::Dynamic, 9> equations(static_cast<Eigen::Index>(2 * points.size()), 9);
-    equations.setZero();
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        const Eigen::Vector3d x = scale_from * from[k].homogeneous();
-        const Eigen::Vector3d u = scale_to * to[k].homogeneous();
-        const auto row = static_cast<Eigen::Index>(2 * k);
-        equations.block<1, 3>(row, 0) = x.transpose();
-        equations.block<1, 3>(row, 6) = -u.x() * x.transpose();
-        equations.block<1, 3>(row + 1, 3) = x.transpose();
-        equations.block<1, 3>(row + 1, 6) = -u.y() * x.transpose();
-    }
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(equations, Eigen::ComputeFullV);
-    if (!(svd.singularValues()[7] > 1e-2)) {
-        return std::nullopt;
-    }
-    const Eigen::VectorXd h = svd.matrixV().col(8);
-    Eigen::Matrix3d scaled;
-    scaled << h.segment<3>(0).transpose(), h.segment<3>(3).transpose(), h.segment<3>(6).transpose();
-    return scale_to.inverse() * scaled * scale_from;
+    return homography(from, to);
 }
 
 double distance_px(const Eigen::Matrix3d& pixel_from_plane, const PropPoint& point) {
-    const Eigen::Vector3d u = pixel_from_plane * Eigen::Vector3d(point.prop_m.x, point.prop_m.y, 1.0);
-    return (u.head<2>() / u.z() - Eigen::Vector2d(point.pixel.x, point.pixel.y)).norm();
+    return (mapped(pixel_from_plane, {point.prop_m.x, point.prop_m.y}) -
+            Eigen::Vector2d(point.pixel.x, point.pixel.y))
+        .norm();
 }
 
 double median_px(const Eigen::Matrix3d& pixel_from_plane, const Points& points) {
@@ -120,7 +84,7 @@ std::optional<Eigen::Matrix3d> least_median(const Points& points) {
     std::uint64_t state = 1;
     const int samples = points.size() == 4 ? 1 : sample_count;
     for (int k = 0; k < samples; ++k) {
-        const auto tried = homography(sample_of(points, state));
+        const auto tried = homography_of(sample_of(points, state));
         if (!tried) {
             continue;
         }
@@ -135,8 +99,8 @@ std::optional<Eigen::Matrix3d> least_median(const Points& points) {
 } // namespace
 
 glm::dvec2 PlaneView::pixel(const glm::dvec2& plane_point) const {
-    const Eigen::Vector3d u = pixel_from_plane * Eigen::Vector3d(plane_point.x, plane_point.y, 1.0);
-    return {u.x() / u.z(), u.y() / u.z()};
+    const Eigen::Vector2d u = mapped(pixel_from_plane, {plane_point.x, plane_point.y});
+    return {u.x(), u.y()};
 }
 
 std::optional<PlaneView> plane_view(const Rest& rest) {
@@ -156,7 +120,7 @@ std::optional<PlaneView> plane_view(const Rest& rest) {
             fitting.push_back(point);
         }
     }
-    const auto fine = homography(fitting);
+    const auto fine = homography_of(fitting);
     if (!fine || 2 * fitting.size() < points.size()) {
         return std::nullopt;
     }

@@ -69,12 +69,12 @@ std::optional<glm::dvec2> true_pixel(const CalibratedTable& truth, const glm::dv
     return inside ? std::optional(pixel) : std::nullopt;
 }
 
-Rests simulated_rests(const SimulatedTable& table, const TagCorners& corners, const RestPlan& plan,
-                      const RestNoise& noise, SeededNumbers& numbers) {
+std::vector<PlacedRest> placed_rests(const SimulatedTable& table, const RestPlan& plan,
+                                     const RestNoise& noise, SeededNumbers& numbers) {
     const int columns = static_cast<int>(std::ceil(std::sqrt(1.5 * plan.count)));
     const int rows = (plan.count + columns - 1) / columns;
     const glm::dvec2 size(table.truth.pinhole.width, table.truth.pinhole.height);
-    Rests rests;
+    std::vector<PlacedRest> rests;
     for (int k = 0; k < plan.count; ++k) {
         const bool leans = k * plan.leaning / plan.count != (k + 1) * plan.leaning / plan.count;
         const double block = plan.blocks_m[numbers.below(plan.blocks_m.size())];
@@ -83,23 +83,33 @@ Rests simulated_rests(const SimulatedTable& table, const TagCorners& corners, co
         const glm::dvec3 light = true_light(table.truth, (0.04 + 0.92 * cell) * size, block);
         const double lean = leans ? numbers.between(0.26, 0.52) : 0.0;
         const glm::dvec3 raised(0.0, 0.0, leans ? 0.05 : noise.block_m * numbers.normal());
-        const glm::dmat4 table_from_prop =
+        PlacedRest rest;
+        rest.table_from_prop =
             placed(light + raised, numbers.between(0.0, 2.0 * pi), lean, numbers.between(0.0, 2.0 * pi));
-        Rest rest;
-        rest.name = k + 1;
-        rest.tracker_from_sensor = reported(table, table_from_prop, noise, numbers);
-        rest.block_m = leans ? std::nullopt : std::optional(block);
+        rest.rest.name = k + 1;
+        rest.rest.tracker_from_sensor = reported(table, rest.table_from_prop, noise, numbers);
+        rest.rest.block_m = leans ? std::nullopt : std::optional(block);
+        rests.push_back(std::move(rest));
+    }
+    return rests;
+}
+
+Rests simulated_rests(const SimulatedTable& table, const TagCorners& corners, const RestPlan& plan,
+                      const RestNoise& noise, SeededNumbers& numbers) {
+    const glm::dvec2 size(table.truth.pinhole.width, table.truth.pinhole.height);
+    Rests rests;
+    for (const PlacedRest& place : placed_rests(table, plan, noise, numbers)) {
+        rests.push_back(place.rest);
         bool hidden = false;
         for (std::size_t j = 0; j < corners.size(); ++j) {
             hidden = j % 4 == 0 ? numbers.between(0.0, 1.0) < plan.unseen : hidden;
             const auto pixel =
-                true_pixel(table.truth, glm::dvec3(table_from_prop * glm::dvec4(corners[j], 1.0)));
+                true_pixel(table.truth, glm::dvec3(place.table_from_prop * glm::dvec4(corners[j], 1.0)));
             const glm::dvec2 off = noise.pixel * glm::dvec2{numbers.normal(), numbers.normal()};
             if (pixel && !hidden) {
-                rest.points.push_back({corners[j], glm::clamp(*pixel + off, glm::dvec2(0.0), size)});
+                rests.back().points.push_back({corners[j], glm::clamp(*pixel + off, glm::dvec2(0.0), size)});
             }
         }
-        rests.push_back(std::move(rest));
     }
     return rests;
 }

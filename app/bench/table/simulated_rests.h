@@ -25,7 +25,15 @@ struct RestPlan {
     std::vector<double> blocks_m{0.0, 0.04, 0.08, 0.12};
 };
 
+/// A rest of which no point is known yet, and where the prop truly is.
+struct PlacedRest {
+    Rest rest;
+    glm::dmat4 table_from_prop{1.0};
+};
 /// Anywhere: each cell of a grid over the picture has one rest at a place of chance, turned by chance, on some block.
+[[nodiscard]] std::vector<PlacedRest> placed_rests(const SimulatedTable& table, const RestPlan& plan,
+                                                   const RestNoise& noise, SeededNumbers& numbers);
+/// With the tags' corners, but for those beside the picture and the tags that the camera does not see.
 [[nodiscard]] Rests simulated_rests(const SimulatedTable& table, const TagCorners& corners,
                                     const RestPlan& plan, const RestNoise& noise, SeededNumbers& numbers);
 
