@@ -17,6 +17,9 @@ constexpr double largest_prop_m = 1.0;
 constexpr double least_prop_m = 0.02;
 
 std::optional<std::string> bad_points(const Rest& rest) {
+    if (rest.points.empty()) {
+        return fmt::format("rest {} has no points", rest.name);
+    }
     double reach = 0.0;
     for (const PropPoint& point : rest.points) {
         if (!std::isfinite(point.prop_m.x + point.prop_m.y + point.prop_m.z)) {

@@ -5,7 +5,7 @@
 /// Source   Hartley, In defense of the eight-point algorithm, 1997; Hartley and Zisserman, Multiple view geometry, 2004, 4.1
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 #include <span>
 

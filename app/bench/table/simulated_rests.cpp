@@ -99,16 +99,23 @@ Rests simulated_rests(const SimulatedTable& table, const TagCorners& corners, co
     const glm::dvec2 size(table.truth.pinhole.width, table.truth.pinhole.height);
     Rests rests;
     for (const PlacedRest& place : placed_rests(table, plan, noise, numbers)) {
-        rests.push_back(place.rest);
-        bool hidden = false;
-        for (std::size_t j = 0; j < corners.size(); ++j) {
-            hidden = j % 4 == 0 ? numbers.between(0.0, 1.0) < plan.unseen : hidden;
-            const auto pixel =
-                true_pixel(table.truth, glm::dvec3(place.table_from_prop * glm::dvec4(corners[j], 1.0)));
-            const glm::dvec2 off = noise.pixel * glm::dvec2{numbers.normal(), numbers.normal()};
-            if (pixel && !hidden) {
-                rests.back().points.push_back({corners[j], glm::clamp(*pixel + off, glm::dvec2(0.0), size)});
+        Rest rest = place.rest;
+        for (std::size_t tag = 0; tag < corners.size(); tag += 4) {
+            std::vector<PropPoint> found;
+            for (std::size_t j = tag; j < tag + 4; ++j) {
+                const auto pixel =
+                    true_pixel(table.truth, glm::dvec3(place.table_from_prop * glm::dvec4(corners[j], 1.0)));
+                const glm::dvec2 off = noise.pixel * glm::dvec2{numbers.normal(), numbers.normal()};
+                if (pixel) {
+                    found.push_back({corners[j], glm::clamp(*pixel + off, glm::dvec2(0.0), size)});
+                }
             }
+            if (found.size() == 4 && numbers.between(0.0, 1.0) >= plan.unseen) {
+                rest.points.insert(rest.points.end(), found.begin(), found.end());
+            }
+        }
+        if (!rest.points.empty()) {
+            rests.push_back(std::move(rest));
         }
     }
     return rests;

@@ -33,7 +33,7 @@ struct PlacedRest {
 /// Anywhere: each cell of a grid over the picture has one rest at a place of chance, turned by chance, on some block.
 [[nodiscard]] std::vector<PlacedRest> placed_rests(const SimulatedTable& table, const RestPlan& plan,
                                                    const RestNoise& noise, SeededNumbers& numbers);
-/// With the tags' corners, but for those beside the picture and the tags that the camera does not see.
+/// With the corners of the tags that lie in the picture and are seen; a rest without any is none.
 [[nodiscard]] Rests simulated_rests(const SimulatedTable& table, const TagCorners& corners,
                                     const RestPlan& plan, const RestNoise& noise, SeededNumbers& numbers);
 
