@@ -45,7 +45,8 @@ public:
     }
     [[nodiscard]] std::optional<double> place(std::size_t pixel, double contrast,
                                               const DecodeLimits& limits) const {
-        const std::optional<double> within = wave(pixel, limits.least_wave * contrast);
+        const std::optional<double> within =
+            wave(pixel, std::fmax(limits.least_amplitude, limits.least_wave * contrast));
         const std::optional<std::uint32_t> stripe = half_period(pixel, limits.least_bit * contrast);
         if (!within || !stripe) {
             return std::nullopt;
@@ -157,6 +158,7 @@ PixelMap decode(const StripeSetup& setup, const Captures& captures, const Decode
     map.height = captures.height;
     map.pixels.resize(white.size());
     map.known.resize(white.size());
+    map.contrast.resize(white.size());
     for (std::size_t k = 0; k < white.size(); ++k) {
         const double contrast = static_cast<double>(white[k]) - static_cast<double>(black[k]);
         if (contrast < limits.least_contrast) {
@@ -167,6 +169,7 @@ PixelMap decode(const StripeSetup& setup, const Captures& captures, const Decode
         if (u && v) {
             map.pixels[k] = {*u, *v};
             map.known[k] = 1;
+            map.contrast[k] = static_cast<std::uint8_t>(contrast);
         }
     }
     return map;

@@ -45,10 +45,11 @@ struct Pattern {
 /// What is believed, in grey levels of 255 and in shares of white less black.
 struct DecodeLimits {
     double least_contrast = 12.0; ///< of white and black: below, the projector does not light it
+    double least_amplitude = 3.0; ///< of the cosine: below, the camera's noise turns it
     double least_wave =
-        0.15; ///< amplitude of the cosine: below, light comes there by way of other places, or is blurred away
+        0.05; ///< the same as a share: below, light comes by way of other places, or is blurred away
     double least_bit =
-        0.2; ///< of a bit and its inverse: below, it is not believed; one such bit an axis is a stripe's edge
+        0.2; ///< share, of a bit and its inverse: below, it is not believed; one such bit an axis is a stripe's edge
 };
 
 /// Captures: one of each pattern, in their order, `width` * `height` bytes each.
@@ -63,7 +64,8 @@ struct PixelMap {
     int width = 0;
     int height = 0;
     std::vector<glm::dvec2> pixels;
-    std::vector<std::uint8_t> known; ///< 1 where `pixels` is
+    std::vector<std::uint8_t> known;    ///< 1 where `pixels` is
+    std::vector<std::uint8_t> contrast; ///< grey levels of white less black, where known
 
     [[nodiscard]] std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);

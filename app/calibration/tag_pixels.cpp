@@ -11,6 +11,8 @@ namespace {
 
 /// The white rim around a tag belongs to its plane; what is farther out may not.
 constexpr double reach = 1.15;
+/// Share of the contrast of the tag's white.
+constexpr double least_white = 0.75;
 constexpr std::size_t least_pixels = 60;
 /// A decoded pixel that is so many times as far off as most is wrong.
 constexpr double farthest = 4.0;
@@ -28,7 +30,7 @@ bool is_inside(const std::array<glm::dvec2, 4>& corners, const glm::dvec2& place
     return left == 0 || left == 4;
 }
 
-/// Decoded pixels in a quadrilateral: the camera's, and the projector's.
+/// Decoded pixels on white in a quadrilateral: the camera's, and the projector's. On black, and on its edge, the light of white beside it tells.
 std::pair<Points, Points> decoded_in(const PixelMap& map, const std::array<glm::dvec2, 4>& corners) {
     glm::dvec2 low = corners[0];
     glm::dvec2 high = corners[0];
@@ -39,15 +41,25 @@ std::pair<Points, Points> decoded_in(const PixelMap& map, const std::array<glm::
     const glm::dvec2 size(map.width, map.height);
     const glm::ivec2 from(glm::clamp(low, glm::dvec2(0.0), size));
     const glm::ivec2 to(glm::clamp(glm::ceil(high), glm::dvec2(0.0), size));
-    std::pair<Points, Points> points;
+    std::vector<std::pair<glm::dvec2, std::size_t>> inside;
+    std::vector<std::uint8_t> contrasts;
     for (int y = from.y; y < to.y; ++y) {
         for (int x = from.x; x < to.x; ++x) {
             const glm::dvec2 place(x + 0.5, y + 0.5);
             const std::size_t k = map.index(x, y);
             if (map.known[k] != 0 && is_inside(corners, place)) {
-                points.first.emplace_back(place.x, place.y);
-                points.second.emplace_back(map.pixels[k].x, map.pixels[k].y);
+                inside.emplace_back(place, k);
+                contrasts.push_back(map.contrast[k]);
             }
+        }
+    }
+    std::sort(contrasts.begin(), contrasts.end());
+    const double white = contrasts.empty() ? 0.0 : contrasts[contrasts.size() * 9 / 10];
+    std::pair<Points, Points> points;
+    for (const auto& [place, k] : inside) {
+        if (map.contrast[k] > least_white * white) {
+            points.first.emplace_back(place.x, place.y);
+            points.second.emplace_back(map.pixels[k].x, map.pixels[k].y);
         }
     }
     return points;
