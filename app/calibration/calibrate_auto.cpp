@@ -30,19 +30,17 @@ Rests with_unit_rotations(std::span<const Rest> rests) {
     return out;
 }
 
-/// The touches' part of a fit, the prop's turn in the sensor marginalised, so that it can be judged as theirs.
+/// The touches' part of a fit, what rests have more of marginalised with its priors, so that it can be judged as theirs.
 Fit touch_part(const RestFit& fit) {
-    const auto marginal = [](const RestCovariance& information) -> Covariance {
-        const Eigen::Matrix3d turn = information.block<3, 3>(prop_turn_x, prop_turn_x);
-        const Eigen::Matrix<double, unknown_count, 3> across =
-            information.block<unknown_count, 3>(0, prop_turn_x);
-        return information.topLeftCorner<unknown_count, unknown_count>() -
-               across * turn.ldlt().solve(across.transpose());
-    };
+    constexpr int more = int{rest_unknown_count} - int{unknown_count};
+    const Eigen::Matrix<double, more, more> tail = fit.information().bottomRightCorner<more, more>();
+    const Eigen::Matrix<double, unknown_count, more> across =
+        fit.from_rests.topRightCorner<unknown_count, more>(); // priors and height tie none of them together
     Fit part;
     part.model = fit.model.touch;
     part.middle = fit.middle;
-    part.from_touches = marginal(fit.from_rests);
+    part.from_touches = fit.from_rests.topLeftCorner<unknown_count, unknown_count>() -
+                        across * tail.ldlt().solve(across.transpose());
     part.from_height = fit.from_height.topLeftCorner<unknown_count, unknown_count>();
     part.from_priors = fit.from_priors.topLeftCorner<unknown_count, unknown_count>();
     return part;
@@ -75,7 +73,7 @@ TouchResidual residual_of(const Rest& rest, std::span<const double> weights, con
             continue;
         }
         const glm::dvec3 place =
-            (rest.tracker_from_sensor * others.prop_in_sensor()).point(rest.points[k].prop_m);
+            (rest.tracker_from_sensor * others.prop_in_sensor()).point(others.printed(rest.points[k].prop_m));
         const auto lit = others.touch.lit(rest.points[k].pixel, others.touch.height(place));
         const auto pixel = others.touch.pixel(place);
         constexpr double nowhere = 1e3; // metres and pixels: no light comes there
@@ -183,6 +181,7 @@ AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, cons
     }
     calibration.sensor_from_prop = found.fit.model.prop_in_sensor();
     calibration.pixel_noise = found.pixel_noise;
+    calibration.print = found.fit.model.print;
     count_wrong_points(calibration, found.weights);
     const std::vector<ZonePlace> places = zone_places(fit.model, fit.middle, zone);
     table.uncertainty = picture_uncertainty(

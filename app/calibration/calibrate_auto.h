@@ -27,6 +27,7 @@ struct AutoCalibration {
     TouchCalibration found;
     RigidTransform sensor_from_prop;       ///< none if refused, as all that follows
     std::vector<std::size_t> points_wrong; ///< of each rest, how many were left out
+    double print = 1.0;                    ///< how many times as large as it should be the sheet was printed
     double pixel_noise = 0.0;              ///< of a point, found; pixels
 };
 

@@ -16,6 +16,8 @@ namespace {
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, rest_unknown_count>;
 using PoseRows = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 using Jet = ceres::Jet<double, rest_unknown_count>;
+/// Those of any projector, and that of the print.
+constexpr int rest_prior_count = prior_count + 1;
 
 /// Where the heights of a standing prop's bottom are taken, so that they tell its tilt.
 const std::array<Eigen::Vector3d, 3> bottom_places{
@@ -44,13 +46,16 @@ Eigen::Matrix<T, Eigen::Dynamic, 1> raw_residuals(const ChangedRestModel<T>& mod
     Eigen::Matrix<T, Eigen::Dynamic, 1> out(row_count(rest));
     Eigen::Index row = 0;
     for (const PropPoint& point : rest.points) {
-        const Vector seen = model.touch.pixel_and_height(sensor + model.arm(turn, eigen(point.prop_m)));
+        const Vector seen =
+            model.touch.pixel_and_height(sensor + model.arm(turn, model.printed(point.prop_m)));
         out[row++] = seen.x() - point.pixel.x;
         out[row++] = seen.y() - point.pixel.y;
     }
     for (const Eigen::Vector3d& place : bottom_places) {
         if (rest.block_m) {
-            out[row++] = model.touch.pixel_and_height(sensor + model.arm(turn, place)).z() - *rest.block_m;
+            out[row++] =
+                model.touch.pixel_and_height(sensor + model.arm(turn, place.template cast<T>())).z() -
+                *rest.block_m;
         }
     }
     return out;
@@ -63,7 +68,7 @@ PoseRows pose_rows(const RestModel& model, const glm::dvec3& middle, const Rest&
     const auto none = no_changes<PoseJet>(false);
     const ChangedRestModel<PoseJet> now(model, middle, none.data());
     const Eigen::Matrix3d turn = eigen(rest.tracker_from_sensor.rotation);
-    const auto moved = [&](const Eigen::Vector3d& prop_point) {
+    const auto moved = [&](const Eigen::Matrix<PoseJet, 3, 1>& prop_point) {
         const Eigen::Matrix<PoseJet, 3, 1> arm = now.arm(turn, prop_point);
         Eigen::Matrix<PoseJet, 3, 1> point = arm;
         for (int k = 0; k < 3; ++k) {
@@ -81,13 +86,13 @@ PoseRows pose_rows(const RestModel& model, const glm::dvec3& middle, const Rest&
     PoseRows rows(row_count(rest), 6);
     Eigen::Index row = 0;
     for (const PropPoint& point : rest.points) {
-        const auto seen = moved(eigen(point.prop_m));
+        const auto seen = moved(now.printed(point.prop_m));
         rows.row(row++) = seen[0].v.transpose();
         rows.row(row++) = seen[1].v.transpose();
     }
     for (const Eigen::Vector3d& place : bottom_places) {
         if (rest.block_m) {
-            rows.row(row++) = moved(place)[2].v.transpose();
+            rows.row(row++) = moved(place.cast<PoseJet>())[2].v.transpose();
         }
     }
     return rows;
@@ -143,11 +148,12 @@ private:
             const auto raw = raw_residuals(model, rests[k]);
             from = put_block<T>(raw, &covariances[k], residuals, from, put);
         }
-        Eigen::Matrix<T, Eigen::Dynamic, 1> rest(prior_count + (setup.sensor_height_m ? 1 : 0));
+        Eigen::Matrix<T, Eigen::Dynamic, 1> rest(rest_prior_count + (setup.sensor_height_m ? 1 : 0));
         prior_residuals(setup.priors, base.touch.pinhole, change, rest.data());
+        rest[prior_count] = (change[print_log] + std::log(base.print)) / setup.priors.print;
         if (setup.sensor_height_m) {
-            rest[prior_count] = (sensor_height(model.touch, standing) - *setup.sensor_height_m) /
-                                setup.priors.sensor_height_m;
+            rest[rest_prior_count] = (sensor_height(model.touch, standing) - *setup.sensor_height_m) /
+                                     setup.priors.sensor_height_m;
         }
         put_block<T>(rest, nullptr, residuals, from, put);
     }
@@ -191,7 +197,7 @@ RestResiduals residuals_at(std::span<const Rest> rests, const RestWeights& weigh
             residuals.standing.push_back(eigen(rests[k].tracker_from_sensor.rotation));
         }
     }
-    residuals.count += prior_count + (setup.sensor_height_m ? 1 : 0);
+    residuals.count += rest_prior_count + (setup.sensor_height_m ? 1 : 0);
     return residuals;
 }
 
@@ -245,8 +251,9 @@ RestFit measured(const RestResiduals& residuals, const RestWeights& weights) {
         from += count;
     }
     fit.from_rests = rows.topRows(from).transpose() * rows.topRows(from);
-    fit.from_priors = rows.middleRows(from, prior_count).transpose() * rows.middleRows(from, prior_count);
-    const auto height = rows.bottomRows(residuals.count - from - prior_count);
+    fit.from_priors =
+        rows.middleRows(from, rest_prior_count).transpose() * rows.middleRows(from, rest_prior_count);
+    const auto height = rows.bottomRows(residuals.count - from - rest_prior_count);
     fit.from_height = height.transpose() * height;
     return fit;
 }

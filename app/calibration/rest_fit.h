@@ -2,7 +2,7 @@
 ///
 /// A rest has two residuals for each point, its pixel, and three more if it stands on a block: the heights of three places of the prop's bottom.
 /// Noise    the tracker's error moves all residuals of a rest together. It is not solved for, but stands in their covariance,
-///          J S J^T + pixel noise, which gives the same answer (it is marginalised) with 21 unknowns for any number of rests.
+///          J S J^T + pixel noise, which gives the same answer (it is marginalised) with 22 unknowns for any number of rests.
 /// Weights  a weight w makes the pixel noise of a point, or the tracker's noise of a rest, 1 / w of its variance.
 /// Solver   ceres::TinySolver, as in fit.h.
 /// Threads  pure; any.

@@ -63,7 +63,7 @@ std::vector<RestModel> starting_rest_models(std::span<const Rest> rests,
                                             int height) {
     std::vector<RestModel> models;
     for (const TouchModel& model : starting_models(as_touches(rests, views), width, height)) {
-        models.push_back({model, mean_turn(model, rests, views)});
+        models.push_back({model, mean_turn(model, rests, views), 1.0});
     }
     return models;
 }

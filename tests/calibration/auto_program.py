@@ -22,6 +22,7 @@ except ImportError:
 from calibrate_program import HEIGHT, PRIOR, WIDTH, Truth, model_of, pixels_by, seen
 
 HEADER = "rest,tx_m,ty_m,tz_m,qw,qx,qy,qz,x_m,y_m,z_m,u_px,v_px,block_m\n"
+PRINT = 2e-3
 NOISE = {"position": 3e-4, "rotation": 2.6e-3, "pixel": 0.15, "block": 1e-4}
 BOTTOM = np.array([[0.05, 0, 0], [-0.025, 0.0433, 0], [-0.025, -0.0433, 0]])
 
@@ -92,11 +93,12 @@ def by_scipy(rests, truth, pixel_noise):
         m = model_of(v)
         prop = Rotation.from_rotvec(v[18:21]) * near_turn
         out = [(v[0] - v[1]) / PRIOR["aspect"], (v[2] / WIDTH - 0.5) / PRIOR["centre_u"],
-               (v[3] - 0.5 * HEIGHT) / WIDTH / PRIOR["centre_v"], v[4] / PRIOR["k1"], v[5] / PRIOR["k2"]]
-        for rest, error in zip(rests, v[21:].reshape(-1, 6)):
+               (v[3] - 0.5 * HEIGHT) / WIDTH / PRIOR["centre_v"], v[4] / PRIOR["k1"], v[5] / PRIOR["k2"], v[21] / PRINT]
+        size = [np.exp(v[21]), np.exp(v[21]), 1]
+        for rest, error in zip(rests, v[22:].reshape(-1, 6)):
             turn = Rotation.from_rotvec(NOISE["rotation"] * error[3:]) * rest.turn
             t = rest.t + NOISE["position"] * error[:3]
-            off = seen(m, turn.apply(m["offset"] + prop.apply(rest.points)) + t, frame)[:, :2] - rest.pixels
+            off = seen(m, turn.apply(m["offset"] + prop.apply(rest.points * size)) + t, frame)[:, :2] - rest.pixels
             out.extend(off.ravel() / pixel_noise)
             out.extend(error)
             if rest.block is not None:
@@ -107,7 +109,7 @@ def by_scipy(rests, truth, pixel_noise):
     turn = truth.table_from_j.inv() * truth.k_from_table.inv()
     shift = -turn.apply(truth.k_from_table.apply(truth.lens) + truth.k_origin)
     v = np.concatenate([np.log([truth.fx, truth.fx]), [truth.cx, truth.cy, 0, 0], turn.as_rotvec(), shift,
-                        truth.offset, [0, 0, -truth.k_origin @ frame[:, 2]], np.zeros(3 + 6 * len(rests))])
+                        truth.offset, [0, 0, -truth.k_origin @ frame[:, 2]], np.zeros(4 + 6 * len(rests))])
     v = least_squares(residuals, v, x_scale="jac", xtol=1e-13, ftol=1e-13, gtol=1e-13).x
     m = model_of(v)
     t = np.array([rest.t for rest in rests])

@@ -31,6 +31,7 @@ Json auto_json(const AutoCalibration& c, const Rests& rests) {
     }
     json["sensor_from_prop"] = c.found.table ? matrix_json(c.sensor_from_prop) : Json();
     json["pixel_noise_px"] = c.found.table ? Json(c.pixel_noise) : Json();
+    json["print_size"] = c.found.table ? Json(c.print) : Json();
     return json;
 }
 
