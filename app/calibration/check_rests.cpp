@@ -40,7 +40,7 @@ std::optional<std::string> bad_points(const Rest& rest) {
 
 std::optional<std::string> refusal_of(std::span<const Rest> rests, int width, int height) {
     if (rests.size() < least_rests) {
-        return fmt::format("{} rests of the prop are too few: {} at least are needed, and 12 are recommended",
+        return fmt::format("{} rests of the prop are too few: {} at least are needed, and 16 are recommended",
                            rests.size(), least_rests);
     }
     Touches places; // of each point, for what is asked of every pixel

@@ -118,7 +118,7 @@ TEST(Auto, DISABLED_OverAHundredTables) {
     for (const int count : {6, 8, 12, 16, 20}) {
         figures_of({count, count / 4}, sheet_with_prop(), usual_noise, 100);
     }
-    const Figures figures = figures_of({12, 3}, sheet_with_prop(), {3e-4, 2.6e-3, 0.2, 1e-4}, 100);
+    const Figures figures = figures_of({16, 4}, sheet_with_prop(), {3e-4, 2.6e-3, 0.2, 1e-4}, 100);
     EXPECT_LE(figures.mean_mm, 0.3);
     EXPECT_LE(figures.worst_p90_mm, 0.8);
     EXPECT_GE(figures.judged, 0.95);
