@@ -98,12 +98,10 @@ Tried tried_from(std::span<const Touch> touches, const FitSetup& setup, const To
         }
     }
     const Pinhole& p = start.pinhole;
-    const std::optional<TouchModel> own = start_with(kept, p.width, p.height, std::sqrt(p.fx * p.fy));
+    const TouchModel own = start_with(kept, p.width, p.height, std::sqrt(p.fx * p.fy));
     Fit rough = fit_roughly(kept, kept_setup, start);
-    if (own) {
-        Fit other = fit_roughly(kept, kept_setup, *own);
-        rough = other.chi2 < rough.chi2 ? std::move(other) : std::move(rough);
-    }
+    Fit other = fit_roughly(kept, kept_setup, own);
+    rough = other.chi2 < rough.chi2 ? std::move(other) : std::move(rough);
     Tried tried{std::move(choice), std::move(rough)};
     if (tried.fit.chi2 < worth_a_fit * chi2_limit(tried.fit.freedom)) {
         tried.fit = fit_touches(kept, {}, kept_setup, tried.fit.model);

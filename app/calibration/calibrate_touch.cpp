@@ -17,27 +17,14 @@ namespace frustumscreen {
 
 namespace {
 
-/// What the verdicts ask for (docs/calibration.md): standard deviations of the picture, and what a wrong touch could hide.
-struct Limits {
-    double mean_m;
-    double worst_m;
-    double hidden_m;
-};
-constexpr Limits for_good{0.7e-3, 1.4e-3, 16e-3};
 /// Beyond, the touches that are left cannot tell which ones are wrong.
 constexpr double most_hidden_m = 60e-3;
-constexpr Limits for_usable{1.2e-3, 2.5e-3, 40e-3};
 
 double hidden_error_of(std::span<const Touch> touches, const FitSetup& setup, const Fit& fit,
                        const ZoneSetup& zone) {
     return hidden_error_m(whitened_touches(touches, setup, fit.model, fit.middle).rows,
                           fit.information().ldlt().solve(Covariance::Identity()),
                           zone_places(fit.model, fit.middle, zone));
-}
-
-bool keeps(const TouchCalibration& calibration, const Limits& limits) {
-    return calibration.uncertainty.mean_m <= limits.mean_m &&
-           calibration.uncertainty.worst_m <= limits.worst_m && calibration.hidden_error_m <= limits.hidden_m;
 }
 
 TouchCalibration refused(std::string reason) {
@@ -75,30 +62,24 @@ std::vector<TouchResidual> residuals_of(std::span<const Touch> touches, std::spa
     return residuals;
 }
 
-void summarise_residuals(TouchCalibration& calibration) {
-    double count = 0.0;
-    for (std::size_t k = 0; k < calibration.residuals.size(); ++k) {
-        if (std::find(calibration.repeat.begin(), calibration.repeat.end(), k) == calibration.repeat.end()) {
-            const TouchResidual& residual = calibration.residuals[k];
-            calibration.mean_residual_m += residual.on_table_m;
-            calibration.mean_residual_px += residual.pixel;
-            calibration.worst_residual_m = std::fmax(calibration.worst_residual_m, residual.on_table_m);
-            calibration.worst_residual_px = std::fmax(calibration.worst_residual_px, residual.pixel);
-            count += 1.0;
-        }
+/// In a technician's words what to do about what touches leave open.
+std::string words_for(const Undetermined& open) {
+    switch (open.what) {
+    case Undetermined::What::SensorAcross:
+        return "the prop was turned the same way in every touch, or nearly so, which does not tell where in "
+               "it the "
+               "sensor sits: turn it by a quarter from one touch to the next";
+    case Undetermined::What::SensorAbove:
+        return "the prop stood upright in every touch, which does not tell the sensor's height in it from "
+               "the "
+               "tracker's: give it by --sensor-height, or lay the prop on a side in three touches or more";
+    case Undetermined::What::Picture:
+        break;
     }
-    calibration.mean_residual_m /= count;
-    calibration.mean_residual_px /= count;
-}
-
-std::string rows_in_words(std::span<const std::size_t> rows) {
-    std::vector<std::string> words;
-    for (const std::size_t row : rows) {
-        words.push_back(fmt::format("{}", row + 1));
-    }
-    const std::string last = words.back();
-    words.pop_back();
-    return words.empty() ? last : fmt::format("{} and {}", fmt::join(words, ", "), last);
+    return fmt::format(
+        "these touches leave the picture open by {:.0f} mm, whatever they agree on: spread them "
+        "over the whole picture, half of them on a block as high as the prop",
+        1e3 * open.picture_m);
 }
 
 /// Whether what is left without the wrong touches cannot check itself: then others may be wrong, and not those.
@@ -114,6 +95,14 @@ bool too_few_left(const AgreeingTouches& found, std::span<const Touch> touches, 
         }
     }
     return hidden_error_of(kept, setup, found.fit, zone) > most_hidden_m;
+}
+
+std::string rows_in_words(std::span<const std::size_t> rows) {
+    std::vector<std::string> words;
+    for (const std::size_t row : rows) {
+        words.push_back(fmt::format("{}", row + 1));
+    }
+    return in_words(words);
 }
 
 void judge(TouchCalibration& calibration, const AgreeingTouches& found) {
@@ -157,6 +146,33 @@ void judge(TouchCalibration& calibration, const AgreeingTouches& found) {
 
 } // namespace
 
+bool keeps(const TouchCalibration& calibration, const VerdictLimits& limits) {
+    return calibration.uncertainty.mean_m <= limits.mean_m &&
+           calibration.uncertainty.worst_m <= limits.worst_m && calibration.hidden_error_m <= limits.hidden_m;
+}
+
+void summarise_residuals(TouchCalibration& calibration) {
+    double count = 0.0;
+    for (std::size_t k = 0; k < calibration.residuals.size(); ++k) {
+        if (std::find(calibration.repeat.begin(), calibration.repeat.end(), k) == calibration.repeat.end()) {
+            const TouchResidual& residual = calibration.residuals[k];
+            calibration.mean_residual_m += residual.on_table_m;
+            calibration.mean_residual_px += residual.pixel;
+            calibration.worst_residual_m = std::fmax(calibration.worst_residual_m, residual.on_table_m);
+            calibration.worst_residual_px = std::fmax(calibration.worst_residual_px, residual.pixel);
+            count += 1.0;
+        }
+    }
+    calibration.mean_residual_m /= count;
+    calibration.mean_residual_px /= count;
+}
+
+std::string in_words(std::span<const std::string> words) {
+    return words.size() == 1
+               ? words[0]
+               : fmt::format("{} and {}", fmt::join(words.first(words.size() - 1), ", "), words.back());
+}
+
 TouchCalibration calibrate_touch(std::span<const Touch> reported, const TouchSetup& setup) {
     if (auto reason = refusal_of(reported, setup.width, setup.height)) {
         return refused(std::move(*reason));
@@ -170,8 +186,8 @@ TouchCalibration calibrate_touch(std::span<const Touch> reported, const TouchSet
     const ZoneSetup zone{setup.top_m,
                          touches[static_cast<std::size_t>(some_upright - fit_setup.upright.begin())]
                              .tracker_from_sensor.rotation};
-    if (auto reason = undetermined(found.fit, zone)) {
-        return refused(std::move(*reason));
+    if (const auto open = undetermined(found.fit, zone)) {
+        return refused(words_for(*open));
     }
     if (found.agreement == Agreement::None || too_few_left(found, touches, fit_setup, zone)) {
         return refused(

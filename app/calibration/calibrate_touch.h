@@ -50,6 +50,12 @@ struct TouchCalibration {
     PriorShares prior_shares;
 };
 
+[[nodiscard]] bool keeps(const TouchCalibration& calibration, const VerdictLimits& limits);
+/// Means and worst ones of the residuals, but for those to repeat.
+void summarise_residuals(TouchCalibration& calibration);
+/// 'a, b and c'; one at least.
+[[nodiscard]] std::string in_words(std::span<const std::string> words);
+
 [[nodiscard]] TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetup& setup);
 
 } // namespace frustumscreen

@@ -19,30 +19,29 @@ using Refusal = std::optional<std::string>;
 /// A table is some metres at most, and a tracker reaches no farther.
 constexpr double farthest_m = 6.0;
 constexpr double highest_block_m = 1.0;
-constexpr double least_height_m = 0.02;
 /// Shares of the picture's width: how far apart touches are at least, along their line and across it.
 constexpr double least_length = 0.25;
 constexpr double least_breadth = 0.08;
 
-Refusal bad_numbers(std::span<const Touch> touches) {
+Refusal bad_numbers(std::span<const Touch> touches, const PlaceName& name) {
     for (std::size_t k = 0; k < touches.size(); ++k) {
         const Touch& touch = touches[k];
         const glm::dvec3& t = touch.tracker_from_sensor.translation;
         const double length = glm::length(touch.tracker_from_sensor.rotation);
         if (!std::isfinite(t.x + t.y + t.z + touch.pixel.x + touch.pixel.y + touch.block_m + length)) {
-            return fmt::format("touch {} has a number that is not finite", k + 1);
+            return fmt::format("{} has a number that is not finite", name(k));
         }
         if (std::abs(length - 1.0) > 0.02) {
             return fmt::format(
-                "touch {}: the quaternion's length is {:.3g} and not 1; are these angles in degrees, or "
+                "{}: the quaternion's length is {:.3g} and not 1; are these angles in degrees, or "
                 "in another order than w, x, y, z?",
-                k + 1, length);
+                name(k), length);
         }
     }
     return std::nullopt;
 }
 
-Refusal wrong_units(std::span<const Touch> touches, const glm::dvec2& picture) {
+Refusal wrong_units(std::span<const Touch> touches, const glm::dvec2& picture, const PlaceName& name) {
     double reach = 0.0;
     double highest = 0.0;
     double pixel = 0.0;
@@ -67,10 +66,9 @@ Refusal wrong_units(std::span<const Touch> touches, const glm::dvec2& picture) {
     for (std::size_t k = 0; k < touches.size(); ++k) {
         const glm::dvec2& p = touches[k].pixel;
         if (p.x < 0.0 || p.y < 0.0 || p.x > picture.x || p.y > picture.y) {
-            return fmt::format(
-                "touch {} is at pixel ({:.0f}, {:.0f}), outside the picture of {:.0f} x {:.0f}: is "
-                "that the projector's picture?",
-                k + 1, p.x, p.y, picture.x, picture.y);
+            return fmt::format("{} is at pixel ({:.0f}, {:.0f}), outside the picture of {:.0f} x {:.0f}: is "
+                               "that the projector's picture?",
+                               name(k), p.x, p.y, picture.x, picture.y);
         }
     }
     return std::nullopt;
@@ -106,7 +104,7 @@ std::size_t different_places(std::span<const Touch> touches) {
     return found.size();
 }
 
-Refusal degenerate(std::span<const Touch> touches, double width) {
+Refusal degenerate(std::span<const Touch> touches) {
     if (const std::size_t places = different_places(touches); places < least_touches) {
         return fmt::format("{} different places were touched; {} at least are needed, and 9 are recommended",
                            places, least_touches);
@@ -118,22 +116,36 @@ Refusal degenerate(std::span<const Touch> touches, double width) {
                "half of them "
                "on a block, as high as the prop";
     }
+    return std::nullopt;
+}
+
+} // namespace
+
+Refusal refusal_of_values(std::span<const Touch> touches, const glm::dvec2& picture, const PlaceName& name) {
+    if (Refusal found = bad_numbers(touches, name)) {
+        return found;
+    }
+    return wrong_units(touches, picture, name);
+}
+
+Refusal refusal_of_spread(std::span<const Touch> touches, double width, std::string_view places) {
     const glm::dvec2 spread_px = spread(touches);
     if (spread_px.x < least_length * width) {
-        return "the touches are too near to each other, so that the picture's edges would be guessed: spread "
-               "them over "
-               "the whole picture";
+        return fmt::format(
+            "the {} are too near to each other, so that the picture's edges would be guessed: spread "
+            "them over the whole picture",
+            places);
     }
     if (spread_px.y < least_breadth * width) {
-        return "the touches lie nearly in one line, which does not say how the picture lies beside it: "
-               "spread them "
-               "over the whole picture";
+        return fmt::format(
+            "the {} lie nearly in one line, which does not say how the picture lies beside it: "
+            "spread them over the whole picture",
+            places);
     }
     return std::nullopt;
 }
 
-/// Whether places, pixels and heights fit each other at all, by affine fits.
-Refusal inconsistent(std::span<const Touch> touches) {
+Refusal refusal_of_directions(std::span<const Touch> touches, std::string_view places) {
     const HeightFit heights = fit_heights(touches);
     const double scale = glm::length(heights.up);
     if (scale < 0.2 || scale > 5.0) {
@@ -149,27 +161,26 @@ Refusal inconsistent(std::span<const Touch> touches) {
     const glm::dvec3 v = glm::normalize(pixels.across_v);
     const double handed = glm::dot(glm::cross(u, v), heights.up / scale);
     if (handed > 0.3) {
-        return "the touches are mirrored: is the projector set to rear projection, or are two of the "
-               "tracker's columns "
-               "exchanged?";
+        return fmt::format("the {} are mirrored: is the projector set to rear projection, or are two of the "
+                           "tracker's columns exchanged?",
+                           places);
     }
     return std::nullopt;
 }
-
-} // namespace
 
 std::optional<std::string> refusal_of(std::span<const Touch> touches, int width, int height) {
     if (touches.size() < least_touches) {
         return fmt::format("{} touches are too few: 6 at least are needed, and 9 are recommended",
                            touches.size());
     }
-    for (Refusal found :
-         {bad_numbers(touches), wrong_units(touches, {width, height}), degenerate(touches, width)}) {
+    const auto name = [](std::size_t k) { return fmt::format("touch {}", k + 1); };
+    for (Refusal found : {refusal_of_values(touches, {width, height}, name), degenerate(touches),
+                          refusal_of_spread(touches, width, "touches")}) {
         if (found) {
             return found;
         }
     }
-    return inconsistent(touches);
+    return refusal_of_directions(touches, "touches");
 }
 
 } // namespace frustumscreen

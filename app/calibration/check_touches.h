@@ -7,15 +7,29 @@
 
 #include "app/calibration/touch.h"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace frustumscreen {
 
 inline constexpr std::size_t least_touches = 6;
+/// Below, heights count as one.
+inline constexpr double least_height_m = 0.02;
 
 /// Why these touches are refused, one sentence for a technician; nothing if they are not. Quaternions are as reported, of any length.
 [[nodiscard]] std::optional<std::string> refusal_of(std::span<const Touch> touches, int width, int height);
+
+/// What is asked of each of these, also of rests of the prop: `name` of the one at an index, `places` of all, in a technician's words.
+using PlaceName = std::function<std::string(std::size_t)>;
+[[nodiscard]] std::optional<std::string> refusal_of_values(std::span<const Touch> touches,
+                                                           const glm::dvec2& picture, const PlaceName& name);
+[[nodiscard]] std::optional<std::string> refusal_of_spread(std::span<const Touch> touches, double width,
+                                                           std::string_view places);
+/// Whether places, pixels and heights fit each other at all, by affine fits.
+[[nodiscard]] std::optional<std::string> refusal_of_directions(std::span<const Touch> touches,
+                                                               std::string_view places);
 
 } // namespace frustumscreen

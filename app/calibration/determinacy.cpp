@@ -1,7 +1,5 @@
 #include "app/calibration/determinacy.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -17,34 +15,23 @@ constexpr double widest_picture_m = 6e-3;
 
 } // namespace
 
-std::optional<std::string> undetermined(const Fit& fit, const ZoneSetup& zone) {
+std::optional<Undetermined> undetermined(const Fit& fit, const ZoneSetup& zone) {
     // What is not determined at all is left some hundred metres and radians wide, not infinitely.
     const Covariance known =
         fit.from_touches + fit.from_height + fit.from_priors / 100.0 + 1e-5 * Covariance::Identity();
     const Covariance covariance = known.ldlt().solve(Covariance::Identity());
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> offsets(covariance.block<3, 3>(offset_x, offset_x));
     if (std::sqrt(offsets.eigenvalues()[1]) > widest_offset_m) {
-        return "the prop was turned the same way in every touch, which does not tell where in it the sensor "
-               "sits: "
-               "turn it by a quarter from one touch to the next";
+        return Undetermined{Undetermined::What::SensorAcross};
     }
     if (std::sqrt(offsets.eigenvalues()[2]) > widest_offset_m) {
         const Eigen::Vector3d up_in_sensor = eigen(zone.upright).transpose() * eigen(fit.model.table_up);
         const bool upwards = std::abs(offsets.eigenvectors().col(2).dot(up_in_sensor)) > 0.7;
-        return upwards ? "the prop stood upright in every touch, which does not tell the sensor's height in "
-                         "it from "
-                         "the tracker's: give it by --sensor-height, or lay the prop on a side in three "
-                         "touches or more"
-                       : "the prop was hardly turned from touch to touch, which does not tell where in it "
-                         "the sensor "
-                         "sits: turn it by a quarter from one touch to the next";
+        return Undetermined{upwards ? Undetermined::What::SensorAbove : Undetermined::What::SensorAcross};
     }
     const PictureUncertainty left = picture_uncertainty(zone_places(fit.model, fit.middle, zone), covariance);
     if (!(left.mean_m < widest_picture_m)) {
-        return fmt::format(
-            "these touches leave the picture open by {:.0f} mm, whatever they agree on: spread them "
-            "over the whole picture, half of them on a block as high as the prop",
-            1e3 * std::fmin(left.mean_m, 9.999));
+        return Undetermined{Undetermined::What::Picture, std::fmin(left.mean_m, 9.999)};
     }
     return std::nullopt;
 }

@@ -1,4 +1,4 @@
-/// What touches do not determine, and in a technician's words what to do about it.
+/// What points do not determine.
 ///
 /// Method   the information of the touches with priors ten times as wide as those of the fit, so that no answer is the priors' own. The sensor's
 ///          place in the prop by its own covariance, whose widest direction names what is missing; the rest by the picture that it leaves.
@@ -8,12 +8,20 @@
 #include "app/calibration/fit.h"
 #include "app/calibration/zone.h"
 
-#include <string>
-
 namespace frustumscreen {
 
-/// Why this fit is none; nothing if the touches determine it.
-[[nodiscard]] std::optional<std::string> undetermined(const Fit& fit, const ZoneSetup& zone);
+struct Undetermined {
+    enum class What {
+        SensorAcross, ///< where in the prop the sensor sits: it was not turned
+        SensorAbove,  ///< how high it sits: the prop was upright always
+        Picture,
+    };
+    What what = What::Picture;
+    double picture_m = 0.0; ///< how far open the picture is
+};
+
+/// Of a fit; nothing if the points determine all. Its middle and its three information matrices are what counts.
+[[nodiscard]] std::optional<Undetermined> undetermined(const Fit& fit, const ZoneSetup& zone);
 
 /// Of what is known of an unknown, the share that comes from its prior: 0 = nothing, 1 = all.
 struct PriorShares {

@@ -1,5 +1,7 @@
 #include "app/calibration/fit.h"
 
+#include "app/calibration/prior_residuals.h"
+
 #include <ceres/tiny_solver.h>
 #include <ceres/tiny_solver_autodiff_function.h>
 
@@ -12,7 +14,6 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int prior_count = 5;
 using Jet = ceres::Jet<double, unknown_count>;
 
 /// Residuals of touches at a model with changes, each touch's three whitened together.
@@ -35,26 +36,13 @@ struct Residuals {
     }
     /// The sensor above the touched place, in touches that stand upright; less what was given.
     template <typename T> T height_off(const ChangedModel<T>& model) const {
-        T sum(0.0);
-        int upright = 0;
+        std::vector<Eigen::Matrix3d> upright;
         for (std::size_t k = 0; k < touches.size(); ++k) {
             if (is_upright(k)) {
-                const Eigen::Matrix<T, 3, 1> arm =
-                    eigen(touches[k].tracker_from_sensor.rotation).cast<T>() * model.offset;
-                sum -= model.up.dot(arm);
-                ++upright;
+                upright.push_back(eigen(touches[k].tracker_from_sensor.rotation));
             }
         }
-        return sum / static_cast<double>(upright) - *setup.sensor_height_m;
-    }
-    template <typename T> void priors(const T* change, T* out) const {
-        const Pinhole& p = base.pinhole;
-        const double width = p.width;
-        out[0] = (change[aspect_log] + std::log(p.fx / p.fy)) / setup.priors.aspect;
-        out[1] = (change[centre_u] + (p.cx / width - 0.5)) / setup.priors.centre_u;
-        out[2] = (change[centre_v] + (p.cy - 0.5 * p.height) / width) / setup.priors.centre_v;
-        out[3] = (change[lens_k1] + base.pinhole.lens.k1) / setup.priors.k1;
-        out[4] = (change[lens_k2] + base.pinhole.lens.k2) / setup.priors.k2;
+        return sensor_height(model, std::span<const Eigen::Matrix3d>(upright)) - *setup.sensor_height_m;
     }
     template <typename T> bool operator()(const T* change, T* out) const {
         const ChangedModel<T> model(base, middle, change);
@@ -62,7 +50,7 @@ struct Residuals {
             Eigen::Map<Eigen::Matrix<T, 3, 1>>(out + 3 * k) = whitening[k].cast<T>() * raw(model, touches[k]);
         }
         T* const rest = out + 3 * touches.size();
-        priors(change, rest);
+        prior_residuals(setup.priors, base.pinhole, change, rest);
         if (setup.sensor_height_m) {
             rest[prior_count] = height_off(model) / setup.priors.sensor_height_m;
         }

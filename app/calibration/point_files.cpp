@@ -16,11 +16,15 @@ namespace {
 
 constexpr std::array<std::string_view, 10> touch_columns{"tx_m", "ty_m", "tz_m", "qw",   "qx",
                                                          "qy",   "qz",   "u_px", "v_px", "block_m"};
+constexpr std::array<std::string_view, 14> rest_columns{
+    "rest", "tx_m", "ty_m", "tz_m", "qw", "qx", "qy", "qz", "x_m", "y_m", "z_m", "u_px", "v_px", "block_m"};
 constexpr std::array<std::string_view, 5> corner_columns{"distance", "corner", "x_m", "y_m", "z_m"};
 constexpr std::array<std::string_view, 4> corner_names{"top_left", "top_right", "bottom_right",
                                                        "bottom_left"};
 /// More than any table has; a file of millions is some other file.
 constexpr std::size_t most_rows = 1000;
+/// Rests have a row for each of their points.
+constexpr std::size_t most_points = 50000;
 
 Result<void> read_header(TextRows& rows, std::span<const std::string_view> columns) {
     if (!rows.next() ||
@@ -31,14 +35,15 @@ Result<void> read_header(TextRows& rows, std::span<const std::string_view> colum
     return {};
 }
 
-Result<void> check_row(const TextRows& rows, std::span<const std::string_view> columns, std::size_t so_far) {
+Result<void> check_row(const TextRows& rows, std::span<const std::string_view> columns, std::size_t so_far,
+                       std::size_t most = most_rows) {
     if (rows.fields().size() != columns.size()) {
         return bad_input(
             rows.located(fmt::format("the row has {} fields; allowed are {}: {}", rows.fields().size(),
                                      columns.size(), fmt::join(columns, ","))));
     }
-    if (so_far >= most_rows) {
-        return bad_input(rows.located(fmt::format("there are more than {} rows", most_rows)));
+    if (so_far >= most) {
+        return bad_input(rows.located(fmt::format("there are more than {} rows", most)));
     }
     return {};
 }
@@ -88,6 +93,68 @@ std::string touches_text(std::span<const Touch> touches) {
                             touch.pixel.x, touch.pixel.y, touch.block_m);
     }
     return text;
+}
+
+namespace {
+
+/// A row's rest, with its one point.
+Result<Rest> rest_row(const TextRows& rows) {
+    const auto name = integer_in(rows.fields()[0]);
+    if (!name || *name < 0 || *name > 1000000) {
+        return bad_input(rows.located(fmt::format(
+            "rest is {}; allowed are 0, 1, 2, ...: the number of the rest", quoted(rows.fields()[0]))));
+    }
+    const bool leans = rows.fields().back().empty();
+    std::array<double, rest_columns.size()> n{};
+    for (std::size_t k = 1; k < n.size() - (leans ? 1 : 0); ++k) {
+        const Result<double> number = number_at(rows, rest_columns, k);
+        if (!number) {
+            return tl::unexpected(number.error());
+        }
+        n[k] = *number;
+    }
+    Rest rest;
+    rest.name = static_cast<int>(*name);
+    rest.tracker_from_sensor = {{n[4], n[5], n[6], n[7]}, {n[1], n[2], n[3]}};
+    rest.points.push_back({{n[8], n[9], n[10]}, {n[11], n[12]}});
+    rest.block_m = leans ? std::nullopt : std::optional(n[13]);
+    return rest;
+}
+
+bool is_same_place(const Rest& a, const Rest& b) {
+    return a.tracker_from_sensor.rotation == b.tracker_from_sensor.rotation &&
+           a.tracker_from_sensor.translation == b.tracker_from_sensor.translation && a.block_m == b.block_m;
+}
+
+} // namespace
+
+Result<Rests> parse_rests(std::string_view text, std::string_view name) {
+    TextRows rows(text, name);
+    if (const Result<void> header = read_header(rows, rest_columns); !header) {
+        return tl::unexpected(header.error());
+    }
+    Rests rests;
+    std::size_t points = 0;
+    while (rows.next()) {
+        if (const Result<void> row = check_row(rows, rest_columns, points++, most_points); !row) {
+            return tl::unexpected(row.error());
+        }
+        Result<Rest> next = rest_row(rows);
+        if (!next) {
+            return tl::unexpected(next.error());
+        }
+        const auto known = std::find_if(rests.begin(), rests.end(),
+                                        [&](const Rest& rest) { return rest.name == next->name; });
+        if (known == rests.end()) {
+            rests.push_back(std::move(*next));
+        } else if (!is_same_place(*known, *next)) {
+            return bad_input(rows.located(fmt::format(
+                "rest {} has another place or block than in its first row; each rest has one", next->name)));
+        } else {
+            known->points.push_back(next->points[0]);
+        }
+    }
+    return rests;
 }
 
 Result<std::vector<MeasuredCorner>> parse_corners(std::string_view text, std::string_view name) {

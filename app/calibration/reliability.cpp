@@ -13,13 +13,12 @@ Eigen::Matrix3d left_of(const TouchRows& rows, const Covariance& covariance) {
     return Eigen::Matrix3d::Identity() - rows * covariance * rows.transpose();
 }
 
-/// The larger eigenvalue.
+} // namespace
+
 double largest(const Eigen::Matrix2d& symmetric) {
     const double half = 0.5 * symmetric.trace();
     return half + std::sqrt(std::fmax(0.0, half * half - symmetric.determinant()));
 }
-
-} // namespace
 
 double left_out_chi2(const TouchRows& rows, const Eigen::Vector3d& residual, const Covariance& covariance) {
     return residual.dot(left_of(rows, covariance).ldlt().solve(residual));
@@ -27,17 +26,12 @@ double left_out_chi2(const TouchRows& rows, const Eigen::Vector3d& residual, con
 
 double hidden_error_m(std::span<const TouchRows> touches, const Covariance& covariance,
                       std::span<const ZonePlace> places) {
-    double worst2 = 0.0;
+    std::vector<UnseenError<3>> unseen;
     for (const TouchRows& rows : touches) {
-        const TouchRows moved = rows * covariance;
         // Of all errors b with b' left b = limit, that which moves the picture most: the ellipse's image.
-        const Eigen::Matrix3d unseen = left_of(rows, covariance).inverse();
-        for (const ZonePlace& place : places) {
-            const Eigen::Matrix<double, 2, 3> by_error = place.rows * moved.transpose();
-            worst2 = std::fmax(worst2, largest(by_error * unseen * by_error.transpose()));
-        }
+        unseen.push_back({covariance * rows.transpose(), left_of(rows, covariance).inverse()});
     }
-    return std::sqrt(touch_chi2_limit * worst2);
+    return hidden_error_m(std::span<const UnseenError<3>>(unseen), touch_chi2_limit, places);
 }
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-/// Whether a touch is as the others predict it, and what a wrong one could do that is not noticed.
+/// Whether a touch is as the others predict it, and what a wrong one, or a wrong rest, could do that is not noticed.
 ///
 /// Units    metres; residuals whitened, so that chi squared is what it should be.
 /// Threads  pure; any.
@@ -7,6 +7,8 @@
 
 #include "app/calibration/fit.h"
 #include "app/calibration/zone.h"
+
+#include <cmath>
 
 namespace frustumscreen {
 
@@ -17,7 +19,30 @@ inline constexpr double touch_chi2_limit = 16.0;
 [[nodiscard]] double left_out_chi2(const TouchRows& rows, const Eigen::Vector3d& residual,
                                    const Covariance& covariance);
 
-/// How far one wrong touch could move the picture and yet agree, at the worst touch and place of the zone.
+/// An error that the fit may swallow: how the unknowns move with it, and the covariance that leaves it just unnoticed, for a chi squared of 1.
+template <int errors> struct UnseenError {
+    Eigen::Matrix<double, unknown_count, errors> moves;
+    Eigen::Matrix<double, errors, errors> spread;
+};
+
+/// The larger eigenvalue.
+[[nodiscard]] double largest(const Eigen::Matrix2d& symmetric);
+
+/// How far one wrong report could move the picture and yet agree, at the worst report and place of the zone.
+template <int errors>
+double hidden_error_m(std::span<const UnseenError<errors>> unseen, double chi2_limit,
+                      std::span<const ZonePlace> places) {
+    double worst2 = 0.0;
+    for (const UnseenError<errors>& error : unseen) {
+        for (const ZonePlace& place : places) {
+            const Eigen::Matrix<double, 2, errors> by_error = place.rows * error.moves;
+            worst2 = std::fmax(worst2, largest(by_error * error.spread * by_error.transpose()));
+        }
+    }
+    return std::sqrt(chi2_limit * worst2);
+}
+
+/// Of one wrong touch.
 [[nodiscard]] double hidden_error_m(std::span<const TouchRows> touches, const Covariance& covariance,
                                     std::span<const ZonePlace> places);
 

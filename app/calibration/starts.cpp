@@ -34,16 +34,27 @@ template <typename Value> Eigen::Vector4d affine(std::span<const Touch> touches,
     return found;
 }
 
+/// Below, heights hardly change with places.
+constexpr double least_slope = 0.05;
+
 /// The table's side of a start: which way is up, and how high the sensors are.
 struct TableStart {
     glm::dvec3 up;
     double offset_m;
 };
 
-std::optional<TableStart> table_start(std::span<const Touch> touches) {
+TableStart table_start(std::span<const Touch> touches) {
     const HeightFit heights = fit_heights(touches);
     const double length = glm::length(heights.up);
-    return length > 0.0 ? std::optional(TableStart{heights.up / length, heights.offset_m}) : std::nullopt;
+    if (length > least_slope) {
+        return TableStart{heights.up / length, heights.offset_m};
+    }
+    // All at one height: the places lie in a plane, and of its sides that is up from which the picture is not mirrored.
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(places(touches).leftCols<3>(), Eigen::ComputeFullV);
+    const PixelFit pixels = fit_pixels(touches);
+    glm::dvec3 up = glm_vector(svd.matrixV().col(2));
+    up *= glm::dot(glm::cross(pixels.across_u, pixels.across_v), up) > 0.0 ? -1.0 : 1.0;
+    return TableStart{up, touches[0].block_m - glm::dot(up, middle_of(touches))};
 }
 
 TouchModel straight_down(const TableStart& table, const PixelFit& pixels, const glm::dvec3& middle, int width,
@@ -143,26 +154,21 @@ PixelFit fit_pixels(std::span<const Touch> touches) {
     return {glm_vector(u.head<3>()), glm_vector(v.head<3>()), {u[3], v[3]}};
 }
 
-std::optional<TouchModel> start_with(std::span<const Touch> touches, int width, int height, double focal_px) {
-    const std::optional<TableStart> table = table_start(touches);
-    return table ? std::optional(straight_down(*table, fit_pixels(touches), middle_of(touches), width, height,
-                                               focal_px))
-                 : std::nullopt;
+TouchModel start_with(std::span<const Touch> touches, int width, int height, double focal_px) {
+    return straight_down(table_start(touches), fit_pixels(touches), middle_of(touches), width, height,
+                         focal_px);
 }
 
 std::vector<TouchModel> starting_models(std::span<const Touch> touches, int width, int height) {
-    const std::optional<TableStart> table = table_start(touches);
-    if (!table) {
-        return {};
-    }
+    const TableStart table = table_start(touches);
     std::vector<TouchModel> models;
-    if (auto model = decomposed(camera_matrix(touches, width), *table, middle_of(touches), width, height)) {
+    if (auto model = decomposed(camera_matrix(touches, width), table, middle_of(touches), width, height)) {
         models.push_back(*model);
     }
     const PixelFit pixels = fit_pixels(touches);
     for (const double throw_ratio : {0.6, 1.2, 2.4}) {
         models.push_back(
-            straight_down(*table, pixels, middle_of(touches), width, height, throw_ratio * width));
+            straight_down(table, pixels, middle_of(touches), width, height, throw_ratio * width));
     }
     return models;
 }

@@ -28,11 +28,10 @@ struct PixelFit {
 };
 [[nodiscard]] PixelFit fit_pixels(std::span<const Touch> touches);
 
-/// None, if the touches do not say where up is.
+/// Where all touches are at one height, up is square to it.
 [[nodiscard]] std::vector<TouchModel> starting_models(std::span<const Touch> touches, int width, int height);
 
 /// The one of them that looks straight down, with a focal length in pixels.
-[[nodiscard]] std::optional<TouchModel> start_with(std::span<const Touch> touches, int width, int height,
-                                                   double focal_px);
+[[nodiscard]] TouchModel start_with(std::span<const Touch> touches, int width, int height, double focal_px);
 
 } // namespace frustumscreen

@@ -57,5 +57,44 @@ TEST(PointFiles, CornersHaveNames) {
     EXPECT_FALSE(parse_corners(std::string(corner_header) + "0,top_left,0,0,0\n", "c.csv"));
 }
 
+constexpr const char* rest_header = "rest,tx_m,ty_m,tz_m,qw,qx,qy,qz,x_m,y_m,z_m,u_px,v_px,block_m\n";
+
+std::string rest_error(const std::string& rows) {
+    const auto read = parse_rests(rest_header + rows, "r.csv");
+    return read ? "" : read.error().message;
+}
+
+TEST(PointFiles, RowsOfOneNumberAreOneRest) {
+    const auto read =
+        parse_rests(std::string(rest_header) + "7,0.1,0.2,0.3,1,0,0,0,0.01,0.02,0,100,200.5,0.04\n"
+                                               "9,0.5,0.2,0.3,1,0,0,0,0.01,0.02,0,300,200.5,\n"
+                                               "7,0.1,0.2,0.3,1,0,0,0,0.03,0.02,0.1,110,201,0.04\n",
+                    "r.csv");
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_EQ(read->size(), 2U);
+    const Rest& first = (*read)[0];
+    EXPECT_EQ(first.name, 7);
+    EXPECT_EQ(first.tracker_from_sensor.translation, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(first.block_m, 0.04);
+    ASSERT_EQ(first.points.size(), 2U);
+    EXPECT_EQ(first.points[1].prop_m, glm::dvec3(0.03, 0.02, 0.1));
+    EXPECT_EQ(first.points[1].pixel, glm::dvec2(110.0, 201.0));
+    EXPECT_EQ((*read)[1].name, 9);
+    EXPECT_FALSE((*read)[1].block_m);
+}
+
+TEST(PointFiles, WhatIsWrongWithARestIsSaidWithItsLine) {
+    const std::string good = "1,0,0,0,1,0,0,0,0,0,0,1,2,0\n";
+    EXPECT_EQ(rest_error(good), "");
+    EXPECT_NE(rest_error("x,0,0,0,1,0,0,0,0,0,0,1,2,0\n").find("r.csv:2: rest is"), std::string::npos);
+    EXPECT_NE(rest_error("-1,0,0,0,1,0,0,0,0,0,0,1,2,0\n").find("rest is"), std::string::npos);
+    EXPECT_NE(rest_error(good + "1,0,0,0,1,0,0,0,0,,0,1,2,0\n").find("r.csv:3: y_m is"), std::string::npos);
+    EXPECT_NE(rest_error(good + "1,0,0,0.1,1,0,0,0,0,0,0,1,2,0\n").find("another place"), std::string::npos);
+    EXPECT_NE(rest_error(good + "1,0,0,0,1,0,0,0,0,0,0,1,2,\n").find("another place or block"),
+              std::string::npos);
+    EXPECT_NE(rest_error("1,2\n").find("2 fields"), std::string::npos);
+    EXPECT_FALSE(parse_rests("rest,x\n", "r.csv"));
+}
+
 } // namespace
 } // namespace frustumscreen

@@ -15,7 +15,7 @@ import tomllib
 
 import screen
 from bench import EYE_M, PLACE_TOLERANCE_M, UPRIGHT, USUAL, WIDTH, eventually
-from hil_test import PIXELS, START_S, HilTest
+from hil_test import PIXELS, START_S, HilTest, long
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "calibration"))
 from true_table import TrueTable, moved  # pylint: disable=wrong-import-position
@@ -38,10 +38,7 @@ class Calibration(HilTest):
 
     def test_a_technician_alone_with_two_buttons(self):
         self.assertGreater(self.farthest_off(PLACES[:1], UNCALIBRATED), 4 * PIXELS, "without it the picture is right: this proves nothing")
-        self.hold_chord()
-        self.bench.status_says("state", "staff")
-        self.hold_chord()
-        self.hears("Staff: measure the table anew")
+        self.begin()
         self.press(NEXT)
         crosses = self.crosses()
         for number, cross in enumerate(crosses):
@@ -59,7 +56,27 @@ class Calibration(HilTest):
         print(f"  {off_px:.2f} pixels at most from the true table's pictures", flush=True)
         self.assertLess(off_px, PIXELS)
 
+    @long
+    def test_whatever_its_end_the_exhibit_comes_back(self):
+        steps = self.bench.machine.read("/run/frustumscreen-watchdog/status.json")
+        for end in (lambda: self.press(FIRST), lambda: self.bench.machine.check(f"systemctl kill -s KILL {CALIBRATION}")):
+            self.begin()
+            self.assertEqual(self.bench.main_process(), 0)
+            end()
+            self.bench.status_says("display", "is lit", START_S)
+            self.bench.status_says("tracker", "is running", START_S)
+            self.assertNotEqual(self.bench.machine.run(f"systemctl is-active {CALIBRATION}").output.strip(), "active")
+        told = json.loads(self.bench.machine.read("/run/frustumscreen-watchdog/status.json"))
+        self.assertEqual([fault for fault in told["faults"] if fault not in json.loads(steps)["faults"]], [], "nothing was to be mended")
+        self.assertEqual(self.bench.machine.run(f"ls {FOLDER}").output.split(), [])
+
     # The technician.
+
+    def begin(self):
+        self.hold_chord()
+        self.bench.status_says("state", "staff")
+        self.hold_chord()
+        self.hears("Staff: measure the table anew")
 
     def hold_chord(self):
         for button in (FIRST, LAST):
@@ -75,11 +92,11 @@ class Calibration(HilTest):
         self.bench.tracker.tell("pose", *self.truth.report(place, yaw, SENSOR_M), 1)
 
     def hears(self, words):
-        """Waits until the latest of the calibration's words on the table begin so; its journal has them too."""
+        """Waits until the table says so; the journal has its words, and now and then a line on a device."""
         said = [""]
 
         def is_said():
-            said[0] = self.bench.machine.run(f"journalctl -b -o cat --no-pager -n 1 -u {CALIBRATION} -t frustumscreen-calibrate").output
+            said[0] = self.bench.machine.run(f"journalctl -b -o cat --no-pager -n 4 -u {CALIBRATION} -t frustumscreen-calibrate").output
             return words in said[0]
 
         eventually(is_said, START_S, lambda: f"the table never says '{words}', at last: {said[0]}")

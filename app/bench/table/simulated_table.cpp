@@ -23,16 +23,6 @@ double unbent(double goal, const Lens& lens) {
     return 0.5 * (low + high);
 }
 
-glm::dvec2 calibrated_pixel(const CalibratedTable& calibrated, const glm::dvec3& table_point) {
-    const glm::dvec3 q(glm::inverse(calibrated.table_from_projector.matrix()) * glm::dvec4(table_point, 1.0));
-    const double x = q.x / q.z;
-    const double y = q.y / q.z;
-    const double r2 = x * x + y * y;
-    const double factor = 1.0 + calibrated.pinhole.lens.k1 * r2 + calibrated.pinhole.lens.k2 * r2 * r2;
-    return {calibrated.pinhole.fx * x * factor + calibrated.pinhole.cx,
-            calibrated.pinhole.fy * y * factor + calibrated.pinhole.cy};
-}
-
 glm::dquat about_z(double angle) {
     return {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
 }
@@ -57,6 +47,16 @@ glm::dquat small_turn(const glm::dvec3& v) {
 }
 
 } // namespace
+
+glm::dvec2 calibrated_pixel(const CalibratedTable& calibrated, const glm::dvec3& table_point) {
+    const glm::dvec3 q(glm::inverse(calibrated.table_from_projector.matrix()) * glm::dvec4(table_point, 1.0));
+    const double x = q.x / q.z;
+    const double y = q.y / q.z;
+    const double r2 = x * x + y * y;
+    const double factor = 1.0 + calibrated.pinhole.lens.k1 * r2 + calibrated.pinhole.lens.k2 * r2 * r2;
+    return {calibrated.pinhole.fx * x * factor + calibrated.pinhole.cx,
+            calibrated.pinhole.fy * y * factor + calibrated.pinhole.cy};
+}
 
 glm::dvec3 true_light(const CalibratedTable& truth, const glm::dvec2& pixel, double height_m) {
     const Pinhole& p = truth.pinhole;

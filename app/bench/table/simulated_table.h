@@ -37,6 +37,8 @@ struct SimulatedTable {
 /// offset, aimed roughly at the table, distortion up to a per cent at the corner.
 [[nodiscard]] SimulatedTable some_table(std::uint64_t seed);
 
+/// The pixel that a calibration lights for a point of its table's space.
+[[nodiscard]] glm::dvec2 calibrated_pixel(const CalibratedTable& calibrated, const glm::dvec3& table_point);
 /// Where the true light of a pixel is at a height above the table.
 [[nodiscard]] glm::dvec3 true_light(const CalibratedTable& truth, const glm::dvec2& pixel, double height_m);
 

@@ -1,4 +1,5 @@
 /// frustumscreen-calibrate: projector and tracker of a table, from points that were touched or measured.
+#include "app/programs/calibrate/auto_command.h"
 #include "app/programs/calibrate/corners_command.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/table_command.h"
@@ -12,7 +13,7 @@ namespace {
 int run(int argc, char** argv) {
     CLI::App app("Projector and tracker of a table, from points that were touched or measured on it: on the "
                  "table itself (table), or "
-                 "without a device from a file (touch, corners); and what is kept of it (kept).",
+                 "without a device from a file (touch, auto, corners); and what is kept of it (kept).",
                  "frustumscreen-calibrate");
     app.set_version_flag("--version", "frustumscreen-calibrate " FRUSTUMSCREEN_VERSION);
     app.require_subcommand(1);
@@ -22,6 +23,7 @@ int run(int argc, char** argv) {
     CalibrateRequest request;
     std::function<int()> chosen;
     add_touch_command(app, request, chosen);
+    add_auto_command(app, request, chosen);
     add_corners_command(app, request, chosen);
     add_table_command(app, request, chosen);
     add_kept_command(app, request, chosen);

@@ -18,6 +18,16 @@ void add_common_options(CLI::App& command, CalibrateRequest& request) {
     command.add_flag("--json", request.json, "for programs");
 }
 
+void add_touch_options(CLI::App& command, CalibrateRequest& request) {
+    command
+        .add_option("--sensor-height", request.sensor_height_m,
+                    "the sensor above the touched place while the prop stands upright, metres")
+        ->check(CLI::Range(-2.0, 2.0));
+    command
+        .add_flag("--keep", request.keep, "keeps what is good or usable, in the settings' calibration.folder")
+        ->needs("--config");
+}
+
 void check_request(const CalibrateRequest& request) {
     if (!request.from.empty() && request.picture.empty() && request.config.empty()) {
         throw CLI::RequiredError("--picture W H, or --config FILE,");

@@ -1,4 +1,4 @@
-/// What both commands are asked: from which file, for which picture.
+/// What the commands are asked: from which file, for which picture.
 ///
 /// Threads  the main one.
 #pragma once
@@ -43,6 +43,8 @@ struct Described {
 };
 
 void add_common_options(CLI::App& command, CalibrateRequest& request);
+/// --sensor-height and --keep.
+void add_touch_options(CLI::App& command, CalibrateRequest& request);
 /// Throws a CLI::ParseError at what does not go.
 void check_request(const CalibrateRequest& request);
 [[nodiscard]] Result<Described> describe(const CalibrateRequest& request);

@@ -91,11 +91,12 @@ Result<int> show_kept(const CalibrateRequest& request) {
 
 } // namespace
 
-Result<void> keep_touch(const Settings& settings, const TouchCalibration& calibration,
-                        std::span<const Touch> touches) {
-    Calibration next = kept_table(*calibration.table, touches, settings);
-    next.method = CalibrationMethod::Touch;
-    next.places = static_cast<int>(touches.size());
+namespace {
+
+/// Keeps what was found from so many places, with the date.
+Result<void> keep(const Settings& settings, const TouchCalibration& calibration, std::size_t places,
+                  Calibration next) {
+    next.places = static_cast<int>(places);
     next.mean_mm = 1e3 * calibration.mean_residual_m;
     next.worst_mm = 1e3 * calibration.worst_residual_m;
     next.mean_px = calibration.mean_residual_px;
@@ -115,6 +116,21 @@ Result<void> keep_touch(const Settings& settings, const TouchCalibration& calibr
     fmt::print(stderr, "frustumscreen-calibrate: kept as {}; the exhibit takes it when it starts again\n",
                (folder / kept->name).string());
     return {};
+}
+
+} // namespace
+
+Result<void> keep_touch(const Settings& settings, const TouchCalibration& calibration,
+                        std::span<const Touch> touches) {
+    Calibration next = kept_table(*calibration.table, touches, settings);
+    next.method = CalibrationMethod::Touch;
+    return keep(settings, calibration, touches.size(), std::move(next));
+}
+
+Result<void> keep_auto(const Settings& settings, const AutoCalibration& calibration) {
+    Calibration next = kept_table(*calibration.found.table, calibration.sensor_from_prop, settings);
+    next.method = CalibrationMethod::Auto;
+    return keep(settings, calibration.found, calibration.found.residuals.size(), std::move(next));
 }
 
 void add_kept_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {

@@ -4,6 +4,7 @@
 /// Threads  the main one.
 #pragma once
 
+#include "app/calibration/calibrate_auto.h"
 #include "app/calibration/calibrate_touch.h"
 #include "app/programs/calibrate/calibrate_request.h"
 
@@ -17,5 +18,6 @@ void add_kept_command(CLI::App& app, CalibrateRequest& request, std::function<in
 /// Keeps a calibration that is good or usable in the settings' folder, dated by this machine's clock, and says where.
 [[nodiscard]] Result<void> keep_touch(const Settings& settings, const TouchCalibration& calibration,
                                       std::span<const Touch> touches);
+[[nodiscard]] Result<void> keep_auto(const Settings& settings, const AutoCalibration& calibration);
 
 } // namespace frustumscreen

@@ -47,7 +47,7 @@ RigidTransform sensor_from_prop(const CalibratedTable& table, std::span<const To
     return {glm::normalize(glm::rotation(rotation * up, axis) * rotation), table.sensor_offset_m};
 }
 
-Calibration kept_table(const CalibratedTable& table, std::span<const Touch> touches,
+Calibration kept_table(const CalibratedTable& table, const RigidTransform& sensor_from_prop,
                        const Settings& settings) {
     const RigidTransform settings_table = settings_from_measured(settings.projector);
     Calibration kept;
@@ -55,9 +55,14 @@ Calibration kept_table(const CalibratedTable& table, std::span<const Touch> touc
     kept.table_from_projector = settings_table * table.table_from_projector;
     kept.registration = settings.tracker.registration; // the eye in the head's sensor stays
     kept.registration.table_from_tracker = settings_table * table.table_from_tracker;
-    kept.registration.sensor_from_prop =
-        sensor_from_prop(table, touches, settings.tracker.registration.sensor_from_prop);
+    kept.registration.sensor_from_prop = sensor_from_prop;
     return kept;
+}
+
+Calibration kept_table(const CalibratedTable& table, std::span<const Touch> touches,
+                       const Settings& settings) {
+    return kept_table(table, sensor_from_prop(table, touches, settings.tracker.registration.sensor_from_prop),
+                      settings);
 }
 
 } // namespace frustumscreen

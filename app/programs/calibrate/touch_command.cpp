@@ -26,36 +26,6 @@ Json rows_json(const TouchCalibration& calibration) {
     return rows;
 }
 
-/// Every key is always there; what is not known is null.
-Json touch_json(const TouchCalibration& c) {
-    Json json{{"projector", nullptr},       {"table_from_tracker", nullptr},
-              {"sensor_offset_m", nullptr}, {"residual_mm", nullptr},
-              {"residual_px", nullptr},     {"uncertainty_mm", nullptr},
-              {"hidden_error_mm", nullptr}, {"prior_share", nullptr},
-              {"rows", Json::array()},      {"verdict", name_of(c.verdict)},
-              {"reason", c.reason},         {"repeat", Json::array()}};
-    for (const std::size_t row : c.repeat) {
-        json["repeat"].push_back(row + 1);
-    }
-    if (c.table) {
-        const glm::dvec3& s = c.table->sensor_offset_m;
-        json["projector"] = projector_json(c.table->pinhole, c.table->table_from_projector);
-        json["table_from_tracker"] = matrix_json(c.table->table_from_tracker);
-        json["sensor_offset_m"] = {s.x, s.y, s.z};
-        json["residual_mm"] = mm(c.mean_residual_m, c.worst_residual_m);
-        json["residual_px"] = {{"mean", c.mean_residual_px}, {"worst", c.worst_residual_px}};
-        json["uncertainty_mm"] = mm(c.uncertainty.mean_m, c.uncertainty.worst_m);
-        json["hidden_error_mm"] = 1e3 * c.hidden_error_m;
-        json["prior_share"] = {{"aspect", c.prior_shares.aspect},
-                               {"cx", c.prior_shares.centre_u},
-                               {"cy", c.prior_shares.centre_v},
-                               {"k1", c.prior_shares.k1},
-                               {"k2", c.prior_shares.k2}};
-        json["rows"] = rows_json(c);
-    }
-    return json;
-}
-
 std::string touch_text(const TouchCalibration& c) {
     std::string text = fmt::format("{}: {}\n", name_of(c.verdict), c.reason);
     if (!c.table) {
@@ -103,6 +73,35 @@ Result<int> touch(const CalibrateRequest& request) {
 
 } // namespace
 
+nlohmann::ordered_json touch_json(const TouchCalibration& c) {
+    Json json{{"projector", nullptr},       {"table_from_tracker", nullptr},
+              {"sensor_offset_m", nullptr}, {"residual_mm", nullptr},
+              {"residual_px", nullptr},     {"uncertainty_mm", nullptr},
+              {"hidden_error_mm", nullptr}, {"prior_share", nullptr},
+              {"rows", Json::array()},      {"verdict", name_of(c.verdict)},
+              {"reason", c.reason},         {"repeat", Json::array()}};
+    for (const std::size_t row : c.repeat) {
+        json["repeat"].push_back(row + 1);
+    }
+    if (c.table) {
+        const glm::dvec3& s = c.table->sensor_offset_m;
+        json["projector"] = projector_json(c.table->pinhole, c.table->table_from_projector);
+        json["table_from_tracker"] = matrix_json(c.table->table_from_tracker);
+        json["sensor_offset_m"] = {s.x, s.y, s.z};
+        json["residual_mm"] = mm(c.mean_residual_m, c.worst_residual_m);
+        json["residual_px"] = {{"mean", c.mean_residual_px}, {"worst", c.worst_residual_px}};
+        json["uncertainty_mm"] = mm(c.uncertainty.mean_m, c.uncertainty.worst_m);
+        json["hidden_error_mm"] = 1e3 * c.hidden_error_m;
+        json["prior_share"] = {{"aspect", c.prior_shares.aspect},
+                               {"cx", c.prior_shares.centre_u},
+                               {"cy", c.prior_shares.centre_v},
+                               {"k1", c.prior_shares.k1},
+                               {"k2", c.prior_shares.k2}};
+        json["rows"] = rows_json(c);
+    }
+    return json;
+}
+
 TouchSetup touch_setup(const Described& described, const CalibrateRequest& request) {
     TouchSetup setup;
     setup.width = described.width;
@@ -116,14 +115,7 @@ void add_touch_command(CLI::App& app, CalibrateRequest& request, std::function<i
     CLI::App* const command = app.add_subcommand(
         "touch", "from the prop laid on crosses: projector, tracker and the sensor's place in the prop");
     add_common_options(*command, request);
-    command
-        ->add_option("--sensor-height", request.sensor_height_m,
-                     "the sensor above the touched place while the prop stands upright, metres")
-        ->check(CLI::Range(-2.0, 2.0));
-    command
-        ->add_flag("--keep", request.keep,
-                   "keeps what is good or usable, in the settings' calibration.folder")
-        ->needs("--config");
+    add_touch_options(*command, request);
     command->callback([&] { chosen = [&] { return end_with(touch(request)); }; });
 }
 

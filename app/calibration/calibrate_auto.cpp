@@ -1,0 +1,223 @@
+#include "app/calibration/calibrate_auto.h"
+
+#include "app/calibration/check_rests.h"
+#include "app/calibration/reliability.h"
+#include "app/calibration/rest_agreement.h"
+#include "app/calibration/rest_starts.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+AutoCalibration refused(std::string reason) {
+    AutoCalibration calibration;
+    calibration.found.reason = std::move(reason);
+    return calibration;
+}
+
+Rests with_unit_rotations(std::span<const Rest> rests) {
+    Rests out(rests.begin(), rests.end());
+    for (Rest& rest : out) {
+        rest.tracker_from_sensor.rotation = glm::normalize(rest.tracker_from_sensor.rotation);
+    }
+    return out;
+}
+
+/// The touches' part of a fit, what rests have more of marginalised with its priors, so that it can be judged as theirs.
+Fit touch_part(const RestFit& fit) {
+    constexpr int more = int{rest_unknown_count} - int{unknown_count};
+    const Eigen::Matrix<double, more, more> tail = fit.information().bottomRightCorner<more, more>();
+    const Eigen::Matrix<double, unknown_count, more> across =
+        fit.from_rests.topRightCorner<unknown_count, more>(); // priors and height tie none of them together
+    Fit part;
+    part.model = fit.model.touch;
+    part.middle = fit.middle;
+    part.from_touches = fit.from_rests.topLeftCorner<unknown_count, unknown_count>() -
+                        across * tail.ldlt().solve(across.transpose());
+    part.from_height = fit.from_height.topLeftCorner<unknown_count, unknown_count>();
+    part.from_priors = fit.from_priors.topLeftCorner<unknown_count, unknown_count>();
+    return part;
+}
+
+std::string words_for(const Undetermined& open) {
+    switch (open.what) {
+    case Undetermined::What::SensorAcross:
+        return "the prop was turned the same way in every rest, or nearly so, which does not tell where in "
+               "it the "
+               "sensor sits: turn it by a quarter from one rest to the next";
+    case Undetermined::What::SensorAbove:
+        return "the prop stood upright in every rest, which does not tell the sensor's height in it from the "
+               "tracker's: give it by --sensor-height, or let the prop lean in three rests or more";
+    case Undetermined::What::Picture:
+        break;
+    }
+    return fmt::format(
+        "these rests leave the picture open by {:.0f} mm, whatever they agree on: spread them over "
+        "the whole picture, half of them on a block as high as the prop",
+        1e3 * open.picture_m);
+}
+
+/// How far a rest's points lie from their light by a model that knows the others; those with weight.
+TouchResidual residual_of(const Rest& rest, std::span<const double> weights, const RestModel& others) {
+    TouchResidual residual;
+    double count = 0.0;
+    for (std::size_t k = 0; k < rest.points.size(); ++k) {
+        if (weights[k] <= no_weight) {
+            continue;
+        }
+        const glm::dvec3 place =
+            (rest.tracker_from_sensor * others.prop_in_sensor()).point(others.printed(rest.points[k].prop_m));
+        const auto lit = others.touch.lit(rest.points[k].pixel, others.touch.height(place));
+        const auto pixel = others.touch.pixel(place);
+        constexpr double nowhere = 1e3; // metres and pixels: no light comes there
+        residual.on_table_m += lit ? glm::distance(*lit, place) : nowhere;
+        residual.pixel += pixel ? glm::distance(*pixel, rest.points[k].pixel) : nowhere;
+        count += 1.0;
+    }
+    return {residual.on_table_m / std::fmax(1.0, count), residual.pixel / std::fmax(1.0, count)};
+}
+
+/// What all other rests say of each: a step of Gauss and Newton's method from the fit of all leaves one out, to second order.
+std::vector<TouchResidual> residuals_of(std::span<const Rest> rests, const AgreeingRests& found) {
+    const RestCovariance information = found.fit.information();
+    std::vector<TouchResidual> residuals;
+    for (std::size_t k = 0; k < rests.size(); ++k) {
+        const FittedRest& mine = found.fit.rests[k];
+        const RestCovariance others = information - mine.by_unknown.transpose() * mine.by_unknown;
+        const RestChanges change = others.ldlt().solve(mine.by_unknown.transpose() * mine.residuals);
+        residuals.push_back(residual_of(rests[k], found.weights.points[k],
+                                        changed(found.fit.model, found.fit.middle, change)));
+    }
+    return residuals;
+}
+
+double hidden_error_of(const AgreeingRests& found, std::span<const ZonePlace> places) {
+    const RestCovariance covariance = found.fit.information().ldlt().solve(RestCovariance::Identity());
+    std::vector<UnseenError<6>> unseen;
+    for (std::size_t k = 0; k < found.fit.rests.size(); ++k) {
+        if (std::binary_search(found.wrong.begin(), found.wrong.end(), k)) {
+            continue; // it is left out already
+        }
+        const FittedRest& rest = found.fit.rests[k];
+        const Eigen::Matrix<double, rest_unknown_count, 6> moves =
+            covariance * rest.by_unknown.transpose() * rest.by_pose;
+        unseen.push_back({moves.topRows<unknown_count>(), unexplained(rest, covariance).inverse()});
+    }
+    return hidden_error_m(std::span<const UnseenError<6>>(unseen), rest_chi2_limit, places);
+}
+
+std::string names_of(std::span<const std::size_t> wrong, std::span<const Rest> rests) {
+    std::vector<std::string> words;
+    for (const std::size_t k : wrong) {
+        words.push_back(fmt::format("{}", rests[k].name));
+    }
+    return in_words(words);
+}
+
+void judge(TouchCalibration& calibration, const AgreeingRests& found, std::span<const Rest> rests) {
+    const std::string expected = fmt::format(
+        "the picture is within {:.1f} mm on average and {:.1f} mm at the worst place, one standard deviation",
+        1e3 * calibration.uncertainty.mean_m, 1e3 * calibration.uncertainty.worst_m);
+    if (found.agreement == Agreement::Without) {
+        calibration.verdict = Verdict::Repeat;
+        calibration.reason =
+            found.wrong.size() == 1
+                ? fmt::format("rest {} does not fit the others: do it again", names_of(found.wrong, rests))
+                : fmt::format("rests {} do not fit the others: do them again", names_of(found.wrong, rests));
+    } else if (found.agreement == Agreement::All && keeps(calibration, for_good)) {
+        calibration.verdict = Verdict::Good;
+        calibration.reason = expected;
+    } else if (keeps(calibration, for_usable)) {
+        calibration.verdict = Verdict::Usable;
+        calibration.reason =
+            found.agreement == Agreement::Scattered
+                ? fmt::format(
+                      "{}; the tracker's reports scatter {:.1f} times as much as they should: is metal "
+                      "near, or did the prop not stand still?",
+                      expected, found.scatter)
+                : fmt::format("{}; with more rests it would be good", expected);
+    } else {
+        calibration.verdict = Verdict::Repeat;
+        calibration.reason =
+            calibration.hidden_error_m > for_usable.hidden_m
+                ? "the rests agree, but are too few to check each other, and a wrong one would stay "
+                  "unnoticed: "
+                  "let the prop rest at three more places"
+                : fmt::format(
+                      "{}, which is too much: let the prop rest at more places, spread over the picture "
+                      "and two heights",
+                      expected);
+    }
+}
+
+void count_wrong_points(AutoCalibration& calibration, const RestWeights& weights) {
+    for (const std::vector<double>& points : weights.points) {
+        calibration.points_wrong.push_back(static_cast<std::size_t>(
+            std::count_if(points.begin(), points.end(), [](double weight) { return weight <= no_weight; })));
+    }
+}
+
+/// Rests that agree, judged; refused where they leave something open.
+AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, const AgreeingRests& found) {
+    const Fit fit = touch_part(found.fit);
+    const auto standing =
+        std::find_if(rests.begin(), rests.end(), [](const Rest& rest) { return rest.block_m.has_value(); });
+    const ZoneSetup zone{setup.top_m, standing->tracker_from_sensor.rotation};
+    if (const auto open = undetermined(fit, zone)) {
+        return refused(words_for(*open));
+    }
+    AutoCalibration calibration;
+    TouchCalibration& table = calibration.found;
+    table.table = in_table_frame(fit.model);
+    if (!table.table) {
+        return refused("the light of the picture's middle does not come down on the table");
+    }
+    calibration.sensor_from_prop = found.fit.model.prop_in_sensor();
+    calibration.pixel_noise = found.pixel_noise;
+    calibration.print = found.fit.model.print;
+    count_wrong_points(calibration, found.weights);
+    const std::vector<ZonePlace> places = zone_places(fit.model, fit.middle, zone);
+    table.uncertainty = picture_uncertainty(
+        places, found.scatter * found.scatter * fit.information().ldlt().solve(Covariance::Identity()));
+    table.hidden_error_m = hidden_error_of(found, places);
+    table.prior_shares = prior_shares(fit);
+    table.repeat = found.wrong;
+    table.residuals = residuals_of(rests, found);
+    summarise_residuals(table);
+    judge(table, found, rests);
+    return calibration;
+}
+
+} // namespace
+
+AutoCalibration calibrate_auto(std::span<const Rest> reported, const AutoSetup& setup) {
+    if (auto reason = refusal_of(reported, setup.width, setup.height)) {
+        return refused(std::move(*reason));
+    }
+    const Rests rests = with_unit_rotations(reported);
+    std::vector<std::optional<PlaneView>> views;
+    for (const Rest& rest : rests) {
+        views.push_back(plane_view(rest));
+    }
+    if (auto reason = refusal_of(rests, views)) {
+        return refused(std::move(*reason));
+    }
+    const RestFitSetup fit_setup{setup.noise, setup.priors, setup.sensor_height_m};
+    const AgreeingRests found = find_agreement(rests, views, fit_setup,
+                                               starting_rest_models(rests, views, setup.width, setup.height));
+    if (found.agreement == Agreement::None) {
+        return refused(
+            "the rests contradict each other, and no few of them are to blame: do points and prop belong "
+            "together, is metal near the tracker, or did the projector move?");
+    }
+    return judged(rests, setup, found);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,23 @@
+/// The homography that takes points of one plane to points of another, by least squares.
+///
+/// Method   the direct linear transformation, about both sides' middles and at their scales.
+/// Threads  pure; any.
+/// Source   Hartley, In defense of the eight-point algorithm, 1997; Hartley and Zisserman, Multiple view geometry, 2004, 4.1
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <span>
+
+namespace frustumscreen {
+
+/// As many `to` as `from`. Nothing for fewer than four, or if they do not span a plane.
+[[nodiscard]] std::optional<Eigen::Matrix3d> homography(std::span<const Eigen::Vector2d> from,
+                                                        std::span<const Eigen::Vector2d> to);
+
+[[nodiscard]] inline Eigen::Vector2d mapped(const Eigen::Matrix3d& homography, const Eigen::Vector2d& point) {
+    const Eigen::Vector3d out = homography * point.homogeneous();
+    return out.head<2>() / out.z();
+}
+
+} // namespace frustumscreen

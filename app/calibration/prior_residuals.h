@@ -1,0 +1,38 @@
+/// The residuals of what is known beforehand of any projector, whichever points are fitted.
+///
+/// Numbers  templates over T: double, or numbers that carry derivatives (ceres::Jet).
+/// Threads  pure; any.
+#pragma once
+
+#include "app/calibration/priors.h"
+#include "app/calibration/unknowns.h"
+
+#include <cmath>
+#include <span>
+
+namespace frustumscreen {
+
+inline constexpr int prior_count = 5;
+
+/// prior_count residuals in units of their standard deviations; `change`: unknown_count numbers.
+template <typename T>
+void prior_residuals(const Priors& priors, const Pinhole& base, const T* change, T* out) {
+    const double width = base.width;
+    out[0] = (change[aspect_log] + std::log(base.fx / base.fy)) / priors.aspect;
+    out[1] = (change[centre_u] + (base.cx / width - 0.5)) / priors.centre_u;
+    out[2] = (change[centre_v] + (base.cy - 0.5 * base.height) / width) / priors.centre_v;
+    out[3] = (change[lens_k1] + base.lens.k1) / priors.k1;
+    out[4] = (change[lens_k2] + base.lens.k2) / priors.k2;
+}
+
+/// How high the sensor is above the touched place, on average over rotations of the sensor in K; there is one at least.
+template <typename T>
+T sensor_height(const ChangedModel<T>& model, std::span<const Eigen::Matrix3d> tracker_from_sensor) {
+    T sum(0.0);
+    for (const Eigen::Matrix3d& turn : tracker_from_sensor) {
+        sum -= model.up.dot(turn.cast<T>() * model.offset);
+    }
+    return sum / static_cast<double>(tracker_from_sensor.size());
+}
+
+} // namespace frustumscreen

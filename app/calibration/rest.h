@@ -1,0 +1,37 @@
+/// One rest of the prop: it stands still, and of known points of it the projector's pixel that lights each was found, with a camera's help.
+///
+/// Frames   K is the tracker's own frame; the prop's has its origin at the middle of its bottom, +Z up through its top.
+/// Units    metres; pixels, the centre of the top left one is (0.5, 0.5).
+/// Threads  values; any.
+#pragma once
+
+#include "app/geometry/transform.h"
+
+#include <optional>
+#include <vector>
+
+namespace frustumscreen {
+
+struct PropPoint {
+    glm::dvec3 prop_m{0.0};
+    glm::dvec2 pixel{0.0}; ///< that lights it
+};
+
+struct Rest {
+    int name = 0;                       ///< the number that people know it by
+    RigidTransform tracker_from_sensor; ///< what the tracker reported, once for all points
+    std::vector<PropPoint> points;
+    std::optional<double> block_m; ///< the prop's bottom lies flat so high above the table; none: it leans
+};
+
+using Rests = std::vector<Rest>;
+
+/// Standard deviations, of each coordinate. The tracker's error is one for all points of a rest.
+struct RestNoise {
+    double position_m = 3e-4;
+    double rotation_rad = 2.6e-3; ///< about each axis; 0.15 degrees
+    double pixel = 0.2;           ///< of a point's pixel: the decoding, the tag's corner and its print
+    double block_m = 1e-4;        ///< of the height of each of three places of the prop's bottom
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,67 @@
+/// What rests determine: all that touches do, how the prop is turned in the sensor, and how large its tags were printed. Four unknowns more.
+///
+/// The touched place is the middle of the prop's bottom.
+/// Frames   as touch_model.h and unknowns.h have them.
+/// Threads  values; any.
+#pragma once
+
+#include "app/calibration/rest.h"
+#include "app/calibration/unknowns.h"
+
+#include <cmath>
+
+namespace frustumscreen {
+
+struct RestModel {
+    TouchModel touch;
+    glm::dquat sensor_from_prop{1.0, 0.0, 0.0, 0.0};
+    double print = 1.0; ///< times as large as it should be, about the prop's axis
+
+    /// Where a point truly is that was printed.
+    [[nodiscard]] glm::dvec3 printed(const glm::dvec3& prop_point) const {
+        return {print * prop_point.x, print * prop_point.y, prop_point.z};
+    }
+
+    [[nodiscard]] RigidTransform prop_in_sensor() const { return {sensor_from_prop, touch.sensor_offset_m}; }
+};
+
+/// After the touches' unknowns.
+enum RestUnknown {
+    prop_turn_x = unknown_count, ///< of the prop, in the sensor's frame
+    prop_turn_y,
+    prop_turn_z,
+    print_log, ///< of the print's size
+    rest_unknown_count
+};
+
+using RestChanges = Eigen::Matrix<double, rest_unknown_count, 1>;
+using RestCovariance = Eigen::Matrix<double, rest_unknown_count, rest_unknown_count>;
+
+/// A model with changes, ready to predict where points of the prop are.
+template <typename T> struct ChangedRestModel {
+    using Vector = Eigen::Matrix<T, 3, 1>;
+
+    ChangedRestModel(const RestModel& base, const glm::dvec3& middle, const T* change)
+        : touch(base.touch, middle, change),
+          turn(small_rotation(change[prop_turn_x], change[prop_turn_y], change[prop_turn_z]) *
+               eigen(base.sensor_from_prop).cast<T>()) {
+        using std::exp; // a Jet's own is found beside it
+        print = exp(change[print_log]) * base.print;
+    }
+
+    /// From the sensor to a point of the prop, along K's axes.
+    [[nodiscard]] Vector arm(const Eigen::Matrix3d& tracker_from_sensor, const Vector& prop_point) const {
+        return tracker_from_sensor.cast<T>() * (touch.offset + turn * prop_point);
+    }
+    [[nodiscard]] Vector printed(const glm::dvec3& prop_point) const {
+        return {print * prop_point.x, print * prop_point.y, T(prop_point.z)};
+    }
+
+    ChangedModel<T> touch;
+    Eigen::Matrix<T, 3, 3> turn; ///< sensor from prop
+    T print;
+};
+
+[[nodiscard]] RestModel changed(const RestModel& base, const glm::dvec3& middle, const RestChanges& change);
+
+} // namespace frustumscreen

@@ -1,0 +1,116 @@
+#include "app/calibration/tag_pixels.h"
+
+#include "app/calibration/homography.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+/// The white rim around a tag belongs to its plane; what is farther out may not.
+constexpr double reach = 1.15;
+/// Share of the contrast of the tag's white.
+constexpr double least_white = 0.75;
+constexpr std::size_t least_pixels = 60;
+/// A decoded pixel that is so many times as far off as most is wrong.
+constexpr double farthest = 4.0;
+
+using Points = std::vector<Eigen::Vector2d>;
+
+/// Whether a place lies in a quadrilateral of either sense.
+bool is_inside(const std::array<glm::dvec2, 4>& corners, const glm::dvec2& place) {
+    int left = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const glm::dvec2 side = corners[(k + 1) % 4] - corners[k];
+        const glm::dvec2 to = place - corners[k];
+        left += side.x * to.y - side.y * to.x > 0.0 ? 1 : 0;
+    }
+    return left == 0 || left == 4;
+}
+
+/// Decoded pixels on white in a quadrilateral: the camera's, and the projector's. On black, and on its edge, the light of white beside it tells.
+std::pair<Points, Points> decoded_in(const PixelMap& map, const std::array<glm::dvec2, 4>& corners) {
+    glm::dvec2 low = corners[0];
+    glm::dvec2 high = corners[0];
+    for (const glm::dvec2& corner : corners) {
+        low = glm::min(low, corner);
+        high = glm::max(high, corner);
+    }
+    const glm::dvec2 size(map.width, map.height);
+    const glm::ivec2 from(glm::clamp(low, glm::dvec2(0.0), size));
+    const glm::ivec2 to(glm::clamp(glm::ceil(high), glm::dvec2(0.0), size));
+    std::vector<std::pair<glm::dvec2, std::size_t>> inside;
+    std::vector<std::uint8_t> contrasts;
+    for (int y = from.y; y < to.y; ++y) {
+        for (int x = from.x; x < to.x; ++x) {
+            const glm::dvec2 place(x + 0.5, y + 0.5);
+            const std::size_t k = map.index(x, y);
+            if (map.known[k] != 0 && is_inside(corners, place)) {
+                inside.emplace_back(place, k);
+                contrasts.push_back(map.contrast[k]);
+            }
+        }
+    }
+    std::sort(contrasts.begin(), contrasts.end());
+    const double white = contrasts.empty() ? 0.0 : contrasts[contrasts.size() * 9 / 10];
+    std::pair<Points, Points> points;
+    for (const auto& [place, k] : inside) {
+        if (map.contrast[k] > least_white * white) {
+            points.first.emplace_back(place.x, place.y);
+            points.second.emplace_back(map.pixels[k].x, map.pixels[k].y);
+        }
+    }
+    return points;
+}
+
+/// Those whose pixel is within a few medians of what the homography says.
+std::pair<Points, Points> believed(const std::pair<Points, Points>& points, const Eigen::Matrix3d& map) {
+    std::vector<double> off;
+    for (std::size_t k = 0; k < points.first.size(); ++k) {
+        off.push_back((mapped(map, points.first[k]) - points.second[k]).norm());
+    }
+    std::vector<double> sorted = off;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    std::pair<Points, Points> kept;
+    for (std::size_t k = 0; k < off.size(); ++k) {
+        if (off[k] <= farthest * *middle) {
+            kept.first.push_back(points.first[k]);
+            kept.second.push_back(points.second[k]);
+        }
+    }
+    return kept;
+}
+
+} // namespace
+
+std::optional<std::array<glm::dvec2, 4>> tag_pixels(const PixelMap& map,
+                                                    const std::array<glm::dvec2, 4>& corners) {
+    const glm::dvec2 middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+    std::array<glm::dvec2, 4> around = corners;
+    for (glm::dvec2& corner : around) {
+        corner = middle + reach * (corner - middle);
+    }
+    std::pair<Points, Points> points = decoded_in(map, around);
+    std::optional<Eigen::Matrix3d> pixel_from_camera;
+    for (int round = 0; round < 3; ++round) {
+        if (points.first.size() < least_pixels) {
+            return std::nullopt;
+        }
+        pixel_from_camera = homography(points.first, points.second);
+        if (!pixel_from_camera) {
+            return std::nullopt;
+        }
+        points = believed(points, *pixel_from_camera);
+    }
+    std::array<glm::dvec2, 4> pixels{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Eigen::Vector2d pixel = mapped(*pixel_from_camera, {corners[k].x, corners[k].y});
+        pixels[k] = {pixel.x(), pixel.y()};
+    }
+    return pixels;
+}
+
+} // namespace frustumscreen

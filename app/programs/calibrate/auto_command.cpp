@@ -1,0 +1,104 @@
+#include "app/programs/calibrate/auto_command.h"
+
+#include "app/calibration/calibrate_auto.h"
+#include "app/calibration/point_files.h"
+#include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/touch_command.h"
+#include "firmware_host/base/file.h"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+namespace frustumscreen {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// As of touches, with rests by their own numbers, and what is known of rests alone.
+Json auto_json(const AutoCalibration& c, const Rests& rests) {
+    Json json = touch_json(c.found);
+    json["repeat"] = Json::array();
+    for (const std::size_t k : c.found.repeat) {
+        json["repeat"].push_back(rests[k].name);
+    }
+    for (std::size_t k = 0; k < json["rows"].size(); ++k) {
+        Json& row = json["rows"][k];
+        row["row"] = rests[k].name;
+        row["points"] = rests[k].points.size();
+        row["points_wrong"] = c.points_wrong[k];
+    }
+    json["sensor_from_prop"] = c.found.table ? matrix_json(c.sensor_from_prop) : Json();
+    json["pixel_noise_px"] = c.found.table ? Json(c.pixel_noise) : Json();
+    json["print_size"] = c.found.table ? Json(c.print) : Json();
+    return json;
+}
+
+std::string auto_text(const AutoCalibration& c, const Rests& rests) {
+    std::string text = fmt::format("{}: {}\n", name_of(c.found.verdict), c.found.reason);
+    if (!c.found.table) {
+        return text;
+    }
+    const glm::dvec3& lens = c.found.table->table_from_projector.translation;
+    text +=
+        fmt::format("The projector is {:.3f} m above the table, {:.0f} mm beside and {:.0f} mm behind its "
+                    "picture's middle.\n",
+                    lens.z, 1e3 * lens.x, 1e3 * lens.y);
+    text += fmt::format(
+        "The points of a rest lie {:.1f} mm ({:.1f} pixels) from where the others expect them, on "
+        "average; {:.1f} mm at worst.\n",
+        1e3 * c.found.mean_residual_m, c.found.mean_residual_px, 1e3 * c.found.worst_residual_m);
+    const std::size_t wrong = std::accumulate(c.points_wrong.begin(), c.points_wrong.end(), std::size_t{0});
+    text += fmt::format("A point's pixel is known to {:.2f} pixels; {} points were wrong and are left out.\n",
+                        c.pixel_noise, wrong);
+    for (const std::size_t k : c.found.repeat) {
+        text += fmt::format("Rest {} lies {:.1f} mm from there.\n", rests[k].name,
+                            1e3 * c.found.residuals[k].on_table_m);
+    }
+    return text;
+}
+
+Result<int> calibrate(const CalibrateRequest& request) {
+    const Result<Described> described = describe(request);
+    if (!described) {
+        return tl::unexpected<Error>(described.error());
+    }
+    const Result<Bytes> bytes = read_file(request.from);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
+    }
+    const Result<Rests> rests = parse_rests(as_text(*bytes), request.from.string());
+    if (!rests) {
+        return tl::unexpected<Error>(rests.error());
+    }
+    AutoSetup setup;
+    setup.width = described->width;
+    setup.height = described->height;
+    setup.top_m = described->top_m;
+    setup.sensor_height_m = request.sensor_height_m;
+    const AutoCalibration calibration = calibrate_auto(*rests, setup);
+    if (request.json) {
+        fmt::print("{}\n", auto_json(calibration, *rests).dump(2));
+    } else {
+        fmt::print("{}", auto_text(calibration, *rests));
+    }
+    const int status = status_of(calibration.found.verdict, request, calibration.found.reason);
+    if (status == 0 && request.keep) {
+        return keep_auto(*described->settings, calibration).map([] { return 0; });
+    }
+    return status;
+}
+
+} // namespace
+
+void add_auto_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
+    CLI::App* const command = app.add_subcommand(
+        "auto",
+        "from rests of the prop with pixels of known points of it: projector, tracker and the sensor");
+    add_common_options(*command, request);
+    add_touch_options(*command, request);
+    command->callback([&] { chosen = [&] { return end_with(calibrate(request)); }; });
+}
+
+} // namespace frustumscreen
