@@ -28,7 +28,10 @@ std::vector<Cross> grid_of(const TouchModel& model, const CrossSetup& setup) {
     const Pinhole& p = model.pinhole;
     const double margin = setup.margin * p.width;
     std::vector<Cross> crosses;
-    for (const double block : setup.blocks_m) {
+    constexpr int steps =
+        3; // from eight touches on none of those between is chosen; on the way they lead to better choices
+    for (int step = 0; step <= steps; ++step) {
+        const double block = step * setup.block_m / steps;
         for (int k = 0; k < (columns + 1) * (rows + 1); ++k) {
             const glm::dvec2 pixel(margin + (p.width - 2.0 * margin) * (k % (columns + 1)) / columns,
                                    margin + (p.height - 2.0 * margin) * (k / (columns + 1)) / rows);

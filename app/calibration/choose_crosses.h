@@ -23,9 +23,9 @@ struct Cross {
 
 struct CrossSetup {
     int count = 9;
-    std::vector<double> blocks_m{0.0, 0.04, 0.08, 0.12};
-    double margin = 0.03; ///< how far a cross stays from the picture's edge, in widths
-    double top_m = 0.12;  ///< the prop's height
+    double block_m = 0.12; ///< the largest height above the table; a few touches may also lie at its thirds
+    double margin = 0.03;  ///< how far a cross stays from the picture's edge, in widths
+    double top_m = 0.12;   ///< the prop's height
     TouchNoise noise;
     Priors priors;
 };
@@ -33,7 +33,7 @@ struct CrossSetup {
 /// A rough model where nothing is known but the picture and the throw: a projector straight above, a tracker in the table's frame.
 [[nodiscard]] TouchModel rough_model(const Pinhole& pinhole, double above_m, double sensor_height_m);
 
-/// In the order in which to touch them: blocks from low to high. `rough`: its K is taken as a frame whose Z is up.
+/// In the order in which to touch them: from low to high. `rough`: its K is taken as a frame whose Z is up.
 [[nodiscard]] std::vector<Cross> choose_crosses(const TouchModel& rough, const CrossSetup& setup);
 
 } // namespace frustumscreen

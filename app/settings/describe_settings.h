@@ -231,9 +231,8 @@ void calibration_settings(auto& fields, auto& calibration) {
     fields.number("sensor_height_m", calibration.sensor_height_m, {-2.0, 2.0, "metres"},
                   "of the sensor above the prop's bottom, by a ruler; 0: as tracker.sensor_from_prop has it");
     fields.integer("touches", calibration.touches, 6, 30, "how many crosses the prop is laid on");
-    fields.number("board_m", calibration.board_m, {0.005, 0.5, "metres"},
-                  "the thickness of each board that the prop is raised with");
-    fields.integer("boards", calibration.boards, 1, 8, "how many boards there are, one upon the other");
+    fields.number("block_m", calibration.block_m, {0.02, 0.5, "metres"},
+                  "how high boards or a block raise the prop, for half of them; as high as the prop is best");
 }
 
 void press_settings(auto& fields, auto& press) {

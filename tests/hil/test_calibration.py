@@ -76,7 +76,7 @@ class Calibration(HilTest):
         self.hold_chord()
         self.bench.status_says("state", "staff")
         self.hold_chord()
-        self.hears("Staff: measure the table anew")
+        self.hears("Staff: measure the table anew", 3 * START_S)  # crosses are chosen first
 
     def hold_chord(self):
         for button in (FIRST, LAST):
@@ -91,7 +91,7 @@ class Calibration(HilTest):
     def lay(self, place, yaw):
         self.bench.tracker.tell("pose", *self.truth.report(place, yaw, SENSOR_M), 1)
 
-    def hears(self, words):
+    def hears(self, words, timeout_s=START_S):
         """Waits until the table says so; the journal has its words, and now and then a line on a device."""
         said = [""]
 
@@ -99,7 +99,7 @@ class Calibration(HilTest):
             said[0] = self.bench.machine.run(f"journalctl -b -o cat --no-pager -n 4 -u {CALIBRATION} -t frustumscreen-calibrate").output
             return words in said[0]
 
-        eventually(is_said, START_S, lambda: f"the table never says '{words}', at last: {said[0]}")
+        eventually(is_said, timeout_s, lambda: f"the table never says '{words}', at last: {said[0]}")
 
     def assert_lit(self, u, v):
         def is_lit():

@@ -28,7 +28,7 @@ struct CalibrateRequest {
     bool undo = false;
     // On the table; what is left out stands in the settings:
     std::optional<int> touches;
-    std::vector<double> blocks_m;
+    std::optional<double> block_m;
     std::filesystem::path out;
     bool headless = false;
     bool json = false;

@@ -35,10 +35,7 @@ std::vector<Cross> crosses_for(const Settings& settings, const CalibrateRequest&
     const CalibrationSettings& own = settings.calibration;
     CrossSetup setup;
     setup.count = request.touches.value_or(own.touches);
-    setup.blocks_m = request.blocks_m;
-    for (int boards = 0; request.blocks_m.empty() && boards <= own.boards; ++boards) {
-        setup.blocks_m.push_back(boards * own.board_m);
-    }
+    setup.block_m = request.block_m.value_or(own.block_m);
     setup.top_m = settings.prop.height_m;
     const double above_m = settings.projector.table_from_projector.translation.z;
     return choose_crosses(
@@ -293,9 +290,8 @@ void add_table_command(CLI::App& app, CalibrateRequest& request, std::function<i
                      "how many crosses, 6 to 30; this and the next two are else as the settings have them")
         ->check(CLI::Range(6, 30));
     command
-        ->add_option("--blocks", request.blocks_m,
-                     "heights of the blocks that there are, metres, with 0 for the table itself")
-        ->check(CLI::Range(0.0, 0.5));
+        ->add_option("--block", request.block_m, "how high a block raises the prop for half of them, metres")
+        ->check(CLI::Range(0.02, 0.5));
     command
         ->add_option("--sensor-height", request.sensor_height_m, "the sensor above the prop's bottom, metres")
         ->check(CLI::Range(-2.0, 2.0));

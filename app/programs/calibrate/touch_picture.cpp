@@ -76,14 +76,14 @@ std::vector<std::string> words_of_verdict(const TouchCalibration& judged) {
     return words;
 }
 
-/// What a technician needs at hand: "boards of 40, 80 and 120 mm", from the heights that the crosses ask for.
-std::string boards_for(const std::vector<Cross>& crosses) {
+/// What a technician needs at hand: the heights that the crosses ask for, millimetres.
+std::set<int> block_heights_mm(const std::vector<Cross>& crosses) {
     std::set<int> heights_mm;
     for (const Cross& cross : crosses) {
         heights_mm.insert(static_cast<int>(std::lround(1e3 * cross.block_m)));
     }
     heights_mm.erase(0);
-    return fmt::format("boards that make {} mm", fmt::join(heights_mm, ", "));
+    return heights_mm;
 }
 
 std::vector<std::string> words_of_begin(const TouchProcedure& procedure) {
@@ -94,8 +94,8 @@ std::vector<std::string> words_of_begin(const TouchProcedure& procedure) {
     return {
         "Staff: measure the table anew",
         fmt::format("Projector, tracker and the prop's sensor are measured with {} touches; that takes about "
-                    "five minutes. You need the prop and {}.",
-                    procedure.count(), boards_for(procedure.crosses())),
+                    "five minutes. You need the prop and boards that make {} mm.",
+                    procedure.count(), fmt::join(block_heights_mm(procedure.crosses()), ", ")),
         "Next begins. Back returns to the exhibit; so does a minute without a press."};
 }
 
