@@ -25,6 +25,7 @@ struct CalibrateRequest {
     std::vector<int> picture; ///< width, height
     std::optional<double> sensor_height_m;
     bool keep = false;
+    std::filesystem::path map; ///< where the uncertainty goes as a picture; empty: nowhere
     bool undo = false;
     // On the table:
     int touches = 9;

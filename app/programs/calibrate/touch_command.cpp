@@ -2,6 +2,7 @@
 
 #include "app/calibration/point_files.h"
 #include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/uncertainty_picture.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
@@ -26,14 +27,28 @@ Json rows_json(const TouchCalibration& calibration) {
     return rows;
 }
 
+/// What the map is worth, and the map itself as the calibration keeps it.
+Json field_json(const FieldWorth& worth, const FieldMap& map) {
+    Json terms = Json::object();
+    for (std::size_t k = 0; k < FieldMap::term_count; ++k) {
+        const glm::dvec3& shift = map.shift_m[k];
+        terms[FieldMap::term_names[k]] = {shift.x, shift.y, shift.z};
+    }
+    return {{"left_out_mm", {{"without", 1e3 * worth.without_map_m}, {"with", 1e3 * worth.with_map_m}}},
+            {"chance", worth.chance},
+            {"largest_bend_mm", 1e3 * worth.largest_bend_m},
+            {"box_from_tracker", matrix_json(map.box_from_tracker)},
+            {"half_m", {map.half_m.x, map.half_m.y, map.half_m.z}},
+            {"shift_m", terms}};
+}
+
 /// Every key is always there; what is not known is null.
 Json touch_json(const TouchCalibration& c) {
-    Json json{{"projector", nullptr},       {"table_from_tracker", nullptr},
-              {"sensor_offset_m", nullptr}, {"residual_mm", nullptr},
-              {"residual_px", nullptr},     {"uncertainty_mm", nullptr},
-              {"hidden_error_mm", nullptr}, {"prior_share", nullptr},
-              {"rows", Json::array()},      {"verdict", name_of(c.verdict)},
-              {"reason", c.reason},         {"repeat", Json::array()}};
+    Json json{{"projector", nullptr},       {"table_from_tracker", nullptr}, {"sensor_offset_m", nullptr},
+              {"residual_mm", nullptr},     {"residual_px", nullptr},        {"uncertainty_mm", nullptr},
+              {"hidden_error_mm", nullptr}, {"prior_share", nullptr},        {"field", nullptr},
+              {"rows", Json::array()},      {"verdict", name_of(c.verdict)}, {"reason", c.reason},
+              {"repeat", Json::array()}};
     for (const std::size_t row : c.repeat) {
         json["repeat"].push_back(row + 1);
     }
@@ -52,6 +67,9 @@ Json touch_json(const TouchCalibration& c) {
                                {"k1", c.prior_shares.k1},
                                {"k2", c.prior_shares.k2}};
         json["rows"] = rows_json(c);
+        if (c.field) {
+            json["field"] = field_json(*c.field, *c.table->field);
+        }
     }
     return json;
 }
@@ -68,11 +86,30 @@ std::string touch_text(const TouchCalibration& c) {
     text += fmt::format("Each touch lies {:.1f} mm ({:.1f} pixels) from where the others expect it, on "
                         "average; {:.1f} mm at worst.\n",
                         1e3 * c.mean_residual_m, c.mean_residual_px, 1e3 * c.worst_residual_m);
+    if (c.field) {
+        text += fmt::format("Metal bends what the tracker reports, by up to {:.1f} mm; a map takes it back: "
+                            "touches that are left "
+                            "out lie {:.1f} mm off with it, {:.1f} mm without.\n",
+                            1e3 * c.field->largest_bend_m, 1e3 * c.field->with_map_m,
+                            1e3 * c.field->without_map_m);
+    }
     for (const std::size_t row : c.repeat) {
         text +=
             fmt::format("Touch {} lies {:.1f} mm from there.\n", row + 1, 1e3 * c.residuals[row].on_table_m);
     }
     return text;
+}
+
+Result<void> write_map(const CalibrateRequest& request, const TouchCalibration& calibration,
+                       std::span<const Touch> touches, double top_m) {
+    if (!calibration.table) {
+        return {}; // refused: nothing is known, and the reason is told
+    }
+    const Result<Typesetter> typesetter = Typesetter::open();
+    if (!typesetter) {
+        return tl::unexpected<Error>(typesetter.error());
+    }
+    return write_file(request.map, encode_png(uncertainty_picture(calibration, touches, top_m, *typesetter)));
 }
 
 Result<int> touch(const CalibrateRequest& request) {
@@ -93,6 +130,11 @@ Result<int> touch(const CalibrateRequest& request) {
         fmt::print("{}\n", touch_json(calibration).dump(2));
     } else {
         fmt::print("{}", touch_text(calibration));
+    }
+    if (!request.map.empty()) {
+        if (const Result<void> drawn = write_map(request, calibration, *touches, described->top_m); !drawn) {
+            return tl::unexpected<Error>(drawn.error());
+        }
     }
     const int status = status_of(calibration.verdict, request, calibration.reason);
     if (status == 0 && request.keep) {
@@ -124,6 +166,8 @@ void add_touch_command(CLI::App& app, CalibrateRequest& request, std::function<i
         ->add_flag("--keep", request.keep,
                    "keeps what is good or usable, in the settings' calibration.folder")
         ->needs("--config");
+    command->add_option("--map", request.map,
+                        "draws how uncertain the picture is, on the table and at the prop's top: PNG");
     command->callback([&] { chosen = [&] { return end_with(touch(request)); }; });
 }
 
