@@ -34,7 +34,7 @@ constexpr std::array<Colour, bands> band_colours{{{255, 255, 217},
 
 /// A band's width in millimetres: one of few round numbers, so that the legend's are too.
 double band_mm(double largest_mm) {
-    for (const double width : {0.05, 0.1, 0.2, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0}) {
+    for (const double width : {0.05, 0.1, 0.15, 0.2, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0}) {
         if (largest_mm <= bands * width) {
             return width;
         }
@@ -145,6 +145,18 @@ void draw_cross(Canvas& canvas, const Typesetter& typesetter, const glm::dvec2& 
     canvas.text(typesetter, word, at + glm::dvec2(14.0, 4.0), 15.0, ink);
 }
 
+/// The picture's edge, straight enough between its corners and the middles of its sides.
+void draw_edge(Canvas& canvas, const CalibratedTable& table, const Field& field, double height_m) {
+    std::vector<glm::dvec2> edge;
+    for (const glm::dvec2& share :
+         {glm::dvec2(0.0, 0.0), glm::dvec2(0.5, 0.0), glm::dvec2(1.0, 0.0), glm::dvec2(1.0, 0.5),
+          glm::dvec2(1.0, 1.0), glm::dvec2(0.5, 1.0), glm::dvec2(0.0, 1.0), glm::dvec2(0.0, 0.5)}) {
+        const glm::dvec2 size(table.pinhole.width, table.pinhole.height);
+        edge.push_back(field.pixel(light_of(table, share * size, height_m)));
+    }
+    canvas.outline(edge, 1.5, grey);
+}
+
 void draw_scale(Canvas& canvas, const Typesetter& typesetter, const Field& field) {
     constexpr double length_m = 0.2;
     const glm::dvec2 at = field.low_px + glm::dvec2(0.0, field_px.y + 22.0);
@@ -170,9 +182,9 @@ void draw_legend(Canvas& canvas, const Typesetter& typesetter, double width_mm) 
         canvas.text(typesetter, fmt::format("{:.3g}", width_mm * k), at + glm::dvec2(box_px * k, 36.0), 19.0,
                     ink, {0.5, 0.0});
     }
-    canvas.text(typesetter, "mm, one standard deviation", at + glm::dvec2(bands * box_px + 40.0, 36.0), 19.0,
-                ink);
-    const glm::dvec2 cross = at + glm::dvec2(bands * box_px + 380.0, 46.0);
+    canvas.text(typesetter, "mm, one standard deviation", at + glm::dvec2(bands * box_px + 24.0, 15.0), 19.0,
+                ink, {0.0, 0.5});
+    const glm::dvec2 cross = at + glm::dvec2(bands * box_px + 340.0, 15.0);
     draw_cross(canvas, typesetter, cross, 1);
     canvas.text(typesetter, "a touched cross, on the nearer height", cross + glm::dvec2(40.0, 0.0), 19.0, ink,
                 {0.0, 0.5});
@@ -202,6 +214,7 @@ Image8 uncertainty_picture(const TouchCalibration& calibration, std::span<const 
                     k == 0 ? std::string("On the table, seen from above")
                            : fmt::format("{:.0f} mm above it, at the prop's top", 1e3 * top_m),
                     fields[k].low_px - glm::dvec2(0.0, 44.0), 23.0, ink, {}, true);
+        draw_edge(canvas, table, fields[k], levels[k].height_m());
         draw_scale(canvas, typesetter, fields[k]);
     }
     for (std::size_t k = 0; k < touches.size(); ++k) {
