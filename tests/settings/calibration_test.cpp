@@ -1,4 +1,5 @@
 // What is kept of calibrations: nothing of it is lost, whatever happens, and a bad one never leaves the table dark.
+#include "app/settings/config_json.h"
 #include "app/settings/kept_calibrations.h"
 #include "app/settings/missing_files.h"
 #include "firmware_host/base/disk_tree.h"
@@ -254,6 +255,15 @@ protected:
         return settings ? **settings : Settings();
     }
 };
+
+TEST_F(Calibrated, AFieldMapIsAppliedAndTold) {
+    keep(calibration(1));
+    EXPECT_EQ(config_json(*load_settings(folder / "kiosk.toml")).find("\"field\""), std::string::npos);
+    keep(bent_calibration());
+    ASSERT_TRUE(loaded().tracker.registration.field);
+    EXPECT_EQ(loaded().tracker.registration.field->half_m.z, 0.07);
+    EXPECT_NE(config_json(*load_settings(folder / "kiosk.toml")).find("\"field\": {"), std::string::npos);
+}
 
 TEST_F(Calibrated, TheNewestOneStandsInTheSettings) {
     EXPECT_FALSE(loaded().calibration.used);
