@@ -17,6 +17,7 @@ install(PROGRAMS assets_baked/batch/slurm_array.sh
 install(TARGETS frustumscreen-watchdog frustumscreen-safe
     DESTINATION /usr/bin COMPONENT kiosk EXCLUDE_FROM_ALL)
 install(FILES systemd/frustumscreen.service systemd/frustumscreen-safe.service
+    systemd/frustumscreen-calibrate.path systemd/frustumscreen-calibrate.service
     systemd/frustumscreen-stick@.service systemd/frustumscreen-ntfs@.service
     systemd/frustumscreen-import@.service systemd/frustumscreen-import-refused@.service
     systemd/frustumscreen-watchdog.service systemd/frustumscreen-step@.path systemd/frustumscreen-step@.service

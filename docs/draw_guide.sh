@@ -10,13 +10,15 @@ if [[ ! -f $built_in ]]; then
     echo "draw_guide.sh: $built_in: there is no such file; run ./test first" >&2
     exit 1
 fi
-cmake/build.sh release draw_staff_picture >/dev/null
+cmake/build.sh release draw_staff_picture draw_calibration_pictures >/dev/null
 build/release/tests/draw_staff_picture "$guide/staff.png"
 "$bin/frustumscreen" drawing --config config/kiosk.toml -o "$guide/table.svg"
 "$bin/frustumscreen" drawing --config config/kiosk.toml -o "$guide/prop.svg" --sheet prop
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
+build/release/tests/draw_calibration_pictures "$folder"
+cp "$folder/calibrate_cross.png" "$guide/"
 cd "$folder"
 # A stick with a pack that is signed and one that is not, taken in by the importer itself.
 mkdir stick library keys

@@ -99,7 +99,7 @@ bool too_few_left(const AgreeingTouches& found, std::span<const Touch> touches, 
 void judge(TouchCalibration& calibration, const AgreeingTouches& found) {
     calibration.repeat = found.wrong;
     const std::string expected = fmt::format(
-        "the picture is within {:.1f} mm on average and {:.1f} mm at the worst place, one standard deviation",
+        "the picture lies about {:.1f} mm beside its place on average, {:.1f} mm at the worst place",
         1e3 * calibration.uncertainty.mean_m, 1e3 * calibration.uncertainty.worst_m);
     if (found.agreement == Agreement::Exchanged) {
         calibration.verdict = Verdict::Repeat;

@@ -28,7 +28,13 @@ RigidTransform mean_of(const std::vector<RigidTransform>& poses) {
 } // namespace
 
 void TouchProcedure::step(const Input& input) {
+    if (nobody_is_there(input)) {
+        stage_ = TouchStage::Left;
+    }
     switch (stage_) {
+    case TouchStage::Begin:
+        begin(input);
+        break;
     case TouchStage::Lay:
         lay(input);
         break;
@@ -40,12 +46,32 @@ void TouchProcedure::step(const Input& input) {
         break;
     case TouchStage::Solve:
     case TouchStage::Done:
+    case TouchStage::Left:
         break;
     }
 }
 
+bool TouchProcedure::nobody_is_there(const Input& input) {
+    if (!pressed_ || input.next || input.back) {
+        pressed_ = input.now;
+    }
+    return stage_ != TouchStage::Done &&
+           input.now - *pressed_ > (stage_ == TouchStage::Begin ? to_begin : to_go_on);
+}
+
+void TouchProcedure::begin(const Input& input) {
+    word_ = TouchWord::None;
+    if (input.back) {
+        stage_ = TouchStage::Left;
+    } else if (input.next && problem_.empty()) {
+        stage_ = TouchStage::Lay;
+    }
+}
+
 void TouchProcedure::lay(const Input& input) {
-    if (input.back && at_ > 0) {
+    if (input.back && at_ == 0) {
+        stage_ = TouchStage::Begin;
+    } else if (input.back) {
         touches_[--at_].reset();
         word_ = TouchWord::None;
     } else if (input.next) {

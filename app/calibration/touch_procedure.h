@@ -1,6 +1,8 @@
 /// The way through a calibration by touch, for one technician with two buttons: which cross the projector shows, what is said,
 /// and which of the tracker's reports become touches.
 ///
+/// Begin    What is needed is told, or why it cannot be done. Next begins, Back leaves. Who does nothing for a while leaves too, so that
+///          the exhibit comes back when somebody forgets the table, or got here by chance.
 /// Steps    The cross is shown; the prop is laid on it; Next; a second of rest is taken, and begins anew if the prop moves; the
 ///          next cross. After the last one whoever calls solves and tells the verdict: Next keeps it, Back does the touch again
 ///          that lies farthest off; touches that are to be repeated come again by themselves.
@@ -14,16 +16,19 @@
 #include "firmware_host/base/time.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace frustumscreen {
 
 enum class TouchStage {
+    Begin,     ///< nothing was done yet; Back from the first cross leads here too
     Lay,       ///< the prop is to be laid on the cross
     HoldStill, ///< its rest is taken
     Solve,     ///< all touches are there: call `judge`
     Judged,    ///< the verdict is told
-    Done       ///< it is to be kept
+    Done,      ///< it is to be kept
+    Left       ///< it ends without one
 };
 
 /// What is said beside the cross.
@@ -39,15 +44,17 @@ class TouchProcedure {
 public:
     static constexpr Nanoseconds rest = std::chrono::seconds(1);
     static constexpr Nanoseconds patience = std::chrono::seconds(2); ///< for the tracker's reports
-    static constexpr double still_m = 1.5e-3;                        ///< from the first report of the rest
+    static constexpr Nanoseconds to_begin = std::chrono::minutes(1); ///< without a press: it is left
+    static constexpr Nanoseconds to_go_on = std::chrono::minutes(10);
+    static constexpr double still_m = 1.5e-3; ///< from the first report of the rest
     static constexpr double still_rad = 0.02;
     static constexpr double same_place_m = 5e-3;
     static constexpr double same_place_rad = 0.2;
     static constexpr std::size_t least_reports = 5; ///< in the second of rest
 
-    /// `crosses`: at least one, in the order in which they come.
-    explicit TouchProcedure(std::vector<Cross> crosses)
-        : crosses_(std::move(crosses)), touches_(crosses_.size()) {}
+    /// `crosses`: at least one, in the order in which they come. `problem`: a sentence on why it cannot be done; empty: it can.
+    explicit TouchProcedure(std::vector<Cross> crosses, std::string problem = {})
+        : crosses_(std::move(crosses)), touches_(crosses_.size()), problem_(std::move(problem)) {}
 
     struct Input {
         MonotonicTime now;
@@ -60,10 +67,12 @@ public:
     void judge(TouchCalibration calibration);
 
     [[nodiscard]] TouchStage stage() const { return stage_; }
+    [[nodiscard]] const std::string& problem() const { return problem_; }
     [[nodiscard]] TouchWord word() const { return word_; }
     /// Which cross is shown, counted from 0; in the stages Lay and HoldStill.
     [[nodiscard]] std::size_t at() const { return at_; }
     [[nodiscard]] const Cross& cross() const { return crosses_[at_]; }
+    [[nodiscard]] const std::vector<Cross>& crosses() const { return crosses_; }
     [[nodiscard]] std::size_t count() const { return crosses_.size(); }
     [[nodiscard]] bool is_taken(std::size_t cross) const { return touches_[cross].has_value(); }
     /// All of them, in stage Solve and after it.
@@ -71,6 +80,8 @@ public:
     [[nodiscard]] const std::optional<TouchCalibration>& judged() const { return judged_; }
 
 private:
+    void begin(const Input& input);
+    [[nodiscard]] bool nobody_is_there(const Input& input);
     void lay(const Input& input);
     void hold_still(const Input& input);
     void take();
@@ -81,8 +92,10 @@ private:
 
     std::vector<Cross> crosses_;
     std::vector<std::optional<Touch>> touches_; ///< one for each cross
+    std::string problem_;
     std::size_t at_ = 0;
-    TouchStage stage_ = TouchStage::Lay;
+    TouchStage stage_ = TouchStage::Begin;
+    std::optional<MonotonicTime> pressed_; ///< the latest press, or the beginning
     TouchWord word_ = TouchWord::None;
     std::vector<RigidTransform> reports_; ///< of the rest so far
     MonotonicTime rest_began_{};

@@ -15,6 +15,7 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
       placer_(place.picture_m), labels_(place.picture_m) {}
 
 Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& situation) {
+    calibrate_ = false;
     // Who is told something is there, also without moving.
     const bool telling = tells();
     there_ = presence_.update(now, situation, !commands.empty() || telling);
@@ -86,6 +87,8 @@ void Exhibit::take(Command command, MonotonicTime now) {
         selection_.take(command, now);
         choose_ = choose_ || command == Command::Choose;
         help_ = help_ || command == Command::Help;
+    } else {
+        staff_pressed_ = now;
     }
     go_to(next(state_, Event::Press), now);
 }
@@ -98,6 +101,8 @@ void Exhibit::take_chord(MonotonicTime now) {
             selection_.undo(button_commands[button], now);
         }
     }
+    calibrate_ = state_ == State::Staff || (staff_pressed_ && now - *staff_pressed_ <= chord_again);
+    staff_pressed_.reset();
     go_to(next(state_, Event::Chord), now);
 }
 

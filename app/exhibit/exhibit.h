@@ -9,7 +9,8 @@
 ///          it, and the artifact on show stays.
 /// Staff    Command::StaffMode shows the alignment pattern for a minute, or until something is pressed; that
 ///          press does nothing else. Presses take effect at once, since a visitor's must. If they turn out to
-///          be the beginning of the staff's chord they are undone, so the pattern leaves no trace.
+///          be the beginning of the staff's chord they are undone, so the pattern leaves no trace. The chord again while the
+///          pattern is shown asks for the table's calibration; whoever runs the exhibit sees to it, or not.
 /// Frames   table T, metres.
 /// Time     `now` never goes back. Fades are closed forms of it; a caption appears from its first step on.
 /// Threads  values; one caller. `step` allocates nothing.
@@ -132,12 +133,15 @@ struct Presentation {
     bool attracts = false;          ///< the prop's own pose is not what is drawn
     bool settled = true;            ///< nothing fades: a good moment for a picture
     bool staff = false;             ///< State::Staff: the alignment pattern is shown instead
+    bool calibrate = false;         ///< in this step the staff asked for it
     std::uint32_t lamps = 0;        ///< the buttons that do something, bit k = button k
 };
 
 class Exhibit {
 public:
     static constexpr Nanoseconds staff_time = std::chrono::seconds(60);
+    /// From the press that ends the pattern to the chord which that press begins: longer than buttons are held for it.
+    static constexpr Nanoseconds chord_again = std::chrono::seconds(5);
     /// Of an artifact, while they come in turn.
     static constexpr Nanoseconds turn_time = std::chrono::seconds(20);
     /// Of another set, for somebody who is being told something.
@@ -245,6 +249,8 @@ private:
     StandIn stand_in_;
     State state_ = State::Attract;
     State state_before_ = State::Attract;
+    std::optional<MonotonicTime> staff_pressed_; ///< when a press ended the pattern
+    bool calibrate_ = false;                     ///< of this step
     MonotonicTime state_since_;
     MonotonicTime next_turn_;        ///< when the next artifact comes, in State::Attract
     std::optional<Attract> attract_; ///< from the first step on

@@ -45,6 +45,7 @@ Presentation Exhibit::present(MonotonicTime now, const Situation& situation, con
     waits_ = comes.waits;
     dim_what_leaves(now, presentation);
     presentation.staff = state_ == State::Staff;
+    presentation.calibrate = calibrate_;
     presentation.lamps = lamps();
     return presentation;
 }

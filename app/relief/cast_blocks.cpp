@@ -271,18 +271,27 @@ glm::vec2 sample_place(int k, int n) {
 
 } // namespace
 
+void CastSamples::make_room(int width, int height, int count) {
+    const std::size_t samples =
+        static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(count);
+    places_.reserve(static_cast<std::size_t>(count));
+    extents_.reserve(static_cast<std::size_t>(height));
+    nearness.reserve(samples);
+    block.resize(std::max(block.size(), samples));
+    place.resize(std::max(place.size(), samples));
+}
+
 void CastSamples::begin(const PixelRectangle& pixels, int count) {
+    make_room(pixels.width, pixels.height, count);
     pixels_ = pixels;
     places_.clear();
     for (int k = 0; k < count; ++k) {
         places_.push_back(sample_place(k, count));
     }
     extents_.assign(static_cast<std::size_t>(pixels.height), {pixels.x + pixels.width, pixels.x});
-    const std::size_t samples = static_cast<std::size_t>(pixels.width) *
-                                static_cast<std::size_t>(pixels.height) * static_cast<std::size_t>(count);
-    nearness.assign(samples, 0.0F);
-    block.resize(std::max(block.size(), samples));
-    place.resize(std::max(place.size(), samples));
+    nearness.assign(static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height) *
+                        static_cast<std::size_t>(count),
+                    0.0F);
 }
 
 void cast(CastSamples& samples, const BlockRelief& relief, const CastView& view, const BlockItems& items,

@@ -25,6 +25,8 @@ public:
     static constexpr std::uint32_t places_per_cell = 4096;
     static constexpr std::uint32_t most = 16; ///< of a pixel
 
+    /// For so many pixels of so many samples: what is begun after it and is no larger allocates nothing.
+    void make_room(int width, int height, int count);
     /// Of `count` samples a pixel, a power of two; nothing is met. Keeps its memory.
     void begin(const PixelRectangle& pixels, int count);
 

@@ -99,6 +99,9 @@ PixelRectangle ReliefPainter::paint(const BlockRelief& relief, const CastView& v
         return {};
     }
     list(relief, view);
+    for (CastSamples& each : samples_) { // which thread gets the widest band is chance
+        each.make_room(view.lit.width, rows_of_band, samples);
+    }
     workers_.share(bands_of(view.lit), [&](int k, int worker) {
         CastSamples& band = samples_[static_cast<std::size_t>(worker)];
         band.begin(band_of(view.lit, k), samples);

@@ -224,6 +224,16 @@ void calibration_settings(auto& fields, auto& calibration) {
                 "where frustumscreen-calibrate keeps what it measured; the newest one takes the place of the "
                 "lens and "
                 "pose in [projector] and the registration in [tracker]");
+    fields.flag(
+        "by_buttons", calibration.by_buttons,
+        "the staff may begin one on the table: the first and the last button held together, and again "
+        "while the staff's page is shown");
+    fields.number("sensor_height_m", calibration.sensor_height_m, {-2.0, 2.0, "metres"},
+                  "of the sensor above the prop's bottom, by a ruler; 0: as tracker.sensor_from_prop has it");
+    fields.integer("touches", calibration.touches, 6, 30, "how many crosses the prop is laid on");
+    fields.number("board_m", calibration.board_m, {0.005, 0.5, "metres"},
+                  "the thickness of each board that the prop is raised with");
+    fields.integer("boards", calibration.boards, 1, 8, "how many boards there are, one upon the other");
 }
 
 void press_settings(auto& fields, auto& press) {

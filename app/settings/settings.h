@@ -175,9 +175,14 @@ struct RenderSettings {
     int highlight_code = 235; ///< sRGB code of the artifact's brightest places; 0: as in the pack
 };
 
-/// Where calibrations are kept (kept_calibrations.h), and which one is used.
+/// How the table is measured, where calibrations are kept (kept_calibrations.h), and which one is used.
 struct CalibrationSettings {
     std::filesystem::path folder = "/var/lib/frustumscreen/calibration";
+    bool by_buttons = true;       ///< the staff may begin one with the buttons
+    double sensor_height_m = 0.0; ///< above the prop's bottom; 0: as tracker.sensor_from_prop has it
+    int touches = 9;
+    double board_m = 0.04; ///< the prop is raised with boards, all of this thickness
+    int boards = 3;
     std::optional<Calibration> used; ///< it stands in `projector` and `tracker` already
     std::string used_name;           ///< of its file
     std::vector<std::string> unused; ///< why newer ones are not used, one line each

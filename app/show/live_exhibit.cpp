@@ -141,6 +141,7 @@ ShowState LiveExhibit::state() const {
     state.library_hangs = set_switch_ && set_switch_->library_hangs();
     state.import = notice_.import();
     state.used = exhibit_.used();
+    state.calibrate = presentation_.calibrate;
     return state;
 }
 
@@ -167,6 +168,10 @@ void LiveExhibit::tell(const RunStatus& status) {
         std::vector<std::string> lines = lines_of(status, driver_, presentation_.state_before);
         if (settings_.exhibit.unsigned_packs == UnsignedPacks::Allow) {
             lines.insert(lines.begin(), "unsigned packs are allowed: for the bench only");
+        }
+        if (status.calibrates) {
+            lines.emplace_back(
+                "To measure the table anew, hold the first and the last button again for three seconds.");
         }
         pattern_->set_lines(std::move(lines));
     }

@@ -7,6 +7,7 @@
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
 #include "app/show/artifact_opener.h"
+#include "app/show/house_words.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/standard_error.h"
 
@@ -24,31 +25,6 @@ namespace {
 constexpr double empty_ring_brightness = 0.2; ///< of a text's
 constexpr int sample_width = 5;
 constexpr int sample_height = 3;
-
-Result<LanguageWords> read_house_words(const Settings& settings) {
-    const Result<Bytes> file = read_file(settings.exhibit.words);
-    if (!file) {
-        return tl::unexpected<Error>(file.error());
-    }
-    const Result<std::vector<WordsLanguage>> listed = list_words(*file);
-    if (!listed) {
-        return at(settings.exhibit.words.string(), listed.error());
-    }
-    std::vector<std::string> languages;
-    for (const WordsLanguage& language : *listed) {
-        languages.push_back(language.language);
-    }
-    Result<LanguageWords> words =
-        read_words(*file, languages[caption_for(settings.exhibit.language, languages)]);
-    if (!words) {
-        return at(settings.exhibit.words.string(), words.error());
-    }
-    if (words->runs.find("stick.take_out") == nullptr) {
-        return bad_input(settings.exhibit.words.string() +
-                         ": has no words for a stick; bake it again with frustumscreen-bake --words");
-    }
-    return words;
-}
 
 SharedRecording recording_of(const LanguageWords& words, const std::string& key, double gain_db) {
     const auto sound = words.sounds.find(key);
@@ -141,7 +117,7 @@ NoticeShow::NoticeShow(const Settings& settings, ImportWatch::Answer answer)
         watch_.emplace(settings.exhibit.import_report, std::move(draw), answer);
         return;
     }
-    Result<LanguageWords> words = read_house_words(settings);
+    Result<LanguageWords> words = read_house_words(settings, "stick.take_out");
     if (words && settings.sound.kind != SoundKind::None) {
         found_ = recording_of(*words, "stick.found", found_gain_db);
         take_out_ = recording_of(*words, "stick.take_out", 0.0);

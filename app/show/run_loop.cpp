@@ -53,6 +53,7 @@ public:
           light_delay_(Nanoseconds(std::llround(1e6 * settings.tracker.display_latency_ms))),
           situation_(settings.eye.default_m, 0.5 * settings.prop.height_m), times_(window_frames),
           presented_(start), artifact_since_(start) {
+        result_.status.calibrates = static_cast<bool>(options.calibrate);
         samples_.reserve(1024);
         events_.reserve(64);
         commands_.reserve(64);
@@ -147,6 +148,9 @@ private:
         result_.status.head_known = situation.head_known;
         const ShowState state = show_.state();
         used_ = state.used;
+        if (state.calibrate && options_.calibrate) {
+            options_.calibrate();
+        }
         fault_since_ = state.state != State::Fault ? std::nullopt : fault_since_ ? fault_since_ : now;
         if (const Sentence artifact(shown_artifact(state)); artifact != artifact_) {
             artifact_ = artifact;

@@ -37,9 +37,10 @@ struct LoopOptions {
     bool keep_rows = false;
     std::string_view mode = "normal"; ///< this and the next for the status
     Sentence settings;
-    const StopSignals* stop = nullptr; ///< one of them ends the loop
-    Screenshot* screenshot = nullptr;  ///< of the display's size; whoever asks it for a picture gets one
-    std::function<bool()> ends = {};   ///< asked in each frame: yes ends it too
+    const StopSignals* stop = nullptr;    ///< one of them ends the loop
+    Screenshot* screenshot = nullptr;     ///< of the display's size; whoever asks it for a picture gets one
+    std::function<bool()> ends = {};      ///< asked in each frame: yes ends it too
+    std::function<void()> calibrate = {}; ///< the staff ask for the table's calibration; none: they cannot
     RunHours* hours = nullptr; ///< by which it sleeps; none: never, like a fast run and an alignment pattern
 };
 

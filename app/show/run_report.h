@@ -147,6 +147,8 @@ struct RunStatus {
     HoursStatus hours;
     bool prop_known = false;
     bool head_known = false;
+    bool calibrates =
+        false; ///< the staff may begin the table's calibration with the buttons; for their page alone
     std::size_t loaded = 0; ///< artifacts that can be shown at once
     std::uint64_t loaded_bytes = 0;
     SharedImport import;             ///< what the importer says; none: nothing

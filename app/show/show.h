@@ -37,6 +37,7 @@ struct ShowState {
     ToldText told = {};
     SharedImport import = {};               ///< what the importer says; none: nothing
     std::optional<MonotonicTime> used = {}; ///< when somebody used it last; nothing: never
+    bool calibrate = false;                 ///< in this step the staff asked for the table's calibration
 };
 
 class Show {

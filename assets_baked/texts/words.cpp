@@ -75,6 +75,20 @@ constexpr auto keys = std::to_array<std::string_view>({
     "fault.no_artifact",
     "fault.no_tracker",
     "fault.repairing",
+    "calibration.begin",
+    "calibration.lay",
+    "calibration.on_boards",
+    "calibration.hold_still",
+    "calibration.taken",
+    "calibration.moved",
+    "calibration.not_seen",
+    "calibration.same_place",
+    "calibration.all_taken",
+    "calibration.may_be_kept",
+    "calibration.repeat",
+    "calibration.refused",
+    "calibration.kept",
+    "calibration.left",
 });
 
 std::string_view nearest_key(std::string_view found) {

@@ -1,7 +1,7 @@
 """frustumscreen-calibrate table from its beginning to its end, without a person: a recording in which the prop is laid on each cross that the program
 shows, under a projector that hangs elsewhere than the settings say, and a script that presses Next.
 
-The truth's arithmetic is this file's own. The recording has no noise: afterwards each place lights within two pixels of where it should.
+The truth's arithmetic is true_table.py's. The recording has no noise: afterwards each place lights within two pixels of where it should.
 """
 
 import json
@@ -14,10 +14,11 @@ import tomllib
 import unittest
 
 import numpy as np
+from true_table import TrueTable
 
 PROGRAMS = pathlib.Path(sys.argv.pop(1))
 PROGRAM = PROGRAMS / "frustumscreen-calibrate"
-EACH_S, PRESS_S = 2.4, 0.9
+EACH_S, PRESS_S, BEGIN_S = 2.4, 0.9, 0.3
 SENSOR_M = 0.085
 
 SETTINGS = """
@@ -36,34 +37,8 @@ script = [{script}]
 library = "none"
 [calibration]
 folder = "kept"
+sensor_height_m = {sensor_m}
 """
-
-
-def turn(axis, angle):
-    """Rodrigues' formula."""
-    x, y, z = np.array(axis) / np.linalg.norm(axis)
-    k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.eye(3) + math.sin(angle) * k + (1 - math.cos(angle)) * k @ k
-
-
-class Truth:
-    """The projector as it hangs: lower, aside, leaning, with a lens shift and a lens that distorts."""
-    f, cx, cy, k1 = 2350.0, 655.0, 470.0, 0.05
-    rotation = turn((0, 0, 1), 0.06) @ turn((1, 0.3, 0), 0.05) @ np.diag([1.0, -1.0, -1.0])
-    place = np.array([0.06, -0.04, 1.44])
-
-    def light(self, u, v, height):
-        real = np.array([(u - self.cx) / self.f, (v - self.cy) / self.f])
-        ideal = real.copy()
-        for _ in range(50):
-            ideal = real / (1 + self.k1 * ideal @ ideal)
-        ray = self.rotation @ np.array([*ideal, 1.0])
-        return self.place + ray * ((height - self.place[2]) / ray[2])
-
-    def pixel(self, point):
-        x, y, z = self.rotation.T @ (point - self.place)
-        bend = 1 + self.k1 * (x * x + y * y) / (z * z)
-        return np.array([self.f * bend * x / z + self.cx, self.f * bend * y / z + self.cy])
 
 
 def matrix(numbers):
@@ -77,36 +52,34 @@ class Table(unittest.TestCase):
 
     def write(self, presses_s):
         script = ", ".join(f"{{ at_s = {at:.2f}, button = 1 }}" for at in presses_s)
-        self.config.write_text(SETTINGS.replace("{script}", script))
+        self.config.write_text(SETTINGS.replace("{script}", script).replace("{sensor_m}", str(SENSOR_M)))
 
     def run_program(self, *words):
         return subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=120, check=False)
 
     def record(self, crosses, yaw_of_tracker):
         """The prop on one cross after the other; the tracker's frame is the table's, turned and shifted."""
-        rows, truth = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"], Truth()
-        tracker = turn((0, 0, 1), yaw_of_tracker)
+        rows, truth = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"], TrueTable(1280, yaw_of_tracker)
         end_s = EACH_S * len(crosses) + 6.0
         for k in range(int(50 * end_s)):
             cross = crosses[min(int(k / 50 / EACH_S), len(crosses) - 1)]
-            place = truth.light(cross["u_px"], cross["v_px"], cross["block_m"]) + np.array([0, 0, SENSOR_M])
-            p = tracker @ place + np.array([0.1, 0.2, -0.05])
-            half = 0.5 * (math.radians(cross["turn_deg"]) + yaw_of_tracker)
-            rows.append(f"{k * 20000},1,{p[0]:.9f},{p[1]:.9f},{p[2]:.9f},{math.cos(half):.9f},0,0,{math.sin(half):.9f},1")
+            place = truth.light(cross["u_px"], cross["v_px"], cross["block_m"])
+            report = truth.report(place, math.radians(cross["turn_deg"]), SENSOR_M)
+            rows.append(f"{k * 20000},1," + ",".join(f"{value:.9f}" for value in report) + ",1")
         (self.folder / "poses.csv").write_text("\n".join(rows) + "\n")
 
     def test_from_the_first_cross_to_the_kept_file(self):
         self.write([])
         self.record([{"u_px": 640, "v_px": 400, "block_m": 0, "turn_deg": 0}], 0.0)
         self.assertEqual(json.loads(self.run_program("kept", "--config", self.config, "--json").stdout), {"kept": []})
-        printed = self.run_program("table", "--config", self.config, "--sensor-height", str(SENSOR_M), "--json")
+        printed = self.run_program("table", "--config", self.config, "--json")
         self.assertEqual(printed.returncode, 0, printed.stderr)
         crosses = json.loads(printed.stdout)["crosses"]
         self.assertEqual(len(crosses), 9)
         self.assertGreater(len({cross["block_m"] for cross in crosses}), 1)
         self.record(crosses, 0.4)
-        self.write([EACH_S * k + PRESS_S for k in range(9)] + [EACH_S * 9 + 2.0])
-        done = self.run_program("table", "--config", self.config, "--sensor-height", str(SENSOR_M), "--headless", "--out", self.folder / "touches.csv")
+        self.write([BEGIN_S] + [EACH_S * k + PRESS_S for k in range(9)] + [EACH_S * 9 + 2.0])
+        done = self.run_program("table", "--config", self.config, "--headless", "--out", self.folder / "touches.csv")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(len((self.folder / "touches.csv").read_text().splitlines()), 10)
         self.check_kept(0.4)
@@ -115,19 +88,18 @@ class Table(unittest.TestCase):
     def check_kept(self, yaw_of_tracker):
         kept = tomllib.loads((self.folder / "kept/calibration-0001.toml").read_text())
         self.assertEqual((kept["method"], kept["places"]), ("touch", 9))
-        p, truth = kept["projector"], Truth()
+        p, truth = kept["projector"], TrueTable(1280, yaw_of_tracker)
         pixel_from_tracker = np.linalg.inv(matrix(p["table_from_projector"])) @ matrix(kept["tracker"]["table_from_tracker"])
-        tracker = turn((0, 0, 1), yaw_of_tracker)
         worst = 0.0
         for height in (0.0, 0.06, 0.12):
             for u in range(100, 1281, 180):
                 for v in range(100, 801, 150):
                     place = truth.light(u, v, height)
-                    x, y, z, _ = pixel_from_tracker @ np.array([*(tracker @ place + np.array([0.1, 0.2, -0.05])), 1.0])
+                    x, y, z, _ = pixel_from_tracker @ np.array([*truth.in_tracker(place), 1.0])
                     r2 = (x * x + y * y) / (z * z)
                     bend = 1 + p["k1"] * r2 + p["k2"] * r2 * r2
                     found = np.array([p["fx"] * bend * x / z + p["cx"], p["fy"] * bend * y / z + p["cy"]])
-                    worst = max(worst, np.linalg.norm(found - truth.pixel(place)))
+                    worst = max(worst, np.linalg.norm(found - np.array(truth.pixel(place))))
         print(f"{worst:.2f} pixels at the worst place")
         self.assertLess(worst, 2.0)
         self.assertAlmostEqual(kept["tracker"]["sensor_from_prop"][14], -SENSOR_M, delta=1e-3)
@@ -151,6 +123,24 @@ class Table(unittest.TestCase):
         used = json.loads(subprocess.run(config, capture_output=True, text=True, check=True).stdout)
         self.assertNotIn("used", used["calibration"])
         self.assertEqual(used["projector"]["fx"], 2400.0)
+
+    def test_back_leaves_it_and_changes_nothing(self):
+        self.write([])
+        self.record([{"u_px": 640, "v_px": 400, "block_m": 0, "turn_deg": 0}], 0.0)
+        self.config.write_text(self.config.read_text().replace("script = []", "script = [{ at_s = 0.3, button = 0 }]"))
+        left = self.run_program("table", "--config", self.config, "--headless")
+        self.assertEqual(left.returncode, 1)
+        self.assertIn("Next begins. Back returns to the exhibit", left.stderr)
+        self.assertRegex(left.stderr, "boards that make [0-9, ]+ mm")
+        self.assertIn("it ended before a calibration was kept; the one before counts", left.stderr)
+        self.assertFalse((self.folder / "kept").exists())
+        # What it must know before is told on the table, where Next does nothing.
+        text = self.config.read_text().replace(f"sensor_height_m = {SENSOR_M}", "")
+        self.config.write_text(text.replace("script = [", "script = [{ at_s = 0.1, button = 1 }, "))
+        left = self.run_program("table", "--config", self.config, "--headless")
+        self.assertEqual(left.returncode, 1)
+        self.assertIn("The table cannot be measured Nobody knows how high the sensor is", left.stderr)
+        self.assertIn("set calibration.sensor_height_m", left.stderr)
 
     def test_without_a_tracker_or_buttons_it_says_so(self):
         self.write([1.0])

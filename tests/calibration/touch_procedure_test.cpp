@@ -13,7 +13,7 @@ constexpr Nanoseconds tick = std::chrono::milliseconds(20); // 50 reports a seco
 
 class Procedure : public ::testing::Test {
 protected:
-    Procedure() : procedure(crosses()) {}
+    Procedure() : procedure(crosses()) { press(true); } // and it begins
     static std::vector<Cross> crosses() {
         return {{{100, 100}, 0.0, 0.0}, {{900, 100}, 0.0, 1.5}, {{500, 600}, 0.05, 0.0}};
     }
@@ -118,8 +118,6 @@ TEST_F(Procedure, NextWithoutMovingThePropIsNoTouch) {
 }
 
 TEST_F(Procedure, BackDoesTheTouchBeforeAgain) {
-    press(false);
-    EXPECT_EQ(procedure.at(), 0U);
     touch(0);
     press(true);
     press(false); // out of the rest
@@ -169,6 +167,50 @@ TEST_F(Procedure, AfterARefusalItBeginsAnew) {
     EXPECT_TRUE(procedure.touches().empty());
 }
 
+TEST_F(Procedure, BackFromTheFirstCrossLeadsToTheBeginningAndOut) {
+    press(false);
+    EXPECT_EQ(procedure.stage(), TouchStage::Begin);
+    press(true);
+    EXPECT_EQ(procedure.stage(), TouchStage::Lay);
+    press(false);
+    press(false);
+    EXPECT_EQ(procedure.stage(), TouchStage::Left);
+    press(true);
+    EXPECT_EQ(procedure.stage(), TouchStage::Left) << "it has ended";
+}
+
+TEST_F(Procedure, WhoDoesNothingLeaves) {
+    const auto wait = [&](Nanoseconds time) {
+        now += time;
+        procedure.step({now, on(0), false, false});
+        return procedure.stage();
+    };
+    EXPECT_EQ(wait(TouchProcedure::to_go_on), TouchStage::Lay);
+    press(true);
+    rest(on(0), TouchProcedure::rest + 2 * tick);
+    EXPECT_EQ(procedure.at(), 1U);
+    EXPECT_EQ(wait(TouchProcedure::to_go_on), TouchStage::Left) << "reports are no presses";
+
+    TouchProcedure other(crosses());
+    other.step({now, std::nullopt, false, false});
+    other.step({now + TouchProcedure::to_begin, std::nullopt, false, false});
+    EXPECT_EQ(other.stage(), TouchStage::Begin);
+    other.step({now + TouchProcedure::to_begin + tick, std::nullopt, true, false});
+    EXPECT_EQ(other.stage(), TouchStage::Lay) << "a late press is one";
+    other = TouchProcedure(crosses());
+    other.step({now, std::nullopt, false, false});
+    other.step({now + TouchProcedure::to_begin + tick, std::nullopt, false, false});
+    EXPECT_EQ(other.stage(), TouchStage::Left);
+}
+
+TEST_F(Procedure, WhereItCannotBeDoneNextDoesNothing) {
+    TouchProcedure cannot(crosses(), "nobody knows how high the sensor is");
+    cannot.step({now, std::nullopt, true, false});
+    EXPECT_EQ(cannot.stage(), TouchStage::Begin);
+    cannot.step({now, std::nullopt, false, true});
+    EXPECT_EQ(cannot.stage(), TouchStage::Left);
+}
+
 /// The whole of it on a simulated table: crosses chosen for the projector that the settings describe, touches on another one.
 TEST(ProcedureOnATable, EndsWithACalibrationThatIsRight) {
     const SimulatedTable table = some_table(3);
@@ -177,6 +219,7 @@ TEST(ProcedureOnATable, EndsWithACalibrationThatIsRight) {
     TouchProcedure procedure(crosses);
     SeededNumbers numbers(4);
     MonotonicTime now = from_microseconds(0);
+    procedure.step({now, std::nullopt, true, false});
     while (procedure.stage() != TouchStage::Solve) {
         procedure.step({now, std::nullopt, true, false});
         const Touch lies = simulated_touch(table, {procedure.cross(), 0.0}, {}, numbers);

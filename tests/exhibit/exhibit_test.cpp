@@ -135,6 +135,36 @@ TEST(Exhibit, TheStaffsPatternEndsByItself) {
     EXPECT_FALSE(staff_at(start + Exhibit::staff_time));
 }
 
+TEST(Exhibit, TheChordOnTheStaffsPatternAsksForACalibration) {
+    const std::array chord{Command::StaffMode};
+    const std::array first{Command::PreviousArtifact};
+    const std::array last{Command::NextLanguage};
+    Exhibit exhibit = sample::exhibit(2, languages);
+    MonotonicTime now = start;
+    const auto held = [&](Nanoseconds until_chord) {
+        static_cast<void>(exhibit.step(now, first, situation(now)));
+        static_cast<void>(exhibit.step(now + milliseconds(50), last, situation(now)));
+        now += until_chord;
+        return exhibit.step(now, chord, situation(now));
+    };
+    const Presentation once = held(seconds(3));
+    EXPECT_TRUE(once.staff);
+    EXPECT_FALSE(once.calibrate);
+    const std::size_t artifact = exhibit.chosen();
+    const std::string language = exhibit.language();
+    now += seconds(10);
+    const Presentation again = held(seconds(3));
+    EXPECT_TRUE(again.staff) << "and where nobody sees to it, the pattern is there";
+    EXPECT_TRUE(again.calibrate);
+    EXPECT_EQ(exhibit.chosen(), artifact) << "its presses are undone";
+    EXPECT_EQ(exhibit.language(), language);
+    now += milliseconds(20);
+    EXPECT_FALSE(exhibit.step(now, {}, situation(now)).calibrate) << "it is asked once";
+    static_cast<void>(exhibit.step(now, first, situation(now))); // a press ends the pattern
+    now += Exhibit::chord_again;
+    EXPECT_FALSE(held(seconds(3)).calibrate) << "that was another one";
+}
+
 TEST(Exhibit, TheLampsAreThoseOfTheButtonsThatDoSomething) {
     const auto lamps = [](std::size_t artifacts, const std::vector<std::string>& tags) {
         return sample::exhibit(artifacts, tags).step(start, {}, situation(start)).lamps;

@@ -187,14 +187,18 @@ class Bench:
     def picture_of(self, pose, eye_m=EYE_M, timeout_s=20.0):
         """Waits until the exhibit says that it presented this pose with nothing fading; returns that picture or a
         later one from the screen."""
+        return self.picture_where(lambda placed: near(placed, pose, eye_m), pose, timeout_s)
+
+    def picture_where(self, is_it, what, timeout_s=20.0):
+        """The same of what was presented and is_it() says yes to."""
         last = [None]
 
         def presented():
             last[0] = (self.status() or {}).get("presented")
-            found = last[0] and last[0]["settled"] and last[0]["code"] is not None and near(last[0], pose, eye_m)
+            found = last[0] and last[0]["settled"] and last[0]["code"] is not None and is_it(last[0])
             return last[0] if found else None
 
-        code = eventually(presented, timeout_s, lambda: f"no picture is presented of {pose}, at last {last[0]}")["code"]
+        code = eventually(presented, timeout_s, lambda: f"no picture is presented of {what}, at last {last[0]}")["code"]
 
         def shown():
             picture = self.screendump()
@@ -206,11 +210,12 @@ class Bench:
     def rendered(self, poses, artifact, eye_m=EYE_M):
         """What `frustumscreen render` draws on this machine for each of the poses: (x, y, z, qw, qx, qy, qz)."""
         missing = [pose for pose in poses if (pose, artifact, eye_m) not in self._rendered]
-        for pose, picture in zip(missing, self._render(missing, artifact, eye_m) if missing else []):
+        for pose, picture in zip(missing, self.render(missing, artifact, eye_m) if missing else []):
             self._rendered[pose, artifact, eye_m] = picture
         return [self._rendered[pose, artifact, eye_m] for pose in poses]
 
-    def _render(self, poses, artifact, eye_m):
+    def render(self, poses, artifact, eye_m, config=CONFIG):
+        """The same with other settings, anew each time."""
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             lines = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]
@@ -219,7 +224,7 @@ class Bench:
                     lines.append(",".join(str(value) for value in (1000 * number, station, *placed, 1)))
             (folder / "poses.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
             subprocess.run(
-                [self.program, "render", "--config", CONFIG, "--pack", self.packs / f"{artifact}.fspack",
+                [self.program, "render", "--config", config, "--pack", self.packs / f"{artifact}.fspack",
                  "--poses", folder / "poses.csv", "--out", folder / "out"], check=True, stdout=subprocess.DEVNULL)
             return [screen.read_png(folder / "out" / f"frame_{number:05}.png") for number in range(len(poses))]
 

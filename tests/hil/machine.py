@@ -125,8 +125,22 @@ class Machine:
             self._given, self._asked = Given(0.0, 0.0), self._scheduled()
             self._connect_agent()
         except (OSError, EOFError, MachineError) as error:
+            said = self.last_lines()
             self.stop()
-            raise MachineError(f"the guest did not start ({error}); see {self.logs}") from error
+            raise MachineError(f"the guest did not start ({error}); see {self.logs}; its last lines:\n{said}") from error
+
+    def last_lines(self, count=40):
+        """The end of what the guest says on its serial line; where a shell listens there, it is asked first."""
+        try:
+            with socket.socket(socket.AF_UNIX) as line:
+                line.connect(os.fspath(self.sockets / "serial"))
+                line.sendall(b"\nsystemctl --no-pager -n 5 status frustumscreen-test-agent; journalctl -b --no-pager -n 30 -o short-monotonic\n")
+                time.sleep(15.0)
+        except OSError:
+            pass
+        log = self.logs / "serial.log"
+        said = log.read_text(encoding="utf-8", errors="replace").splitlines() if log.exists() else []
+        return "\n".join([line for line in said if line.strip()][-count:]) or "(it said nothing)"
 
     def _command(self):
         command = [

@@ -17,7 +17,7 @@ from repeat import Load, Run, as_text
 
 # in this order, because later tests rely on earlier ones
 MODULES = ("boot", "pose", "watch", "trackers", "buttons", "unplug", "camera", "misbehaviour", "storm", "latency", "stick", "stick_hostile",
-           "stick_storm", "settings", "missing", "table", "guidance", "display", "vblank", "restart", "safe", "status", "hours",
+           "stick_storm", "settings", "missing", "table", "calibration", "guidance", "display", "vblank", "restart", "safe", "status", "hours",
            "watchdog", "kernel")
 
 

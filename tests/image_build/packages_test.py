@@ -187,8 +187,9 @@ class Packages(unittest.TestCase):
     def test_a_removal_stops_first_who_would_start_the_exhibit_again(self):
         asked = self.script("prerm", "remove")
         stopped = [unit for line in asked if line.startswith("deb-systemd-invoke stop") for unit in line.split()[2:]]
-        self.assertEqual(stopped[0], "frustumscreen-watchdog.service")
-        self.assertIn("frustumscreen.service", stopped[1:])
+        # The calibration's end brings the exhibit and its watchdog back, and the watchdog the exhibit.
+        self.assertEqual(stopped[:3], ["frustumscreen-calibrate.path", "frustumscreen-calibrate.service", "frustumscreen-watchdog.service"])
+        self.assertIn("frustumscreen.service", stopped[3:])
         self.assertEqual(asked[-1], "deb-systemd-invoke start getty@tty1.service")
         self.assertEqual(self.script("prerm", "upgrade", "0.2"), [])
 

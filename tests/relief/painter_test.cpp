@@ -1,6 +1,7 @@
 #include "app/relief/relief_painter.h"
 #include "app/relief/sample_light.h"
 #include "tests/relief/subject.h"
+#include "tests/render/counted_new.h"
 
 #include <gtest/gtest.h>
 
@@ -78,6 +79,23 @@ TEST(Painter, OneThreadOrFivePaintTheSame) {
             EXPECT_EQ(a.texels, b.texels);
         }
     }
+}
+
+/// More threads than bands: which of them paints one is chance, and some paint their first in a later picture.
+TEST(Painter, AfterOnePictureTheSameAllocatesNothingWhoeverPaintsIt) {
+    if (!synthetic::allocations_are_counted) {
+        GTEST_SKIP() << "allocations are not counted under a sanitizer";
+    }
+    const Painting painting;
+    const CastView view = painting.view(painting.poses.front());
+    Image8 picture = painting.blank(glm::u8vec4(0));
+    ReliefPainter painter(24);
+    static_cast<void>(painter.paint(painting.relief, view, 4, span_of(picture)));
+    const long before = synthetic::allocations_so_far();
+    for (int k = 0; k < 200; ++k) {
+        static_cast<void>(painter.paint(painting.relief, view, 4, span_of(picture)));
+    }
+    EXPECT_EQ(synthetic::allocations_so_far(), before);
 }
 
 TEST(Painter, HitPointsAreTheRayCastsOwn) {

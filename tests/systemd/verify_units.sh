@@ -54,6 +54,10 @@ if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; th
     said=$(systemd-analyze verify --root="$root" "$units/frustumscreen-safe.service" 2>&1) || die "systemd-analyze verify: $said"
     grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts of the safe picture"
     locked_in frustumscreen-safe.service 4
+    said=$(systemd-analyze verify --root="$root" "$units/frustumscreen-calibrate.path" "$units/frustumscreen-calibrate.service" 2>&1) ||
+        die "systemd-analyze verify: $said"
+    grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts of the calibration"
+    locked_in frustumscreen-calibrate.service 16
     said=$(systemd-analyze verify --root="$root" "$units/frustumscreen-watchdog.service" 2>&1) || die "systemd-analyze verify: $said"
     grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts of the watchdog"
     locked_in frustumscreen-watchdog.service 4
@@ -110,6 +114,7 @@ if command -v systemd-sysusers >/dev/null && command -v systemd-tmpfiles >/dev/n
         owner /var/lib/frustumscreen/library frustumscreen-import
         owner /var/lib/frustumscreen/library/shown frustumscreen
         owner /run/frustumscreen-import frustumscreen-import
+        owner /var/lib/frustumscreen/calibration frustumscreen
         owner /run/frustumscreen-staff frustumscreen
         [[ $(stat -c %a "$root/run/frustumscreen-staff") == 2750 ]] || die "the staff's folder is open to others"
         staff=$(sed -n 's/^frustumscreen-staff:x:\([0-9]*\):.*/\1/p' "$root/etc/group")

@@ -27,9 +27,9 @@ struct CalibrateRequest {
     bool keep = false;
     std::filesystem::path map; ///< where the uncertainty goes as a picture; empty: nowhere
     bool undo = false;
-    // On the table:
-    int touches = 9;
-    std::vector<double> blocks_m{0.0, 0.04, 0.08, 0.12};
+    // On the table; what is left out stands in the settings:
+    std::optional<int> touches;
+    std::vector<double> blocks_m;
     std::filesystem::path out;
     bool headless = false;
     bool json = false;

@@ -3,13 +3,16 @@
 #include "app/calibration/point_files.h"
 #include "app/calibration/touch_procedure.h"
 #include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/table_voice.h"
 #include "app/programs/calibrate/touch_command.h"
 #include "app/programs/calibrate/touch_picture.h"
 #include "app/programs/devices/wiring.h"
 #include "app/render/picture_upload.h"
 #include "app/settings/settings.h"
+#include "app/show/house_words.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/standard_error.h"
+#include "firmware_host/service/service_manager.h"
 #include "firmware_host/service/stop_signals.h"
 
 #include <fmt/format.h>
@@ -29,9 +32,13 @@ constexpr Nanoseconds between_frames = std::chrono::milliseconds(20);
 
 /// The projector as the settings describe it decides where the crosses lie: what a cross tells hardly depends on it.
 std::vector<Cross> crosses_for(const Settings& settings, const CalibrateRequest& request) {
+    const CalibrationSettings& own = settings.calibration;
     CrossSetup setup;
-    setup.count = request.touches;
+    setup.count = request.touches.value_or(own.touches);
     setup.blocks_m = request.blocks_m;
+    for (int boards = 0; request.blocks_m.empty() && boards <= own.boards; ++boards) {
+        setup.blocks_m.push_back(boards * own.board_m);
+    }
     setup.top_m = settings.prop.height_m;
     const double above_m = settings.projector.table_from_projector.translation.z;
     return choose_crosses(
@@ -39,25 +46,61 @@ std::vector<Cross> crosses_for(const Settings& settings, const CalibrateRequest&
         setup);
 }
 
+/// Of the sensor above the prop's bottom: as it is asked for, else as the settings have it, else as it was measured before.
+std::optional<double> sensor_height(const Settings& settings, const CalibrateRequest& request) {
+    if (request.sensor_height_m) {
+        return request.sensor_height_m;
+    }
+    if (settings.calibration.sensor_height_m != 0.0) {
+        return settings.calibration.sensor_height_m;
+    }
+    const double above_m = settings.tracker.registration.sensor_from_prop.inverse().translation.z;
+    return above_m != 0.0 ? std::optional(above_m) : std::nullopt;
+}
+
+constexpr const char* no_sensor_height =
+    "nobody knows how high the sensor is above the prop's bottom; measure it with a ruler and set "
+    "calibration.sensor_height_m";
+
+/// A calibration goes on without them, in English.
+std::optional<LanguageWords> house_words(const Settings& settings) {
+    if (settings.exhibit.words.empty()) {
+        return std::nullopt;
+    }
+    Result<LanguageWords> words = read_house_words(settings, "calibration.lay");
+    if (!words) {
+        say_line("frustumscreen-calibrate", words.error().message);
+        return std::nullopt;
+    }
+    return *std::move(words);
+}
+
+std::optional<TableVoice> voice_of(const Settings& settings, const std::optional<LanguageWords>& words) {
+    if (!words || settings.sound.kind == SoundKind::None) {
+        return std::nullopt;
+    }
+    return TableVoice(*words, make_sound(settings.sound), settings.sound.gain_db);
+}
+
 /// The devices, and what is shown.
 class Table {
 public:
     Table(const Settings& settings, Inputs inputs, std::unique_ptr<Display> display, Typesetter typesetter)
         : inputs_(std::move(inputs)), display_(std::move(display)), typesetter_(std::move(typesetter)),
-          upload_(display_->width(), display_->height()),
+          upload_(display_->width(), display_->height()), house_(house_words(settings)),
+          voice_(voice_of(settings, house_)),
           prop_px_(settings.prop.base_m * settings.projector.pinhole.fx /
                    settings.projector.table_from_projector.translation.z) {}
 
-    /// False: a stop was asked for.
-    [[nodiscard]] Result<bool> run(TouchProcedure& procedure, const TouchSetup& setup) {
-        const StopSignals stop;
-        while (!stop.received()) {
+    /// Until it is done or left; nothing: it was told to stop.
+    [[nodiscard]] Result<std::optional<TouchStage>> run(TouchProcedure& procedure, const TouchSetup& setup) {
+        while (!stop_.received()) {
             const MonotonicTime now = monotonic_now();
             if (Result<void> shown = show(procedure, now); !shown) {
                 return tl::unexpected<Error>(shown.error());
             }
-            if (procedure.stage() == TouchStage::Done) {
-                return true;
+            if (procedure.stage() == TouchStage::Done || procedure.stage() == TouchStage::Left) {
+                return std::optional(procedure.stage());
             }
             if (procedure.stage() == TouchStage::Solve) {
                 procedure.judge(calibrate_touch(procedure.touches(), setup));
@@ -65,7 +108,15 @@ public:
             poll(procedure, now);
             std::this_thread::sleep_for(between_frames);
         }
-        return false;
+        return std::optional<TouchStage>();
+    }
+    /// Leaves the last words to be read.
+    void stay(const TouchProcedure& procedure) {
+        const MonotonicTime end = monotonic_now() + last_words;
+        while (!stop_.received() && monotonic_now() < end && show(procedure, monotonic_now())) {
+            speak(monotonic_now());
+            std::this_thread::sleep_for(between_frames);
+        }
     }
 
 private:
@@ -85,6 +136,7 @@ private:
             input.back |= event.kind == PressKind::Press && event.button == back_button;
         }
         procedure.step(input);
+        speak(now);
         tell(inputs_.tracker->state(), "tracker", tracker_state_);
         tell(inputs_.panel->state(), "panel", panel_state_);
     }
@@ -94,20 +146,39 @@ private:
             say_line("frustumscreen-calibrate", fmt::format("{}: {}", device, state));
         }
     }
+    void speak(MonotonicTime now) {
+        if (voice_) {
+            voice_->poll(now);
+        }
+    }
     [[nodiscard]] Result<void> show(const TouchProcedure& procedure, MonotonicTime now) {
         const Shown next{procedure.stage(), procedure.word(), procedure.at()};
         if (next != shown_) {
             shown_ = next;
             uploads_left_ = most_buffers;
             say_line("frustumscreen-calibrate", fmt::format("{}", fmt::join(touch_words(procedure), " ")));
-            picture_ = touch_picture(procedure, display_->width(), display_->height(), prop_px_, typesetter_);
+            picture_ = touch_picture(procedure, display_->width(), display_->height(), prop_px_, typesetter_,
+                                     house_ ? &*house_ : nullptr);
+            if (voice_) {
+                voice_->say(word_key(procedure));
+            }
         }
         if (uploads_left_ > 0 || display_->buffer_age() == 0) {
             uploads_left_ = std::max(uploads_left_ - 1, 0);
             upload_.show(picture_, display_->framebuffer());
         }
         const Result<MonotonicTime> lit = display_->present(now);
-        return lit ? Result<void>() : tl::unexpected<Error>(lit.error());
+        if (!lit) {
+            return tl::unexpected<Error>(lit.error());
+        }
+        if (!fed_) {
+            manager_.ready();
+        }
+        if (!fed_ || now - *fed_ >= between_feeds) {
+            manager_.feed_watchdog();
+            fed_ = now;
+        }
+        return {};
     }
 
     /// What the picture depends on.
@@ -119,10 +190,18 @@ private:
     };
     static constexpr int most_buffers = 4; ///< of a display: each gets the picture once
 
+    static constexpr Nanoseconds between_feeds = std::chrono::seconds(1);
+    static constexpr Nanoseconds last_words = std::chrono::seconds(3);
+
+    StopSignals stop_;
+    ServiceManager manager_;
+    std::optional<MonotonicTime> fed_;
     Inputs inputs_;
     std::unique_ptr<Display> display_;
     Typesetter typesetter_;
     PictureUpload upload_;
+    std::optional<LanguageWords> house_; ///< none: it is silent, and in English alone
+    std::optional<TableVoice> voice_;
     double prop_px_;
     Image8 picture_;
     std::optional<Shown> shown_;
@@ -171,9 +250,11 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     if (!inputs) {
         return tl::unexpected<Error>(inputs.error());
     }
-    TouchProcedure procedure(crosses);
+    CalibrateRequest known = request;
+    known.sensor_height_m = sensor_height(settings, request);
+    TouchProcedure procedure(crosses, known.sensor_height_m ? "" : no_sensor_height);
     Table table(raw, *std::move(inputs), *std::move(display), *std::move(typesetter));
-    const Result<bool> ended = table.run(procedure, touch_setup(*described, request));
+    const Result<std::optional<TouchStage>> ended = table.run(procedure, touch_setup(*described, known));
     if (!request.out.empty() && !procedure.touches().empty()) { // nothing that was touched is lost
         if (const Result<void> written = write_file(request.out, as_bytes(touches_text(procedure.touches())));
             !written) {
@@ -183,10 +264,20 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     if (!ended) {
         return tl::unexpected<Error>(ended.error());
     }
-    if (!*ended) {
-        return fail(ErrorKind::BadInput, "stopped before the calibration was kept; the one before counts");
+    Result<void> kept =
+        fail(ErrorKind::BadInput, procedure.problem().empty()
+                                      ? "it ended before a calibration was kept; the one before counts"
+                                      : procedure.problem());
+    if (*ended == TouchStage::Done) {
+        kept = keep_touch(settings, *procedure.judged(), procedure.touches());
     }
-    return keep_touch(settings, *procedure.judged(), procedure.touches()).map([] { return 0; });
+    if (*ended == TouchStage::Done && !kept) { // nobody reads a service's standard error
+        TouchProcedure told(crosses, kept.error().message);
+        static_cast<void>(table.run(told, touch_setup(*described, known)));
+    } else if (*ended) {
+        table.stay(procedure);
+    }
+    return kept.map([] { return 0; });
 }
 
 } // namespace
@@ -197,7 +288,10 @@ void add_table_command(CLI::App& app, CalibrateRequest& request, std::function<i
                                     "prop is laid on them; Back and Next are the "
                                     "first and the second button");
     command->add_option("--config", request.config, "the kiosk's settings, TOML")->required();
-    command->add_option("--touches", request.touches, "how many crosses, 6 to 30")->check(CLI::Range(6, 30));
+    command
+        ->add_option("--touches", request.touches,
+                     "how many crosses, 6 to 30; this and the next two are else as the settings have them")
+        ->check(CLI::Range(6, 30));
     command
         ->add_option("--blocks", request.blocks_m,
                      "heights of the blocks that there are, metres, with 0 for the table itself")

@@ -1,16 +1,22 @@
 #include "app/programs/calibrate/touch_picture.h"
 
 #include "app/exhibit/canvas.h"
+#include "app/exhibit/coverage.h"
+#include "app/exhibit/glyph_image.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <set>
 
 namespace frustumscreen {
 
 namespace {
 
+constexpr double widest_em = 36.0; ///< what words are broken for at the bake
 constexpr Colour white{255, 255, 255};
 constexpr Colour dim{150, 150, 150};
 constexpr Colour front_colour{255, 184, 92};
@@ -34,13 +40,22 @@ std::string_view words_of(TouchWord word) {
 }
 
 std::string height_of(const Cross& cross) {
-    return cross.block_m > 0.0 ? fmt::format(" on top of {:.0f} mm of board", 1e3 * cross.block_m)
-                               : std::string(" on the table");
+    return cross.block_m > 0.0 ? fmt::format("on top of {:.0f} mm of board", 1e3 * cross.block_m)
+                               : std::string("on the table");
+}
+
+/// A reason is half a sentence, as programs say it behind a colon.
+std::string sentence(std::string reason) {
+    if (!reason.empty()) {
+        reason.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(reason.front())));
+        reason += '.';
+    }
+    return reason;
 }
 
 std::vector<std::string> words_of_verdict(const TouchCalibration& judged) {
     std::vector<std::string> words{fmt::format("The calibration is: {}", name_of(judged.verdict)),
-                                   judged.reason};
+                                   sentence(judged.reason)};
     if (judged.table) {
         words.push_back(
             fmt::format("Each touch lies {:.1f} mm from where the others expect it, {:.1f} mm at worst.",
@@ -61,6 +76,29 @@ std::vector<std::string> words_of_verdict(const TouchCalibration& judged) {
     return words;
 }
 
+/// What a technician needs at hand: "boards of 40, 80 and 120 mm", from the heights that the crosses ask for.
+std::string boards_for(const std::vector<Cross>& crosses) {
+    std::set<int> heights_mm;
+    for (const Cross& cross : crosses) {
+        heights_mm.insert(static_cast<int>(std::lround(1e3 * cross.block_m)));
+    }
+    heights_mm.erase(0);
+    return fmt::format("boards that make {} mm", fmt::join(heights_mm, ", "));
+}
+
+std::vector<std::string> words_of_begin(const TouchProcedure& procedure) {
+    if (!procedure.problem().empty()) {
+        return {"The table cannot be measured", sentence(procedure.problem()),
+                "Back returns to the exhibit."};
+    }
+    return {
+        "Staff: measure the table anew",
+        fmt::format("Projector, tracker and the prop's sensor are measured with {} touches; that takes about "
+                    "five minutes. You need the prop and {}.",
+                    procedure.count(), boards_for(procedure.crosses())),
+        "Next begins. Back returns to the exhibit; so does a minute without a press."};
+}
+
 Colour colour_of(const TouchProcedure& procedure) {
     if (procedure.stage() == TouchStage::HoldStill) {
         return procedure.word() == TouchWord::Moved ? bad_colour : good_colour;
@@ -75,7 +113,8 @@ glm::dvec2 turned(const glm::dvec2& direction, double yaw_rad) {
     return {c * direction.x + s * direction.y, -s * direction.x + c * direction.y};
 }
 
-/// Its arms reach out from under the prop, along whose sides they lie; the thick one leads to its front.
+/// Its arms reach out from under the prop, along whose sides they lie; the thick one leads to its front. Where that one leaves the picture,
+/// an arrow head on a side arm, beyond the prop, says the same: of two arms that are opposite each other at most one leaves it.
 void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, double prop_px) {
     const Cross& cross = procedure.cross();
     const Colour colour = colour_of(procedure);
@@ -87,15 +126,76 @@ void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, do
     line({-arm, 0.0}, {arm, 0.0}, 1.0, colour);
     line({0.0, -arm}, {0.0, arm}, 1.0, colour);
     line({0.0, 2.0 * unit}, {0.0, arm}, 3.0, front_colour);
-    line({0.0, arm}, {-unit, arm - 1.5 * unit}, 3.0, front_colour);
-    line({0.0, arm}, {unit, arm - 1.5 * unit}, 3.0, front_colour);
+    const auto arrow_head = [&](const glm::dvec2& tip) {
+        line(tip, tip + glm::dvec2(-2.0, -2.5) * unit, 3.0, front_colour);
+        line(tip, tip + glm::dvec2(2.0, -2.5) * unit, 3.0, front_colour);
+    };
+    arrow_head({0.0, arm});
+    arrow_head({-0.85 * arm, 2.0 * unit});
+    arrow_head({0.85 * arm, 2.0 * unit});
     canvas.circle(cross.pixel, 1.5 * unit, 1.0, colour);
+}
+
+std::string_view key_of_lay(const TouchProcedure& procedure) {
+    switch (procedure.word()) {
+    case TouchWord::NotSeen:
+        return "calibration.not_seen";
+    case TouchWord::SamePlace:
+        return "calibration.same_place";
+    case TouchWord::Taken: {
+        const bool is_raised =
+            procedure.at() > 0 && procedure.cross().block_m > procedure.crosses()[procedure.at() - 1].block_m;
+        return is_raised ? "calibration.on_boards" : "calibration.taken";
+    }
+    default:
+        return "calibration.lay";
+    }
+}
+
+std::string_view key_of(Verdict verdict) {
+    switch (verdict) {
+    case Verdict::Good:
+    case Verdict::Usable:
+        return "calibration.may_be_kept";
+    case Verdict::Repeat:
+        return "calibration.repeat";
+    case Verdict::Refused:
+        return "calibration.refused";
+    }
+    return "";
+}
+
+/// What is said now, set in the house's language; empty where that is English, which the other words are in.
+Image<std::uint8_t> house_sentence(const TouchProcedure& procedure, const LanguageWords* house,
+                                   double width_px) {
+    if (house == nullptr || house->language.starts_with("en")) {
+        return {};
+    }
+    const double em_px = width_px / widest_em;
+    const GlyphSetting* const setting = fitting_setting(house->runs.find(word_key(procedure)), widest_em);
+    return setting != nullptr ? glyph_image(house->runs, house->atlas, *setting, em_px).coverage
+                              : Image<std::uint8_t>();
+}
+
+/// One picture of two, from their left edges.
+Image<std::uint8_t> above(const Image<std::uint8_t>& upper, const Image<std::uint8_t>& lower,
+                          double between_px) {
+    if (upper.width == 0) {
+        return lower;
+    }
+    const int top = upper.height + static_cast<int>(between_px);
+    Image<std::uint8_t> both(std::max(upper.width, lower.width), top + lower.height);
+    draw_lighter(upper, 1.0, 0, 0, both);
+    draw_lighter(lower, 1.0, 0, top, both);
+    return both;
 }
 
 } // namespace
 
 std::vector<std::string> touch_words(const TouchProcedure& procedure) {
     switch (procedure.stage()) {
+    case TouchStage::Begin:
+        return words_of_begin(procedure);
     case TouchStage::Lay:
     case TouchStage::HoldStill: {
         std::vector<std::string> words{fmt::format("Touch {} of {}", procedure.at() + 1, procedure.count())};
@@ -103,7 +203,7 @@ std::vector<std::string> touch_words(const TouchProcedure& procedure) {
             procedure.stage() == TouchStage::HoldStill
                 ? "Hold still: one second."
                 : fmt::format(
-                      "Lay the middle of the prop's bottom on the cross,{}, its front along the arrow. "
+                      "Lay the middle of the prop's bottom on the cross, {}, its front along the arrow. "
                       "Then press Next.",
                       height_of(procedure.cross())));
         if (const std::string_view more = words_of(procedure.word()); !more.empty()) {
@@ -116,13 +216,35 @@ std::vector<std::string> touch_words(const TouchProcedure& procedure) {
     case TouchStage::Judged:
         return words_of_verdict(*procedure.judged());
     case TouchStage::Done:
-        return {"The calibration is kept."};
+        return {"The calibration is kept.", "The exhibit comes back with it."};
+    case TouchStage::Left:
+        return {"Nothing was changed.", "The exhibit comes back."};
     }
     return {};
 }
 
+std::string_view word_key(const TouchProcedure& procedure) {
+    switch (procedure.stage()) {
+    case TouchStage::Begin:
+        return procedure.problem().empty() ? "calibration.begin" : "";
+    case TouchStage::Lay:
+        return key_of_lay(procedure);
+    case TouchStage::HoldStill:
+        return procedure.word() == TouchWord::Moved ? "calibration.moved" : "calibration.hold_still";
+    case TouchStage::Solve:
+        return "calibration.all_taken";
+    case TouchStage::Judged:
+        return key_of(procedure.judged()->verdict);
+    case TouchStage::Done:
+        return "calibration.kept";
+    case TouchStage::Left:
+        return "calibration.left";
+    }
+    return "";
+}
+
 Image8 touch_picture(const TouchProcedure& procedure, int width, int height, double prop_px,
-                     const Typesetter& typesetter) {
+                     const Typesetter& typesetter, const LanguageWords* house) {
     Canvas canvas(width, height, {0, 0, 0});
     const double unit = width / 160.0;
     const bool has_cross = procedure.stage() == TouchStage::Lay || procedure.stage() == TouchStage::HoldStill;
@@ -136,15 +258,17 @@ Image8 touch_picture(const TouchProcedure& procedure, int width, int height, dou
         const bool is_first = paragraphs.empty();
         paragraphs.push_back({line, (is_first ? 4.0 : 2.6) * unit, is_first, 1.0, is_first ? 0.0 : unit});
     }
-    const Image<std::uint8_t> coverage = typesetter.set(paragraphs, 0.6 * width);
+    const Image<std::uint8_t> coverage = above(house_sentence(procedure, house, 0.6 * width),
+                                               typesetter.set(paragraphs, 0.6 * width), 2.5 * unit);
     const double top = below ? (has_cross ? 0.62 : 0.4) * height : 0.38 * height - coverage.height;
     canvas.coverage(
         coverage, {(width - coverage.width) / 2, static_cast<int>(std::max(top, unit))},
         procedure.word() == TouchWord::Taken || procedure.word() == TouchWord::None ? white : front_colour);
-    for (int k = 0; k < static_cast<int>(procedure.count()); ++k) { // one dot for each touch
+    for (int k = 0; k < static_cast<int>(procedure.count());
+         ++k) { // one dot for each touch, on the same side
         const glm::dvec2 at((0.5 * width) +
                                 (k - 0.5 * (static_cast<int>(procedure.count()) - 1)) * 4.0 * unit,
-                            height - 3.0 * unit);
+                            below ? height - 3.0 * unit : 3.0 * unit);
         canvas.circle(at, unit, procedure.is_taken(static_cast<std::size_t>(k)) ? 4.0 : 1.0,
                       procedure.is_taken(static_cast<std::size_t>(k)) ? good_colour : dim);
     }

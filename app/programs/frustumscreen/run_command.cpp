@@ -46,6 +46,7 @@ struct Request {
     std::filesystem::path out;
     std::filesystem::path status_file;
     std::filesystem::path staff_socket;
+    std::filesystem::path calibrate_file;
     std::filesystem::path record;
     ArtifactShowOptions show;
     Trust trust = Trust::Newest; ///< in the installed sets
@@ -75,6 +76,9 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     app.add_option("--status-file", request.status_file, "JSON, renewed every second");
     app.add_option("--staff-socket", request.staff_socket,
                    "a local socket on which the staff ask for the picture; see frustumscreen status");
+    app.add_option("--calibrate-file", request.calibrate_file,
+                   "made when the staff ask for the table's calibration with the buttons; who looks at it "
+                   "ends the exhibit and starts frustumscreen-calibrate table");
     app.add_option("--mode-file", request.places.mode_file,
                    "what is to be shown: normal, last_good_set or built_in; the watchdog's");
     app.add_option("--shipped", request.places.shipped,
@@ -282,6 +286,21 @@ void report(const Request& request, const LoopResult& result) {
     }
 }
 
+/// A calibration needs a tracker whose reports it takes, and buttons.
+bool may_calibrate(const Request& request, const Settings& settings, const DevicePlan& devices) {
+    return !request.calibrate_file.empty() && settings.calibration.by_buttons &&
+           devices.tracker != TrackerKind::None && devices.panel;
+}
+
+void ask_for_calibration(const std::filesystem::path& file, const Journal& journal) {
+    const Result<void> written = write_file(file, {});
+    journal.note(
+        LogPriority::Notice,
+        written ? "the staff ask for the table's calibration"
+                : fmt::format("the table's calibration cannot be asked for: {}", written.error().message),
+        {{"DEVICE", "calibration"}});
+}
+
 /// Says the error before anything is closed: a thread that hangs may hold that up until the process ends.
 int end_with(const Error& why) {
     const int status = exit_status("frustumscreen", tl::unexpected<Error>(why));
@@ -376,6 +395,9 @@ Result<int> run(Request& request) {
     const std::string& zone = (*settings)->hours.time_zone;
     RunHours hours((*settings)->hours, local_offset_at, has_time_zone(zone) ? std::string_view() : zone);
     options.hours = &hours;
+    if (may_calibrate(request, **settings, devices)) {
+        options.calibrate = [&] { ask_for_calibration(request.calibrate_file, journal); };
+    }
     options.mode = word_of(mode->mode);
     options.settings = Sentence(mode->used.instead);
     StatusFile status_file(request.status_file, keeper_of(request.places, *mode));

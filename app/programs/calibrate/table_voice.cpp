@@ -1,0 +1,27 @@
+#include "app/programs/calibrate/table_voice.h"
+
+#include "firmware_host/sound/opus_reader.h"
+
+namespace frustumscreen {
+
+TableVoice::TableVoice(const LanguageWords& words, std::unique_ptr<Sound> sound, double gain_db)
+    : sound_(std::move(sound)) {
+    wish_.set_gain_db(gain_db);
+    for (const auto& [key, opus] : words.sounds) {
+        if (!key.starts_with("calibration.")) {
+            continue;
+        }
+        if (Result<Prompt> prompt = read_opus(opus)) {
+            prompts_[key] = std::make_shared<const Prompt>(*std::move(prompt));
+        }
+    }
+}
+
+void TableVoice::say(std::string_view key) {
+    wish_.stop();
+    if (const auto found = prompts_.find(key); found != prompts_.end()) {
+        wish_.say(found->second);
+    }
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,32 @@
+/// Says aloud what the table shows, in the house's language.
+///
+/// Threads  one caller. All is decoded at the beginning: a dozen short sentences.
+/// Errors   what cannot be decoded is silent.
+#pragma once
+
+#include "app/pack/words_file.h"
+#include "firmware_host/base/time.h"
+#include "firmware_host/sound/sound.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace frustumscreen {
+
+class TableVoice {
+public:
+    TableVoice(const LanguageWords& words, std::unique_ptr<Sound> sound, double gain_db);
+
+    /// What is still being said ends. A key without a recording is silent.
+    void say(std::string_view key);
+    void poll(MonotonicTime now) { static_cast<void>(sound_->poll(now, wish_)); }
+
+private:
+    std::map<std::string, SharedPrompt, std::less<>> prompts_;
+    std::unique_ptr<Sound> sound_;
+    SoundWish wish_;
+};
+
+} // namespace frustumscreen

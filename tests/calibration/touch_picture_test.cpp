@@ -1,0 +1,102 @@
+// What a technician sees and hears during a calibration by touch.
+#include "app/programs/calibrate/touch_picture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace frustumscreen {
+namespace {
+
+constexpr int width = 640;
+constexpr int height = 400;
+constexpr Nanoseconds tick = std::chrono::milliseconds(20);
+
+Pinhole projector() {
+    return {width, height, 1.875 * width, 1.875 * width, 0.5 * width, 0.5 * height};
+}
+
+/// From the first cross to a verdict; `look` is called whenever something else is shown.
+void walk(const std::vector<Cross>& crosses, Verdict verdict, const auto& look) {
+    TouchProcedure procedure(crosses);
+    MonotonicTime now{};
+    look(procedure);
+    procedure.step({now, std::nullopt, true, false});
+    while (procedure.stage() == TouchStage::Lay) {
+        look(procedure);
+        const double place_m = 0.1 * static_cast<double>(procedure.at());
+        procedure.step({now, std::nullopt, true, false});
+        look(procedure);
+        while (procedure.stage() == TouchStage::HoldStill) {
+            now += tick;
+            procedure.step({now, RigidTransform{{1.0, 0.0, 0.0, 0.0}, {place_m, 0.0, 0.1}}, false, false});
+        }
+    }
+    look(procedure);
+    TouchCalibration judged;
+    judged.verdict = verdict;
+    procedure.judge(std::move(judged));
+    look(procedure);
+    procedure.step({now, std::nullopt, true, false});
+    look(procedure);
+}
+
+TEST(TouchPicture, EverythingThatIsSaidHasItsWord) {
+    std::ifstream file(FRUSTUMSCREEN_SOURCE_DIR "/assets_baked/texts/words/en.toml");
+    std::stringstream text;
+    text << file.rdbuf();
+    const std::string words = text.str().substr(text.str().find("[calibration]"));
+    std::set<std::string> said;
+    const auto listen = [&](const TouchProcedure& procedure) {
+        const std::string_view key = word_key(procedure);
+        ASSERT_TRUE(key.starts_with("calibration.")) << key;
+        said.insert(std::string(key.substr(12)));
+    };
+    const std::vector<Cross> crosses{{{100, 100}, 0.0, 0.0}, {{500, 100}, 0.0, 0.0}, {{300, 300}, 0.08, 1.5}};
+    for (const Verdict verdict : {Verdict::Good, Verdict::Usable, Verdict::Repeat, Verdict::Refused}) {
+        walk(crosses, verdict, listen);
+    }
+    EXPECT_EQ(said.size(), 10U);
+    for (const std::string& key : said) {
+        EXPECT_NE(words.find("\n" + key + " = "), std::string::npos) << key;
+    }
+    EXPECT_EQ(word_key(TouchProcedure(crosses, "it cannot be done")), "") << "there is none for every reason";
+}
+
+/// Orange where the prop does not stand, which covers its own square and more as seen from above.
+std::size_t arrow_pixels(const Image8& picture, const Cross& cross, double prop_px) {
+    std::size_t count = 0;
+    for (int v = 0; v < picture.height; ++v) {
+        for (int u = 0; u < picture.width; ++u) {
+            const glm::u8vec4& colour = picture.at(u, v);
+            const glm::dvec2 from = glm::abs(glm::dvec2(u + 0.5, v + 0.5) - cross.pixel);
+            const bool is_covered = std::fmax(from.x, from.y) < 0.5 * prop_px;
+            count += !is_covered && colour.r > 200 && colour.b < 150 ? 1U : 0U;
+        }
+    }
+    return count;
+}
+
+TEST(TouchPicture, WhereThePropsFrontGoesIsSeenBesideIt) {
+    const Result<Typesetter> typesetter = Typesetter::open();
+    ASSERT_TRUE(typesetter);
+    constexpr double prop_px = 0.3 / 1.5 * 1.875 * width;
+    for (const int count : {6, 9, 15}) {
+        CrossSetup setup;
+        setup.count = count;
+        const auto look = [&](const TouchProcedure& procedure) {
+            if (procedure.stage() == TouchStage::Lay) {
+                const Image8 picture = touch_picture(procedure, width, height, prop_px, *typesetter);
+                EXPECT_GT(arrow_pixels(picture, procedure.cross(), prop_px), 30U)
+                    << procedure.at() << " of " << count;
+            }
+        };
+        walk(choose_crosses(rough_model(projector(), 1.5, 0.08), setup), Verdict::Good, look);
+    }
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,143 @@
+"""A technician with two buttons and the prop, alone: the projector hangs elsewhere than the settings say, the tracker stands anywhere, and
+nobody has a keyboard. Afterwards the picture is where the true table has it.
+
+The truth's arithmetic is tests/calibration/true_table.py's; the tracker's mock has no noise.
+"""
+
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+import tomllib
+
+import screen
+from bench import EYE_M, PLACE_TOLERANCE_M, UPRIGHT, USUAL, WIDTH, eventually
+from hil_test import PIXELS, START_S, HilTest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "calibration"))
+from true_table import TrueTable, moved  # pylint: disable=wrong-import-position
+
+FIRST, NEXT, LAST = 0, 1, 2
+CALIBRATION = "frustumscreen-calibrate.service"
+FOLDER = "/var/lib/frustumscreen/calibration"
+SENSOR_M = 0.085
+HELD_S = 3.5  # longer than the staff's chord takes
+ARTIFACT = "amphora"
+IDENTITY = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+UNCALIBRATED = {"table_from_tracker": IDENTITY, "sensor_from_prop": IDENTITY}
+PLACES = (((0.0, 0.0, 0.0), 0.0), ((0.07, 0.03, 0.0), 0.5), ((-0.08, -0.02, 0.0), -0.3))  # and turns about the vertical
+
+
+class Calibration(HilTest):
+    settings = USUAL + f"\n[calibration]\nsensor_height_m = {SENSOR_M}\n"
+    after = f"rm -rf {FOLDER}/*"  # the other tests' table is as their settings say
+    truth = TrueTable(WIDTH, 0.4)
+
+    def test_a_technician_alone_with_two_buttons(self):
+        self.assertGreater(self.farthest_off(PLACES[:1], UNCALIBRATED), 4 * PIXELS, "without it the picture is right: this proves nothing")
+        self.hold_chord()
+        self.bench.status_says("state", "staff")
+        self.hold_chord()
+        self.hears("Staff: measure the table anew")
+        self.press(NEXT)
+        crosses = self.crosses()
+        for number, cross in enumerate(crosses):
+            self.hears(f"Touch {number + 1} of {len(crosses)} Lay")
+            self.assert_lit(cross["u_px"], cross["v_px"])
+            place = self.truth.light(cross["u_px"], cross["v_px"], cross["block_m"])
+            self.lay(place, math.radians(cross["turn_deg"]))
+            self.press(NEXT)
+        self.hears("Next keeps it.")  # good, or usable: pixels are large here
+        self.press(NEXT)
+        tracker = self.kept()["tracker"]
+        self.bench.status_says("display", "is lit", START_S)
+        self.assertIn("calibration-0001.toml is used", self.bench.journal())
+        off_px = self.farthest_off(PLACES, tracker)
+        print(f"  {off_px:.2f} pixels at most from the true table's pictures", flush=True)
+        self.assertLess(off_px, PIXELS)
+
+    # The technician.
+
+    def hold_chord(self):
+        for button in (FIRST, LAST):
+            self.bench.buttons.tell("hold", button)
+        time.sleep(HELD_S)
+        for button in (FIRST, LAST):
+            self.bench.buttons.tell("release", button)
+
+    def press(self, button):
+        self.bench.buttons.tell("press", button, "300ms")
+
+    def lay(self, place, yaw):
+        self.bench.tracker.tell("pose", *self.truth.report(place, yaw, SENSOR_M), 1)
+
+    def hears(self, words):
+        """Waits until the latest of the calibration's words on the table begin so; its journal has them too."""
+        said = [""]
+
+        def is_said():
+            said[0] = self.bench.machine.run(f"journalctl -b -o cat --no-pager -n 1 -u {CALIBRATION} -t frustumscreen-calibrate").output
+            return words in said[0]
+
+        eventually(is_said, START_S, lambda: f"the table never says '{words}', at last: {said[0]}")
+
+    def assert_lit(self, u, v):
+        def is_lit():
+            shot = self.bench.screendump()
+            return any(max(shot.pixel(int(u) + aside, int(v))) > 64 for aside in (-1, 0, 1))
+
+        eventually(is_lit, 20.0, f"there is no cross at ({u:.0f}, {v:.0f})")
+
+    # What is true.
+
+    def crosses(self):
+        """Those that the kiosk shows: they follow from its settings alone."""
+        with tempfile.TemporaryDirectory() as folder:
+            config = pathlib.Path(folder) / "kiosk.toml"
+            config.write_text(self.settings, encoding="utf-8")
+            program = self.bench.program.parent / "frustumscreen-calibrate"
+            printed = subprocess.run([program, "table", "--config", config, "--json"], check=True, capture_output=True)
+        return json.loads(printed.stdout)["crosses"]
+
+    def kept(self):
+        text = eventually(lambda: self.bench.machine.read(f"{FOLDER}/calibration-0001.toml"), 20.0, "nothing was kept")
+        return tomllib.loads(text)
+
+    def farthest_off(self, places, tracker):
+        """How far what is lit lies, in the middle or at its edges, from where it lies on the true table; pixels. `tracker`: the exhibit's
+        registration, by which its pictures are known."""
+        worst = 0.0
+        for place, yaw in places:
+            eye = self.truth.in_tracker(EYE_M)
+            self.bench.tracker.tell("pose", *eye, *UPRIGHT, 2)
+            self.lay(place, yaw)
+            prop = self.truth.report(place, yaw, SENSOR_M + tracker["sensor_from_prop"][14])[:3]
+            at, eye = (moved(tracker["table_from_tracker"], point) for point in (prop, eye))
+            seen = self.bench.picture_where(lambda placed, at=at, eye=eye: math.dist(placed["prop_m"], at) < PLACE_TOLERANCE_M
+                                            and math.dist(placed["eye_m"], eye) < PLACE_TOLERANCE_M, f"the prop at {at}")
+            worst = max(worst, distance_px(seen, self.true_picture(place, yaw)))
+        return worst
+
+    def true_picture(self, place, yaw):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "kept").mkdir()
+            (folder / "kept" / "calibration-0001.toml").write_text(self.truth.calibration(SENSOR_M), encoding="utf-8")
+            config = folder / "kiosk.toml"
+            config.write_text(USUAL + '\n[calibration]\nfolder = "kept"\n', encoding="utf-8")
+            pose = (*place, math.cos(0.5 * yaw), 0.0, 0.0, math.sin(0.5 * yaw))
+            return self.bench.render([pose], ARTIFACT, EYE_M, config)[0]
+
+
+def distance_px(seen, meant):
+    """Of the middles, and of the edges, of what is lit; nothing is lit: far."""
+    lit, true = screen.lit(seen), screen.lit(meant)
+    if screen.count(true) < 300:
+        raise AssertionError("the true picture is dark: this place proves nothing")
+    if not screen.count(lit):
+        return math.inf
+    return max(math.dist(screen.centroid(lit, seen.width), screen.centroid(true, meant.width)),
+               *(abs(a - b) for a, b in zip(screen.box(lit, seen.width), screen.box(true, meant.width))))
