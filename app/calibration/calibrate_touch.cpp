@@ -1,7 +1,6 @@
 #include "app/calibration/calibrate_touch.h"
 
 #include "app/calibration/agreement.h"
-#include "app/calibration/bent_touches.h"
 #include "app/calibration/check_touches.h"
 #include "app/calibration/reliability.h"
 #include "app/calibration/starts.h"
@@ -53,6 +52,27 @@ Touches with_unit_rotations(std::span<const Touch> touches) {
         touch.tracker_from_sensor.rotation = glm::normalize(touch.tracker_from_sensor.rotation);
     }
     return out;
+}
+
+/// What all other touches say of each.
+std::vector<TouchResidual> residuals_of(std::span<const Touch> touches, std::span<const std::size_t> wrong,
+                                        const FitSetup& setup, const TouchModel& model) {
+    std::vector<TouchResidual> residuals;
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+        std::vector<double> weights(touches.size(), 1.0);
+        for (const std::size_t other : wrong) {
+            weights[other] = 0.0;
+        }
+        weights[k] = 0.0;
+        const TouchModel others = fit_touches(touches, weights, setup, model).model;
+        const glm::dvec3 touched = others.touched(touches[k].tracker_from_sensor);
+        const auto lit = others.lit(touches[k].pixel, touches[k].block_m);
+        const auto pixel = others.pixel(touched);
+        constexpr double nowhere = 1e3; // metres and pixels: no light comes there
+        residuals.push_back({lit ? glm::distance(*lit, touched) : nowhere,
+                             pixel ? glm::distance(*pixel, touches[k].pixel) : nowhere});
+    }
+    return residuals;
 }
 
 void summarise_residuals(TouchCalibration& calibration) {
@@ -152,39 +172,6 @@ std::vector<PlaceUncertainty> by_place(std::span<const ZonePlace> places, std::s
     return zone;
 }
 
-/// What the verdict rests on, by the model's unknowns, and by the map's where there is one.
-void measure(TouchCalibration& calibration, std::span<const Touch> touches, const FitSetup& setup,
-             const AgreeingTouches& found, const std::optional<BentTouches>& bent, const ZoneSetup& zone) {
-    const std::vector<ZonePlace> places = zone_places(found.fit.model, found.fit.middle, zone);
-    const double scale = found.scatter * found.scatter;
-    calibration.prior_shares = prior_shares(found.fit);
-    if (bent) {
-        const std::vector<Eigen::Matrix2Xd> light = light_rows_with(bent->bent.map, places);
-        calibration.uncertainty = picture_uncertainty(light, scale * bent->bent.covariance);
-        calibration.hidden_error_m = hidden_error_m(bent->bent.rows, bent->bent.covariance, light);
-        calibration.residuals = bent->residuals;
-        calibration.field =
-            FieldWorth{bent->without_map_m, bent->with_map_m, bent->chance, bent->largest_bend_m};
-        calibration.table->field = bent->bent.map;
-    } else {
-        const Covariance covariance = found.fit.information().ldlt().solve(Covariance::Identity());
-        calibration.uncertainty = picture_uncertainty(places, scale * covariance);
-        calibration.hidden_error_m = hidden_error_of(touches, setup, found.fit, zone);
-        calibration.residuals = left_out_residuals(touches, found.wrong, setup, found.fit.model);
-    }
-    calibration.zone = by_place(places, calibration.uncertainty.each_m);
-}
-
-/// Touches that agree with a map are not searched for wrong ones.
-AgreeingTouches agreement_of(std::span<const Touch> touches, const FitSetup& setup,
-                             std::span<const TouchModel> starts, const std::optional<BentTouches>& bent) {
-    if (bent) {
-        const Agreement agreement = bent->scatter > 1.0 ? Agreement::Scattered : Agreement::All;
-        return {agreement, bent->bent.fit, {}, bent->scatter};
-    }
-    return find_agreement(touches, setup, starts);
-}
-
 } // namespace
 
 TouchCalibration calibrate_touch(std::span<const Touch> reported, const TouchSetup& setup) {
@@ -195,9 +182,7 @@ TouchCalibration calibrate_touch(std::span<const Touch> reported, const TouchSet
     const std::vector<TouchModel> starts = starting_models(touches, setup.width, setup.height);
     FitSetup fit_setup{setup.noise, setup.priors, setup.sensor_height_m,
                        upright_ones(touches, starts[0].table_up)};
-    const std::optional<BentTouches> bent =
-        find_bend(touches, fit_setup, best_fit(touches, fit_setup, starts));
-    const AgreeingTouches found = agreement_of(touches, fit_setup, starts, bent);
+    const AgreeingTouches found = find_agreement(touches, fit_setup, starts);
     const auto some_upright = std::find(fit_setup.upright.begin(), fit_setup.upright.end(), true);
     const ZoneSetup zone{setup.top_m,
                          touches[static_cast<std::size_t>(some_upright - fit_setup.upright.begin())]
@@ -215,7 +200,14 @@ TouchCalibration calibrate_touch(std::span<const Touch> reported, const TouchSet
     if (!calibration.table) {
         return refused("the light of the picture's middle does not come down on the table");
     }
-    measure(calibration, touches, fit_setup, found, bent, zone);
+    const Covariance covariance =
+        found.scatter * found.scatter * found.fit.information().ldlt().solve(Covariance::Identity());
+    const std::vector<ZonePlace> places = zone_places(found.fit.model, found.fit.middle, zone);
+    calibration.uncertainty = picture_uncertainty(places, covariance);
+    calibration.zone = by_place(places, calibration.uncertainty.each_m);
+    calibration.hidden_error_m = hidden_error_of(touches, fit_setup, found.fit, zone);
+    calibration.prior_shares = prior_shares(found.fit);
+    calibration.residuals = residuals_of(touches, found.wrong, fit_setup, found.fit.model);
     judge(calibration, found);
     summarise_residuals(calibration);
     return calibration;

@@ -9,7 +9,6 @@
 
 #include "app/calibration/calibrated_table.h"
 #include "app/calibration/determinacy.h"
-#include "app/calibration/left_out.h"
 #include "app/calibration/priors.h"
 #include "app/calibration/touch.h"
 #include "app/calibration/verdict.h"
@@ -30,12 +29,10 @@ struct TouchSetup {
     Priors priors;
 };
 
-/// What a map of the tracker's field is worth: how far touches that are left out lie off, root mean square.
-struct FieldWorth {
-    double without_map_m = 0.0;
-    double with_map_m = 0.0;
-    double chance = 1.0;         ///< of gaining as much where nothing is bent
-    double largest_bend_m = 0.0; ///< of the touches' places
+/// How far a touch is off what all others say of it.
+struct TouchResidual {
+    double on_table_m = 0.0; ///< from where the cross's light is to where the prop was
+    double pixel = 0.0;
 };
 
 /// Of the picture at a place of the zone: root mean square over the prop's turns.
@@ -59,7 +56,6 @@ struct TouchCalibration {
     double hidden_error_m = 0.0;    ///< what one wrong touch could do to it and yet agree with the others
     PriorShares prior_shares;
     std::vector<PlaceUncertainty> zone; ///< zone_columns x zone_rows of each height, from the table up
-    std::optional<FieldWorth> field;    ///< none: the touches are told as well without a map
 };
 
 [[nodiscard]] TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetup& setup);

@@ -18,7 +18,7 @@ std::optional<CalibratedTable> in_table_frame(const TouchModel& model) {
     table_from_tracker.rotation = glm::conjugate(glm::normalize(glm::quat_cast(tracker_from_table)));
     table_from_tracker.translation = -(table_from_tracker.rotation * *origin);
     return CalibratedTable{model.pinhole, table_from_tracker * model.projector_from_tracker.inverse(),
-                           table_from_tracker, model.sensor_offset_m, std::nullopt};
+                           table_from_tracker, model.sensor_offset_m};
 }
 
 } // namespace frustumscreen

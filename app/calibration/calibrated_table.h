@@ -5,9 +5,6 @@
 #pragma once
 
 #include "app/calibration/touch_model.h"
-#include "app/geometry/field_map.h"
-
-#include <optional>
 
 namespace frustumscreen {
 
@@ -16,7 +13,6 @@ struct CalibratedTable {
     RigidTransform table_from_projector;
     RigidTransform table_from_tracker;
     glm::dvec3 sensor_offset_m{0.0}; ///< the touched place in the sensor's frame
-    std::optional<FieldMap> field{}; ///< that reported places go through first, where metal bends them
 };
 
 /// Nothing if the light of the picture's middle does not come down on the table.

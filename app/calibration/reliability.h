@@ -16,15 +16,9 @@ inline constexpr double touch_chi2_limit = 16.0;
 /// Chi squared of a touch's residuals as the others predict them.
 [[nodiscard]] double left_out_chi2(const TouchRows& rows, const Eigen::Vector3d& residual,
                                    const Covariance& covariance);
-/// By more unknowns than the model's.
-[[nodiscard]] double left_out_chi2(const Eigen::Matrix3Xd& rows, const Eigen::Vector3d& residual,
-                                   const Eigen::MatrixXd& covariance);
 
 /// How far one wrong touch could move the picture and yet agree, at the worst touch and place of the zone.
 [[nodiscard]] double hidden_error_m(std::span<const TouchRows> touches, const Covariance& covariance,
                                     std::span<const ZonePlace> places);
-[[nodiscard]] double hidden_error_m(std::span<const Eigen::Matrix3Xd> touches,
-                                    const Eigen::MatrixXd& covariance,
-                                    std::span<const Eigen::Matrix2Xd> light);
 
 } // namespace frustumscreen

@@ -35,17 +35,6 @@ LightRows light_rows(const TouchModel& model, const glm::dvec3& middle, const gl
     return pixel_by_place.inverse() * pixel_by_unknown;
 }
 
-/// Root mean square of how far a place's light is off.
-double rms_of(const auto& rows, const auto& covariance) {
-    return std::sqrt(std::fmax(0.0, (rows * covariance * rows.transpose()).trace()));
-}
-
-void add(PictureUncertainty& to, double rms, std::size_t places) {
-    to.mean_m += rms / static_cast<double>(places);
-    to.worst_m = std::fmax(to.worst_m, rms);
-    to.each_m.push_back(rms);
-}
-
 } // namespace
 
 std::vector<ZonePlace> zone_places(const TouchModel& model, const glm::dvec3& middle,
@@ -61,10 +50,7 @@ std::vector<ZonePlace> zone_places(const TouchModel& model, const glm::dvec3& mi
             for (int quarter = 0; place && quarter < 4; ++quarter) {
                 const glm::dquat turn =
                     glm::angleAxis(0.5 * std::numbers::pi * quarter, model.table_up) * setup.upright;
-                places.push_back({pixel,
-                                  height,
-                                  light_rows(model, middle, turn, *place),
-                                  {turn, *place - turn * model.sensor_offset_m}});
+                places.push_back({pixel, height, light_rows(model, middle, turn, *place)});
             }
         }
     }
@@ -74,16 +60,11 @@ std::vector<ZonePlace> zone_places(const TouchModel& model, const glm::dvec3& mi
 PictureUncertainty picture_uncertainty(std::span<const ZonePlace> places, const Covariance& covariance) {
     PictureUncertainty uncertainty;
     for (const ZonePlace& place : places) {
-        add(uncertainty, rms_of(place.rows, covariance), places.size());
-    }
-    return uncertainty;
-}
-
-PictureUncertainty picture_uncertainty(std::span<const Eigen::Matrix2Xd> light,
-                                       const Eigen::MatrixXd& covariance) {
-    PictureUncertainty uncertainty;
-    for (const Eigen::Matrix2Xd& rows : light) {
-        add(uncertainty, rms_of(rows, covariance), light.size());
+        const double rms =
+            std::sqrt(std::fmax(0.0, (place.rows * covariance * place.rows.transpose()).trace()));
+        uncertainty.mean_m += rms / static_cast<double>(places.size());
+        uncertainty.worst_m = std::fmax(uncertainty.worst_m, rms);
+        uncertainty.each_m.push_back(rms);
     }
     return uncertainty;
 }

@@ -20,7 +20,6 @@ struct ZonePlace {
     glm::dvec2 pixel{0.0};
     double height_m = 0.0;
     LightRows rows;
-    RigidTransform tracker_from_sensor; ///< of the prop that stands there
 };
 
 struct ZoneSetup {
@@ -44,8 +43,5 @@ struct PictureUncertainty {
 };
 [[nodiscard]] PictureUncertainty picture_uncertainty(std::span<const ZonePlace> places,
                                                      const Covariance& covariance);
-/// By more unknowns than the model's.
-[[nodiscard]] PictureUncertainty picture_uncertainty(std::span<const Eigen::Matrix2Xd> light,
-                                                     const Eigen::MatrixXd& covariance);
 
 } // namespace frustumscreen

@@ -1,16 +1,12 @@
 /// The registration of a tracker: where the device stands, and where its sensors sit in what they follow.
 ///
 /// Frames   tracker K, the device's own; table T; prop P; sensor S, whose pose in K the device reports.
-///          table_from_prop = table_from_tracker * tracker_from_sensor * sensor_from_prop, where tracker_from_sensor has the reported
-///          rotation, and the reported place as the field map takes it back, if there is one.
+///          table_from_prop = table_from_tracker * tracker_from_sensor * sensor_from_prop.
 /// Units    metres.
 /// Threads  values; any.
 #pragma once
 
-#include "app/geometry/field_map.h"
 #include "app/geometry/transform.h"
-
-#include <optional>
 
 namespace frustumscreen {
 
@@ -18,8 +14,6 @@ struct Registration {
     RigidTransform table_from_tracker{};
     RigidTransform sensor_from_prop{}; ///< of the prop's sensor
     glm::dvec3 eye_in_sensor_m{0.0};   ///< the point between the eyes, in the head's sensor
-    std::optional<FieldMap>
-        field{}; ///< of sensors on the table, where it was measured; the head's stays as reported
 };
 
 } // namespace frustumscreen

@@ -14,8 +14,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The second form has a field map. A calibration without one is written in the first, which older programs read.
-constexpr int first_form = 1, field_form = 2;
+constexpr int form_version = 1;
 constexpr std::array<std::string_view, 3> method_names{"corners", "touch", "auto"};
 
 /// A measured value has no default: a key that is left out is refused.
@@ -27,15 +26,6 @@ template <typename Fields> void require_all(Fields& fields) {
         }
     }
 }
-
-/// Beyond, metal is so near that no smooth map helps.
-constexpr Range most_shift{-0.1, 0.1, "metres"};
-
-/// What is read needs a place; what is written has it.
-void make_room(std::optional<FieldMap>& field) {
-    field.emplace();
-}
-void make_room(const std::optional<FieldMap>& /*written*/) {}
 
 void measured_projector(auto& fields, auto& calibration) {
     auto& pinhole = calibration.pinhole;
@@ -60,20 +50,9 @@ void measured_errors(auto& fields, auto& calibration) {
     require_all(fields);
 }
 
-void measured_field(auto& fields, auto& field) {
-    fields.rigid("box_from_tracker", field.box_from_tracker, near_the_table, "16 numbers, column by column");
-    fields.vector("half_m", field.half_m, {1e-3, 10.0, "metres"}, "half the sides of the box");
-    for (std::size_t k = 0; k < FieldMap::term_count; ++k) {
-        fields.vector(FieldMap::term_names[k], field.shift_m[k], most_shift,
-                      "of this term, along the box's axes");
-    }
-    require_all(fields);
-}
-
 void measured(auto& file, auto& calibration) {
-    auto& field = calibration.registration.field;
-    int version = field ? field_form : first_form;
-    file.integer("version", version, first_form, field_form, "of this file's form");
+    int version = form_version;
+    file.integer("version", version, form_version, form_version, "of this file's form");
     file.text("made", calibration.made, "when, by the machine's clock");
     file.choice("method", calibration.method, method_names, "how");
     file.integer("places", calibration.places, 1, 1000, "that were measured");
@@ -84,11 +63,6 @@ void measured(auto& file, auto& calibration) {
         registration_settings(fields, calibration.registration);
         require_all(fields);
     });
-    if (version == field_form) {
-        make_room(field);
-        file.table("field", "How metal bends what the tracker reports.",
-                   [&](auto& fields) { measured_field(fields, *field); });
-    }
     require_all(file);
 }
 

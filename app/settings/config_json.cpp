@@ -139,27 +139,13 @@ Json light_json(const Settings& settings) {
             {"reference", even_light(settings)}};
 }
 
-Json field_json(const FieldMap& field) {
-    Json terms = Json::object();
-    for (std::size_t k = 0; k < FieldMap::term_count; ++k) {
-        terms[FieldMap::term_names[k]] = list_of(field.shift_m[k]);
-    }
-    return {{"box_from_tracker", list_of(field.box_from_tracker.matrix())},
-            {"half_m", list_of(field.half_m)},
-            {"shift_m", terms}};
-}
-
 Json calibration_json(const Calibration& used, const std::string& name) {
-    Json json{{"file", name},
-              {"made", used.made},
-              {"method", name_of(used.method)},
-              {"places", used.places},
-              {"residual_mm", {{"mean", used.mean_mm}, {"worst", used.worst_mm}}},
-              {"residual_px", {{"mean", used.mean_px}}}};
-    if (used.registration.field) { // without metal there is none
-        json["field"] = field_json(*used.registration.field);
-    }
-    return json;
+    return {{"file", name},
+            {"made", used.made},
+            {"method", name_of(used.method)},
+            {"places", used.places},
+            {"residual_mm", {{"mean", used.mean_mm}, {"worst", used.worst_mm}}},
+            {"residual_px", {{"mean", used.mean_px}}}};
 }
 
 /// Adds the eye's settings under the names that outside checks use.

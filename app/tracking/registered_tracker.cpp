@@ -21,11 +21,7 @@ RigidTransform sensor_from_target(int station, const Registration& registration)
 void place_on_table(std::span<PoseSample> samples, const Registration& registration) {
     for (PoseSample& sample : samples) {
         if (sample.ok) {
-            const bool on_the_table = sample.station != head_station; // where the field was measured
-            const glm::dvec3 place = registration.field && on_the_table
-                                         ? registration.field->place(sample.position_m)
-                                         : sample.position_m;
-            const RigidTransform tracker_from_sensor{sample.rotation, place};
+            const RigidTransform tracker_from_sensor{sample.rotation, sample.position_m};
             const RigidTransform placed = registration.table_from_tracker * tracker_from_sensor *
                                           sensor_from_target(sample.station, registration);
             sample.position_m = placed.translation;

@@ -17,7 +17,7 @@
 namespace frustumscreen {
 
 /// Places poses of a device's own frame on the table: those of the prop's sensor become the prop's, those of the head's
-/// the eye's; another sensor's stay the sensor's. Places are in K before and in T after; what metal bends is taken back first. A pose that is not ok has none and stays as it is.
+/// the eye's; another sensor's stay the sensor's. A pose that is not ok has none and stays as it is.
 void place_on_table(std::span<PoseSample> samples, const Registration& registration);
 
 class RegisteredTracker final : public Tracker {

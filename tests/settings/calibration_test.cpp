@@ -1,5 +1,4 @@
 // What is kept of calibrations: nothing of it is lost, whatever happens, and a bad one never leaves the table dark.
-#include "app/settings/config_json.h"
 #include "app/settings/kept_calibrations.h"
 #include "app/settings/missing_files.h"
 #include "firmware_host/base/disk_tree.h"
@@ -67,45 +66,6 @@ TEST(Calibration, IsReadAsItWasWritten) {
     EXPECT_EQ(read->registration.sensor_from_prop.translation,
               written.registration.sensor_from_prop.translation);
     EXPECT_EQ(read->registration.eye_in_sensor_m, written.registration.eye_in_sensor_m);
-}
-
-/// With a box that is turned, and a number of its own in each term.
-Calibration bent_calibration() {
-    Calibration c = calibration(15);
-    FieldMap map;
-    map.box_from_tracker = {glm::normalize(glm::dquat(0.5, -0.5, 0.5, 0.5)), {0.125, -0.5, 0.25}};
-    map.half_m = {0.4, 0.3, 0.07};
-    for (std::size_t k = 0; k < FieldMap::term_count; ++k) {
-        map.shift_m[k] = 1e-4 * (1.0 + static_cast<double>(k)) * glm::dvec3(1.0, -2.0, 3.0);
-    }
-    c.registration.field = map;
-    return c;
-}
-
-TEST(Calibration, AFieldMapIsReadAsItWasWritten) {
-    const Calibration written = bent_calibration();
-    const Result<Calibration> read = parse_calibration(calibration_text(written), "c.toml");
-    ASSERT_TRUE(read) << read.error().message;
-    ASSERT_TRUE(read->registration.field);
-    EXPECT_EQ(read->registration.field->half_m, written.registration.field->half_m);
-    EXPECT_EQ(read->registration.field->shift_m, written.registration.field->shift_m);
-    const glm::dvec3 place(0.2, 0.3, -0.4);
-    EXPECT_LT(glm::distance(read->registration.field->place(place), written.registration.field->place(place)),
-              1e-15);
-}
-
-/// Older programs read what has no map; what they cannot apply, they refuse.
-TEST(Calibration, TheFormIsTheSecondOneOnlyWithAFieldMap) {
-    const std::string plain = calibration_text(calibration(9));
-    EXPECT_NE(plain.find("version = 1\n"), std::string::npos);
-    EXPECT_FALSE(parse_calibration(plain, "c.toml")->registration.field);
-    std::string bent = calibration_text(bent_calibration());
-    const std::size_t version = bent.find("version = 2\n");
-    ASSERT_NE(version, std::string::npos);
-    std::string older = bent;
-    older.replace(version, 11, "version = 1");
-    EXPECT_NE(refusal_of(older).find("field"), std::string::npos) << refusal_of(older);
-    EXPECT_NE(refusal_of(bent.replace(bent.find("\nxy = "), 6, "\nyx = ")).find("xy"), std::string::npos);
 }
 
 /// A measured value has no default: with any one line less the file says which one.
@@ -255,15 +215,6 @@ protected:
         return settings ? **settings : Settings();
     }
 };
-
-TEST_F(Calibrated, AFieldMapIsAppliedAndTold) {
-    keep(calibration(1));
-    EXPECT_EQ(config_json(*load_settings(folder / "kiosk.toml")).find("\"field\""), std::string::npos);
-    keep(bent_calibration());
-    ASSERT_TRUE(loaded().tracker.registration.field);
-    EXPECT_EQ(loaded().tracker.registration.field->half_m.z, 0.07);
-    EXPECT_NE(config_json(*load_settings(folder / "kiosk.toml")).find("\"field\": {"), std::string::npos);
-}
 
 TEST_F(Calibrated, TheNewestOneStandsInTheSettings) {
     EXPECT_FALSE(loaded().calibration.used);

@@ -70,22 +70,6 @@ TEST(RegisteredTracker, KnowsWhereTheSensorsSitInThePropAndOnTheHead) {
               1e-15); // the torch's sensor is the torch
 }
 
-/// The prop's place is taken back before it is placed; the head's, where nothing was measured, is not.
-TEST(RegisteredTracker, TakesBackWhatMetalBends) {
-    Registration registration{table_from_tracker};
-    registration.field.emplace();
-    registration.field->half_m = {0.5, 0.5, 0.5};
-    registration.field->shift_m[1] = {0.0, 0.0, 0.01}; // x: 10 mm down in K at the box's side
-    std::vector<PoseSample> samples(2);
-    for (std::size_t k = 0; k < 2; ++k) {
-        samples[k].station = k == 0 ? prop_station : head_station;
-        samples[k].position_m = {0.25, 0.0, 0.3};
-    }
-    place_on_table(samples, registration);
-    EXPECT_NEAR(samples[0].position_m.z, -0.005, 1e-15);
-    EXPECT_NEAR(samples[1].position_m.z, 0.0, 1e-15);
-}
-
 TEST(RegisteredTracker, HandsOnWhatIsInTableCoordinates) {
     RegisteredTracker tracker(std::make_unique<FakeTracker>(true), {table_from_tracker});
     EXPECT_FALSE(tracker.registration());

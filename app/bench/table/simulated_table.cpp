@@ -33,31 +33,6 @@ glm::dvec2 calibrated_pixel(const CalibratedTable& calibrated, const glm::dvec3&
             calibrated.pinhole.fy * y * factor + calibrated.pinhole.cy};
 }
 
-/// The field map, written out.
-glm::dvec3 straightened(const CalibratedTable& calibrated, const glm::dvec3& place) {
-    if (!calibrated.field) {
-        return place;
-    }
-    const FieldMap& map = *calibrated.field;
-    const glm::dmat4 box_from_tracker = map.box_from_tracker.matrix();
-    std::array<double, 4> at{1.0, 0.0, 0.0, 0.0};
-    for (int axis = 0; axis < 3; ++axis) {
-        const double share = (box_from_tracker * glm::dvec4(place, 1.0))[axis] / map.half_m[axis];
-        at[static_cast<std::size_t>(axis) + 1] = std::fmax(-1.0, std::fmin(1.0, share));
-    }
-    glm::dvec3 shift(0.0);
-    std::size_t term = 0;
-    for (std::size_t a = 0; a < 4; ++a) { // 1, x, y, z; then the squares
-        shift += at[a] * map.shift_m[term++];
-    }
-    for (std::size_t a = 1; a < 4; ++a) {
-        for (std::size_t b = a; b < 4; ++b) {
-            shift += at[a] * at[b] * map.shift_m[term++];
-        }
-    }
-    return place + glm::inverse(glm::dmat3(box_from_tracker)) * shift;
-}
-
 glm::dquat about_z(double angle) {
     return {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
 }
@@ -193,7 +168,6 @@ PictureError picture_error(const SimulatedTable& table, const CalibratedTable& c
                 for (int quarter = 0; quarter < 4; ++quarter) {
                     RigidTransform pose = sensor_at(table, place, 0.5 * pi * quarter, 0.0);
                     pose = reported ? reported(pose) : pose;
-                    pose.translation = straightened(calibrated, pose.translation);
                     const glm::dvec3 believed = calibrated.table_from_tracker.point(
                         pose.translation + pose.rotation * calibrated.sensor_offset_m);
                     const glm::dvec3 lit =

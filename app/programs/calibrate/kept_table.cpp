@@ -54,7 +54,6 @@ Calibration kept_table(const CalibratedTable& table, std::span<const Touch> touc
     kept.pinhole = table.pinhole;
     kept.table_from_projector = settings_table * table.table_from_projector;
     kept.registration = settings.tracker.registration; // the eye in the head's sensor stays
-    kept.registration.field = table.field;
     kept.registration.table_from_tracker = settings_table * table.table_from_tracker;
     kept.registration.sensor_from_prop =
         sensor_from_prop(table, touches, settings.tracker.registration.sensor_from_prop);

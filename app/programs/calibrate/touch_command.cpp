@@ -27,28 +27,14 @@ Json rows_json(const TouchCalibration& calibration) {
     return rows;
 }
 
-/// What the map is worth, and the map itself as the calibration keeps it.
-Json field_json(const FieldWorth& worth, const FieldMap& map) {
-    Json terms = Json::object();
-    for (std::size_t k = 0; k < FieldMap::term_count; ++k) {
-        const glm::dvec3& shift = map.shift_m[k];
-        terms[FieldMap::term_names[k]] = {shift.x, shift.y, shift.z};
-    }
-    return {{"left_out_mm", {{"without", 1e3 * worth.without_map_m}, {"with", 1e3 * worth.with_map_m}}},
-            {"chance", worth.chance},
-            {"largest_bend_mm", 1e3 * worth.largest_bend_m},
-            {"box_from_tracker", matrix_json(map.box_from_tracker)},
-            {"half_m", {map.half_m.x, map.half_m.y, map.half_m.z}},
-            {"shift_m", terms}};
-}
-
 /// Every key is always there; what is not known is null.
 Json touch_json(const TouchCalibration& c) {
-    Json json{{"projector", nullptr},       {"table_from_tracker", nullptr}, {"sensor_offset_m", nullptr},
-              {"residual_mm", nullptr},     {"residual_px", nullptr},        {"uncertainty_mm", nullptr},
-              {"hidden_error_mm", nullptr}, {"prior_share", nullptr},        {"field", nullptr},
-              {"rows", Json::array()},      {"verdict", name_of(c.verdict)}, {"reason", c.reason},
-              {"repeat", Json::array()}};
+    Json json{{"projector", nullptr},       {"table_from_tracker", nullptr},
+              {"sensor_offset_m", nullptr}, {"residual_mm", nullptr},
+              {"residual_px", nullptr},     {"uncertainty_mm", nullptr},
+              {"hidden_error_mm", nullptr}, {"prior_share", nullptr},
+              {"rows", Json::array()},      {"verdict", name_of(c.verdict)},
+              {"reason", c.reason},         {"repeat", Json::array()}};
     for (const std::size_t row : c.repeat) {
         json["repeat"].push_back(row + 1);
     }
@@ -67,9 +53,6 @@ Json touch_json(const TouchCalibration& c) {
                                {"k1", c.prior_shares.k1},
                                {"k2", c.prior_shares.k2}};
         json["rows"] = rows_json(c);
-        if (c.field) {
-            json["field"] = field_json(*c.field, *c.table->field);
-        }
     }
     return json;
 }
@@ -86,13 +69,6 @@ std::string touch_text(const TouchCalibration& c) {
     text += fmt::format("Each touch lies {:.1f} mm ({:.1f} pixels) from where the others expect it, on "
                         "average; {:.1f} mm at worst.\n",
                         1e3 * c.mean_residual_m, c.mean_residual_px, 1e3 * c.worst_residual_m);
-    if (c.field) {
-        text += fmt::format("Metal bends what the tracker reports, by up to {:.1f} mm; a map takes it back: "
-                            "touches that are left "
-                            "out lie {:.1f} mm off with it, {:.1f} mm without.\n",
-                            1e3 * c.field->largest_bend_m, 1e3 * c.field->with_map_m,
-                            1e3 * c.field->without_map_m);
-    }
     for (const std::size_t row : c.repeat) {
         text +=
             fmt::format("Touch {} lies {:.1f} mm from there.\n", row + 1, 1e3 * c.residuals[row].on_table_m);
