@@ -2,6 +2,7 @@
 
 #include "app/calibration/agreement.h"
 #include "app/calibration/check_touches.h"
+#include "app/calibration/picture_limits.h"
 #include "app/calibration/reliability.h"
 #include "app/calibration/starts.h"
 #include "app/calibration/upright_touches.h"
@@ -17,16 +18,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// What the verdicts ask for (docs/calibration.md): standard deviations of the picture, and what a wrong touch could hide.
-struct Limits {
-    double mean_m;
-    double worst_m;
-    double hidden_m;
-};
-constexpr Limits for_good{0.7e-3, 1.4e-3, 16e-3};
 /// Beyond, the touches that are left cannot tell which ones are wrong.
 constexpr double most_hidden_m = 60e-3;
-constexpr Limits for_usable{1.2e-3, 2.5e-3, 40e-3};
 
 double hidden_error_of(std::span<const Touch> touches, const FitSetup& setup, const Fit& fit,
                        const ZoneSetup& zone) {
@@ -35,23 +28,14 @@ double hidden_error_of(std::span<const Touch> touches, const FitSetup& setup, co
                           zone_places(fit.model, fit.middle, zone));
 }
 
-bool keeps(const TouchCalibration& calibration, const Limits& limits) {
-    return calibration.uncertainty.mean_m <= limits.mean_m &&
-           calibration.uncertainty.worst_m <= limits.worst_m && calibration.hidden_error_m <= limits.hidden_m;
+bool keeps(const TouchCalibration& calibration, const PictureLimits& limits) {
+    return limits.keep(calibration.uncertainty, calibration.hidden_error_m);
 }
 
 TouchCalibration refused(std::string reason) {
     TouchCalibration calibration;
     calibration.reason = std::move(reason);
     return calibration;
-}
-
-Touches with_unit_rotations(std::span<const Touch> touches) {
-    Touches out(touches.begin(), touches.end());
-    for (Touch& touch : out) {
-        touch.tracker_from_sensor.rotation = glm::normalize(touch.tracker_from_sensor.rotation);
-    }
-    return out;
 }
 
 /// What all other touches say of each.

@@ -106,28 +106,34 @@ std::size_t different_places(std::span<const Touch> touches) {
     return found.size();
 }
 
-Refusal degenerate(std::span<const Touch> touches, double width) {
-    if (const std::size_t places = different_places(touches); places < least_touches) {
-        return fmt::format("{} different places were touched; {} at least are needed, and 9 are recommended",
-                           places, least_touches);
+/// Whether the touches lie too near to each other, or in one line.
+Refusal huddled(std::span<const Touch> touches, double width) {
+    const glm::dvec2 spread_px = spread(touches);
+    if (spread_px.x < least_length * width) {
+        return "the touches are too near to each other, so that the picture's edges would be guessed: spread "
+               "them over the whole picture";
     }
+    if (spread_px.y < least_breadth * width) {
+        return "the touches lie nearly in one line, which does not say how the picture lies beside it: "
+               "spread them over the whole picture";
+    }
+    return std::nullopt;
+}
+
+Refusal too_few(std::size_t count, std::string_view of, std::size_t least, std::size_t recommended) {
+    if (count >= least) {
+        return std::nullopt;
+    }
+    return fmt::format("{} {}: {} at least are needed, and {} are recommended", count, of, least,
+                       recommended);
+}
+
+Refusal flat(std::span<const Touch> touches) {
     const auto [low, high] = std::minmax_element(
         touches.begin(), touches.end(), [](const Touch& a, const Touch& b) { return a.block_m < b.block_m; });
     if (high->block_m - low->block_m < least_height_m) {
         return "all touches are at one height, which does not tell a near projector from a far one: touch "
-               "half of them "
-               "on a block, as high as the prop";
-    }
-    const glm::dvec2 spread_px = spread(touches);
-    if (spread_px.x < least_length * width) {
-        return "the touches are too near to each other, so that the picture's edges would be guessed: spread "
-               "them over "
-               "the whole picture";
-    }
-    if (spread_px.y < least_breadth * width) {
-        return "the touches lie nearly in one line, which does not say how the picture lies beside it: "
-               "spread them "
-               "over the whole picture";
+               "half of them on a block, as high as the prop";
     }
     return std::nullopt;
 }
@@ -159,17 +165,41 @@ Refusal inconsistent(std::span<const Touch> touches) {
 } // namespace
 
 std::optional<std::string> refusal_of(std::span<const Touch> touches, int width, int height) {
-    if (touches.size() < least_touches) {
-        return fmt::format("{} touches are too few: 6 at least are needed, and 9 are recommended",
-                           touches.size());
+    if (Refusal few = too_few(touches.size(), "touches are too few", least_touches, 9)) {
+        return few;
     }
     for (Refusal found :
-         {bad_numbers(touches), wrong_units(touches, {width, height}), degenerate(touches, width)}) {
+         {bad_numbers(touches), wrong_units(touches, {width, height}),
+          too_few(different_places(touches), "different places were touched", least_touches, 9),
+          flat(touches), huddled(touches, width)}) {
         if (found) {
             return found;
         }
     }
     return inconsistent(touches);
+}
+
+std::optional<std::string> refusal_of_few(std::span<const Touch> touches, int width, int height) {
+    if (Refusal few = too_few(touches.size(), "touches are too few", least_touch_up, 5)) {
+        return few;
+    }
+    for (Refusal found :
+         {bad_numbers(touches), wrong_units(touches, {width, height}),
+          too_few(different_places(touches), "different places were touched", least_touch_up, 5),
+          huddled(touches, width)}) {
+        if (found) {
+            return found;
+        }
+    }
+    return std::nullopt;
+}
+
+Touches with_unit_rotations(std::span<const Touch> touches) {
+    Touches out(touches.begin(), touches.end());
+    for (Touch& touch : out) {
+        touch.tracker_from_sensor.rotation = glm::normalize(touch.tracker_from_sensor.rotation);
+    }
+    return out;
 }
 
 } // namespace frustumscreen

@@ -14,8 +14,16 @@
 namespace frustumscreen {
 
 inline constexpr std::size_t least_touches = 6;
+inline constexpr std::size_t least_touch_up = 3; ///< of a table that was calibrated already
 
 /// Why these touches are refused, one sentence for a technician; nothing if they are not. Quaternions are as reported, of any length.
 [[nodiscard]] std::optional<std::string> refusal_of(std::span<const Touch> touches, int width, int height);
+
+/// As that, of touches at a table that is known already: they need no two heights, and are held against it later.
+[[nodiscard]] std::optional<std::string> refusal_of_few(std::span<const Touch> touches, int width,
+                                                        int height);
+
+/// The same touches, their quaternions of unit length.
+[[nodiscard]] Touches with_unit_rotations(std::span<const Touch> touches);
 
 } // namespace frustumscreen

@@ -99,6 +99,10 @@ Result<void> keep_touch(const Settings& settings, const TouchCalibration& calibr
     next.mean_mm = 1e3 * calibration.mean_residual_m;
     next.worst_mm = 1e3 * calibration.worst_residual_m;
     next.mean_px = calibration.mean_residual_px;
+    return keep_next(settings, std::move(next));
+}
+
+Result<void> keep_next(const Settings& settings, Calibration next) {
     const std::filesystem::path& folder = settings.calibration.folder;
     std::error_code failed; // open_tree says what is wrong with it
     std::filesystem::create_directories(folder, failed);

@@ -18,4 +18,7 @@ void add_kept_command(CLI::App& app, CalibrateRequest& request, std::function<in
 [[nodiscard]] Result<void> keep_touch(const Settings& settings, const TouchCalibration& calibration,
                                       std::span<const Touch> touches);
 
+/// Keeps this one; when it was made is set here.
+[[nodiscard]] Result<void> keep_next(const Settings& settings, Calibration next);
+
 } // namespace frustumscreen

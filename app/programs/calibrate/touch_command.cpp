@@ -2,6 +2,7 @@
 
 #include "app/calibration/point_files.h"
 #include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/touch_up_command.h"
 #include "app/programs/calibrate/uncertainty_picture.h"
 #include "firmware_host/base/file.h"
 
@@ -101,6 +102,9 @@ Result<int> touch(const CalibrateRequest& request) {
     if (!touches) {
         return tl::unexpected<Error>(touches.error());
     }
+    if (request.touch_up) {
+        return touch_up_kept(request, *described->settings, *touches);
+    }
     const TouchCalibration calibration = calibrate_touch(*touches, touch_setup(*described, request));
     if (request.json) {
         fmt::print("{}\n", touch_json(calibration).dump(2));
@@ -142,8 +146,14 @@ void add_touch_command(CLI::App& app, CalibrateRequest& request, std::function<i
         ->add_flag("--keep", request.keep,
                    "keeps what is good or usable, in the settings' calibration.folder")
         ->needs("--config");
-    command->add_option("--map", request.map,
-                        "draws how uncertain the picture is, on the table and at the prop's top: PNG");
+    CLI::Option* const map = command->add_option(
+        "--map", request.map, "draws how uncertain the picture is, on the table and at the prop's top: PNG");
+    command
+        ->add_flag("--touch-up", request.touch_up,
+                   "corrects the kept calibration by three touches or more: what moved since, and how far")
+        ->needs("--config")
+        ->excludes(map)
+        ->excludes("--sensor-height");
     command->callback([&] { chosen = [&] { return end_with(touch(request)); }; });
 }
 
