@@ -24,13 +24,6 @@ constexpr double alike = 6.0;
 
 using Choice = std::vector<std::size_t>;
 
-/// Of chi squared, one in a thousand is beyond (Wilson and Hilferty).
-double chi2_limit(int freedom) {
-    const double n = std::max(1, freedom);
-    const double root = 1.0 - 2.0 / (9.0 * n) + 3.09 * std::sqrt(2.0 / (9.0 * n));
-    return n * root * root * root;
-}
-
 bool agrees(std::span<const Touch> touches, const FitSetup& setup, const Fit& fit, double scatter) {
     const double scale = scatter * scatter;
     if (!(fit.chi2 / scale < chi2_limit(fit.freedom))) {
@@ -159,6 +152,13 @@ std::optional<AgreeingTouches> explained(std::vector<Tried> tried, Agreement agr
 }
 
 } // namespace
+
+// Wilson and Hilferty, The distribution of chi-square, 1931.
+double chi2_limit(int freedom) {
+    const double n = std::max(1, freedom);
+    const double root = 1.0 - 2.0 / (9.0 * n) + 3.09 * std::sqrt(2.0 / (9.0 * n));
+    return n * root * root * root;
+}
 
 Fit best_fit(std::span<const Touch> touches, const FitSetup& setup, std::span<const TouchModel> starts) {
     std::optional<Fit> best;

@@ -25,6 +25,9 @@ struct AgreeingTouches {
     double scatter = 1.0; ///< noise found over noise expected, at least 1
 };
 
+/// Of chi squared, one in a thousand is beyond.
+[[nodiscard]] double chi2_limit(int freedom);
+
 /// The best fit of all touches, from every start.
 [[nodiscard]] Fit best_fit(std::span<const Touch> touches, const FitSetup& setup,
                            std::span<const TouchModel> starts);

@@ -2,6 +2,7 @@
 
 #include "app/calibration/agreement.h"
 #include "app/calibration/check_touches.h"
+#include "app/calibration/picture_limits.h"
 #include "app/calibration/reliability.h"
 #include "app/calibration/starts.h"
 #include "app/calibration/upright_touches.h"
@@ -31,14 +32,6 @@ TouchCalibration refused(std::string reason) {
     TouchCalibration calibration;
     calibration.reason = std::move(reason);
     return calibration;
-}
-
-Touches with_unit_rotations(std::span<const Touch> touches) {
-    Touches out(touches.begin(), touches.end());
-    for (Touch& touch : out) {
-        touch.tracker_from_sensor.rotation = glm::normalize(touch.tracker_from_sensor.rotation);
-    }
-    return out;
 }
 
 /// What all other touches say of each.
@@ -144,11 +137,27 @@ void judge(TouchCalibration& calibration, const AgreeingTouches& found) {
     }
 }
 
+/// The turns of the prop at each place together.
+std::vector<PlaceUncertainty> by_place(std::span<const ZonePlace> places, std::span<const double> each_m) {
+    std::vector<PlaceUncertainty> zone;
+    constexpr double turns = 4.0;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        if (zone.empty() || zone.back().pixel != places[k].pixel ||
+            zone.back().height_m != places[k].height_m) {
+            zone.push_back({places[k].pixel, places[k].height_m});
+        }
+        zone.back().rms_m += each_m[k] * each_m[k] / turns;
+    }
+    for (PlaceUncertainty& place : zone) {
+        place.rms_m = std::sqrt(place.rms_m);
+    }
+    return zone;
+}
+
 } // namespace
 
-bool keeps(const TouchCalibration& calibration, const VerdictLimits& limits) {
-    return calibration.uncertainty.mean_m <= limits.mean_m &&
-           calibration.uncertainty.worst_m <= limits.worst_m && calibration.hidden_error_m <= limits.hidden_m;
+bool keeps(const TouchCalibration& calibration, const PictureLimits& limits) {
+    return limits.keep(calibration.uncertainty, calibration.hidden_error_m);
 }
 
 void summarise_residuals(TouchCalibration& calibration) {
@@ -203,6 +212,7 @@ TouchCalibration calibrate_touch(std::span<const Touch> reported, const TouchSet
         found.scatter * found.scatter * found.fit.information().ldlt().solve(Covariance::Identity());
     const std::vector<ZonePlace> places = zone_places(found.fit.model, found.fit.middle, zone);
     calibration.uncertainty = picture_uncertainty(places, covariance);
+    calibration.zone = by_place(places, calibration.uncertainty.each_m);
     calibration.hidden_error_m = hidden_error_of(touches, fit_setup, found.fit, zone);
     calibration.prior_shares = prior_shares(found.fit);
     calibration.residuals = residuals_of(touches, found.wrong, fit_setup, found.fit.model);

@@ -9,6 +9,7 @@
 
 #include "app/calibration/calibrated_table.h"
 #include "app/calibration/determinacy.h"
+#include "app/calibration/picture_limits.h"
 #include "app/calibration/priors.h"
 #include "app/calibration/touch.h"
 #include "app/calibration/verdict.h"
@@ -35,6 +36,13 @@ struct TouchResidual {
     double pixel = 0.0;
 };
 
+/// Of the picture at a place of the zone: root mean square over the prop's turns.
+struct PlaceUncertainty {
+    glm::dvec2 pixel{0.0};
+    double height_m = 0.0;
+    double rms_m = 0.0;
+};
+
 struct TouchCalibration {
     Verdict verdict = Verdict::Refused;
     std::string reason;                   ///< one sentence
@@ -48,9 +56,10 @@ struct TouchCalibration {
     PictureUncertainty uncertainty; ///< of the picture over the zone, one standard deviation
     double hidden_error_m = 0.0;    ///< what one wrong touch could do to it and yet agree with the others
     PriorShares prior_shares;
+    std::vector<PlaceUncertainty> zone; ///< zone_columns x zone_rows of each height, from the table up
 };
 
-[[nodiscard]] bool keeps(const TouchCalibration& calibration, const VerdictLimits& limits);
+[[nodiscard]] bool keeps(const TouchCalibration& calibration, const PictureLimits& limits);
 /// Means and worst ones of the residuals, but for those to repeat.
 void summarise_residuals(TouchCalibration& calibration);
 /// 'a, b and c'; one at least.

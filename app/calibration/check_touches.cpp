@@ -104,19 +104,26 @@ std::size_t different_places(std::span<const Touch> touches) {
     return found.size();
 }
 
-Refusal degenerate(std::span<const Touch> touches) {
-    if (const std::size_t places = different_places(touches); places < least_touches) {
-        return fmt::format("{} different places were touched; {} at least are needed, and 9 are recommended",
-                           places, least_touches);
+Refusal too_few(std::size_t count, std::string_view of, std::size_t least, std::size_t recommended) {
+    if (count >= least) {
+        return std::nullopt;
     }
+    return fmt::format("{} {}: {} at least are needed, and {} are recommended", count, of, least,
+                       recommended);
+}
+
+Refusal flat(std::span<const Touch> touches) {
     const auto [low, high] = std::minmax_element(
         touches.begin(), touches.end(), [](const Touch& a, const Touch& b) { return a.block_m < b.block_m; });
     if (high->block_m - low->block_m < least_height_m) {
         return "all touches are at one height, which does not tell a near projector from a far one: touch "
-               "half of them "
-               "on a block, as high as the prop";
+               "half of them on a block, as high as the prop";
     }
     return std::nullopt;
+}
+
+std::string touch_name(std::size_t k) {
+    return fmt::format("touch {}", k + 1);
 }
 
 } // namespace
@@ -169,18 +176,41 @@ Refusal refusal_of_directions(std::span<const Touch> touches, std::string_view p
 }
 
 std::optional<std::string> refusal_of(std::span<const Touch> touches, int width, int height) {
-    if (touches.size() < least_touches) {
-        return fmt::format("{} touches are too few: 6 at least are needed, and 9 are recommended",
-                           touches.size());
+    if (Refusal few = too_few(touches.size(), "touches are too few", least_touches, 9)) {
+        return few;
     }
-    const auto name = [](std::size_t k) { return fmt::format("touch {}", k + 1); };
-    for (Refusal found : {refusal_of_values(touches, {width, height}, name), degenerate(touches),
-                          refusal_of_spread(touches, width, "touches")}) {
+    for (Refusal found :
+         {refusal_of_values(touches, {width, height}, touch_name),
+          too_few(different_places(touches), "different places were touched", least_touches, 9),
+          flat(touches), refusal_of_spread(touches, width, "touches")}) {
         if (found) {
             return found;
         }
     }
     return refusal_of_directions(touches, "touches");
+}
+
+std::optional<std::string> refusal_of_few(std::span<const Touch> touches, int width, int height) {
+    if (Refusal few = too_few(touches.size(), "touches are too few", least_touch_up, 5)) {
+        return few;
+    }
+    for (Refusal found :
+         {refusal_of_values(touches, {width, height}, touch_name),
+          too_few(different_places(touches), "different places were touched", least_touch_up, 5),
+          refusal_of_spread(touches, width, "touches")}) {
+        if (found) {
+            return found;
+        }
+    }
+    return std::nullopt;
+}
+
+Touches with_unit_rotations(std::span<const Touch> touches) {
+    Touches out(touches.begin(), touches.end());
+    for (Touch& touch : out) {
+        touch.tracker_from_sensor.rotation = glm::normalize(touch.tracker_from_sensor.rotation);
+    }
+    return out;
 }
 
 } // namespace frustumscreen

@@ -16,6 +16,7 @@
 namespace frustumscreen {
 
 inline constexpr std::size_t least_touches = 6;
+inline constexpr std::size_t least_touch_up = 3; ///< of a table that was calibrated already
 /// Below, heights count as one.
 inline constexpr double least_height_m = 0.02;
 
@@ -31,5 +32,11 @@ using PlaceName = std::function<std::string(std::size_t)>;
 /// Whether places, pixels and heights fit each other at all, by affine fits.
 [[nodiscard]] std::optional<std::string> refusal_of_directions(std::span<const Touch> touches,
                                                                std::string_view places);
+/// As that, of touches at a table that is known already: they need no two heights, and are held against it later.
+[[nodiscard]] std::optional<std::string> refusal_of_few(std::span<const Touch> touches, int width,
+                                                        int height);
+
+/// The same touches, their quaternions of unit length.
+[[nodiscard]] Touches with_unit_rotations(std::span<const Touch> touches);
 
 } // namespace frustumscreen

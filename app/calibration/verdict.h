@@ -15,13 +15,4 @@ enum class Verdict {
 };
 [[nodiscard]] std::string_view name_of(Verdict verdict);
 
-/// What a verdict promises (docs/calibration.md): standard deviations of the picture, and what a wrong point could hide.
-struct VerdictLimits {
-    double mean_m;
-    double worst_m;
-    double hidden_m;
-};
-inline constexpr VerdictLimits for_good{0.7e-3, 1.4e-3, 16e-3};
-inline constexpr VerdictLimits for_usable{1.2e-3, 2.5e-3, 40e-3};
-
 } // namespace frustumscreen

@@ -39,8 +39,8 @@ LightRows light_rows(const TouchModel& model, const glm::dvec3& middle, const gl
 
 std::vector<ZonePlace> zone_places(const TouchModel& model, const glm::dvec3& middle,
                                    const ZoneSetup& setup) {
-    constexpr int columns = 6;
-    constexpr int rows = 4;
+    constexpr int columns = zone_columns - 1;
+    constexpr int rows = zone_rows - 1;
     std::vector<ZonePlace> places;
     for (const double height : {0.0, 0.5 * setup.top_m, setup.top_m}) {
         for (int k = 0; k < (columns + 1) * (rows + 1); ++k) {
@@ -64,6 +64,7 @@ PictureUncertainty picture_uncertainty(std::span<const ZonePlace> places, const 
             std::sqrt(std::fmax(0.0, (place.rows * covariance * place.rows.transpose()).trace()));
         uncertainty.mean_m += rms / static_cast<double>(places.size());
         uncertainty.worst_m = std::fmax(uncertainty.worst_m, rms);
+        uncertainty.each_m.push_back(rms);
     }
     return uncertainty;
 }

@@ -8,6 +8,7 @@
 #include "app/calibration/unknowns.h"
 
 #include <span>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -31,10 +32,14 @@ struct ZoneSetup {
 [[nodiscard]] std::vector<ZonePlace> zone_places(const TouchModel& model, const glm::dvec3& middle,
                                                  const ZoneSetup& setup);
 
+/// A height's places are a grid over the picture, row by row from its top left corner to the bottom right one.
+inline constexpr std::size_t zone_columns = 7, zone_rows = 5;
+
 /// Root mean square of how far the light is off, one standard deviation.
 struct PictureUncertainty {
-    double mean_m = 0.0;  ///< over the zone
-    double worst_m = 0.0; ///< where it is largest
+    double mean_m = 0.0;          ///< over the zone
+    double worst_m = 0.0;         ///< where it is largest
+    std::vector<double> each_m{}; ///< of each place
 };
 [[nodiscard]] PictureUncertainty picture_uncertainty(std::span<const ZonePlace> places,
                                                      const Covariance& covariance);

@@ -88,7 +88,11 @@ class Table(unittest.TestCase):
     def check_kept(self, yaw_of_tracker):
         kept = tomllib.loads((self.folder / "kept/calibration-0001.toml").read_text())
         self.assertEqual((kept["method"], kept["places"]), ("touch", 9))
-        p, truth = kept["projector"], TrueTable(1280, yaw_of_tracker)
+        self.check_picture(kept, TrueTable(1280, yaw_of_tracker))
+        self.assertAlmostEqual(kept["tracker"]["sensor_from_prop"][14], -SENSOR_M, delta=1e-3)
+
+    def check_picture(self, kept, truth):
+        p = kept["projector"]
         pixel_from_tracker = np.linalg.inv(matrix(p["table_from_projector"])) @ matrix(kept["tracker"]["table_from_tracker"])
         worst = 0.0
         for height in (0.0, 0.06, 0.12):
@@ -102,7 +106,6 @@ class Table(unittest.TestCase):
                     worst = max(worst, np.linalg.norm(found - np.array(truth.pixel(place))))
         print(f"{worst:.2f} pixels at the worst place")
         self.assertLess(worst, 2.0)
-        self.assertAlmostEqual(kept["tracker"]["sensor_from_prop"][14], -SENSOR_M, delta=1e-3)
 
     def check_listed(self):
         """And the settings are read with it, until it is undone."""
@@ -123,6 +126,44 @@ class Table(unittest.TestCase):
         used = json.loads(subprocess.run(config, capture_output=True, text=True, check=True).stdout)
         self.assertNotIn("used", used["calibration"])
         self.assertEqual(used["projector"]["fx"], 2400.0)
+
+    def touch_up(self, truth, crosses, *words):
+        rows = ["tx_m,ty_m,tz_m,qw,qx,qy,qz,u_px,v_px,block_m"]
+        for k, (u, v, block) in enumerate(crosses):
+            report = truth.report(truth.light(u, v, block), 0.5 * math.pi * k, SENSOR_M)
+            rows.append(",".join(f"{value:.9f}" for value in (*report, u, v, block)))
+        (self.folder / "few.csv").write_text("\n".join(rows) + "\n")
+        return self.run_program("touch", "--touch-up", "--from", self.folder / "few.csv", "--config", self.config, *words)
+
+    def test_a_kept_calibration_is_touched_up(self):
+        self.write([])
+        self.record([{"u_px": 640, "v_px": 400, "block_m": 0, "turn_deg": 0}], 0.0)
+        crosses = [(90, 60, 0), (1190, 160, .12), (640, 740, 0), (1190, 740, 0), (90, 740, .12), (1190, 60, 0), (640, 60, .12)]
+        truth = TrueTable(1280, 0.4)
+        none = self.touch_up(truth, crosses)
+        self.assertEqual(none.returncode, 1)
+        self.assertIn("no calibration is kept there that could be touched up", none.stderr)
+        kept = self.folder / "kept"
+        kept.mkdir()
+        (kept / "calibration-0001.toml").write_text(truth.calibration(SENSOR_M))
+        same = self.touch_up(truth, crosses[:3], "--keep")
+        self.assertEqual((same.returncode, len(list(kept.iterdir()))), (0, 1), same.stderr)
+        self.assertIn("nothing moved", same.stdout)
+        truth.tracker_place = (0.112, 0.192, -0.042)  # 8 mm lower, and aside
+        three = self.touch_up(truth, crosses[:3], "--keep")
+        self.assertEqual((three.returncode, len(list(kept.iterdir()))), (1, 1))
+        self.assertIn("touch two more crosses", three.stderr)
+        line = self.touch_up(truth, [(90, 60, 0), (640, 400, 0), (1190, 740, 0.12)])
+        self.assertEqual(line.returncode, 1)
+        self.assertIn("in one line", line.stderr)
+        found = self.touch_up(truth, crosses, "--keep", "--json")
+        self.assertEqual(found.returncode, 0, found.stderr)
+        found = json.loads(found.stdout)
+        self.assertEqual((found["moved"], found["verdict"]), ("tracker", "good"))
+        self.assertAlmostEqual(found["off_mm"], 15.5, delta=2.0)
+        self.check_picture(tomllib.loads((kept / "calibration-0002.toml").read_text()), truth)
+        wrong = self.touch_up(truth, crosses, "--map", self.folder / "map.png")
+        self.assertEqual(wrong.returncode, 2)
 
     def test_back_leaves_it_and_changes_nothing(self):
         self.write([])

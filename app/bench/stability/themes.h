@@ -19,6 +19,7 @@ namespace frustumscreen {
 [[nodiscard]] std::vector<StabilityCase> fade_cases();
 [[nodiscard]] std::vector<StabilityCase> estimator_cases();
 [[nodiscard]] std::vector<StabilityCase> governor_cases();
+[[nodiscard]] std::vector<StabilityCase> calibration_cases();
 /// They draw, in a context of their own.
 [[nodiscard]] std::vector<StabilityCase> driver_cases();
 

@@ -154,7 +154,8 @@ Touch simulated_touch(const SimulatedTable& table, const PlacedProp& placed, con
     return touch;
 }
 
-PictureError picture_error(const SimulatedTable& table, const CalibratedTable& calibrated, double top_m) {
+PictureError picture_error(const SimulatedTable& table, const CalibratedTable& calibrated, double top_m,
+                           const Reported& reported) {
     PictureError error;
     int count = 0;
     for (int level = 0; level <= 2; ++level) {
@@ -165,7 +166,8 @@ PictureError picture_error(const SimulatedTable& table, const CalibratedTable& c
                                        table.truth.pinhole.height * row / 6.0);
                 const glm::dvec3 place = true_light(table.truth, pixel, height);
                 for (int quarter = 0; quarter < 4; ++quarter) {
-                    const RigidTransform pose = sensor_at(table, place, 0.5 * pi * quarter, 0.0);
+                    RigidTransform pose = sensor_at(table, place, 0.5 * pi * quarter, 0.0);
+                    pose = reported ? reported(pose) : pose;
                     const glm::dvec3 believed = calibrated.table_from_tracker.point(
                         pose.translation + pose.rotation * calibrated.sensor_offset_m);
                     const glm::dvec3 lit =

@@ -10,6 +10,7 @@
 #include "app/calibration/touch.h"
 
 #include <cstdint>
+#include <functional>
 
 namespace frustumscreen {
 
@@ -56,7 +57,9 @@ struct PictureError {
     double mean_m = 0.0;
     double worst_m = 0.0;
 };
+/// `reported`: what the tracker says of a sensor's pose; left out: what it is.
+using Reported = std::function<RigidTransform(const RigidTransform&)>;
 [[nodiscard]] PictureError picture_error(const SimulatedTable& table, const CalibratedTable& calibrated,
-                                         double top_m);
+                                         double top_m, const Reported& reported = {});
 
 } // namespace frustumscreen

@@ -89,10 +89,6 @@ Result<int> show_kept(const CalibrateRequest& request) {
     return 0;
 }
 
-} // namespace
-
-namespace {
-
 /// Keeps what was found from so many places, with the date.
 Result<void> keep(const Settings& settings, const TouchCalibration& calibration, std::size_t places,
                   Calibration next) {
@@ -100,6 +96,12 @@ Result<void> keep(const Settings& settings, const TouchCalibration& calibration,
     next.mean_mm = 1e3 * calibration.mean_residual_m;
     next.worst_mm = 1e3 * calibration.worst_residual_m;
     next.mean_px = calibration.mean_residual_px;
+    return keep_next(settings, std::move(next));
+}
+
+} // namespace
+
+Result<void> keep_next(const Settings& settings, Calibration next) {
     const std::filesystem::path& folder = settings.calibration.folder;
     std::error_code failed; // open_tree says what is wrong with it
     std::filesystem::create_directories(folder, failed);
@@ -117,8 +119,6 @@ Result<void> keep(const Settings& settings, const TouchCalibration& calibration,
                (folder / kept->name).string());
     return {};
 }
-
-} // namespace
 
 Result<void> keep_touch(const Settings& settings, const TouchCalibration& calibration,
                         std::span<const Touch> touches) {

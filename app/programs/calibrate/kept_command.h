@@ -20,4 +20,7 @@ void add_kept_command(CLI::App& app, CalibrateRequest& request, std::function<in
                                       std::span<const Touch> touches);
 [[nodiscard]] Result<void> keep_auto(const Settings& settings, const AutoCalibration& calibration);
 
+/// Keeps this one; when it was made is set here.
+[[nodiscard]] Result<void> keep_next(const Settings& settings, Calibration next);
+
 } // namespace frustumscreen

@@ -2,6 +2,8 @@
 
 #include "app/calibration/point_files.h"
 #include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/touch_up_command.h"
+#include "app/programs/calibrate/uncertainty_picture.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
@@ -45,6 +47,18 @@ std::string touch_text(const TouchCalibration& c) {
     return text;
 }
 
+Result<void> write_map(const CalibrateRequest& request, const TouchCalibration& calibration,
+                       std::span<const Touch> touches, double top_m) {
+    if (!calibration.table) {
+        return {}; // refused: nothing is known, and the reason is told
+    }
+    const Result<Typesetter> typesetter = Typesetter::open();
+    if (!typesetter) {
+        return tl::unexpected<Error>(typesetter.error());
+    }
+    return write_file(request.map, encode_png(uncertainty_picture(calibration, touches, top_m, *typesetter)));
+}
+
 Result<int> touch(const CalibrateRequest& request) {
     const Result<Described> described = describe(request);
     if (!described) {
@@ -58,11 +72,19 @@ Result<int> touch(const CalibrateRequest& request) {
     if (!touches) {
         return tl::unexpected<Error>(touches.error());
     }
+    if (request.touch_up) {
+        return touch_up_kept(request, *described->settings, *touches);
+    }
     const TouchCalibration calibration = calibrate_touch(*touches, touch_setup(*described, request));
     if (request.json) {
         fmt::print("{}\n", touch_json(calibration).dump(2));
     } else {
         fmt::print("{}", touch_text(calibration));
+    }
+    if (!request.map.empty()) {
+        if (const Result<void> drawn = write_map(request, calibration, *touches, described->top_m); !drawn) {
+            return tl::unexpected<Error>(drawn.error());
+        }
     }
     const int status = status_of(calibration.verdict, request, calibration.reason);
     if (status == 0 && request.keep) {
@@ -116,6 +138,14 @@ void add_touch_command(CLI::App& app, CalibrateRequest& request, std::function<i
         "touch", "from the prop laid on crosses: projector, tracker and the sensor's place in the prop");
     add_common_options(*command, request);
     add_touch_options(*command, request);
+    CLI::Option* const map = command->add_option(
+        "--map", request.map, "draws how uncertain the picture is, on the table and at the prop's top: PNG");
+    command
+        ->add_flag("--touch-up", request.touch_up,
+                   "corrects the kept calibration by three touches or more: what moved since, and how far")
+        ->needs("--config")
+        ->excludes(map)
+        ->excludes("--sensor-height");
     command->callback([&] { chosen = [&] { return end_with(touch(request)); }; });
 }
 

@@ -1,0 +1,162 @@
+// The calibration by touch: its condition against its error, its noise, and its last step against long double.
+
+#include "app/bench/stability/themes.h"
+#include "app/bench/table/simulated_table.h"
+#include "app/calibration/calibrate_touch.h"
+#include "app/calibration/starts.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Crosses in a grid over a share of the picture's width and height, on the table and on blocks up to a height.
+Touches grid_touches(const SimulatedTable& table, double share, double block_m, const TouchNoise& noise,
+                     SeededNumbers& numbers) {
+    const glm::dvec2 size(table.truth.pinhole.width, table.truth.pinhole.height);
+    Touches touches;
+    for (int k = 0; k < 15; ++k) {
+        const glm::dvec2 at(0.5 + share * (0.25 * (k % 5) - 0.5), 0.5 + share * (0.5 * (k / 5) - 0.5));
+        const Cross cross{at * size, k % 2 == 0 ? 0.0 : block_m,
+                          0.5 * std::numbers::pi * ((7 * k + k / 5) % 4)};
+        touches.push_back(simulated_touch(table, {cross, 0.0}, noise, numbers));
+    }
+    return touches;
+}
+
+TouchNoise times(double factor) {
+    const TouchNoise one;
+    return {factor * one.position_m, factor * one.rotation_rad, factor * one.pixel, factor * one.block_m};
+}
+
+struct Fitted {
+    Fit fit;
+    double predicted_m = 0.0; ///< mean over the zone, one standard deviation
+    double observed_m = 0.0;
+};
+
+Fitted fitted(const SimulatedTable& table, const Touches& touches, const TouchNoise& noise) {
+    const Pinhole& p = table.truth.pinhole;
+    const FitSetup setup{noise, {}, table.sensor_height_m, {}};
+    Fitted out;
+    double least = 1e300;
+    for (const TouchModel& start : starting_models(touches, p.width, p.height)) {
+        Fit fit = fit_touches(touches, {}, setup, start);
+        if (fit.chi2 < least) {
+            least = fit.chi2;
+            out.fit = std::move(fit);
+        }
+    }
+    const std::vector<ZonePlace> places =
+        zone_places(out.fit.model, out.fit.middle, {0.12, touches[0].tracker_from_sensor.rotation});
+    out.predicted_m =
+        picture_uncertainty(places, out.fit.information().ldlt().solve(Covariance::Identity())).mean_m;
+    if (const auto found = in_table_frame(out.fit.model)) {
+        out.observed_m = picture_error(table, *found, 0.12).mean_m;
+    }
+    return out;
+}
+
+/// Root mean square of the observed over the predicted error, over so many tables.
+double observed_over_predicted(double share, double block_m, double noise) {
+    constexpr int seeds = 12;
+    double square = 0.0;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        const SimulatedTable table = some_table(seed);
+        SeededNumbers numbers(7000 + seed);
+        const Fitted one =
+            fitted(table, grid_touches(table, share, block_m, times(noise), numbers), times(noise));
+        square += std::pow(one.observed_m / one.predicted_m, 2.0) / seeds;
+    }
+    return std::sqrt(square);
+}
+
+/// From crosses all over the picture and high blocks to ones near its middle and flat ones.
+StabilityResult conditions(const StabilityOptions&) {
+    StabilityResult result;
+    for (const auto& [share, block_m] : {std::pair(0.92, 0.12), std::pair(0.6, 0.12), std::pair(0.3, 0.12),
+                                         std::pair(0.92, 0.03), std::pair(0.3, 0.03)}) {
+        result.rows.push_back(
+            {fmt::format("crosses over {:.0f} % of the picture, blocks {:.0f} mm: error / predicted",
+                         100.0 * share, 1e3 * block_m),
+             2.0, observed_over_predicted(share, block_m, 1.0)});
+    }
+    return result;
+}
+
+StabilityResult noises(const StabilityOptions&) {
+    StabilityResult result;
+    for (const double noise : {0.1, 0.3, 1.0, 2.0, 4.0}) {
+        result.rows.push_back({fmt::format("noise {} times the usual one: error / predicted", noise), 2.0,
+                               observed_over_predicted(0.92, 0.12, noise)});
+    }
+    return result;
+}
+
+/// Of the matrix with ones in its diagonal: what its units do to it does not count.
+double scaled_condition(const Covariance& information) {
+    const Changes scale = information.diagonal().cwiseSqrt().cwiseInverse();
+    const Covariance scaled = scale.asDiagonal() * information * scale.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Covariance> parts(scaled, Eigen::EigenvaluesOnly);
+    return parts.eigenvalues()[unknown_count - 1] / parts.eigenvalues()[0];
+}
+
+/// The uncertainty's own arithmetic: the information matrix inverted in 64-bit, and in long double by Gauss and Jordan's elimination.
+StabilityResult inverse_in_long_double(const StabilityOptions&) {
+    StabilityResult result;
+    for (const double share : {0.92, 0.3, 0.1}) {
+        const SimulatedTable table = some_table(3);
+        SeededNumbers numbers(7003);
+        const Fitted one = fitted(table, grid_touches(table, share, 0.12, {}, numbers), {});
+        const Covariance information = one.fit.information();
+        const Covariance covariance = information.ldlt().solve(Covariance::Identity());
+        using Row = std::array<long double, 2 * unknown_count>;
+        std::array<Row, unknown_count> rows{};
+        for (int r = 0; r < unknown_count; ++r) {
+            for (int c = 0; c < unknown_count; ++c) {
+                rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)] = information(r, c);
+            }
+            rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(unknown_count + r)] = 1.0L;
+        }
+        for (std::size_t k = 0; k < unknown_count; ++k) { // positive definite: no pivots are needed
+            const long double pivot = rows[k][k];
+            for (long double& value : rows[k]) {
+                value /= pivot;
+            }
+            for (std::size_t r = 0; r < unknown_count; ++r) {
+                const long double times_row = r == k ? 0.0L : rows[r][k];
+                for (std::size_t c = 0; c < rows[r].size(); ++c) {
+                    rows[r][c] -= times_row * rows[k][c];
+                }
+            }
+        }
+        double off = 0.0;
+        for (int k = 0; k < unknown_count; ++k) {
+            const auto exact = static_cast<double>(
+                rows[static_cast<std::size_t>(k)][static_cast<std::size_t>(unknown_count + k)]);
+            off = std::fmax(off, std::abs(std::sqrt(covariance(k, k) / exact) - 1.0));
+        }
+        result.rows.push_back(
+            {fmt::format("crosses over {:.0f} %: standard deviations off, relative", 100.0 * share),
+             0x1p-53 * scaled_condition(information), off});
+    }
+    return result;
+}
+
+} // namespace
+
+std::vector<StabilityCase> calibration_cases() {
+    return {
+        {"calibration", "from good to bad crosses", FloatingPoint::Free, conditions},
+        {"calibration", "noise .1 to 4 times", FloatingPoint::Free, noises},
+        {"calibration", "normal equations against long double", FloatingPoint::Free, inverse_in_long_double}};
+}
+
+} // namespace frustumscreen

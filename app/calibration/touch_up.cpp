@@ -1,0 +1,273 @@
+#include "app/calibration/touch_up.h"
+
+#include "app/calibration/agreement.h"
+#include "app/calibration/check_touches.h"
+#include "app/calibration/picture_limits.h"
+#include "app/calibration/reliability.h"
+#include "app/calibration/upright_touches.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Turn (radians) and shift (metres) about the touches' middle, in K: of the tracker's source, or as seen from it of the projector.
+using Move = Eigen::Matrix<double, 6, 1>;
+using ByMove = Eigen::Matrix<double, unknown_count, 6>;
+
+constexpr double usual_turn_rad = 0.026; // one degree and a half
+constexpr double usual_shift_m = 0.03;
+/// The kept table is itself off by about this much: what touches tell of it beyond the touches' own noise.
+constexpr double kept_error_m = 6e-4;
+/// With few touches what a wrong one hides must stay within what the verdict promises: few check each other, and all are believed.
+constexpr PictureLimits few_good{for_good.mean_m, for_good.worst_m, 5e-3};
+constexpr PictureLimits few_usable{for_usable.mean_m, for_usable.worst_m, 8e-3};
+/// Chi squared by which one explanation must beat the other to be named: odds of twenty to one.
+constexpr double apart = 6.0;
+
+TouchModel model_of(const CalibratedTable& table) {
+    TouchModel model;
+    model.pinhole = table.pinhole;
+    model.projector_from_tracker = table.table_from_projector.inverse() * table.table_from_tracker;
+    model.sensor_offset_m = table.sensor_offset_m;
+    model.table_up = glm::conjugate(table.table_from_tracker.rotation) * glm::dvec3(0.0, 0.0, 1.0);
+    model.table_offset_m = table.table_from_tracker.translation.z;
+    return model;
+}
+
+RigidTransform rigid(const Move& move, const glm::dvec3& middle) {
+    const glm::dquat turn = glm::normalize(glm::dquat(1.0, 0.5 * move[0], 0.5 * move[1], 0.5 * move[2]));
+    return {turn, middle + glm::dvec3(move[3], move[4], move[5]) - turn * middle};
+}
+
+/// The table in the tracker's frame goes along with its source alone.
+TouchModel moved_model(const TouchModel& kept, Moved which, const Move& move, const glm::dvec3& middle) {
+    const RigidTransform change = rigid(move, middle);
+    TouchModel model = kept;
+    model.projector_from_tracker = kept.projector_from_tracker * change;
+    if (which == Moved::Tracker) {
+        model.table_up = glm::conjugate(change.rotation) * kept.table_up;
+        model.table_offset_m = kept.height(change.translation);
+    }
+    return model;
+}
+
+/// How the model's unknowns change with a move.
+ByMove by_move(const TouchModel& model, Moved which) {
+    ByMove rows = ByMove::Zero();
+    const Eigen::Matrix3d turn = eigen(model.projector_from_tracker.rotation);
+    rows.block<3, 3>(turn_x, 0) = turn;
+    rows.block<3, 3>(shift_x, 3) = turn;
+    if (which == Moved::Tracker) {
+        const Eigen::Vector3d up = eigen(model.table_up);
+        const Eigen::Matrix<double, 3, 2> axes = table_axes(model.table_up);
+        for (int k = 0; k < 2; ++k) {
+            rows.block<1, 3>(tilt_a + k, 0) = Eigen::Vector3d(axes.col(k)).cross(up).transpose();
+        }
+        rows.block<1, 3>(table_height, 3) = up.transpose();
+    }
+    return rows;
+}
+
+struct Explanation {
+    TouchModel model;
+    double chi2 = 0.0;
+    Covariance covariance; ///< of the model's unknowns, as far as the move changes them
+    std::vector<TouchRows> rows;
+};
+
+double chi2_of(const WhitenedTouches& seen) {
+    double chi2 = 0.0;
+    for (const Eigen::Vector3d& residual : seen.residuals) {
+        chi2 += residual.squaredNorm();
+    }
+    return chi2;
+}
+
+Explanation explained(std::span<const Touch> touches, const FitSetup& setup, const TouchModel& kept,
+                      Moved which) {
+    const glm::dvec3 middle = middle_of(touches);
+    Move weights;
+    weights << Eigen::Vector3d::Constant(std::pow(usual_turn_rad, -2.0)),
+        Eigen::Vector3d::Constant(std::pow(usual_shift_m, -2.0));
+    Move move = Move::Zero();
+    Explanation out;
+    constexpr int steps = 12; // Gauss and Newton's; a few are enough from so near
+    for (int step = 0; step <= steps; ++step) {
+        out.model = moved_model(kept, which, move, middle);
+        const WhitenedTouches seen = whitened_touches(touches, setup, out.model, middle);
+        const ByMove unknowns = by_move(out.model, which);
+        Eigen::Matrix<double, 6, 6> information = weights.asDiagonal();
+        Move slope = weights.cwiseProduct(move);
+        for (std::size_t k = 0; k < touches.size(); ++k) {
+            const Eigen::Matrix<double, 3, 6> rows = seen.rows[k] * unknowns;
+            information += rows.transpose() * rows;
+            slope += rows.transpose() * seen.residuals[k];
+        }
+        const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> solver(information);
+        out.chi2 = chi2_of(seen) + move.dot(weights.cwiseProduct(move));
+        out.covariance =
+            unknowns * solver.solve(Eigen::Matrix<double, 6, 6>::Identity()) * unknowns.transpose();
+        out.rows = seen.rows;
+        if (step < steps) {
+            move -= solver.solve(slope);
+        }
+    }
+    return out;
+}
+
+TouchUp refused(std::string reason) {
+    TouchUp result;
+    result.reason = std::move(reason);
+    return result;
+}
+
+std::vector<TouchResidual> residuals_at(const TouchModel& model, std::span<const Touch> touches) {
+    std::vector<TouchResidual> residuals;
+    for (const Touch& touch : touches) {
+        const glm::dvec3 touched = model.touched(touch.tracker_from_sensor);
+        const auto lit = model.lit(touch.pixel, touch.block_m);
+        const auto pixel = model.pixel(touched);
+        constexpr double nowhere = 1e3; // metres and pixels: no light comes there
+        residuals.push_back({lit ? glm::distance(*lit, touched) : nowhere,
+                             pixel ? glm::distance(*pixel, touch.pixel) : nowhere});
+    }
+    return residuals;
+}
+
+/// Where the kept table put the light of the zone's places, beside where they are.
+double off_by(const TouchModel& kept, const TouchModel& now, std::span<const ZonePlace> places) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const ZonePlace& place : places) {
+        const auto there = now.lit(place.pixel, place.height_m);
+        const auto pixel = there ? kept.pixel(*there) : std::nullopt;
+        if (const auto lit = pixel ? now.lit(*pixel, place.height_m) : std::nullopt) {
+            sum += glm::distance(*lit, *there);
+            count += 1.0;
+        }
+    }
+    return sum / std::fmax(1.0, count);
+}
+
+std::string what_moved(Moved moved) {
+    switch (moved) {
+    case Moved::Projector:
+        return "the projector moved";
+    case Moved::Tracker:
+        return "the tracker's source moved";
+    default:
+        return "the projector or the tracker's source moved, which these touches do not tell apart";
+    }
+}
+
+/// Where nothing moved all equations check each other; but few touches would not have shown a small move.
+void judge_unmoved(TouchUp& result) {
+    if (result.uncertainty.mean_m <= for_good.mean_m) {
+        result.verdict = Verdict::Good;
+        result.reason = "nothing moved: the kept calibration holds";
+    } else {
+        result.verdict = Verdict::Usable;
+        result.reason =
+            "nothing moved by more than two or three millimetres: the kept calibration holds; two more "
+            "touches would tell more";
+    }
+}
+
+void judge(TouchUp& result) {
+    if (result.moved == Moved::Nothing) {
+        judge_unmoved(result);
+        return;
+    }
+    const std::string found = fmt::format("{}, and the picture was {:.1f} mm beside its place on average",
+                                          what_moved(result.moved), 1e3 * result.off_m);
+    if (few_good.keep(result.uncertainty, result.hidden_error_m)) {
+        result.verdict = Verdict::Good;
+        result.reason = found;
+    } else if (few_usable.keep(result.uncertainty, result.hidden_error_m)) {
+        result.verdict = Verdict::Usable;
+        result.reason = found + "; with more touches the correction would be good";
+    } else {
+        result.verdict = Verdict::Repeat;
+        result.reason = found + "; the touches are too few to check each other: touch two more crosses, on "
+                                "another height";
+    }
+}
+
+std::vector<ZonePlace> zone_of(const TouchModel& model, std::span<const Touch> touches, double top_m) {
+    const std::vector<bool> upright = upright_ones(touches, model.table_up);
+    const auto some = std::find(upright.begin(), upright.end(), true) - upright.begin();
+    return zone_places(model, middle_of(touches),
+                       {top_m, touches[static_cast<std::size_t>(some)].tracker_from_sensor.rotation});
+}
+
+/// The kept table, corrected by what moved.
+CalibratedTable corrected(const CalibratedTable& kept, const Explanation& best, bool by_tracker) {
+    CalibratedTable table = kept;
+    if (by_tracker) {
+        table.table_from_tracker = kept.table_from_projector * best.model.projector_from_tracker;
+    } else {
+        table.table_from_projector = kept.table_from_tracker * best.model.projector_from_tracker.inverse();
+    }
+    return table;
+}
+
+} // namespace
+
+std::string_view name_of(Moved moved) {
+    switch (moved) {
+    case Moved::Projector:
+        return "projector";
+    case Moved::Tracker:
+        return "tracker";
+    case Moved::Either:
+        return "either";
+    default:
+        return "nothing";
+    }
+}
+
+TouchUp touch_up(const CalibratedTable& kept, std::span<const Touch> reported, const TouchSetup& setup) {
+    if (auto reason = refusal_of_few(reported, setup.width, setup.height)) {
+        return refused(std::move(*reason));
+    }
+    const Touches touches = with_unit_rotations(reported);
+    FitSetup noise{setup.noise, {}, std::nullopt, {}};
+    noise.noise.position_m = std::hypot(setup.noise.position_m, kept_error_m);
+    const TouchModel before = model_of(kept);
+    const double unmoved = chi2_of(whitened_touches(touches, noise, before, middle_of(touches)));
+    const Explanation projector = explained(touches, noise, before, Moved::Projector);
+    const Explanation tracker = explained(touches, noise, before, Moved::Tracker);
+    const bool by_tracker = tracker.chi2 < projector.chi2;
+    const Explanation& best = by_tracker ? tracker : projector;
+    const int equations = 3 * static_cast<int>(touches.size());
+    const bool something = unmoved - best.chi2 > chi2_limit(6);
+    if (!(something ? best.chi2 < chi2_limit(equations - 6) : unmoved < chi2_limit(equations))) {
+        return refused(
+            "the touches contradict each other, or projector and tracker both moved: touch the crosses "
+            "again, or calibrate anew");
+    }
+    const std::vector<ZonePlace> places = zone_of(best.model, touches, setup.top_m);
+    TouchUp result;
+    result.table = kept;
+    result.uncertainty = picture_uncertainty(places, best.covariance);
+    result.hidden_error_m = hidden_error_m(best.rows, best.covariance, places);
+    if (something) {
+        result.moved = std::abs(tracker.chi2 - projector.chi2) < apart ? Moved::Either
+                       : by_tracker                                    ? Moved::Tracker
+                                                                       : Moved::Projector;
+        result.table = corrected(kept, best, by_tracker);
+        result.off_m = off_by(before, best.model, places);
+    }
+    result.residuals = residuals_at(something ? best.model : before, touches);
+    judge(result);
+    return result;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,92 @@
+#include "app/programs/calibrate/touch_up_command.h"
+
+#include "app/calibration/touch_up.h"
+#include "app/programs/calibrate/kept_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Every key is always there; what is not known is null.
+Json touch_up_json(const TouchUp& found) {
+    Json json{{"moved", nullptr},          {"off_mm", nullptr},
+              {"projector", nullptr},      {"table_from_tracker", nullptr},
+              {"uncertainty_mm", nullptr}, {"hidden_error_mm", nullptr},
+              {"rows", Json::array()},     {"verdict", name_of(found.verdict)},
+              {"reason", found.reason}};
+    if (found.table) {
+        json["moved"] = name_of(found.moved);
+        json["off_mm"] = 1e3 * found.off_m;
+        json["projector"] = projector_json(found.table->pinhole, found.table->table_from_projector);
+        json["table_from_tracker"] = matrix_json(found.table->table_from_tracker);
+        json["uncertainty_mm"] = {{"mean", 1e3 * found.uncertainty.mean_m},
+                                  {"worst", 1e3 * found.uncertainty.worst_m}};
+        json["hidden_error_mm"] = 1e3 * found.hidden_error_m;
+        for (std::size_t k = 0; k < found.residuals.size(); ++k) {
+            json["rows"].push_back({{"row", k + 1},
+                                    {"residual_mm", 1e3 * found.residuals[k].on_table_m},
+                                    {"residual_px", found.residuals[k].pixel}});
+        }
+    }
+    return json;
+}
+
+/// As the newest kept calibration has it, which stands in the settings.
+CalibratedTable kept_table_of(const Settings& settings) {
+    const Registration& registration = settings.tracker.registration;
+    return {settings.projector.pinhole, settings.projector.table_from_projector,
+            registration.table_from_tracker, registration.sensor_from_prop.translation};
+}
+
+/// The table's frame, the prop in its sensor and the eye stay as they were kept. Its residuals are those of the touches that were used: to leave
+/// one out of so few says little.
+Calibration next_calibration(const Settings& settings, const TouchUp& found) {
+    Calibration next;
+    next.method = CalibrationMethod::Touch;
+    next.places = static_cast<int>(found.residuals.size());
+    next.pinhole = found.table->pinhole;
+    next.table_from_projector = found.table->table_from_projector;
+    next.registration = settings.tracker.registration;
+    next.registration.table_from_tracker = found.table->table_from_tracker;
+    for (const TouchResidual& residual : found.residuals) {
+        next.mean_mm += 1e3 * residual.on_table_m / next.places;
+        next.worst_mm = std::max(next.worst_mm, 1e3 * residual.on_table_m);
+        next.mean_px += residual.pixel / next.places;
+    }
+    return next;
+}
+
+} // namespace
+
+Result<int> touch_up_kept(const CalibrateRequest& request, const Settings& settings, const Touches& touches) {
+    if (!settings.calibration.used) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            fmt::format("{}: no calibration is kept there that could be touched up: keep one first, by touch "
+                        "--keep or table",
+                        settings.calibration.folder.string()));
+    }
+    TouchSetup setup;
+    setup.width = settings.projector.pinhole.width;
+    setup.height = settings.projector.pinhole.height;
+    setup.top_m = settings.prop.height_m;
+    const TouchUp found = touch_up(kept_table_of(settings), touches, setup);
+    if (request.json) {
+        fmt::print("{}\n", touch_up_json(found).dump(2));
+    } else {
+        fmt::print("{}: {}\n", name_of(found.verdict), found.reason);
+    }
+    const int status = status_of(found.verdict, request, found.reason);
+    if (status == 0 && request.keep && found.moved != Moved::Nothing) {
+        return keep_next(settings, next_calibration(settings, found)).map([] { return 0; });
+    }
+    return status;
+}
+
+} // namespace frustumscreen

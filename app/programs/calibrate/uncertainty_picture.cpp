@@ -1,0 +1,229 @@
+#include "app/programs/calibrate/uncertainty_picture.h"
+
+#include "app/exhibit/canvas.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr Colour paper{255, 255, 255};
+constexpr Colour ink{34, 40, 49};
+constexpr Colour grey{110, 118, 129};
+constexpr glm::ivec2 size_px{1600, 900};
+constexpr double margin_px = 70.0;
+constexpr glm::dvec2 field_px{700.0, 500.0};
+constexpr double field_top_px = 190.0;
+constexpr double between_px = size_px.x - 2.0 * margin_px - 2.0 * field_px.x;
+constexpr int bands = 8;
+
+/// From light to dark, even steps to the eye, readable in grey too (ColorBrewer's YlGnBu, 2013).
+constexpr std::array<Colour, bands> band_colours{{{255, 255, 217},
+                                                  {237, 248, 177},
+                                                  {199, 233, 180},
+                                                  {127, 205, 187},
+                                                  {65, 182, 196},
+                                                  {29, 145, 192},
+                                                  {34, 94, 168},
+                                                  {12, 44, 132}}};
+
+/// A band's width in millimetres: one of few round numbers, so that the legend's are too.
+double band_mm(double largest_mm) {
+    for (const double width : {0.05, 0.1, 0.15, 0.2, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0}) {
+        if (largest_mm <= bands * width) {
+            return width;
+        }
+    }
+    return largest_mm / bands;
+}
+
+/// One height of the zone, as the calibration has it: a grid over the projector's picture.
+class Level {
+public:
+    Level(const TouchCalibration& calibration, double height_m)
+        : table_(*calibration.table), height_m_(height_m), projector_(table_.table_from_projector.inverse()) {
+        for (const PlaceUncertainty& place : calibration.zone) {
+            if (std::abs(place.height_m - height_m) < 1e-9) {
+                values_.push_back(place.rms_m);
+            }
+        }
+    }
+
+    /// Metres; nothing where the picture does not reach.
+    [[nodiscard]] std::optional<double> at(const glm::dvec2& place) const {
+        const auto pixel = table_.pinhole.pixel(projector_.point({place, height_m_}));
+        const glm::dvec2 size(table_.pinhole.width, table_.pinhole.height);
+        if (!pixel || values_.size() != zone_columns * zone_rows ||
+            glm::any(glm::lessThan(*pixel, glm::dvec2(0.0))) || glm::any(glm::greaterThan(*pixel, size))) {
+            return std::nullopt;
+        }
+        const glm::dvec2 cells = *pixel / size * glm::dvec2(zone_columns - 1, zone_rows - 1);
+        const std::size_t column = std::min<std::size_t>(static_cast<std::size_t>(cells.x), zone_columns - 2);
+        const std::size_t row = std::min<std::size_t>(static_cast<std::size_t>(cells.y), zone_rows - 2);
+        const glm::dvec2 share = cells - glm::dvec2(column, row);
+        const double* const low = &values_[row * zone_columns + column];
+        return glm::mix(glm::mix(low[0], low[1], share.x),
+                        glm::mix(low[zone_columns], low[zone_columns + 1], share.x), share.y);
+    }
+    [[nodiscard]] double height_m() const { return height_m_; }
+
+private:
+    const CalibratedTable& table_;
+    double height_m_;
+    RigidTransform projector_;
+    std::vector<double> values_;
+};
+
+/// Where a pixel's light meets a height.
+glm::dvec2 light_of(const CalibratedTable& table, const glm::dvec2& pixel, double height_m) {
+    const RigidTransform& pose = table.table_from_projector;
+    const glm::dvec3 ray = pose.direction(table.pinhole.ray(pixel));
+    return glm::dvec2(pose.translation + ray * ((height_m - pose.translation.z) / ray.z));
+}
+
+struct Field {
+    glm::dvec2 low_px{0.0};
+    glm::dvec2 middle_m{0.0};
+    double px_per_m = 1.0;
+    [[nodiscard]] glm::dvec2 pixel(const glm::dvec2& place) const {
+        const glm::dvec2 off = (place - middle_m) * px_per_m;
+        return low_px + 0.5 * field_px + glm::dvec2(off.x, -off.y);
+    }
+    [[nodiscard]] glm::dvec2 place(const glm::dvec2& pixel) const {
+        const glm::dvec2 off = (pixel - low_px - 0.5 * field_px) / px_per_m;
+        return middle_m + glm::dvec2(off.x, -off.y);
+    }
+};
+
+/// The picture's corners on the table, in the largest scale at which they fit.
+Field fitted(const CalibratedTable& table) {
+    glm::dvec2 low(1e9);
+    glm::dvec2 high(-1e9);
+    for (const glm::dvec2& corner :
+         {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)}) {
+        const glm::dvec2 at =
+            light_of(table, corner * glm::dvec2(table.pinhole.width, table.pinhole.height), 0.0);
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+    }
+    Field field;
+    field.middle_m = 0.5 * (low + high);
+    field.px_per_m = 0.96 * std::min(field_px.x / (high.x - low.x), field_px.y / (high.y - low.y));
+    return field;
+}
+
+Image8 coloured(std::span<const Level> levels, std::span<const Field> fields, double band_m) {
+    Image8 image(size_px.x, size_px.y, glm::u8vec4(paper, 255));
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        const glm::ivec2 low(fields[k].low_px);
+        for (int y = low.y; y < low.y + static_cast<int>(field_px.y); ++y) {
+            for (int x = low.x; x < low.x + static_cast<int>(field_px.x); ++x) {
+                if (const auto rms = levels[k].at(fields[k].place({x + 0.5, y + 0.5}))) {
+                    const int band = std::min(static_cast<int>(*rms / band_m), bands - 1);
+                    image.at(x, y) = glm::u8vec4(band_colours[static_cast<std::size_t>(band)], 255);
+                }
+            }
+        }
+    }
+    return image;
+}
+
+void draw_cross(Canvas& canvas, const Typesetter& typesetter, const glm::dvec2& at, std::size_t number) {
+    constexpr double arm = 9.0;
+    for (const auto& [width, colour] : {std::pair(6.0, paper), std::pair(2.5, ink)}) {
+        canvas.line(at - glm::dvec2(arm, 0.0), at + glm::dvec2(arm, 0.0), width, colour);
+        canvas.line(at - glm::dvec2(0.0, arm), at + glm::dvec2(0.0, arm), width, colour);
+    }
+    const std::string word = fmt::format("{}", number);
+    const double wide = 9.0 * static_cast<double>(word.size()) + 6.0;
+    canvas.fill(at + glm::dvec2(11.0, 3.0), at + glm::dvec2(11.0 + wide, 23.0), paper, 0.85);
+    canvas.text(typesetter, word, at + glm::dvec2(14.0, 4.0), 15.0, ink);
+}
+
+/// The picture's edge, straight enough between its corners and the middles of its sides.
+void draw_edge(Canvas& canvas, const CalibratedTable& table, const Field& field, double height_m) {
+    std::vector<glm::dvec2> edge;
+    for (const glm::dvec2& share :
+         {glm::dvec2(0.0, 0.0), glm::dvec2(0.5, 0.0), glm::dvec2(1.0, 0.0), glm::dvec2(1.0, 0.5),
+          glm::dvec2(1.0, 1.0), glm::dvec2(0.5, 1.0), glm::dvec2(0.0, 1.0), glm::dvec2(0.0, 0.5)}) {
+        const glm::dvec2 size(table.pinhole.width, table.pinhole.height);
+        edge.push_back(field.pixel(light_of(table, share * size, height_m)));
+    }
+    canvas.outline(edge, 1.5, grey);
+}
+
+void draw_scale(Canvas& canvas, const Typesetter& typesetter, const Field& field) {
+    constexpr double length_m = 0.2;
+    const glm::dvec2 at = field.low_px + glm::dvec2(0.0, field_px.y + 22.0);
+    const glm::dvec2 end = at + glm::dvec2(length_m * field.px_per_m, 0.0);
+    canvas.line(at, end, 3.0, ink);
+    for (const glm::dvec2& tick : {at, end}) {
+        canvas.line(tick - glm::dvec2(0.0, 6.0), tick + glm::dvec2(0.0, 6.0), 3.0, ink);
+    }
+    canvas.text(typesetter, "200 mm", end + glm::dvec2(14.0, 0.0), 20.0, ink, {0.0, 0.5});
+}
+
+void draw_legend(Canvas& canvas, const Typesetter& typesetter, double width_mm) {
+    constexpr double box_px = 90.0;
+    const glm::dvec2 at(margin_px, 796.0);
+    for (int k = 0; k < bands; ++k) {
+        const glm::dvec2 low = at + glm::dvec2(box_px * k, 0.0);
+        canvas.fill(low, low + glm::dvec2(box_px, 30.0), band_colours[static_cast<std::size_t>(k)]);
+    }
+    const std::array<glm::dvec2, 4> frame{at, at + glm::dvec2(bands * box_px, 0.0),
+                                          at + glm::dvec2(bands * box_px, 30.0), at + glm::dvec2(0.0, 30.0)};
+    canvas.outline(frame, 1.5, grey);
+    for (int k = 0; k <= bands; ++k) {
+        canvas.text(typesetter, fmt::format("{:.3g}", width_mm * k), at + glm::dvec2(box_px * k, 36.0), 19.0,
+                    ink, {0.5, 0.0});
+    }
+    canvas.text(typesetter, "mm, one standard deviation", at + glm::dvec2(bands * box_px + 24.0, 15.0), 19.0,
+                ink, {0.0, 0.5});
+    const glm::dvec2 cross = at + glm::dvec2(bands * box_px + 340.0, 15.0);
+    draw_cross(canvas, typesetter, cross, 1);
+    canvas.text(typesetter, "a touched cross, on the nearer height", cross + glm::dvec2(40.0, 0.0), 19.0, ink,
+                {0.0, 0.5});
+}
+
+} // namespace
+
+Image8 uncertainty_picture(const TouchCalibration& calibration, std::span<const Touch> touches, double top_m,
+                           const Typesetter& typesetter) {
+    const CalibratedTable& table = *calibration.table;
+    const std::array<Level, 2> levels{Level(calibration, 0.0), Level(calibration, top_m)};
+    std::array<Field, 2> fields;
+    fields.fill(fitted(table));
+    fields[0].low_px = {margin_px, field_top_px};
+    fields[1].low_px = {margin_px + field_px.x + between_px, field_top_px};
+    const double width_mm = band_mm(1e3 * calibration.uncertainty.worst_m);
+    Canvas canvas(coloured(levels, fields, 1e-3 * width_mm));
+    canvas.text(typesetter, "How far the light may lie beside its place", {margin_px, 36.0}, 38.0, ink, {},
+                true);
+    canvas.text(typesetter,
+                fmt::format("{}: {:.2f} mm on average over the zone, {:.2f} mm at the worst place",
+                            name_of(calibration.verdict), 1e3 * calibration.uncertainty.mean_m,
+                            1e3 * calibration.uncertainty.worst_m),
+                {margin_px, 92.0}, 23.0, grey);
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        canvas.text(typesetter,
+                    k == 0 ? std::string("On the table, seen from above")
+                           : fmt::format("{:.0f} mm above it, at the prop's top", 1e3 * top_m),
+                    fields[k].low_px - glm::dvec2(0.0, 44.0), 23.0, ink, {}, true);
+        draw_edge(canvas, table, fields[k], levels[k].height_m());
+        draw_scale(canvas, typesetter, fields[k]);
+    }
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+        const std::size_t level = touches[k].block_m > 0.5 * top_m ? 1 : 0;
+        const glm::dvec2 at = light_of(table, touches[k].pixel, levels[level].height_m());
+        draw_cross(canvas, typesetter, fields[level].pixel(at), k + 1);
+    }
+    draw_legend(canvas, typesetter, width_mm);
+    return canvas.take();
+}
+
+} // namespace frustumscreen

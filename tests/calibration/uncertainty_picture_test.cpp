@@ -1,0 +1,84 @@
+// The picture of a calibration's uncertainty tells what was computed.
+#include "app/programs/calibrate/uncertainty_picture.h"
+#include "tests/calibration/simulated_touches.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen {
+namespace {
+
+constexpr double top_m = 0.12;
+
+/// A projector that looks straight down, so that its picture lies on the table as it is; uncertain by .1 mm at the left edge, and by
+/// 1 mm at the right one, half of it at the prop's top.
+TouchCalibration slope() {
+    TouchCalibration calibration;
+    calibration.verdict = Verdict::Usable;
+    CalibratedTable& table = calibration.table.emplace();
+    table.pinhole = {1920, 1200, 3000.0, 3000.0, 960.0, 600.0};
+    table.table_from_projector = {{0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 2.0}};
+    for (const double height : {0.0, 0.5 * top_m, top_m}) {
+        for (std::size_t k = 0; k < zone_columns * zone_rows; ++k) {
+            const glm::dvec2 share(static_cast<double>(k % zone_columns) / (zone_columns - 1),
+                                   static_cast<double>(k / zone_columns) / (zone_rows - 1));
+            const double rms_m = 1e-3 * (0.1 + 0.9 * share.x) * (height > 0.1 ? 0.5 : 1.0);
+            calibration.zone.push_back({share * glm::dvec2(1920.0, 1200.0), height, rms_m});
+        }
+    }
+    calibration.uncertainty = {0.5e-3, 1e-3};
+    return calibration;
+}
+
+/// Which of the legend's colours is there; its steps are .15 mm where the worst place has 1 mm.
+int legend_step(const Image8& picture, int x, int y) {
+    for (int k = 0; k < 8; ++k) {
+        if (picture.at(70 + 90 * k + 45, 796 + 15) == picture.at(x, y)) {
+            return k;
+        }
+    }
+    return -1;
+}
+
+TEST(UncertaintyPicture, ItsColoursAreTheUncertaintysOfThatPlace) {
+    const Result<Typesetter> typesetter = Typesetter::open();
+    ASSERT_TRUE(typesetter);
+    const Image8 picture = uncertainty_picture(slope(), {}, top_m, *typesetter);
+    // The fields' middles are at x = 420 and 1180, y = 440; the picture on the table fills 96 % of a field's width of 700.
+    constexpr double width_px = 0.96 * 700.0;
+    for (const double share : {0.1, 0.5, 0.8}) {
+        const double mm = 0.1 + 0.9 * share;
+        const double at_px = (share - 0.5) * width_px;
+        const double nearer = (2.0 - top_m) / 2.0; // the picture at the prop's top is smaller
+        EXPECT_EQ(legend_step(picture, static_cast<int>(420.0 + at_px), 400), static_cast<int>(mm / 0.15));
+        EXPECT_EQ(legend_step(picture, static_cast<int>(1180.0 + nearer * at_px), 400),
+                  static_cast<int>(0.5 * mm / 0.15));
+    }
+    EXPECT_EQ(legend_step(picture, 420 - 345, 400), -1) << "the light does not reach beside the picture";
+}
+
+/// Nothing is cut off: along the edge is paper.
+TEST(UncertaintyPicture, ItsWordsAndCrossesStayWithin) {
+    const Result<Typesetter> typesetter = Typesetter::open();
+    ASSERT_TRUE(typesetter);
+    ChosenCrosses crosses;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        const SimulatedTable table = some_table(seed);
+        SeededNumbers numbers(seed);
+        const Touches touches = touches_of(table, crosses.of(table, 9), {}, numbers);
+        const TouchCalibration found = calibrate_touch(touches, setup_for(table));
+        ASSERT_TRUE(found.table);
+        ASSERT_EQ(found.zone.size(), 3 * zone_columns * zone_rows);
+        const Image8 picture = uncertainty_picture(found, touches, top_m, *typesetter);
+        int marked = 0;
+        for (int y = 0; y < picture.height; ++y) {
+            for (int x = 0; x < picture.width; ++x) {
+                const bool is_edge = x < 20 || y < 20 || x >= picture.width - 20 || y >= picture.height - 20;
+                marked += is_edge && picture.at(x, y) != glm::u8vec4(255) ? 1 : 0;
+            }
+        }
+        EXPECT_EQ(marked, 0) << "table " << seed;
+    }
+}
+
+} // namespace
+} // namespace frustumscreen
