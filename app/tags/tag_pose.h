@@ -30,6 +30,16 @@ struct TagPose {
     std::size_t tags = 0;     ///< used
 };
 
+/// Of each coordinate of a corner, standard deviation: docs/tags.md has what rendered scenes give.
+inline constexpr double usual_corner_sd_px = 0.2;
+
+/// Sure enough to be followed; a pose with a larger spread may be that of a tag that leans to the other side.
+[[nodiscard]] inline bool is_sure(const TagPose& pose) {
+    constexpr double most_m = 0.004;
+    constexpr double most_rad = 0.045;
+    return pose.place_sd_m <= most_m && pose.turn_sd_rad <= most_rad;
+}
+
 /// Nothing: no tag of the prop is there, or they contradict each other so that none is to be believed. Ids that the prop has not are
 /// passed over, and so is one that is found twice. `corner_sd_px`: of each coordinate.
 [[nodiscard]] std::optional<TagPose> pose_from_tags(std::span<const FoundTag> found,

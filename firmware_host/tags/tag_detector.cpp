@@ -46,6 +46,7 @@ TagDetector::TagDetector(const TagDetectorOptions& options)
     : library_(std::make_unique<Library>()), options_(options) {
     apriltag_detector_add_family_bits(library_->detector.get(), library_->family.get(), corrected_bits);
     library_->detector->quad_decimate = static_cast<float>(options.decimate);
+    library_->detector->qtp.min_white_black_diff = options.least_contrast;
     library_->detector->nthreads = 1;
 }
 

@@ -28,6 +28,9 @@ struct TagDetectorOptions {
     /// Squares are looked for in a picture that is smaller by this factor; edges and bits are read in the whole one. 2 takes
     /// a fraction of the time and finds no tag whose modules are smaller than about 4 pixels.
     double decimate = 1.0;
+    /// Where the picture changes by fewer codes there is no edge. The noise of a flat surface makes many small ones, which cost more
+    /// time than all tags.
+    int least_contrast = 40;
     /// Below it a tag is not believed: chance finds have less.
     double least_margin = 15.0;
 };

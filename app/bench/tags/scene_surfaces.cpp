@@ -40,8 +40,21 @@ double SceneSurfaces::lit(double reflectance, const glm::dvec3& table_m) const {
     return reflectance * (light_.room + (light_.picture > 0.0 ? light_.picture * shown(table_m) : 0.0));
 }
 
+double SceneSurfaces::table_reflectance(const glm::dvec3& table_m) const {
+    if (!light_.busy) {
+        return table;
+    }
+    constexpr double square_m = 0.008;
+    const auto column = static_cast<std::int64_t>(std::floor(table_m.x / square_m));
+    const auto row = static_cast<std::int64_t>(std::floor(table_m.y / square_m));
+    // Any number that looks like chance.
+    const auto mixed = static_cast<std::uint64_t>(column * 73856093 ^ row * 19349663) * 2654435761U;
+    return 0.1 + 0.5 * static_cast<double>(mixed >> 20 & 255U) / 255.0;
+}
+
 double SceneSurfaces::table_brightness(const glm::dvec3& origin_m, const glm::dvec3& direction) const {
-    return lit(table, origin_m - direction * (origin_m.z / direction.z));
+    const glm::dvec3 at = origin_m - direction * (origin_m.z / direction.z);
+    return lit(table_reflectance(at), at);
 }
 
 double SceneSurfaces::brightness(const glm::dvec3& origin_m, const glm::dvec3& direction,

@@ -15,6 +15,7 @@ namespace frustumscreen {
 struct SceneLight {
     double room = 0.6;    ///< what white paper gives back of the room's light; 1 is the camera's brightest
     double picture = 0.0; ///< the most that the projector's picture adds to that
+    bool busy = false;    ///< the table is full of small dark and bright squares; else it is plain
 };
 
 class SceneSurfaces {
@@ -37,6 +38,7 @@ private:
         double module_m = 0.0;
         TagModules modules{};
     };
+    [[nodiscard]] double table_reflectance(const glm::dvec3& table_m) const;
     [[nodiscard]] double lit(double reflectance, const glm::dvec3& table_m) const;
 
     PropShape prop_;
