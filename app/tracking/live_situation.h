@@ -29,6 +29,8 @@ public:
     bool take_tags(const UncertainPose& pose);
     /// How the tracker itself is, from now on; metal near it makes its poses less sure.
     void tracker_is(TrackerHealth health) { health_ = health; }
+    /// How often the tags took over from the tracker, or it from them.
+    [[nodiscard]] std::uint64_t hand_overs() const { return hand_over_.changes(); }
     /// A lost prop stays where it was; at first it still counts as known, then `prop_known` is false. The eye
     /// of a lost head glides to the default eye, and from there to a head that is found. Time does not go
     /// back from call to call.
