@@ -8,8 +8,9 @@ namespace frustumscreen {
 
 namespace {
 
-/// Half the size in each direction costs a third, and finds all that is 30 pixels wide (docs/tags.md).
-constexpr double searched_smaller = 2.0;
+/// A whole picture that takes longer does not keep the pace of 30 frames a second within the share.
+constexpr double longest_whole_s = TagReader::most_share / 30.0;
+constexpr int frames_at_half = 100;
 
 } // namespace
 
@@ -20,7 +21,7 @@ double TagReader::thread_seconds() {
 }
 
 TagReader::TagReader(TagSetUp set_up, std::function<double()> busy)
-    : set_up_(std::move(set_up)), busy_(std::move(busy)), detector_({.decimate = searched_smaller}) {}
+    : set_up_(std::move(set_up)), busy_(std::move(busy)), half_({.decimate = 2.0}) {}
 
 std::optional<UncertainPose> TagReader::read(const CameraFrame& frame) {
     if (frame.time < next_) {
@@ -30,6 +31,12 @@ std::optional<UncertainPose> TagReader::read(const CameraFrame& frame) {
     const double begin_s = busy_();
     const std::optional<UncertainPose> pose = look(frame);
     const double took_s = std::fmax(0.0, busy_() - begin_s);
+    if (half_for_ > 0) {
+        --half_for_;
+        ++counts_.at_half_size;
+    } else if (took_s > longest_whole_s) {
+        half_for_ = frames_at_half;
+    }
     next_ = frame.time + Nanoseconds(std::llround(1e9 * took_s / most_share));
     ++counts_.looked_at;
     counts_.posed += pose ? 1 : 0;
@@ -43,7 +50,7 @@ std::optional<UncertainPose> TagReader::look(const CameraFrame& frame) {
         return std::nullopt;
     }
     const Pinhole camera = measured.scaled_to(frame.width, frame.height);
-    detector_.find(frame.luma, frame.width, frame.height, found_);
+    (half_for_ > 0 ? half_ : whole_).find(frame.luma, frame.width, frame.height, found_);
     const std::optional<TagPose> pose = pose_from_tags(found_, set_up_.tags, camera, usual_corner_sd_px);
     if (!pose || !is_sure(*pose)) {
         return std::nullopt;

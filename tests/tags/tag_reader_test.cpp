@@ -53,6 +53,25 @@ TEST(TagReader, TakesNoMoreThanAQuarterOfACore) {
     }
     EXPECT_EQ(reader.counts().looked_at, 10U);
     EXPECT_EQ(reader.counts().passed_over, 70U);
+    EXPECT_EQ(reader.counts().at_half_size, 9U); // from the second on
+}
+
+TEST(TagReader, SearchesTheWholePictureWhileThatIsCheap) {
+    double busy_s = 0.0;
+    double takes_s = 0.005;
+    TagReader reader(set_up(), [&] { return busy_s += takes_s; });
+    auto look = [&reader, k = 0](int frames) mutable {
+        for (const int end = k + frames; k < end; ++k) {
+            static_cast<void>(reader.read({MonotonicTime(std::chrono::seconds(k + 1)), 1, 0, 0, {}}));
+        }
+    };
+    look(50);
+    EXPECT_EQ(reader.counts().at_half_size, 0U);
+    takes_s = 0.01;
+    look(1);
+    takes_s = 0.002;
+    look(150); // it tries again
+    EXPECT_EQ(reader.counts().at_half_size, 100U);
 }
 
 TEST(TagReader, AFrameOfAnotherShapeGivesNone) {

@@ -27,10 +27,13 @@ void add_tag_cases(std::vector<TagCase>& cases) {
         one.tags = 1;
         one.skirt.tag_m = 0.08;
     }));
-    cases.push_back(usual_but("tags of 40 mm", [](TagCase& one) { one.skirt.tag_m = 0.04; }));
+    for (const double mm : {20.0, 40.0}) {
+        cases.push_back(usual_but(fmt::format("tags of {:g} mm", mm),
+                                  [mm](TagCase& one) { one.skirt.tag_m = 1e-3 * mm; }));
+    }
     cases.push_back(
         usual_but("skirt sloped by 35 degrees", [](TagCase& one) { one.skirt.slope_deg = 35.0; }));
-    for (const double metres : {1.0, 2.5}) {
+    for (const double metres : {1.0, 1.8, 2.5}) {
         cases.push_back(usual_but(fmt::format("camera at {:g} m", metres),
                                   [metres](TagCase& one) { one.distance_m = metres; }));
     }
@@ -83,21 +86,7 @@ void add_motion_cases(std::vector<TagCase>& cases) {
 
 std::vector<TagCase> tag_cases() {
     std::vector<TagCase> cases{usual_but("as usual", [](TagCase&) {})};
-    const auto at_full_size = [&cases](TagCase one) {
-        one.name += ", searched at full size";
-        one.decimate = 1.0;
-        cases.push_back(one);
-    };
-    at_full_size(cases.front());
-    for (const bool full : {false, true}) {
-        const TagCase busy =
-            usual_but("a table full of small squares", [](TagCase& one) { one.light.busy = true; });
-        const TagCase small = usual_but("tags of 20 mm", [](TagCase& one) { one.skirt.tag_m = 0.02; });
-        const TagCase far = usual_but("camera at 1.8 m", [](TagCase& one) { one.distance_m = 1.8; });
-        for (const TagCase& one : {busy, small, far}) {
-            full ? at_full_size(one) : cases.push_back(one);
-        }
-    }
+    cases.push_back(usual_but("a table full of small squares", [](TagCase& one) { one.light.busy = true; }));
     add_tag_cases(cases);
     add_light_cases(cases);
     add_motion_cases(cases);

@@ -24,7 +24,7 @@ struct TagCase {
     SceneLight light{};
     double speed_m_s = 0.0;
     double turn_deg_s = 0.0;
-    double decimate = 2.0; ///< as the exhibit searches
+    double decimate = 1.0; ///< 2: searched at half size
 };
 
 struct TagFigures {

@@ -12,10 +12,14 @@ struct Arguments {
     std::filesystem::path out;
     std::size_t pictures = 40;
     std::uint64_t seed = 1;
+    bool half = false;
 };
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    const std::vector<TagCase> cases = tag_cases();
+    std::vector<TagCase> cases = tag_cases();
+    for (TagCase& one : cases) {
+        one.decimate = arguments.half ? 2.0 : 1.0;
+    }
     std::vector<TagFigures> figures;
     for (const TagCase& one : cases) {
         progress.show(one.name, static_cast<double>(figures.size()) / static_cast<double>(cases.size()));
@@ -36,6 +40,8 @@ BenchCommand tags_command(CLI::App& app) {
     command->add_option("--pictures", arguments->pictures, "of each scene")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
+    command->add_flag("--half", arguments->half,
+                      "search at half size, as the exhibit does where a frame costs much");
     command->add_option("--seed", arguments->seed, "of poses and noise")->capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
