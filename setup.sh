@@ -23,7 +23,7 @@ packages=(
     libpango1.0-dev libsndfile1-dev libsamplerate0-dev libebur128-dev
     fonts-noto-core espeak-ng # for every language but Chinese, Japanese and Korean; a voice
     # devices
-    libgpiod-dev libusb-1.0-0-dev libhidapi-dev libevdev-dev libsystemd-dev
+    libgpiod-dev libusb-1.0-0-dev libhidapi-dev libevdev-dev libsystemd-dev libapriltag-dev
     # sound
     libasound2-dev libopusfile-dev
     # projectors

@@ -369,6 +369,7 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     DevicePlan plan;
     plan.tracker = settings.tracker.kind;
     plan.head = settings.eye.tracked && plan.tracker != TrackerKind::None;
+    plan.tags = settings.camera.tags;
     plan.panel = pressed || real || !script.empty();
     plan.other_packs = pressed || asks(Command::PreviousArtifact) || asks(Command::NextArtifact) ||
                        chooses_on_table(settings);
@@ -376,6 +377,9 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     plan.threads = {"the exhibit"};
     if (plan.tracker == TrackerKind::Usb || plan.tracker == TrackerKind::SpaceMouse) {
         plan.threads.emplace_back("the tracker's reader");
+    }
+    if (plan.tags) {
+        plan.threads.emplace_back("the camera's reader, which finds the prop's tags");
     }
     if (real && !pressed) {
         plan.threads.emplace_back("the buttons' watcher");
@@ -387,7 +391,9 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
         plan.threads.emplace_back("the status file's writer");
     }
     if (plan.tracker == TrackerKind::None) {
-        plan.left_out.emplace_back("No tracker is opened: the prop stands at the table's centre.");
+        plan.left_out.emplace_back(plan.tags
+                                       ? "No tracker is opened: the prop is followed by its tags alone."
+                                       : "No tracker is opened: the prop stands at the table's centre.");
     }
     if (!settings.eye.tracked) {
         plan.left_out.emplace_back("No head is followed: the viewer is fixed.");

@@ -103,20 +103,20 @@ void check_picture(const Settings& settings, Fitness& fitness) {
 }
 
 /// The lens must not fold the picture: a tenth beyond its corners, in r^2, it still brings each direction to a place of its own.
-void check_lens(const Pinhole& pinhole, Fitness& fitness) {
+void check_lens(const Pinhole& pinhole, std::string_view key, Fitness& fitness) {
     constexpr double margin = 1.1;
     const double corner = pinhole.ideal().farthest_r2();
     const double fold = pinhole.lens.fold_r2();
     const bool folds = !pinhole.lens.undistort({std::sqrt(margin * corner), 0.0}).has_value();
     fitness.require(
-        !folds, "projector.k1",
+        !folds, key,
         fmt::format("and k2 fold the picture at {:.2f} focal lengths from its optical axis, and its corners "
                     "lie at {:.2f}; allowed are values that fold it nowhere",
                     std::sqrt(fold), std::sqrt(corner)));
 }
 
 void check_projector(const Settings& settings, Fitness& fitness) {
-    check_lens(settings.projector.pinhole, fitness);
+    check_lens(settings.projector.pinhole, "projector.k1", fitness);
     const RigidTransform& pose = settings.projector.table_from_projector;
     const std::string_view position = position_key(fitness);
     const double least_height = settings.prop.height_m + least_clearance_m;
@@ -210,6 +210,31 @@ void check_devices(const Settings& settings, Fitness& fitness) {
                     settings.panel.repeat_s, last_s, least_repeat_s));
 }
 
+/// Tags are of use only where the camera, the tags and their places are known.
+void check_tags(const CameraSettings& camera, Fitness& fitness) {
+    if (!camera.tags) {
+        return;
+    }
+    fitness.require(camera.kind == CameraKind::V4l2, "camera.tags",
+                    "is true; it needs camera.kind = \"v4l2\", the camera that sees the tags");
+    fitness.require(camera.pinhole.fx > 0.0 && camera.pinhole.fy > 0.0, "camera.tags",
+                    "is true; it needs camera.fx, the measured focal length in pixels");
+    if (camera.pinhole.fx > 0.0 && camera.pinhole.fy > 0.0) {
+        check_lens(camera.pinhole, "camera.k1", fitness);
+    }
+    const RigidTransform& pose = camera.table_from_camera;
+    fitness.require(pose.translation.z > 0.0 && pose.direction({0, 0, 1}).z < 0.0, "camera.tags",
+                    "is true; it needs camera.table_from_camera, 16 numbers that place the camera above the "
+                    "table and let it look down");
+    fitness.require(!camera.tag.empty(), "camera.tags",
+                    "is true; it needs [[camera.tag]], one table for each tag on the prop");
+    std::set<int> ids;
+    for (const TagSettings& tag : camera.tag) {
+        fitness.require(ids.insert(tag.id).second, "camera.tag",
+                        fmt::format("has the id {} twice; give each tag an id of its own", tag.id));
+    }
+}
+
 void check_camera(const Settings& settings, Fitness& fitness) {
     const CameraSettings& camera = settings.camera;
     const double frame_ms = 1000.0 / camera.rate_hz;
@@ -223,6 +248,7 @@ void check_camera(const Settings& settings, Fitness& fitness) {
                     "camera.white_balance_k",
                     fmt::format("is {}; allowed are 0 (the camera's own) and {} to 10000 kelvin",
                                 camera.white_balance_k, least_kelvin));
+    check_tags(camera, fitness);
 }
 
 /// A name for two keys would make messages say nothing.

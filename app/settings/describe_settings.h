@@ -28,6 +28,7 @@ inline constexpr std::string_view allowed_public_keys =
 inline constexpr std::string_view allowed_last_days = "days such as \"2030-12-31\"";
 inline constexpr std::size_t most_presses = 1000;
 inline constexpr double longest_script_s = 86400.0;
+inline constexpr std::size_t most_tags = 64;
 inline constexpr std::size_t most_hours = 24;
 inline constexpr std::size_t most_spans = 8;
 inline constexpr std::size_t most_exceptions = 1000;
@@ -264,6 +265,38 @@ void panel_settings(auto& fields, auto& panel) {
                   "gpio, keys: a button that is down for longer is ignored until it comes up");
 }
 
+void tag_settings(auto& fields, auto& tag) {
+    fields.integer("id", tag.id, 0, 586, "of the family 36h11");
+    fields.number("size_m", tag.size_m, {0.005, 0.5, "metres"}, "side of the black square");
+    fields.vector("centre_m", tag.centre_m, {-1.0, 1.0, "metres"},
+                  "its middle, from the middle of the prop's foot");
+    fields.number("turn_deg", tag.turn_deg, {-360.0, 360.0, "degrees"},
+                  "0: its top looks to the prop's +Y; counter-clockwise seen from above");
+    fields.number("lean_deg", tag.lean_deg, {-180.0, 180.0, "degrees"},
+                  "0: it lies face up; 90: it stands upright; before it is turned");
+}
+
+template <typename Fields> void camera_lens_settings(Fields& fields, auto& camera) {
+    auto& pinhole = camera.pinhole;
+    fields.number("fx", pinhole.fx, {0.0, 200000.0, "pixels"},
+                  "focal length along the rows, at width and height; 0: not measured");
+    if constexpr (Fields::reads) {
+        pinhole.width = camera.width;
+        pinhole.height = camera.height;
+        pinhole.fy = pinhole.fx;
+        pinhole.cx = 0.5 * camera.width;
+        pinhole.cy = 0.5 * camera.height;
+    }
+    fields.number("fy", pinhole.fy, {0.0, 200000.0, "pixels"}, "along the columns; left out: fx");
+    fields.number("cx", pinhole.cx, {0.0, 1.0 * pinhole.width, "pixels"},
+                  "column of the optical axis; left out: the frame's middle");
+    fields.number("cy", pinhole.cy, {0.0, 1.0 * pinhole.height, "pixels"},
+                  "row of the optical axis; left out: the frame's middle");
+    distortion_settings(fields, pinhole.lens);
+    fields.rigid("table_from_camera", camera.table_from_camera, near_the_table,
+                 "where the camera is: 16 numbers, column by column; left out: not measured");
+}
+
 void camera_settings(auto& fields, auto& camera) {
     fields.choice(
         "kind", camera.kind, camera_names,
@@ -280,6 +313,13 @@ void camera_settings(auto& fields, auto& camera) {
         "0: the camera's own; locked in any case, so that the picture on the table does not change it");
     fields.integer("gain", camera.gain, -1, 65535, "in the camera's own steps; -1: the camera's own");
     fields.integer("white_balance_k", camera.white_balance_k, 0, 10000, "kelvin; 0: the camera's own");
+    fields.flag(
+        "tags", camera.tags,
+        "the prop's second tracker: tags on it, which take over while the tracker is lost or metal is near");
+    camera_lens_settings(fields, camera);
+    fields.tables(
+        "tag", camera.tag, most_tags, [](auto& item, auto& tag) { tag_settings(item, tag); },
+        "the tags on the prop");
 }
 
 template <typename Fields> void key_settings(Fields& fields, auto& key) {

@@ -11,4 +11,10 @@ PropShape make_prop(const PropSettings& prop) {
                                        : make_frustum({prop.base_m, prop.top_m, prop.height_m});
 }
 
+RigidTransform prop_from_tag(const TagSettings& tag) {
+    const glm::dquat leaned = glm::angleAxis(glm::radians(tag.lean_deg), glm::dvec3(1.0, 0.0, 0.0));
+    const glm::dquat turned = glm::angleAxis(glm::radians(tag.turn_deg), glm::dvec3(0.0, 0.0, 1.0));
+    return {turned * leaned, tag.centre_m};
+}
+
 } // namespace frustumscreen

@@ -159,6 +159,16 @@ struct SoundSettings {
 /// V4l2: a camera that the kernel has a driver for, most at USB.
 enum class CameraKind { None, V4l2 };
 [[nodiscard]] std::string_view name_of(CameraKind kind);
+/// A tag on the prop: its middle, and how it is turned from lying flat with its top towards +Y.
+struct TagSettings {
+    int id = 0;
+    double size_m = 0.03;     ///< side of the black square
+    glm::dvec3 centre_m{0.0}; ///< frame of the prop
+    double turn_deg = 0.0;    ///< counter-clockwise seen from above
+    double lean_deg = 0.0;    ///< before that: 0 it lies, 90 it stands and looks outwards, where its foot was
+};
+/// Flat, then leaned, then turned, then moved.
+[[nodiscard]] RigidTransform prop_from_tag(const TagSettings& tag);
 struct CameraSettings {
     CameraKind kind = CameraKind::None;
     std::string device = "any";
@@ -168,6 +178,10 @@ struct CameraSettings {
     double exposure_ms = 0.0;
     int gain = -1;
     int white_balance_k = 0;
+    bool tags = false; ///< the prop's second tracker
+    std::vector<TagSettings> tag;
+    Pinhole pinhole{1280, 720, 0.0, 0.0, 640.0, 360.0}; ///< fx of 0: not measured
+    RigidTransform table_from_camera;                   ///< at the table's centre: not measured
 };
 
 struct RenderSettings {

@@ -55,6 +55,7 @@ public:
           presented_(start), artifact_since_(start) {
         result_.status.calibrates = static_cast<bool>(options.calibrate);
         samples_.reserve(1024);
+        tag_poses_.reserve(64);
         events_.reserve(64);
         commands_.reserve(64);
         if (options.keep_rows && options.length) {
@@ -101,9 +102,11 @@ private:
         poll(now);
         follow_hours(now);
         watch_.enters("draws");
+        situation_.tracker_is(tracker_health());
         Situation situation = situation_.at(now + light_delay_.from_now());
-        situation.prop_known = situation.prop_known || !inputs_.tracker;
-        situation.tracker = inputs_.tracker ? inputs_.tracker->health() : TrackerHealth::Well;
+        situation.prop_known = situation.prop_known || (!inputs_.tracker && !inputs_.tags);
+        // Visitors do not meet the tracker while the tags stand in for it.
+        situation.tracker = situation.by_tags ? TrackerHealth::Well : tracker_health();
         show_.step(now, commands_, situation);
         if (inputs_.sound) {
             const SoundReport heard = inputs_.sound->poll(now, show_.wish());
@@ -226,6 +229,7 @@ private:
 
     void poll(MonotonicTime now) {
         samples_.clear();
+        tag_poses_.clear();
         events_.clear();
         commands_.clear();
         if (inputs_.tracker) {
@@ -239,12 +243,22 @@ private:
                 result_.status.bad_samples += situation_.take(sample) ? 0 : 1;
             }
         }
+        if (inputs_.tags) {
+            inputs_.tags->poll(now, tag_poses_);
+        }
+        for (const UncertainPose& pose : tag_poses_) {
+            result_.status.bad_samples += situation_.take_tags(pose) ? 0 : 1;
+        }
         for (const PanelEvent& event : events_) {
             const std::optional<Command> command = command_of(event);
             if (command) {
                 commands_.push_back(*command);
             }
         }
+    }
+
+    [[nodiscard]] TrackerHealth tracker_health() const {
+        return inputs_.tracker ? inputs_.tracker->health() : TrackerHealth::Well;
     }
 
     /// Keeps the picture at the middle of each part of the run, or soon after it if a fade goes on at that
@@ -318,6 +332,9 @@ private:
         status.settings = options_.settings;
         status.tracker_hangs = inputs_.tracker && inputs_.tracker->hangs();
         status.tracker = Sentence(inputs_.tracker ? inputs_.tracker->state() : std::string_view{});
+        status.camera = Sentence(inputs_.tags ? inputs_.tags->state() : std::string_view{});
+        status.prop_by = shown_.by_tags ? "tags" : inputs_.tracker ? "tracker" : "";
+        status.hand_overs = situation_.hand_overs();
         status.panel = Sentence(inputs_.panel ? inputs_.panel->state() : std::string_view{});
         status.sound = Sentence(inputs_.sound ? inputs_.sound->state() : std::string_view{});
         status.hour_of_day = local_hour();
@@ -360,6 +377,7 @@ private:
     Situation shown_; ///< of the latest frame, as it was drawn
     FrameTimes times_;
     std::vector<PoseSample> samples_;
+    std::vector<UncertainPose> tag_poses_;
     std::vector<PanelEvent> events_;
     std::vector<Command> commands_; ///< of this frame
     MonotonicTime presented_;       ///< when the picture on show was

@@ -139,6 +139,9 @@ struct RunStatus {
     Sentence display;  ///< states of the devices; empty where there is nothing to say
     Sentence tracker;
     bool tracker_hangs = false; ///< Tracker::hangs
+    Sentence camera;            ///< of the prop's tags; empty: there is none
+    std::string_view prop_by;   ///< "tracker" or "tags", a literal; empty: neither is there
+    std::uint64_t hand_overs = 0;
     Sentence panel;
     Sentence sound;
     Sentence recording;

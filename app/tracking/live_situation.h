@@ -1,14 +1,18 @@
 /// Prop pose and eye at the time at which the picture is lit: a live tracker's samples, smoothed and
 /// predicted. An offline picture uses SituationTracker, which does neither.
 ///
+/// Tags     a second tracker of the prop, which may be there. Each of the two has an estimator of its own; hand_over.h says whose
+///          pose is shown.
 /// Frames   table T, metres; samples too (registered_tracker.h).
 /// Time     a sample counts from its own time on; `at(lit)` asks for the time at which the picture is lit.
 /// Threads  values; one caller. Allocates nothing after construction.
 #pragma once
 
+#include "app/tracking/hand_over.h"
 #include "app/tracking/pose_estimator.h"
 #include "app/tracking/shown_pose.h"
 #include "app/tracking/situation.h"
+#include "app/tracking/uncertain_pose.h"
 
 #include <optional>
 
@@ -21,6 +25,12 @@ public:
 
     /// Returns false for a sample that claims to be usable but is not a pose, or moves as no hand can.
     bool take(const PoseSample& sample);
+    /// The same of the tags' poses.
+    bool take_tags(const UncertainPose& pose);
+    /// How the tracker itself is, from now on; metal near it makes its poses less sure.
+    void tracker_is(TrackerHealth health) { health_ = health; }
+    /// How often the tags took over from the tracker, or it from them.
+    [[nodiscard]] std::uint64_t hand_overs() const { return hand_over_.changes(); }
     /// A lost prop stays where it was; at first it still counts as known, then `prop_known` is false. The eye
     /// of a lost head glides to the default eye, and from there to a head that is found. Time does not go
     /// back from call to call.
@@ -29,10 +39,18 @@ public:
 private:
     /// The head, or the default eye in its place; a change between them is a reinitialisation.
     [[nodiscard]] PoseEstimate goal_of_eye(const PoseEstimate& head, bool known);
+    /// What is lost after which time, and how far off each may be.
+    [[nodiscard]] SourcePose by_tracker(MonotonicTime lit) const;
+    [[nodiscard]] SourcePose by_tags(MonotonicTime lit) const;
 
     glm::dvec3 default_eye_m_;
     PoseEstimator prop_;
+    PoseEstimator tags_;
     PoseEstimator head_;
+    double lever_m_;
+    TrackerHealth health_ = TrackerHealth::Well;
+    double tags_sd_m_ = 0.0; ///< that the latest of their poses says
+    HandOver hand_over_;
     ShownPose shown_prop_;
     ShownPose shown_head_;
     bool eye_is_heads_ = false;   ///< else the default eye

@@ -35,6 +35,9 @@ public:
     void restart(const RigidTransform& measured) override;
     void take(const RigidTransform& measured, double dt_s) override;
     [[nodiscard]] RigidTransform ahead(double ahead_s) const override;
+    [[nodiscard]] PoseSpread spread(double ahead_s) const override {
+        return {place_.place_sd(ahead_s), turn_.place_sd(ahead_s)};
+    }
 
 private:
     MotionTrack place_;

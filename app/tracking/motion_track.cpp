@@ -165,6 +165,18 @@ double MotionTrack::manoeuvring() const {
     return sum;
 }
 
+double MotionTrack::place_sd(double ahead_s) const {
+    MotionTrack later = *this;
+    if (ahead_s > 0.0) {
+        static_cast<void>(later.advance(ahead_s));
+    }
+    double variance = 0.0;
+    for (const ModeState& mode : later.modes()) { // their places count from the weighted mean
+        variance += mode.weight * (mode.covariance[0][0] + spread(mode.mean[0], mode.mean[0]));
+    }
+    return std::sqrt(variance);
+}
+
 glm::dvec3 MotionTrack::rebase() {
     glm::dvec3 place(0.0);
     velocity_ = acceleration_ = glm::dvec3(0.0);

@@ -60,6 +60,8 @@ public:
     [[nodiscard]] const glm::dvec3& velocity() const { return velocity_; }
     [[nodiscard]] const glm::dvec3& acceleration() const { return acceleration_; }
 
+    /// Of each axis, that its place is off by `ahead_s` after the latest measurement, standard deviation.
+    [[nodiscard]] double place_sd(double ahead_s) const;
     /// How likely it manoeuvres, 0 to 1.
     [[nodiscard]] double manoeuvring() const;
 

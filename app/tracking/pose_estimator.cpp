@@ -113,6 +113,10 @@ PoseEstimate PoseEstimator::at(MonotonicTime time) const {
     return estimate;
 }
 
+PoseSpread PoseEstimator::spread(MonotonicTime time) const {
+    return count_ > 0 ? filter_->spread(std::fmax(0.0, to_seconds(time - moment(0).time))) : PoseSpread{};
+}
+
 std::pair<RigidTransform, PoseStatus> PoseEstimator::remembered_at(MonotonicTime time) const {
     std::size_t back = 0;
     while (back + 1 < count_ && moment(back).time > time) {

@@ -68,6 +68,8 @@ public:
     /// The caller chooses the station and must have checked `ok`.
     Taken take(MonotonicTime time, const RigidTransform& measured);
     [[nodiscard]] PoseEstimate at(MonotonicTime time) const;
+    /// Of that estimate, as far as the filter knows it; of a time before the latest sample as of that sample.
+    [[nodiscard]] PoseSpread spread(MonotonicTime time) const;
 
 private:
     struct Moment {

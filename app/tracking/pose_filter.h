@@ -10,6 +10,12 @@
 
 namespace frustumscreen {
 
+/// How far a pose may be off, on each axis, standard deviation.
+struct PoseSpread {
+    double place_m = 0.0;
+    double turn_rad = 0.0;
+};
+
 class PoseFilter {
 public:
     virtual ~PoseFilter() = default;
@@ -19,6 +25,8 @@ public:
     virtual void take(const RigidTransform& measured, double dt_s) = 0;
     /// The pose `ahead_s` after the latest one taken; 0 = smoothed only.
     [[nodiscard]] virtual RigidTransform ahead(double ahead_s) const = 0;
+    /// Of that pose, by the filter's own models; one that has none says zero.
+    [[nodiscard]] virtual PoseSpread spread(double /*ahead_s*/) const { return {}; }
 };
 
 } // namespace frustumscreen

@@ -22,6 +22,7 @@ struct Situation {
     bool head_known = false; ///< else `eye_m` is the default eye, or live on its way there
     Nanoseconds prop_age{0}; ///< of the pose used
     TrackerHealth tracker = TrackerHealth::Well;
+    bool by_tags = false; ///< `table_from_prop` is by the tags
 };
 
 struct SituationLimits {

@@ -13,6 +13,7 @@
 #include "firmware_host/camera/camera_state.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,9 @@ struct CameraFrame {
     int width = 0, height = 0;
     std::vector<std::uint8_t> luma; ///< [height][width], row-major
 };
+
+/// What is done with each frame on the device's own thread, before it is handed on; it may take long, and then frames are overtaken.
+using FrameUse = std::function<void(const CameraFrame& frame)>;
 
 /// Since the exhibit started.
 struct CameraCounts {

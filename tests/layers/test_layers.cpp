@@ -136,6 +136,7 @@ const std::vector<Guard> guards = {
     {"libevdev", {"firmware_host/panel/"}},
     {"linux/input", {"firmware_host/panel/"}},
     {"linux/videodev2", {"firmware_host/camera/"}},
+    {"apriltag/", {"firmware_host/tags/"}},
     {"turbojpeg", {"firmware_host/camera/", "assets_baked/bake/"}},
     {"systemd/", {"firmware_host/service/"}},
     {"alsa/", {"firmware_host/sound/"}},

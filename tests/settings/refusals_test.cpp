@@ -176,6 +176,21 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
          {":2: camera.exposure_ms is 40", "at camera.rate_hz, 30 hertz, takes 33.3 milliseconds"}},
         {"[camera]\nwhite_balance_k = 500",
          {":2: camera.white_balance_k is 500", "0 (the camera's own) and 2000 to 10000 kelvin"}},
+        {"[camera]\ntags = true", {":2: camera.tags is true; it needs camera.kind = \"v4l2\""}},
+        {"[camera]\nkind = \"v4l2\"\ntags = true", {":3: camera.tags is true; it needs camera.fx"}},
+        {"[camera]\nkind = \"v4l2\"\ntags = true\nfx = 1500",
+         {":3: camera.tags is true; it needs camera.table_from_camera"}},
+        {"[camera]\nkind = \"v4l2\"\ntags = true\nfx = 1500\ntable_from_camera = "
+         "[1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 1.3, 1]",
+         {":3: camera.tags is true; it needs [[camera.tag]]"}},
+        {"[camera]\nkind = \"v4l2\"\ntags = true\nfx = 1500\ntable_from_camera = "
+         "[1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 1.3, 1]\n[[camera.tag]]\nid = 3\n[[camera.tag]]\nid = "
+         "3",
+         {"camera.tag has the id 3 twice"}},
+        {"[camera]\n[[camera.tag]]\nid = 587", {":3: camera.tag", "id", "0 to 586"}},
+        {"[camera]\nfx = 100\nk1 = -0.5\nkind = \"v4l2\"\ntags = true\ntable_from_camera = "
+         "[1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 1.3, 1]\n[[camera.tag]]\nid = 3",
+         {":3: camera.k1", "fold the picture"}},
         {"[camera]\nkind = \"usb\"", {":2: camera.kind", "\"none\"", "\"v4l2\""}},
         {"[panel]\nscript = [{at_s = 2}]\nrepeat_s = 2",
          {":3: panel.repeat_s is 2", "after the last press, 2"}},

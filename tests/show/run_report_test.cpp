@@ -128,6 +128,8 @@ TEST(RunReport, WhatIsPresentedAndCountedIsInTheStatus) {
         std::uint8_t{7}, {glm::dquat(0.5, 0.5, 0.5, 0.5), {0.1, 0.2, 0.3}}, {0.0, -0.5, 0.25}, true};
     status.shown_code = std::uint8_t{6};
     status.tracker_counts.lost = 3;
+    status.prop_by = "tags";
+    status.hand_overs = 5;
     status.tracker_counts.broken = 4;
     status.tracker_counts.clock_drift = 25e-6;
     stamp(status);
@@ -141,6 +143,8 @@ TEST(RunReport, WhatIsPresentedAndCountedIsInTheStatus) {
     EXPECT_EQ(json.at("presented").at("settled"), true);
     EXPECT_EQ(json.at("shown_code"), 6);
     EXPECT_EQ(json.at("tracker_counts").at("lost"), 3);
+    EXPECT_EQ(json.at("prop_by"), "tags");
+    EXPECT_EQ(json.at("hand_overs"), 5);
     EXPECT_EQ(json.at("tracker_counts").at("broken"), 4);
     EXPECT_EQ(json.at("tracker_counts").at("clock_drift_ppm"), 25.0);
     EXPECT_LE(json.at("monotonic_ns"), after.time_since_epoch().count());

@@ -21,6 +21,7 @@
 #include "firmware_host/tracker/usb_tracker.h"
 
 #include <fmt/chrono.h>
+#include <sys/resource.h>
 
 #include <cmath>
 #include <ctime>
@@ -195,6 +196,18 @@ std::unique_ptr<Camera> make_camera(const CameraSettings& settings) {
     return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_wish(settings));
 }
 
+std::unique_ptr<TagTracker> make_tags(const CameraSettings& settings) {
+    const rlimit none{0, 0};
+    static_cast<void>(::setrlimit(RLIMIT_CORE, &none));
+    TagSetUp set_up{settings.pinhole, settings.table_from_camera, {}};
+    for (const TagSettings& tag : settings.tag) {
+        set_up.tags.push_back({tag.id, tag.size_m, prop_from_tag(tag)});
+    }
+    return std::make_unique<TagTracker>(std::move(set_up), [&settings](FrameUse use) {
+        return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_wish(settings), std::move(use));
+    });
+}
+
 Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
                            std::optional<Nanoseconds> press_every, MonotonicTime start,
                            std::unique_ptr<PacketRecorder> recorder) {
@@ -207,6 +220,9 @@ Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
         }
         inputs.tracker =
             std::make_unique<RegisteredTracker>(std::move(*tracker), settings.tracker.registration);
+    }
+    if (plan.tags) {
+        inputs.tags = make_tags(settings.camera);
     }
     if (plan.panel) {
         Result<std::unique_ptr<Panel>> panel = make_panel(settings, press_every, start);

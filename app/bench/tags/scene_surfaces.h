@@ -1,0 +1,51 @@
+/// How bright what a ray meets is: a table, a white prop, its tags, under the room's light and a projector's picture.
+///
+/// Frames   rays in the prop's frame, and where they meet it in the table's.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/geometry/prop_shape.h"
+#include "app/tags/prop_tag.h"
+#include "firmware_host/tags/tag_picture.h"
+
+#include <vector>
+
+namespace frustumscreen {
+
+struct SceneLight {
+    double room = 0.6;    ///< what white paper gives back of the room's light; 1 is the camera's brightest
+    double picture = 0.0; ///< the most that the projector's picture adds to that
+    bool busy = false;    ///< the table is full of small dark and bright squares; else it is plain
+};
+
+class SceneSurfaces {
+public:
+    SceneSurfaces(PropShape prop, std::vector<PropTag> tags, const SceneLight& light);
+
+    /// Along the ray from `origin_m`, both in the table's frame.
+    [[nodiscard]] double brightness(const glm::dvec3& origin_m, const glm::dvec3& direction,
+                                    const RigidTransform& prop_from_table,
+                                    const RigidTransform& table_from_prop) const;
+    /// Of the table alone.
+    [[nodiscard]] double table_brightness(const glm::dvec3& origin_m, const glm::dvec3& direction) const;
+    /// How far from the prop's origin any of it is.
+    [[nodiscard]] double radius_m() const { return radius_m_; }
+    [[nodiscard]] const std::vector<PropTag>& tags() const { return tags_; }
+
+private:
+    struct Printed {
+        RigidTransform tag_from_prop;
+        double module_m = 0.0;
+        TagModules modules{};
+    };
+    [[nodiscard]] double table_reflectance(const glm::dvec3& table_m) const;
+    [[nodiscard]] double lit(double reflectance, const glm::dvec3& table_m) const;
+
+    PropShape prop_;
+    std::vector<PropTag> tags_;
+    std::vector<Printed> printed_;
+    SceneLight light_;
+    double radius_m_ = 0.0;
+};
+
+} // namespace frustumscreen

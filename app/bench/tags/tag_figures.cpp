@@ -1,0 +1,95 @@
+#include "app/bench/tags/tag_figures.h"
+
+#include "app/settings/looking_at.h"
+#include "app/tags/tag_pose.h"
+#include "app/tracking/pose_math.h"
+#include "firmware_host/base/quantile.h"
+#include "firmware_host/tags/tag_detector.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ctime>
+#include <random>
+
+namespace frustumscreen {
+
+namespace {
+
+double thread_ms() {
+    timespec time{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+struct Lists {
+    std::vector<double> off_mm, off_deg, said_mm, find_ms, fit_ms;
+};
+
+/// Somewhere on the table, turned anyhow, moving in any direction.
+PropMotion any_motion(const TagCase& of, std::mt19937_64& random) {
+    std::uniform_real_distribution<double> share(-1.0, 1.0);
+    const glm::dvec3 place(0.15 * share(random), 0.08 * share(random), 0.0);
+    const double yaw = glm::radians(180.0 * share(random));
+    const double heading = glm::radians(180.0 * share(random));
+    const glm::dvec3 velocity = of.speed_m_s * glm::dvec3(std::cos(heading), std::sin(heading), 0.0);
+    const double turning = glm::radians(of.turn_deg_s);
+    return [=](double t_s) {
+        return RigidTransform{rotation_of({0.0, 0.0, yaw + turning * t_s}), place + t_s * velocity};
+    };
+}
+
+} // namespace
+
+TagFigures measure(const TagCase& of, std::size_t pictures, std::uint64_t seed) {
+    std::vector<PropTag> tags = tags_of(of.skirt);
+    tags.resize(of.tags > 0 ? of.tags : tags.size());
+    SceneCamera camera = of.camera;
+    const glm::dvec3 towards = glm::normalize(glm::dvec3(0.0, -0.3, 1.27));
+    camera.table_from_camera = *looking_at(of.distance_m * towards, {0.0, 0.0, 0.0}, 0.0);
+    const TagScene scene(make_frustum(shipped_frustum), tags, camera, of.light);
+    TagDetectorOptions options;
+    options.decimate = of.decimate;
+    TagDetector detector(options);
+    std::mt19937_64 random(seed);
+    std::vector<FoundTag> found;
+    Lists lists;
+    TagFigures figures{.name = of.name, .pictures = pictures};
+    double squares = 0.0;
+    for (std::size_t k = 0; k < pictures; ++k) {
+        const PropMotion motion = any_motion(of, random);
+        const std::vector<std::uint8_t> picture = scene.picture(motion, random());
+        const double begin = thread_ms();
+        detector.find(picture, camera.pinhole.width, camera.pinhole.height, found);
+        const double between = thread_ms();
+        const auto pose = pose_from_tags(found, tags, camera.pinhole, usual_corner_sd_px);
+        lists.find_ms.push_back(between - begin);
+        lists.fit_ms.push_back(thread_ms() - between);
+        figures.tags += static_cast<double>(found.size()) / static_cast<double>(pictures);
+        figures.posed += pose ? 1.0 / static_cast<double>(pictures) : 0.0;
+        if (!pose || !is_sure(*pose)) {
+            continue;
+        }
+        const PoseStep off =
+            step_between(motion(scene.moment_s(motion)), camera.table_from_camera * pose->camera_from_prop);
+        lists.off_mm.push_back(1e3 * glm::length(off.shift_m));
+        lists.off_deg.push_back(glm::degrees(glm::length(off.turn_rad)));
+        lists.said_mm.push_back(1e3 * pose->place_sd_m);
+        figures.worst_mm = std::fmax(figures.worst_mm, lists.off_mm.back());
+        squares += std::pow(lists.off_mm.back() / lists.said_mm.back(), 2.0);
+    }
+    const auto taken = static_cast<double>(lists.off_mm.size());
+    figures.trusted = taken / static_cast<double>(pictures);
+    figures.normalised = taken > 0.0 ? std::sqrt(squares / taken) : 0.0;
+    figures.fit_ms = quantile(lists.fit_ms, 0.5);
+    for (const auto& [list, pair] : {std::pair(&lists.off_mm, figures.off_mm),
+                                     {&lists.off_deg, figures.off_deg},
+                                     {&lists.find_ms, figures.find_ms}}) {
+        pair[0] = quantile(*list, 0.5);
+        pair[1] = quantile(*list, 0.95);
+    }
+    figures.said_mm = quantile(lists.said_mm, 0.5);
+    return figures;
+}
+
+} // namespace frustumscreen

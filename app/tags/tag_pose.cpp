@@ -1,0 +1,288 @@
+#include "app/tags/tag_pose.h"
+
+#include "app/tags/tag_starts.h"
+#include "app/tracking/pose_math.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::size_t unknowns = 6; ///< a shift and a turn in the camera's axes, as PoseStep
+using Vector = std::array<double, unknowns>;
+using Matrix = std::array<Vector, unknowns>;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Tags from which a fit starts, the largest ones: each further one costs time and finds no other pose.
+constexpr std::size_t most_starts = 3;
+/// A corner farther off than this many times its noise, RMS over a tag, is no noise.
+constexpr double most_sd_off = 6.0;
+constexpr double least_px_off = 1.5;
+
+struct Corner {
+    glm::dvec3 prop_m;
+    glm::dvec2 px;
+};
+struct SeenTag {
+    std::array<Corner, 4> corners;
+    std::array<glm::dvec2, 4> directions; ///< the lens taken out
+    const PropTag* tag = nullptr;
+};
+using SeenTags = std::vector<SeenTag>;
+
+struct Fit {
+    RigidTransform pose;
+    double cost = infinite; ///< sum of squared distances, pixels
+    Matrix normal{};        ///< of the equations at the pose, in pixels
+};
+
+double cost_of(const SeenTag& tag, const RigidTransform& pose, const Pinhole& camera) {
+    double sum = 0.0;
+    for (const Corner& corner : tag.corners) {
+        const std::optional<glm::dvec2> px = camera.pixel(pose.point(corner.prop_m));
+        const glm::dvec2 off = px ? *px - corner.px : glm::dvec2(infinite);
+        sum += glm::dot(off, off);
+    }
+    return sum;
+}
+
+double cost_of(const SeenTags& tags, const RigidTransform& pose, const Pinhole& camera) {
+    double sum = 0.0;
+    for (const SeenTag& tag : tags) {
+        sum += cost_of(tag, pose, camera);
+    }
+    return sum;
+}
+
+PoseStep step_of(const Vector& v) {
+    return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+}
+
+/// By Cholesky; false: it is not positive definite.
+bool factor(Matrix& a) {
+    for (std::size_t j = 0; j < unknowns; ++j) {
+        for (std::size_t i = j; i < unknowns; ++i) {
+            double sum = a[i][j];
+            for (std::size_t k = 0; k < j; ++k) {
+                sum -= a[i][k] * a[j][k];
+            }
+            if (i == j && !(sum > 0.0)) {
+                return false;
+            }
+            a[i][j] = i == j ? std::sqrt(sum) : sum / a[j][j];
+        }
+    }
+    return true;
+}
+
+Vector solve(const Matrix& factored, Vector b) {
+    for (std::size_t i = 0; i < unknowns; ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            b[i] -= factored[i][k] * b[k];
+        }
+        b[i] /= factored[i][i];
+    }
+    for (std::size_t i = unknowns; i-- > 0;) {
+        for (std::size_t k = i + 1; k < unknowns; ++k) {
+            b[i] -= factored[k][i] * b[k];
+        }
+        b[i] /= factored[i][i];
+    }
+    return b;
+}
+
+/// Adds a corner's share of the normal equations; its derivatives by central differences, which are good to nine digits here.
+void add_corner(const Corner& corner, const RigidTransform& pose, const Pinhole& camera, Matrix& normal,
+                Vector& gradient) {
+    constexpr double step = 1e-6; // metres and radians
+    std::array<glm::dvec2, unknowns> slope{};
+    for (std::size_t k = 0; k < unknowns; ++k) {
+        Vector ahead{};
+        Vector back{};
+        ahead[k] = step;
+        back[k] = -step;
+        const auto more = camera.pixel(moved(pose, step_of(ahead)).point(corner.prop_m));
+        const auto less = camera.pixel(moved(pose, step_of(back)).point(corner.prop_m));
+        slope[k] = more && less ? (*more - *less) / (2.0 * step) : glm::dvec2(0.0);
+    }
+    const glm::dvec2 off = corner.px - camera.pixel(pose.point(corner.prop_m)).value_or(corner.px);
+    for (std::size_t i = 0; i < unknowns; ++i) {
+        gradient[i] += glm::dot(slope[i], off);
+        for (std::size_t j = 0; j < unknowns; ++j) {
+            normal[i][j] += glm::dot(slope[i], slope[j]);
+        }
+    }
+}
+
+/// From `start` downhill.
+Fit refined(const SeenTags& tags, const RigidTransform& start, const Pinhole& camera) {
+    constexpr int most_rounds = 40;
+    constexpr double least_gain = 1e-9; // of the cost: nothing is left to win
+    Fit fit{start, cost_of(tags, start, camera), {}};
+    double damping = 1e-3;
+    bool done = !std::isfinite(fit.cost);
+    for (int round = 0; round < most_rounds && !done; ++round) {
+        fit.normal = {};
+        Vector gradient{};
+        for (const SeenTag& tag : tags) {
+            for (const Corner& corner : tag.corners) {
+                add_corner(corner, fit.pose, camera, fit.normal, gradient);
+            }
+        }
+        done = true;
+        for (; damping < 1e6; damping *= 10.0) {
+            Matrix damped = fit.normal;
+            for (std::size_t k = 0; k < unknowns; ++k) {
+                damped[k][k] *= 1.0 + damping;
+            }
+            if (!factor(damped)) {
+                continue;
+            }
+            const RigidTransform next = moved(fit.pose, step_of(solve(damped, gradient)));
+            const double cost = cost_of(tags, next, camera);
+            if (cost < fit.cost) {
+                done = fit.cost - cost <= least_gain * fit.cost;
+                fit.pose = next;
+                fit.cost = cost;
+                damping *= 0.1;
+                break;
+            }
+        }
+    }
+    return fit;
+}
+
+/// How far two poses are apart, in the measure of what the corners can tell: below one they are the same.
+double apart(const Fit& a, const Fit& b, double variance) {
+    const PoseStep step = step_between(a.pose, b.pose);
+    const Vector v{step.shift_m.x,  step.shift_m.y,  step.shift_m.z,
+                   step.turn_rad.x, step.turn_rad.y, step.turn_rad.z};
+    double sum = 0.0;
+    for (std::size_t i = 0; i < unknowns; ++i) {
+        for (std::size_t j = 0; j < unknowns; ++j) {
+            sum += v[i] * a.normal[i][j] * v[j];
+        }
+    }
+    return sum / variance;
+}
+
+struct BestFits {
+    Fit best;
+    Fit second; ///< another pose; its cost is infinite if there is none
+};
+
+BestFits fit_all(const SeenTags& tags, const Pinhole& camera, double variance) {
+    std::vector<Fit> fits;
+    for (const SeenTag& seen : std::span(tags).first(std::min(tags.size(), most_starts))) {
+        const auto start = tag_start(seen.directions, seen.tag->size_m);
+        if (!start) {
+            continue;
+        }
+        const RigidTransform& prop_from_tag = seen.tag->prop_from_tag;
+        const RigidTransform tag_from_prop = prop_from_tag.inverse();
+        fits.push_back(refined(tags, *start * tag_from_prop, camera));
+        fits.push_back(refined(tags, mirrored(*start) * tag_from_prop, camera));
+        // The mirror of what fits is nearer to the other pose than that of a start.
+        fits.push_back(refined(tags, mirrored(fits.front().pose * prop_from_tag) * tag_from_prop, camera));
+    }
+    std::sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
+    BestFits found;
+    found.best = fits.empty() ? Fit{} : fits.front();
+    for (const Fit& fit : fits) {
+        if (std::isfinite(fit.cost) && apart(found.best, fit, variance) > 1.0) {
+            found.second = fit;
+            break;
+        }
+    }
+    return found;
+}
+
+SeenTags seen_tags(std::span<const FoundTag> found, std::span<const PropTag> prop, const Pinhole& camera) {
+    SeenTags seen;
+    for (const FoundTag& tag : found) {
+        const auto same_id = [&tag](const auto& other) { return other.id == tag.id; };
+        const auto known = std::find_if(prop.begin(), prop.end(), same_id);
+        if (known == prop.end() || std::count_if(found.begin(), found.end(), same_id) != 1) {
+            continue;
+        }
+        SeenTag one;
+        one.tag = &*known;
+        const std::array<glm::dvec3, 4> corners = known->corners();
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            one.corners[k] = {corners[k], tag.corners_px[k]};
+            one.directions[k] = glm::dvec2(camera.ray(tag.corners_px[k]));
+        }
+        seen.push_back(one);
+    }
+    const auto size = [](const SeenTag& tag) {
+        return glm::distance(tag.directions[0], tag.directions[2]) +
+               glm::distance(tag.directions[1], tag.directions[3]);
+    };
+    std::sort(seen.begin(), seen.end(),
+              [&size](const SeenTag& a, const SeenTag& b) { return size(a) > size(b); });
+    return seen;
+}
+
+/// The spread of the best fit, with what a second one adds.
+TagPose with_spread(const BestFits& fits, const SeenTags& tags, double variance) {
+    const double corners = 4.0 * static_cast<double>(tags.size());
+    TagPose pose{fits.best.pose, infinite, infinite, std::sqrt(fits.best.cost / corners), tags.size()};
+    Matrix normal = fits.best.normal;
+    if (!factor(normal)) {
+        return pose;
+    }
+    const double freedom = 2.0 * corners - static_cast<double>(unknowns);
+    const double inflated = std::fmax(variance, fits.best.cost / freedom);
+    double place = 0.0;
+    double turn = 0.0;
+    for (std::size_t k = 0; k < unknowns; ++k) {
+        Vector unit{};
+        unit[k] = 1.0;
+        (k < 3 ? place : turn) += inflated * solve(normal, unit)[k];
+    }
+    if (std::isfinite(fits.second.cost)) {
+        // Half of what independent noise would say: a corner's errors in blur, gamma and glare go together.
+        const double odds = std::exp(-0.25 * (fits.second.cost - fits.best.cost) / inflated);
+        const double share = odds / (1.0 + odds);
+        const PoseStep other = step_between(fits.best.pose, fits.second.pose);
+        place += share * glm::dot(other.shift_m, other.shift_m);
+        turn += share * glm::dot(other.turn_rad, other.turn_rad);
+    }
+    pose.place_sd_m = std::sqrt(place);
+    pose.turn_sd_rad = std::sqrt(turn);
+    return pose;
+}
+
+} // namespace
+
+std::optional<TagPose> pose_from_tags(std::span<const FoundTag> found, std::span<const PropTag> prop,
+                                      const Pinhole& camera, double corner_sd_px) {
+    const double variance = corner_sd_px * corner_sd_px;
+    const double most_cost = 4.0 * std::pow(std::fmax(most_sd_off * corner_sd_px, least_px_off), 2.0);
+    SeenTags tags = seen_tags(found, prop, camera);
+    while (!tags.empty()) {
+        const BestFits fits = fit_all(tags, camera, variance);
+        if (!std::isfinite(fits.best.cost)) {
+            return std::nullopt;
+        }
+        const auto worst =
+            std::max_element(tags.begin(), tags.end(), [&](const SeenTag& a, const SeenTag& b) {
+                return cost_of(a, fits.best.pose, camera) < cost_of(b, fits.best.pose, camera);
+            });
+        if (cost_of(*worst, fits.best.pose, camera) <= most_cost) {
+            return with_spread(fits, tags, variance);
+        }
+        // Two that contradict each other: which of them is right, nothing says.
+        if (tags.size() <= 2) {
+            return std::nullopt;
+        }
+        tags.erase(worst);
+    }
+    return std::nullopt;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,62 @@
+#include "app/tags/tag_reader.h"
+
+#include <cmath>
+#include <ctime>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+/// A whole picture that takes longer does not keep the pace of 30 frames a second within the share.
+constexpr double longest_whole_s = TagReader::most_share / 30.0;
+constexpr int frames_at_half = 100;
+
+} // namespace
+
+double TagReader::thread_seconds() {
+    timespec time{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+TagReader::TagReader(TagSetUp set_up, std::function<double()> busy)
+    : set_up_(std::move(set_up)), busy_(std::move(busy)), half_({.decimate = 2.0}) {}
+
+std::optional<UncertainPose> TagReader::read(const CameraFrame& frame) {
+    if (frame.time < next_) {
+        ++counts_.passed_over;
+        return std::nullopt;
+    }
+    const double begin_s = busy_();
+    const std::optional<UncertainPose> pose = look(frame);
+    const double took_s = std::fmax(0.0, busy_() - begin_s);
+    if (half_for_ > 0) {
+        --half_for_;
+        ++counts_.at_half_size;
+    } else if (took_s > longest_whole_s) {
+        half_for_ = frames_at_half;
+    }
+    next_ = frame.time + Nanoseconds(std::llround(1e9 * took_s / most_share));
+    ++counts_.looked_at;
+    counts_.posed += pose ? 1 : 0;
+    return pose;
+}
+
+std::optional<UncertainPose> TagReader::look(const CameraFrame& frame) {
+    const Pinhole& measured = set_up_.camera;
+    if (frame.width * measured.height != frame.height * measured.width) {
+        ++counts_.misshapen;
+        return std::nullopt;
+    }
+    const Pinhole camera = measured.scaled_to(frame.width, frame.height);
+    (half_for_ > 0 ? half_ : whole_).find(frame.luma, frame.width, frame.height, found_);
+    const std::optional<TagPose> pose = pose_from_tags(found_, set_up_.tags, camera, usual_corner_sd_px);
+    if (!pose || !is_sure(*pose)) {
+        return std::nullopt;
+    }
+    return UncertainPose{frame.time, set_up_.table_from_camera * pose->camera_from_prop, pose->place_sd_m,
+                         pose->turn_sd_rad};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,63 @@
+/// A camera's frame into the prop's pose on the table: finds the tags, fits the pose, and keeps its hands off the processor.
+///
+/// Frames   table T; a frame of another size than the pinhole's, but of its shape, is read as the same view.
+/// Time     a pose has its frame's time: when the kernel says that it was taken.
+/// Share    after a frame that took some time it passes over those that come within four times that: it never takes more than a
+///          quarter of one core, however full of edges a picture is. Where the whole picture costs more than that at 30 frames a
+///          second, the next hundred are searched at half size: that costs less than half, and finds fewer of the tags that are small,
+///          blurred or dark.
+/// Threads  one caller: the camera's own thread. Allocates.
+/// Errors   none: no pose. One that is not sure (tag_pose.h) is not handed on.
+#pragma once
+
+#include "app/tags/tag_pose.h"
+#include "app/tracking/uncertain_pose.h"
+#include "firmware_host/camera/camera.h"
+
+#include <atomic>
+#include <functional>
+#include <vector>
+
+namespace frustumscreen {
+
+struct TagSetUp {
+    Pinhole camera;
+    RigidTransform table_from_camera;
+    std::vector<PropTag> tags;
+};
+
+/// What became of the frames, since the start.
+struct TagCounts {
+    std::uint64_t looked_at = 0;
+    std::uint64_t passed_over = 0;  ///< to keep its share
+    std::uint64_t posed = 0;        ///< gave a pose that was handed on
+    std::uint64_t at_half_size = 0; ///< of those looked at
+    std::uint64_t misshapen = 0;    ///< of another shape than the settings say
+};
+
+class TagReader {
+public:
+    static constexpr double most_share = 0.25; ///< of one core
+
+    /// `busy`: seconds of the processor that this thread has used.
+    explicit TagReader(TagSetUp set_up, std::function<double()> busy = thread_seconds);
+
+    [[nodiscard]] std::optional<UncertainPose> read(const CameraFrame& frame);
+    [[nodiscard]] const TagCounts& counts() const { return counts_; }
+
+    [[nodiscard]] static double thread_seconds();
+
+private:
+    [[nodiscard]] std::optional<UncertainPose> look(const CameraFrame& frame);
+
+    TagSetUp set_up_;
+    std::function<double()> busy_;
+    TagDetector whole_;
+    TagDetector half_;
+    int half_for_ = 0; ///< frames to come are searched at half size
+    std::vector<FoundTag> found_;
+    MonotonicTime next_; ///< earlier frames are passed over
+    TagCounts counts_;
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,156 @@
+#include "app/bench/tags/skirt.h"
+#include "app/bench/tags/tag_scene.h"
+#include "app/settings/looking_at.h"
+#include "app/settings/settings.h"
+#include "app/tags/tag_tracker.h"
+#include "app/tracking/pose_math.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+
+const RigidTransform standing{rotation_of({0.0, 0.0, 0.2}), {0.04, -0.03, 0.0}};
+
+SceneCamera above() {
+    SceneCamera camera;
+    camera.table_from_camera = *looking_at({0.1, -0.2, 1.25}, {0.0, 0.0, 0.0}, 0.0);
+    return camera;
+}
+
+TagSetUp set_up() {
+    return {above().pinhole, above().table_from_camera, tags_of({})};
+}
+
+CameraFrame frame_at(milliseconds time) {
+    static const std::vector<std::uint8_t> picture =
+        TagScene(make_frustum(shipped_frustum), tags_of({}), above(), {})
+            .picture([](double) { return standing; }, 1);
+    return {MonotonicTime(time), 1, 1280, 720, picture};
+}
+
+TEST(TagReader, AFrameGivesThePoseOnTheTable) {
+    TagReader reader(set_up());
+    const std::optional<UncertainPose> pose = reader.read(frame_at(milliseconds(500)));
+    ASSERT_TRUE(pose);
+    EXPECT_EQ(pose->time, MonotonicTime(milliseconds(500)));
+    EXPECT_LT(slip_m(step_between(standing, pose->table_from_prop), 0.0775), 0.001);
+    EXPECT_EQ(reader.counts().posed, 1U);
+}
+
+/// Each frame takes 20 ms of the processor: at 100 frames a second it looks at one of eight.
+TEST(TagReader, TakesNoMoreThanAQuarterOfACore) {
+    double busy_s = 0.0;
+    TagReader reader(set_up(), [&busy_s] { return busy_s += 0.02; });
+    for (int k = 1; k <= 80; ++k) {
+        static_cast<void>(reader.read({MonotonicTime(milliseconds(10 * k)), 1, 0, 0, {}}));
+    }
+    EXPECT_EQ(reader.counts().looked_at, 10U);
+    EXPECT_EQ(reader.counts().passed_over, 70U);
+    EXPECT_EQ(reader.counts().at_half_size, 9U); // from the second on
+}
+
+TEST(TagReader, SearchesTheWholePictureWhileThatIsCheap) {
+    double busy_s = 0.0;
+    double takes_s = 0.005;
+    TagReader reader(set_up(), [&] { return busy_s += takes_s; });
+    auto look = [&reader, k = 0](int frames) mutable {
+        for (const int end = k + frames; k < end; ++k) {
+            static_cast<void>(reader.read({MonotonicTime(std::chrono::seconds(k + 1)), 1, 0, 0, {}}));
+        }
+    };
+    look(50);
+    EXPECT_EQ(reader.counts().at_half_size, 0U);
+    takes_s = 0.01;
+    look(1);
+    takes_s = 0.002;
+    look(150); // it tries again
+    EXPECT_EQ(reader.counts().at_half_size, 100U);
+}
+
+TEST(TagReader, AFrameOfAnotherShapeGivesNone) {
+    TagReader reader(set_up());
+    CameraFrame frame = frame_at(milliseconds(1));
+    frame.width = 960;
+    frame.luma.resize(960 * 720);
+    EXPECT_FALSE(reader.read(frame));
+    EXPECT_EQ(reader.counts().misshapen, 1U);
+}
+
+/// A camera whose thread hands on the same frame again and again.
+class PlayedCamera final : public Camera {
+public:
+    explicit PlayedCamera(FrameUse use)
+        : thread_([use = std::move(use)](const std::stop_token& stop) {
+              for (int k = 1; !stop.stop_requested(); ++k) {
+                  use(frame_at(milliseconds(100 * k)));
+                  std::this_thread::sleep_for(milliseconds(1));
+              }
+          }) {}
+    [[nodiscard]] bool poll(CameraFrame& /*frame*/) override { return false; }
+    [[nodiscard]] CameraState state() const override { return CameraState::Running; }
+    [[nodiscard]] double rate_hz() const override { return 10.0; }
+    [[nodiscard]] CameraCounts counts() const override { return {}; }
+    [[nodiscard]] std::optional<CameraSetUp> set_up() const override { return {}; }
+
+private:
+    std::jthread thread_;
+};
+
+TEST(TagTracker, PosesComeFromTheCamerasThread) {
+    TagTracker tracker(set_up(), [](FrameUse use) { return std::make_unique<PlayedCamera>(std::move(use)); });
+    std::vector<UncertainPose> poses;
+    for (int k = 0; k < 2000 && poses.size() < 3; ++k) {
+        tracker.poll(MonotonicTime(std::chrono::hours(1)), poses);
+        std::this_thread::sleep_for(milliseconds(5));
+    }
+    ASSERT_GE(poses.size(), 3U);
+    EXPECT_LT(poses[0].time, poses[1].time);
+    EXPECT_LT(slip_m(step_between(standing, poses[1].table_from_prop), 0.0775), 0.001);
+    EXPECT_EQ(tracker.state(), "the camera is running");
+}
+
+TEST(TagSettings, PlaceATagAsASkirtDoes) {
+    for (const double slope : {0.0, 35.0}) {
+        for (const PropTag& tag : tags_of({.slope_deg = slope})) {
+            const int side = tag.id / 2;
+            const TagSettings written{tag.id, tag.size_m, tag.prop_from_tag.translation, 90.0 * side, slope};
+            const PoseStep off = step_between(tag.prop_from_tag, prop_from_tag(written));
+            EXPECT_LT(glm::length(off.shift_m) + glm::length(off.turn_rad), 1e-12);
+        }
+    }
+    // Upright at the front edge it looks at the visitor, its top up.
+    const RigidTransform upright = prop_from_tag({0, 0.03, {0.0, -0.15, 0.02}, 0.0, 90.0});
+    EXPECT_LT(glm::distance(upright.direction({0, 0, 1}), glm::dvec3(0, -1, 0)), 1e-12);
+    EXPECT_LT(glm::distance(upright.direction({0, 1, 0}), glm::dvec3(0, 0, 1)), 1e-12);
+}
+
+/// What the page tells a technician to write is taken, and is the skirt that was measured.
+TEST(TagSettings, ThePagesExampleIsTheSkirt) {
+    std::ifstream file(FRUSTUMSCREEN_SOURCE_DIR "/docs/tags.md");
+    const std::string page{std::istreambuf_iterator<char>(file), {}};
+    const std::size_t begin = page.find("```toml\n") + 8;
+    const Result<CheckedSettings> settings =
+        parse_settings(page.substr(begin, page.find("```", begin) - begin), "kiosk.toml");
+    ASSERT_TRUE(settings) << settings.error().message;
+    const std::vector<PropTag> skirt = tags_of({});
+    ASSERT_EQ((*settings)->camera.tag.size(), skirt.size());
+    for (std::size_t k = 0; k < skirt.size(); ++k) {
+        const TagSettings& tag = (*settings)->camera.tag[k];
+        const PoseStep off = step_between(skirt[k].prop_from_tag, prop_from_tag(tag));
+        EXPECT_LT(glm::length(off.shift_m) + glm::length(off.turn_rad), 1e-9) << k;
+        EXPECT_EQ(tag.id, skirt[k].id);
+        EXPECT_EQ(tag.size_m, skirt[k].size_m);
+    }
+    EXPECT_EQ((*settings)->camera.pinhole.fy, 1500.0);
+    EXPECT_EQ((*settings)->camera.pinhole.cx, 640.0);
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,141 @@
+#include "app/tracking/hand_over.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr double lever_m = 0.06;
+
+/// One of the two as a test wants it: at x, so sure, so old.
+SourcePose source(double x_m, double sd_m, milliseconds age = milliseconds(20)) {
+    SourcePose one;
+    one.estimate = {{{1.0, 0.0, 0.0, 0.0}, {x_m, 0.0, 0.0}}, PoseStatus::Predicted, age, 1};
+    one.estimate.status = age > milliseconds(1000) ? PoseStatus::Stale : PoseStatus::Predicted;
+    one.sd_m = sd_m;
+    one.lost_after = milliseconds(150);
+    return one;
+}
+
+MonotonicTime at(int ms) {
+    return MonotonicTime(milliseconds(10'000 + ms));
+}
+
+/// A metre away and a millisecond old, as if it had never been there.
+SourcePose never() {
+    SourcePose one = source(0.0, 0.0);
+    one.estimate.reinitialisations = 0;
+    return one;
+}
+
+TEST(HandOver, OneTrackerAloneIsHandedOnAsItIs) {
+    HandOver hand_over;
+    for (int ms = 0; ms < 3000; ms += 16) {
+        const SourcePose tracker = source(1e-4 * ms, 0.05 + 1e-3 * ms, milliseconds(ms));
+        const PoseEstimate shown = hand_over.follow(tracker, never(), at(ms));
+        EXPECT_EQ(shown.pose.translation, tracker.estimate.pose.translation);
+        EXPECT_EQ(shown.status, tracker.estimate.status);
+    }
+    EXPECT_EQ(hand_over.changes(), 0U);
+}
+
+TEST(HandOver, TwoThatAreAlikeDoNotTakeTurns) {
+    HandOver hand_over;
+    for (int ms = 0; ms < 20'000; ms += 16) {
+        const double wave = 0.001 * (1.0 + 0.35 * std::sin(0.01 * ms));
+        (void)hand_over.follow(source(0.0, wave), source(0.005, 0.001), at(ms));
+    }
+    EXPECT_EQ(hand_over.changes(), 0U);
+    EXPECT_EQ(hand_over.leader(), Source::Tracker);
+}
+
+TEST(HandOver, ItTakesClearlyLessSpreadForHalfASecond) {
+    HandOver hand_over;
+    for (int ms = 0; ms < 4000; ms += 10) {
+        const bool worse = ms % 1000 < 490 || ms >= 3000; // in bursts that are too short, then for good
+        (void)hand_over.follow(source(0.0, worse ? 0.006 : 0.001), source(0.005, 0.0015), at(ms));
+        EXPECT_EQ(hand_over.leader(), ms < 3500 ? Source::Tracker : Source::Tags) << ms;
+    }
+}
+
+/// Whatever the two disagree by, nothing jumps, and it ends at the new leader.
+TEST(HandOver, ADisagreementFadesAtABoundedRate) {
+    for (const double off_m : {0.001, 0.005, 0.02, 0.1}) {
+        HandOver hand_over;
+        constexpr int step_ms = 16;
+        double before = 0.0;
+        double fastest = 0.0;
+        (void)hand_over.follow(source(0.0, 0.001), source(off_m, 0.0015), at(0));
+        double shown = 0.0;
+        for (int ms = step_ms; ms < 1500; ms += step_ms) {
+            const SourcePose tracker = source(0.0, 0.001, milliseconds(200));
+            shown = hand_over.follow(tracker, source(off_m, 0.0015), at(ms)).pose.translation.x;
+            fastest = std::fmax(fastest, std::fabs(shown - before) / (1e-3 * step_ms));
+            before = shown;
+        }
+        EXPECT_EQ(hand_over.leader(), Source::Tags);
+        EXPECT_EQ(shown, off_m);
+        EXPECT_LE(fastest, std::fmax(0.02, 1.5 * off_m) * 1.0001) << off_m;
+    }
+}
+
+/// Back in the middle of a fade: still no jump.
+TEST(HandOver, AChangeInTheMiddleOfAChangeGoesOnFromThere) {
+    HandOver hand_over;
+    (void)hand_over.follow(source(0.0, 0.001), source(0.01, 0.0015), at(0));
+    double before = 0.0;
+    for (int ms = 10; ms < 3000; ms += 10) {
+        const bool lost = ms < 300 || (ms >= 900 && ms < 1100);
+        const milliseconds age(lost ? 200 : 20);
+        const double shown =
+            hand_over.follow(source(0.0, 0.0007, age), source(0.01, 0.0015), at(ms)).pose.translation.x;
+        EXPECT_LE(std::fabs(shown - before), 0.02 * 0.0101) << ms;
+        before = shown;
+    }
+    EXPECT_EQ(hand_over.leader(), Source::Tracker);
+    EXPECT_EQ(before, 0.0);
+    EXPECT_EQ(hand_over.changes(), 4U);
+}
+
+/// The fade is a function of time: thirty pictures a second see the same as two hundred at the same times.
+TEST(HandOver, TheFadeDoesNotDependOnTheFrameRate) {
+    HandOver slow;
+    HandOver fast;
+    for (HandOver* one : {&slow, &fast}) {
+        (void)one->follow(source(0.0, 0.001), source(0.008, 0.0015), at(0));
+        (void)one->follow(source(0.0, 0.001, milliseconds(200)), source(0.008, 0.0015), at(40));
+    }
+    for (int ms = 45; ms < 1500; ms += 5) {
+        const SourcePose tracker = source(0.0, 0.001, milliseconds(200));
+        const PoseEstimate often = fast.follow(tracker, source(0.008, 0.0015), at(ms));
+        if (ms % 35 == 0) {
+            EXPECT_EQ(slow.follow(tracker, source(0.008, 0.0015), at(ms)).pose.translation,
+                      often.pose.translation);
+        }
+    }
+}
+
+TEST(HandOver, FromAStalePoseItBeginsAnew) {
+    HandOver hand_over;
+    const PoseEstimate before = hand_over.follow(source(0.0, 0.001), never(), at(0));
+    (void)hand_over.follow(source(0.0, 0.001, milliseconds(2000)), never(), at(2000));
+    const PoseEstimate found =
+        hand_over.follow(source(0.0, 0.001, milliseconds(2016)), source(0.2, 0.0015), at(2016));
+    EXPECT_EQ(found.pose.translation.x, 0.2);
+    EXPECT_GT(found.reinitialisations, before.reinitialisations);
+}
+
+TEST(HandOver, TimeThatGoesBackChangesNoLead) {
+    HandOver hand_over;
+    for (int ms = 5000; ms > 0; ms -= 10) {
+        (void)hand_over.follow(source(0.0, 0.006), source(0.0, 0.001), at(ms));
+    }
+    EXPECT_EQ(hand_over.changes(), 0U);
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,183 @@
+// The prop by two trackers at once, as the exhibit follows it: what a visitor sees while one is lost, bent by metal, and back.
+#include "app/tracking/live_situation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace frustumscreen {
+namespace {
+
+constexpr double lever_m = 0.0775;
+constexpr double tick_s = 0.001;
+
+/// What the two say at a time.
+struct Story {
+    std::function<RigidTransform(double)> truth;
+    std::function<bool(double)> tracker_sends = [](double) { return true; };
+    std::function<glm::dvec3(double)> bent = [](double) { return glm::dvec3(0.0); }; ///< by metal, metres
+    std::function<bool(double)> metal_is_told = [](double) { return false; };
+    std::function<bool(double)> tags_seen = [](double) { return true; };
+    glm::dvec3 tags_off_m{0.0};
+    double length_s = 8.0;
+};
+
+struct Told {
+    double largest_step_mm = 0.0;               ///< between two pictures, beyond the true motion
+    double largest_off_mm = 0.0;                ///< from the truth, while nothing fades; see `settled`
+    std::vector<std::pair<double, bool>> leads; ///< when the tags took (true) and gave the lead
+    double last_off_mm = 0.0;
+};
+
+RigidTransform at_rest(double) {
+    return {rotation_of({0.0, 0.0, 0.4}), {0.05, -0.02, 0.0}};
+}
+/// A hand that slides it to and fro, 0.2 m/s at most.
+RigidTransform slid(double t_s) {
+    return {rotation_of({0.0, 0.0, 0.3 * std::sin(1.1 * t_s)}), {0.1 * std::sin(2.0 * t_s), 0.0, 0.0}};
+}
+
+/// A tracker of 60 Hz that takes 18 ms, tags of 30 Hz that take 45 ms, pictures of 60 Hz that are lit 33 ms later.
+Told told(const Story& story, std::uint64_t seed = 1) {
+    LiveSituation live({0.0, -0.5, 0.5}, lever_m);
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    const auto noisy = [&](RigidTransform pose) {
+        const auto any = [&](double sd) {
+            return sd * glm::dvec3(normal(random), normal(random), normal(random));
+        };
+        return moved(pose, {any(0.0003), any(0.0015)});
+    };
+    Told told;
+    std::optional<RigidTransform> before;
+    double before_s = 0.0;
+    const MonotonicTime start(std::chrono::seconds(100));
+    const auto time = [&](double s) { return start + Nanoseconds(std::llround(1e9 * s)); };
+    int trackers = 0, tags = 0, pictures = 0;
+    for (double now = 0.1; now < story.length_s; now += tick_s) {
+        for (; trackers / 60.0 + 0.018 < now; ++trackers) {
+            const double t = trackers / 60.0;
+            if (story.tracker_sends(t)) {
+                const RigidTransform pose = noisy(moved(story.truth(t), {story.bent(t), {}}));
+                PoseSample sample{time(t), prop_station, pose.translation, pose.rotation, true};
+                live.take(sample);
+            }
+        }
+        for (; tags / 30.0 + 0.045 < now; ++tags) {
+            const double t = tags / 30.0;
+            if (story.tags_seen(t)) {
+                live.take_tags(
+                    {time(t), noisy(moved(story.truth(t), {story.tags_off_m, {}})), 0.0004, 0.0007});
+            }
+        }
+        if (pictures / 60.0 > now) {
+            continue;
+        }
+        ++pictures;
+        const double lit_s = now + 0.033;
+        live.tracker_is(story.metal_is_told(now) ? TrackerHealth::MetalNear : TrackerHealth::Well);
+        const Situation situation = live.at(time(lit_s));
+        if (told.leads.empty() ? situation.by_tags : told.leads.back().second != situation.by_tags) {
+            told.leads.emplace_back(now, situation.by_tags);
+        }
+        const RigidTransform truth = story.truth(lit_s);
+        told.last_off_mm = 1e3 * slip_m(step_between(truth, situation.table_from_prop), lever_m);
+        if (before && now > 1.0) {
+            const PoseStep went = step_between(*before, situation.table_from_prop);
+            const PoseStep truly = step_between(story.truth(before_s), truth);
+            const double step =
+                1e3 * slip_m({went.shift_m - truly.shift_m, went.turn_rad - truly.turn_rad}, lever_m);
+            told.largest_step_mm = std::fmax(told.largest_step_mm, step);
+            told.largest_off_mm = std::fmax(told.largest_off_mm, told.last_off_mm);
+        }
+        before = situation.table_from_prop;
+        before_s = lit_s;
+    }
+    return told;
+}
+
+/// 20 mm/s at 60 pictures a second are 0.33 mm; what the filter makes of noise at rest is far below.
+constexpr double most_step_mm = 0.6;
+
+TEST(TwoTrackers, AloneAndWellTheTrackerLeads) {
+    for (const auto& truth : {at_rest, slid}) {
+        EXPECT_TRUE(told({.truth = truth, .tags_off_m = {0.005, 0.0, 0.0}}).leads.empty());
+    }
+}
+
+TEST(TwoTrackers, TagsTakeOverALostTrackerAndHandItBackWithoutAJump) {
+    const Told rest = told({.truth = at_rest,
+                            .tracker_sends = [](double t) { return t < 2.0 || t > 5.0; },
+                            .tags_off_m = {0.005, 0.0, 0.0}});
+    ASSERT_EQ(rest.leads.size(), 2U);
+    EXPECT_NEAR(rest.leads[0].first, 2.13, 0.05);
+    EXPECT_TRUE(rest.leads[0].second);
+    EXPECT_NEAR(rest.leads[1].first, 5.6, 0.15);
+    EXPECT_LT(rest.largest_step_mm, most_step_mm);
+    EXPECT_LT(rest.largest_off_mm, 6.5); // as far as they disagree
+    EXPECT_LT(rest.last_off_mm, 0.7);
+}
+
+TEST(TwoTrackers, AMovingPropIsFollowedOn) {
+    const Story story{.truth = slid, .tracker_sends = [](double t) { return t < 2.0 || t > 5.0; }};
+    const Story without{
+        .truth = slid, .tracker_sends = story.tracker_sends, .tags_seen = [](double) { return false; }};
+    const double all_the_time = told({.truth = slid}).largest_step_mm;
+    EXPECT_LT(told(story).largest_off_mm, 30.0);
+    EXPECT_GT(told(without).largest_off_mm, 100.0); // it stands where it was lost
+    EXPECT_LT(told(story).largest_step_mm, all_the_time + 3.0);
+}
+
+/// The field is bent more and more, and the tracker says so from 3 mm on.
+TEST(TwoTrackers, MetalThatComesNearHandsOverToTheTags) {
+    for (const double m_s : {0.0005, 0.001}) {
+        const double told_s = 2.0 + 0.003 / m_s;
+        const auto bend = [m_s](double t) {
+            return m_s * std::fmax(t - 2.0, 0.0) * glm::dvec3(0.8, 0.0, 0.6);
+        };
+        const Told told_of = told({.truth = at_rest,
+                                   .bent = bend,
+                                   .metal_is_told = [told_s](double t) { return t > told_s; },
+                                   .length_s = 14.0});
+        ASSERT_EQ(told_of.leads.size(), 1U);
+        EXPECT_NEAR(told_of.leads[0].first, told_s + 0.5, 0.1);
+        EXPECT_LT(told_of.largest_step_mm, most_step_mm);
+        EXPECT_LT(told_of.largest_off_mm, 5.0); // it goes on to 6 and 12
+        EXPECT_LT(told_of.last_off_mm, 0.7);
+    }
+}
+
+TEST(TwoTrackers, MetalThatComesAndGoesDoesNotMakeThemTakeTurns) {
+    const Told often = told({.truth = at_rest,
+                             .metal_is_told = [](double t) { return std::fmod(t, 0.6) < 0.3; },
+                             .tags_off_m = {0.003, 0.0, 0.0}});
+    EXPECT_TRUE(often.leads.empty());
+}
+
+/// A hand lies on the tags while metal is near: better a bent pose than none.
+TEST(TwoTrackers, CoveredTagsGiveTheLeadBack) {
+    const Told told_of = told({.truth = at_rest,
+                               .bent = [](double) { return glm::dvec3(0.005, 0.0, 0.0); },
+                               .metal_is_told = [](double t) { return t > 1.5; },
+                               .tags_seen = [](double t) { return t < 4.0; }});
+    ASSERT_EQ(told_of.leads.size(), 2U);
+    EXPECT_NEAR(told_of.leads[1].first, 4.25, 0.1);
+    EXPECT_LT(told_of.largest_step_mm, most_step_mm);
+}
+
+/// Both gone: held, then unknown; the tags find it elsewhere and the picture glides there.
+TEST(TwoTrackers, BothLostAndFoundElsewhere) {
+    const auto truth = [](double t) {
+        return RigidTransform{{1.0, 0.0, 0.0, 0.0}, {t < 3.0 ? 0.0 : 0.1, 0.0, 0.0}};
+    };
+    const Told told_of = told({.truth = truth,
+                               .tracker_sends = [](double t) { return t < 2.0; },
+                               .tags_seen = [](double t) { return t < 2.0 || t > 4.5; }});
+    EXPECT_LT(told_of.last_off_mm, 0.7);
+}
+
+} // namespace
+} // namespace frustumscreen
