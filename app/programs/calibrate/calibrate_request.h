@@ -25,7 +25,7 @@ struct CalibrateRequest {
     std::vector<int> picture; ///< width, height
     std::optional<double> sensor_height_m;
     bool keep = false;
-    bool touch_up = false; ///< of the kept calibration, in place of a new one
+    bool touch_up = false;     ///< of the kept calibration, in place of a new one
     std::filesystem::path map; ///< where the uncertainty goes as a picture; empty: nowhere
     bool undo = false;
     // On the table; what is left out stands in the settings:
