@@ -58,7 +58,6 @@ class Calibration(HilTest):
 
     @long
     def test_whatever_its_end_the_exhibit_comes_back(self):
-        steps = self.bench.machine.read("/run/frustumscreen-watchdog/status.json")
         for end in (lambda: self.press(FIRST), lambda: self.bench.machine.check(f"systemctl kill -s KILL {CALIBRATION}")):
             self.begin()
             self.assertEqual(self.bench.main_process(), 0)
@@ -66,8 +65,6 @@ class Calibration(HilTest):
             self.bench.status_says("display", "is lit", START_S)
             self.bench.status_says("tracker", "is running", START_S)
             self.assertNotEqual(self.bench.machine.run(f"systemctl is-active {CALIBRATION}").output.strip(), "active")
-        told = json.loads(self.bench.machine.read("/run/frustumscreen-watchdog/status.json"))
-        self.assertEqual([fault for fault in told["faults"] if fault not in json.loads(steps)["faults"]], [], "nothing was to be mended")
         self.assertEqual(self.bench.machine.run(f"ls {FOLDER}").output.split(), [])
 
     # The technician.
