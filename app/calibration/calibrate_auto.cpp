@@ -1,6 +1,7 @@
 #include "app/calibration/calibrate_auto.h"
 
 #include "app/calibration/check_rests.h"
+#include "app/calibration/check_touches.h"
 #include "app/calibration/reliability.h"
 #include "app/calibration/rest_agreement.h"
 #include "app/calibration/rest_starts.h"
@@ -22,14 +23,6 @@ AutoCalibration refused(std::string reason) {
     return calibration;
 }
 
-Rests with_unit_rotations(std::span<const Rest> rests) {
-    Rests out(rests.begin(), rests.end());
-    for (Rest& rest : out) {
-        rest.tracker_from_sensor.rotation = glm::normalize(rest.tracker_from_sensor.rotation);
-    }
-    return out;
-}
-
 /// The touches' part of a fit, what rests have more of marginalised with its priors, so that it can be judged as theirs.
 Fit touch_part(const RestFit& fit) {
     constexpr int more = int{rest_unknown_count} - int{unknown_count};
@@ -46,26 +39,8 @@ Fit touch_part(const RestFit& fit) {
     return part;
 }
 
-std::string words_for(const Undetermined& open) {
-    switch (open.what) {
-    case Undetermined::What::SensorAcross:
-        return "the prop was turned the same way in every rest, or nearly so, which does not tell where in "
-               "it the "
-               "sensor sits: turn it by a quarter from one rest to the next";
-    case Undetermined::What::SensorAbove:
-        return "the prop stood upright in every rest, which does not tell the sensor's height in it from the "
-               "tracker's: give it by --sensor-height, or let the prop lean in three rests or more";
-    case Undetermined::What::Picture:
-        break;
-    }
-    return fmt::format(
-        "these rests leave the picture open by {:.0f} mm, whatever they agree on: spread them over "
-        "the whole picture, half of them on a block as high as the prop",
-        1e3 * open.picture_m);
-}
-
-/// How far a rest's points lie from their light by a model that knows the others; those with weight.
-TouchResidual residual_of(const Rest& rest, std::span<const double> weights, const RestModel& others) {
+/// How far a rest's points lie from their light by a model that knows the others, on average; those with weight.
+TouchResidual mean_residual(const Rest& rest, std::span<const double> weights, const RestModel& others) {
     TouchResidual residual;
     double count = 0.0;
     for (std::size_t k = 0; k < rest.points.size(); ++k) {
@@ -74,11 +49,10 @@ TouchResidual residual_of(const Rest& rest, std::span<const double> weights, con
         }
         const glm::dvec3 place =
             (rest.tracker_from_sensor * others.prop_in_sensor()).point(others.printed(rest.points[k].prop_m));
-        const auto lit = others.touch.lit(rest.points[k].pixel, others.touch.height(place));
-        const auto pixel = others.touch.pixel(place);
-        constexpr double nowhere = 1e3; // metres and pixels: no light comes there
-        residual.on_table_m += lit ? glm::distance(*lit, place) : nowhere;
-        residual.pixel += pixel ? glm::distance(*pixel, rest.points[k].pixel) : nowhere;
+        const TouchResidual one =
+            residual_of(others.touch, place, others.touch.height(place), rest.points[k].pixel);
+        residual.on_table_m += one.on_table_m;
+        residual.pixel += one.pixel;
         count += 1.0;
     }
     return {residual.on_table_m / std::fmax(1.0, count), residual.pixel / std::fmax(1.0, count)};
@@ -92,8 +66,8 @@ std::vector<TouchResidual> residuals_of(std::span<const Rest> rests, const Agree
         const FittedRest& mine = found.fit.rests[k];
         const RestCovariance others = information - mine.by_unknown.transpose() * mine.by_unknown;
         const RestChanges change = others.ldlt().solve(mine.by_unknown.transpose() * mine.residuals);
-        residuals.push_back(residual_of(rests[k], found.weights.points[k],
-                                        changed(found.fit.model, found.fit.middle, change)));
+        residuals.push_back(mean_residual(rests[k], found.weights.points[k],
+                                          changed(found.fit.model, found.fit.middle, change)));
     }
     return residuals;
 }
@@ -122,9 +96,7 @@ std::string names_of(std::span<const std::size_t> wrong, std::span<const Rest> r
 }
 
 void judge(TouchCalibration& calibration, const AgreeingRests& found, std::span<const Rest> rests) {
-    const std::string expected = fmt::format(
-        "the picture is within {:.1f} mm on average and {:.1f} mm at the worst place, one standard deviation",
-        1e3 * calibration.uncertainty.mean_m, 1e3 * calibration.uncertainty.worst_m);
+    const std::string expected = in_words(calibration.uncertainty);
     if (found.agreement == Agreement::Without) {
         calibration.verdict = Verdict::Repeat;
         calibration.reason =
@@ -171,7 +143,7 @@ AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, cons
         std::find_if(rests.begin(), rests.end(), [](const Rest& rest) { return rest.block_m.has_value(); });
     const ZoneSetup zone{setup.top_m, standing->tracker_from_sensor.rotation};
     if (const auto open = undetermined(fit, zone)) {
-        return refused(words_for(*open));
+        return refused(in_words(*open, "rest", "let the prop lean"));
     }
     AutoCalibration calibration;
     TouchCalibration& table = calibration.found;

@@ -45,34 +45,10 @@ std::vector<TouchResidual> residuals_of(std::span<const Touch> touches, std::spa
         }
         weights[k] = 0.0;
         const TouchModel others = fit_touches(touches, weights, setup, model).model;
-        const glm::dvec3 touched = others.touched(touches[k].tracker_from_sensor);
-        const auto lit = others.lit(touches[k].pixel, touches[k].block_m);
-        const auto pixel = others.pixel(touched);
-        constexpr double nowhere = 1e3; // metres and pixels: no light comes there
-        residuals.push_back({lit ? glm::distance(*lit, touched) : nowhere,
-                             pixel ? glm::distance(*pixel, touches[k].pixel) : nowhere});
+        residuals.push_back(residual_of(others, others.touched(touches[k].tracker_from_sensor),
+                                        touches[k].block_m, touches[k].pixel));
     }
     return residuals;
-}
-
-/// In a technician's words what to do about what touches leave open.
-std::string words_for(const Undetermined& open) {
-    switch (open.what) {
-    case Undetermined::What::SensorAcross:
-        return "the prop was turned the same way in every touch, or nearly so, which does not tell where in "
-               "it the "
-               "sensor sits: turn it by a quarter from one touch to the next";
-    case Undetermined::What::SensorAbove:
-        return "the prop stood upright in every touch, which does not tell the sensor's height in it from "
-               "the "
-               "tracker's: give it by --sensor-height, or lay the prop on a side in three touches or more";
-    case Undetermined::What::Picture:
-        break;
-    }
-    return fmt::format(
-        "these touches leave the picture open by {:.0f} mm, whatever they agree on: spread them "
-        "over the whole picture, half of them on a block as high as the prop",
-        1e3 * open.picture_m);
 }
 
 /// Whether what is left without the wrong touches cannot check itself: then others may be wrong, and not those.
@@ -100,9 +76,7 @@ std::string rows_in_words(std::span<const std::size_t> rows) {
 
 void judge(TouchCalibration& calibration, const AgreeingTouches& found) {
     calibration.repeat = found.wrong;
-    const std::string expected = fmt::format(
-        "the picture lies about {:.1f} mm beside its place on average, {:.1f} mm at the worst place",
-        1e3 * calibration.uncertainty.mean_m, 1e3 * calibration.uncertainty.worst_m);
+    const std::string expected = in_words(calibration.uncertainty);
     if (found.agreement == Agreement::Exchanged) {
         calibration.verdict = Verdict::Repeat;
         calibration.reason =
@@ -156,6 +130,14 @@ std::vector<PlaceUncertainty> by_place(std::span<const ZonePlace> places, std::s
 
 } // namespace
 
+TouchResidual residual_of(const TouchModel& model, const glm::dvec3& place, double height_m,
+                          const glm::dvec2& pixel) {
+    constexpr double nowhere = 1e3; // metres and pixels
+    const auto lit = model.lit(pixel, height_m);
+    const auto seen = model.pixel(place);
+    return {lit ? glm::distance(*lit, place) : nowhere, seen ? glm::distance(*seen, pixel) : nowhere};
+}
+
 bool keeps(const TouchCalibration& calibration, const PictureLimits& limits) {
     return limits.keep(calibration.uncertainty, calibration.hidden_error_m);
 }
@@ -174,6 +156,32 @@ void summarise_residuals(TouchCalibration& calibration) {
     }
     calibration.mean_residual_m /= count;
     calibration.mean_residual_px /= count;
+}
+
+std::string in_words(const PictureUncertainty& uncertainty) {
+    return fmt::format(
+        "the picture lies about {:.1f} mm beside its place on average, {:.1f} mm at the worst place",
+        1e3 * uncertainty.mean_m, 1e3 * uncertainty.worst_m);
+}
+
+std::string in_words(const Undetermined& open, std::string_view one, std::string_view tilt) {
+    switch (open.what) {
+    case Undetermined::What::SensorAcross:
+        return fmt::format(
+            "the prop was turned the same way in every {0}, or nearly so, which does not tell where in "
+            "it the sensor sits: turn it by a quarter from one {0} to the next",
+            one);
+    case Undetermined::What::SensorAbove:
+        return fmt::format(
+            "the prop stood upright in every {0}, which does not tell the sensor's height in it from the "
+            "tracker's: give it by --sensor-height, or {1} in three of them or more",
+            one, tilt);
+    case Undetermined::What::Picture:
+        break;
+    }
+    return fmt::format("these {} leave the picture open by {:.0f} mm, whatever they agree on: spread them "
+                       "over the whole picture, half of them on a block as high as the prop",
+                       one == "touch" ? "touches" : "rests", 1e3 * open.picture_m);
 }
 
 std::string in_words(std::span<const std::string> words) {
@@ -196,7 +204,7 @@ TouchCalibration calibrate_touch(std::span<const Touch> reported, const TouchSet
                          touches[static_cast<std::size_t>(some_upright - fit_setup.upright.begin())]
                              .tracker_from_sensor.rotation};
     if (const auto open = undetermined(found.fit, zone)) {
-        return refused(words_for(*open));
+        return refused(in_words(*open, "touch", "lay the prop on a side"));
     }
     if (found.agreement == Agreement::None || too_few_left(found, touches, fit_setup, zone)) {
         return refused(

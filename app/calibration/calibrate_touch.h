@@ -17,6 +17,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace frustumscreen {
 
@@ -35,6 +36,9 @@ struct TouchResidual {
     double on_table_m = 0.0; ///< from where the cross's light is to where the prop was
     double pixel = 0.0;
 };
+/// By a model: a place in the tracker's frame, so far above the table, that a pixel should light. Where no light comes, both are large.
+[[nodiscard]] TouchResidual residual_of(const TouchModel& model, const glm::dvec3& place, double height_m,
+                                        const glm::dvec2& pixel);
 
 /// Of the picture at a place of the zone: root mean square over the prop's turns.
 struct PlaceUncertainty {
@@ -62,6 +66,10 @@ struct TouchCalibration {
 [[nodiscard]] bool keeps(const TouchCalibration& calibration, const PictureLimits& limits);
 /// Means and worst ones of the residuals, but for those to repeat.
 void summarise_residuals(TouchCalibration& calibration);
+/// How far the picture lies beside its place, half a sentence.
+[[nodiscard]] std::string in_words(const PictureUncertainty& uncertainty);
+/// What to do about what points leave open. `one`: "touch" or "rest"; `tilt`: what the prop may do in three of them.
+[[nodiscard]] std::string in_words(const Undetermined& open, std::string_view one, std::string_view tilt);
 /// 'a, b and c'; one at least.
 [[nodiscard]] std::string in_words(std::span<const std::string> words);
 

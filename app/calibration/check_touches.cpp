@@ -205,12 +205,4 @@ std::optional<std::string> refusal_of_few(std::span<const Touch> touches, int wi
     return std::nullopt;
 }
 
-Touches with_unit_rotations(std::span<const Touch> touches) {
-    Touches out(touches.begin(), touches.end());
-    for (Touch& touch : out) {
-        touch.tracker_from_sensor.rotation = glm::normalize(touch.tracker_from_sensor.rotation);
-    }
-    return out;
-}
-
 } // namespace frustumscreen

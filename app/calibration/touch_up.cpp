@@ -131,12 +131,8 @@ TouchUp refused(std::string reason) {
 std::vector<TouchResidual> residuals_at(const TouchModel& model, std::span<const Touch> touches) {
     std::vector<TouchResidual> residuals;
     for (const Touch& touch : touches) {
-        const glm::dvec3 touched = model.touched(touch.tracker_from_sensor);
-        const auto lit = model.lit(touch.pixel, touch.block_m);
-        const auto pixel = model.pixel(touched);
-        constexpr double nowhere = 1e3; // metres and pixels: no light comes there
-        residuals.push_back({lit ? glm::distance(*lit, touched) : nowhere,
-                             pixel ? glm::distance(*pixel, touch.pixel) : nowhere});
+        residuals.push_back(
+            residual_of(model, model.touched(touch.tracker_from_sensor), touch.block_m, touch.pixel));
     }
     return residuals;
 }

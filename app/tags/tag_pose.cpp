@@ -3,6 +3,7 @@
 #include "app/tags/tag_starts.h"
 #include "app/tracking/pose_math.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,9 +13,9 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t unknowns = 6; ///< a shift and a turn in the camera's axes, as PoseStep
-using Vector = std::array<double, unknowns>;
-using Matrix = std::array<Vector, unknowns>;
+constexpr int unknowns = 6; ///< a shift and a turn in the camera's axes, as PoseStep
+using Vector = Eigen::Matrix<double, unknowns, 1>;
+using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Tags from which a fit starts, the largest ones: each further one costs time and finds no other pose.
@@ -36,8 +37,8 @@ using SeenTags = std::vector<SeenTag>;
 
 struct Fit {
     RigidTransform pose;
-    double cost = infinite; ///< sum of squared distances, pixels
-    Matrix normal{};        ///< of the equations at the pose, in pixels
+    double cost = infinite;         ///< sum of squared distances, pixels
+    Matrix normal = Matrix::Zero(); ///< of the equations at the pose, in pixels
 };
 
 double cost_of(const SeenTag& tag, const RigidTransform& pose, const Pinhole& camera) {
@@ -62,72 +63,35 @@ PoseStep step_of(const Vector& v) {
     return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
-/// By Cholesky; false: it is not positive definite.
-bool factor(Matrix& a) {
-    for (std::size_t j = 0; j < unknowns; ++j) {
-        for (std::size_t i = j; i < unknowns; ++i) {
-            double sum = a[i][j];
-            for (std::size_t k = 0; k < j; ++k) {
-                sum -= a[i][k] * a[j][k];
-            }
-            if (i == j && !(sum > 0.0)) {
-                return false;
-            }
-            a[i][j] = i == j ? std::sqrt(sum) : sum / a[j][j];
-        }
-    }
-    return true;
-}
-
-Vector solve(const Matrix& factored, Vector b) {
-    for (std::size_t i = 0; i < unknowns; ++i) {
-        for (std::size_t k = 0; k < i; ++k) {
-            b[i] -= factored[i][k] * b[k];
-        }
-        b[i] /= factored[i][i];
-    }
-    for (std::size_t i = unknowns; i-- > 0;) {
-        for (std::size_t k = i + 1; k < unknowns; ++k) {
-            b[i] -= factored[k][i] * b[k];
-        }
-        b[i] /= factored[i][i];
-    }
-    return b;
-}
-
 /// Adds a corner's share of the normal equations; its derivatives by central differences, which are good to nine digits here.
 void add_corner(const Corner& corner, const RigidTransform& pose, const Pinhole& camera, Matrix& normal,
                 Vector& gradient) {
     constexpr double step = 1e-6; // metres and radians
-    std::array<glm::dvec2, unknowns> slope{};
-    for (std::size_t k = 0; k < unknowns; ++k) {
-        Vector ahead{};
-        Vector back{};
-        ahead[k] = step;
-        back[k] = -step;
+    Eigen::Matrix<double, 2, unknowns> slope = Eigen::Matrix<double, 2, unknowns>::Zero();
+    for (int k = 0; k < unknowns; ++k) {
+        const Vector ahead = step * Vector::Unit(k);
         const auto more = camera.pixel(moved(pose, step_of(ahead)).point(corner.prop_m));
-        const auto less = camera.pixel(moved(pose, step_of(back)).point(corner.prop_m));
-        slope[k] = more && less ? (*more - *less) / (2.0 * step) : glm::dvec2(0.0);
-    }
-    const glm::dvec2 off = corner.px - camera.pixel(pose.point(corner.prop_m)).value_or(corner.px);
-    for (std::size_t i = 0; i < unknowns; ++i) {
-        gradient[i] += glm::dot(slope[i], off);
-        for (std::size_t j = 0; j < unknowns; ++j) {
-            normal[i][j] += glm::dot(slope[i], slope[j]);
+        const auto less = camera.pixel(moved(pose, step_of(-ahead)).point(corner.prop_m));
+        if (more && less) {
+            const glm::dvec2 by_step = (*more - *less) / (2.0 * step);
+            slope.col(k) << by_step.x, by_step.y;
         }
     }
+    const glm::dvec2 off = corner.px - camera.pixel(pose.point(corner.prop_m)).value_or(corner.px);
+    gradient += slope.transpose() * Eigen::Vector2d(off.x, off.y);
+    normal += slope.transpose() * slope;
 }
 
 /// From `start` downhill.
 Fit refined(const SeenTags& tags, const RigidTransform& start, const Pinhole& camera) {
     constexpr int most_rounds = 40;
     constexpr double least_gain = 1e-9; // of the cost: nothing is left to win
-    Fit fit{start, cost_of(tags, start, camera), {}};
+    Fit fit{start, cost_of(tags, start, camera)};
     double damping = 1e-3;
     bool done = !std::isfinite(fit.cost);
     for (int round = 0; round < most_rounds && !done; ++round) {
-        fit.normal = {};
-        Vector gradient{};
+        fit.normal.setZero();
+        Vector gradient = Vector::Zero();
         for (const SeenTag& tag : tags) {
             for (const Corner& corner : tag.corners) {
                 add_corner(corner, fit.pose, camera, fit.normal, gradient);
@@ -136,13 +100,12 @@ Fit refined(const SeenTags& tags, const RigidTransform& start, const Pinhole& ca
         done = true;
         for (; damping < 1e6; damping *= 10.0) {
             Matrix damped = fit.normal;
-            for (std::size_t k = 0; k < unknowns; ++k) {
-                damped[k][k] *= 1.0 + damping;
-            }
-            if (!factor(damped)) {
+            damped.diagonal() *= 1.0 + damping;
+            const Eigen::LLT<Matrix> factor(damped);
+            if (factor.info() != Eigen::Success) {
                 continue;
             }
-            const RigidTransform next = moved(fit.pose, step_of(solve(damped, gradient)));
+            const RigidTransform next = moved(fit.pose, step_of(factor.solve(gradient)));
             const double cost = cost_of(tags, next, camera);
             if (cost < fit.cost) {
                 done = fit.cost - cost <= least_gain * fit.cost;
@@ -159,15 +122,9 @@ Fit refined(const SeenTags& tags, const RigidTransform& start, const Pinhole& ca
 /// How far two poses are apart, in the measure of what the corners can tell: below one they are the same.
 double apart(const Fit& a, const Fit& b, double variance) {
     const PoseStep step = step_between(a.pose, b.pose);
-    const Vector v{step.shift_m.x,  step.shift_m.y,  step.shift_m.z,
-                   step.turn_rad.x, step.turn_rad.y, step.turn_rad.z};
-    double sum = 0.0;
-    for (std::size_t i = 0; i < unknowns; ++i) {
-        for (std::size_t j = 0; j < unknowns; ++j) {
-            sum += v[i] * a.normal[i][j] * v[j];
-        }
-    }
-    return sum / variance;
+    Vector v;
+    v << step.shift_m.x, step.shift_m.y, step.shift_m.z, step.turn_rad.x, step.turn_rad.y, step.turn_rad.z;
+    return v.dot(a.normal * v) / variance;
 }
 
 struct BestFits {
@@ -231,19 +188,15 @@ SeenTags seen_tags(std::span<const FoundTag> found, std::span<const PropTag> pro
 TagPose with_spread(const BestFits& fits, const SeenTags& tags, double variance) {
     const double corners = 4.0 * static_cast<double>(tags.size());
     TagPose pose{fits.best.pose, infinite, infinite, std::sqrt(fits.best.cost / corners), tags.size()};
-    Matrix normal = fits.best.normal;
-    if (!factor(normal)) {
+    const Eigen::LLT<Matrix> factor(fits.best.normal);
+    if (factor.info() != Eigen::Success) {
         return pose;
     }
     const double freedom = 2.0 * corners - static_cast<double>(unknowns);
     const double inflated = std::fmax(variance, fits.best.cost / freedom);
-    double place = 0.0;
-    double turn = 0.0;
-    for (std::size_t k = 0; k < unknowns; ++k) {
-        Vector unit{};
-        unit[k] = 1.0;
-        (k < 3 ? place : turn) += inflated * solve(normal, unit)[k];
-    }
+    const Vector variances = inflated * factor.solve(Matrix::Identity()).diagonal();
+    double place = variances.head<3>().sum();
+    double turn = variances.tail<3>().sum();
     if (std::isfinite(fits.second.cost)) {
         // Half of what independent noise would say: a corner's errors in blur, gamma and glare go together.
         const double odds = std::exp(-0.25 * (fits.second.cost - fits.best.cost) / inflated);

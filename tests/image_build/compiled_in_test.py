@@ -12,7 +12,7 @@ import sys
 
 SOURCE = pathlib.Path(sys.argv[1]).resolve()
 BUILD = SOURCE / "build/release"
-PROGRAMS = ("frustumscreen", "frustumscreen-import", "frustumscreen-pack", "frustumscreen-safe", "frustumscreen-watchdog")
+PROGRAMS = ("frustumscreen", "frustumscreen-calibrate", "frustumscreen-import", "frustumscreen-pack", "frustumscreen-safe", "frustumscreen-watchdog")
 INTERFACE = {"linux-libc-dev"}  # the kernel's interface: numbers and structures that are nobody's code
 
 

@@ -2,6 +2,7 @@
 
 #include "app/bench/stability/themes.h"
 #include "app/bench/table/simulated_table.h"
+#include "app/calibration/agreement.h"
 #include "app/calibration/calibrate_touch.h"
 #include "app/calibration/starts.h"
 
@@ -46,14 +47,7 @@ Fitted fitted(const SimulatedTable& table, const Touches& touches, const TouchNo
     const Pinhole& p = table.truth.pinhole;
     const FitSetup setup{noise, {}, table.sensor_height_m, {}};
     Fitted out;
-    double least = 1e300;
-    for (const TouchModel& start : starting_models(touches, p.width, p.height)) {
-        Fit fit = fit_touches(touches, {}, setup, start);
-        if (fit.chi2 < least) {
-            least = fit.chi2;
-            out.fit = std::move(fit);
-        }
-    }
+    out.fit = best_fit(touches, setup, starting_models(touches, p.width, p.height));
     const std::vector<ZonePlace> places =
         zone_places(out.fit.model, out.fit.middle, {0.12, touches[0].tracker_from_sensor.rotation});
     out.predicted_m =

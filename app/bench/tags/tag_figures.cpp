@@ -2,6 +2,7 @@
 
 #include "app/settings/looking_at.h"
 #include "app/tags/tag_pose.h"
+#include "app/tags/tag_reader.h"
 #include "app/tracking/pose_math.h"
 #include "firmware_host/base/quantile.h"
 #include "firmware_host/tags/tag_detector.h"
@@ -9,18 +10,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <ctime>
 #include <random>
 
 namespace frustumscreen {
 
 namespace {
-
-double thread_ms() {
-    timespec time{};
-    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
 
 struct Lists {
     std::vector<double> off_mm, off_deg, said_mm, find_ms, fit_ms;
@@ -59,12 +53,12 @@ TagFigures measure(const TagCase& of, std::size_t pictures, std::uint64_t seed) 
     for (std::size_t k = 0; k < pictures; ++k) {
         const PropMotion motion = any_motion(of, random);
         const std::vector<std::uint8_t> picture = scene.picture(motion, random());
-        const double begin = thread_ms();
+        const double begin = 1e3 * TagReader::thread_seconds();
         detector.find(picture, camera.pinhole.width, camera.pinhole.height, found);
-        const double between = thread_ms();
+        const double between = 1e3 * TagReader::thread_seconds();
         const auto pose = pose_from_tags(found, tags, camera.pinhole, usual_corner_sd_px);
         lists.find_ms.push_back(between - begin);
-        lists.fit_ms.push_back(thread_ms() - between);
+        lists.fit_ms.push_back(1e3 * TagReader::thread_seconds() - between);
         figures.tags += static_cast<double>(found.size()) / static_cast<double>(pictures);
         figures.posed += pose ? 1.0 / static_cast<double>(pictures) : 0.0;
         if (!pose || !is_sure(*pose)) {

@@ -4,7 +4,6 @@
 #include "app/calibration/point_files.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/touch_command.h"
-#include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
 
@@ -40,11 +39,7 @@ std::string auto_text(const AutoCalibration& c, const Rests& rests) {
     if (!c.found.table) {
         return text;
     }
-    const glm::dvec3& lens = c.found.table->table_from_projector.translation;
-    text +=
-        fmt::format("The projector is {:.3f} m above the table, {:.0f} mm beside and {:.0f} mm behind its "
-                    "picture's middle.\n",
-                    lens.z, 1e3 * lens.x, 1e3 * lens.y);
+    text += projector_text(c.found.table->table_from_projector);
     text += fmt::format(
         "The points of a rest lie {:.1f} mm ({:.1f} pixels) from where the others expect them, on "
         "average; {:.1f} mm at worst.\n",
@@ -64,20 +59,11 @@ Result<int> calibrate(const CalibrateRequest& request) {
     if (!described) {
         return tl::unexpected<Error>(described.error());
     }
-    const Result<Bytes> bytes = read_file(request.from);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    const Result<Rests> rests = parse_rests(as_text(*bytes), request.from.string());
+    const auto rests = read_points(request, parse_rests);
     if (!rests) {
         return tl::unexpected<Error>(rests.error());
     }
-    AutoSetup setup;
-    setup.width = described->width;
-    setup.height = described->height;
-    setup.top_m = described->top_m;
-    setup.sensor_height_m = request.sensor_height_m;
-    const AutoCalibration calibration = calibrate_auto(*rests, setup);
+    const AutoCalibration calibration = calibrate_auto(*rests, set_up_for<AutoSetup>(*described, request));
     if (request.json) {
         fmt::print("{}\n", auto_json(calibration, *rests).dump(2));
     } else {

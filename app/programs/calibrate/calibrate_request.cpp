@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace frustumscreen {
 
 void add_common_options(CLI::App& command, CalibrateRequest& request) {
@@ -67,6 +69,15 @@ nlohmann::ordered_json projector_json(const Pinhole& pinhole, const RigidTransfo
             {"k1", pinhole.lens.k1},
             {"k2", pinhole.lens.k2},
             {"table_from_projector", matrix_json(table_from_projector)}};
+}
+
+std::string projector_text(const RigidTransform& table_from_projector) {
+    const glm::dvec3& lens = table_from_projector.translation;
+    return fmt::format(
+        "The projector is {:.3f} m above the table, {:.0f} mm to the {} of its picture's middle "
+        "and {:.0f} mm {} it.\n",
+        lens.z, 1e3 * std::abs(lens.x), lens.x < 0.0 ? "left" : "right", 1e3 * std::abs(lens.y),
+        lens.y < 0.0 ? "in front of" : "behind");
 }
 
 int end_with(const Result<int>& status) {

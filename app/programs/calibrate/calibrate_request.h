@@ -7,6 +7,7 @@
 #include "app/geometry/pinhole.h"
 #include "app/geometry/transform.h"
 #include "app/settings/settings.h"
+#include "firmware_host/base/file.h"
 #include "firmware_host/base/result.h"
 
 #include <CLI/CLI.hpp>
@@ -15,6 +16,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace frustumscreen {
@@ -51,10 +53,30 @@ void add_touch_options(CLI::App& command, CalibrateRequest& request);
 void check_request(const CalibrateRequest& request);
 [[nodiscard]] Result<Described> describe(const CalibrateRequest& request);
 
+/// The points of --from; `parse` is one of point_files.h.
+template <typename Points>
+[[nodiscard]] Result<Points> read_points(const CalibrateRequest& request,
+                                         Result<Points> (*parse)(std::string_view, std::string_view)) {
+    const Result<Bytes> bytes = read_file(request.from);
+    return bytes ? parse(as_text(*bytes), request.from.string()) : tl::unexpected<Error>(bytes.error());
+}
+/// A calibration's set-up as far as the request has it: TouchSetup, AutoSetup.
+template <typename Setup>
+[[nodiscard]] Setup set_up_for(const Described& described, const CalibrateRequest& request) {
+    Setup setup;
+    setup.width = described.width;
+    setup.height = described.height;
+    setup.top_m = described.top_m;
+    setup.sensor_height_m = request.sensor_height_m;
+    return setup;
+}
+
 /// 16 numbers, column by column.
 [[nodiscard]] nlohmann::ordered_json matrix_json(const RigidTransform& transform);
 [[nodiscard]] nlohmann::ordered_json projector_json(const Pinhole& pinhole,
                                                     const RigidTransform& table_from_projector);
+/// Where the projector is, one sentence.
+[[nodiscard]] std::string projector_text(const RigidTransform& table_from_projector);
 /// 0 if it may be used; else 1, and the reason on standard error.
 [[nodiscard]] int status_of(Verdict verdict, const CalibrateRequest& request, const std::string& reason);
 

@@ -2,7 +2,7 @@
 
 #include "app/calibration/corners.h"
 #include "app/calibration/point_files.h"
-#include "firmware_host/base/file.h"
+#include "app/programs/calibrate/touch_command.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ Json corners_json(const CornerCalibration& c) {
               {"reason", c.reason},     {"repeat", Json::array()}};
     if (c.pinhole) {
         json["projector"] = projector_json(*c.pinhole, c.table_from_projector);
-        json["residual_mm"] = {{"mean", 1e3 * c.mean_residual_m}, {"worst", 1e3 * c.worst_residual_m}};
+        json["residual_mm"] = mm_json(c.mean_residual_m, c.worst_residual_m);
         json["residual_px"] = {{"mean", c.mean_residual_px}, {"worst", c.worst_residual_px}};
         json["centre_m"] = {c.centre_m.x, c.centre_m.y, c.centre_m.z};
         json["angles_deg"] = {{"horizontal", c.horizontal_deg}, {"vertical", c.vertical_deg}};
@@ -45,11 +45,7 @@ Result<int> corners(const CalibrateRequest& request) {
     if (!described) {
         return tl::unexpected<Error>(described.error());
     }
-    const Result<Bytes> bytes = read_file(request.from);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    const auto measured = parse_corners(as_text(*bytes), request.from.string());
+    const auto measured = read_points(request, parse_corners);
     if (!measured) {
         return tl::unexpected<Error>(measured.error());
     }

@@ -111,7 +111,6 @@ public:
     void stay(const TouchProcedure& procedure) {
         const MonotonicTime end = monotonic_now() + last_words;
         while (!stop_.received() && monotonic_now() < end && show(procedure, monotonic_now())) {
-            speak(monotonic_now());
             std::this_thread::sleep_for(between_frames);
         }
     }
@@ -133,7 +132,6 @@ private:
             input.back |= event.kind == PressKind::Press && event.button == back_button;
         }
         procedure.step(input);
-        speak(now);
         tell(inputs_.tracker->state(), "tracker", tracker_state_);
         tell(inputs_.panel->state(), "panel", panel_state_);
     }
@@ -141,11 +139,6 @@ private:
         if (const Sentence now(state); now != told) {
             told = now;
             say_line("frustumscreen-calibrate", fmt::format("{}: {}", device, state));
-        }
-    }
-    void speak(MonotonicTime now) {
-        if (voice_) {
-            voice_->poll(now);
         }
     }
     [[nodiscard]] Result<void> show(const TouchProcedure& procedure, MonotonicTime now) {
@@ -163,6 +156,9 @@ private:
         if (uploads_left_ > 0 || display_->buffer_age() == 0) {
             uploads_left_ = std::max(uploads_left_ - 1, 0);
             upload_.show(picture_, display_->framebuffer());
+        }
+        if (voice_) {
+            voice_->poll(now);
         }
         const Result<MonotonicTime> lit = display_->present(now);
         if (!lit) {
@@ -208,6 +204,47 @@ private:
     Sentence tracker_state_, panel_state_;
 };
 
+nlohmann::ordered_json crosses_json(const std::vector<Cross>& crosses) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Cross& cross : crosses) {
+        list.push_back({{"u_px", cross.pixel.x},
+                        {"v_px", cross.pixel.y},
+                        {"block_m", cross.block_m},
+                        {"turn_deg", glm::degrees(cross.yaw_rad)}});
+    }
+    return {{"crosses", list}};
+}
+
+/// From the first word on the table to the kept file.
+Result<int> go_through(Table& table, const Settings& settings, const std::vector<Cross>& crosses,
+                       const TouchSetup& setup, const std::filesystem::path& out) {
+    TouchProcedure procedure(crosses, setup.sensor_height_m ? "" : no_sensor_height);
+    const Result<std::optional<TouchStage>> ended = table.run(procedure, setup);
+    if (!out.empty() && !procedure.touches().empty()) { // nothing that was touched is lost
+        if (const Result<void> written = write_file(out, as_bytes(touches_text(procedure.touches())));
+            !written) {
+            return tl::unexpected<Error>(written.error());
+        }
+    }
+    if (!ended) {
+        return tl::unexpected<Error>(ended.error());
+    }
+    Result<void> kept =
+        fail(ErrorKind::BadInput, procedure.problem().empty()
+                                      ? "it ended before a calibration was kept; the one before counts"
+                                      : procedure.problem());
+    if (*ended == TouchStage::Done) {
+        kept = keep_touch(settings, *procedure.judged(), procedure.touches());
+    }
+    if (*ended == TouchStage::Done && !kept) { // nobody reads a service's standard error
+        TouchProcedure told(crosses, kept.error().message);
+        static_cast<void>(table.run(told, setup));
+    } else if (*ended) {
+        table.stay(procedure);
+    }
+    return kept.map([] { return 0; });
+}
+
 Result<int> calibrate_table(const CalibrateRequest& request) {
     const Result<Described> described = describe(request);
     if (!described) {
@@ -216,14 +253,7 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     const Settings& settings = *described->settings;
     const std::vector<Cross> crosses = crosses_for(settings, request);
     if (request.json) {
-        nlohmann::ordered_json list = nlohmann::ordered_json::array();
-        for (const Cross& cross : crosses) {
-            list.push_back({{"u_px", cross.pixel.x},
-                            {"v_px", cross.pixel.y},
-                            {"block_m", cross.block_m},
-                            {"turn_deg", glm::degrees(cross.yaw_rad)}});
-        }
-        fmt::print("{}\n", nlohmann::ordered_json{{"crosses", list}}.dump(2));
+        fmt::print("{}\n", crosses_json(crosses).dump(2));
         return 0;
     }
     Settings raw = settings;
@@ -250,32 +280,8 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     }
     CalibrateRequest known = request;
     known.sensor_height_m = sensor_height(settings, request);
-    TouchProcedure procedure(crosses, known.sensor_height_m ? "" : no_sensor_height);
     Table table(raw, *std::move(inputs), *std::move(display), *std::move(typesetter));
-    const Result<std::optional<TouchStage>> ended = table.run(procedure, touch_setup(*described, known));
-    if (!request.out.empty() && !procedure.touches().empty()) { // nothing that was touched is lost
-        if (const Result<void> written = write_file(request.out, as_bytes(touches_text(procedure.touches())));
-            !written) {
-            return tl::unexpected<Error>(written.error());
-        }
-    }
-    if (!ended) {
-        return tl::unexpected<Error>(ended.error());
-    }
-    Result<void> kept =
-        fail(ErrorKind::BadInput, procedure.problem().empty()
-                                      ? "it ended before a calibration was kept; the one before counts"
-                                      : procedure.problem());
-    if (*ended == TouchStage::Done) {
-        kept = keep_touch(settings, *procedure.judged(), procedure.touches());
-    }
-    if (*ended == TouchStage::Done && !kept) { // nobody reads a service's standard error
-        TouchProcedure told(crosses, kept.error().message);
-        static_cast<void>(table.run(told, touch_setup(*described, known)));
-    } else if (*ended) {
-        table.stay(procedure);
-    }
-    return kept.map([] { return 0; });
+    return go_through(table, settings, crosses, set_up_for<TouchSetup>(*described, known), request.out);
 }
 
 } // namespace

@@ -4,7 +4,6 @@
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/touch_up_command.h"
 #include "app/programs/calibrate/uncertainty_picture.h"
-#include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
 
@@ -14,29 +13,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json mm(double mean_m, double worst_m) {
-    return {{"mean", 1e3 * mean_m}, {"worst", 1e3 * worst_m}};
-}
-
-Json rows_json(const TouchCalibration& calibration) {
-    Json rows = Json::array();
-    for (std::size_t k = 0; k < calibration.residuals.size(); ++k) {
-        rows.push_back({{"row", k + 1},
-                        {"residual_mm", 1e3 * calibration.residuals[k].on_table_m},
-                        {"residual_px", calibration.residuals[k].pixel}});
-    }
-    return rows;
-}
-
 std::string touch_text(const TouchCalibration& c) {
     std::string text = fmt::format("{}: {}\n", name_of(c.verdict), c.reason);
     if (!c.table) {
         return text;
     }
-    const glm::dvec3& lens = c.table->table_from_projector.translation;
-    text += fmt::format("The projector is {:.3f} m above the table, {:.0f} mm beside and {:.0f} mm behind "
-                        "its picture's middle.\n",
-                        lens.z, 1e3 * lens.x, 1e3 * lens.y);
+    text += projector_text(c.table->table_from_projector);
     text += fmt::format("Each touch lies {:.1f} mm ({:.1f} pixels) from where the others expect it, on "
                         "average; {:.1f} mm at worst.\n",
                         1e3 * c.mean_residual_m, c.mean_residual_px, 1e3 * c.worst_residual_m);
@@ -64,18 +46,15 @@ Result<int> touch(const CalibrateRequest& request) {
     if (!described) {
         return tl::unexpected<Error>(described.error());
     }
-    const Result<Bytes> bytes = read_file(request.from);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    const Result<Touches> touches = parse_touches(as_text(*bytes), request.from.string());
+    const auto touches = read_points(request, parse_touches);
     if (!touches) {
         return tl::unexpected<Error>(touches.error());
     }
     if (request.touch_up) {
-        return touch_up_kept(request, *described->settings, *touches);
+        return touch_up_kept(request, *described, *touches);
     }
-    const TouchCalibration calibration = calibrate_touch(*touches, touch_setup(*described, request));
+    const TouchCalibration calibration =
+        calibrate_touch(*touches, set_up_for<TouchSetup>(*described, request));
     if (request.json) {
         fmt::print("{}\n", touch_json(calibration).dump(2));
     } else {
@@ -95,6 +74,20 @@ Result<int> touch(const CalibrateRequest& request) {
 
 } // namespace
 
+nlohmann::ordered_json mm_json(double mean_m, double worst_m) {
+    return {{"mean", 1e3 * mean_m}, {"worst", 1e3 * worst_m}};
+}
+
+nlohmann::ordered_json rows_json(std::span<const TouchResidual> residuals) {
+    Json rows = Json::array();
+    for (std::size_t k = 0; k < residuals.size(); ++k) {
+        rows.push_back({{"row", k + 1},
+                        {"residual_mm", 1e3 * residuals[k].on_table_m},
+                        {"residual_px", residuals[k].pixel}});
+    }
+    return rows;
+}
+
 nlohmann::ordered_json touch_json(const TouchCalibration& c) {
     Json json{{"projector", nullptr},       {"table_from_tracker", nullptr},
               {"sensor_offset_m", nullptr}, {"residual_mm", nullptr},
@@ -110,27 +103,18 @@ nlohmann::ordered_json touch_json(const TouchCalibration& c) {
         json["projector"] = projector_json(c.table->pinhole, c.table->table_from_projector);
         json["table_from_tracker"] = matrix_json(c.table->table_from_tracker);
         json["sensor_offset_m"] = {s.x, s.y, s.z};
-        json["residual_mm"] = mm(c.mean_residual_m, c.worst_residual_m);
+        json["residual_mm"] = mm_json(c.mean_residual_m, c.worst_residual_m);
         json["residual_px"] = {{"mean", c.mean_residual_px}, {"worst", c.worst_residual_px}};
-        json["uncertainty_mm"] = mm(c.uncertainty.mean_m, c.uncertainty.worst_m);
+        json["uncertainty_mm"] = mm_json(c.uncertainty.mean_m, c.uncertainty.worst_m);
         json["hidden_error_mm"] = 1e3 * c.hidden_error_m;
         json["prior_share"] = {{"aspect", c.prior_shares.aspect},
                                {"cx", c.prior_shares.centre_u},
                                {"cy", c.prior_shares.centre_v},
                                {"k1", c.prior_shares.k1},
                                {"k2", c.prior_shares.k2}};
-        json["rows"] = rows_json(c);
+        json["rows"] = rows_json(c.residuals);
     }
     return json;
-}
-
-TouchSetup touch_setup(const Described& described, const CalibrateRequest& request) {
-    TouchSetup setup;
-    setup.width = described.width;
-    setup.height = described.height;
-    setup.top_m = described.top_m;
-    setup.sensor_height_m = request.sensor_height_m;
-    return setup;
 }
 
 void add_touch_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {

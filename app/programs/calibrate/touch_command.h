@@ -7,12 +7,15 @@
 #include "app/programs/calibrate/calibrate_request.h"
 
 #include <functional>
+#include <span>
 
 namespace frustumscreen {
 
 /// Every key is always there; what is not known is null.
 [[nodiscard]] nlohmann::ordered_json touch_json(const TouchCalibration& calibration);
-[[nodiscard]] TouchSetup touch_setup(const Described& described, const CalibrateRequest& request);
+/// Millimetres; of each touch, numbered from 1.
+[[nodiscard]] nlohmann::ordered_json mm_json(double mean_m, double worst_m);
+[[nodiscard]] nlohmann::ordered_json rows_json(std::span<const TouchResidual> residuals);
 /// Sets `chosen` if this is the command; what it returns is the exit status.
 void add_touch_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen);
 

@@ -2,6 +2,7 @@
 
 #include "app/calibration/touch_up.h"
 #include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/touch_command.h"
 
 #include <fmt/format.h>
 
@@ -25,14 +26,9 @@ Json touch_up_json(const TouchUp& found) {
         json["off_mm"] = 1e3 * found.off_m;
         json["projector"] = projector_json(found.table->pinhole, found.table->table_from_projector);
         json["table_from_tracker"] = matrix_json(found.table->table_from_tracker);
-        json["uncertainty_mm"] = {{"mean", 1e3 * found.uncertainty.mean_m},
-                                  {"worst", 1e3 * found.uncertainty.worst_m}};
+        json["uncertainty_mm"] = mm_json(found.uncertainty.mean_m, found.uncertainty.worst_m);
         json["hidden_error_mm"] = 1e3 * found.hidden_error_m;
-        for (std::size_t k = 0; k < found.residuals.size(); ++k) {
-            json["rows"].push_back({{"row", k + 1},
-                                    {"residual_mm", 1e3 * found.residuals[k].on_table_m},
-                                    {"residual_px", found.residuals[k].pixel}});
-        }
+        json["rows"] = rows_json(found.residuals);
     }
     return json;
 }
@@ -64,7 +60,9 @@ Calibration next_calibration(const Settings& settings, const TouchUp& found) {
 
 } // namespace
 
-Result<int> touch_up_kept(const CalibrateRequest& request, const Settings& settings, const Touches& touches) {
+Result<int> touch_up_kept(const CalibrateRequest& request, const Described& described,
+                          const Touches& touches) {
+    const Settings& settings = *described.settings;
     if (!settings.calibration.used) {
         return fail(
             ErrorKind::BadConfiguration,
@@ -72,11 +70,8 @@ Result<int> touch_up_kept(const CalibrateRequest& request, const Settings& setti
                         "--keep or table",
                         settings.calibration.folder.string()));
     }
-    TouchSetup setup;
-    setup.width = settings.projector.pinhole.width;
-    setup.height = settings.projector.pinhole.height;
-    setup.top_m = settings.prop.height_m;
-    const TouchUp found = touch_up(kept_table_of(settings), touches, setup);
+    const TouchUp found =
+        touch_up(kept_table_of(settings), touches, set_up_for<TouchSetup>(described, request));
     if (request.json) {
         fmt::print("{}\n", touch_up_json(found).dump(2));
     } else {

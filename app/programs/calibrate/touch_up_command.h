@@ -9,8 +9,8 @@
 
 namespace frustumscreen {
 
-/// Prints what moved, keeps it where that is asked for, and returns the exit status.
-[[nodiscard]] Result<int> touch_up_kept(const CalibrateRequest& request, const Settings& settings,
+/// The request has --config. Prints what moved, keeps it where that is asked for, and returns the exit status.
+[[nodiscard]] Result<int> touch_up_kept(const CalibrateRequest& request, const Described& described,
                                         const Touches& touches);
 
 } // namespace frustumscreen
