@@ -10,9 +10,10 @@ namespace {
 
 using Kind = MotionModel::Kind;
 
-// Glide is so loose that it is the model of a knock; Manoeuvre mostly explains a hand that moves.
-constexpr std::array place_models = {MotionModel{Kind::Rest, 0.0001}, MotionModel{Kind::Glide, 3.0},
-                                     MotionModel{Kind::Manoeuvre, 7.4}};
+// Creep is so tight that the picture does not tremble on a prop that is slid slowly; Glide is so loose that it is the model of a knock;
+// Manoeuvre mostly explains a hand that moves.
+constexpr std::array place_models = {MotionModel{Kind::Rest, 0.0001}, MotionModel{Kind::Creep, 0.0125, 0.45},
+                                     MotionModel{Kind::Glide, 3.0}, MotionModel{Kind::Manoeuvre, 7.4}};
 constexpr std::array turn_models = {MotionModel{Kind::Rest, 0.0003}, MotionModel{Kind::Glide, 0.02},
                                     MotionModel{Kind::Manoeuvre, 5.7}};
 constexpr std::array place_glide = {MotionModel{Kind::Glide, 0.1}};
@@ -32,8 +33,9 @@ glm::dvec3 way(const MotionTrack& track, double ahead_s, double manoeuvre_lasts_
 } // namespace
 
 MotionFilterOptions exhibit_filter(const PoseNoise& noise) {
-    return {
-        {place_models, noise.place_m, 0.065, 2.0, 0.02}, {turn_models, noise.turn_rad, 0.18, 5.0, 0.8}, 0.08};
+    return {{place_models, noise.place_m, 0.065, 2.0, 0.02},
+            {turn_models, noise.turn_rad, 0.18, 5.0, 0.8},
+            0.078};
 }
 
 MotionFilterOptions constant_velocity_filter(const PoseNoise& noise) {

@@ -1,6 +1,6 @@
 /// The exhibit's filter of poses: a MotionTrack for the place and one for the turn.
 ///
-/// Models   rest, glide and manoeuvre; the defaults were tuned with frustumscreen-bench latency and expect
+/// Models   rest, creep (of the place), glide and manoeuvre; the defaults were tuned with frustumscreen-bench latency and expect
 ///          its noise. With the one model Glide it is the constant-velocity Kalman filter.
 /// Threads  one caller. Allocates nothing.
 /// Source   motion_track.h; the turn is the error state of Sola, Quaternion kinematics for the error-state

@@ -11,11 +11,18 @@ namespace {
 /// No model's weight goes to zero: the model could not come back.
 constexpr double least_weight = 1e-9;
 
+/// Steps that are a smaller share of a velocity's time constant: its fading is not worth the digits that its integral loses.
+constexpr double least_fading = 1e-4;
+
 /// Columns as glm has them: transition[column][row].
-glm::dmat3 transition(MotionModel::Kind kind, double dt) {
-    switch (kind) {
+glm::dmat3 transition(const MotionModel& model, double dt) {
+    switch (model.kind) {
     case MotionModel::Kind::Rest:
         return {{1.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+    case MotionModel::Kind::Creep: {
+        const double faded = -std::expm1(-dt / model.fades_s);
+        return {{1.0, 0.0, 0.0}, {model.fades_s * faded, 1.0 - faded, 0.0}, {0.0, 0.0, 0.0}};
+    }
     case MotionModel::Kind::Glide:
         return {{1.0, 0.0, 0.0}, {dt, 1.0, 0.0}, {0.0, 0.0, 0.0}};
     case MotionModel::Kind::Manoeuvre:
@@ -30,11 +37,22 @@ glm::dmat3 driving_noise(const MotionModel& model, double dt, double velocity, d
     const double q = model.noise * model.noise;
     const double dt2 = dt * dt;
     const double dt3 = dt2 * dt;
+    const double steps = dt / model.fades_s; // of Creep
     switch (model.kind) {
-    case MotionModel::Kind::Rest:
-        return {{q * dt, 0.0, 0.0}, {0.0, velocity, 0.0}, {0.0, 0.0, acceleration}};
+    case MotionModel::Kind::Creep:
+        if (steps > least_fading) {
+            const double t = model.fades_s;
+            const double faded = -std::expm1(-steps);
+            const double both = q * t * t * faded * faded / 2.0;
+            return {{q * t * t * t * (steps - faded - faded * faded / 2.0), both, 0.0},
+                    {both, q * t * faded * (2.0 - faded) / 2.0, 0.0},
+                    {0.0, 0.0, acceleration}};
+        }
+        [[fallthrough]]; // it glides
     case MotionModel::Kind::Glide:
         return {{q * dt3 / 3.0, q * dt2 / 2.0, 0.0}, {q * dt2 / 2.0, q * dt, 0.0}, {0.0, 0.0, acceleration}};
+    case MotionModel::Kind::Rest:
+        return {{q * dt, 0.0, 0.0}, {0.0, velocity, 0.0}, {0.0, 0.0, acceleration}};
     case MotionModel::Kind::Manoeuvre:
         break;
     }
@@ -114,7 +132,7 @@ glm::dvec3 MotionTrack::advance(double dt_s) {
     const double acceleration = options_.first_acceleration_sd * options_.first_acceleration_sd;
     for (std::size_t m = 0; m < count_; ++m) {
         ModeState& mode = modes_[m];
-        const glm::dmat3 step = transition(models_[m].kind, dt_s);
+        const glm::dmat3 step = transition(models_[m], dt_s);
         const std::array<glm::dvec3, 3> mean = mode.mean;
         for (int row = 0; row < 3; ++row) {
             mode.mean[static_cast<std::size_t>(row)] =

@@ -11,7 +11,8 @@
 /// Threads  one caller. Allocates nothing.
 /// Source   Blom and Bar-Shalom, The interacting multiple model algorithm for systems with Markovian
 ///          switching coefficients, 1988; models after Bar-Shalom, Li and Kirubarajan, Estimation with
-///          Applications to Tracking and Navigation, 2001, 6.2. Differs in that the chance of a change of
+///          Applications to Tracking and Navigation, 2001, 6.2; Creep is the process of Uhlenbeck and Ornstein, On the theory of the
+///          Brownian motion, 1930. Differs in that the chance of a change of
 ///          model is the exact exponential of a rate, not a number per step. One model alone is the ordinary
 ///          Kalman filter.
 #pragma once
@@ -27,11 +28,13 @@ namespace frustumscreen {
 struct MotionModel {
     enum class Kind {
         Rest,      ///< it stands; the place walks randomly
+        Creep,     ///< a slow, steady hand: a velocity that fades, driven by white acceleration
         Glide,     ///< constant velocity, driven by white acceleration
         Manoeuvre, ///< constant acceleration, driven by white jerk
     };
     Kind kind = Kind::Glide;
-    double noise = 1.0; ///< root of the driving noise's density: unit / s^0.5, / s^1.5, / s^2.5
+    double noise = 1.0;   ///< root of the driving noise's density: unit / s^0.5, / s^1.5, / s^2.5
+    double fades_s = 1.0; ///< Creep: time constant of its velocity; what is fast is then not taken for steady
 };
 
 struct MotionTrackOptions {
@@ -44,7 +47,7 @@ struct MotionTrackOptions {
 
 class MotionTrack {
 public:
-    static constexpr std::size_t most_models = 3;
+    static constexpr std::size_t most_models = 4;
 
     explicit MotionTrack(const MotionTrackOptions& options);
 

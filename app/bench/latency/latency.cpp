@@ -139,6 +139,19 @@ Slip slip_of(std::span<const LitPicture> pictures, double lever_m) {
     return {mean(slips), quantile(slips, 0.95), rms(slips)};
 }
 
+Slip tremble_of(std::span<const LitPicture> pictures, double lever_m) {
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < pictures.size(); ++k) {
+        if (pictures[k].lit_s >= warm_up_s) {
+            const PoseStep before = step_between(pictures[k - 1].truth, pictures[k - 1].drawn);
+            const PoseStep now = step_between(pictures[k].truth, pictures[k].drawn);
+            steps.push_back(1e3 *
+                            slip_m({now.shift_m - before.shift_m, now.turn_rad - before.turn_rad}, lever_m));
+        }
+    }
+    return {mean(steps), quantile(steps, 0.95), rms(steps)};
+}
+
 Overshoot overshoot_of(const TrackedBy& tracker, const LatencySetting& setting, const Contestant& contestant,
                        std::uint64_t seed) {
     std::vector<double> past;
@@ -167,7 +180,7 @@ TrackerResult measure_tracker(const TrackedBy& tracker, const LatencyOptions& op
     const LatencySetting& setting = options.setting;
     TrackerResult result{tracker, tracker.latency_ms + setting.display_latency_ms, {}};
     for (const Contestant& contestant : contestants()) {
-        ContestantResult one{contestant.name, contestant.predicts, {}, {}, {}, {}};
+        ContestantResult one{contestant.name, contestant.predicts, {}, {}, {}, {}, {}};
         const auto slip = [&](const HandMotion& motion, const LatencySetting& with) {
             return slip_of(lit_pictures(motion, options.length_s, tracker, with, contestant, options.seed),
                            setting.lever_m);
@@ -175,6 +188,13 @@ TrackerResult measure_tracker(const TrackedBy& tracker, const LatencyOptions& op
         for (const double speed_m_s : options.speeds_m_s) {
             one.strokes.push_back(
                 {speed_m_s, slip(strokes(speed_m_s, options.length_s, options.seed), setting)});
+        }
+        for (const double speed_m_s : options.slides_m_s) {
+            const HandMotion slide =
+                stop(speed_m_s, stop_braking_m_s2, options.length_s); // nothing brakes it before
+            one.trembles.push_back({speed_m_s, tremble_of(lit_pictures(slide, options.length_s, tracker,
+                                                                       setting, contestant, options.seed),
+                                                          setting.lever_m)});
         }
         one.rest = slip(rest(), setting);
         one.stop = overshoot_of(tracker, setting, contestant, options.seed);

@@ -73,6 +73,10 @@ struct Slip {
 };
 [[nodiscard]] Slip slip_of(std::span<const LitPicture> pictures, double lever_m);
 
+/// How much the picture trembles on a prop that is slid steadily: from one picture to the next, how far it goes beyond what the prop goes,
+/// at the prop, in mm, after the first second.
+[[nodiscard]] Slip tremble_of(std::span<const LitPicture> pictures, double lever_m);
+
 /// A stop along X: how far the picture goes past the place where the prop stops, and how far it runs ahead of
 /// the prop before that. Each run counts with its largest value, in mm.
 struct Overshoot {
@@ -99,6 +103,7 @@ struct ContestantResult {
     std::string name;
     bool predicts = false;
     std::vector<SpeedSlip> strokes;
+    std::vector<SpeedSlip> trembles; ///< of steady slides
     Slip rest;
     Overshoot stop;
     std::vector<LatencySlip> latencies;
@@ -112,6 +117,7 @@ struct TrackerResult {
 struct LatencyOptions {
     LatencySetting setting;
     std::vector<double> speeds_m_s = {0.05, 0.1, 0.25, 0.5};
+    std::vector<double> slides_m_s = {0.002, 0.005, 0.015, 0.05, 0.15};
     double length_s = 60.0;
     std::uint64_t seed = 1;
 };

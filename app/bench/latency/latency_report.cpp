@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace frustumscreen {
 
@@ -13,6 +14,8 @@ constexpr double least_gain = 0.4;
 constexpr double judged_speed_m_s = 0.25;
 constexpr double most_rest_mm = 0.15;
 constexpr double overshoot_margin_mm = 0.5;
+constexpr double most_tremble_mm = 0.5;
+constexpr double fastest_calm_m_s = 0.05; ///< a slide without trembling
 
 const ContestantResult& named(const TrackerResult& result, const std::string& name) {
     const auto found =
@@ -26,6 +29,15 @@ const Slip* at_speed(const ContestantResult& contestant, double speed_m_s) {
     const auto found = std::find_if(contestant.strokes.begin(), contestant.strokes.end(),
                                     [&](const SpeedSlip& stroke) { return stroke.speed_m_s == speed_m_s; });
     return found != contestant.strokes.end() ? &found->slip : nullptr;
+}
+
+/// Of the slides that are to be calm.
+double worst_tremble_mm(const ContestantResult& contestant) {
+    double worst = 0.0;
+    for (const SpeedSlip& slide : contestant.trembles) {
+        worst = slide.speed_m_s <= fastest_calm_m_s ? std::fmax(worst, slide.slip.rms) : worst;
+    }
+    return worst;
 }
 
 } // namespace
@@ -48,6 +60,12 @@ std::vector<Verdict> judge(const TrackerResult& result, const LatencyOptions& op
     verdicts.push_back({fmt::format("rest jitter <= {:g} mm RMS", most_rest_mm),
                         fmt::format("{:.3f} mm against the truth", shown.rest.rms),
                         shown.rest.rms <= most_rest_mm});
+    verdicts.push_back(
+        {fmt::format(
+             "trembles by <= {:g} mm RMS from picture to picture while it is slid at {:g} m/s at most",
+             most_tremble_mm, fastest_calm_m_s),
+         fmt::format("{:.2f} mm at the worst speed", worst_tremble_mm(shown)),
+         worst_tremble_mm(shown) <= most_tremble_mm});
     const double total_s = 1e-3 * (result.tracker.latency_ms + options.setting.display_latency_ms);
     const double limit_mm = 1e3 * 0.5 * stop_braking_m_s2 * total_s * total_s + overshoot_margin_mm;
     verdicts.push_back({fmt::format("overshoot when stopping from {:g} m/s at {:g} m/s^2 <= {:.2f} mm",
@@ -68,16 +86,24 @@ std::string latency_table(const TrackerResult& result, const LatencyOptions& opt
     for (const double speed_m_s : options.speeds_m_s) {
         text += fmt::format(" {:>19}", fmt::format("{:g} m/s", speed_m_s));
     }
-    text += fmt::format(" {:>6} {:>13} {:>13}\n", "rest", "overshoot", "runs ahead");
+    text += fmt::format(" {:>6} {:>13} {:>13} ", "rest", "overshoot", "runs ahead");
+    for (const double speed_m_s : options.slides_m_s) {
+        text += fmt::format(" {:>6}", fmt::format("{:g}", speed_m_s));
+    }
+    text += " m/s: trembles\n";
     for (const ContestantResult& contestant : result.contestants) {
         text += fmt::format("{:<29}", contestant.name);
         for (const SpeedSlip& stroke : contestant.strokes) {
             text +=
                 fmt::format("   {:5.2f} {:5.2f} {:5.2f}", stroke.slip.mean, stroke.slip.p95, stroke.slip.rms);
         }
-        text += fmt::format(" {:6.3f} {:6.2f} {:6.2f} {:6.2f} {:6.2f}\n", contestant.rest.rms,
+        text += fmt::format(" {:6.3f} {:6.2f} {:6.2f} {:6.2f} {:6.2f} ", contestant.rest.rms,
                             contestant.stop.mean, contestant.stop.p95, contestant.stop.ahead_mean,
                             contestant.stop.ahead_p95);
+        for (const SpeedSlip& slide : contestant.trembles) {
+            text += fmt::format(" {:6.2f}", slide.slip.rms);
+        }
+        text += "\n";
     }
     return text;
 }
@@ -105,6 +131,9 @@ std::string latency_csv(std::span<const TrackerResult> results, std::span<const 
             const std::string& source = result.tracker.name;
             for (const SpeedSlip& stroke : contestant.strokes) {
                 row(source, contestant.name, "strokes", stroke.speed_m_s, result.total_ms, stroke.slip);
+            }
+            for (const SpeedSlip& slide : contestant.trembles) {
+                row(source, contestant.name, "tremble", slide.speed_m_s, result.total_ms, slide.slip);
             }
             for (const LatencySlip& latency : contestant.latencies) {
                 row(source, contestant.name, "latency", latency_speed_m_s, latency.total_ms, latency.slip);
