@@ -171,9 +171,8 @@ void choose_shaders(const SceneRequest& request, bool signs, ScenePlan& plan) {
                 if (!plan.levels.empty()) {
                     needs.draws.insert(key);
                 }
-                key.pass = ShaderKey::Pass::Cast;
-                if (casts) {
-                    needs.draws.insert(key);
+                if (casts) { // in any light, which the processor gives them
+                    needs.draws.insert(cast_shader(dithered));
                 }
             }
         }

@@ -211,7 +211,7 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
         const auto level = std::find_if(levels_.begin(), levels_.end(),
                                         [&](const Level& one) { return one.shows.relief == casts; });
         if ((casts || key.pass == ShaderKey::Pass::Surface) && !key.places &&
-            key.even_light == view.light.has_value() && level != levels_.end()) {
+            (casts || key.even_light == view.light.has_value()) && level != levels_.end()) {
             PlacedLevel placed = level->placed;
             placed.drawable.material.cut_out = key.cut_out;
             if (key.dithered) {
