@@ -13,6 +13,7 @@ namespace {
 
 /// Codes are multiplied by what light is multiplied by to this power: sRGB's own, away from black.
 constexpr float code_power = 1.0F / 2.4F;
+constexpr std::size_t most_faces = 16; // more than any prop has
 constexpr float code_offset = 0.055F * 255.0F;
 
 /// Pixels [first, end) of a row.
@@ -162,8 +163,7 @@ void CastLight::light(int y, int first, std::span<glm::u8vec4> codes) const {
         return codes.subspan(static_cast<std::size_t>(run.first - first),
                              static_cast<std::size_t>(run.end - run.first));
     };
-    // What no face has, lies left of one, right of one or between two: it is as long as all but what they have.
-    std::array<Run, 16> lit_runs{};
+    std::array<Run, most_faces> lit_runs{};
     std::size_t runs = 0;
     for (const Face& face : faces_) {
         const Run run = run_inside(face.edges, y, all_of);
@@ -182,7 +182,7 @@ void CastLight::light(int y, int first, std::span<glm::u8vec4> codes) const {
     }
     std::sort(lit_runs.begin(), lit_runs.begin() + static_cast<std::ptrdiff_t>(runs),
               [](const Run& a, const Run& b) { return a.first < b.first; });
-    int dark = first;
+    int dark = first; // what no face has lies before, between and behind them
     for (std::size_t k = 0; k < runs; ++k) {
         std::ranges::fill(part({dark, std::max(dark, lit_runs[k].first)}), glm::u8vec4(0));
         dark = lit_runs[k].end;
