@@ -20,10 +20,12 @@ using Cell = ReliefScene::Cell;
 
 template <typename Visit> void for_each_cell(const BlockRelief& relief, Visit visit) {
     for (std::size_t k = 0; k < relief.grids.size(); ++k) {
+        glm::vec3 outward(0.0F);
+        outward[relief.grids[k].axis[2]] = static_cast<float>(relief.grids[k].sign);
         for (std::uint32_t block = relief.first_block[k]; block < relief.first_block[k + 1]; ++block) {
             for (std::uint32_t cell = 0; cell < cells_of_block; ++cell) {
                 if ((relief.blocks[block].mask >> cell & 1U) != 0) {
-                    visit(relief.grids[k], Cell{block, cell});
+                    visit(relief.grids[k], Cell{block, cell, outward});
                 }
             }
         }
@@ -90,14 +92,21 @@ ReliefScene::ReliefScene(const BlockRelief& relief)
 SurfaceHit ReliefScene::trace(const glm::vec3& eye, const glm::vec3& direction) const {
     constexpr float beyond_box = 1e-5F;
     SurfaceHit hit = scene_.trace(eye, direction);
-    while (hit.hit && !is_drawn(hit)) {
+    while (hit.hit && !is_drawn(hit, direction)) {
         hit = scene_.trace(eye, direction, hit.distance + beyond_box);
     }
     return hit;
 }
 
-bool ReliefScene::is_drawn(const SurfaceHit& hit) const {
+bool ReliefScene::is_drawn(const SurfaceHit& hit, const glm::vec3& direction) const {
     const Cell& cell = cells_[hit.triangle / triangles_of_cell];
+    const auto corner = [&](std::size_t k) {
+        return surface_.positions[surface_.indices[std::size_t{3} * hit.triangle + k]];
+    };
+    const glm::vec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+    if (glm::dot(normal, direction) * glm::dot(normal, cell.outward) >= 0.0F) {
+        return false;
+    }
     const ReliefBlock& block = relief_.blocks[cell.block];
     const std::uint64_t bit = std::uint64_t{1} << cell.cell;
     if ((block.cut & bit) == 0) {

@@ -1,4 +1,4 @@
-/// A relief's surface for rays: where the cut cells have nothing, they pass.
+/// A relief's surface for rays: where the cut cells have nothing, and through backs, they pass.
 ///
 /// Frame    box.
 /// Threads  const; any. The relief must outlive it.
@@ -33,11 +33,12 @@ public:
     /// A cell that is there, in the order of the surface's triangles.
     struct Cell {
         std::uint32_t block = 0;
-        std::uint32_t cell = 0; ///< 8 row + column
+        std::uint32_t cell = 0;  ///< 8 row + column
+        glm::vec3 outward{0.0F}; ///< of its direction
     };
 
 private:
-    [[nodiscard]] bool is_drawn(const SurfaceHit& hit) const;
+    [[nodiscard]] bool is_drawn(const SurfaceHit& hit, const glm::vec3& direction) const;
 
     const BlockRelief& relief_;
     TriangleMesh surface_;
