@@ -20,7 +20,8 @@ using namespace pack_format;
 
 namespace {
 
-constexpr std::string_view section_name = "seen_errors";
+constexpr std::string_view levels_section = "seen_errors";
+constexpr std::string_view reliefs_section = "seen_reliefs"; ///< its eyes are those of the other
 constexpr std::size_t most_eyes = 1000;
 
 /// An eye as it stands in the file.
@@ -91,15 +92,9 @@ SeenError error_of(const ErrorRecord& record) {
     return error;
 }
 
-void record_fields(auto& fields, auto& records) {
-    fields.objects("eyes", records.eyes, most_eyes, [](auto& item, auto& eye) {
-        item.numbers("towards", std::span(eye.towards));
-        item.number("steepness", eye.steepness);
-        item.numbers("shares", std::span(eye.shares));
-        item.numbers("places", std::span(eye.places));
-    });
-    fields.objects("levels", records.levels, most_levels, [](auto& level, auto& eyes) {
-        level.objects("eyes", eyes, most_eyes, [](auto& item, auto& record) {
+void error_records(auto& fields, const char* name, auto& surfaces, std::size_t most) {
+    fields.objects(name, surfaces, most, [](auto& surface, auto& eyes) {
+        surface.objects("eyes", eyes, most_eyes, [](auto& item, auto& record) {
             item.number("mean_box", record.error.mean_box);
             item.number("p95_box", record.error.p95_box);
             item.number("outline_shift_box", record.error.outline_shift_box);
@@ -109,9 +104,19 @@ void record_fields(auto& fields, auto& records) {
     });
 }
 
-const PackSection* find_section(const PackDescription& pack) {
+void record_fields(auto& fields, auto& records) {
+    fields.objects("eyes", records.eyes, most_eyes, [](auto& item, auto& eye) {
+        item.numbers("towards", std::span(eye.towards));
+        item.number("steepness", eye.steepness);
+        item.numbers("shares", std::span(eye.shares));
+        item.numbers("places", std::span(eye.places));
+    });
+    error_records(fields, "levels", records.levels, most_levels);
+}
+
+const PackSection* find_section(const PackDescription& pack, std::string_view name) {
     const auto found = std::find_if(pack.sections.begin(), pack.sections.end(),
-                                    [](const PackSection& section) { return section.name == section_name; });
+                                    [name](const PackSection& section) { return section.name == name; });
     return found != pack.sections.end() ? &*found : nullptr;
 }
 
@@ -123,6 +128,11 @@ bool is_sound(const SeenError& seen) {
            allowed(seen.outline_shift_box, most_error_box) && allowed(seen.silhouette_share, most_share) &&
            std::all_of(seen.patches_box.begin(), seen.patches_box.end(),
                        [&](float box) { return allowed(box, most_error_box); });
+}
+
+bool is_sound(const std::vector<SeenError>& errors, std::size_t eyes) {
+    return errors.size() == eyes &&
+           std::all_of(errors.begin(), errors.end(), [](const SeenError& each) { return is_sound(each); });
 }
 
 bool is_sound(const SeenEye& eye) {
@@ -149,58 +159,101 @@ Result<void> check(const SeenErrors& seen, std::size_t levels) {
         return refused(
             "has an eye that is not of length 1, or patches that are not shares of places in the box");
     }
-    for (const std::vector<SeenError>& level : seen.levels) {
-        if (level.size() != seen.eyes.size() ||
-            !std::all_of(level.begin(), level.end(), [](const SeenError& each) { return is_sound(each); })) {
-            return refused(
-                fmt::format("has a level with {} errors from {} eyes; allowed are as many, from 0 to 10",
-                            level.size(), seen.eyes.size()));
+    for (const std::vector<std::vector<SeenError>>& surfaces : {seen.levels, seen.reliefs}) {
+        for (const std::vector<SeenError>& each : surfaces) {
+            if (!is_sound(each, seen.eyes.size())) {
+                return refused(fmt::format(
+                    "or seen_reliefs has a level or relief with {} errors from {} eyes; allowed are as many, "
+                    "from 0 to 10",
+                    each.size(), seen.eyes.size()));
+            }
         }
     }
     return {};
 }
 
-} // namespace
-
-void put_seen_errors(const SeenErrors& seen, PackDescription& pack) {
-    assert(find_section(pack) == nullptr);
-    Records records;
-    for (const SeenEye& eye : seen.eyes) {
-        records.eyes.push_back(record_of(eye));
-    }
-    for (const std::vector<SeenError>& level : seen.levels) {
-        std::vector<ErrorRecord>& eyes = records.levels.emplace_back();
-        for (const SeenError& error : level) {
+std::vector<std::vector<ErrorRecord>> records_of(const std::vector<std::vector<SeenError>>& surfaces) {
+    std::vector<std::vector<ErrorRecord>> records;
+    for (const std::vector<SeenError>& errors : surfaces) {
+        std::vector<ErrorRecord>& eyes = records.emplace_back();
+        for (const SeenError& error : errors) {
             eyes.push_back(record_of(error));
         }
     }
-    JsonWriter fields;
-    record_fields(fields, std::as_const(records));
-    pack.sections.push_back(
-        {std::string(section_name), nlohmann::json(fields.document()).dump(), {}}); // keys in order
+    return records;
 }
 
-Result<SeenErrors> seen_errors_of(const PackDescription& pack, std::size_t levels) {
-    const PackSection* const section = find_section(pack);
+std::vector<std::vector<SeenError>> errors_of(const std::vector<std::vector<ErrorRecord>>& surfaces) {
+    std::vector<std::vector<SeenError>> errors;
+    for (const std::vector<ErrorRecord>& records : surfaces) {
+        std::transform(records.begin(), records.end(), std::back_inserter(errors.emplace_back()), error_of);
+    }
+    return errors;
+}
+
+void put_section(std::string_view name, const JsonWriter& fields, PackDescription& pack) {
+    assert(find_section(pack, name) == nullptr);
+    pack.sections.push_back(
+        {std::string(name), nlohmann::json(fields.document()).dump(), {}}); // keys in order
+}
+
+/// Calls read(fields) with the section's; false without it.
+template <typename Read>
+Result<bool> read_section(std::string_view name, const PackDescription& pack, const Read& read) {
+    const PackSection* const section = find_section(pack, name);
     if (section == nullptr) {
-        return SeenErrors{};
+        return false;
     }
     Refusal refusal;
     const nlohmann::json data = parse_json(refusal, section->data);
-    Records records;
     if (!refusal.message) {
-        JsonReader fields(refusal, &data, "sections.seen_errors.data");
-        record_fields(fields, records);
+        JsonReader fields(refusal, &data, fmt::format("sections.{}.data", name));
+        read(fields);
         fields.finish();
     }
     if (refusal.message) {
         return bad_input(*refusal.message);
     }
-    SeenErrors seen;
-    std::transform(records.eyes.begin(), records.eyes.end(), std::back_inserter(seen.eyes), eye_of);
-    for (const std::vector<ErrorRecord>& level : records.levels) {
-        std::transform(level.begin(), level.end(), std::back_inserter(seen.levels.emplace_back()), error_of);
+    return true;
+}
+
+} // namespace
+
+void put_seen_errors(const SeenErrors& seen, PackDescription& pack) {
+    Records records;
+    for (const SeenEye& eye : seen.eyes) {
+        records.eyes.push_back(record_of(eye));
     }
+    records.levels = records_of(seen.levels);
+    JsonWriter fields;
+    record_fields(fields, std::as_const(records));
+    put_section(levels_section, fields, pack);
+    if (!seen.reliefs.empty()) {
+        const std::vector<std::vector<ErrorRecord>> reliefs = records_of(seen.reliefs);
+        JsonWriter relief_fields;
+        error_records(relief_fields, "reliefs", reliefs, most_reliefs);
+        put_section(reliefs_section, relief_fields, pack);
+    }
+}
+
+Result<SeenErrors> seen_errors_of(const PackDescription& pack, std::size_t levels) {
+    Records records;
+    std::vector<std::vector<ErrorRecord>> of_reliefs;
+    const Result<bool> has_levels =
+        read_section(levels_section, pack, [&](JsonReader& fields) { record_fields(fields, records); });
+    const Result<bool> read = has_levels.and_then([&](bool) {
+        return read_section(reliefs_section, pack, [&](JsonReader& fields) {
+            error_records(fields, "reliefs", of_reliefs, most_reliefs);
+        });
+    });
+    if (!read) {
+        return tl::unexpected<Error>(read.error());
+    }
+    if (!*has_levels) {
+        return SeenErrors{};
+    }
+    SeenErrors seen{{}, errors_of(records.levels), errors_of(of_reliefs)};
+    std::transform(records.eyes.begin(), records.eyes.end(), std::back_inserter(seen.eyes), eye_of);
     const Result<void> good = check(seen, levels);
     return good ? Result<SeenErrors>(std::move(seen)) : tl::unexpected<Error>(good.error());
 }

@@ -1,5 +1,5 @@
-/// What eyes all around an artifact see of its levels' errors, as the bake measured it along their rays: a pack's section
-/// `seen_errors` (FORMAT.md).
+/// What eyes all around an artifact see of the errors of its levels and reliefs, as the bake measured it along their rays: a pack's
+/// sections `seen_errors` and `seen_reliefs` (FORMAT.md).
 ///
 /// Frame    box; box units.
 /// Errors   one line beginning with the field's place in the manifest.
@@ -42,12 +42,13 @@ struct SeenError {
 
 struct SeenErrors {
     std::vector<SeenEye> eyes;
-    std::vector<std::vector<SeenError>> levels; ///< of each level, of each eye
+    std::vector<std::vector<SeenError>> levels;  ///< of each level, of each eye
+    std::vector<std::vector<SeenError>> reliefs; ///< of each relief to be cast, of each eye
 };
 
 /// The pack must not have them yet.
 void put_seen_errors(const SeenErrors& seen, PackDescription& pack);
-/// Empty in older packs. `levels`: that the pack has.
+/// Empty in older packs, or without reliefs alone. `levels`: that the pack has.
 [[nodiscard]] Result<SeenErrors> seen_errors_of(const PackDescription& pack, std::size_t levels);
 
 } // namespace frustumscreen

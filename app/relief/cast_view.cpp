@@ -88,7 +88,8 @@ void set_up(CastView& view, const PropShape& prop, const CastScene& scene) {
     view.eye_box = glm::dvec3(box_from_prop * glm::dvec4(scene.eye_m, 1.0));
     view.faces.clear();
     view.lit = {};
-    for (const PropFace& face : prop.faces) {
+    for (std::size_t k = 0; k < prop.faces.size(); ++k) {
+        const PropFace& face = prop.faces[k];
         if (!(face.plane.distance(scene.prop_from_projector.translation) > 0.0)) {
             continue;
         }
@@ -98,6 +99,7 @@ void set_up(CastView& view, const PropShape& prop, const CastScene& scene) {
         }
         const FaceRays rays = face_rays(face, scene.projector, scene.prop_from_projector, scene.eye_m);
         CastFace cast;
+        cast.face = static_cast<int>(k);
         cast.direction = glm::dmat3(box_from_prop) * rays.direction;
         std::transform(rays.edges.begin(), rays.edges.end(), cast.edges.begin(), inward_edge);
         cast.pixel_from_box = pixel_from_clip * *clip * scene.prop_from_box;

@@ -17,6 +17,7 @@
 namespace frustumscreen {
 
 struct CastFace {
+    int face = 0;                      ///< of the prop
     glm::dmat3 direction{1.0};         ///< of the eye's ray, from (x, y, 1); box, not unit
     std::array<glm::dvec3, 4> edges{}; ///< times (x, y, 1): pixels inside the edge
     /// (x w, y w, w) of the pixel that lights a box point on this face; w > 0.

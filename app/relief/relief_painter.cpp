@@ -1,5 +1,7 @@
 #include "app/relief/relief_painter.h"
 
+#include "app/relief/resolve_row.h"
+
 #include <algorithm>
 #include <cassert>
 #include <limits>
@@ -7,6 +9,10 @@
 namespace frustumscreen {
 
 namespace {
+
+/// What is painted is told in strips, which leave out more of what lies beside the artifact than one rectangle would.
+constexpr int strips_of_band = 4;
+constexpr int rows_of_strip = rows_of_band / strips_of_band;
 
 /// Bands of `rows_of_band` rows, counted from the first that meets `lit`.
 int bands_of(const PixelRectangle& lit) {
@@ -41,60 +47,38 @@ void ReliefPainter::list(const BlockRelief& relief, const CastView& view) {
     end_list(items_);
 }
 
-glm::u8vec4 ReliefPainter::code_at(const CastSamples& samples, std::size_t first,
-                                   const BlockRelief& relief) const {
-    const std::size_t count = samples.places().size();
-    const std::uint32_t block = samples.block[first];
-    if (count == 1) {
-        return colour_at(relief, block, samples.place[first]);
-    }
-    glm::uvec2 low(std::numeric_limits<unsigned>::max());
-    glm::uvec2 high(0);
-    glm::uvec2 sum(0);
-    std::size_t together = 0;
-    for (std::size_t k = first; k < first + count; ++k) {
-        const glm::uvec2 place(samples.place[k] & 0xFFFFU, samples.place[k] >> 16U);
-        together += samples.nearness[k] > 0.0F && samples.block[k] == block ? 1 : 0;
-        low = glm::min(low, place);
-        high = glm::max(high, place);
-        sum += place;
-    }
-    // Within a cell the codes are nearly even: their mean is the one in the middle.
-    const glm::uvec2 spread = high - low;
-    if (together == count && std::max(spread.x, spread.y) < CastSamples::places_per_cell) {
-        const auto middle = sum / static_cast<unsigned>(count);
-        return colour_at(relief, block, middle.x | middle.y << 16U);
-    }
-    glm::uvec3 light(0);
-    bool met = false;
-    for (std::size_t k = first; k < first + count; ++k) {
-        if (samples.nearness[k] > 0.0F) {
-            light += light_.light(colour_at(relief, samples.block[k], samples.place[k]));
-            met = true;
-        }
-    }
-    return met ? light_.mean(light, static_cast<unsigned>(count)) : glm::u8vec4(0);
-}
-
-void ReliefPainter::resolve(const CastSamples& samples, const BlockRelief& relief,
-                            const PictureSpan<glm::u8vec4>& picture) const {
+PixelRectangle ReliefPainter::lit_part(const CastSamples& samples, int top, int bottom) {
     const PixelRectangle& pixels = samples.pixels();
-    const std::size_t count = samples.places().size();
-    for (int y = pixels.y; y < pixels.y + pixels.height; ++y) {
-        std::fill_n(&picture.at(pixels.x, y), pixels.width, glm::u8vec4(0));
+    PixelRectangle part;
+    for (int y = std::max(top, pixels.y); y < std::min(bottom, pixels.y + pixels.height); ++y) {
         const CastSamples::Extent& extent = samples.extent(y);
-        for (int x = extent.first; x < extent.end; ++x) {
-            const float* const nearness = &samples.nearness[samples.at(x, y)];
-            if (std::any_of(nearness, nearness + count, [](float met) { return met > 0.0F; })) {
-                picture.at(x, y) = code_at(samples, samples.at(x, y), relief);
-            }
+        part = united(part, {extent.first, y, extent.end - extent.first, 1});
+    }
+    return part;
+}
+
+void ReliefPainter::resolve(const CastSamples& samples, const BlockRelief& relief, const PixelRectangle& part,
+                            const PictureSpan<glm::u8vec4>& picture, const RowLight* light) const {
+    for (int y = part.y; y < part.y + part.height; ++y) {
+        glm::u8vec4* const row = &picture.at(0, y);
+        std::fill_n(row + part.x, part.width, glm::u8vec4(0));
+        const CastSamples::Extent& extent = samples.extent(y);
+        if (extent.first >= extent.end) {
+            continue;
+        }
+        const std::span<glm::u8vec4> codes(row + extent.first, row + extent.end);
+        resolve_row(samples, relief, light_, y, extent.first, codes);
+        if (light != nullptr) {
+            light->light(y, extent.first, codes);
         }
     }
 }
 
-PixelRectangle ReliefPainter::paint(const BlockRelief& relief, const CastView& view, int samples,
-                                    const PictureSpan<glm::u8vec4>& picture) {
+std::span<const PixelRectangle> ReliefPainter::paint(const BlockRelief& relief, const CastView& view,
+                                                     int samples, const PictureSpan<glm::u8vec4>& picture,
+                                                     const RowLight* light) {
     assert(samples == 1 || samples == 2 || samples == 4 || samples == 8 || samples == 16);
+    painted_.clear();
     if (view.lit.empty()) {
         return {};
     }
@@ -102,13 +86,21 @@ PixelRectangle ReliefPainter::paint(const BlockRelief& relief, const CastView& v
     for (CastSamples& each : samples_) { // which thread gets the widest band is chance
         each.make_room(view.lit.width, rows_of_band, samples);
     }
+    painted_.resize(static_cast<std::size_t>(bands_of(view.lit) * strips_of_band));
     workers_.share(bands_of(view.lit), [&](int k, int worker) {
         CastSamples& band = samples_[static_cast<std::size_t>(worker)];
-        band.begin(band_of(view.lit, k), samples);
+        const PixelRectangle rows = band_of(view.lit, k);
+        band.begin(rows, samples);
         cast(band, relief, view, items_);
-        resolve(band, relief, picture);
+        for (int strip = 0; strip < strips_of_band; ++strip) {
+            const int top = (rows.y / rows_of_band * strips_of_band + strip) * rows_of_strip;
+            const PixelRectangle part = lit_part(band, top, top + rows_of_strip);
+            painted_[static_cast<std::size_t>(k * strips_of_band + strip)] = part;
+            resolve(band, relief, part, picture, light);
+        }
     });
-    return view.lit;
+    std::erase_if(painted_, [](const PixelRectangle& part) { return part.empty(); });
+    return painted_;
 }
 
 void ReliefPainter::hit_points(const BlockRelief& relief, const CastView& view,

@@ -3,7 +3,9 @@
 #include "app/render/gl_memory.h"
 #include "firmware_host/base/usable_cores.h"
 
+#include <algorithm>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace frustumscreen {
@@ -32,28 +34,55 @@ Result<void> CastPass::prepare(std::size_t casts, int width, int height) {
 void CastPass::paint(const FramePlan& plan, const GpuStore& store) {
     for (std::size_t k = 0; k < pictures_.size(); ++k) {
         Picture& picture = pictures_[k];
-        picture.lit = {};
+        picture.painted.clear();
         const BlockRelief* const relief =
             k < plan.cast_count ? store.find_relief(plan.casts[k].relief) : nullptr;
         if (relief == nullptr) {
             continue;
         }
-        picture.lit = painter_->paint(*relief, plan.casts[k].view, plan.casts[k].samples,
-                                      {memory_.texels.data(), memory_.width, memory_.height, memory_.width});
-        if (!picture.lit.empty()) {
-            upload(picture);
-        }
+        light_.begin(plan, k);
+        const std::span<const PixelRectangle> painted =
+            painter_->paint(*relief, plan.casts[k].view, plan.casts[k].samples,
+                            {memory_.texels.data(), memory_.width, memory_.height, memory_.width}, &light_);
+        picture.painted.assign(painted.begin(), painted.end());
+        upload(picture);
     }
 }
 
 void CastPass::upload(const Picture& picture) const {
-    const PixelRectangle& lit = picture.lit;
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, picture.texels.get());
     glPixelStorei(GL_UNPACK_ROW_LENGTH, memory_.width);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, lit.x, lit.y, lit.width, lit.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                    &memory_.at(lit.x, lit.y));
+    for (const PixelRectangle& part : picture.painted) {
+        glTexSubImage2D(GL_TEXTURE_2D, 0, part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        &memory_.at(part.x, part.y));
+    }
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+}
+
+int CastPass::draw(const FramePlan& plan, const ShaderCache& shaders) const {
+    glBindVertexArray(no_attributes_.get());
+    glActiveTexture(GL_TEXTURE0);
+    int calls = 0;
+    for (std::size_t k = 0; k < std::min(plan.cast_count, pictures_.size()); ++k) {
+        // On whatever face, it is drawn in the same way: the faces' pixels are apart, and each has its light.
+        const auto shown = std::find_if(plan.draws.begin(), plan.draws.end(), [k](const Draw& draw) {
+            return draw.shader.pass == ShaderKey::Pass::Cast && draw.cast == k;
+        });
+        const Shader* const shader = shown != plan.draws.end() ? shaders.find(shown->shader) : nullptr;
+        if (shader == nullptr || pictures_[k].painted.empty()) {
+            continue;
+        }
+        shader->use();
+        glUniform4f(shader->location(Uniform::PixelFromFragment), 1.0F, 1.0F, 0.0F, 0.0F);
+        glUniform2f(shader->location(Uniform::Dither), shown->dither.share,
+                    shown->dither.complement ? 0.0F : 1.0F);
+        glBindTexture(GL_TEXTURE_2D, pictures_[k].texels.get());
+        shader->draw_rectangles({memory_.width, memory_.height}, pictures_[k].painted);
+        ++calls;
+    }
+    glBindVertexArray(0);
+    return calls;
 }
 
 std::uint64_t CastPass::bytes() const {

@@ -1,6 +1,8 @@
 /// Reliefs cast on the processor, as pictures in the GPU's memory: what a plan's casts see, for the draws that name them.
 ///
-/// Colour   sRGB codes of the artifact as they are; alpha 0 where nothing was met.
+/// They are drawn into the framebuffer that is bound, a pixel for a pixel, over what stands there; state as FacePass.
+///
+/// Colour   sRGB codes, in the projector's light (scene/cast_light.h); alpha 0 where nothing was met.
 /// Threads  the render thread, with as many more of its own as there are further cores; `paint` allocates nothing once a picture as
 ///          full was painted, and makes no GL object.
 /// Errors   the driver has no memory.
@@ -9,6 +11,8 @@
 #include "app/image/image.h"
 #include "app/relief/relief_painter.h"
 #include "app/render/gpu_store.h"
+#include "app/render/shader_cache.h"
+#include "app/scene/cast_light.h"
 #include "app/scene/frame_plan.h"
 #include "firmware_host/base/pixel_rectangle.h"
 #include "firmware_host/base/result.h"
@@ -28,24 +32,24 @@ public:
 
     /// Casts all of the plan's, and uploads what they light. Those whose relief is not in the store stay out.
     void paint(const FramePlan& plan, const GpuStore& store);
-    struct Picture {
-        GlTexture texels;
-        PixelRectangle lit; ///< empty: nothing was painted; what lies outside is of another frame
-    };
-    /// Null for one that there is no room for.
-    [[nodiscard]] const Picture* find(std::size_t cast) const {
-        return cast < pictures_.size() ? &pictures_[cast] : nullptr;
-    }
+    /// Draws what was painted for this plan; returns the number of draw calls.
+    int draw(const FramePlan& plan, const ShaderCache& shaders) const;
 
     /// Bytes of GPU memory, as the driver says.
     [[nodiscard]] std::uint64_t bytes() const;
 
 private:
+    struct Picture {
+        GlTexture texels;
+        std::vector<PixelRectangle> painted; ///< what lies outside is of another frame
+    };
     void upload(const Picture& picture) const;
 
     std::unique_ptr<ReliefPainter> painter_; ///< none: no cast was prepared
-    Image8 memory_;                          ///< main memory that all are painted in, one after the other
+    CastLight light_;
+    Image8 memory_; ///< main memory that all are painted in, one after the other
     std::vector<Picture> pictures_;
+    GlVertexArray no_attributes_ = GlVertexArray::generate();
 };
 
 } // namespace frustumscreen

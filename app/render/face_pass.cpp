@@ -55,10 +55,15 @@ int mip_of(const Draw& draw, const GpuStore::Texture& texture, const Raster& ras
 
 } // namespace
 
+bool FacePass::draws(const FramePlan& plan) {
+    return std::any_of(plan.draws.begin(), plan.draws.end(),
+                       [](const Draw& draw) { return draw.shader.pass == ShaderKey::Pass::Surface; });
+}
+
 int FacePass::draw(const FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
-                   const Raster& raster, Output output, const CastPass* casts) const {
+                   const Raster& raster, Output output) const {
     const Shader* const outline = shaders.find({ShaderKey::Pass::Outline});
-    if (plan.faces.empty() || outline == nullptr) {
+    if (!draws(plan) || outline == nullptr) {
         return 0;
     }
     glEnable(GL_STENCIL_TEST);
@@ -73,16 +78,7 @@ int FacePass::draw(const FramePlan& plan, const GpuStore& store, const ShaderCac
     glFrontFace(GL_CW);
     auto calls = static_cast<int>(plan.faces.size());
     for (const Draw& draw : plan.draws) {
-        if (draw.face == Draw::on_table) {
-            continue;
-        }
-        if (draw.shader.pass == ShaderKey::Pass::Cast) {
-            const Shader* const shader = output == Output::Places ? nullptr : shaders.find(draw.shader);
-            const CastPass::Picture* const picture = casts != nullptr ? casts->find(draw.cast) : nullptr;
-            if (shader != nullptr && picture != nullptr && !picture->lit.empty()) {
-                draw_cast(plan, draw, *picture, *shader, raster);
-                ++calls;
-            }
+        if (draw.shader.pass != ShaderKey::Pass::Surface) {
             continue;
         }
         const Shader* const shader =
@@ -156,30 +152,6 @@ void FacePass::mark_faces(const FramePlan& plan, const Shader& outline, const Ra
     glDepthMask(GL_TRUE);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
-}
-
-void FacePass::draw_cast(const FramePlan& plan, const Draw& draw, const CastPass::Picture& picture,
-                         const Shader& shader, const Raster& raster) const {
-    const auto face = static_cast<std::size_t>(draw.face);
-    const PixelRectangle part = intersected(draw.bounds, picture.lit);
-    if (part.empty()) {
-        return;
-    }
-    shader.use();
-    set_view(shader, plan.projector, raster);
-    set_face(shader, plan.faces[face].light);
-    set_draw(shader, draw);
-    glUniform4fv(shader.location(Uniform::Corners), 4, glm::value_ptr(plan.faces[face].corners_clip[0]));
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, picture.texels.get());
-    glBindVertexArray(no_attributes_.get());
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glStencilFunc(GL_EQUAL, static_cast<GLint>(stencil_value(face)), 0xFF);
-    set_scissor(part, raster);
-    shader.draw_quad();
-    glEnable(GL_DEPTH_TEST);
-    glEnable(GL_CULL_FACE);
 }
 
 void FacePass::draw_surface(const FramePlan& plan, const Draw& draw, const GpuStore::Mesh& mesh,

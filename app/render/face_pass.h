@@ -1,4 +1,4 @@
-/// Draws what stands in the prop: the plan's faces into the stencil, then its draws on them, in order.
+/// Draws the meshes in the prop: the plan's faces into the stencil, then its draws on them, in order.
 ///
 /// It draws into the framebuffer that is bound; the caller clears. It sets every piece of state that it
 /// needs, the scissor to each draw's bounds, and leaves stencil test, depth test and culling off.
@@ -8,7 +8,6 @@
 /// Threads  the render thread; allocates nothing in `draw`.
 #pragma once
 
-#include "app/render/cast_pass.h"
 #include "app/render/gpu_store.h"
 #include "app/render/raster.h"
 #include "app/render/shader_cache.h"
@@ -23,20 +22,18 @@ public:
         Colours,
         Places ///< prop coordinates, metres; alpha 1
     };
-    /// Returns the number of draw calls. It leaves out draws whose shader was not prepared, or whose mesh or
-    /// texture is not in the store. `casts`: painted for this plan; without them, and of places, no cast is drawn.
+    /// Whether the plan has a mesh in the prop.
+    [[nodiscard]] static bool draws(const FramePlan& plan);
+    /// Returns the number of draw calls. It leaves out casts, draws whose shader was not prepared, and those whose mesh or
+    /// texture is not in the store.
     int draw(const FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
-             const Raster& raster = {}, Output output = Output::Colours,
-             const CastPass* casts = nullptr) const;
+             const Raster& raster = {}, Output output = Output::Colours) const;
 
 private:
     void upload_indices(const FramePlan& plan) const;
     void mark_faces(const FramePlan& plan, const Shader& outline, const Raster& raster) const;
     /// Returns the number of draw calls.
     int soften_edges(const FramePlan& plan, const ShaderCache& shaders, const Raster& raster) const;
-    /// What was cast, on the outline of the draw's face.
-    void draw_cast(const FramePlan& plan, const Draw& draw, const CastPass::Picture& picture,
-                   const Shader& shader, const Raster& raster) const;
     void draw_surface(const FramePlan& plan, const Draw& draw, const GpuStore::Mesh& mesh,
                       const GpuStore::Texture& texture, const Shader& shader, const Raster& raster) const;
 

@@ -146,6 +146,7 @@ void Renderer::paint(const FramePlan& plan, const RenderTarget& target, const Re
                               ? sample_grid_->raster(plan.lit.bounds(), plan.prop_bounds, samples)
                               : Raster{};
     const bool smooth = raster.fragments != glm::ivec2(1);
+    const bool meshes = repaint.prop && !smooth && FacePass::draws(plan);
     if (repaint.prop) {
         casts_.paint(plan, store_);
     }
@@ -153,20 +154,24 @@ void Renderer::paint(const FramePlan& plan, const RenderTarget& target, const Re
     if (smooth) {
         sample_grid_->begin(plan.lit, raster, shaders_);
         result.draw_calls += table_.draw(plan, plan.lit.bounds(), store_, shaders_, raster);
-        result.draw_calls += faces_.draw(plan, store_, shaders_, raster, FacePass::Output::Colours, &casts_);
+        result.draw_calls += faces_.draw(plan, store_, shaders_, raster);
     }
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     glViewport(0, 0, width_, height_);
     glEnable(GL_SCISSOR_TEST);
     set_scissor(result.redrawn);
-    clear(GL_COLOR_BUFFER_BIT | (smooth ? 0U : GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT));
+    clear(GL_COLOR_BUFFER_BIT | (meshes ? GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT : 0U));
     glDisable(GL_SCISSOR_TEST);
     result.draw_calls += table_.draw(plan, repaint.part, store_, shaders_);
     if (smooth) {
         glEnable(GL_FRAMEBUFFER_SRGB_EXT);
         sample_grid_->average(plan.lit, raster, shaders_);
-    } else if (repaint.prop) {
-        result.draw_calls += faces_.draw(plan, store_, shaders_, {}, FacePass::Output::Colours, &casts_);
+        glDisable(GL_FRAMEBUFFER_SRGB_EXT);
+    } else if (meshes) {
+        result.draw_calls += faces_.draw(plan, store_, shaders_);
+    }
+    if (repaint.prop) {
+        result.draw_calls += casts_.draw(plan, shaders_);
     }
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
 }

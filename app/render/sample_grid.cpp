@@ -5,15 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 namespace frustumscreen {
-
-namespace {
-
-constexpr std::size_t corners_per_rectangle = 6;
-
-} // namespace
 
 glm::ivec2 SampleGrid::of(int samples) {
     switch (samples) {
@@ -86,16 +79,8 @@ std::uint64_t SampleGrid::bytes() const {
 }
 
 void SampleGrid::draw_tiles(const LitTiles& tiles, const Shader& shader) const {
-    glUniform2f(shader.location(Uniform::Picture), static_cast<float>(picture_.x),
-                static_cast<float>(picture_.y));
-    std::array<glm::vec4, LitTiles::most_rectangles> corners{};
-    std::size_t count = 0;
-    for (const PixelRectangle& r : tiles.rectangles()) {
-        corners[count++] = glm::vec4(r.x, r.y, r.width, r.height);
-    }
-    glUniform4fv(shader.location(Uniform::Rectangles), static_cast<GLsizei>(count), &corners[0].x);
     glBindVertexArray(no_attributes_.get());
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners_per_rectangle * count));
+    shader.draw_rectangles(picture_, tiles.rectangles());
     glBindVertexArray(0);
 }
 

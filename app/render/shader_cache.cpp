@@ -1,8 +1,10 @@
 #include "app/render/shader_cache.h"
 
 #include "app/render/shader_source.h"
+#include "app/scene/lit_tiles.h"
 #include "firmware_host/gl/gl_program.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace frustumscreen {
@@ -55,6 +57,20 @@ void Shader::draw_quad() const {
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 2 * (quad_cells + 1), quad_cells);
     } else {
         glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
+    }
+}
+
+void Shader::draw_rectangles(const glm::ivec2& picture, std::span<const PixelRectangle> rectangles) const {
+    constexpr std::size_t corners_per_rectangle = 6;
+    glUniform2f(location(Uniform::Picture), static_cast<float>(picture.x), static_cast<float>(picture.y));
+    while (!rectangles.empty()) {
+        const auto some = rectangles.first(std::min(rectangles.size(), LitTiles::most_rectangles));
+        std::array<glm::vec4, LitTiles::most_rectangles> corners{};
+        std::transform(some.begin(), some.end(), corners.begin(),
+                       [](const PixelRectangle& r) { return glm::vec4(r.x, r.y, r.width, r.height); });
+        glUniform4fv(location(Uniform::Rectangles), static_cast<GLsizei>(some.size()), &corners[0].x);
+        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners_per_rectangle * some.size()));
+        rectangles = rectangles.subspan(some.size());
     }
 }
 

@@ -5,13 +5,17 @@
 #pragma once
 
 #include "app/scene/shader_key.h"
+#include "firmware_host/base/pixel_rectangle.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/gl/gl_handle.h"
+
+#include <glm/glm.hpp>
 
 #include <array>
 #include <cstddef>
 #include <map>
 #include <set>
+#include <span>
 
 namespace frustumscreen {
 
@@ -39,6 +43,8 @@ public:
     void use() const { glUseProgram(program_.get()); }
     /// Draws the quadrilateral of Uniform::Corners, in cells if it bends; `use` it first.
     void draw_quad() const;
+    /// Draws rectangles of a picture of that size: Uniform::Rectangles. `use` it first, with a vertex array without attributes.
+    void draw_rectangles(const glm::ivec2& picture, std::span<const PixelRectangle> rectangles) const;
     /// -1, which OpenGL ignores, for one that the shader does not have.
     [[nodiscard]] GLint location(Uniform uniform) const {
         return locations_[static_cast<std::size_t>(uniform)];

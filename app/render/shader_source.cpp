@@ -77,18 +77,10 @@ void main() {
 }
 )";
 
-constexpr std::string_view surface_fragment = R"(
-out vec4 result;
-#if !defined(PLACES) || defined(CUT_OUT)
-uniform sampler2D image;
-#ifndef CAST
-in vec2 texel;
-#endif
-#endif
-#if defined(DITHERED) || defined(CAST)
-uniform vec4 pixel_from_fragment; // scale, offset
-#endif
+// Of shaders that fade.
+constexpr std::string_view dither = R"(
 #ifdef DITHERED
+uniform vec4 pixel_from_fragment; // scale, offset
 uniform vec2 dither; // share of the pixels; 1 = those of the share are drawn, 0 = the others
 // Bayer's matrix of 8 x 8: 64 thresholds, each once in every 8 x 8 pixels.
 bool is_other_draws() {
@@ -97,6 +89,16 @@ bool is_other_draws() {
     int rank = (q & 1) << 5 | (p.y & 1) << 4 | (q & 2) << 2 | (p.y & 2) << 1 | (q & 4) >> 1 | (p.y & 4) >> 2;
     return ((float(rank) + 0.5) / 64.0 < dither.x) != (dither.y > 0.5);
 }
+#else
+bool is_other_draws() { return false; }
+#endif
+)";
+
+constexpr std::string_view surface_fragment = R"(
+out vec4 result;
+#if !defined(PLACES) || defined(CUT_OUT)
+uniform sampler2D image;
+in vec2 texel;
 #endif
 #ifdef PLACES
 in vec3 point;
@@ -138,18 +140,13 @@ vec2 compensation() {
 #endif
 #endif
 void main() {
-#ifdef DITHERED
     if (is_other_draws()) {
         discard;
     }
-#endif
-#ifdef CAST
-    // A pixel of the picture that was cast; all of its samples here show the same.
-    vec4 seen = texelFetch(image, ivec2(gl_FragCoord.xy * pixel_from_fragment.xy + pixel_from_fragment.zw), 0);
-#elif !defined(PLACES) || defined(CUT_OUT)
+#if !defined(PLACES) || defined(CUT_OUT)
     vec4 seen = texture(image, texel);
 #endif
-#if defined(CUT_OUT) || defined(CAST)
+#ifdef CUT_OUT
     if (seen.a < 0.5) {
         discard;
     }
@@ -212,6 +209,20 @@ void main() {
     gl_Position = vec4(2.0 * pixel / picture - 1.0, 1.0, 1.0);
 }
 )";
+// Pixels that were cast, at their places.
+constexpr std::string_view cast_fragment = R"(
+uniform sampler2D image;
+out vec4 result;
+void main() {
+    if (is_other_draws()) {
+        discard;
+    }
+    result = texelFetch(image, ivec2(gl_FragCoord.xy), 0);
+    if (result.a < 0.5) {
+        discard;
+    }
+}
+)";
 constexpr std::string_view black_fragment = R"(
 out vec4 result;
 void main() { result = vec4(0.0, 0.0, 0.0, 1.0); }
@@ -246,7 +257,6 @@ std::string defines_of(const ShaderKey& key) {
     const auto define = [&defines](bool wanted, std::string_view name) {
         defines += wanted ? fmt::format("#define {}\n", name) : "";
     };
-    define(key.pass == ShaderKey::Pass::Cast, "CAST");
     define(key.places, "PLACES");
     define(key.cut_out, "CUT_OUT");
     define(key.dithered, "DITHERED");
@@ -257,30 +267,32 @@ std::string defines_of(const ShaderKey& key) {
 } // namespace
 
 ShaderSource source_of(const ShaderKey& key, bool bends) {
-    const std::string most_rectangles =
-        fmt::format("#define MOST_RECTANGLES {}\n", LitTiles::most_rectangles);
     const std::string defines =
         (bends ? fmt::format("#define QUAD_CELLS {}{}", quad_cells, lens) : std::string()) + defines_of(key);
+    const std::string tiles_defines =
+        fmt::format("#define MOST_RECTANGLES {}\n{}", LitTiles::most_rectangles, defines_of(key));
     const auto quad = [](std::string_view vertex) {
         return fmt::format("{}{}{}", bent_vertex, quad_vertex, vertex);
     };
+    const auto fading = [](std::string_view fragment) { return fmt::format("{}{}", dither, fragment); };
+    const std::string tiles(tiles_vertex);
     switch (key.pass) {
     case ShaderKey::Pass::Outline:
-        return {defines, quad(outline_vertex), outline_fragment};
+        return {defines, quad(outline_vertex), std::string(outline_fragment)};
     case ShaderKey::Pass::Surface:
-        return {defines, fmt::format("{}{}", bent_vertex, surface_vertex), surface_fragment};
+        return {defines, fmt::format("{}{}", bent_vertex, surface_vertex), fading(surface_fragment)};
     case ShaderKey::Pass::Cast:
-        return {defines, quad(outline_vertex), surface_fragment};
+        return {tiles_defines, tiles, fading(cast_fragment)};
     case ShaderKey::Pass::EdgeFeather:
-        return {defines, quad(feather_vertex), feather_fragment};
+        return {defines, quad(feather_vertex), std::string(feather_fragment)};
     case ShaderKey::Pass::TablePicture:
-        return {defines, quad(picture_vertex), picture_fragment};
+        return {defines, quad(picture_vertex), std::string(picture_fragment)};
     case ShaderKey::Pass::TileClear:
-        return {most_rectangles, std::string(tiles_vertex), black_fragment};
+        return {tiles_defines, tiles, std::string(black_fragment)};
     case ShaderKey::Pass::TileAverage:
-        return {most_rectangles, std::string(tiles_vertex), average_fragment};
+        return {tiles_defines, tiles, std::string(average_fragment)};
     case ShaderKey::Pass::TileAverageMany:
-        return {most_rectangles + "#define MANY\n", std::string(tiles_vertex), average_fragment};
+        return {tiles_defines + "#define MANY\n", tiles, std::string(average_fragment)};
     }
     return {};
 }

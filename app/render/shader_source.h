@@ -7,7 +7,6 @@
 #include "app/scene/shader_key.h"
 
 #include <string>
-#include <string_view>
 
 namespace frustumscreen {
 
@@ -18,7 +17,7 @@ inline constexpr int quad_cells = 16;
 struct ShaderSource {
     std::string defines;
     std::string vertex;
-    std::string_view fragment;
+    std::string fragment;
 };
 /// `bends`: what it draws is bent as the projector's lens bends it, and quadrilaterals are drawn in cells (Shader::draw_quad).
 [[nodiscard]] ShaderSource source_of(const ShaderKey& key, bool bends = false);

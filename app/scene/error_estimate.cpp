@@ -1,5 +1,9 @@
 #include "app/scene/error_estimate.h"
 
+#include "app/pack/pack_relief.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -89,6 +93,27 @@ Result<std::vector<SeenLevel>> seen_levels(const PackOutline& pack) {
     for (std::size_t k = 0; k < pack.levels.size(); ++k) {
         levels.push_back(seen->eyes.empty() ? derived(pack.levels[k].error, pack.description.box_size)
                                             : SeenLevel{seen->eyes, seen->levels[k]});
+    }
+    return levels;
+}
+
+Result<std::vector<SeenLevel>> seen_reliefs(const PackOutline& pack) {
+    const Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack.description);
+    if (!reliefs) {
+        return tl::unexpected<Error>(reliefs.error());
+    }
+    const Result<SeenErrors> seen = seen_errors_of(pack.description, pack.levels.size());
+    if (!seen) {
+        return tl::unexpected<Error>(seen.error());
+    }
+    if (!seen->reliefs.empty() && seen->reliefs.size() != reliefs->size()) {
+        return bad_input(fmt::format("sections.seen_reliefs.data has {} reliefs; allowed are the pack's {}",
+                                     seen->reliefs.size(), reliefs->size()));
+    }
+    std::vector<SeenLevel> levels;
+    for (std::size_t k = 0; k < reliefs->size(); ++k) {
+        levels.push_back(seen->reliefs.empty() ? derived((*reliefs)[k].error, pack.description.box_size)
+                                               : SeenLevel{seen->eyes, seen->reliefs[k]});
     }
     return levels;
 }

@@ -122,7 +122,7 @@ std::optional<Draw> draw_part(const Part& part, const PropFace& face, const Face
     }
     Draw draw = draw_level(part, through, clip_from_box, shared);
     if (level.relief) {
-        draw.shader.pass = ShaderKey::Pass::Cast;
+        draw.shader = cast_shader(part.dither.has_value());
         draw.cast = plan.cast_count - 1;
         draw.bounds = through.bounds;
         plan.lit.light(draw.bounds);
@@ -145,6 +145,7 @@ bool plan_cast(const PlacedLevel& level, const Shared& shared, FramePlan& plan) 
     cast.relief = level.drawable.mesh;
     cast.metres_per_box = level.metres_per_box;
     cast.samples = level.samples;
+    cast.even_light = shared.view.light.has_value();
     CastScene scene;
     for (int axis = 0; axis < 3; ++axis) {
         scene.prop_from_box[axis][axis] = level.metres_per_box;

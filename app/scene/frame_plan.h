@@ -118,7 +118,8 @@ struct CastPlan {
     MeshId relief = MeshId::None; ///< in the renderer's store
     CastView view;
     double metres_per_box = 1.0;
-    int samples = 1; ///< a pixel
+    int samples = 1;         ///< a pixel
+    bool even_light = false; ///< evens out the projector's light
 };
 
 /// A mesh seen through one face of the prop, what was cast of a relief there, or a quadrilateral beside the prop.
@@ -137,7 +138,7 @@ struct Draw {
     double pixels_per_box = 0.0; ///< as FacePlan::pixels_per_m, in box units at the mesh's middle
     float brightness = 1.0F;     ///< linear light
     Dither dither;               ///< if the shader dithers
-    std::size_t cast = 0; ///< index into FramePlan::casts, of a cast; it is drawn on the face's outline
+    std::size_t cast = 0;        ///< index into FramePlan::casts, of a cast, which shows on the face
 };
 
 struct FramePlan {

@@ -59,14 +59,26 @@ std::optional<ReliefOutline> relief_for(const std::vector<ReliefOutline>& relief
     return reliefs.empty() ? std::nullopt : std::optional(reliefs.back());
 }
 
+/// A pack's, and what eyes see of each.
+struct PackReliefs {
+    std::vector<ReliefOutline> outlines;
+    std::vector<SeenLevel> seen;
+
+    [[nodiscard]] const SeenLevel& seen_of(const ReliefOutline& relief) const {
+        const auto found = std::find(outlines.begin(), outlines.end(), relief);
+        return seen[static_cast<std::size_t>(found - outlines.begin())];
+    }
+};
+
 /// What the rungs draw, each once.
-void choose_what_is_read(const std::vector<ReliefOutline>& reliefs, ScenePlan& plan) {
+void choose_what_is_read(const PackReliefs& reliefs, ScenePlan& plan) {
     for (const Rung& rung : plan.rungs) {
         if (!rung.relief && !in(plan.levels, rung.level)) {
             plan.levels.push_back(rung.level);
         }
         if (rung.relief && !relief_of(plan.reliefs, rung.level)) {
-            plan.reliefs.push_back(relief_of(reliefs, rung.level).value());
+            plan.reliefs.push_back(relief_of(reliefs.outlines, rung.level).value());
+            plan.seen_reliefs.push_back(reliefs.seen_of(plan.reliefs.back()));
         }
     }
 }
@@ -107,16 +119,15 @@ void leave_out_levels(const PackOutline& pack, const SceneRequest& request, doub
 }
 
 void choose_levels(const PackOutline& pack, const SceneRequest& request, double tolerance_mm,
-                   double pixel_box, Rung asked, const std::vector<ReliefOutline>& reliefs, ScenePlan& plan) {
+                   double pixel_box, Rung asked, const PackReliefs& reliefs, ScenePlan& plan) {
     const bool governed = request.live && request.technique == "auto";
     asked.samples = request.samples > 0 ? request.samples : pack.description.samples;
     asked.enough = true;
     plan.rungs = {asked};
     if (governed) {
-        std::optional<ReliefOutline> relief = relief_for(reliefs, pixel_box);
-        if (relief &&
-            !within_tolerance(relief->error, worst_of(derived(relief->error, pack.description.box_size)),
-                              1e3 * plan.metres_per_box, tolerance_mm)) {
+        std::optional<ReliefOutline> relief = relief_for(reliefs.outlines, pixel_box);
+        if (relief && !within_tolerance(relief->error, worst_of(reliefs.seen_of(*relief)),
+                                        1e3 * plan.metres_per_box, tolerance_mm)) {
             relief.reset();
         }
         plan.rungs = ladder(pack.levels, good_levels(pack, plan, tolerance_mm), asked.samples, relief);
@@ -171,9 +182,8 @@ void choose_shaders(const SceneRequest& request, bool signs, ScenePlan& plan) {
                 if (!plan.levels.empty()) {
                     needs.draws.insert(key);
                 }
-                key.pass = ShaderKey::Pass::Cast;
-                if (casts) {
-                    needs.draws.insert(key);
+                if (casts) { // in any light, which the processor gives them
+                    needs.draws.insert(cast_shader(dithered));
                 }
             }
         }
@@ -321,8 +331,9 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
         reliefs->clear();
     }
     Result<std::vector<SeenLevel>> seen = seen_levels(pack);
-    if (!seen) {
-        return tl::unexpected<Error>(seen.error());
+    Result<std::vector<SeenLevel>> seen_cast = seen_reliefs(pack);
+    if (!seen || !seen_cast) {
+        return tl::unexpected<Error>(seen ? seen_cast.error() : seen.error());
     }
     ScenePlan plan;
     plan.seen = *std::move(seen);
@@ -343,7 +354,7 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
         return tl::unexpected<Error>(asked.error());
     }
     choose_levels(pack, request, 1e3 * settings.render.error_tolerance_px * pixel_m,
-                  pixel_m / plan.metres_per_box, *asked, *reliefs, plan);
+                  pixel_m / plan.metres_per_box, *asked, {*std::move(reliefs), *std::move(seen_cast)}, plan);
     choose_captions(settings, pack, request, plan);
     choose_shaders(request,
                    request.live && (shows_zone_frame(settings) || guides_visitors(settings) ||

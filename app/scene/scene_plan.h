@@ -90,7 +90,8 @@ struct ScenePlan {
     RigidTransform table_from_projector;
     PropShape prop;
     double metres_per_box = 0.0;
-    std::vector<SeenLevel> seen; ///< of each of the pack's levels
+    std::vector<SeenLevel> seen;         ///< of each of the pack's levels
+    std::vector<SeenLevel> seen_reliefs; ///< of each of `reliefs`
     Visibility visibility;
     std::optional<LightCompensation> light; ///< nothing: it was not asked for
     int highlight_code = 0;                 ///< for exposure_of; 0 without light

@@ -29,7 +29,7 @@ std::string name_of(const ShaderKey& key) {
     case ShaderKey::Pass::Surface:
         return name_of_surface(key);
     case ShaderKey::Pass::Cast:
-        return std::string(key.dithered ? "fading cast relief" : "cast relief").append(name_of_light(key));
+        return key.dithered ? "fading cast relief" : "cast relief";
     case ShaderKey::Pass::EdgeFeather:
         return "edges between faces";
     case ShaderKey::Pass::TablePicture:
@@ -53,6 +53,12 @@ std::uint32_t bits_of(const ShaderKey& key) {
 ShaderKey places_of(ShaderKey key) {
     key.places = true;
     key.even_light = false;
+    return key;
+}
+
+ShaderKey cast_shader(bool dithered) {
+    ShaderKey key{ShaderKey::Pass::Cast};
+    key.dithered = dithered;
     return key;
 }
 

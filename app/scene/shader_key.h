@@ -20,7 +20,7 @@ struct ShaderKey {
     enum class Pass : std::uint8_t {
         Outline,         ///< marks a face of the prop
         Surface,         ///< draws a mesh
-        Cast,            ///< shows what was cast into memory, on a face of the prop
+        Cast,            ///< shows what was cast into memory
         EdgeFeather,     ///< dims a strip of a face
         TablePicture,    ///< draws a flat picture beside the prop
         TileClear,       ///< blackens tiles of the larger picture that several samples a pixel need
@@ -28,7 +28,7 @@ struct ShaderKey {
         TileAverageMany, ///< the same of more
     };
     Pass pass = Pass::Surface;
-    // Of surfaces alone, the last two of casts too:
+    // Of surfaces alone, but the third, of casts too:
     bool places : 1 = false;     ///< gives each pixel's place in the prop and not its colour
     bool cut_out : 1 = false;    ///< leaves out texels whose alpha is below one half
     bool dithered : 1 = false;   ///< draws a share of the pixels
@@ -42,6 +42,9 @@ struct ShaderKey {
 
 /// The shader that gives the places of what `key` draws.
 [[nodiscard]] ShaderKey places_of(ShaderKey key);
+
+/// The shader of what was cast.
+[[nodiscard]] ShaderKey cast_shader(bool dithered);
 
 /// What a renderer must be able to do.
 struct RenderNeeds {

@@ -168,8 +168,7 @@ RenderNeeds needs_of_any_pack(const Settings& settings, int samples) {
         key.dithered = dithered;
         key.even_light = true; // as in every live picture
         needs.draws.insert(key);
-        key.pass = ShaderKey::Pass::Cast;
-        needs.draws.insert(key);
+        needs.draws.insert(cast_shader(dithered));
     }
     needs.casts = 2; // in a fade
     needs.draws.insert({ShaderKey::Pass::EdgeFeather});

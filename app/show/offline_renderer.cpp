@@ -138,7 +138,7 @@ Result<void> OfflineRenderer::take_relief(const OfflineScene& scene) {
         return tl::unexpected<Error>(renderer.error());
     }
     renderer_ = std::move(*renderer);
-    seen_ = derived(plan.reliefs.front().error, pack->box_size);
+    seen_ = plan.seen_reliefs.front();
     placed_ = placed(*pack, relief, plan.metres_per_box, renderer_->store().keep(relief));
     return {};
 }

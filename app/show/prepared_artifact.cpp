@@ -79,15 +79,15 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
             return tl::unexpected<Error>(pack.error());
         }
     }
-    for (const ReliefOutline& outline : plan.reliefs) {
+    for (std::size_t place = 0; place < plan.reliefs.size(); ++place) {
         if (given_up()) {
             return bad_input("not wanted any more");
         }
-        Result<BlockRelief> relief = load_relief(known.file, outline);
+        Result<BlockRelief> relief = load_relief(known.file, plan.reliefs[place]);
         if (!relief) {
             return tl::unexpected<Error>(relief.error());
         }
-        levels.push_back(prepare_relief(known.outline.description, outline, *std::move(relief), plan));
+        levels.push_back(prepare_relief(known.outline.description, place, *std::move(relief), plan));
     }
     PreparedArtifact made{
         RunLevels(technique, plan, deadline_ms, levels), {}, exposure, std::move(triangles)};

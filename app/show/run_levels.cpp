@@ -65,12 +65,12 @@ PreparedLevel prepare_level(const Pack& pack, std::uint32_t level, const ScenePl
     return made;
 }
 
-PreparedLevel prepare_relief(const PackDescription& pack, const ReliefOutline& outline, BlockRelief relief,
+PreparedLevel prepare_relief(const PackDescription& pack, std::size_t place, BlockRelief relief,
                              const ScenePlan& plan) {
     PreparedLevel made;
-    made.use.level = outline.texels;
+    made.use.level = plan.reliefs[place].texels;
     made.use.blocks = relief.blocks.size();
-    made.seen = derived(outline.error, pack.box_size);
+    made.seen = plan.seen_reliefs[place];
     made.box_size = pack.box_size;
     made.samples = pack.samples;
     made.needs = plan.needs;
@@ -211,7 +211,7 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
         const auto level = std::find_if(levels_.begin(), levels_.end(),
                                         [&](const Level& one) { return one.shows.relief == casts; });
         if ((casts || key.pass == ShaderKey::Pass::Surface) && !key.places &&
-            key.even_light == view.light.has_value() && level != levels_.end()) {
+            (casts || key.even_light == view.light.has_value()) && level != levels_.end()) {
             PlacedLevel placed = level->placed;
             placed.drawable.material.cut_out = key.cut_out;
             if (key.dithered) {

@@ -68,9 +68,9 @@ struct PreparedLevel {
 };
 /// `level`: one of the plan's. Pure; takes long.
 [[nodiscard]] PreparedLevel prepare_level(const Pack& pack, std::uint32_t level, const ScenePlan& plan);
-/// `outline`: one of the plan's; what was read of it.
-[[nodiscard]] PreparedLevel prepare_relief(const PackDescription& pack, const ReliefOutline& outline,
-                                           BlockRelief relief, const ScenePlan& plan);
+/// `place`: of one of the plan's reliefs; `relief`: what was read of it.
+[[nodiscard]] PreparedLevel prepare_relief(const PackDescription& pack, std::size_t place, BlockRelief relief,
+                                           const ScenePlan& plan);
 
 class RunLevels {
 public:

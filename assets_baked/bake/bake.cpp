@@ -364,9 +364,9 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     TexturedLevels meshes = bakery.mesh_levels(surfaces);
     ReliefAtlas atlas;
     TexturedLevels reliefs = may_need_relief ? bakery.relief_levels(atlas) : TexturedLevels{};
-    if (options.relief) {
-        put_reliefs(pack, bakery.reliefs(meshes));
-    }
+    const std::vector<MeasuredRelief> cast =
+        options.relief ? bakery.reliefs(meshes) : std::vector<MeasuredRelief>{};
+    put_reliefs(pack, cast);
     pack.prop_kind = options.prop.kind;
     pack.unlit = options.unlit;
     pack.relief_size = options.size;
@@ -388,7 +388,7 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     options.progress("choice of the level", 0.98);
     pack.samples =
         samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop), options.prop.zone);
-    const SeenErrors seen = seen_errors(pack, bakery.source(), options.prop.zone);
+    const SeenErrors seen = seen_errors(pack, cast, bakery.source(), options.prop.zone);
     put_seen_errors(seen, pack);
     pack.default_level = choose_default(pack, seen, options.prop);
     pack.table_picture = make_table_picture(pack);

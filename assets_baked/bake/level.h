@@ -7,6 +7,7 @@
 #pragma once
 
 #include "app/pack/pack.h"
+#include "app/pack/pack_relief.h"
 #include "app/pack/seen_errors.h"
 #include "assets_baked/bake/charts.h"
 #include "assets_baked/bake/source_scene.h"
@@ -59,13 +60,14 @@ struct SourceSamples {
                                  const SourceScene& source, const SourceSamples& samples,
                                  bool compare_colour);
 
-/// What eyes all around see of the pack's levels: rays from each eye against the source. The eyes are spread evenly over
-/// the zone; hardly anybody stands at its edge.
-[[nodiscard]] SeenErrors seen_errors(const Pack& pack, const SourceScene& source, const ViewingZone& zone);
-/// The means over all eyes: with one, a single strap would change the figures too much.
-[[nodiscard]] SeenError mean_of(std::span<const SeenError> seen);
 /// The first hit of a ray on a surface of which not every place is drawn.
 using TraceSurface = std::function<SurfaceHit(const glm::vec3& eye, const glm::vec3& direction)>;
+/// What eyes all around see of the pack's levels, and of the reliefs: rays from each eye against the source. The eyes are spread
+/// evenly over the zone; hardly anybody stands at its edge.
+[[nodiscard]] SeenErrors seen_errors(const Pack& pack, std::span<const MeasuredRelief> reliefs,
+                                     const SourceScene& source, const ViewingZone& zone);
+/// The means over all eyes: with one, a single strap would change the figures too much.
+[[nodiscard]] SeenError mean_of(std::span<const SeenError> seen);
 /// Distances both ways, as measure_shape, of what rays from eyes of the zone meet: from the source's hits to the surface, and from
 /// what `trace` meets to the source. What no eye sees does not count. Colour is left at 0.
 [[nodiscard]] LevelError seen_distances(const SourceScene& surface, const TraceSurface& trace,

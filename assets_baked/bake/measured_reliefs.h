@@ -11,7 +11,6 @@
 #include "app/pack/pack_relief.h"
 #include "assets_baked/bake/level.h"
 #include "assets_baked/bake/relief_layers.h"
-#include "assets_baked/bake/triangle_mesh.h"
 
 #include <vector>
 
@@ -32,8 +31,5 @@ struct ReliefSource {
     bool compare_colour = false; ///< baked light is no error
 };
 [[nodiscard]] std::vector<MeasuredRelief> bake_reliefs(const ReliefSource& source, int size);
-
-/// Two triangles for each cell that is there, whole where it is cut.
-[[nodiscard]] TriangleMesh surface_of(const BlockRelief& relief);
 
 } // namespace frustumscreen

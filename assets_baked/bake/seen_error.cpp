@@ -1,4 +1,5 @@
 #include "assets_baked/bake/level.h"
+#include "assets_baked/bake/relief_scene.h"
 #include "firmware_host/base/parallel.h"
 #include "firmware_host/base/quantile.h"
 
@@ -63,12 +64,12 @@ public:
     [[nodiscard]] const glm::vec3& eye() const { return eye_; }
 
     /// How far each ray goes to the surface.
-    [[nodiscard]] Image<float> cast(const SourceScene& scene) const {
+    [[nodiscard]] Image<float> cast(const TraceSurface& trace) const {
         Image<float> distances(size_.x, size_.y, no_hit);
         parallel_for(static_cast<std::size_t>(size_.y), 8, [&](std::size_t begin, std::size_t end) {
             for (std::size_t y = begin; y < end; ++y) {
                 for (int x = 0; x < size_.x; ++x) {
-                    const SurfaceHit hit = scene.trace(eye_, direction(x, static_cast<int>(y)));
+                    const SurfaceHit hit = trace(eye_, direction(x, static_cast<int>(y)));
                     if (hit.hit) {
                         distances.at(x, static_cast<int>(y)) = hit.distance;
                     }
@@ -83,6 +84,10 @@ private:
     double step_ = 0.0;
     glm::vec3 eye_{0.0F}, first_{0.0F}, right_{0.0F}, up_{0.0F};
 };
+
+TraceSurface on(const SourceScene& scene) {
+    return [&scene](const glm::vec3& eye, const glm::vec3& direction) { return scene.trace(eye, direction); };
+}
 
 /// Hits with a 4-neighbour that misses.
 std::size_t outline_of(const Image<float>& distances) {
@@ -306,25 +311,34 @@ std::vector<glm::dvec3> eyes_of(const ViewingZone& zone) {
 
 } // namespace
 
-SeenErrors seen_errors(const Pack& pack, const SourceScene& source, const ViewingZone& zone) {
+SeenErrors seen_errors(const Pack& pack, std::span<const MeasuredRelief> reliefs, const SourceScene& source,
+                       const ViewingZone& zone) {
     constexpr double rays_an_eye = 10'000.0;
     SeenErrors seen;
     std::vector<SeenSource> eyes;
     for (const glm::dvec3& towards : eyes_of(zone)) {
         const EyeRays rays(towards, pack.box_size, rays_an_eye);
-        Image<float> distances = rays.cast(source);
+        Image<float> distances = rays.cast(on(source));
         const Slopes slopes = slopes_of(rays, distances);
         seen.eyes.push_back(eye_of(towards, rays, distances, slopes.steepness));
         eyes.push_back({rays, std::move(distances), slopes});
     }
+    const auto errors_of = [&](const TraceSurface& trace) {
+        std::vector<Compared> compared;
+        for (const SeenSource& eye : eyes) {
+            compared.push_back(compare(eye.rays, eye.rays.cast(trace), eye.distances));
+        }
+        return with_edges(compared, eyes, seen);
+    };
     for (const PackLevel& level : pack.levels) {
         const SourceMesh mesh = textured_source(level, pack.textures[level.texture], pack.box_size);
         const SourceScene scene(mesh, mesh.positions, Sides::Front);
-        std::vector<Compared> compared;
-        for (const SeenSource& eye : eyes) {
-            compared.push_back(compare(eye.rays, eye.rays.cast(scene), eye.distances));
-        }
-        seen.levels.push_back(with_edges(compared, eyes, seen));
+        seen.levels.push_back(errors_of(on(scene)));
+    }
+    for (const MeasuredRelief& measured : reliefs) {
+        const ReliefScene scene(measured.relief);
+        seen.reliefs.push_back(errors_of(
+            [&](const glm::vec3& eye, const glm::vec3& direction) { return scene.trace(eye, direction); }));
     }
     return seen;
 }

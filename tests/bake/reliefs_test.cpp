@@ -3,6 +3,7 @@
 #include "app/pack/pack_relief.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/measured_reliefs.h"
+#include "assets_baked/bake/relief_scene.h"
 #include "tests/bake/shapes.h"
 
 #include <gtest/gtest.h>

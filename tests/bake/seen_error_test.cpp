@@ -1,4 +1,5 @@
 // What eyes see of a level, against geometry that is known.
+#include "assets_baked/bake/block_relief.h"
 #include "assets_baked/bake/level.h"
 #include "tests/bake/shapes.h"
 
@@ -90,7 +91,7 @@ TEST(SeenError, WhatEdgesHideIsNotLeftToChance) {
     };
     const SourceMesh source_mesh = mesh_of(wall, plate);
     const SourceScene source(source_mesh, source_mesh.positions);
-    const SeenErrors seen = seen_errors(pack_of(mesh_of(smaller(wall), smaller(plate))), source, {});
+    const SeenErrors seen = seen_errors(pack_of(mesh_of(smaller(wall), smaller(plate))), {}, source, {});
     int compared = 0;
     for (std::size_t k = 0; k < seen.eyes.size(); ++k) {
         if (seen.eyes[k].towards.y > -0.7) {
@@ -109,7 +110,7 @@ TEST(SeenError, AlongTheRaysIsTwiceTheDistanceOfConvexSurfaces) {
     constexpr double smaller = 2e-3;
     const SourceMesh source_mesh = sphere(192);
     const SourceScene source(source_mesh, source_mesh.positions);
-    const SeenErrors seen = seen_errors(pack_of(sphere(192, smaller)), source, ViewingZone::all_around());
+    const SeenErrors seen = seen_errors(pack_of(sphere(192, smaller)), {}, source, ViewingZone::all_around());
     ASSERT_EQ(seen.levels.size(), 1U);
     ASSERT_EQ(seen.levels[0].size(), seen.eyes.size());
     const SeenError mean = mean_of(seen.levels[0]);
@@ -140,10 +141,35 @@ TEST(SeenError, AlongTheRaysIsTwiceTheDistanceOfConvexSurfaces) {
     }
 }
 
+// As above. A frustum's directions do not see the ball from below, so that an eye that looks from the side misses what is farthest off.
+TEST(SeenError, OfAReliefIsAlongTheRaysToo) {
+    constexpr double smaller = 4e-3;
+    constexpr int rows = 96;
+    const SourceMesh source_mesh = sphere(rows);
+    const SourceMesh small_mesh = sphere(rows, smaller);
+    const SourceScene source(source_mesh, source_mesh.positions);
+    const SourceScene small(small_mesh, small_mesh.positions);
+    const std::vector<MeasuredRelief> reliefs{
+        {bake_blocks({small,
+                      glm::dvec3(1.0),
+                      {ReliefDirection::PlusX, ReliefDirection::MinusX, ReliefDirection::PlusY,
+                       ReliefDirection::MinusY, ReliefDirection::PlusZ},
+                      128}),
+         {}}};
+    const SeenErrors seen = seen_errors(pack_of(sphere(16)), reliefs, source, {});
+    ASSERT_EQ(seen.reliefs.size(), 1U);
+    ASSERT_EQ(seen.reliefs[0].size(), seen.eyes.size());
+    EXPECT_NEAR(static_cast<double>(mean_of(seen.reliefs[0]).mean_box), 2.0 * smaller, 0.5 * smaller);
+    for (const SeenError& each : seen.reliefs[0]) {
+        EXPECT_GT(static_cast<double>(each.mean_box), 1.3 * smaller);
+        EXPECT_LT(static_cast<double>(each.mean_box), 2.8 * smaller);
+    }
+}
+
 TEST(SeenError, OfTheSourceItselfIsThatOfThePacksCodes) {
     const SourceMesh mesh = sphere(64);
     const SourceScene source(mesh, mesh.positions);
-    const SeenErrors seen = seen_errors(pack_of(mesh), source, {});
+    const SeenErrors seen = seen_errors(pack_of(mesh), {}, source, {});
     for (const SeenError& each : seen.levels[0]) {
         EXPECT_LT(each.mean_box, 2e-5F); // codes are 1.5e-5 apart
         EXPECT_LT(each.silhouette_share, 1e-3F);
@@ -155,13 +181,13 @@ TEST(SeenError, EyesAreSpreadEvenlyOverTheZone) {
     const SourceScene source(mesh, mesh.positions);
     const Pack pack = pack_of(mesh);
     glm::dvec3 sum(0.0);
-    const SeenErrors around = seen_errors(pack, source, ViewingZone::all_around());
+    const SeenErrors around = seen_errors(pack, {}, source, ViewingZone::all_around());
     for (const SeenEye& eye : around.eyes) {
         EXPECT_NEAR(glm::length(eye.towards), 1.0, 1e-12);
         sum += eye.towards;
     }
     EXPECT_LT(glm::length(sum) / static_cast<double>(around.eyes.size()), 0.02);
-    for (const SeenEye& eye : seen_errors(pack, source, {}).eyes) {
+    for (const SeenEye& eye : seen_errors(pack, {}, source, {}).eyes) {
         EXPECT_GT(eye.towards.z, std::sin(3.0 * std::numbers::pi / 180.0));
     }
 }

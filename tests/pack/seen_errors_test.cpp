@@ -17,7 +17,7 @@ SeenErrors some() {
     error.patches_box[3] = 0.0625F;
     error.patches_box[15] = 0.333F;
     const SeenError none{};
-    return {{side, SeenEye{}}, {{error, none}, {none, {1e-7F, 10.0F, 0.0F, 0.0F, {}}}}};
+    return {{side, SeenEye{}}, {{error, none}, {none, {1e-7F, 10.0F, 0.0F, 0.0F, {}}}}, {}};
 }
 
 void expect_same(const SeenErrors& a, const SeenErrors& b) {
@@ -53,6 +53,26 @@ TEST(SeenErrors, ComeBackUnchangedThroughAFile) {
     const Json data = Json::parse((*back)->sections.at(0).data);
     EXPECT_EQ(data["eyes"][0]["places"][9], 0.25);            // x of patch 3
     EXPECT_EQ(data["levels"][0]["eyes"][0]["mean_box"], 0.1); // in few digits
+}
+
+TEST(SeenErrors, OfReliefsStandInASectionOfTheirOwn) {
+    SeenErrors errors = some();
+    errors.reliefs = {errors.levels[1]};
+    Pack pack = samples::pack();
+    put_seen_errors(errors, pack);
+    const SeenErrors back = seen_errors_of(pack, 2).value();
+    ASSERT_EQ(back.reliefs.size(), 1U);
+    ASSERT_EQ(back.reliefs[0].size(), 2U);
+    EXPECT_EQ(back.reliefs[0][1].mean_box, 1e-7F);
+    EXPECT_EQ(back.reliefs[0][1].p95_box, 10.0F);
+    ASSERT_EQ(pack.sections.back().name, "seen_reliefs");
+    Json data = Json::parse(pack.sections.back().data);
+    data["reliefs"][0]["eyes"].erase(0);
+    pack.sections.back().data = data.dump();
+    EXPECT_NE(seen_errors_of(pack, 2).error().message.find("1 errors from 2 eyes"), std::string::npos);
+    pack.sections.back().data = R"({"reliefs":[],"more":1})";
+    EXPECT_NE(seen_errors_of(pack, 2).error().message.find("sections.seen_reliefs.data.more"),
+              std::string::npos);
 }
 
 TEST(SeenErrors, AreEmptyInAnOlderPack) {

@@ -1,4 +1,5 @@
 #include "app/relief/relief_painter.h"
+#include "app/relief/resolve_row.h"
 #include "app/relief/sample_light.h"
 #include "tests/relief/subject.h"
 #include "tests/render/counted_new.h"
@@ -32,7 +33,11 @@ struct Painting {
     }
 };
 
-TEST(Painter, PaintsWhatIsCastAndNothingOutsideItsRectangle) {
+bool has(const PixelRectangle& part, int x, int y) {
+    return x >= part.x && x < part.x + part.width && y >= part.y && y < part.y + part.height;
+}
+
+TEST(Painter, PaintsWhatIsCastAndNothingOutsideItsRectangles) {
     const Painting painting;
     const glm::u8vec4 untouched(1, 2, 3, 4);
     ReliefPainter painter(2);
@@ -41,19 +46,25 @@ TEST(Painter, PaintsWhatIsCastAndNothingOutsideItsRectangle) {
     for (const BenchPose& pose : painting.poses) {
         const CastView view = painting.view(pose);
         Image8 picture = painting.blank(untouched);
-        const PixelRectangle lit = painter.paint(painting.relief, view, 1, span_of(picture));
-        EXPECT_EQ(lit, united(lit, view.lit));
+        const std::span<const PixelRectangle> painted =
+            painter.paint(painting.relief, view, 1, span_of(picture));
+        ASSERT_FALSE(painted.empty());
+        for (const PixelRectangle& part : painted) {
+            EXPECT_EQ(view.lit, united(view.lit, part));
+        }
+        const PixelRectangle& lit = view.lit;
         list_blocks(items, painting.relief, view);
         samples.begin(lit, 1);
         cast(samples, painting.relief, view, items);
         int met = 0;
         for (int y = 0; y < picture.height; ++y) {
             for (int x = 0; x < picture.width; ++x) {
-                const bool inside =
-                    x >= lit.x && x < lit.x + lit.width && y >= lit.y && y < lit.y + lit.height;
-                const std::size_t at = inside ? samples.at(x, y) : 0;
-                const bool is_met = inside && samples.nearness[at] > 0.0F;
+                const bool is_met = has(lit, x, y) && samples.nearness[samples.at(x, y)] > 0.0F;
+                const bool inside = std::any_of(painted.begin(), painted.end(),
+                                                [&](const PixelRectangle& part) { return has(part, x, y); });
+                ASSERT_TRUE(inside || !is_met) << x << " " << y;
                 met += is_met ? 1 : 0;
+                const std::size_t at = is_met ? samples.at(x, y) : 0;
                 const glm::u8vec4 expected =
                     !inside  ? untouched
                     : is_met ? colour_at(painting.relief, samples.block[at], samples.place[at])
@@ -62,6 +73,26 @@ TEST(Painter, PaintsWhatIsCastAndNothingOutsideItsRectangle) {
             }
         }
         EXPECT_GT(met, 1000);
+    }
+}
+
+TEST(Painter, TheProcessorsInstructionsDoNotChangeACode) {
+    const Painting painting;
+    const SampleLight light;
+    BlockItems items;
+    CastSamples samples;
+    const CastView view = painting.view(painting.poses[0]);
+    list_blocks(items, painting.relief, view);
+    for (const int count : {1, 2, 4, 8, 16}) {
+        samples.begin(view.lit, count);
+        cast(samples, painting.relief, view, items);
+        std::vector<glm::u8vec4> best(static_cast<std::size_t>(view.lit.width));
+        std::vector<glm::u8vec4> plain = best;
+        for (int y = view.lit.y; y < view.lit.y + view.lit.height; ++y) {
+            resolve_row(samples, painting.relief, light, y, view.lit.x, best);
+            resolve_row(samples, painting.relief, light, y, view.lit.x, plain, Instructions::Plain);
+            ASSERT_EQ(best, plain) << count << " " << y;
+        }
     }
 }
 
@@ -74,8 +105,8 @@ TEST(Painter, OneThreadOrFivePaintTheSame) {
         Image8 a = painting.blank({});
         Image8 b = a;
         for (const int samples : {1, 4}) {
-            EXPECT_EQ(alone.paint(painting.relief, view, samples, span_of(a)),
-                      together.paint(painting.relief, view, samples, span_of(b)));
+            EXPECT_TRUE(std::ranges::equal(alone.paint(painting.relief, view, samples, span_of(a)),
+                                           together.paint(painting.relief, view, samples, span_of(b))));
             EXPECT_EQ(a.texels, b.texels);
         }
     }

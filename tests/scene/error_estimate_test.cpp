@@ -162,7 +162,8 @@ TEST(ErrorEstimate, OfAnOlderPackComesFromItsSurfacesDistance) {
     EXPECT_FLOAT_EQ(worst_of(seen[1]).p95_box, 8e-3F);
     Kiosk kiosk;
     EXPECT_NEAR(kiosk.estimate(seen[1])->mean_mm, 0.16, 2e-3);
-    put_seen_errors({{eye_at({0.0, 0.6, 0.8})}, {{seen_of(0.5F)}, {seen_of(0.25F)}}}, outline.description);
+    put_seen_errors({{eye_at({0.0, 0.6, 0.8})}, {{seen_of(0.5F)}, {seen_of(0.25F)}}, {}},
+                    outline.description);
     EXPECT_FLOAT_EQ(worst_of(seen_levels(outline).value()[1]).mean_box, 0.25F);
     outline.levels.resize(3);
     EXPECT_FALSE(seen_levels(outline));

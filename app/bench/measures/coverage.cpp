@@ -41,10 +41,11 @@ Result<SetUpResult> measure_estimates(const SetUp& set_up, const Pack& pack,
         return at(set_up.name, opened.error());
     }
     TechniqueSet& set = *opened->set;
-    const Result<void> measured = set.add_auto(pack, {}).and_then([&] {
-        return set.measure_shape(opened->truth, opened->poses, options.rays,
-                                 [&](double done) { progress(step, done); });
-    });
+    const Result<void> measured =
+        set.add_auto(pack, {}).and_then([&] { return set.add_reliefs(pack, {}); }).and_then([&] {
+            return set.measure_shape(opened->truth, opened->poses, options.rays,
+                                     [&](double done) { progress(step, done); });
+        });
     if (!measured) {
         return at(set_up.name, measured.error());
     }

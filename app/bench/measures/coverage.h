@@ -35,7 +35,7 @@ struct EstimateOptions {
     /// finest level's mean, and which places one ray a pixel meets is chance; more rays say how much of a miss that is.
     int rays = 1;
 };
-/// Every level of the pack and what `auto` takes, without times.
+/// Every level and relief of the pack and what `auto` takes, without times.
 [[nodiscard]] Result<SetUpResult> measure_estimates(const SetUp& set_up, const Pack& pack,
                                                     const std::shared_ptr<const SourceMesh>& mesh,
                                                     const EstimateOptions& options,

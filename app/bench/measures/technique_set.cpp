@@ -237,17 +237,19 @@ Result<void> TechniqueSet::add_relief(const Pack& pack, TechniqueKind kind, Bloc
 
 Result<void> TechniqueSet::add_reliefs(const Pack& pack, const PictureOptions& options) {
     const Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack);
-    if (!reliefs) {
-        return tl::unexpected<Error>(reliefs.error());
+    const Result<std::vector<SeenLevel>> seen = seen_reliefs(outline_of(pack));
+    if (!reliefs || !seen) {
+        return tl::unexpected<Error>(reliefs ? seen.error() : reliefs.error());
     }
-    for (const ReliefOutline& outline : *reliefs) {
+    for (std::size_t k = 0; k < reliefs->size(); ++k) {
+        const ReliefOutline& outline = (*reliefs)[k];
         Result<BlockRelief> relief = relief_of(pack, outline);
         if (!relief) {
             return tl::unexpected<Error>(relief.error());
         }
         const std::string name = name_of(Rung{outline.texels, pack.samples, false, true});
-        if (const Result<void> added = add_relief(pack, TechniqueKind::PackRelief, *std::move(relief),
-                                                  derived(outline.error, pack.box_size), options, name);
+        if (const Result<void> added =
+                add_relief(pack, TechniqueKind::PackRelief, *std::move(relief), (*seen)[k], options, name);
             !added) {
             return added;
         }

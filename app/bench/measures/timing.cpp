@@ -22,7 +22,7 @@ double cpu_now_ms() {
 void time_one(Technique& technique, const BenchPose& pose, FrameTimes& times) {
     const double cpu_start_ms = cpu_now_ms();
     const auto start = std::chrono::steady_clock::now();
-    technique.draw(pose);
+    technique.draw_timed(pose);
     glFinish();
     const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
     times.wall_ms.push_back(wall.count());
@@ -52,7 +52,7 @@ std::vector<FrameTimes> time_interleaved(std::span<Technique* const> techniques,
     glFinish();
     for (Technique* technique : techniques) {
         for (int k = 0; k < plan.warm_up; ++k) {
-            technique->draw(poses.front());
+            technique->draw_timed(poses.front());
             glFinish();
         }
     }

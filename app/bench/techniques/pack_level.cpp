@@ -22,33 +22,35 @@ struct Light {
     double exposure = 1.0;
     bool feathered = true;
 };
+struct Lights {
+    Light shown, timed;
+};
 
 /// `level`: of the pack, whose brightest places say how bright the artifact is shown.
-Light light_of(const Stage& stage, const PictureOptions& options, const Pack& pack, std::size_t level) {
-    if (!options.lit) {
+Lights lights_of(const Stage& stage, const PictureOptions& options, const Pack& pack, std::size_t level) {
+    if (!options.lit && !options.timed_lit) {
         return {};
     }
     const PackLevel& shown = pack.levels[level];
-    return {
+    const Light light{
         light_compensation(stage.settings),
         exposure_of(shown, pack.box_size, pack.textures[shown.texture], stage.settings.render.highlight_code),
         options.feathered};
+    return {options.lit ? light : Light{}, light};
 }
 
 class PackLevelTechnique final : public Technique {
 public:
     PackLevelTechnique(const Stage& stage, const PlacedLevel& placed_level, std::optional<SeenLevel> seen,
-                       const Light& light, std::string name, Parts parts)
-        : stage_(stage), placed_(placed_level), seen_(std::move(seen)), light_(light), name_(std::move(name)),
-          parts_(std::move(parts)), plan_(make_plan(stage.prop, placed_)) {}
+                       const Lights& lights, std::string name, Parts parts)
+        : stage_(stage), placed_(placed_level), seen_(std::move(seen)), lights_(lights),
+          name_(std::move(name)), parts_(std::move(parts)), plan_(make_plan(stage.prop, placed_)) {}
 
     [[nodiscard]] std::string name() const override { return name_; }
-    void draw(const BenchPose& pose) override {
-        plan(pose);
-        parts_.renderer.draw(plan_, {stage_.framebuffer, 0}, Redraw::Everything);
-    }
+    void draw(const BenchPose& pose) override { draw(pose, lights_.shown); }
+    void draw_timed(const BenchPose& pose) override { draw(pose, lights_.timed); }
     [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose& pose) override {
-        plan(pose);
+        plan(pose, lights_.shown);
         return parts_.hit_points.draw(plan_, parts_.renderer.store());
     }
 
@@ -56,28 +58,32 @@ public:
         if (!seen_) {
             return std::nullopt;
         }
-        plan(pose);
-        return estimate_error(*seen_, stage_.prop, placed_, view_of(pose), plan_);
+        plan(pose, lights_.shown);
+        return estimate_error(*seen_, stage_.prop, placed_, view_of(pose, lights_.shown), plan_);
     }
 
 private:
-    [[nodiscard]] PlanView view_of(const BenchPose& pose) const {
+    [[nodiscard]] PlanView view_of(const BenchPose& pose, const Light& light) const {
         const ProjectorSettings& projector = stage_.settings.projector;
         return {projector.pinhole,    projector.table_from_projector,
                 pose.table_from_prop, {&pose.eye_m, 1},
-                light_.compensation,  light_.exposure};
+                light.compensation,   light.exposure};
     }
-    void plan(const BenchPose& pose) {
-        plan_frame(stage_.prop, placed_, view_of(pose), plan_);
-        if (!light_.feathered) {
+    void plan(const BenchPose& pose, const Light& light) {
+        plan_frame(stage_.prop, placed_, view_of(pose, light), plan_);
+        if (!light.feathered) {
             plan_.feathers.clear();
         }
+    }
+    void draw(const BenchPose& pose, const Light& light) {
+        plan(pose, light);
+        parts_.renderer.draw(plan_, {stage_.framebuffer, 0}, Redraw::Everything);
     }
 
     const Stage& stage_;
     PlacedLevel placed_;
     std::optional<SeenLevel> seen_;
-    Light light_;
+    Lights lights_;
     std::string name_;
     Parts parts_;
     FramePlan plan_;
@@ -92,11 +98,14 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
         return tl::unexpected<Error>(seen.error());
     }
     const SceneLevel whole = whole_level(pack, level);
-    ShaderKey shader;
-    shader.cut_out = whole.cut_out;
-    shader.even_light = options.lit;
     const int samples = options.samples > 0 ? options.samples : pack.samples;
-    RenderNeeds needs{std::max(samples, default_samples), {shader, {ShaderKey::Pass::EdgeFeather}}};
+    RenderNeeds needs{std::max(samples, default_samples), {{ShaderKey::Pass::EdgeFeather}}};
+    for (const bool lit : {options.lit, options.lit || options.timed_lit}) {
+        ShaderKey shader;
+        shader.cut_out = whole.cut_out;
+        shader.even_light = lit;
+        needs.draws.insert(shader);
+    }
     needs.bent_by = if_it_bends(stage.settings.projector.pinhole);
     Result<Renderer> renderer = Renderer::create(stage.width(), stage.height(), needs);
     if (!renderer) {
@@ -112,8 +121,8 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
     }
     PlacedLevel shown = placed(pack, level, place(pack, stage.prop).metres_per_box, *drawable);
     shown.samples = samples;
-    const Light light = light_of(stage, options, pack, level);
-    return std::make_unique<PackLevelTechnique>(stage, shown, (*seen)[level], light, std::move(name),
+    return std::make_unique<PackLevelTechnique>(stage, shown, (*seen)[level],
+                                                lights_of(stage, options, pack, level), std::move(name),
                                                 Parts{std::move(*renderer), std::move(*hit_points)});
 }
 
@@ -121,11 +130,8 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const Pa
                                                     std::shared_ptr<const BlockRelief> relief,
                                                     std::optional<SeenLevel> seen,
                                                     const PictureOptions& options, std::string name) {
-    ShaderKey shader;
-    shader.pass = ShaderKey::Pass::Cast;
-    shader.even_light = options.lit;
     RenderNeeds needs;
-    needs.draws = {shader, {ShaderKey::Pass::EdgeFeather}};
+    needs.draws = {cast_shader(false)};
     needs.casts = 1;
     Result<Renderer> renderer = Renderer::create(stage.width(), stage.height(), needs);
     if (!renderer) {
@@ -135,11 +141,11 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const Pa
     if (!hit_points) {
         return tl::unexpected<Error>(hit_points.error());
     }
-    const Light light = light_of(stage, options, pack, pack.default_level); // as the exhibit
+    const Lights lights = lights_of(stage, options, pack, pack.default_level); // as the exhibit
     const Drawable drawable = renderer->store().keep(relief);
     PlacedLevel shown = placed(pack, std::move(relief), place(pack, stage.prop).metres_per_box, drawable);
     shown.samples = options.samples > 0 ? options.samples : pack.samples;
-    return std::make_unique<PackLevelTechnique>(stage, shown, std::move(seen), light, std::move(name),
+    return std::make_unique<PackLevelTechnique>(stage, shown, std::move(seen), lights, std::move(name),
                                                 Parts{std::move(*renderer), std::move(*hit_points)});
 }
 

@@ -17,7 +17,8 @@ struct PictureOptions {
     int samples = 0; ///< a pixel; 0 = what the pack asks for
     /// Even light and exposure, as visitors see it; else the colours are those of the ray cast.
     bool lit = false;
-    bool feathered = true; ///< of a lit picture; false: sharp edges between faces, to be compared with
+    bool timed_lit = false; ///< only when it is timed
+    bool feathered = true;  ///< of a lit picture; false: sharp edges between faces, to be compared with
 };
 
 [[nodiscard]] Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pack& pack,

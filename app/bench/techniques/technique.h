@@ -27,8 +27,10 @@ class Technique {
 public:
     virtual ~Technique() = default;
     [[nodiscard]] virtual std::string name() const = 0;
-    /// A full redraw, clear included. Whoever times it calls glFinish.
+    /// A full redraw, clear included.
     virtual void draw(const BenchPose& pose) = 0;
+    /// The one that is timed, in the light that was asked for. Whoever times it calls glFinish.
+    virtual void draw_timed(const BenchPose& pose) { draw(pose); }
     /// Each pixel's hit point in the prop's frame, metres; NaN = no hit.
     [[nodiscard]] virtual Result<ImageFloat> hit_points(const BenchPose& pose) = 0;
     /// What the exhibit says of its own picture's error; nothing: the technique says nothing, or shows nothing.
