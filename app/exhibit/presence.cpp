@@ -16,7 +16,7 @@ bool prop_has_moved(const Situation& now, const Situation& then) {
 
 bool head_has_moved(const Situation& now, const Situation& then) {
     constexpr double nodded_m = 0.05; // nobody holds their head still
-    return now.head_known && (!then.head_known || glm::distance(now.eye_m, then.eye_m) > nodded_m);
+    return now.eye_known() && (!then.eye_known() || glm::distance(now.eye_m, then.eye_m) > nodded_m);
 }
 
 } // namespace

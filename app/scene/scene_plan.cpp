@@ -381,6 +381,7 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     plan.tracker = settings.tracker.kind;
     plan.head = settings.eye.tracked && plan.tracker != TrackerKind::None;
     plan.tags = settings.camera.tags;
+    plan.visitor = settings.camera.visitor;
     plan.panel = pressed || real || !script.empty();
     plan.other_packs = pressed || asks(Command::PreviousArtifact) || asks(Command::NextArtifact) ||
                        chooses_on_table(settings);
@@ -389,8 +390,12 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     if (plan.tracker == TrackerKind::Usb || plan.tracker == TrackerKind::SpaceMouse) {
         plan.threads.emplace_back("the tracker's reader");
     }
-    if (plan.tags) {
-        plan.threads.emplace_back("the camera's reader, which finds the prop's tags");
+    if (plan.tags || plan.visitor) {
+        plan.threads.emplace_back(!plan.visitor ? "the camera's reader, which finds the prop's tags"
+                                  : !plan.tags
+                                      ? "the camera's reader, which sees who stands at the table"
+                                      : "the camera's reader, which finds the prop's tags and sees who "
+                                        "stands at the table");
     }
     if (real && !pressed) {
         plan.threads.emplace_back("the buttons' watcher");

@@ -210,18 +210,24 @@ void check_devices(const Settings& settings, Fitness& fitness) {
                     settings.panel.repeat_s, last_s, least_repeat_s));
 }
 
+/// What asks where things are that a camera sees needs its lens.
+void check_camera_lens(const CameraSettings& camera, std::string_view use, std::string_view sees,
+                       Fitness& fitness) {
+    fitness.require(camera.kind == CameraKind::V4l2, use,
+                    fmt::format("is true; it needs camera.kind = \"v4l2\", the camera that sees {}", sees));
+    fitness.require(camera.pinhole.fx > 0.0 && camera.pinhole.fy > 0.0, use,
+                    "is true; it needs camera.fx, the measured focal length in pixels");
+    if (camera.pinhole.fx > 0.0 && camera.pinhole.fy > 0.0) {
+        check_lens(camera.pinhole, "camera.k1", fitness);
+    }
+}
+
 /// Tags are of use only where the camera, the tags and their places are known.
 void check_tags(const CameraSettings& camera, Fitness& fitness) {
     if (!camera.tags) {
         return;
     }
-    fitness.require(camera.kind == CameraKind::V4l2, "camera.tags",
-                    "is true; it needs camera.kind = \"v4l2\", the camera that sees the tags");
-    fitness.require(camera.pinhole.fx > 0.0 && camera.pinhole.fy > 0.0, "camera.tags",
-                    "is true; it needs camera.fx, the measured focal length in pixels");
-    if (camera.pinhole.fx > 0.0 && camera.pinhole.fy > 0.0) {
-        check_lens(camera.pinhole, "camera.k1", fitness);
-    }
+    check_camera_lens(camera, "camera.tags", "the tags", fitness);
     const RigidTransform& pose = camera.table_from_camera;
     fitness.require(pose.translation.z > 0.0 && pose.direction({0, 0, 1}).z < 0.0, "camera.tags",
                     "is true; it needs camera.table_from_camera, 16 numbers that place the camera above the "
@@ -233,6 +239,23 @@ void check_tags(const CameraSettings& camera, Fitness& fitness) {
         fitness.require(ids.insert(tag.id).second, "camera.tag",
                         fmt::format("has the id {} twice; give each tag an id of its own", tag.id));
     }
+}
+
+/// Heads are looked for with their tops up.
+void check_visitor(const Settings& settings, Fitness& fitness) {
+    const CameraSettings& camera = settings.camera;
+    if (!camera.visitor) {
+        return;
+    }
+    check_camera_lens(camera, "camera.visitor", "the visitors", fitness);
+    const RigidTransform& pose = camera.table_from_camera;
+    constexpr double upright = -0.64; // of its picture's down, along the table's up: 50 degrees
+    fitness.require(
+        pose.translation.z > 0.0 && pose.direction({0, 1, 0}).z < upright, "camera.visitor",
+        "is true; it needs camera.table_from_camera, 16 numbers that place the camera above the table, "
+        "upright, and let it look no more than 50 degrees up or down");
+    fitness.require(settings.eye.tracked, "camera.visitor",
+                    "is true; eye.tracked is false, a fixed viewer; choose one of the two");
 }
 
 void check_camera(const Settings& settings, Fitness& fitness) {
@@ -249,6 +272,7 @@ void check_camera(const Settings& settings, Fitness& fitness) {
                     fmt::format("is {}; allowed are 0 (the camera's own) and {} to 10000 kelvin",
                                 camera.white_balance_k, least_kelvin));
     check_tags(camera, fitness);
+    check_visitor(settings, fitness);
 }
 
 /// A name for two keys would make messages say nothing.

@@ -316,6 +316,10 @@ void camera_settings(auto& fields, auto& camera) {
     fields.flag(
         "tags", camera.tags,
         "the prop's second tracker: tags on it, which take over while the tracker is lost or metal is near");
+    fields.flag(
+        "visitor", camera.visitor,
+        "the visitor's eye, with nothing on the head: while no sensor says where the head is, the picture "
+        "turns to whoever stands nearest to the prop");
     camera_lens_settings(fields, camera);
     fields.tables(
         "tag", camera.tag, most_tags, [](auto& item, auto& tag) { tag_settings(item, tag); },

@@ -1,16 +1,18 @@
-/// What the live exhibit listens to and speaks through: a tracker, a panel, a sound, whichever they are.
+/// What the live exhibit listens to and speaks through: a tracker, a camera, a panel, a sound, whichever they are.
 ///
-/// Threads  the render thread's; a device's own thread is behind its interface.
+/// Threads  the render thread's; a device's own thread is behind its interface. The camera's hands each frame to its uses, in turn.
 #pragma once
 
 #include "app/tags/tag_tracker.h"
 #include "app/tracking/registered_tracker.h"
+#include "app/visitor/visitor_tracker.h"
 #include "firmware_host/base/sentence.h"
 #include "firmware_host/panel/panel.h"
 #include "firmware_host/sound/sound.h"
 #include "firmware_host/tracker/packet_recorder.h"
 
 #include <memory>
+#include <string_view>
 
 namespace frustumscreen {
 
@@ -19,8 +21,25 @@ struct Inputs {
     Sentence why_not_recorded; ///< why the packets are not recorded; empty: they are, or nobody asked for it
     std::unique_ptr<RegisteredTracker> tracker; ///< none: the prop stands at the table's centre
     std::unique_ptr<TagTracker> tags;           ///< none: the prop has no second tracker
-    std::unique_ptr<Panel> panel;               ///< none: nothing is pressed
-    std::unique_ptr<Sound> sound;               ///< none: there is nothing to say
+    std::unique_ptr<VisitorTracker> visitor;    ///< none: nobody is seen who wears no sensor
+    std::unique_ptr<Camera> camera; ///< whose frames they use; it ends before them, so it stands after them
+    std::unique_ptr<Panel> panel;   ///< none: nothing is pressed
+    std::unique_ptr<Sound> sound;   ///< none: there is nothing to say
 };
+
+/// How the camera is, in one plain sentence; empty: there is none.
+[[nodiscard]] inline std::string_view camera_state(const Inputs& inputs) {
+    if (!inputs.camera) {
+        return {};
+    }
+    const CameraState state = inputs.camera->state();
+    for (const std::string_view trouble : {inputs.tags ? inputs.tags->trouble() : std::string_view{},
+                                           inputs.visitor ? inputs.visitor->trouble() : std::string_view{}}) {
+        if (!trouble.empty() && health_of(state) == CameraHealth::Well) {
+            return trouble;
+        }
+    }
+    return sentence_of(state);
+}
 
 } // namespace frustumscreen

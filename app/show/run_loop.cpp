@@ -56,6 +56,7 @@ public:
         result_.status.calibrates = static_cast<bool>(options.calibrate);
         samples_.reserve(1024);
         tag_poses_.reserve(64);
+        heads_.reserve(64);
         events_.reserve(64);
         commands_.reserve(64);
         if (options.keep_rows && options.length) {
@@ -230,6 +231,7 @@ private:
     void poll(MonotonicTime now) {
         samples_.clear();
         tag_poses_.clear();
+        heads_.clear();
         events_.clear();
         commands_.clear();
         if (inputs_.tracker) {
@@ -248,6 +250,12 @@ private:
         }
         for (const UncertainPose& pose : tag_poses_) {
             result_.status.bad_samples += situation_.take_tags(pose) ? 0 : 1;
+        }
+        if (inputs_.visitor) {
+            inputs_.visitor->poll(now, heads_);
+        }
+        for (const SeenHead& head : heads_) {
+            result_.status.bad_samples += situation_.take_visitor(head) ? 0 : 1;
         }
         for (const PanelEvent& event : events_) {
             const std::optional<Command> command = command_of(event);
@@ -332,8 +340,10 @@ private:
         status.settings = options_.settings;
         status.tracker_hangs = inputs_.tracker && inputs_.tracker->hangs();
         status.tracker = Sentence(inputs_.tracker ? inputs_.tracker->state() : std::string_view{});
-        status.camera = Sentence(inputs_.tags ? inputs_.tags->state() : std::string_view{});
+        status.camera = Sentence(camera_state(inputs_));
         status.prop_by = shown_.by_tags ? "tags" : inputs_.tracker ? "tracker" : "";
+        status.eye_by = shown_.head_known ? "sensor" : shown_.head_seen ? "camera" : "settings";
+        status.eye_sd_m = shown_.eye_sd_m;
         status.hand_overs = situation_.hand_overs();
         status.panel = Sentence(inputs_.panel ? inputs_.panel->state() : std::string_view{});
         status.sound = Sentence(inputs_.sound ? inputs_.sound->state() : std::string_view{});
@@ -378,6 +388,7 @@ private:
     FrameTimes times_;
     std::vector<PoseSample> samples_;
     std::vector<UncertainPose> tag_poses_;
+    std::vector<SeenHead> heads_;
     std::vector<PanelEvent> events_;
     std::vector<Command> commands_; ///< of this frame
     MonotonicTime presented_;       ///< when the picture on show was

@@ -226,6 +226,9 @@ std::string status_json(const RunStatus& status) {
         {"import", json_of(status.import)},
         {"prop_known", status.prop_known},
         {"head_known", status.head_known},
+        {"eye_by", status.eye_by},
+        {"eye_sd_mm", status.eye_by == "camera" ? nlohmann::ordered_json(rounded(1e3 * status.eye_sd_m))
+                                                : nlohmann::ordered_json()},
         {"uptime_s", rounded(status.uptime_s)},
         {"resident_mib", rounded(status.resident_mib)}};
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -139,9 +139,11 @@ struct RunStatus {
     Sentence display;  ///< states of the devices; empty where there is nothing to say
     Sentence tracker;
     bool tracker_hangs = false; ///< Tracker::hangs
-    Sentence camera;            ///< of the prop's tags; empty: there is none
+    Sentence camera;            ///< empty: there is none
     std::string_view prop_by;   ///< "tracker" or "tags", a literal; empty: neither is there
     std::uint64_t hand_overs = 0;
+    std::string_view eye_by = "settings"; ///< "sensor", "camera" or "settings", a literal
+    double eye_sd_m = 0.0;                ///< of an eye by the camera, Situation::eye_sd_m
     Sentence panel;
     Sentence sound;
     Sentence recording;

@@ -123,8 +123,9 @@ std::string places_line(const JsonFields& status) {
     const auto known = [&](const char* key) {
         return status.flag(key).value_or(false) ? "known" : "not known";
     };
+    const bool seen = status.text("eye_by") == "camera";
     return fmt::format("the prop's place is {}, the visitor's head is {}", known("prop_known"),
-                       known("head_known"));
+                       seen ? "seen by the camera" : known("head_known"));
 }
 
 std::string set_line(const JsonFields& status) {

@@ -1,12 +1,8 @@
 #include "app/tags/tag_tracker.h"
 
 #include <span>
-#include <utility>
 
 namespace frustumscreen {
-
-TagTracker::TagTracker(TagSetUp set_up, const MakeCamera& make_camera)
-    : reader_(std::move(set_up)), camera_(make_camera([this](const CameraFrame& frame) { use(frame); })) {}
 
 void TagTracker::use(const CameraFrame& frame) {
     const std::uint64_t misshapen = reader_.counts().misshapen;
@@ -16,12 +12,11 @@ void TagTracker::use(const CameraFrame& frame) {
     misshapen_ = reader_.counts().misshapen > misshapen;
 }
 
-std::string_view TagTracker::state() const {
-    const CameraState state = camera_->state();
-    return misshapen_ && health_of(state) == CameraHealth::Well
+std::string_view TagTracker::trouble() const {
+    return misshapen_
                ? "the camera's frames have another shape than the settings say, so that tags are of no use; "
                  "set camera.width and camera.height to a size that frustumscreen camera lists"
-               : sentence_of(state);
+               : std::string_view{};
 }
 
 } // namespace frustumscreen

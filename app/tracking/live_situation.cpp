@@ -4,6 +4,7 @@
 #include "app/tracking/motion_filter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace frustumscreen {
@@ -13,6 +14,8 @@ namespace {
 constexpr double longest_flip_s = 0.1;
 /// The lever is 0, because only the place of the head counts and not its turn.
 constexpr double head_lever_m = 0.0;
+/// From one head to another, or to none.
+constexpr Nanoseconds eye_glides = std::chrono::milliseconds(250);
 
 /// What no filter sees of the tracker: its registration, and its field bent by metal. Polhemus calls poses with a distortion that it
 /// reports wrong by some millimetres.
@@ -24,6 +27,24 @@ constexpr double tags_off_m = 0.0015;
 constexpr Nanoseconds tracker_lost_after = std::chrono::milliseconds(150);
 constexpr Nanoseconds tags_lost_after = std::chrono::milliseconds(300);
 
+/// Heads as a camera sees them scatter more than sensors do, and move less than hands.
+constexpr std::array seen_head_models = {MotionModel{MotionModel::Kind::Rest, 0.004},
+                                         MotionModel{MotionModel::Kind::Glide, 1.0}};
+
+MotionFilterOptions seen_head_filter() {
+    constexpr double scatter_m = 0.010;
+    MotionFilterOptions options = exhibit_filter();
+    options.place = {seen_head_models, scatter_m, 0.5, 0.0, 0.2};
+    return options;
+}
+
+PoseEstimatorOptions seen_head_options() {
+    PoseEstimatorOptions options;
+    options.surprise_m = 0.12; // its distance is the least sure
+    options.forgotten_after = std::chrono::milliseconds(600);
+    return options;
+}
+
 PoseEstimator estimator() {
     return PoseEstimator(std::make_unique<MotionFilter>(exhibit_filter()));
 }
@@ -32,8 +53,9 @@ PoseEstimator estimator() {
 
 LiveSituation::LiveSituation(const glm::dvec3& default_eye_m, double lever_m)
     : default_eye_m_(default_eye_m), prop_(estimator()), tags_(estimator()), head_(estimator()),
-      lever_m_(lever_m), hand_over_({.lever_m = lever_m}), shown_prop_({.lever_m = lever_m}),
-      shown_head_({.lever_m = head_lever_m}) {}
+      visitor_(std::make_unique<MotionFilter>(seen_head_filter()), seen_head_options()), lever_m_(lever_m),
+      hand_over_({.lever_m = lever_m}), shown_prop_({.lever_m = lever_m}),
+      shown_head_({.lever_m = head_lever_m, .return_time = eye_glides}) {}
 
 bool LiveSituation::take(const PoseSample& sample) {
     if (!sample.ok || (sample.station != prop_station && sample.station != head_station)) {
@@ -51,6 +73,25 @@ bool LiveSituation::take_tags(const UncertainPose& pose) {
         tags_sd_m_ = pose.place_sd_m + lever_m_ * pose.turn_sd_rad;
     }
     return taken == Taken::Used || taken == Taken::Late;
+}
+
+/// Where people look.
+glm::dvec3 LiveSituation::middle_of_prop() const {
+    return prop_is_at_.point({0.0, 0.0, lever_m_});
+}
+
+bool LiveSituation::take_visitor(const SeenHead& head) {
+    if (holder_.see(head, middle_of_prop())) {
+        visitor_.forget();
+    }
+    if (holder_.person() != head.person) {
+        return true;
+    }
+    const Taken taken = visitor_.take(head.time, {{1.0, 0.0, 0.0, 0.0}, head.middle_m});
+    if (taken == Taken::Used) {
+        visitor_sd_m_ = head.across_sd_m;
+    }
+    return taken != Taken::NoPose;
 }
 
 SourcePose LiveSituation::by_tracker(MonotonicTime lit) const {
@@ -76,24 +117,34 @@ Situation LiveSituation::at(MonotonicTime lit) {
         situation.prop_age = prop.age;
         situation.prop_known = prop.status != PoseStatus::Stale;
     }
-    const PoseEstimate head = head_.at(lit);
-    situation.head_known = head.reinitialisations > 0 && head.status != PoseStatus::Stale;
-    situation.eye_m = shown_head_.follow(goal_of_eye(head, situation.head_known), lit).translation;
+    prop_is_at_ = situation.table_from_prop;
+    look_for_eye(situation);
     return situation;
 }
 
-PoseEstimate LiveSituation::goal_of_eye(const PoseEstimate& head, bool known) {
-    if (known != eye_is_heads_) {
-        eye_is_heads_ = known;
-        ++eye_goals_;
+void LiveSituation::look_for_eye(Situation& situation) {
+    const auto is_known = [](const PoseEstimate& estimate) {
+        return estimate.reinitialisations > 0 && estimate.status != PoseStatus::Stale;
+    };
+    const PoseEstimate head = head_.at(situation.time);
+    const PoseEstimate visitor = visitor_.at(situation.time);
+    situation.head_known = is_known(head);
+    situation.head_seen = !situation.head_known && is_known(visitor);
+    glm::dvec3 eye_m = default_eye_m_;
+    EyeOf of = EyeOf::Default;
+    if (situation.head_known) {
+        of = EyeOf::Sensor;
+        eye_m = head.pose.translation;
+    } else if (situation.head_seen) {
+        of = EyeOf::SeenHead;
+        eye_m = eye_of_head(visitor.pose.translation, middle_of_prop());
+        situation.eye_sd_m = std::hypot(visitor_.spread(situation.time).place_m, visitor_sd_m_);
     }
-    PoseEstimate goal = head;
-    if (!known) {
-        goal.pose = {{1.0, 0.0, 0.0, 0.0}, default_eye_m_};
-        goal.status = PoseStatus::Exact;
-    }
-    goal.reinitialisations += eye_goals_;
-    return goal;
+    PoseEstimate goal{{{1.0, 0.0, 0.0, 0.0}, eye_m}, PoseStatus::Exact, Nanoseconds(0), 0};
+    eye_goals_ += of != eye_of_ ? 1 : 0;
+    eye_of_ = of;
+    goal.reinitialisations = head.reinitialisations + visitor.reinitialisations + eye_goals_;
+    situation.eye_m = shown_head_.follow(goal, situation.time).translation;
 }
 
 void LightDelay::flipped(MonotonicTime now, MonotonicTime flipped) {

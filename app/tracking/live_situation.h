@@ -3,12 +3,15 @@
 ///
 /// Tags     a second tracker of the prop, which may be there. Each of the two has an estimator of its own; hand_over.h says whose
 ///          pose is shown.
+/// Visitor  heads that a camera sees, with nothing on them. While no sensor says where the visitor's head is, the eye is that of
+///          whoever holds the prop (holder.h); from one person to another it glides.
 /// Frames   table T, metres; samples too (registered_tracker.h).
 /// Time     a sample counts from its own time on; `at(lit)` asks for the time at which the picture is lit.
 /// Threads  values; one caller. Allocates nothing after construction.
 #pragma once
 
 #include "app/tracking/hand_over.h"
+#include "app/tracking/holder.h"
 #include "app/tracking/pose_estimator.h"
 #include "app/tracking/shown_pose.h"
 #include "app/tracking/situation.h"
@@ -27,18 +30,22 @@ public:
     bool take(const PoseSample& sample);
     /// The same of the tags' poses.
     bool take_tags(const UncertainPose& pose);
+    /// A head in the order of its time. Returns false for one that is no place.
+    bool take_visitor(const SeenHead& head);
     /// How the tracker itself is, from now on; metal near it makes its poses less sure.
     void tracker_is(TrackerHealth health) { health_ = health; }
     /// How often the tags took over from the tracker, or it from them.
     [[nodiscard]] std::uint64_t hand_overs() const { return hand_over_.changes(); }
     /// A lost prop stays where it was; at first it still counts as known, then `prop_known` is false. The eye
-    /// of a lost head glides to the default eye, and from there to a head that is found. Time does not go
+    /// of a lost head glides to one that is seen, or else to the default eye, and from there to a head that is found. Time does not go
     /// back from call to call.
     [[nodiscard]] Situation at(MonotonicTime lit);
 
 private:
-    /// The head, or the default eye in its place; a change between them is a reinitialisation.
-    [[nodiscard]] PoseEstimate goal_of_eye(const PoseEstimate& head, bool known);
+    enum class EyeOf { Default, Sensor, SeenHead };
+    [[nodiscard]] glm::dvec3 middle_of_prop() const;
+    /// Sets what is known of the eye.
+    void look_for_eye(Situation& situation);
     /// What is lost after which time, and how far off each may be.
     [[nodiscard]] SourcePose by_tracker(MonotonicTime lit) const;
     [[nodiscard]] SourcePose by_tags(MonotonicTime lit) const;
@@ -47,13 +54,17 @@ private:
     PoseEstimator prop_;
     PoseEstimator tags_;
     PoseEstimator head_;
+    PoseEstimator visitor_;     ///< the holder's head, as it is seen
+    double visitor_sd_m_ = 0.0; ///< that its latest sighting says
+    Holder holder_;
     double lever_m_;
     TrackerHealth health_ = TrackerHealth::Well;
     double tags_sd_m_ = 0.0; ///< that the latest of their poses says
     HandOver hand_over_;
     ShownPose shown_prop_;
+    RigidTransform prop_is_at_; ///< in the latest situation
     ShownPose shown_head_;
-    bool eye_is_heads_ = false;   ///< else the default eye
+    EyeOf eye_of_ = EyeOf::Default;
     std::uint64_t eye_goals_ = 1; ///< how many until now; the default eye is the first
 };
 

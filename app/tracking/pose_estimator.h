@@ -67,6 +67,8 @@ public:
 
     /// The caller chooses the station and must have checked `ok`.
     Taken take(MonotonicTime time, const RigidTransform& measured);
+    /// The next pose begins anew: it is of something else.
+    void forget() { count_ = 0; }
     [[nodiscard]] PoseEstimate at(MonotonicTime time) const;
     /// Of that estimate, as far as the filter knows it; of a time before the latest sample as of that sample.
     [[nodiscard]] PoseSpread spread(MonotonicTime time) const;

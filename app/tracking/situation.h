@@ -19,10 +19,16 @@ struct Situation {
     glm::dvec3 eye_m{0.0};   ///< between the visitor's eyes
     MonotonicTime time;      ///< for which this holds
     bool prop_known = false; ///< a usable pose of the prop was seen, and it is not too old
-    bool head_known = false; ///< else `eye_m` is the default eye, or live on its way there
+    bool head_known = false; ///< by a sensor on the visitor's head
+    bool head_seen =
+        false; ///< else: by a camera. If neither, `eye_m` is the default eye, or live on its way there
+    double eye_sd_m =
+        0.0; ///< of a head that is seen: how far `eye_m` may be off across its line to the prop, RMS on each axis
     Nanoseconds prop_age{0}; ///< of the pose used
     TrackerHealth tracker = TrackerHealth::Well;
     bool by_tags = false; ///< `table_from_prop` is by the tags
+
+    [[nodiscard]] bool eye_known() const { return head_known || head_seen; }
 };
 
 struct SituationLimits {

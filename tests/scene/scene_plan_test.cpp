@@ -294,6 +294,13 @@ TEST(DevicePlan, OpensWhatIsConfigured) {
     settings.panel.script = {{1.0, 1}};
     EXPECT_TRUE(plan_devices(settings, false, false).other_packs);
     EXPECT_TRUE(plan_devices(Settings(), true, false).other_packs);
+    settings.camera.visitor = true;
+    EXPECT_TRUE(plan_devices(settings, false, false).visitor);
+    EXPECT_EQ(plan_devices(settings, false, false).threads.back(),
+              "the camera's reader, which sees who stands at the table");
+    settings.camera.tags = true;
+    EXPECT_EQ(plan_devices(settings, false, false).threads.back(),
+              "the camera's reader, which finds the prop's tags and sees who stands at the table");
     settings.tracker.kind = TrackerKind::None;
     EXPECT_FALSE(plan_devices(settings, false, false).head);
 }

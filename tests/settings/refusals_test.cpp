@@ -191,6 +191,14 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
         {"[camera]\nfx = 100\nk1 = -0.5\nkind = \"v4l2\"\ntags = true\ntable_from_camera = "
          "[1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 1.3, 1]\n[[camera.tag]]\nid = 3",
          {":3: camera.k1", "fold the picture"}},
+        {"[camera]\nvisitor = true", {":2: camera.visitor is true; it needs camera.kind = \"v4l2\""}},
+        {"[camera]\nkind = \"v4l2\"\nvisitor = true", {":3: camera.visitor is true; it needs camera.fx"}},
+        {"[camera]\nkind = \"v4l2\"\nvisitor = true\nfx = 293\ntable_from_camera = "
+         "[1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 1.3, 1]", // straight down
+         {":3: camera.visitor is true; it needs camera.table_from_camera", "no more than 50 degrees"}},
+        {"[camera]\nkind = \"v4l2\"\nvisitor = true\nfx = 293\ntable_from_camera = "
+         "[-1, 0, 0, 0, 0, 0, -1, 0, 0, -1, 0, 0, 0, 0.28, 0.12, 1]\n[eye]\ntracked = false",
+         {":3: camera.visitor is true; eye.tracked is false"}},
         {"[camera]\nkind = \"usb\"", {":2: camera.kind", "\"none\"", "\"v4l2\""}},
         {"[panel]\nscript = [{at_s = 2}]\nrepeat_s = 2",
          {":3: panel.repeat_s is 2", "after the last press, 2"}},

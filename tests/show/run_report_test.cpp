@@ -130,6 +130,8 @@ TEST(RunReport, WhatIsPresentedAndCountedIsInTheStatus) {
     status.tracker_counts.lost = 3;
     status.prop_by = "tags";
     status.hand_overs = 5;
+    status.eye_by = "camera";
+    status.eye_sd_m = 0.021;
     status.tracker_counts.broken = 4;
     status.tracker_counts.clock_drift = 25e-6;
     stamp(status);
@@ -145,6 +147,8 @@ TEST(RunReport, WhatIsPresentedAndCountedIsInTheStatus) {
     EXPECT_EQ(json.at("tracker_counts").at("lost"), 3);
     EXPECT_EQ(json.at("prop_by"), "tags");
     EXPECT_EQ(json.at("hand_overs"), 5);
+    EXPECT_EQ(json.at("eye_by"), "camera");
+    EXPECT_EQ(json.at("eye_sd_mm"), 21.0);
     EXPECT_EQ(json.at("tracker_counts").at("broken"), 4);
     EXPECT_EQ(json.at("tracker_counts").at("clock_drift_ppm"), 25.0);
     EXPECT_LE(json.at("monotonic_ns"), after.time_since_epoch().count());

@@ -121,6 +121,8 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
 [[nodiscard]] BenchCommand estimate_command(CLI::App& app);
 /// The prop's pose by its tags, in rendered scenes.
 [[nodiscard]] BenchCommand tags_command(CLI::App& app);
+/// The visitor's eye by a camera, in rendered scenes.
+[[nodiscard]] BenchCommand visitor_command(CLI::App& app);
 /// Cost against the source's size, built-in amphora.
 [[nodiscard]] BenchCommand scaling_command(CLI::App& app);
 /// The visitor's view against an ordinary ray cast.

@@ -14,7 +14,7 @@ namespace {
 int run(int argc, char** argv) {
     CLI::App app("Measures the FrustumScreen's picture: error against run time, scaling, the visitor's view,"
                  " shimmer, numerical stability, latency; which set-up suits a table; what the"
-                 " recovery ladder and tags on the prop are worth.",
+                 " recovery ladder, tags on the prop and a camera that sees the visitors are worth.",
                  "frustumscreen-bench");
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
     app.require_subcommand(1);
@@ -22,7 +22,7 @@ int run(int argc, char** argv) {
                                  shimmer_command(app),    stability_command(app), plot_command(app),
                                  counts_command(app),     latency_command(app),   setup_command(app),
                                  guidance_command(app),   ladder_command(app),    estimate_command(app),
-                                 tags_command(app)};
+                                 tags_command(app),       visitor_command(app)};
     if (const auto end = end_of_arguments(app, argc, argv)) {
         return *end;
     }

@@ -258,7 +258,7 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     }
     Settings raw = settings;
     raw.tracker.registration = {}; // the device's own reports
-    raw.camera.tags = false;
+    raw.camera.tags = raw.camera.visitor = false;
     const DevicePlan plan = plan_devices(raw, false, false);
     if (plan.tracker == TrackerKind::None || !plan.panel) {
         return fail(ErrorKind::BadConfiguration,

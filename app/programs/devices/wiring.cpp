@@ -25,6 +25,7 @@
 
 #include <cmath>
 #include <ctime>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -134,6 +135,36 @@ Result<std::unique_ptr<Panel>> make_panel(const Settings& settings, std::optiona
     return std::make_unique<ScriptedPanel>(std::move(script), nanoseconds(settings.panel.repeat_s), start);
 }
 
+TagSetUp tag_set_up(const CameraSettings& camera) {
+    TagSetUp set_up{camera.pinhole, camera.table_from_camera, {}};
+    for (const TagSettings& tag : camera.tag) {
+        set_up.tags.push_back({tag.id, tag.size_m, prop_from_tag(tag)});
+    }
+    return set_up;
+}
+
+VisitorSetUp visitor_set_up(const Settings& settings) {
+    VisitorSetUp set_up{settings.camera.pinhole, settings.camera.table_from_camera, {}};
+    set_up.zone.table_size_m = {settings.table.width_m, settings.table.depth_m};
+    return set_up;
+}
+
+/// What uses the camera's frames, and the camera that hands them to it.
+void add_camera(Inputs& inputs, const Settings& settings, const DevicePlan& plan) {
+    std::vector<FrameUse> uses;
+    if (plan.tags) {
+        inputs.tags = std::make_unique<TagTracker>(tag_set_up(settings.camera));
+        uses.emplace_back([&tags = *inputs.tags](const CameraFrame& frame) { tags.use(frame); });
+    }
+    if (plan.visitor) {
+        inputs.visitor = std::make_unique<VisitorTracker>(visitor_set_up(settings));
+        uses.emplace_back([&visitor = *inputs.visitor](const CameraFrame& frame) { visitor.use(frame); });
+    }
+    if (!uses.empty()) {
+        inputs.camera = make_camera(settings.camera, std::move(uses));
+    }
+}
+
 } // namespace
 
 Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool headless) {
@@ -192,20 +223,18 @@ CameraWish camera_wish(const CameraSettings& settings) {
     return wish;
 }
 
-std::unique_ptr<Camera> make_camera(const CameraSettings& settings) {
-    return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_wish(settings));
-}
-
-std::unique_ptr<TagTracker> make_tags(const CameraSettings& settings) {
+std::unique_ptr<Camera> make_camera(const CameraSettings& settings, std::vector<FrameUse> uses) {
+    if (uses.empty()) {
+        return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_wish(settings));
+    }
     const rlimit none{0, 0};
     static_cast<void>(::setrlimit(RLIMIT_CORE, &none));
-    TagSetUp set_up{settings.pinhole, settings.table_from_camera, {}};
-    for (const TagSettings& tag : settings.tag) {
-        set_up.tags.push_back({tag.id, tag.size_m, prop_from_tag(tag)});
-    }
-    return std::make_unique<TagTracker>(std::move(set_up), [&settings](FrameUse use) {
-        return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_wish(settings), std::move(use));
-    });
+    return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_wish(settings),
+                                        [uses = std::move(uses)](const CameraFrame& frame) {
+                                            for (const FrameUse& use : uses) {
+                                                use(frame);
+                                            }
+                                        });
 }
 
 Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
@@ -221,9 +250,7 @@ Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
         inputs.tracker =
             std::make_unique<RegisteredTracker>(std::move(*tracker), settings.tracker.registration);
     }
-    if (plan.tags) {
-        inputs.tags = make_tags(settings.camera);
-    }
+    add_camera(inputs, settings, plan);
     if (plan.panel) {
         Result<std::unique_ptr<Panel>> panel = make_panel(settings, press_every, start);
         if (!panel) {

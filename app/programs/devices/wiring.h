@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -33,12 +34,10 @@ namespace frustumscreen {
 /// None: the settings switch it off.
 [[nodiscard]] std::unique_ptr<Sound> make_sound(const SoundSettings& settings);
 
-/// The tags on the prop, and the camera that sees them; the settings have both. The process dumps no core from then on: a frame
-/// would lie in it.
-[[nodiscard]] std::unique_ptr<TagTracker> make_tags(const CameraSettings& settings);
-
 [[nodiscard]] CameraWish camera_wish(const CameraSettings& settings);
-/// Starts its thread. The settings have one.
-[[nodiscard]] std::unique_ptr<Camera> make_camera(const CameraSettings& settings);
+/// Starts its thread, which hands each frame to all uses, one after the other. The settings have one. With a use the process dumps
+/// no core from then on: a frame would lie in it.
+[[nodiscard]] std::unique_ptr<Camera> make_camera(const CameraSettings& settings,
+                                                  std::vector<FrameUse> uses = {});
 
 } // namespace frustumscreen

@@ -1,0 +1,54 @@
+#include "app/bench/visitor/visitor_figures.h"
+#include "app/programs/bench/bench_command.h"
+#include "firmware_host/base/file.h"
+
+#include <memory>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Arguments {
+    std::filesystem::path out;
+    std::size_t visits = 24;
+    double minutes = 10.0;
+    std::uint64_t seed = 1;
+};
+
+Result<void> run(const Arguments& arguments, BenchProgress& progress) {
+    const std::vector<VisitorCase> cases = visitor_cases();
+    const std::vector<VisitorCase> empty = empty_cases();
+    const auto all = static_cast<double>(cases.size() + empty.size());
+    std::vector<VisitorFigures> figures;
+    for (const VisitorCase& one : cases) {
+        progress.show(one.name, static_cast<double>(figures.size()) / all);
+        figures.push_back(measure(one, arguments.visits, arguments.seed));
+    }
+    std::vector<WrongPresence> wrong;
+    for (const VisitorCase& one : empty) {
+        progress.show("nobody there: " + one.name, static_cast<double>(cases.size() + wrong.size()) / all);
+        wrong.push_back(measure_empty(one, arguments.minutes, arguments.seed));
+    }
+    progress.clear();
+    fmt::print("{}\n{}", table_of(figures), table_of(wrong));
+    return write_all(arguments.out, {{"visitor.csv", csv_of(figures)}, {"nobody.csv", csv_of(wrong)}});
+}
+
+} // namespace
+
+BenchCommand visitor_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "visitor", "the visitor's eye by a camera, in rendered scenes: presence, error, jitter and time");
+    const auto arguments = std::make_shared<Arguments>();
+    command->add_option("--out", arguments->out, "folder for the tables")->required();
+    command->add_option("--visits", arguments->visits, "of each scene, seven seconds long")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    command->add_option("--minutes", arguments->minutes, "of each scene without anybody")
+        ->check(CLI::Range(0.1, 10000.0))
+        ->capture_default_str();
+    command->add_option("--seed", arguments->seed, "of people, light and noise")->capture_default_str();
+    return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,32 @@
+/// A head's outline into where the head is.
+///
+/// Model    an upright ellipse 1.3 times as high as wide, seen through the camera's lens: its middle and width are fitted to the outline,
+///          by Gauss-Newton with a robust loss (Huber). Its middle is the head's direction. How far away it is follows from how wide
+///          it looks, since heads with their hair are alike within a tenth, and from where people stand who are at a table.
+/// Frames   table T, metres.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/geometry/pinhole.h"
+#include "app/geometry/transform.h"
+#include "app/visitor/head_outline.h"
+#include "app/visitor/head_zone.h"
+
+#include <optional>
+
+namespace frustumscreen {
+
+struct FittedHead {
+    glm::dvec3 middle_m{0.0}; ///< of the head with its hair
+    double across_sd_m = 0.0; ///< across the camera's ray, on each axis
+    double along_sd_m = 0.0;  ///< along it
+    glm::dvec2 pixel{0.0};    ///< of the middle, in the frame of the outline
+    double width_px = 0.0;
+};
+
+/// `camera`: of the frame in which the outline is. Nothing: no head, or not of somebody at the table.
+[[nodiscard]] std::optional<FittedHead> fit_head(const HeadOutline& outline, const Pinhole& camera,
+                                                 const RigidTransform& table_from_camera,
+                                                 const HeadZone& zone);
+
+} // namespace frustumscreen

@@ -1,0 +1,156 @@
+#include "app/visitor/visitor_reader.h"
+
+#include "app/geometry/time_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double same_head = 0.8;    ///< widths that a head may go from frame to frame
+constexpr double still_mean_s = 2.0; ///< time constant of the mean by which a head is held still
+/// What a person hides of the background, in widths of the head.
+constexpr double half_body = 1.7;
+constexpr double above_middle = 1.2;
+
+glm::dvec3 middle_of_table() {
+    return {0.0, 0.0, 0.05};
+}
+
+} // namespace
+
+double VisitorReader::thread_seconds() {
+    timespec time{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+VisitorReader::VisitorReader(VisitorSetUp set_up, std::function<double()> busy)
+    : set_up_(std::move(set_up)), busy_(std::move(busy)) {}
+
+std::span<const SeenHead> VisitorReader::read(const CameraFrame& frame) {
+    heads_.clear();
+    if (frame.time < next_ && next_ - frame.time < std::chrono::seconds(10)) {
+        ++counts_.passed_over;
+        return heads_;
+    }
+    const double begin_s = busy_();
+    look(frame);
+    const double took_s = std::fmax(0.0, busy_() - begin_s);
+    next_ = frame.time + Nanoseconds(std::llround(1e9 * took_s / most_share));
+    ++counts_.looked_at;
+    return heads_;
+}
+
+void VisitorReader::prepare(int width, int height) {
+    const int block = block_of(width);
+    const Pinhole whole = set_up_.camera.scaled_to(width, height);
+    camera_ = whole;
+    camera_.width = width / block;
+    camera_.height = height / block;
+    for (double* number : {&camera_.fx, &camera_.fy, &camera_.cx, &camera_.cy}) {
+        *number /= block;
+    }
+    background_.emplace(what_pixels_show(set_up_.zone, camera_, set_up_.table_from_camera));
+    people_.clear();
+}
+
+void VisitorReader::look(const CameraFrame& frame) {
+    const Pinhole& measured = set_up_.camera;
+    if (frame.width <= 0 || frame.width * measured.height != frame.height * measured.width) {
+        ++counts_.misshapen;
+        return;
+    }
+    shrink(frame, small_);
+    if (!background_ || small_.width != camera_.width || small_.height != camera_.height) {
+        prepare(frame.width, frame.height);
+    }
+    const int began = background_->beginnings();
+    const std::span<const std::uint8_t> foreground = background_->find(frame.time, small_);
+    if (background_->beginnings() != began) {
+        people_.clear();
+    }
+    fitted_.clear();
+    for (const HeadOutline& outline : find_head_outlines(foreground, small_.width, small_.height)) {
+        if (const auto head = fit_head(outline, camera_, set_up_.table_from_camera, set_up_.zone)) {
+            fitted_.push_back(*head);
+        }
+    }
+    follow(frame.time);
+    boxes_.clear();
+    for (const Person& person : people_) {
+        const double width = person.head.width_px;
+        const glm::dvec2 at = person.head.pixel;
+        const PixelBox box{static_cast<int>(at.x - half_body * width),
+                           static_cast<int>(at.y - above_middle * width),
+                           static_cast<int>(at.x + half_body * width), small_.height};
+        if (person.is_thing()) {
+            background_->take_in(small_, box);
+        } else {
+            boxes_.push_back(box);
+        }
+    }
+    std::erase_if(people_, [](const Person& person) { return person.is_thing(); });
+    background_->learn(small_, boxes_);
+}
+
+void VisitorReader::see(Person& person, const FittedHead& head, MonotonicTime time) {
+    const double share = follow_share(to_seconds(time - person.last), still_mean_s);
+    person.head = head;
+    person.last = time;
+    person.mean += share * (head.pixel - person.mean);
+    if (glm::distance(person.mean, person.still_at) > moved_px) {
+        person.still_at = person.mean;
+        person.moved = time;
+    }
+}
+
+/// Each head goes to the nearest person within a head's width, the nearest pair first.
+void VisitorReader::follow(MonotonicTime time) {
+    while (!fitted_.empty()) {
+        Person* nearest = nullptr;
+        std::size_t which = 0;
+        double least = same_head;
+        for (Person& person : people_) {
+            for (std::size_t k = 0; k < fitted_.size() && person.last != time; ++k) {
+                const double off = glm::distance(fitted_[k].pixel, person.head.pixel) / fitted_[k].width_px;
+                if (off < least) {
+                    least = off;
+                    nearest = &person;
+                    which = k;
+                }
+            }
+        }
+        if (nearest == nullptr) {
+            break;
+        }
+        see(*nearest, fitted_[which], time);
+        fitted_.erase(fitted_.begin() + static_cast<std::ptrdiff_t>(which));
+    }
+    for (const FittedHead& head : fitted_) {
+        people_.push_back({++last_number_, head, time, time, head.pixel, head.pixel, time});
+    }
+    std::erase_if(people_, [time](const Person& person) {
+        return time - person.last > forgotten_after || time < person.last;
+    });
+    for (const Person& person : people_) {
+        if (person.last == time && time - person.first >= sure_after && !person.is_thing()) {
+            heads_.push_back(seen(person));
+        }
+    }
+}
+
+/// What is unknown of the distance shows only as far as the camera does not stand in the line from the table to the head.
+SeenHead VisitorReader::seen(const Person& person) const {
+    const glm::dvec3& middle = person.head.middle_m;
+    const glm::dvec3 ray = glm::normalize(middle - set_up_.table_from_camera.translation);
+    const double apart = glm::length(glm::cross(ray, glm::normalize(middle - middle_of_table())));
+    return {person.last, person.number, middle,
+            std::hypot(person.head.across_sd_m, apart * person.head.along_sd_m)};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,127 @@
+#include "app/tracking/live_situation.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+
+const glm::dvec3 default_eye(0.0, -0.55, 0.5);
+constexpr double lever_m = 0.08;
+const glm::dvec3 left(-0.3, -0.5, 0.6);
+const glm::dvec3 right(0.3, -0.45, 0.4);
+
+SeenHead head(std::uint32_t person, int ms, const glm::dvec3& middle_m) {
+    return {MonotonicTime(milliseconds(ms)), person, middle_m, 0.02};
+}
+
+MonotonicTime at(int ms) {
+    return MonotonicTime(milliseconds(ms));
+}
+
+TEST(SeenHead, IsTheEyeUntilASensorSaysMore) {
+    LiveSituation live(default_eye, lever_m);
+    EXPECT_EQ(live.at(at(0)).eye_m, default_eye);
+    int ms = 1000;
+    for (; ms < 2000; ms += 33) {
+        EXPECT_TRUE(live.take_visitor(head(1, ms, left)));
+        static_cast<void>(live.at(at(ms)));
+    }
+    Situation situation = live.at(at(ms));
+    EXPECT_TRUE(situation.head_seen);
+    EXPECT_FALSE(situation.head_known);
+    EXPECT_LT(glm::distance(situation.eye_m, eye_of_head(left, {0.0, 0.0, lever_m})), 1e-3);
+    EXPECT_GT(situation.eye_sd_m, 0.02);
+    PoseSample sensor;
+    sensor.station = head_station;
+    sensor.position_m = right;
+    for (; ms < 3000; ms += 16) {
+        sensor.time = at(ms);
+        EXPECT_TRUE(live.take(sensor));
+        EXPECT_TRUE(live.take_visitor(head(1, ms, left)));
+        situation = live.at(at(ms));
+    }
+    EXPECT_TRUE(situation.head_known);
+    EXPECT_FALSE(situation.head_seen);
+    EXPECT_LT(glm::distance(situation.eye_m, right), 1e-3);
+}
+
+/// Nobody is there any more: after a second the picture goes back, and no picture jumps.
+TEST(SeenHead, WhoGoesLeavesTheDefaultEyeWithoutAJump) {
+    LiveSituation live(default_eye, lever_m);
+    glm::dvec3 before = default_eye;
+    double farthest = 0.0;
+    for (int ms = 1000; ms < 5000; ms += 16) {
+        if (ms >= 1200 && ms < 2500) {
+            EXPECT_TRUE(live.take_visitor(head(1, ms, left)));
+        }
+        const Situation situation = live.at(at(ms));
+        farthest = std::max(farthest, glm::distance(situation.eye_m, before));
+        before = situation.eye_m;
+    }
+    EXPECT_FALSE(live.at(at(5000)).head_seen);
+    EXPECT_LT(glm::distance(before, default_eye), 1e-3);
+    EXPECT_LT(farthest, 0.04); // 0.4 m within a quarter of a second
+}
+
+TEST(SeenHead, ThePictureTurnsToWhoIsNearestToTheProp) {
+    LiveSituation live(default_eye, lever_m);
+    PoseSample prop;
+    const auto step = [&](int ms, double x) {
+        prop.time = at(ms);
+        prop.position_m = {x, 0.0, 0.0};
+        static_cast<void>(live.take(prop)); // one that was put elsewhere is doubted at first
+        EXPECT_TRUE(live.take_visitor(head(1, ms, left)));
+        EXPECT_TRUE(live.take_visitor(head(2, ms, right)));
+        return live.at(at(ms)).eye_m;
+    };
+    int ms = 1000;
+    glm::dvec3 eye(0.0);
+    for (; ms < 3000; ms += 16) {
+        eye = step(ms, -0.2);
+    }
+    EXPECT_LT(glm::distance(eye, left), 0.12);
+    for (; ms < 5000; ms += 16) {
+        eye = step(ms, 0.0); // about as near: nobody takes turns
+    }
+    EXPECT_LT(glm::distance(eye, left), 0.12);
+    glm::dvec3 before = eye;
+    for (; ms < 8000; ms += 16) {
+        eye = step(ms, 0.2);
+        EXPECT_LT(glm::distance(eye, before), 0.08) << ms;
+        before = eye;
+    }
+    EXPECT_LT(glm::distance(eye, right), 0.12);
+}
+
+TEST(Holder, OneWhoHasGoneGivesWayAtOnce) {
+    Holder holder;
+    const glm::dvec3 prop(0.0);
+    EXPECT_TRUE(holder.see(head(1, 1000, left), prop));
+    EXPECT_FALSE(holder.see(head(2, 1000, {0.7, -0.7, 0.5}), prop));
+    EXPECT_FALSE(holder.see(head(2, 1400, {0.7, -0.7, 0.5}), prop));
+    EXPECT_EQ(holder.person(), 1U);
+    EXPECT_TRUE(holder.see(head(2, 1600, {0.7, -0.7, 0.5}), prop));
+    EXPECT_EQ(holder.person(), 2U);
+}
+
+TEST(Holder, AShortStepNearerIsNoChange) {
+    Holder holder;
+    const glm::dvec3 prop(0.0);
+    int ms = 1000;
+    for (; ms < 4000; ms += 33) {
+        static_cast<void>(holder.see(head(1, ms, {0.0, -0.6, 0.5}), prop));
+        const bool leans = ms % 1000 < 500;
+        static_cast<void>(holder.see(head(2, ms, {0.4, leans ? -0.1 : -0.8, 0.5}), prop));
+        EXPECT_EQ(holder.person(), 1U) << ms;
+    }
+    for (; ms < 5000; ms += 33) {
+        static_cast<void>(holder.see(head(1, ms, {0.0, -0.6, 0.5}), prop));
+        static_cast<void>(holder.see(head(2, ms, {0.3, -0.1, 0.5}), prop));
+    }
+    EXPECT_EQ(holder.person(), 2U);
+}
+
+} // namespace
+} // namespace frustumscreen
