@@ -370,6 +370,7 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     plan.tracker = settings.tracker.kind;
     plan.head = settings.eye.tracked && plan.tracker != TrackerKind::None;
     plan.tags = settings.camera.tags;
+    plan.drift = settings.camera.drift && settings.calibration.used;
     plan.panel = pressed || real || !script.empty();
     plan.other_packs = pressed || asks(Command::PreviousArtifact) || asks(Command::NextArtifact) ||
                        chooses_on_table(settings);
@@ -380,6 +381,8 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     }
     if (plan.tags) {
         plan.threads.emplace_back("the camera's reader, which finds the prop's tags");
+    } else if (plan.drift) {
+        plan.threads.emplace_back("the camera's reader, which finds the marks");
     }
     if (real && !pressed) {
         plan.threads.emplace_back("the buttons' watcher");

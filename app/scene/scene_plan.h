@@ -104,6 +104,7 @@ struct DevicePlan {
     TrackerKind tracker = TrackerKind::None;
     bool head = false;        ///< the tracker's head samples are used
     bool tags = false;        ///< a camera follows the prop's tags
+    bool drift = false;       ///< a camera looks whether the picture lies where it was calibrated
     bool panel = false;       ///< there are buttons
     bool other_packs = false; ///< a button or the table leads to another artifact than the first
     bool language = false;    ///< a button leads to another language

@@ -316,6 +316,9 @@ void camera_settings(auto& fields, auto& camera) {
     fields.flag(
         "tags", camera.tags,
         "the prop's second tracker: tags on it, which take over while the tracker is lost or metal is near");
+    fields.flag(
+        "drift", camera.drift,
+        "looks whether the picture lies where it was calibrated, by marks of light while nobody is there");
     camera_lens_settings(fields, camera);
     fields.tables(
         "tag", camera.tag, most_tags, [](auto& item, auto& tag) { tag_settings(item, tag); },

@@ -3,6 +3,7 @@
 /// Threads  the render thread's; a device's own thread is behind its interface.
 #pragma once
 
+#include "app/drift/drift_watch.h"
 #include "app/tags/tag_tracker.h"
 #include "app/tracking/registered_tracker.h"
 #include "firmware_host/base/sentence.h"
@@ -18,9 +19,12 @@ struct Inputs {
     std::unique_ptr<PacketRecorder> recorder; ///< of the tracker's packets; outlives it
     Sentence why_not_recorded; ///< why the packets are not recorded; empty: they are, or nobody asked for it
     std::unique_ptr<RegisteredTracker> tracker; ///< none: the prop stands at the table's centre
-    std::unique_ptr<TagTracker> tags;           ///< none: the prop has no second tracker
-    std::unique_ptr<Panel> panel;               ///< none: nothing is pressed
-    std::unique_ptr<Sound> sound;               ///< none: there is nothing to say
+    std::unique_ptr<DriftWatch>
+        drift; ///< none: nothing looks whether the picture moved; outlives the camera that it uses
+    std::unique_ptr<TagTracker> tags; ///< none: the prop has no second tracker
+    std::unique_ptr<Camera> camera;   ///< where no tags are followed; none: there is no other use of it
+    std::unique_ptr<Panel> panel;     ///< none: nothing is pressed
+    std::unique_ptr<Sound> sound;     ///< none: there is nothing to say
 };
 
 } // namespace frustumscreen

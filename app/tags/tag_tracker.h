@@ -23,6 +23,7 @@ public:
 
     /// Appends every pose with time <= now that was not handed out before, in ascending time.
     void poll(MonotonicTime now, std::vector<UncertainPose>& poses) { mailbox_.take(now, poses); }
+    [[nodiscard]] double camera_hz() const { return camera_->rate_hz(); }
     /// In one plain sentence.
     [[nodiscard]] std::string_view state() const;
 

@@ -107,9 +107,8 @@ Result<void> ended_without(const std::string& problem) {
 }
 
 /// From the first word on the table to the kept file.
-Result<void> measure_anew(const Session& session) {
-    TouchProcedure procedure(crosses_for(session.settings, session.request),
-                             session.setup.sensor_height_m ? "" : no_sensor_height);
+Result<void> measure_anew(const Session& session, std::vector<Cross> crosses) {
+    TouchProcedure procedure(std::move(crosses), session.setup.sensor_height_m ? "" : no_sensor_height);
     TouchCalibration judged;
     const auto ended = session.table.run(procedure, [&](const Touches& touches) {
         judged = calibrate_touch(touches, session.setup);
@@ -130,8 +129,8 @@ Result<void> measure_anew(const Session& session) {
 }
 
 /// The same of a touch-up, which may end with the wish for the whole.
-Result<void> touch_up_on_table(const Session& session) {
-    TouchProcedure procedure(touch_up_crosses_for(session.settings, session.request), few_crosses);
+Result<void> touch_up_on_table(const Session& session, std::vector<Cross> crosses) {
+    TouchProcedure procedure(std::move(crosses), few_crosses);
     TouchUp found;
     const auto ended = session.table.run(procedure, [&](const Touches& touches) {
         found = touch_up(kept_table_of(session.settings), touches, session.setup);
@@ -144,7 +143,7 @@ Result<void> touch_up_on_table(const Session& session) {
         return tl::unexpected<Error>(ended.error());
     }
     if (*ended == TouchStage::Anew) {
-        return measure_anew(session);
+        return measure_anew(session, crosses_for(session.settings, session.request));
     }
     if (!*ended) {
         return ended_without("");
@@ -162,15 +161,16 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     if (request.touch_up && !settings.calibration.used) {
         return none_kept(settings);
     }
+    const bool touches_up = settings.calibration.used && !request.anew && (request.touch_up || !request.json);
+    std::vector<Cross> crosses =
+        touches_up ? touch_up_crosses_for(settings, request) : crosses_for(settings, request);
     if (request.json) {
-        const std::vector<Cross> crosses =
-            request.touch_up ? touch_up_crosses_for(settings, request) : crosses_for(settings, request);
         fmt::print("{}\n", crosses_json(crosses).dump(2));
         return 0;
     }
     Settings raw = settings;
     raw.tracker.registration = {}; // the device's own reports
-    raw.camera.tags = false;
+    raw.camera = {};               // the tracker and the buttons are all that it needs
     const DevicePlan plan = plan_devices(raw, false, false);
     if (plan.tracker == TrackerKind::None || !plan.panel) {
         return fail(ErrorKind::BadConfiguration,
@@ -194,8 +194,9 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     known.sensor_height_m = sensor_height(settings, request);
     TouchTable table(raw, *std::move(inputs), *std::move(display), *std::move(typesetter));
     const Session session{table, settings, known, set_up_for<TouchSetup>(*described, known)};
-    const bool may_touch_up = settings.calibration.used && !request.anew;
-    return (may_touch_up ? touch_up_on_table(session) : measure_anew(session)).map([] { return 0; });
+    return (touches_up ? touch_up_on_table(session, std::move(crosses))
+                       : measure_anew(session, std::move(crosses)))
+        .map([] { return 0; });
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "app/programs/calibrate/touch_up_command.h"
 
 #include "app/calibration/touch_up.h"
+#include "app/drift/drift_file.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/touch_command.h"
 
@@ -68,8 +69,12 @@ tl::unexpected<Error> none_kept(const Settings& settings) {
 }
 
 Result<void> keep_touch_up(const Settings& settings, const TouchUp& found) {
-    return found.moved == Moved::Nothing ? Result<void>()
-                                         : keep_next(settings, next_calibration(settings, found));
+    if (found.moved != Moved::Nothing) {
+        return keep_next(settings, next_calibration(settings, found));
+    }
+    std::error_code none; // where a camera said that something moved, it was the camera: it learns anew
+    std::filesystem::remove(settings.calibration.folder / drift_file, none);
+    return {};
 }
 
 Result<int> touch_up_kept(const CalibrateRequest& request, const Described& described,

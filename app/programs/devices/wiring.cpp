@@ -1,5 +1,7 @@
 #include "app/programs/devices/wiring.h"
 
+#include "app/drift/drift_file.h"
+#include "app/drift/mark_places.h"
 #include "app/settings/command.h"
 #include "app/settings/lit_zone.h"
 #include "firmware_host/base/file.h"
@@ -134,6 +136,12 @@ Result<std::unique_ptr<Panel>> make_panel(const Settings& settings, std::optiona
     return std::make_unique<ScriptedPanel>(std::move(script), nanoseconds(settings.panel.repeat_s), start);
 }
 
+/// A frame of the camera would lie in it.
+void dump_no_core() {
+    const rlimit none{0, 0};
+    static_cast<void>(::setrlimit(RLIMIT_CORE, &none));
+}
+
 } // namespace
 
 Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool headless) {
@@ -192,19 +200,37 @@ CameraWish camera_wish(const CameraSettings& settings) {
     return wish;
 }
 
-std::unique_ptr<Camera> make_camera(const CameraSettings& settings) {
-    return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_wish(settings));
+std::unique_ptr<Camera> make_camera(const CameraSettings& settings, FrameUse use) {
+    return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_wish(settings), std::move(use));
 }
 
-std::unique_ptr<TagTracker> make_tags(const CameraSettings& settings) {
-    const rlimit none{0, 0};
-    static_cast<void>(::setrlimit(RLIMIT_CORE, &none));
+std::unique_ptr<DriftWatch> make_drift(const Settings& settings) {
+    dump_no_core();
+    DriftSetUp set_up{settings.calibration.used_name,
+                      settings.calibration.used->made,
+                      mark_places(settings),
+                      {},
+                      settings.calibration.folder / drift_file};
+    for (const TagSettings& tag : settings.camera.tag) {
+        set_up.moving_tags.push_back(tag.id);
+    }
+    return std::make_unique<DriftWatch>(std::move(set_up));
+}
+
+std::unique_ptr<TagTracker> make_tags(const CameraSettings& settings, FrameUse also) {
+    dump_no_core();
     TagSetUp set_up{settings.pinhole, settings.table_from_camera, {}};
     for (const TagSettings& tag : settings.tag) {
         set_up.tags.push_back({tag.id, tag.size_m, prop_from_tag(tag)});
     }
-    return std::make_unique<TagTracker>(std::move(set_up), [&settings](FrameUse use) {
-        return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_wish(settings), std::move(use));
+    return std::make_unique<TagTracker>(std::move(set_up), [&](FrameUse use) {
+        FrameUse both = [use = std::move(use), also = std::move(also)](const CameraFrame& frame) {
+            use(frame);
+            if (also) {
+                also(frame);
+            }
+        };
+        return make_camera(settings, std::move(both));
     });
 }
 
@@ -221,8 +247,15 @@ Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
         inputs.tracker =
             std::make_unique<RegisteredTracker>(std::move(*tracker), settings.tracker.registration);
     }
+    FrameUse look_for_drift;
+    if (plan.drift) {
+        inputs.drift = make_drift(settings);
+        look_for_drift = [drift = inputs.drift.get()](const CameraFrame& frame) { drift->use(frame); };
+    }
     if (plan.tags) {
-        inputs.tags = make_tags(settings.camera);
+        inputs.tags = make_tags(settings.camera, std::move(look_for_drift));
+    } else if (look_for_drift) {
+        inputs.camera = make_camera(settings.camera, std::move(look_for_drift));
     }
     if (plan.panel) {
         Result<std::unique_ptr<Panel>> panel = make_panel(settings, press_every, start);

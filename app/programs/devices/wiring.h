@@ -35,10 +35,13 @@ namespace frustumscreen {
 
 /// The tags on the prop, and the camera that sees them; the settings have both. The process dumps no core from then on: a frame
 /// would lie in it.
-[[nodiscard]] std::unique_ptr<TagTracker> make_tags(const CameraSettings& settings);
+/// `also`: what else is done with each frame.
+[[nodiscard]] std::unique_ptr<TagTracker> make_tags(const CameraSettings& settings, FrameUse also = {});
+/// Whether the picture lies where it was calibrated; the settings have a kept calibration.
+[[nodiscard]] std::unique_ptr<DriftWatch> make_drift(const Settings& settings);
 
 [[nodiscard]] CameraWish camera_wish(const CameraSettings& settings);
 /// Starts its thread. The settings have one.
-[[nodiscard]] std::unique_ptr<Camera> make_camera(const CameraSettings& settings);
+[[nodiscard]] std::unique_ptr<Camera> make_camera(const CameraSettings& settings, FrameUse use = {});
 
 } // namespace frustumscreen
