@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace frustumscreen {
 
@@ -90,6 +91,63 @@ void fill(DriftReference& reference, const std::vector<MarkSet>& sets) {
     reference.anchors = sets.back().anchors;
 }
 
+/// How far each mark lies from where a homography of four of them has it, metres; empty: none can be found.
+std::vector<double> misfits_m(const DriftReference& reference, const std::vector<std::size_t>& four) {
+    std::vector<Eigen::Vector2d> pixels, places;
+    for (const std::size_t k : four) {
+        pixels.push_back(eigen(*reference.marks_px[k]));
+        places.push_back(eigen(reference.marks_m[k]));
+    }
+    const std::optional<Eigen::Matrix3d> table = homography(pixels, places);
+    std::vector<double> misfits;
+    for (std::size_t k = 0; table && k < reference.marks_px.size(); ++k) {
+        misfits.push_back(
+            reference.marks_px[k]
+                ? (mapped(*table, eigen(*reference.marks_px[k])) - eigen(reference.marks_m[k])).norm()
+                : std::numeric_limits<double>::infinity());
+    }
+    return misfits;
+}
+
+/// Marks that something lifted or moved while it was learned are left out: those that lie far from where most others have them (least median
+/// of squares; a lens bends by some millimetres).
+void leave_out_strays(DriftReference& reference) {
+    constexpr double most_misfit_m = 0.012;
+    std::vector<std::size_t> seen;
+    for (std::size_t k = 0; k < reference.marks_px.size(); ++k) {
+        if (reference.marks_px[k]) {
+            seen.push_back(k);
+        }
+    }
+    std::vector<bool> chosen(seen.size(), false);
+    std::fill(chosen.begin(),
+              chosen.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(4, seen.size())), true);
+    std::vector<double> best;
+    double least = std::numeric_limits<double>::infinity();
+    do { // all fours: 210 of ten marks
+        std::vector<std::size_t> four;
+        for (std::size_t k = 0; k < seen.size(); ++k) {
+            if (chosen[k]) {
+                four.push_back(seen[k]);
+            }
+        }
+        const std::vector<double> misfits = misfits_m(reference, four);
+        std::vector<double> of_seen;
+        for (const std::size_t k : seen) {
+            of_seen.push_back(misfits.empty() ? least : misfits[k]);
+        }
+        if (!misfits.empty() && median(of_seen) < least) {
+            least = median(of_seen);
+            best = misfits;
+        }
+    } while (std::prev_permutation(chosen.begin(), chosen.end()));
+    for (std::size_t k = 0; k < best.size(); ++k) {
+        if (best[k] > most_misfit_m) {
+            reference.marks_px[k].reset();
+        }
+    }
+}
+
 /// Whether what both saw lies at the same places; one mark may be another thing.
 bool agree(const MarkSet& a, const MarkSet& b, double most_px) {
     std::size_t same = 0, apart = 0;
@@ -161,6 +219,7 @@ bool DriftCheck::learn(const MarkSet& set) {
         return false;
     }
     fill(reference_, first_);
+    leave_out_strays(reference_);
     known_ = table_from_pixels(reference_).has_value();
     first_.clear();
     verdict_.state = known_ ? DriftState::Well : DriftState::Blind;

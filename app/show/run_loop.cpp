@@ -181,9 +181,10 @@ private:
         return {};
     }
 
-    /// Marks of light are for nobody's eyes.
+    /// Marks of light are for nobody's eyes but the camera's.
     [[nodiscard]] std::optional<ShownMark> mark(MonotonicTime now) {
-        const bool quiet = attracts_ && !asleep_ && commands_.empty();
+        const bool is_seen = !inputs_.camera || health_of(inputs_.camera->state()) == CameraHealth::Well;
+        const bool quiet = attracts_ && !asleep_ && commands_.empty() && is_seen;
         return inputs_.drift ? inputs_.drift->step(now, quiet) : std::nullopt;
     }
 

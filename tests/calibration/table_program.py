@@ -184,7 +184,7 @@ class Table(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("Staff: put the picture right", done.stderr)
         self.assertIn("Touch 7 of 7", done.stderr)
-        self.assertRegex(done.stderr, r"The projector moved.* The picture was 10 mm beside its place\.")
+        self.assertRegex(done.stderr, r"The projector moved.* The picture was (8|9|10) mm beside its place\.")
         self.assertIn("The calibration is kept.", done.stderr)
         self.check_picture(tomllib.loads((kept / "calibration-0002.toml").read_text()), truth)
 

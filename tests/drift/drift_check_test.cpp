@@ -72,6 +72,24 @@ TEST_F(Check, LearnsFromTheFirstLooksThatAgree) {
     EXPECT_LT(check.verdict().off_m, 4e-4);
 }
 
+TEST_F(Check, WhatWasLiftedWhileItLearnedIsLeftOut) {
+    for (int k = 0; k < 3; ++k) {
+        now += minutes(1);
+        MarkSet set = look(now, {}, 1.5e-4, numbers);
+        for (std::size_t mark = 0; mark < 3; ++mark) { // the prop stands there
+            *set.marks_px[mark] += glm::dvec2(40.0, -25.0);
+        }
+        stored += check.take(set) ? 1 : 0;
+    }
+    ASSERT_EQ(stored, 1);
+    for (std::size_t mark = 0; mark < places_m.size(); ++mark) {
+        EXPECT_EQ(check.reference().marks_px[mark].has_value(), mark >= 3) << mark;
+    }
+    look_at({0.004, 0.0}, 5);
+    EXPECT_EQ(state(), DriftState::Moved);
+    EXPECT_NEAR(check.verdict().off_m, 0.004, 4e-4);
+}
+
 TEST_F(Check, TellsAMoveAfterFiveMinutesAndThatItIsOver) {
     look_at({}, 8);
     look_at({0.0025, 0.0}, 4);
