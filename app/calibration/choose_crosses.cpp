@@ -2,11 +2,13 @@
 
 #include "app/calibration/fit.h"
 #include "app/calibration/reliability.h"
+#include "app/calibration/rigid_move.h"
 #include "app/calibration/zone.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -43,12 +45,20 @@ std::vector<Cross> grid_of(const TouchModel& model, const CrossSetup& setup) {
     return crosses;
 }
 
-/// What a wrong touch could hide counts beside what noise leaves: it is rarer, and larger.
-constexpr double hidden_share = 0.05;
-constexpr std::size_t starts = 4;
+/// What may be touched, what that would tell, and where the picture is to be right.
+struct Choice {
+    std::vector<Cross> grid;
+    std::vector<TouchRows> rows; ///< of each cross
+    std::vector<ZonePlace> places;
+    Covariance known; ///< information without a touch
+    double hidden_share =
+        0.0; ///< how much what a wrong touch could hide counts beside what noise leaves: it is rarer, and larger
+    std::size_t starts = 1;
+};
 
 struct Design {
     std::vector<std::size_t> chosen; ///< of the grid
+    std::size_t fixed = 0;           ///< the first ones of them stay
     Covariance information;
     double left = 0.0; ///< what it leaves
 };
@@ -59,11 +69,13 @@ double left_by(const Covariance& information, const Covariance& zone) {
 }
 
 /// A start that is spread out, another one for each `turn`.
-Design spread_out(std::span<const TouchRows> rows, const Covariance& known, int count, std::size_t turn) {
-    Design design{{}, known};
+Design spread_out(const Choice& choice, std::span<const std::size_t> fixed, int count, std::size_t turn) {
+    Design design{{fixed.begin(), fixed.end()}, fixed.size(), choice.known};
     for (int k = 0; k < count; ++k) {
-        design.chosen.push_back((static_cast<std::size_t>(k) * 7919 + turn * 389) % rows.size());
-        design.information += rows[design.chosen.back()].transpose() * rows[design.chosen.back()];
+        design.chosen.push_back((static_cast<std::size_t>(k) * 7919 + turn * 389) % choice.rows.size());
+    }
+    for (const std::size_t cross : design.chosen) {
+        design.information += choice.rows[cross].transpose() * choice.rows[cross];
     }
     return design;
 }
@@ -91,7 +103,8 @@ void exchange(Design& design, std::span<const TouchRows> rows, const Covariance&
     design.left = left_by(design.information, zone);
     for (bool better = true; better;) {
         better = false;
-        for (std::size_t& mine : design.chosen) {
+        for (std::size_t k = design.fixed; k < design.chosen.size(); ++k) {
+            std::size_t& mine = design.chosen[k];
             const Covariance others = design.information - rows[mine].transpose() * rows[mine];
             const LeftWith left(others, zone);
             for (std::size_t other = 0; other < rows.size(); ++other) {
@@ -116,24 +129,66 @@ Covariance weighted(std::span<const ZonePlace> places, std::span<const double> w
 }
 
 /// The mean over the zone first; then places count the more, the worse they are off.
-Design improved(Design design, std::span<const TouchRows> rows, std::span<const ZonePlace> places) {
-    std::vector<double> weights(places.size(), 1.0);
-    exchange(design, rows, weighted(places, weights));
+Design improved(Design design, const Choice& choice) {
+    std::vector<double> weights(choice.places.size(), 1.0);
+    exchange(design, choice.rows, weighted(choice.places, weights));
     for (int round = 0; round < 2; ++round) {
         const Covariance covariance = design.information.llt().solve(Covariance::Identity());
-        for (std::size_t k = 0; k < places.size(); ++k) {
-            weights[k] = (places[k].rows * covariance * places[k].rows.transpose()).trace();
+        for (std::size_t k = 0; k < choice.places.size(); ++k) {
+            const LightRows& rows = choice.places[k].rows;
+            weights[k] = (rows * covariance * rows.transpose()).trace();
         }
-        exchange(design, rows, weighted(places, weights));
+        exchange(design, choice.rows, weighted(choice.places, weights));
     }
     const Covariance covariance = design.information.llt().solve(Covariance::Identity());
-    const PictureUncertainty left = picture_uncertainty(places, covariance);
+    const PictureUncertainty left = picture_uncertainty(choice.places, covariance);
     std::vector<TouchRows> chosen;
     for (const std::size_t k : design.chosen) {
-        chosen.push_back(rows[k]);
+        chosen.push_back(choice.rows[k]);
     }
-    design.left = left.mean_m + left.worst_m + hidden_share * hidden_error_m(chosen, covariance, places);
+    design.left =
+        left.mean_m + left.worst_m + choice.hidden_share * hidden_error_m(chosen, covariance, choice.places);
     return design;
+}
+
+/// The best `count` crosses beside those that are `fixed`; all of them.
+std::vector<std::size_t> best_of(const Choice& choice, std::span<const std::size_t> fixed, int count) {
+    std::optional<Design> best;
+    for (std::size_t turn = 0; turn < choice.starts; ++turn) {
+        Design design = improved(spread_out(choice, fixed, count, turn), choice);
+        if (!best || design.left < best->left) {
+            best = std::move(design);
+        }
+    }
+    return best->chosen;
+}
+
+/// What the grid's crosses would tell of a model.
+Choice choice_of(const TouchModel& rough, const CrossSetup& setup, const TouchNoise& noise) {
+    Choice choice;
+    choice.grid = grid_of(rough, setup);
+    Touches touches;
+    for (const Cross& cross : choice.grid) {
+        touches.push_back(perfect_touch(rough, cross));
+    }
+    const FitSetup fit_setup{noise, setup.priors, -glm::dot(rough.table_up, rough.sensor_offset_m), {}};
+    const glm::dvec3 middle = middle_of(touches);
+    choice.rows = whitened_touches(touches, fit_setup, rough, middle).rows;
+    const Fit all = information_of(touches, fit_setup, rough, middle);
+    choice.known = all.from_priors + all.from_height;
+    choice.places = zone_places(rough, middle, {setup.top_m, {1.0, 0.0, 0.0, 0.0}});
+    return choice;
+}
+
+/// From low to high.
+std::vector<Cross> crosses_of(const Choice& choice, std::span<const std::size_t> chosen) {
+    std::vector<Cross> crosses;
+    for (const std::size_t k : chosen) {
+        crosses.push_back(choice.grid[k]);
+    }
+    std::stable_sort(crosses.begin(), crosses.end(),
+                     [](const Cross& a, const Cross& b) { return a.block_m < b.block_m; });
+    return crosses;
 }
 
 } // namespace
@@ -148,30 +203,32 @@ TouchModel rough_model(const Pinhole& pinhole, double above_m, double sensor_hei
 }
 
 std::vector<Cross> choose_crosses(const TouchModel& rough, const CrossSetup& setup) {
-    const std::vector<Cross> grid = grid_of(rough, setup);
-    Touches touches;
-    for (const Cross& cross : grid) {
-        touches.push_back(perfect_touch(rough, cross));
+    Choice choice = choice_of(rough, setup, setup.noise);
+    choice.hidden_share = 0.05;
+    choice.starts = 4;
+    return crosses_of(choice, best_of(choice, {}, setup.count));
+}
+
+/// That the projector moved is the harder case: then heights tell nothing. All else is as sure as the arithmetic allows.
+std::vector<Cross> choose_touch_up_crosses(const TouchModel& kept, const CrossSetup& setup, int more) {
+    TouchNoise noise = setup.noise;
+    noise.position_m = std::hypot(noise.position_m, kept_error_m);
+    Choice choice = choice_of(kept, setup, noise);
+    constexpr double sure = 1e-5; // radians, metres, shares
+    const ByRigidMove moves = by_move(kept, Moved::Projector);
+    const RigidMove variances = usual_move_weights().cwiseInverse();
+    const Covariance open =
+        Covariance::Identity() * (sure * sure) + moves * variances.asDiagonal() * moves.transpose();
+    choice.known = open.llt().solve(Covariance::Identity());
+    choice.hidden_share = 0.5;
+    choice.starts = 8;
+    const std::vector<std::size_t> first = best_of(choice, {}, setup.count);
+    std::vector<Cross> crosses = crosses_of(choice, first);
+    if (more > 0) {
+        const std::vector<std::size_t> all = best_of(choice, first, more);
+        const std::vector<Cross> others = crosses_of(choice, std::span(all).subspan(first.size()));
+        crosses.insert(crosses.end(), others.begin(), others.end());
     }
-    const FitSetup fit_setup{setup.noise, setup.priors, -glm::dot(rough.table_up, rough.sensor_offset_m), {}};
-    const glm::dvec3 middle = middle_of(touches);
-    const std::vector<TouchRows> rows = whitened_touches(touches, fit_setup, rough, middle).rows;
-    const Fit all = information_of(touches, fit_setup, rough, middle);
-    const std::vector<ZonePlace> places = zone_places(rough, middle, {setup.top_m, {1.0, 0.0, 0.0, 0.0}});
-    std::optional<Design> best;
-    for (std::size_t turn = 0; turn < starts; ++turn) {
-        const Design design =
-            improved(spread_out(rows, all.from_priors + all.from_height, setup.count, turn), rows, places);
-        if (!best || design.left < best->left) {
-            best = design;
-        }
-    }
-    std::vector<Cross> crosses;
-    for (const std::size_t k : best->chosen) {
-        crosses.push_back(grid[k]);
-    }
-    std::stable_sort(crosses.begin(), crosses.end(),
-                     [](const Cross& a, const Cross& b) { return a.block_m < b.block_m; });
     return crosses;
 }
 

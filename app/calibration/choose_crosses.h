@@ -35,5 +35,9 @@ struct CrossSetup {
 
 /// In the order in which to touch them: from low to high. `rough`: its K is taken as a frame whose Z is up.
 [[nodiscard]] std::vector<Cross> choose_crosses(const TouchModel& rough, const CrossSetup& setup);
+/// The same for a touch-up, where all is known but how the projector moved; `kept`: as `rough`. The order is that in which they are
+/// touched: after the first `setup.count`, `more` that make them check each other.
+[[nodiscard]] std::vector<Cross> choose_touch_up_crosses(const TouchModel& kept, const CrossSetup& setup,
+                                                         int more);
 
 } // namespace frustumscreen

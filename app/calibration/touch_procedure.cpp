@@ -46,6 +46,7 @@ void TouchProcedure::step(const Input& input) {
         break;
     case TouchStage::Solve:
     case TouchStage::Done:
+    case TouchStage::Anew:
     case TouchStage::Left:
         break;
     }
@@ -55,14 +56,14 @@ bool TouchProcedure::nobody_is_there(const Input& input) {
     if (!pressed_ || input.next || input.back) {
         pressed_ = input.now;
     }
-    return stage_ != TouchStage::Done &&
+    return stage_ != TouchStage::Done && stage_ != TouchStage::Anew &&
            input.now - *pressed_ > (stage_ == TouchStage::Begin ? to_begin : to_go_on);
 }
 
 void TouchProcedure::begin(const Input& input) {
     word_ = TouchWord::None;
     if (input.back) {
-        stage_ = TouchStage::Left;
+        stage_ = task_ == TouchTask::TouchUp ? TouchStage::Anew : TouchStage::Left;
     } else if (input.next && problem_.empty()) {
         stage_ = TouchStage::Lay;
     }
@@ -136,43 +137,57 @@ void TouchProcedure::take() {
 }
 
 void TouchProcedure::go_to_next_open() {
-    const auto open = std::find(touches_.begin(), touches_.end(), std::nullopt);
-    stage_ = open == touches_.end() ? TouchStage::Solve : TouchStage::Lay;
-    at_ = open == touches_.end() ? at_ : static_cast<std::size_t>(open - touches_.begin());
+    const auto end = touches_.begin() + static_cast<std::ptrdiff_t>(asked_);
+    const auto open = std::find(touches_.begin(), end, std::nullopt);
+    stage_ = open == end ? TouchStage::Solve : TouchStage::Lay;
+    at_ = open == end ? at_ : static_cast<std::size_t>(open - touches_.begin());
 }
 
-void TouchProcedure::judge(TouchCalibration calibration) {
+void TouchProcedure::judge(TouchJudgement judgement) {
     assert(stage_ == TouchStage::Solve);
     word_ = TouchWord::None;
     stage_ = TouchStage::Judged;
-    judged_ = std::move(calibration);
+    judged_ = std::move(judgement);
+}
+
+bool TouchProcedure::asks_for_more() const {
+    return judged_ && judged_->verdict == Verdict::Repeat && judged_->repeat.empty() &&
+           asked_ < crosses_.size();
 }
 
 /// Back does one touch again, whatever the verdict: the farthest off, or where none is known, the last.
 void TouchProcedure::after_judgement(const Input& input) {
-    const TouchCalibration& judged = *judged_;
+    const TouchJudgement& judged = *judged_;
+    const bool is_refused = judged.verdict == Verdict::Refused;
     const bool may_be_kept = judged.verdict == Verdict::Good || judged.verdict == Verdict::Usable;
-    if (input.next && may_be_kept) {
-        stage_ = TouchStage::Done;
+    const bool is_touch_up = task_ == TouchTask::TouchUp;
+    if (!input.next && !input.back) {
         return;
     }
-    if (input.next && judged.verdict == Verdict::Refused) {
+    if (input.next && (may_be_kept || (is_refused && is_touch_up))) {
+        stage_ = may_be_kept ? TouchStage::Done : TouchStage::Anew;
+        return;
+    }
+    if (is_refused && (input.next || is_touch_up)) {
         std::fill(touches_.begin(), touches_.end(), std::nullopt);
+    } else if (input.next && asks_for_more()) {
+        asked_ = crosses_.size();
     } else if (input.next && !judged.repeat.empty()) {
         for (const std::size_t row : judged.repeat) {
             touches_[row].reset();
         }
-    } else if (input.next || input.back) {
-        const auto worst = std::max_element(
-            judged.residuals.begin(), judged.residuals.end(),
-            [](const TouchResidual& a, const TouchResidual& b) { return a.on_table_m < b.on_table_m; });
-        touches_[judged.residuals.empty() ? touches_.size() - 1
-                                          : static_cast<std::size_t>(worst - judged.residuals.begin())]
-            .reset();
     } else {
-        return;
+        touch_worst_again();
     }
     go_to_next_open();
+}
+
+void TouchProcedure::touch_worst_again() {
+    const std::vector<TouchResidual>& residuals = judged_->residuals;
+    const auto worst = std::max_element(
+        residuals.begin(), residuals.end(),
+        [](const TouchResidual& a, const TouchResidual& b) { return a.on_table_m < b.on_table_m; });
+    touches_[residuals.empty() ? asked_ - 1 : static_cast<std::size_t>(worst - residuals.begin())].reset();
 }
 
 Touches TouchProcedure::touches() const {

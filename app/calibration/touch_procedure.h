@@ -1,11 +1,13 @@
-/// The way through a calibration by touch, for one technician with two buttons: which cross the projector shows, what is said,
-/// and which of the tracker's reports become touches.
+/// The way through a calibration by touch, or the touch-up of one, for one technician with two buttons: which cross the projector
+/// shows, what is said, and which of the tracker's reports become touches.
 ///
 /// Begin    What is needed is told, or why it cannot be done. Next begins, Back leaves. Who does nothing for a while leaves too, so that
 ///          the exhibit comes back when somebody forgets the table, or got here by chance.
 /// Steps    The cross is shown; the prop is laid on it; Next; a second of rest is taken, and begins anew if the prop moves; the
 ///          next cross. After the last one whoever calls solves and tells the verdict: Next keeps it, Back does the touch again
 ///          that lies farthest off; touches that are to be repeated come again by themselves.
+/// Touch-up Back from its beginning, and Next after a refusal, lead to the whole calibration; Back after a refusal does all touches
+///          again. Where the first touches are too few to check each other, more crosses come.
 /// Time     a parameter; the tracker's own rate, whatever it is.
 /// Frames   tracker K, as the device reports.
 /// Threads  pure; any.
@@ -21,6 +23,11 @@
 
 namespace frustumscreen {
 
+enum class TouchTask {
+    Anew,   ///< projector, tracker and sensor
+    TouchUp ///< of the kept calibration: what moved
+};
+
 enum class TouchStage {
     Begin,     ///< nothing was done yet; Back from the first cross leads here too
     Lay,       ///< the prop is to be laid on the cross
@@ -28,7 +35,17 @@ enum class TouchStage {
     Solve,     ///< all touches are there: call `judge`
     Judged,    ///< the verdict is told
     Done,      ///< it is to be kept
+    Anew,      ///< of a touch-up: the whole calibration is wanted in its place
     Left       ///< it ends without one
+};
+
+/// What came of the touches, as far as the way through them depends on it.
+struct TouchJudgement {
+    Verdict verdict = Verdict::Refused;
+    std::vector<std::string> told;        ///< what was found, in a technician's words
+    std::vector<std::size_t> repeat;      ///< touches to do again, counted from 0
+    std::vector<TouchResidual> residuals; ///< of each touch; none: nothing is known of them
+    bool nothing_moved = false;           ///< of a touch-up: there is nothing to keep
 };
 
 /// What is said beside the cross.
@@ -54,7 +71,11 @@ public:
 
     /// `crosses`: at least one, in the order in which they come. `problem`: a sentence on why it cannot be done; empty: it can.
     explicit TouchProcedure(std::vector<Cross> crosses, std::string problem = {})
-        : crosses_(std::move(crosses)), touches_(crosses_.size()), problem_(std::move(problem)) {}
+        : crosses_(std::move(crosses)), asked_(crosses_.size()), touches_(crosses_.size()),
+          problem_(std::move(problem)) {}
+    /// A touch-up by the first `few` of the crosses; the others are for touches that are too few to check each other.
+    TouchProcedure(std::vector<Cross> crosses, std::size_t few)
+        : task_(TouchTask::TouchUp), crosses_(std::move(crosses)), asked_(few), touches_(crosses_.size()) {}
 
     struct Input {
         MonotonicTime now;
@@ -64,8 +85,9 @@ public:
     };
     void step(const Input& input);
     /// In stage Solve: what came of the touches.
-    void judge(TouchCalibration calibration);
+    void judge(TouchJudgement judgement);
 
+    [[nodiscard]] TouchTask task() const { return task_; }
     [[nodiscard]] TouchStage stage() const { return stage_; }
     [[nodiscard]] const std::string& problem() const { return problem_; }
     [[nodiscard]] TouchWord word() const { return word_; }
@@ -73,11 +95,14 @@ public:
     [[nodiscard]] std::size_t at() const { return at_; }
     [[nodiscard]] const Cross& cross() const { return crosses_[at_]; }
     [[nodiscard]] const std::vector<Cross>& crosses() const { return crosses_; }
-    [[nodiscard]] std::size_t count() const { return crosses_.size(); }
+    /// How many of them are to be touched.
+    [[nodiscard]] std::size_t count() const { return asked_; }
+    /// After the verdict: Next asks for more crosses.
+    [[nodiscard]] bool asks_for_more() const;
     [[nodiscard]] bool is_taken(std::size_t cross) const { return touches_[cross].has_value(); }
     /// All of them, in stage Solve and after it.
     [[nodiscard]] Touches touches() const;
-    [[nodiscard]] const std::optional<TouchCalibration>& judged() const { return judged_; }
+    [[nodiscard]] const std::optional<TouchJudgement>& judged() const { return judged_; }
 
 private:
     void begin(const Input& input);
@@ -89,8 +114,11 @@ private:
     void begin_rest(MonotonicTime now);
     void after_judgement(const Input& input);
     void go_to_next_open();
+    void touch_worst_again();
 
+    TouchTask task_ = TouchTask::Anew;
     std::vector<Cross> crosses_;
+    std::size_t asked_;
     std::vector<std::optional<Touch>> touches_; ///< one for each cross
     std::string problem_;
     std::size_t at_ = 0;
@@ -100,7 +128,7 @@ private:
     std::vector<RigidTransform> reports_; ///< of the rest so far
     MonotonicTime rest_began_{};
     MonotonicTime seen_{};
-    std::optional<TouchCalibration> judged_;
+    std::optional<TouchJudgement> judged_;
 };
 
 } // namespace frustumscreen

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -17,63 +16,11 @@ namespace frustumscreen {
 
 namespace {
 
-/// Turn (radians) and shift (metres) about the touches' middle, in K: of the tracker's source, or as seen from it of the projector.
-using Move = Eigen::Matrix<double, 6, 1>;
-using ByMove = Eigen::Matrix<double, unknown_count, 6>;
-
-constexpr double usual_turn_rad = 0.026; // one degree and a half
-constexpr double usual_shift_m = 0.03;
-/// The kept table is itself off by about this much: what touches tell of it beyond the touches' own noise.
-constexpr double kept_error_m = 6e-4;
 /// With few touches what a wrong one hides must stay within what the verdict promises: few check each other, and all are believed.
 constexpr PictureLimits few_good{for_good.mean_m, for_good.worst_m, 5e-3};
 constexpr PictureLimits few_usable{for_usable.mean_m, for_usable.worst_m, 8e-3};
 /// Chi squared by which one explanation must beat the other to be named: odds of twenty to one.
 constexpr double apart = 6.0;
-
-TouchModel model_of(const CalibratedTable& table) {
-    TouchModel model;
-    model.pinhole = table.pinhole;
-    model.projector_from_tracker = table.table_from_projector.inverse() * table.table_from_tracker;
-    model.sensor_offset_m = table.sensor_offset_m;
-    model.table_up = glm::conjugate(table.table_from_tracker.rotation) * glm::dvec3(0.0, 0.0, 1.0);
-    model.table_offset_m = table.table_from_tracker.translation.z;
-    return model;
-}
-
-RigidTransform rigid(const Move& move, const glm::dvec3& middle) {
-    const glm::dquat turn = glm::normalize(glm::dquat(1.0, 0.5 * move[0], 0.5 * move[1], 0.5 * move[2]));
-    return {turn, middle + glm::dvec3(move[3], move[4], move[5]) - turn * middle};
-}
-
-/// The table in the tracker's frame goes along with its source alone.
-TouchModel moved_model(const TouchModel& kept, Moved which, const Move& move, const glm::dvec3& middle) {
-    const RigidTransform change = rigid(move, middle);
-    TouchModel model = kept;
-    model.projector_from_tracker = kept.projector_from_tracker * change;
-    if (which == Moved::Tracker) {
-        model.table_up = glm::conjugate(change.rotation) * kept.table_up;
-        model.table_offset_m = kept.height(change.translation);
-    }
-    return model;
-}
-
-/// How the model's unknowns change with a move.
-ByMove by_move(const TouchModel& model, Moved which) {
-    ByMove rows = ByMove::Zero();
-    const Eigen::Matrix3d turn = eigen(model.projector_from_tracker.rotation);
-    rows.block<3, 3>(turn_x, 0) = turn;
-    rows.block<3, 3>(shift_x, 3) = turn;
-    if (which == Moved::Tracker) {
-        const Eigen::Vector3d up = eigen(model.table_up);
-        const Eigen::Matrix<double, 3, 2> axes = table_axes(model.table_up);
-        for (int k = 0; k < 2; ++k) {
-            rows.block<1, 3>(tilt_a + k, 0) = Eigen::Vector3d(axes.col(k)).cross(up).transpose();
-        }
-        rows.block<1, 3>(table_height, 3) = up.transpose();
-    }
-    return rows;
-}
 
 struct Explanation {
     TouchModel model;
@@ -93,18 +40,16 @@ double chi2_of(const WhitenedTouches& seen) {
 Explanation explained(std::span<const Touch> touches, const FitSetup& setup, const TouchModel& kept,
                       Moved which) {
     const glm::dvec3 middle = middle_of(touches);
-    Move weights;
-    weights << Eigen::Vector3d::Constant(std::pow(usual_turn_rad, -2.0)),
-        Eigen::Vector3d::Constant(std::pow(usual_shift_m, -2.0));
-    Move move = Move::Zero();
+    const RigidMove weights = usual_move_weights();
+    RigidMove move = RigidMove::Zero();
     Explanation out;
     constexpr int steps = 12; // Gauss and Newton's; a few are enough from so near
     for (int step = 0; step <= steps; ++step) {
         out.model = moved_model(kept, which, move, middle);
         const WhitenedTouches seen = whitened_touches(touches, setup, out.model, middle);
-        const ByMove unknowns = by_move(out.model, which);
+        const ByRigidMove unknowns = by_move(out.model, which);
         Eigen::Matrix<double, 6, 6> information = weights.asDiagonal();
-        Move slope = weights.cwiseProduct(move);
+        RigidMove slope = weights.cwiseProduct(move);
         for (std::size_t k = 0; k < touches.size(); ++k) {
             const Eigen::Matrix<double, 3, 6> rows = seen.rows[k] * unknowns;
             information += rows.transpose() * rows;
@@ -215,19 +160,6 @@ CalibratedTable corrected(const CalibratedTable& kept, const Explanation& best, 
 }
 
 } // namespace
-
-std::string_view name_of(Moved moved) {
-    switch (moved) {
-    case Moved::Projector:
-        return "projector";
-    case Moved::Tracker:
-        return "tracker";
-    case Moved::Either:
-        return "either";
-    default:
-        return "nothing";
-    }
-}
 
 TouchUp touch_up(const CalibratedTable& kept, std::span<const Touch> reported, const TouchSetup& setup) {
     if (auto reason = refusal_of_few(reported, setup.width, setup.height)) {

@@ -9,12 +9,9 @@
 #pragma once
 
 #include "app/calibration/calibrate_touch.h"
+#include "app/calibration/rigid_move.h"
 
 namespace frustumscreen {
-
-/// Either: both explain the touches; for the picture on the prop it is the same.
-enum class Moved { Nothing, Projector, Tracker, Either };
-[[nodiscard]] std::string_view name_of(Moved moved);
 
 struct TouchUp {
     Verdict verdict = Verdict::Refused;

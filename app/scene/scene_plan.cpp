@@ -6,6 +6,7 @@
 #include "app/settings/guided.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -366,6 +367,21 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
     return plan;
 }
 
+/// What the camera's reader does with each frame.
+std::string camera_uses(const DevicePlan& plan) {
+    std::vector<std::string_view> uses;
+    if (plan.tags) {
+        uses.emplace_back("finds the prop's tags");
+    }
+    if (plan.visitor) {
+        uses.emplace_back("sees who stands at the table");
+    }
+    if (plan.drift) {
+        uses.emplace_back("finds the marks");
+    }
+    return fmt::format("{}", fmt::join(uses, " and "));
+}
+
 DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file) {
     const std::vector<ScriptedPress>& script = settings.panel.script;
     const bool real = settings.panel.kind != PanelKind::Scripted;
@@ -382,6 +398,7 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     plan.head = settings.eye.tracked && plan.tracker != TrackerKind::None;
     plan.tags = settings.camera.tags;
     plan.visitor = settings.camera.visitor;
+    plan.drift = settings.camera.drift && settings.calibration.used;
     plan.panel = pressed || real || !script.empty();
     plan.other_packs = pressed || asks(Command::PreviousArtifact) || asks(Command::NextArtifact) ||
                        chooses_on_table(settings);
@@ -390,12 +407,8 @@ DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file
     if (plan.tracker == TrackerKind::Usb || plan.tracker == TrackerKind::SpaceMouse) {
         plan.threads.emplace_back("the tracker's reader");
     }
-    if (plan.tags || plan.visitor) {
-        plan.threads.emplace_back(!plan.visitor ? "the camera's reader, which finds the prop's tags"
-                                  : !plan.tags
-                                      ? "the camera's reader, which sees who stands at the table"
-                                      : "the camera's reader, which finds the prop's tags and sees who "
-                                        "stands at the table");
+    if (const std::string uses = camera_uses(plan); !uses.empty()) {
+        plan.threads.push_back("the camera's reader, which " + uses);
     }
     if (real && !pressed) {
         plan.threads.emplace_back("the buttons' watcher");

@@ -106,6 +106,7 @@ struct DevicePlan {
     bool head = false;        ///< the tracker's head samples are used
     bool tags = false;        ///< a camera follows the prop's tags
     bool visitor = false;     ///< a camera sees who stands at the table
+    bool drift = false;       ///< a camera looks whether the picture lies where it was calibrated
     bool panel = false;       ///< there are buttons
     bool other_packs = false; ///< a button or the table leads to another artifact than the first
     bool language = false;    ///< a button leads to another language

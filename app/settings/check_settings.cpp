@@ -271,6 +271,8 @@ void check_camera(const Settings& settings, Fitness& fitness) {
                     "camera.white_balance_k",
                     fmt::format("is {}; allowed are 0 (the camera's own) and {} to 10000 kelvin",
                                 camera.white_balance_k, least_kelvin));
+    fitness.require(!camera.drift || camera.kind == CameraKind::V4l2, "camera.drift",
+                    "is true; it needs camera.kind = \"v4l2\", a camera that sees the whole picture");
     check_tags(camera, fitness);
     check_visitor(settings, fitness);
 }

@@ -320,6 +320,9 @@ void camera_settings(auto& fields, auto& camera) {
         "visitor", camera.visitor,
         "the visitor's eye, with nothing on the head: while no sensor says where the head is, the picture "
         "turns to whoever stands nearest to the prop");
+    fields.flag(
+        "drift", camera.drift,
+        "looks whether the picture lies where it was calibrated, by marks of light while nobody is there");
     camera_lens_settings(fields, camera);
     fields.tables(
         "tag", camera.tag, most_tags, [](auto& item, auto& tag) { tag_settings(item, tag); },

@@ -180,6 +180,7 @@ struct CameraSettings {
     int white_balance_k = 0;
     bool tags = false;    ///< the prop's second tracker
     bool visitor = false; ///< the visitor's eye, with nothing on the head
+    bool drift = false;   ///< looks whether the picture lies where it was calibrated
     std::vector<TagSettings> tag;
     Pinhole pinhole{1280, 720, 0.0, 0.0, 640.0, 360.0}; ///< fx of 0: not measured
     RigidTransform table_from_camera;                   ///< at the table's centre: not measured

@@ -75,6 +75,11 @@ Result<void> ArtifactShow::upload_what_stays(const Settings& settings) {
             return texel;
         }
     }
+    if (settings.camera.drift) {
+        if (Result<void> mark = marks_.prepare(renderer_.store()); !mark) {
+            return mark;
+        }
+    }
     return upload_signs(settings);
 }
 
@@ -99,7 +104,7 @@ Result<void> ArtifactShow::upload_set(bool hotspots) {
 
 std::uint64_t ArtifactShow::planned_bytes_that_stay() const {
     return (white_ != TextureId::None ? caption_gpu_bytes(1, 1) : 0) + planned_sign_bytes_ +
-           hotspots_.planned_gpu_bytes() + notice_.planned_gpu_bytes();
+           hotspots_.planned_gpu_bytes() + notice_.planned_gpu_bytes() + marks_.planned_gpu_bytes();
 }
 
 void ArtifactShow::note_language(const Settings& settings) {
@@ -150,7 +155,7 @@ void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
     const std::vector<std::vector<AdviceWord>>& words = set_->words.words;
     const TextureId word = !words.empty() && !words.front().empty() ? set_->word({}, 0) : TextureId::None;
     const auto [ring, notice] = notice_.samples();
-    for (const TextureId texture : {white_, ring, notice, signs_.front(), word}) {
+    for (const TextureId texture : {white_, ring, notice, marks_.texture(), signs_.front(), word}) {
         if (texture != TextureId::None) {
             on_table_.add({picture_corners({attract_place_m_, glm::dvec2(sample_side_m)}), 1.0, texture});
         }
@@ -307,6 +312,7 @@ DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentatio
     place_signs(presentation);
     notice_.place(presentation.notice, caption_brightness_, projector_, table_from_projector_, picture_m_,
                   renderer_.store(), on_table_);
+    marks_.place(mark_, on_table_);
     view.on_table = on_table_.pictures();
     RunLevels* const levels = residents.find(presentation.artifact);
     if (levels == nullptr) {

@@ -12,6 +12,7 @@
 #include "app/scene/shader_key.h"
 #include "app/settings/settings.h"
 #include "app/show/hotspot_show.h"
+#include "app/show/mark_show.h"
 #include "app/show/notice_show.h"
 #include "app/show/on_table.h"
 #include "app/show/run_levels.h"
@@ -69,6 +70,7 @@ public:
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Presentation& presentation,
                                   const glm::dvec3& eye_m, const RenderTarget& target,
                                   Redraw redraw) override;
+    void set_mark(const std::optional<ShownMark>& mark) override { mark_ = mark; }
     void record_time(MonotonicTime now, double ms) override;
     [[nodiscard]] ShowState state(const Presentation& presentation) const override;
     [[nodiscard]] SharedRecording recording(const WordIndex& word) const override {
@@ -156,6 +158,8 @@ private:
     std::uint64_t planned_sign_bytes_ = 0;
     HotspotShow hotspots_;
     NoticeTextures notice_;
+    MarkShow marks_;
+    std::optional<ShownMark> mark_;     ///< of this frame
     std::vector<glm::dvec2> picture_m_; ///< what the projector's picture covers of the table
     OnTable on_table_;
     std::optional<std::size_t> on_; ///< the artifact that was drawn last; none: it was not there

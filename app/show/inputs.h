@@ -3,6 +3,7 @@
 /// Threads  the render thread's; a device's own thread is behind its interface. The camera's hands each frame to its uses, in turn.
 #pragma once
 
+#include "app/drift/drift_watch.h"
 #include "app/tags/tag_tracker.h"
 #include "app/tracking/registered_tracker.h"
 #include "app/visitor/visitor_tracker.h"
@@ -11,6 +12,7 @@
 #include "firmware_host/sound/sound.h"
 #include "firmware_host/tracker/packet_recorder.h"
 
+#include <array>
 #include <memory>
 #include <string_view>
 
@@ -22,6 +24,7 @@ struct Inputs {
     std::unique_ptr<RegisteredTracker> tracker; ///< none: the prop stands at the table's centre
     std::unique_ptr<TagTracker> tags;           ///< none: the prop has no second tracker
     std::unique_ptr<VisitorTracker> visitor;    ///< none: nobody is seen who wears no sensor
+    std::unique_ptr<DriftWatch> drift;          ///< none: nothing looks whether the picture moved
     std::unique_ptr<Camera> camera; ///< whose frames they use; it ends before them, so it stands after them
     std::unique_ptr<Panel> panel;   ///< none: nothing is pressed
     std::unique_ptr<Sound> sound;   ///< none: there is nothing to say
@@ -40,6 +43,20 @@ struct Inputs {
         }
     }
     return sentence_of(state);
+}
+
+/// What it is used for; empty: nothing.
+[[nodiscard]] inline std::string_view camera_uses(const Inputs& inputs) {
+    constexpr std::array<std::string_view, 8> uses{
+        "",
+        "the prop's tags",
+        "the visitor's eye",
+        "the prop's tags and the visitor's eye",
+        "the picture's place",
+        "the prop's tags and the picture's place",
+        "the visitor's eye and the picture's place",
+        "the prop's tags, the visitor's eye and the picture's place"};
+    return uses[(inputs.tags ? 1U : 0U) + (inputs.visitor ? 2U : 0U) + (inputs.drift ? 4U : 0U)];
 }
 
 } // namespace frustumscreen

@@ -1,5 +1,6 @@
 #include "app/show/live_exhibit.h"
 
+#include "app/show/mark_show.h"
 #include "app/status/status_lines.h"
 #include "firmware_host/base/standard_error.h"
 
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <numbers>
 #include <utility>
 
 namespace frustumscreen {
@@ -104,6 +106,9 @@ void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, con
     }
     notice_.step(now, on_table, presentation_);
     dim(presentation_, light_);
+    const bool has_room = mark_ && has_room_for_mark(mark_->place_m, presentation_,
+                                                     0.5 * std::numbers::sqrt2 * settings_.prop.base_m);
+    stage_->set_mark(has_room ? mark_ : std::nullopt);
     follow_staff_mode();
     if (asleep) {
         speaker_.fall_silent();

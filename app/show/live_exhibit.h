@@ -46,6 +46,7 @@ public:
     void hear(const SoundReport& report) override;
     [[nodiscard]] bool sleeps() const override { return true; }
     void set_light(double light) override { light_ = light; }
+    void set_mark(const std::optional<ShownMark>& mark) override { mark_ = mark; }
 
 private:
     /// Those that a notice leaves to the exhibit.
@@ -63,6 +64,7 @@ private:
     NoticeShow notice_;
     Volume volume_;
     double light_ = 1.0;                   ///< 0: asleep
+    std::optional<ShownMark> mark_;        ///< wanted in this step
     std::unique_ptr<PatternShow> pattern_; ///< while it is on
     std::optional<int> presents_;          ///< since the other picture was last drawn; nothing = never
 };

@@ -49,7 +49,7 @@ public:
         : display_(display), inputs_(inputs), show_(show), options_(options), status_file_(status_file),
           watch_(watch), hours_(options.fast || !show.sleeps() ? nullptr : options.hours), start_(start),
           period_(static_cast<Nanoseconds::rep>(std::llround(1e9 / settings.projector.refresh_hz))),
-          head_is_followed_(settings.eye.tracked),
+          head_is_followed_(settings.eye.tracked), looks_for_drift_(settings.camera.drift),
           light_delay_(Nanoseconds(std::llround(1e6 * settings.tracker.display_latency_ms))),
           situation_(settings.eye.default_m, 0.5 * settings.prop.height_m), times_(window_frames),
           presented_(start), artifact_since_(start) {
@@ -108,6 +108,7 @@ private:
         situation.prop_known = situation.prop_known || (!inputs_.tracker && !inputs_.tags);
         // Visitors do not meet the tracker while the tags stand in for it.
         situation.tracker = situation.by_tags ? TrackerHealth::Well : tracker_health();
+        show_.set_mark(mark(now));
         show_.step(now, commands_, situation);
         if (inputs_.sound) {
             const SoundReport heard = inputs_.sound->poll(now, show_.wish());
@@ -152,6 +153,7 @@ private:
         result_.status.head_known = situation.head_known;
         const ShowState state = show_.state();
         used_ = state.used;
+        attracts_ = state.state == State::Attract;
         if (state.calibrate && options_.calibrate) {
             options_.calibrate();
         }
@@ -178,6 +180,13 @@ private:
         watch_.enters("rests until the next display time");
         take_still(now, state);
         return {};
+    }
+
+    /// Marks of light are for nobody's eyes but the camera's.
+    [[nodiscard]] std::optional<ShownMark> mark(MonotonicTime now) {
+        const bool is_seen = !inputs_.camera || health_of(inputs_.camera->state()) == CameraHealth::Well;
+        const bool quiet = attracts_ && !asleep_ && commands_.empty() && is_seen;
+        return inputs_.drift ? inputs_.drift->step(now, quiet) : std::nullopt;
     }
 
     /// What is pressed while it sleeps wakes it and does nothing else.
@@ -340,7 +349,7 @@ private:
         status.settings = options_.settings;
         status.tracker_hangs = inputs_.tracker && inputs_.tracker->hangs();
         status.tracker = Sentence(inputs_.tracker ? inputs_.tracker->state() : std::string_view{});
-        status.camera = Sentence(camera_state(inputs_));
+        renew_camera(status);
         status.prop_by = shown_.by_tags ? "tags" : inputs_.tracker ? "tracker" : "";
         status.eye_by = shown_.head_known ? "sensor" : shown_.head_seen ? "camera" : "settings";
         status.eye_sd_m = shown_.eye_sd_m;
@@ -349,6 +358,21 @@ private:
         status.sound = Sentence(inputs_.sound ? inputs_.sound->state() : std::string_view{});
         status.hour_of_day = local_hour();
         status.recording = inputs_.recorder ? Sentence(inputs_.recorder->state()) : inputs_.why_not_recorded;
+    }
+
+    void renew_camera(RunStatus& status) {
+        status.camera = Sentence(camera_state(inputs_));
+        status.camera_hz = inputs_.camera ? inputs_.camera->rate_hz() : 0.0;
+        status.camera_for = camera_uses(inputs_);
+        if (inputs_.drift) {
+            const DriftVerdict& verdict = inputs_.drift->verdict();
+            status.drift = sentence_of(verdict);
+            status.drifted = verdict.state == DriftState::Moved;
+            status.drift_m = verdict.off_m;
+        } else if (looks_for_drift_) {
+            status.drift =
+                Sentence("no calibration is kept that marks could be held against; measure the table");
+        }
     }
 
     [[nodiscard]] bool told_to_stop() const {
@@ -379,9 +403,11 @@ private:
     RunWatch& watch_;
     RunHours* hours_; ///< none: it never sleeps
     bool asleep_ = false;
+    bool attracts_ = false; ///< in the frame before: nobody was there
     MonotonicTime start_;
     Nanoseconds period_;
     bool head_is_followed_;
+    bool looks_for_drift_;
     LightDelay light_delay_;
     LiveSituation situation_;
     Situation shown_; ///< of the latest frame, as it was drawn

@@ -217,6 +217,12 @@ std::string status_json(const RunStatus& status) {
         {"tracker_hangs", status.tracker_hangs},
         {"tracker_counts", json_of(status.tracker_counts)},
         {"camera", status.camera.view()},
+        {"camera_hz", rounded(status.camera_hz)},
+        {"camera_for", status.camera_for},
+        {"drift", status.drift.view()},
+        {"drift_mm", status.drift_m ? nlohmann::ordered_json(rounded(1e3 * *status.drift_m))
+                                    : nlohmann::ordered_json(nullptr)},
+        {"drifted", status.drifted},
         {"prop_by", status.prop_by},
         {"hand_overs", status.hand_overs},
         {"panel", status.panel.view()},

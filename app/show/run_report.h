@@ -138,9 +138,14 @@ struct RunStatus {
     Sentence settings; ///< why others than those of the file are used; empty: they are those of the file
     Sentence display;  ///< states of the devices; empty where there is nothing to say
     Sentence tracker;
-    bool tracker_hangs = false; ///< Tracker::hangs
-    Sentence camera;            ///< empty: there is none
-    std::string_view prop_by;   ///< "tracker" or "tags", a literal; empty: neither is there
+    bool tracker_hangs = false;    ///< Tracker::hangs
+    Sentence camera;               ///< empty: there is none
+    double camera_hz = 0.0;        ///< frames that came of late
+    std::string_view camera_for;   ///< what it is used for, a literal; empty: nothing
+    Sentence drift;                ///< whether the picture lies where it was calibrated; empty: nothing looks
+    std::optional<double> drift_m; ///< how far beside it; nothing: not known
+    bool drifted = false;          ///< so far that it is to be put right
+    std::string_view prop_by;      ///< "tracker" or "tags", a literal; empty: neither is there
     std::uint64_t hand_overs = 0;
     std::string_view eye_by = "settings"; ///< "sensor", "camera" or "settings", a literal
     double eye_sd_m = 0.0;                ///< of an eye by the camera, Situation::eye_sd_m

@@ -124,6 +124,7 @@ void RunWatch::note(const RunStatus& status) {
     note_device("display", status.display, display_);
     note_device("tracker", status.tracker, tracker_);
     note_device("camera", status.camera, camera_);
+    note_device("drift", status.drift, drift_);
     note_device("panel", status.panel, panel_);
     note_device("sound", status.sound, sound_);
     note_device("recording", status.recording, recording_);

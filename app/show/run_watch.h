@@ -69,7 +69,7 @@ private:
     std::optional<std::uint8_t> shown_code_;
     SharedSetStatus noted_set_;
     bool library_hung_ = false;
-    Sentence display_, tracker_, camera_, panel_, sound_, recording_, hours_, clock_, set_, artifact_,
+    Sentence display_, tracker_, camera_, drift_, panel_, sound_, recording_, hours_, clock_, set_, artifact_,
         language_, level_;
     ImportJournal imports_;
     std::optional<HangWatch> hang_watch_; ///< last: its thread uses the above

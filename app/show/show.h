@@ -3,6 +3,7 @@
 /// Threads  the render thread.
 #pragma once
 
+#include "app/drift/drift_watch.h"
 #include "app/exhibit/exhibit.h"
 #include "app/render/renderer.h"
 #include "app/settings/command.h"
@@ -50,6 +51,8 @@ public:
     [[nodiscard]] virtual bool sleeps() const { return false; }
     /// How much light all that is drawn has, 0..1, from the next step on. 0: it is asleep, silent and not drawn.
     virtual void set_light(double /*light*/) {}
+    /// A mark of light that a camera looks for, from the next `step` on; nothing: none.
+    virtual void set_mark(const std::optional<ShownMark>& /*mark*/) {}
     /// What is to be heard.
     [[nodiscard]] virtual const SoundWish& wish() const {
         static const SoundWish silence;
@@ -79,6 +82,8 @@ public:
     [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const Presentation& presentation,
                                           const glm::dvec3& eye_m, const RenderTarget& target,
                                           Redraw redraw) = 0;
+    /// As in Show; it has room.
+    virtual void set_mark(const std::optional<ShownMark>& /*mark*/) {}
     /// As in Show.
     virtual void record_time(MonotonicTime /*now*/, double /*ms*/) {}
     [[nodiscard]] virtual ShowState state(const Presentation& presentation) const = 0;

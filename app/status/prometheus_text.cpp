@@ -132,6 +132,15 @@ void add_devices(Metrics& metrics, const JsonFields& status) {
                     "How often bytes were thrown away.");
     metrics.gauge("tracker_clock_drift_ratio", scaled(tracker.number("clock_drift_ppm"), 1e-6),
                   "How much slower the tracker's clock runs.");
+    if (!status.text("camera").empty()) {
+        metrics.gauge("camera_frames_hertz", status.number("camera_hz"),
+                      "Frames a second that come from the camera.");
+    }
+    metrics.gauge("drift_meters", scaled(status.number("drift_mm"), 1e-3),
+                  "How far the picture lies beside where it was calibrated.");
+    if (!status.text("drift").empty()) {
+        metrics.gauge("drifted", as_number(status.flag("drifted")), "1: the picture is to be put right.");
+    }
     metrics.counter("sound_underruns_total", status.number("sound_underruns"),
                     "How often the sound card had nothing to play.");
     metrics.gauge("prop_known", as_number(status.flag("prop_known")), "1: the prop's place is known.");

@@ -128,6 +128,16 @@ std::string places_line(const JsonFields& status) {
                        seen ? "seen by the camera" : known("head_known"));
 }
 
+std::string camera_line(const JsonFields& status) {
+    const std::string state = status.text("camera");
+    if (state.empty()) {
+        return {};
+    }
+    const std::string used_for = status.text("camera_for");
+    return fmt::format("{}; {:.0f} frames a second, for {}", state, status.number("camera_hz").value_or(0.0),
+                       or_else(used_for, "nothing"));
+}
+
 std::string set_line(const JsonFields& status) {
     const JsonFields set = status.at("set");
     if (!set.there()) {
@@ -289,6 +299,8 @@ void add_exhibit(Lines& lines, const JsonFields& status, std::optional<double> a
     lines.add("projector", or_else(status.text("display"), "nothing to say"));
     lines.add("tracker", or_else(status.text("tracker"), "there is none"));
     lines.add("places", places_line(status));
+    lines.add("camera", camera_line(status));
+    lines.add("calibration", status.text("drift"));
     lines.add("buttons", or_else(status.text("panel"), "there are none"));
     lines.add("sound", or_else(status.text("sound"), "nothing to say"));
     lines.add("recording", status.text("recording"));

@@ -89,6 +89,11 @@ constexpr auto keys = std::to_array<std::string_view>({
     "calibration.refused",
     "calibration.kept",
     "calibration.left",
+    "calibration.touch_up",
+    "calibration.nothing_moved",
+    "calibration.put_right",
+    "calibration.more",
+    "calibration.does_not_fit",
 });
 
 std::string_view nearest_key(std::string_view found) {

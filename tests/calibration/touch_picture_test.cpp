@@ -1,4 +1,5 @@
 // What a technician sees and hears during a calibration by touch.
+#include "app/programs/calibrate/judged_words.h"
 #include "app/programs/calibrate/touch_picture.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +21,7 @@ Pinhole projector() {
 }
 
 /// From the first cross to a verdict; `look` is called whenever something else is shown.
-void walk(const std::vector<Cross>& crosses, Verdict verdict, const auto& look) {
-    TouchProcedure procedure(crosses);
+void walk(TouchProcedure procedure, TouchJudgement judged, const auto& look) {
     MonotonicTime now{};
     look(procedure);
     procedure.step({now, std::nullopt, true, false});
@@ -36,8 +36,6 @@ void walk(const std::vector<Cross>& crosses, Verdict verdict, const auto& look) 
         }
     }
     look(procedure);
-    TouchCalibration judged;
-    judged.verdict = verdict;
     procedure.judge(std::move(judged));
     look(procedure);
     procedure.step({now, std::nullopt, true, false});
@@ -57,9 +55,11 @@ TEST(TouchPicture, EverythingThatIsSaidHasItsWord) {
     };
     const std::vector<Cross> crosses{{{100, 100}, 0.0, 0.0}, {{500, 100}, 0.0, 0.0}, {{300, 300}, 0.08, 1.5}};
     for (const Verdict verdict : {Verdict::Good, Verdict::Usable, Verdict::Repeat, Verdict::Refused}) {
-        walk(crosses, verdict, listen);
+        walk(TouchProcedure(crosses), {verdict, {}, {}, {}, false}, listen);
+        walk(TouchProcedure(crosses, 2), {verdict, {}, {}, {}, false}, listen);
     }
-    EXPECT_EQ(said.size(), 10U);
+    walk(TouchProcedure(crosses, 2), {Verdict::Good, {}, {}, {}, true}, listen);
+    EXPECT_EQ(said.size(), 16U);
     for (const std::string& key : said) {
         EXPECT_NE(words.find("\n" + key + " = "), std::string::npos) << key;
     }
@@ -94,8 +94,36 @@ TEST(TouchPicture, WhereThePropsFrontGoesIsSeenBesideIt) {
                     << procedure.at() << " of " << count;
             }
         };
-        walk(choose_crosses(rough_model(projector(), 1.5, 0.08), setup), Verdict::Good, look);
+        walk(TouchProcedure(choose_crosses(rough_model(projector(), 1.5, 0.08), setup)),
+             {Verdict::Good, {}, {}, {}, false}, look);
     }
+}
+
+TEST(JudgedWords, ATouchUpSaysWhatMovedAndHowFar) {
+    TouchUp found;
+    found.verdict = Verdict::Good;
+    found.moved = Moved::Projector;
+    found.table.emplace();
+    found.off_m = 0.0124;
+    found.uncertainty.mean_m = 5e-4;
+    EXPECT_EQ(judgement_of(found).told,
+              (std::vector<std::string>{"The projector moved.",
+                                        "The picture was 12 mm beside its place. Once this is kept it is "
+                                        "right again, to about 0.5 mm."}));
+    found.verdict = Verdict::Repeat;
+    found.moved = Moved::Either;
+    EXPECT_EQ(judgement_of(found).told,
+              (std::vector<std::string>{"The projector moved, or the tracker's source.",
+                                        "The picture was 12 mm beside its place. These touches are too few "
+                                        "to check each other."}));
+    found.moved = Moved::Nothing;
+    found.reason = "the kept calibration holds";
+    EXPECT_TRUE(judgement_of(found).nothing_moved);
+    EXPECT_EQ(judgement_of(found).told,
+              (std::vector<std::string>{"Nothing has moved.", "The kept calibration holds."}));
+    const TouchJudgement refused = judgement_of(TouchUp{});
+    EXPECT_EQ(refused.verdict, Verdict::Refused);
+    EXPECT_FALSE(refused.nothing_moved);
 }
 
 } // namespace

@@ -10,6 +10,7 @@ namespace {
 using Input = TouchProcedure::Input;
 
 constexpr Nanoseconds tick = std::chrono::milliseconds(20); // 50 reports a second
+const std::vector<TouchResidual> three_residuals{{1e-4, 0.1}, {5e-4, 0.5}, {2e-4, 0.2}};
 
 class Procedure : public ::testing::Test {
 protected:
@@ -130,11 +131,7 @@ TEST_F(Procedure, BackDoesTheTouchBeforeAgain) {
 
 TEST_F(Procedure, TheVerdictDecidesWhatComesNext) {
     const auto judged = [&](Verdict verdict, std::vector<std::size_t> repeat) {
-        TouchCalibration c;
-        c.verdict = verdict;
-        c.repeat = std::move(repeat);
-        c.residuals = {{1e-4, 0.1}, {5e-4, 0.5}, {2e-4, 0.2}};
-        procedure.judge(std::move(c));
+        procedure.judge({verdict, {}, std::move(repeat), three_residuals, false});
     };
     for (std::size_t k = 0; k < 3; ++k) {
         touch(k);
@@ -211,6 +208,65 @@ TEST_F(Procedure, WhereItCannotBeDoneNextDoesNothing) {
     EXPECT_EQ(cannot.stage(), TouchStage::Left);
 }
 
+/// By the first two of three crosses.
+class TouchUpProcedure : public Procedure {
+protected:
+    TouchUpProcedure() { procedure = TouchProcedure(crosses(), 2); }
+    void touch_two() {
+        press(true);
+        touch(0);
+        touch(1);
+        ASSERT_EQ(procedure.stage(), TouchStage::Solve) << "the third is not asked for";
+    }
+};
+
+TEST_F(TouchUpProcedure, BackFromItsBeginningLeadsToTheWholeCalibration) {
+    EXPECT_EQ(procedure.stage(), TouchStage::Begin);
+    press(false);
+    EXPECT_EQ(procedure.stage(), TouchStage::Anew);
+    now += TouchProcedure::to_go_on + tick;
+    procedure.step({now, std::nullopt, false, false});
+    EXPECT_EQ(procedure.stage(), TouchStage::Anew) << "it has ended";
+    procedure = TouchProcedure(crosses(), 2);
+    procedure.step({now, std::nullopt, false, false});
+    now += TouchProcedure::to_begin + tick;
+    procedure.step({now, std::nullopt, false, false});
+    EXPECT_EQ(procedure.stage(), TouchStage::Left) << "who does nothing leaves";
+}
+
+TEST_F(TouchUpProcedure, TooFewTouchesBringMoreCrosses) {
+    touch_two();
+    procedure.judge({Verdict::Repeat, {}, {}, {three_residuals.begin(), three_residuals.begin() + 2}, false});
+    EXPECT_TRUE(procedure.asks_for_more());
+    EXPECT_EQ(procedure.count(), 2U);
+    press(true);
+    EXPECT_EQ(procedure.count(), 3U);
+    EXPECT_EQ(procedure.at(), 2U);
+    EXPECT_EQ(procedure.stage(), TouchStage::Lay);
+    touch(2);
+    procedure.judge({Verdict::Repeat, {}, {}, three_residuals, false});
+    EXPECT_FALSE(procedure.asks_for_more()) << "there are no others";
+    press(true);
+    EXPECT_EQ(procedure.at(), 1U) << "the farthest off again";
+    touch(1);
+    procedure.judge({Verdict::Good, {}, {}, three_residuals, false});
+    press(true);
+    EXPECT_EQ(procedure.stage(), TouchStage::Done);
+}
+
+TEST_F(TouchUpProcedure, AfterARefusalNextMeasuresAnewAndBackTouchesAgain) {
+    touch_two();
+    procedure.judge({});
+    press(false);
+    EXPECT_EQ(procedure.stage(), TouchStage::Lay);
+    EXPECT_TRUE(procedure.touches().empty());
+    touch(0);
+    touch(1);
+    procedure.judge({});
+    press(true);
+    EXPECT_EQ(procedure.stage(), TouchStage::Anew);
+}
+
 /// The whole of it on a simulated table: crosses chosen for the projector that the settings describe, touches on another one.
 TEST(ProcedureOnATable, EndsWithACalibrationThatIsRight) {
     const SimulatedTable table = some_table(3);
@@ -229,11 +285,12 @@ TEST(ProcedureOnATable, EndsWithACalibrationThatIsRight) {
         }
         ASSERT_NE(procedure.word(), TouchWord::SamePlace);
     }
-    procedure.judge(calibrate_touch(procedure.touches(), setup_for(table)));
-    ASSERT_TRUE(procedure.judged()->table) << procedure.judged()->reason;
+    const TouchCalibration judged = calibrate_touch(procedure.touches(), setup_for(table));
+    ASSERT_TRUE(judged.table) << judged.reason;
+    procedure.judge({judged.verdict, {}, judged.repeat, judged.residuals, false});
     procedure.step({now, std::nullopt, true, false});
-    EXPECT_EQ(procedure.stage(), TouchStage::Done) << procedure.judged()->reason;
-    EXPECT_LT(picture_error(table, *procedure.judged()->table, 0.12).mean_m, 1e-3);
+    EXPECT_EQ(procedure.stage(), TouchStage::Done) << judged.reason;
+    EXPECT_LT(picture_error(table, *judged.table, 0.12).mean_m, 1e-3);
 }
 
 } // namespace

@@ -1,8 +1,9 @@
-// Draws what the table shows during its calibration, for the guide: the beginning, a cross, a verdict.
+// Draws what the table shows during its calibration and its touch-up, for the guide: the beginning, a cross, a verdict.
 //
 //   draw_calibration_pictures FOLDER [WORDS LANGUAGE]
 
 #include "app/image/image.h"
+#include "app/programs/calibrate/judged_words.h"
 #include "app/programs/calibrate/touch_picture.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
@@ -64,6 +65,27 @@ void touch_all(TouchProcedure& procedure) {
     }
 }
 
+/// Somebody bumped the projector.
+Result<void> draw_touch_up(const TouchModel& kept, const Means& means, const std::filesystem::path& folder) {
+    CrossSetup setup;
+    setup.count = 7;
+    TouchProcedure procedure(choose_touch_up_crosses(kept, setup, 2), 7);
+    Result<void> drawn = draw(procedure, means, folder / "touch_up_begin.png");
+    procedure.step({MonotonicTime{}, std::nullopt, true, false});
+    if (drawn) {
+        drawn = draw(procedure, means, folder / "touch_up_cross.png");
+    }
+    touch_all(procedure);
+    TouchUp found;
+    found.verdict = Verdict::Good;
+    found.moved = Moved::Projector;
+    found.table.emplace();
+    found.off_m = 0.012;
+    found.uncertainty.mean_m = 5e-4;
+    procedure.judge(judgement_of(found));
+    return drawn ? draw(procedure, means, folder / "touch_up_verdict.png") : drawn;
+}
+
 Result<void> draw_all(const std::filesystem::path& folder, std::span<char*> words) {
     const Result<Means> means = means_with(words);
     if (!means) {
@@ -75,7 +97,8 @@ Result<void> draw_all(const std::filesystem::path& folder, std::span<char*> word
     pinhole.fx = pinhole.fy = 1.875 * width;
     pinhole.cx = 0.5 * width;
     pinhole.cy = 0.5 * height;
-    TouchProcedure procedure(choose_crosses(rough_model(pinhole, 1.5, 0.085), {}));
+    const TouchModel kept = rough_model(pinhole, 1.5, 0.085);
+    TouchProcedure procedure(choose_crosses(kept, {}));
     Result<void> drawn = draw(procedure, *means, folder / "calibrate_begin.png");
     procedure.step({MonotonicTime{}, std::nullopt, true, false});
     if (drawn) {
@@ -88,8 +111,11 @@ Result<void> draw_all(const std::filesystem::path& folder, std::span<char*> word
     judged.table.emplace();
     judged.mean_residual_m = 6e-4;
     judged.worst_residual_m = 1.3e-3;
-    procedure.judge(std::move(judged));
-    return drawn ? draw(procedure, *means, folder / "calibrate_verdict.png") : drawn;
+    procedure.judge(judgement_of(judged));
+    if (drawn) {
+        drawn = draw(procedure, *means, folder / "calibrate_verdict.png");
+    }
+    return drawn ? draw_touch_up(kept, *means, folder) : drawn;
 }
 
 } // namespace

@@ -21,12 +21,14 @@ namespace fs = std::filesystem;
 const fs::path root = FRUSTUMSCREEN_SOURCE_DIR;
 
 /// Whose sentences reach the staff.
-constexpr const char* sources[] = {"app/exhibit",
+constexpr const char* sources[] = {"app/drift",
+                                   "app/exhibit",
                                    "app/guidance",
                                    "app/safe",
                                    "app/show",
                                    "app/status",
                                    "app/watch",
+                                   "app/programs/calibrate/judged_words.cpp",
                                    "app/programs/calibrate/touch_picture.cpp",
                                    "app/programs/watchdog",
                                    "firmware_host/camera",
@@ -46,6 +48,7 @@ struct LeftOut {
     const char* why;
 };
 constexpr LeftOut left_out[] = {
+    {"app/drift/drift_reference.cpp", "the journal"},
     {"app/exhibit/states.h", "docs/states.md has them, and a test of its own"},
     {"app/exhibit/states_page.cpp", "the page docs/states.md"},
     {"app/exhibit/text_image.cpp", "ends the program before its first picture"},

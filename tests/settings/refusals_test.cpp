@@ -176,6 +176,7 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
          {":2: camera.exposure_ms is 40", "at camera.rate_hz, 30 hertz, takes 33.3 milliseconds"}},
         {"[camera]\nwhite_balance_k = 500",
          {":2: camera.white_balance_k is 500", "0 (the camera's own) and 2000 to 10000 kelvin"}},
+        {"[camera]\ndrift = true", {":2: camera.drift is true; it needs camera.kind = \"v4l2\""}},
         {"[camera]\ntags = true", {":2: camera.tags is true; it needs camera.kind = \"v4l2\""}},
         {"[camera]\nkind = \"v4l2\"\ntags = true", {":3: camera.tags is true; it needs camera.fx"}},
         {"[camera]\nkind = \"v4l2\"\ntags = true\nfx = 1500",

@@ -58,6 +58,59 @@ Result<LoopResult> run_with(Nanoseconds from, Nanoseconds until) {
     return run_loop(Settings{}, display, inputs, show, options, no_file, watch, start);
 }
 
+/// Nobody is there until `comes`; notes the marks of light that it is told to show.
+class QuietShow final : public Show {
+public:
+    void set_mark(const std::optional<ShownMark>& mark) override {
+        while_quiet += mark && now_ < comes ? 1 : 0;
+        while_used += mark && now_ > comes ? 1 : 0;
+    }
+    void step(MonotonicTime now, std::span<const Command> /*commands*/,
+              const Situation& /*on_table*/) override {
+        now_ = now;
+    }
+    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const Situation& /*on_table*/,
+                                  const RenderTarget& /*target*/, Redraw /*redraw*/) override {
+        return {};
+    }
+    [[nodiscard]] ShowState state() const override {
+        ShowState state;
+        state.state = now_ < comes ? State::Attract : State::View;
+        return state;
+    }
+    MonotonicTime comes;
+    int while_quiet = 0, while_used = 0;
+
+private:
+    MonotonicTime now_;
+};
+
+TEST(RunLoop, MarksOfLightAreShownWhileNobodyIsThere) {
+    const MonotonicTime start = monotonic_now();
+    QuietShow show;
+    show.comes = start + seconds(62);
+    Inputs inputs;
+    inputs.drift = std::make_unique<DriftWatch>(DriftSetUp{
+        "calibration-0001.toml", "", {{-0.3, 0.2}, {0.3, -0.2}, {0.3, 0.2}, {-0.3, -0.2}}, {}, {}});
+    LoopOptions options;
+    options.length = seconds(150);
+    options.fast = true;
+    NoDisplay display;
+    StatusFile no_file{std::filesystem::path{}};
+    ServiceManager manager;
+    const Journal journal("test");
+    RunWatch watch(manager, journal);
+    const Result<LoopResult> run =
+        run_loop(Settings{}, display, inputs, show, options, no_file, watch, start);
+    ASSERT_TRUE(run) << run.error().message;
+    EXPECT_NEAR(show.while_quiet, 4 * 30, 8) << "four marks, half a second each, at 60 pictures a second";
+    EXPECT_EQ(show.while_used, 0) << "the next set had hardly begun";
+    EXPECT_EQ(run->status.camera_for, "the picture's place");
+    EXPECT_NE(run->status.drift.view().find("the camera learns where the picture lies"),
+              std::string_view::npos);
+    EXPECT_FALSE(run->status.drifted);
+}
+
 TEST(RunLoop, EndsWhereNothingCanBeShownForAMinute) {
     const Result<LoopResult> ended = run_with(seconds(10), seconds(200));
     ASSERT_FALSE(ended);

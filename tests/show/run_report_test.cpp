@@ -132,6 +132,10 @@ TEST(RunReport, WhatIsPresentedAndCountedIsInTheStatus) {
     status.hand_overs = 5;
     status.eye_by = "camera";
     status.eye_sd_m = 0.021;
+    status.camera_hz = 29.97;
+    status.camera_for = "the picture's place";
+    status.drift_m = 0.00312;
+    status.drifted = true;
     status.tracker_counts.broken = 4;
     status.tracker_counts.clock_drift = 25e-6;
     stamp(status);
@@ -149,6 +153,10 @@ TEST(RunReport, WhatIsPresentedAndCountedIsInTheStatus) {
     EXPECT_EQ(json.at("hand_overs"), 5);
     EXPECT_EQ(json.at("eye_by"), "camera");
     EXPECT_EQ(json.at("eye_sd_mm"), 21.0);
+    EXPECT_EQ(json.at("camera_hz"), 29.97);
+    EXPECT_EQ(json.at("camera_for"), "the picture's place");
+    EXPECT_EQ(json.at("drift_mm"), 3.12);
+    EXPECT_EQ(json.at("drifted"), true);
     EXPECT_EQ(json.at("tracker_counts").at("broken"), 4);
     EXPECT_EQ(json.at("tracker_counts").at("clock_drift_ppm"), 25.0);
     EXPECT_LE(json.at("monotonic_ns"), after.time_since_epoch().count());

@@ -30,6 +30,7 @@ struct CalibrateRequest {
     bool touch_up = false;     ///< of the kept calibration, in place of a new one
     std::filesystem::path map; ///< where the uncertainty goes as a picture; empty: nowhere
     bool undo = false;
+    bool anew = false; ///< on the table, also where a touch-up could be offered
     // On the table; what is left out stands in the settings:
     std::optional<int> touches;
     std::optional<double> block_m;

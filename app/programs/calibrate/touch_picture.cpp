@@ -3,12 +3,12 @@
 #include "app/exhibit/canvas.h"
 #include "app/exhibit/coverage.h"
 #include "app/exhibit/glyph_image.h"
+#include "app/programs/calibrate/judged_words.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -44,42 +44,35 @@ std::string height_of(const Cross& cross) {
                                : std::string("on the table");
 }
 
-/// A reason is half a sentence, as programs say it behind a colon.
-std::string sentence(std::string reason) {
-    if (!reason.empty()) {
-        reason.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(reason.front())));
-        reason += '.';
-    }
-    return reason;
-}
-
-std::vector<std::string> words_of_verdict(const TouchCalibration& judged) {
-    std::vector<std::string> words{fmt::format("The calibration is: {}", name_of(judged.verdict)),
-                                   sentence(judged.reason)};
-    if (judged.table) {
-        words.push_back(
-            fmt::format("Each touch lies {:.1f} mm from where the others expect it, {:.1f} mm at worst.",
-                        1e3 * judged.mean_residual_m, 1e3 * judged.worst_residual_m));
-    }
+/// What the two buttons do then.
+std::string words_of_choice(const TouchProcedure& procedure) {
+    const TouchJudgement& judged = *procedure.judged();
+    const bool is_touch_up = procedure.task() == TouchTask::TouchUp;
     switch (judged.verdict) {
     case Verdict::Good:
     case Verdict::Usable:
-        words.emplace_back("Next keeps it. Back does the touch again that lies farthest off.");
-        break;
+        return judged.nothing_moved ? "Next returns to the exhibit. Back does one touch again."
+                                    : "Next keeps it. Back does the touch again that lies farthest off.";
     case Verdict::Repeat:
-        words.emplace_back("Next does the doubtful touches again.");
-        break;
+        return procedure.asks_for_more() ? "Next brings two more crosses."
+                                         : "Next does the doubtful touches again.";
     case Verdict::Refused:
-        words.emplace_back("Next begins anew.");
-        break;
+        return is_touch_up ? "Next measures the whole table anew. Back does all touches again."
+                           : "Next begins anew.";
     }
+    return "";
+}
+
+std::vector<std::string> words_of_verdict(const TouchProcedure& procedure) {
+    std::vector<std::string> words = procedure.judged()->told;
+    words.push_back(words_of_choice(procedure));
     return words;
 }
 
 /// What a technician needs at hand: the heights that the crosses ask for, millimetres.
-std::set<int> block_heights_mm(const std::vector<Cross>& crosses) {
+std::set<int> block_heights_mm(const TouchProcedure& procedure) {
     std::set<int> heights_mm;
-    for (const Cross& cross : crosses) {
+    for (const Cross& cross : procedure.crosses()) {
         heights_mm.insert(static_cast<int>(std::lround(1e3 * cross.block_m)));
     }
     heights_mm.erase(0);
@@ -88,15 +81,25 @@ std::set<int> block_heights_mm(const std::vector<Cross>& crosses) {
 
 std::vector<std::string> words_of_begin(const TouchProcedure& procedure) {
     if (!procedure.problem().empty()) {
-        return {"The table cannot be measured", sentence(procedure.problem()),
+        return {"The table cannot be measured", as_sentence(procedure.problem()),
                 "Back returns to the exhibit."};
     }
-    return {
-        "Staff: measure the table anew",
-        fmt::format("Projector, tracker and the prop's sensor are measured with {} touches; that takes about "
-                    "five minutes. You need the prop and boards that make {} mm.",
-                    procedure.count(), fmt::join(block_heights_mm(procedure.crosses()), ", ")),
-        "Next begins. Back returns to the exhibit; so does a minute without a press."};
+    const std::string boards = fmt::format("You need the prop and boards that make {} mm.",
+                                           fmt::join(block_heights_mm(procedure), ", "));
+    if (procedure.task() == TouchTask::TouchUp) {
+        return {
+            "Staff: put the picture right",
+            fmt::format("Somebody bumped the projector, or moved the tracker? {} touches find out, and put "
+                        "the picture right; that takes about two minutes. {}",
+                        procedure.count(), boards),
+            "Next begins. Back goes on to measuring the whole table anew, or out. A minute without a press "
+            "returns to the exhibit."};
+    }
+    return {"Staff: measure the table anew",
+            fmt::format("Projector, tracker and the prop's sensor are measured with {} touches; that takes "
+                        "about five minutes. {}",
+                        procedure.count(), boards),
+            "Next begins. Back returns to the exhibit; so does a minute without a press."};
 }
 
 Colour colour_of(const TouchProcedure& procedure) {
@@ -152,15 +155,19 @@ std::string_view key_of_lay(const TouchProcedure& procedure) {
     }
 }
 
-std::string_view key_of(Verdict verdict) {
-    switch (verdict) {
+std::string_view key_of_verdict(const TouchProcedure& procedure) {
+    const TouchJudgement& judged = *procedure.judged();
+    const bool is_touch_up = procedure.task() == TouchTask::TouchUp;
+    switch (judged.verdict) {
     case Verdict::Good:
     case Verdict::Usable:
-        return "calibration.may_be_kept";
+        return judged.nothing_moved ? "calibration.nothing_moved"
+               : is_touch_up        ? "calibration.put_right"
+                                    : "calibration.may_be_kept";
     case Verdict::Repeat:
-        return "calibration.repeat";
+        return procedure.asks_for_more() ? "calibration.more" : "calibration.repeat";
     case Verdict::Refused:
-        return "calibration.refused";
+        return is_touch_up ? "calibration.does_not_fit" : "calibration.refused";
     }
     return "";
 }
@@ -214,9 +221,13 @@ std::vector<std::string> touch_words(const TouchProcedure& procedure) {
     case TouchStage::Solve:
         return {"One moment, please."};
     case TouchStage::Judged:
-        return words_of_verdict(*procedure.judged());
+        return words_of_verdict(procedure);
     case TouchStage::Done:
-        return {"The calibration is kept.", "The exhibit comes back with it."};
+        return procedure.judged()->nothing_moved
+                   ? std::vector<std::string>{"Nothing was changed.", "The exhibit comes back."}
+                   : std::vector<std::string>{"The calibration is kept.", "The exhibit comes back with it."};
+    case TouchStage::Anew:
+        return {"One moment, please."};
     case TouchStage::Left:
         return {"Nothing was changed.", "The exhibit comes back."};
     }
@@ -226,7 +237,9 @@ std::vector<std::string> touch_words(const TouchProcedure& procedure) {
 std::string_view word_key(const TouchProcedure& procedure) {
     switch (procedure.stage()) {
     case TouchStage::Begin:
-        return procedure.problem().empty() ? "calibration.begin" : "";
+        return !procedure.problem().empty()             ? ""
+               : procedure.task() == TouchTask::TouchUp ? "calibration.touch_up"
+                                                        : "calibration.begin";
     case TouchStage::Lay:
         return key_of_lay(procedure);
     case TouchStage::HoldStill:
@@ -234,9 +247,11 @@ std::string_view word_key(const TouchProcedure& procedure) {
     case TouchStage::Solve:
         return "calibration.all_taken";
     case TouchStage::Judged:
-        return key_of(procedure.judged()->verdict);
+        return key_of_verdict(procedure);
     case TouchStage::Done:
-        return "calibration.kept";
+        return procedure.judged()->nothing_moved ? "calibration.left" : "calibration.kept";
+    case TouchStage::Anew:
+        return "calibration.all_taken";
     case TouchStage::Left:
         return "calibration.left";
     }

@@ -1,4 +1,4 @@
-/// What the projector shows a technician during a calibration by touch: the cross, how the prop is to lie on it, what to do.
+/// What the projector shows a technician during a calibration by touch, or its touch-up: the cross, how the prop is to lie on it, what to do.
 ///
 /// Units    pixels of the projector's picture.
 /// Words    in English, as in the alignment pattern; above them one sentence in the house's language, where that is another one.

@@ -1,6 +1,7 @@
 #include "app/programs/calibrate/touch_up_command.h"
 
 #include "app/calibration/touch_up.h"
+#include "app/drift/drift_file.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/touch_command.h"
 
@@ -33,13 +34,6 @@ Json touch_up_json(const TouchUp& found) {
     return json;
 }
 
-/// As the newest kept calibration has it, which stands in the settings.
-CalibratedTable kept_table_of(const Settings& settings) {
-    const Registration& registration = settings.tracker.registration;
-    return {settings.projector.pinhole, settings.projector.table_from_projector,
-            registration.table_from_tracker, registration.sensor_from_prop.translation};
-}
-
 /// The table's frame, the prop in its sensor and the eye stay as they were kept. Its residuals are those of the touches that were used: to leave
 /// one out of so few says little.
 Calibration next_calibration(const Settings& settings, const TouchUp& found) {
@@ -60,15 +54,34 @@ Calibration next_calibration(const Settings& settings, const TouchUp& found) {
 
 } // namespace
 
+CalibratedTable kept_table_of(const Settings& settings) {
+    const Registration& registration = settings.tracker.registration;
+    return {settings.projector.pinhole, settings.projector.table_from_projector,
+            registration.table_from_tracker, registration.sensor_from_prop.translation};
+}
+
+tl::unexpected<Error> none_kept(const Settings& settings) {
+    return fail(
+        ErrorKind::BadConfiguration,
+        fmt::format("{}: no calibration is kept there that could be touched up: keep one first, by touch "
+                    "--keep or table",
+                    settings.calibration.folder.string()));
+}
+
+Result<void> keep_touch_up(const Settings& settings, const TouchUp& found) {
+    if (found.moved != Moved::Nothing) {
+        return keep_next(settings, next_calibration(settings, found));
+    }
+    std::error_code none; // where a camera said that something moved, it was the camera: it learns anew
+    std::filesystem::remove(settings.calibration.folder / drift_file, none);
+    return {};
+}
+
 Result<int> touch_up_kept(const CalibrateRequest& request, const Described& described,
                           const Touches& touches) {
     const Settings& settings = *described.settings;
     if (!settings.calibration.used) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format("{}: no calibration is kept there that could be touched up: keep one first, by touch "
-                        "--keep or table",
-                        settings.calibration.folder.string()));
+        return none_kept(settings);
     }
     const TouchUp found =
         touch_up(kept_table_of(settings), touches, set_up_for<TouchSetup>(described, request));
@@ -78,8 +91,8 @@ Result<int> touch_up_kept(const CalibrateRequest& request, const Described& desc
         fmt::print("{}: {}\n", name_of(found.verdict), found.reason);
     }
     const int status = status_of(found.verdict, request, found.reason);
-    if (status == 0 && request.keep && found.moved != Moved::Nothing) {
-        return keep_next(settings, next_calibration(settings, found)).map([] { return 0; });
+    if (status == 0 && request.keep) {
+        return keep_touch_up(settings, found).map([] { return 0; });
     }
     return status;
 }

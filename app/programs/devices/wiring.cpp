@@ -1,5 +1,7 @@
 #include "app/programs/devices/wiring.h"
 
+#include "app/drift/drift_file.h"
+#include "app/drift/mark_places.h"
 #include "app/settings/command.h"
 #include "app/settings/lit_zone.h"
 #include "firmware_host/base/file.h"
@@ -149,6 +151,18 @@ VisitorSetUp visitor_set_up(const Settings& settings) {
     return set_up;
 }
 
+DriftSetUp drift_set_up(const Settings& settings) {
+    DriftSetUp set_up{settings.calibration.used_name,
+                      settings.calibration.used->made,
+                      mark_places(settings),
+                      {},
+                      settings.calibration.folder / drift_file};
+    for (const TagSettings& tag : settings.camera.tag) {
+        set_up.moving_tags.push_back(tag.id);
+    }
+    return set_up;
+}
+
 /// What uses the camera's frames, and the camera that hands them to it.
 void add_camera(Inputs& inputs, const Settings& settings, const DevicePlan& plan) {
     std::vector<FrameUse> uses;
@@ -159,6 +173,10 @@ void add_camera(Inputs& inputs, const Settings& settings, const DevicePlan& plan
     if (plan.visitor) {
         inputs.visitor = std::make_unique<VisitorTracker>(visitor_set_up(settings));
         uses.emplace_back([&visitor = *inputs.visitor](const CameraFrame& frame) { visitor.use(frame); });
+    }
+    if (plan.drift) {
+        inputs.drift = std::make_unique<DriftWatch>(drift_set_up(settings));
+        uses.emplace_back([&drift = *inputs.drift](const CameraFrame& frame) { drift.use(frame); });
     }
     if (!uses.empty()) {
         inputs.camera = make_camera(settings.camera, std::move(uses));

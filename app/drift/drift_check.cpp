@@ -1,0 +1,263 @@
+#include "app/drift/drift_check.h"
+
+#include "app/calibration/homography.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::size_t least_anchors = 3; // tags; fewer say little of what lies away from them
+constexpr double most_anchor_misfit_px = 1.5;
+
+Eigen::Vector2d eigen(const glm::dvec2& v) {
+    return {v.x, v.y};
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+glm::dvec2 median(const std::vector<glm::dvec2>& places) {
+    std::vector<double> x, y;
+    for (const glm::dvec2& place : places) {
+        x.push_back(place.x);
+        y.push_back(place.y);
+    }
+    return {median(std::move(x)), median(std::move(y))};
+}
+
+/// From the camera's pixels to the table, as the reference saw it.
+std::optional<Eigen::Matrix3d> table_from_pixels(const DriftReference& reference) {
+    std::vector<Eigen::Vector2d> pixels, places;
+    for (std::size_t k = 0; k < reference.marks_px.size(); ++k) {
+        if (reference.marks_px[k]) {
+            pixels.push_back(eigen(*reference.marks_px[k]));
+            places.push_back(eigen(reference.marks_m[k]));
+        }
+    }
+    return homography(pixels, places);
+}
+
+struct CameraWay {
+    Eigen::Matrix3d reference_from_now = Eigen::Matrix3d::Identity(); ///< pixels
+    bool known = false;
+    double mean_px = 0.0;
+};
+
+CameraWay camera_way(const std::vector<AnchorTag>& before, const std::vector<AnchorTag>& now) {
+    std::vector<Eigen::Vector2d> from, to;
+    CameraWay way;
+    for (const AnchorTag& tag : now) {
+        const auto same = std::find_if(before.begin(), before.end(),
+                                       [&](const AnchorTag& other) { return other.id == tag.id; });
+        for (std::size_t k = 0; same != before.end() && k < tag.corners_px.size(); ++k) {
+            from.push_back(eigen(tag.corners_px.at(k)));
+            to.push_back(eigen(same->corners_px.at(k)));
+        }
+    }
+    const auto found = from.size() >= 4 * least_anchors ? homography(from, to) : std::nullopt;
+    if (!found) {
+        return way;
+    }
+    double misfit = 0.0;
+    for (std::size_t k = 0; k < from.size(); ++k) {
+        misfit += (mapped(*found, from[k]) - to[k]).norm() / static_cast<double>(from.size());
+        way.mean_px += (from[k] - to[k]).norm() / static_cast<double>(from.size());
+    }
+    way.known = misfit <= most_anchor_misfit_px; // else somebody moved one of them
+    if (way.known) {
+        way.reference_from_now = *found;
+    }
+    return way;
+}
+
+/// Each mark in the middle of where the sets saw it, and the tags of the last one.
+void fill(DriftReference& reference, const std::vector<MarkSet>& sets) {
+    for (std::size_t mark = 0; mark < reference.marks_m.size(); ++mark) {
+        std::vector<glm::dvec2> seen;
+        for (const MarkSet& set : sets) {
+            if (set.marks_px[mark]) {
+                seen.push_back(*set.marks_px[mark]);
+            }
+        }
+        reference.marks_px[mark] = 2 * seen.size() > sets.size() ? std::optional(median(seen)) : std::nullopt;
+    }
+    reference.anchors = sets.back().anchors;
+}
+
+/// How far each mark lies from where a homography of four of them has it, metres; empty: none can be found.
+std::vector<double> misfits_m(const DriftReference& reference, const std::vector<std::size_t>& four) {
+    std::vector<Eigen::Vector2d> pixels, places;
+    for (const std::size_t k : four) {
+        pixels.push_back(eigen(*reference.marks_px[k]));
+        places.push_back(eigen(reference.marks_m[k]));
+    }
+    const std::optional<Eigen::Matrix3d> table = homography(pixels, places);
+    std::vector<double> misfits;
+    for (std::size_t k = 0; table && k < reference.marks_px.size(); ++k) {
+        misfits.push_back(
+            reference.marks_px[k]
+                ? (mapped(*table, eigen(*reference.marks_px[k])) - eigen(reference.marks_m[k])).norm()
+                : std::numeric_limits<double>::infinity());
+    }
+    return misfits;
+}
+
+/// Marks that something lifted or moved while it was learned are left out: those that lie far from where most others have them (least median
+/// of squares; a lens bends by some millimetres).
+void leave_out_strays(DriftReference& reference) {
+    constexpr double most_misfit_m = 0.012;
+    std::vector<std::size_t> seen;
+    for (std::size_t k = 0; k < reference.marks_px.size(); ++k) {
+        if (reference.marks_px[k]) {
+            seen.push_back(k);
+        }
+    }
+    std::vector<bool> chosen(seen.size(), false);
+    std::fill(chosen.begin(),
+              chosen.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(4, seen.size())), true);
+    std::vector<double> best;
+    double least = std::numeric_limits<double>::infinity();
+    do { // all fours: 210 of ten marks
+        std::vector<std::size_t> four;
+        for (std::size_t k = 0; k < seen.size(); ++k) {
+            if (chosen[k]) {
+                four.push_back(seen[k]);
+            }
+        }
+        const std::vector<double> misfits = misfits_m(reference, four);
+        std::vector<double> of_seen;
+        for (const std::size_t k : seen) {
+            of_seen.push_back(misfits.empty() ? least : misfits[k]);
+        }
+        if (!misfits.empty() && median(of_seen) < least) {
+            least = median(of_seen);
+            best = misfits;
+        }
+    } while (std::prev_permutation(chosen.begin(), chosen.end()));
+    for (std::size_t k = 0; k < best.size(); ++k) {
+        if (best[k] > most_misfit_m) {
+            reference.marks_px[k].reset();
+        }
+    }
+}
+
+/// Whether what both saw lies at the same places; one mark may be another thing.
+bool agree(const MarkSet& a, const MarkSet& b, double most_px) {
+    std::size_t same = 0, apart = 0;
+    for (std::size_t k = 0; k < a.marks_px.size(); ++k) {
+        if (a.marks_px[k] && b.marks_px[k]) {
+            ++(glm::distance(*a.marks_px[k], *b.marks_px[k]) < most_px ? same : apart);
+        }
+    }
+    return same >= DriftCheck::least_marks && apart <= 1;
+}
+
+} // namespace
+
+std::optional<DriftMeasure> measure_drift(const DriftReference& reference, const MarkSet& set) {
+    const std::optional<Eigen::Matrix3d> table = table_from_pixels(reference);
+    if (!table) {
+        return std::nullopt;
+    }
+    const CameraWay camera = camera_way(reference.anchors, set.anchors);
+    std::vector<glm::dvec2> ways;
+    std::vector<double> lengths;
+    std::size_t known = 0;
+    for (std::size_t k = 0; k < reference.marks_px.size() && k < set.marks_px.size(); ++k) {
+        known += reference.marks_px[k] ? 1 : 0;
+        if (reference.marks_px[k] && set.marks_px[k]) {
+            const Eigen::Vector2d now = mapped(camera.reference_from_now, eigen(*set.marks_px[k]));
+            const Eigen::Vector2d way = mapped(*table, now) - mapped(*table, eigen(*reference.marks_px[k]));
+            ways.emplace_back(way.x(), way.y());
+            lengths.push_back(way.norm());
+        }
+    }
+    if (ways.size() < DriftCheck::least_marks || 2 * ways.size() < known) {
+        return std::nullopt;
+    }
+    return DriftMeasure{median(lengths), median(ways), ways.size(), camera.known, camera.mean_px};
+}
+
+void DriftCheck::know(DriftReference reference) {
+    reference_ = std::move(reference);
+    known_ = true;
+    verdict_.state = DriftState::Looking;
+}
+
+bool DriftCheck::take(const MarkSet& set) {
+    ++verdict_.looks;
+    verdict_.marks = set.seen();
+    if (!known_) {
+        return learn(set);
+    }
+    latest_.push_back({set.time, measure_drift(reference_, set)});
+    while (latest_.size() > agreeing && latest_.back().time - latest_[1].time >= least_time) {
+        latest_.pop_front();
+    }
+    judge();
+    return false;
+}
+
+/// The first ones may have been seen while somebody was still at work on the table: only sets that agree count.
+bool DriftCheck::learn(const MarkSet& set) {
+    if (set.marks_px.size() != reference_.marks_m.size()) {
+        return false;
+    }
+    if (!first_.empty() && !agree(first_.back(), set, learn_agree_px)) {
+        first_.clear();
+    }
+    first_.push_back(set);
+    if (first_.size() < learned_from) {
+        verdict_.state = set.seen() < least_marks ? DriftState::Blind : DriftState::Learning;
+        return false;
+    }
+    fill(reference_, first_);
+    leave_out_strays(reference_);
+    known_ = table_from_pixels(reference_).has_value();
+    first_.clear();
+    verdict_.state = known_ ? DriftState::Well : DriftState::Blind;
+    return known_;
+}
+
+/// What is told changes only where all of the latest sets say the same.
+void DriftCheck::judge() {
+    const bool enough =
+        latest_.size() >= agreeing && latest_.back().time - latest_.front().time >= least_time;
+    const auto blind = static_cast<std::size_t>(
+        std::count_if(latest_.begin(), latest_.end(), [](const Dated& each) { return !each.measure; }));
+    if (blind > 0) {
+        verdict_.state = enough && blind == latest_.size() ? DriftState::Blind : verdict_.state;
+        return;
+    }
+    std::vector<double> offs;
+    std::vector<glm::dvec2> shifts;
+    for (const Dated& each : latest_) {
+        offs.push_back(each.measure->off_m);
+        shifts.push_back(each.measure->shift_m);
+    }
+    verdict_.off_m = median(offs);
+    verdict_.anchored = latest_.back().measure->anchored;
+    if (verdict_.state == DriftState::Looking || verdict_.state == DriftState::Blind) {
+        verdict_.state = verdict_.off_m <= tolerance_m ? DriftState::Well : DriftState::Looking;
+    }
+    const glm::dvec2 middle = median(shifts);
+    const bool all_say_so = std::all_of(latest_.begin(), latest_.end(), [&](const Dated& each) {
+        return each.measure->off_m > tolerance_m && glm::distance(each.measure->shift_m, middle) < agree_m;
+    });
+    const bool none_says_so = std::all_of(
+        latest_.begin(), latest_.end(), [](const Dated& each) { return each.measure->off_m < well_again_m; });
+    if (enough && all_say_so) {
+        verdict_.state = DriftState::Moved;
+    } else if (enough && none_says_so) {
+        verdict_.state = DriftState::Well;
+    }
+}
+
+} // namespace frustumscreen
