@@ -10,7 +10,6 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double still_px = 1.0; ///< a tag between two looks
 constexpr std::size_t more_rests = 4;
 
 /// A camera that is slow sends good frames; one that sees nothing but dark while dark is shown is well.
@@ -137,11 +136,8 @@ void AutoProcedure::place(const Input& input) {
         word_ = posture.error();
         return;
     }
-    if (input.frame != nullptr && (!looked_ || input.now - *looked_ >= between_looks)) {
-        looked_ = input.now;
-        if (sees_tags_at_rest(*input.frame)) {
-            begin_capture(input.now);
-        }
+    if (!not_before_ || input.now >= *not_before_) {
+        begin_capture(input.now);
     }
 }
 
@@ -162,7 +158,6 @@ bool AutoProcedure::watch(const Input& input) {
     seen_ = input.report || !seen_ ? input.now : *seen_;
     if (!can_be_used(input.camera, false)) {
         word_ = AutoWord::CameraFault;
-        resting_.clear();
         return false;
     }
     if (input.now - *seen_ > patience) {
@@ -179,8 +174,7 @@ bool AutoProcedure::watch(const Input& input) {
 /// Somewhere else than before.
 bool AutoProcedure::is_at_rest(const Input& input) {
     if (input.report && !still_.add(input.now, *input.report)) {
-        resting_.clear();
-        looked_.reset();
+        not_before_.reset();
     }
     if (still_.count() == 0 || still_.rest() < rest) {
         return false;
@@ -217,26 +211,14 @@ tl::expected<Posture, AutoWord> AutoProcedure::posture_of(const RigidTransform& 
                                                         : tl::unexpected(AutoWord::WrongHeight);
 }
 
-/// Enough of the board's tags, where they were at the look before.
-bool AutoProcedure::sees_tags_at_rest(const CameraFrame& frame) {
+std::vector<FoundTag> AutoProcedure::tags_in(const CameraFrame& frame) {
     detector_.find(frame.luma, frame.width, frame.height, found_);
-    const std::vector<FoundTag> before = std::move(resting_);
-    resting_ = tags_of(board_, found_);
-    tags_ = static_cast<int>(resting_.size());
-    if (tags_ < least_tags) {
-        word_ = AutoWord::FewTags;
-        return false;
-    }
-    const auto rests_there = [&](const FoundTag& tag) {
-        return std::any_of(before.begin(), before.end(), [&](const FoundTag& other) {
-            return other.id == tag.id && !has_moved(other, tag, still_px);
-        });
-    };
-    return std::count_if(resting_.begin(), resting_.end(), rests_there) >= least_tags;
+    return tags_of(board_, found_);
 }
 
 void AutoProcedure::begin_capture(MonotonicTime now) {
     stripes_.emplace(CaptureSetup{plan_.stripes, *delay_, plan_.frames}, now);
+    before_.clear();
     word_ = AutoWord::None;
     stage_ = AutoStage::Capture;
 }
@@ -245,64 +227,64 @@ void AutoProcedure::capture(const Input& input) {
     seen_ = input.report ? input.now : *seen_;
     if (input.back) {
         done_with_ = still_.mean(); // it is to be put elsewhere first
-        end_capture(AutoWord::None);
+        end_capture(input.now, AutoWord::None);
     } else if (input.report && !still_.add(input.now, *input.report)) {
-        end_capture(AutoWord::Moved);
+        end_capture(input.now, AutoWord::Moved);
     } else if (input.now - *seen_ > patience) {
-        end_capture(AutoWord::NotSeen);
+        end_capture(input.now, AutoWord::NotSeen);
     } else if (!can_be_used(input.camera, true)) {
-        end_capture(AutoWord::CameraFault);
+        end_capture(input.now, AutoWord::CameraFault);
     } else if (!stripes_->step(input.now, lit(input), input.frame)) {
-        end_capture(AutoWord::NoFrames);
+        end_capture(input.now, AutoWord::NoFrames);
     } else if (stripes_->is_complete()) {
         look_at_captures(input.now);
+    } else if (stripes_->has_before() && before_.empty()) {
+        before_ = tags_in(stripes_->before());
+        tags_ = static_cast<int>(before_.size());
+        if (tags_ < least_tags) {
+            end_capture(input.now, AutoWord::FewTags);
+        }
     }
 }
 
-void AutoProcedure::end_capture(AutoWord word) {
+void AutoProcedure::end_capture(MonotonicTime now, AutoWord word) {
     stripes_.reset();
-    resting_.clear();
-    looked_.reset();
+    not_before_ = now + pause;
     word_ = word;
     stage_ = AutoStage::Place;
 }
 
 void AutoProcedure::look_at_captures(MonotonicTime now) {
-    const auto tags_in = [&](const CameraFrame& frame) {
-        detector_.find(frame.luma, frame.width, frame.height, found_);
-        return tags_of(board_, found_);
-    };
-    const std::vector<FoundTag> before = tags_in(stripes_->before());
-    const std::vector<FoundTag> after = tags_in(stripes_->after());
-    BoardView view = view_of(board_, plan_.stripes, stripes_->captures(), before, after);
+    const BoardView view =
+        view_of(board_, plan_.stripes, stripes_->captures(), before_, tags_in(stripes_->after()));
     tags_ = view.tags;
     if (2 * view.moved > view.tags) {
-        end_capture(AutoWord::Moved);
+        end_capture(now, AutoWord::Moved);
     } else if (2 * (view.moved + view.disturbed) > view.tags) {
-        end_capture(AutoWord::Disturbed);
+        end_capture(now, AutoWord::Disturbed);
     } else if (view.tags < least_tags) {
         done_with_ = still_.mean(); // the same again would show the same
-        end_capture(view.clipped > 0 ? AutoWord::TooBright : AutoWord::FewTags);
+        end_capture(now, view.clipped > 0 ? AutoWord::TooBright : AutoWord::FewTags);
     } else {
-        take(now, std::move(view));
+        take(now, view);
     }
 }
 
-void AutoProcedure::take(MonotonicTime now, BoardView view) {
+void AutoProcedure::take(MonotonicTime now, const BoardView& view) {
     const RigidTransform report = still_.mean();
     const auto posture = posture_of(report);
     if (!posture) { // on the verge of it
-        end_capture(posture.error());
+        end_capture(now, posture.error());
         return;
     }
     std::optional<double> block_m;
     if (*posture != Posture::Leaning) {
         block_m = plan_.board_m + (*posture == Posture::Block ? plan_.block_m : 0.0);
     }
-    taken_.push_back({{++last_name_, report, std::move(view.points), block_m}, *posture, view.has_top});
+    taken_.push_back({{++last_name_, report, view.points, block_m}, *posture, view.has_top});
     done_with_ = report;
     active_ = now;
-    end_capture(AutoWord::Taken);
+    end_capture(now, AutoWord::Taken);
     if (taken_.size() >= wanted_) {
         stage_ = AutoStage::Solve;
     }

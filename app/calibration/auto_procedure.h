@@ -2,8 +2,8 @@
 ///
 /// Begin    What is needed is told, or why it cannot be done. Next begins, Back leaves; who does nothing for a while leaves too.
 /// Delay    The projector shows light and dark, and it is measured how long the camera takes to see it.
-/// Rests    It is said where the board is to stand next, and how. When the tracker's reports and the tags have come to rest somewhere else than
-///          before, the stripes are shown, without a press. What moved, or was shadowed, is done again by itself.
+/// Rests    It is said where the board is to stand next, and how. When the tracker's reports have come to rest somewhere else than before, the
+///          stripes are shown, without a press. What moved, or was shadowed, is done again by itself.
 /// Buttons  Between rests Back drops the last one, and Next ends early, from `enough` rests on. While stripes are shown Back ends them.
 /// End      After the last one whoever calls solves and tells the verdict: Next keeps it, or does again what does not fit; Back goes on with more rests.
 /// Time     a parameter; the tracker's and the camera's own rates, whatever they are.
@@ -73,8 +73,9 @@ public:
     static constexpr Nanoseconds patience = std::chrono::seconds(2);  ///< for the tracker's reports
     static constexpr Nanoseconds to_begin = std::chrono::minutes(1);  ///< without a press: it is left
     static constexpr Nanoseconds to_go_on = std::chrono::minutes(10); ///< without a press or a rest
-    static constexpr Nanoseconds between_looks = std::chrono::milliseconds(400); ///< for tags
-    static constexpr std::size_t enough = 12;                                    ///< rests
+    static constexpr Nanoseconds pause =
+        std::chrono::seconds(3);              ///< before stripes that were of no use come again
+    static constexpr std::size_t enough = 12; ///< rests
     static constexpr int least_tags = 3;
     static constexpr double same_place_m = 0.02;
     static constexpr double same_place_rad = 0.15;
@@ -139,12 +140,12 @@ private:
     [[nodiscard]] bool watch(const Input& input);
     [[nodiscard]] bool is_at_rest(const Input& input);
     [[nodiscard]] tl::expected<Posture, AutoWord> posture_of(const RigidTransform& report) const;
-    [[nodiscard]] bool sees_tags_at_rest(const CameraFrame& frame);
+    [[nodiscard]] std::vector<FoundTag> tags_in(const CameraFrame& frame);
     void begin_capture(MonotonicTime now);
     void capture(const Input& input);
-    void end_capture(AutoWord word);
+    void end_capture(MonotonicTime now, AutoWord word);
     void look_at_captures(MonotonicTime now);
-    void take(MonotonicTime now, BoardView view);
+    void take(MonotonicTime now, const BoardView& view);
     void after_judgement(const Input& input);
     void go_on();
     [[nodiscard]] std::vector<RigidTransform> flat_ones() const;
@@ -165,9 +166,9 @@ private:
     StillReports still_;
     std::optional<MonotonicTime> seen_;       ///< the tracker's latest report
     std::optional<RigidTransform> done_with_; ///< the prop is to move on from there
-    std::optional<MonotonicTime> looked_;     ///< for tags
+    std::optional<MonotonicTime> not_before_; ///< stripes were of no use there
     std::vector<FoundTag> found_;             ///< all that the detector finds
-    std::vector<FoundTag> resting_;           ///< the board's tags at the latest look
+    std::vector<FoundTag> before_;            ///< the board's tags in the first picture of the stripes
     int tags_ = 0;
     std::optional<StripeCapture> stripes_;
     std::vector<TakenRest> taken_;

@@ -45,7 +45,7 @@ bool StripeCapture::step(MonotonicTime now, std::optional<MonotonicTime> lit, co
 }
 
 CameraFrame StripeCapture::picture(std::size_t which) const {
-    assert(is_complete());
+    assert(which < at_);
     return {{}, 0, width_, height_, pictures_[which]};
 }
 
@@ -54,6 +54,7 @@ CameraFrame StripeCapture::before() const {
 }
 
 CameraFrame StripeCapture::after() const {
+    assert(is_complete());
     return picture(pictures_.size() - 2);
 }
 

@@ -31,8 +31,10 @@ public:
     [[nodiscard]] bool step(MonotonicTime now, std::optional<MonotonicTime> lit, const CameraFrame* frame);
     [[nodiscard]] bool is_complete() const { return at_ == patterns_.size(); }
 
+    /// The first white one is there.
+    [[nodiscard]] bool has_before() const { return at_ > 0; }
+    [[nodiscard]] CameraFrame before() const; ///< that one, without a time
     /// Of a complete one.
-    [[nodiscard]] CameraFrame before() const; ///< the first white one, without a time
     [[nodiscard]] CameraFrame after() const;
     [[nodiscard]] Captures captures() const;
 
