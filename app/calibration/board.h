@@ -1,6 +1,6 @@
 /// The board of the automatic calibration: an A3 sheet of AprilTags on which the prop stands, and a tag for the prop's top.
 ///
-/// One list for what is printed (app/drawing/board_sheet.h) and for where its corners are: a tag that moves here moves in both.
+/// One list for what is printed (app/drawing/board/board_sheet.h) and for where its corners are: a tag that moves here moves in both.
 /// Frames   the prop's: origin at the middle of its bottom, +Z up; the sheet is the plane z = 0, its upper side the prop's back (+Y).
 /// Units    metres.
 /// Layout   ten tags, as large as they fit, up to 5 cm: in a ring around the prop, or where that leaves no room in front of it and behind

@@ -131,6 +131,10 @@ public:
             obey();
             go_on(6.0); // to the stripes
             go_on();    // and back
+            if (procedure.word() != AutoWord::Taken) {
+                std::printf("rest %d: %s\n", static_cast<int>(procedure.taken()) + 1,
+                            auto_words(procedure).back().c_str());
+            }
         }
     }
     [[nodiscard]] AutoSetup setup() const {

@@ -1,7 +1,7 @@
 // The board of the automatic calibration, and the sheet that is printed of it.
 #include "app/calibration/board.h"
 #include "app/calibration/board_view.h"
-#include "app/drawing/board_sheet.h"
+#include "app/drawing/board/board_sheet.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "app/programs/calibrate/sheet_command.h"
 
-#include "app/drawing/board_sheet.h"
+#include "app/drawing/board/board_sheet.h"
 #include "firmware_host/base/output_file.h"
 
 #include <array>

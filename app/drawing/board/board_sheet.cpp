@@ -1,4 +1,4 @@
-#include "app/drawing/board_sheet.h"
+#include "app/drawing/board/board_sheet.h"
 
 #include "app/drawing/a3_sheet.h"
 #include "app/drawing/dimension.h"
