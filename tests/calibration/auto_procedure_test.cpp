@@ -89,6 +89,9 @@ public:
     void press_next() {
         step([](AutoProcedure::Input& input) { input.next = true; });
     }
+    void press_back() {
+        step([](AutoProcedure::Input& input) { input.back = true; });
+    }
     /// The technician puts the board where it is wanted, within a hand's breadth, and turns it.
     void obey(std::set<int> covered = {}) {
         const RestWish wish = procedure.wish();
@@ -282,7 +285,7 @@ TEST(AutoProcedure, DoesAgainWhatWasDisturbed) {
 }
 
 TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
-    Live live({1, 16});
+    Live live({1, 1});
     live.begin();
     std::set<int> all;
     for (const PropTag& tag : live.board.tags) {
@@ -306,6 +309,53 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
             EXPECT_GT(glm::distance(point.prop_m, corner), 1e-4);
         }
     }
+
+    // What the buttons do after a verdict.
+    const auto judge = [&](Verdict verdict, std::vector<std::size_t> repeat) {
+        ASSERT_EQ(live.procedure.stage(), AutoStage::Solve);
+        AutoCalibration judged;
+        judged.found.verdict = verdict;
+        judged.found.repeat = std::move(repeat);
+        live.procedure.judge(std::move(judged));
+    };
+    judge(Verdict::Usable, {});
+    live.press_back();
+    EXPECT_EQ(live.procedure.stage(), AutoStage::Place);
+    EXPECT_EQ(live.procedure.wanted(), 5U);
+    live.press_next();
+    EXPECT_EQ(live.procedure.word(), AutoWord::TooFew);
+    live.press_back();
+    EXPECT_EQ(live.procedure.word(), AutoWord::Dropped);
+    EXPECT_EQ(live.procedure.taken(), 0U);
+    live.press_back();
+    EXPECT_EQ(live.procedure.stage(), AutoStage::Begin);
+}
+
+/// Reports of a prop that stands turned by `yaw`, raised or leaning, to a tracker that hangs askew.
+RigidTransform standing(double yaw_rad, double raised_m, double lean_rad) {
+    const SimulatedTable table = some_table(3);
+    SeededNumbers numbers(static_cast<std::uint64_t>(1e3 * (yaw_rad + raised_m + lean_rad)));
+    return simulated_report(table, placed_prop({0.1, 0.2 - 0.1 * yaw_rad, raised_m}, yaw_rad, lean_rad, 1.0),
+                            {}, numbers);
+}
+
+TEST(RestPosture, IsReadFromTheTrackerAlone) {
+    const RigidTransform alike[] = {standing(1.0, 0.0, 0.0), standing(1.1, 0.0, 0.0)};
+    EXPECT_FALSE(flat_posture(alike));
+    const RigidTransform rests[] = {standing(0.0, 0.0, 0.0), standing(1.5, 0.0, 0.0),
+                                    standing(3.0, 0.0, 0.0)};
+    const auto flat = flat_posture(rests);
+    ASSERT_TRUE(flat);
+    EXPECT_LT(flat->tilt_rad, 0.01);
+    const RestStance again = stance_of(*flat, standing(4.5, 0.0, 0.0));
+    EXPECT_LT(again.tilt_rad, 0.012);
+    EXPECT_NEAR(again.raised_m, 0.0, 1.5e-3);
+    const RestStance raised = stance_of(*flat, standing(2.0, 0.12, 0.0));
+    EXPECT_LT(raised.tilt_rad, 0.012);
+    EXPECT_NEAR(std::abs(raised.raised_m), 0.12, 1.5e-3);
+    EXPECT_NEAR(stance_of(*flat, standing(2.0, 0.05, 0.4)).tilt_rad, 0.4, 0.012);
+    const RigidTransform one_leans[] = {rests[0], rests[1], standing(3.0, 0.03, 0.2)};
+    EXPECT_GT(flat_posture(one_leans)->tilt_rad, 0.035);
 }
 
 TEST(AutoProcedure, LeavesWhenNobodyIsThere) {

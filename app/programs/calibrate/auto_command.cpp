@@ -103,8 +103,9 @@ void add_auto_command(CLI::App& app, CalibrateRequest& request, std::function<in
     command->add_flag("--headless", request.headless, "on the table: without a screen, for tests")
         ->excludes(from);
     command->callback([&] {
-        if (request.from.empty() && request.config.empty()) {
-            throw CLI::RequiredError("--config FILE, or --from FILE,");
+        if (request.from.empty() && (request.config.empty() || request.json)) {
+            throw CLI::RequiredError(request.json ? "--from FILE, with --json,"
+                                                  : "--config FILE, or --from FILE,");
         }
         chosen = [&] { return end_with(calibrate(request)); };
     });
