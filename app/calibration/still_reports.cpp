@@ -12,10 +12,14 @@ bool is_near(const RigidTransform& a, const RigidTransform& b, double distance_m
 }
 
 bool StillReports::add(MonotonicTime now, const RigidTransform& report) {
-    const bool is_still = count_ == 0 || is_near(report, first_, still_m, still_rad);
-    if (!is_still) {
+    const bool is_near_first = count_ == 0 || is_near(report, first_, still_m, still_rad);
+    if (!is_near_first && ++elsewhere_ < strays) {
+        return true;
+    }
+    if (!is_near_first) {
         clear();
     }
+    elsewhere_ = 0;
     if (count_ == 0) {
         began_ = now;
         first_ = report;
@@ -24,7 +28,7 @@ bool StillReports::add(MonotonicTime now, const RigidTransform& report) {
     last_ = now;
     places_ += report.translation;
     turns_ += glm::dot(report.rotation, first_.rotation) < 0.0 ? -report.rotation : report.rotation;
-    return is_still;
+    return is_near_first;
 }
 
 /// Of poses that hardly differ: the sum of quaternions on one side is their mean to the second order.

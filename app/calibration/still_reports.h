@@ -15,6 +15,7 @@ class StillReports {
 public:
     static constexpr double still_m = 1.5e-3; ///< from the first report of the rest
     static constexpr double still_rad = 0.02;
+    static constexpr int strays = 3; ///< so many reports in a row lie elsewhere: it moved; fewer are left out
 
     /// False: the prop moved, and a new rest begins with this report.
     bool add(MonotonicTime now, const RigidTransform& report);
@@ -28,6 +29,7 @@ public:
 
 private:
     std::size_t count_ = 0;
+    int elsewhere_ = 0; ///< reports in a row
     MonotonicTime began_{};
     MonotonicTime last_{};
     RigidTransform first_;

@@ -331,6 +331,26 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
     EXPECT_EQ(live.procedure.stage(), AutoStage::Begin);
 }
 
+TEST(StillReports, LeaveAStrayReportOut) {
+    StillReports still;
+    const RigidTransform here;
+    const RigidTransform elsewhere{{1.0, 0.0, 0.0, 0.0}, {0.01, 0.0, 0.0}};
+    MonotonicTime now{};
+    const auto add = [&](const RigidTransform& report) {
+        return still.add(now += std::chrono::milliseconds(10), report);
+    };
+    EXPECT_TRUE(add(here));
+    EXPECT_TRUE(add(elsewhere));
+    EXPECT_TRUE(add(here));
+    EXPECT_EQ(still.mean().translation, here.translation);
+    EXPECT_EQ(still.rest(), Nanoseconds(std::chrono::milliseconds(20)));
+    EXPECT_TRUE(add(elsewhere));
+    EXPECT_TRUE(add(elsewhere));
+    EXPECT_FALSE(add(elsewhere));
+    EXPECT_EQ(still.rest(), Nanoseconds(0));
+    EXPECT_EQ(still.mean().translation, elsewhere.translation);
+}
+
 /// Reports of a prop that stands turned by `yaw`, raised or leaning, to a tracker that hangs askew.
 RigidTransform standing(double yaw_rad, double raised_m, double lean_rad) {
     const SimulatedTable table = some_table(3);

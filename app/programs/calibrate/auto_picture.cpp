@@ -157,6 +157,10 @@ std::vector<std::string> auto_words(const AutoProcedure& procedure) {
     if (std::string more = words_of(procedure); !more.empty()) {
         words.push_back(std::move(more));
     }
+    // It goes on all the same.
+    if (procedure.camera() == CameraState::Slow || procedure.camera() == CameraState::Unlocked) {
+        words.push_back(sentence(sentence_of(procedure.camera())));
+    }
     return words;
 }
 
@@ -176,7 +180,7 @@ std::string_view word_key(const AutoProcedure& procedure) {
         case Verdict::Usable:
             return "calibration.may_be_kept";
         case Verdict::Repeat:
-            return "calibration.repeat";
+            return ""; // the words speak of touches
         case Verdict::Refused:
             return "calibration.refused";
         }
@@ -199,7 +203,7 @@ Image8 auto_picture(const AutoProcedure& procedure, int width, int height, doubl
     const bool has_place = procedure.stage() == AutoStage::Place;
     const glm::dvec2 place = procedure.wish().pixel;
     if (has_place) {
-        canvas.circle(place, 0.3 * board_px, 4.0, place_colour);
+        canvas.circle(place, 0.42 * board_px, 4.0, place_colour);
         canvas.circle(place, unit, 3.0, place_colour);
     }
     // The words stand in the half of the picture where the board is not.
