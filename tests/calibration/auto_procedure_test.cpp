@@ -331,6 +331,29 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
     EXPECT_EQ(live.procedure.stage(), AutoStage::Begin);
 }
 
+TEST(RestWish, ThreeFlatOnesFirstThenEveryFourthLeansAndABlockComesInForAHiddenTop) {
+    const glm::dvec2 size(640.0, 400.0);
+    for (const bool has_top : {true, false}) {
+        std::vector<TakenRest> taken;
+        std::vector<glm::dvec2> places;
+        for (int k = 0; k < 16; ++k) {
+            const RestWish wish = next_wish(taken, size);
+            EXPECT_EQ(wish.posture == Posture::Leaning, k % 4 == 3) << k;
+            for (std::size_t j = 0; k < 11 && j < places.size(); ++j) {
+                EXPECT_GT(glm::distance(wish.pixel, places[j]), 50.0); // each place once
+            }
+            places.push_back(wish.pixel);
+            TakenRest rest;
+            rest.posture = wish.posture;
+            rest.has_top = has_top;
+            rest.rest.points.push_back({{}, wish.pixel});
+            taken.push_back(rest);
+        }
+        EXPECT_EQ(count_of(taken, Posture::Leaning), 4U);
+        EXPECT_EQ(count_of(taken, Posture::Block) > 2, !has_top);
+    }
+}
+
 TEST(StillReports, LeaveAStrayReportOut) {
     StillReports still;
     const RigidTransform here;
