@@ -33,6 +33,7 @@ struct Pattern {
     Stripes stripes = Stripes::White;
     bool rows = false; ///< it tells rows (v) and not columns (u)
     int which = 0;     ///< the bit, 0 the finest; or the step
+    [[nodiscard]] bool operator==(const Pattern&) const = default;
 };
 
 /// In the order in which they are shown and captured.

@@ -157,6 +157,21 @@ Result<Rests> parse_rests(std::string_view text, std::string_view name) {
     return rests;
 }
 
+std::string rests_text(std::span<const Rest> rests) {
+    std::string text = fmt::format("{}\n", fmt::join(rest_columns, ","));
+    for (const Rest& rest : rests) {
+        const glm::dvec3& t = rest.tracker_from_sensor.translation;
+        const glm::dquat& q = rest.tracker_from_sensor.rotation;
+        for (const PropPoint& point : rest.points) {
+            text +=
+                fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", rest.name, t.x, t.y, t.z, q.w, q.x,
+                            q.y, q.z, point.prop_m.x, point.prop_m.y, point.prop_m.z, point.pixel.x,
+                            point.pixel.y, rest.block_m ? fmt::format("{}", *rest.block_m) : std::string());
+        }
+    }
+    return text;
+}
+
 Result<std::vector<MeasuredCorner>> parse_corners(std::string_view text, std::string_view name) {
     TextRows rows(text, name);
     if (const Result<void> header = read_header(rows, corner_columns); !header) {

@@ -24,6 +24,8 @@ namespace frustumscreen {
 /// What parse_touches reads.
 [[nodiscard]] std::string touches_text(std::span<const Touch> touches);
 [[nodiscard]] Result<Rests> parse_rests(std::string_view text, std::string_view name);
+/// What parse_rests reads.
+[[nodiscard]] std::string rests_text(std::span<const Rest> rests);
 [[nodiscard]] Result<std::vector<MeasuredCorner>> parse_corners(std::string_view text, std::string_view name);
 
 } // namespace frustumscreen

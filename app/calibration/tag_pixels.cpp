@@ -1,6 +1,7 @@
 #include "app/calibration/tag_pixels.h"
 
 #include "app/calibration/homography.h"
+#include "app/calibration/quadrilateral.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,40 +20,16 @@ constexpr double farthest = 4.0;
 
 using Points = std::vector<Eigen::Vector2d>;
 
-/// Whether a place lies in a quadrilateral of either sense.
-bool is_inside(const std::array<glm::dvec2, 4>& corners, const glm::dvec2& place) {
-    int left = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const glm::dvec2 side = corners[(k + 1) % 4] - corners[k];
-        const glm::dvec2 to = place - corners[k];
-        left += side.x * to.y - side.y * to.x > 0.0 ? 1 : 0;
-    }
-    return left == 0 || left == 4;
-}
-
 /// Decoded pixels on white in a quadrilateral: the camera's, and the projector's. On black, and on its edge, the light of white beside it tells.
 std::pair<Points, Points> decoded_in(const PixelMap& map, const std::array<glm::dvec2, 4>& corners) {
-    glm::dvec2 low = corners[0];
-    glm::dvec2 high = corners[0];
-    for (const glm::dvec2& corner : corners) {
-        low = glm::min(low, corner);
-        high = glm::max(high, corner);
-    }
-    const glm::dvec2 size(map.width, map.height);
-    const glm::ivec2 from(glm::clamp(low, glm::dvec2(0.0), size));
-    const glm::ivec2 to(glm::clamp(glm::ceil(high), glm::dvec2(0.0), size));
     std::vector<std::pair<glm::dvec2, std::size_t>> inside;
     std::vector<std::uint8_t> contrasts;
-    for (int y = from.y; y < to.y; ++y) {
-        for (int x = from.x; x < to.x; ++x) {
-            const glm::dvec2 place(x + 0.5, y + 0.5);
-            const std::size_t k = map.index(x, y);
-            if (map.known[k] != 0 && is_inside(corners, place)) {
-                inside.emplace_back(place, k);
-                contrasts.push_back(map.contrast[k]);
-            }
+    for_each_pixel(corners, map.width, map.height, [&](std::size_t k, const glm::dvec2& place) {
+        if (map.known[k] != 0) {
+            inside.emplace_back(place, k);
+            contrasts.push_back(map.contrast[k]);
         }
-    }
+    });
     std::sort(contrasts.begin(), contrasts.end());
     const double white = contrasts.empty() ? 0.0 : contrasts[contrasts.size() * 9 / 10];
     std::pair<Points, Points> points;

@@ -83,6 +83,21 @@ TEST(PointFiles, RowsOfOneNumberAreOneRest) {
     EXPECT_FALSE((*read)[1].block_m);
 }
 
+TEST(PointFiles, RestsAreReadAsTheyWereWritten) {
+    const Rests rests{{3,
+                       {{0.6, 0.0, 0.8, 0.0}, {0.1, -0.2, 1.0 / 3.0}},
+                       {{{0.01, 0.02, 0.0}, {100.25, 2e-7}}, {{0.0, 0.0, 0.155}, {1.0, 2.0}}},
+                       0.003},
+                      {4, {}, {{{0.01, 0.0, 0.0}, {5.0, 6.0}}}, std::nullopt}};
+    const auto read = parse_rests(rests_text(rests), "r.csv");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(rests_text(*read), rests_text(rests));
+    EXPECT_EQ((*read)[0].tracker_from_sensor.translation, rests[0].tracker_from_sensor.translation);
+    EXPECT_EQ((*read)[0].points[0].pixel, rests[0].points[0].pixel);
+    EXPECT_EQ((*read)[0].block_m, 0.003);
+    EXPECT_FALSE((*read)[1].block_m);
+}
+
 TEST(PointFiles, WhatIsWrongWithARestIsSaidWithItsLine) {
     const std::string good = "1,0,0,0,1,0,0,0,0,0,0,1,2,0\n";
     EXPECT_EQ(rest_error(good), "");

@@ -13,17 +13,6 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 /// Rays a pixel, along each side.
 constexpr int rays = 2;
 
-/// A camera's ray, in T. Its lens is undone by a fixed point, which its slight distortion allows.
-glm::dvec3 ray_of(const SimulatedCamera& camera, const glm::dvec2& pixel) {
-    const glm::dvec2 real((pixel.x - 0.5 * camera.width) / camera.focal_px,
-                          (pixel.y - 0.5 * camera.height) / camera.focal_px);
-    glm::dvec2 ideal = real;
-    for (int k = 0; k < 30; ++k) {
-        ideal = real / (1.0 + camera.k1 * glm::dot(ideal, ideal));
-    }
-    return glm::dvec3(glm::inverse(camera.camera_from_table) * glm::dvec4(ideal, 1.0, 0.0));
-}
-
 struct Hit {
     glm::dvec3 place;
     double albedo;
@@ -100,78 +89,21 @@ Sample sample_of(const SimulatedTable& table, const Scene& scene, const glm::dve
     return sample;
 }
 
-/// The light of a pattern along its axis, blurred, eight places a pixel.
-class Profile {
-public:
-    Profile(const StripeSetup& stripes, const Pattern& pattern, const CaptureFaults& faults) {
-        const int length = pattern.rows ? stripes.height : stripes.width;
-        const int reach = static_cast<int>(std::ceil(4.0 * faults.projector_blur)) + 1;
-        std::vector<double> light;
-        for (int k = 0; k < length; ++k) {
-            light.push_back(std::pow(pattern_value(stripes, pattern, k) / 255.0, faults.gamma));
-        }
-        // A pixel's square and a Gaussian: the difference of two error functions.
-        const double width = std::sqrt(2.0) * faults.projector_blur;
-        for (int k = 0; k <= 8 * length; ++k) {
-            const double at = k / 8.0;
-            double sum = 0.0;
-            for (int j = static_cast<int>(at) - reach; j <= static_cast<int>(at) + reach; ++j) {
-                const double share = 0.5 * (std::erf((j + 1 - at) / width) - std::erf((j - at) / width));
-                sum += share * light[static_cast<std::size_t>(std::clamp(j, 0, length - 1))];
-            }
-            light_.push_back(sum);
-        }
-    }
-    [[nodiscard]] double at(double place) const {
-        const double k = std::clamp(8.0 * place, 0.0, static_cast<double>(light_.size()) - 1.001);
-        const auto low = static_cast<std::size_t>(k);
-        const double share = k - static_cast<double>(low);
-        return (1.0 - share) * light_[low] + share * light_[low + 1];
-    }
-
-private:
-    std::vector<double> light_;
-};
-
-/// Gaussian, along both axes; edges are repeated.
-void blur(std::vector<double>& picture, int width, int height, double sigma) {
-    const int reach = static_cast<int>(std::ceil(3.0 * sigma));
-    std::vector<double> kernel;
-    double sum = 0.0;
-    for (int k = -reach; k <= reach; ++k) {
-        kernel.push_back(std::exp(-0.5 * k * k / (sigma * sigma)));
-        sum += kernel.back();
-    }
-    const auto at = [&](int x, int y) {
-        return static_cast<std::size_t>(std::clamp(y, 0, height - 1) * width + std::clamp(x, 0, width - 1));
-    };
-    for (const bool rows : {false, true}) {
-        const std::vector<double> from = picture;
-        for (int y = 0; y < height; ++y) {
-            for (int x = 0; x < width; ++x) {
-                double value = 0.0;
-                for (int k = -reach; k <= reach; ++k) {
-                    value += kernel[static_cast<std::size_t>(k + reach)] *
-                             from[rows ? at(x, y + k) : at(x + k, y)];
-                }
-                picture[at(x, y)] = value / sum;
-            }
-        }
-    }
-}
-
-std::uint8_t grey_of(double light, const CaptureFaults& faults, SeededNumbers& numbers) {
-    const double ideal = 255.0 * std::pow(std::fmax(0.0, faults.exposure * light), 1.0 / faults.camera_gamma);
-    const double noisy = ideal + faults.noise * (1.0 + ideal / 255.0) * numbers.normal();
-    return static_cast<std::uint8_t>(std::lround(std::clamp(noisy, 0.0, 255.0)));
-}
-
 } // namespace
 
 glm::dvec2 SimulatedCamera::pixel(const glm::dvec3& table_point) const {
     const glm::dvec3 q(camera_from_table * glm::dvec4(table_point, 1.0));
     const glm::dvec2 ideal(q.x / q.z, q.y / q.z);
     return focal_px * ideal * (1.0 + k1 * glm::dot(ideal, ideal)) + 0.5 * glm::dvec2(width, height);
+}
+
+glm::dvec3 SimulatedCamera::ray(const glm::dvec2& pixel) const {
+    const glm::dvec2 real = (pixel - 0.5 * glm::dvec2(width, height)) / focal_px;
+    glm::dvec2 ideal = real;
+    for (int k = 0; k < 30; ++k) {
+        ideal = real / (1.0 + k1 * glm::dot(ideal, ideal));
+    }
+    return glm::dvec3(glm::inverse(camera_from_table) * glm::dvec4(ideal, 1.0, 0.0));
 }
 
 SimulatedCamera some_camera(const SimulatedTable& table) {
@@ -221,15 +153,15 @@ struct Cast {
 
 Cast cast(const SimulatedTable& table, const Scene& scene, const SimulatedCamera& camera,
           const Window& window) {
-    const glm::dvec3 eye(glm::inverse(camera.camera_from_table)[3]);
+    const glm::dvec3 eye = camera.eye();
     Cast out;
     for (int k = 0; k < window.size.x * window.size.y; ++k) {
         const glm::dvec2 corner(window.from + glm::ivec2(k % window.size.x, k / window.size.x));
         for (int j = 0; j < rays * rays; ++j) {
             const glm::dvec2 off((j % rays + 0.5) / rays, (j / rays + 0.5) / rays);
-            out.samples.push_back(sample_of(table, scene, eye, ray_of(camera, corner + off)));
+            out.samples.push_back(sample_of(table, scene, eye, camera.ray(corner + off)));
         }
-        out.true_pixels.push_back(sample_of(table, scene, eye, ray_of(camera, corner + 0.5)).pixel);
+        out.true_pixels.push_back(sample_of(table, scene, eye, camera.ray(corner + 0.5)).pixel);
     }
     return out;
 }
@@ -237,18 +169,18 @@ Cast cast(const SimulatedTable& table, const Scene& scene, const SimulatedCamera
 std::vector<std::uint8_t> captured(const std::vector<Sample>& samples, const Window& window,
                                    const StripeSetup& stripes, const Pattern& pattern,
                                    const CaptureFaults& faults, SeededNumbers& numbers) {
-    const Profile profile(stripes, pattern, faults);
+    const StripeProfile profile(stripes, pattern, faults);
     std::vector<double> light(samples.size() / (rays * rays), 0.0);
     for (std::size_t k = 0; k < samples.size(); ++k) {
         const double place = pattern.rows ? samples[k].pixel.y : samples[k].pixel.x;
         const double shone = std::isnan(place) ? 0.0 : profile.at(place);
         light[k / (rays * rays)] += samples[k].albedo * (shone + faults.ambient) / (rays * rays);
     }
-    blur(light, window.size.x, window.size.y, faults.camera_blur);
+    blur_picture(light, window.size.x, window.size.y, faults.camera_blur);
     std::vector<std::uint8_t> picture;
     picture.reserve(light.size());
     for (const double value : light) {
-        picture.push_back(grey_of(value, faults, numbers));
+        picture.push_back(grey_of(value, faults, numbers.normal()));
     }
     return picture;
 }

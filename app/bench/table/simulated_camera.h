@@ -5,6 +5,7 @@
 /// Threads  values; any.
 #pragma once
 
+#include "app/bench/table/capture_optics.h"
 #include "app/bench/table/simulated_rests.h"
 #include "app/calibration/gray_code.h"
 
@@ -18,20 +19,12 @@ struct SimulatedCamera {
     glm::dmat4 camera_from_table{1.0};
 
     [[nodiscard]] glm::dvec2 pixel(const glm::dvec3& table_point) const;
+    /// A direction in T. The lens is undone by a fixed point, which its slight distortion allows.
+    [[nodiscard]] glm::dvec3 ray(const glm::dvec2& pixel) const;
+    [[nodiscard]] glm::dvec3 eye() const { return glm::dvec3(glm::inverse(camera_from_table)[3]); }
 };
 /// Beside the projector, looking at the table's middle.
 [[nodiscard]] SimulatedCamera some_camera(const SimulatedTable& table);
-
-struct CaptureFaults {
-    double ambient = 0.15;       ///< of white light
-    double gamma = 2.2;          ///< of the projector: light is value ^ gamma
-    double camera_gamma = 1.0;   ///< grey is light ^ (1 / gamma)
-    double projector_blur = 0.8; ///< standard deviation, its pixels
-    double camera_blur = 0.8;    ///< its pixels
-    double noise = 1.2;          ///< grey levels of 255, in the dark; grows to twice that in white
-    double exposure = 0.8;       ///< white paper in full light, as a share of the camera's range
-    double corner_px = 0.1;      ///< how well a tag's corner is found, standard deviation of each coordinate
-};
 
 /// The captures of one rest, of that part of the camera's picture in which the tags are; and what is true of them.
 struct SimulatedCaptures {

@@ -16,18 +16,18 @@ void add_tag(TagCorners& corners, const glm::dvec3& middle, double size) {
     }
 }
 
-/// The prop's matrix on the table: leaning by `lean` towards a direction, turned by `yaw`.
-glm::dmat4 placed(const glm::dvec3& bottom, double yaw, double lean, double towards) {
-    const glm::dvec3 axis(std::cos(towards), std::sin(towards), 0.0);
+} // namespace
+
+glm::dmat4 placed_prop(const glm::dvec3& bottom, double yaw_rad, double lean_rad, double towards_rad) {
+    const glm::dvec3 axis(std::cos(towards_rad), std::sin(towards_rad), 0.0);
     glm::dmat4 matrix =
-        glm::mat4_cast(glm::angleAxis(lean, axis) * glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)));
+        glm::mat4_cast(glm::angleAxis(lean_rad, axis) * glm::angleAxis(yaw_rad, glm::dvec3(0.0, 0.0, 1.0)));
     matrix[3] = glm::dvec4(bottom, 1.0);
     return matrix;
 }
 
-/// What the tracker reports of a prop that is there, with its noise.
-RigidTransform reported(const SimulatedTable& table, const glm::dmat4& table_from_prop,
-                        const RestNoise& noise, SeededNumbers& numbers) {
+RigidTransform simulated_report(const SimulatedTable& table, const glm::dmat4& table_from_prop,
+                                const RestNoise& noise, SeededNumbers& numbers) {
     glm::dmat4 sensor_from_prop = glm::mat4_cast(table.sensor_from_prop);
     sensor_from_prop[3] = glm::dvec4(table.truth.sensor_offset_m, 1.0);
     const glm::dmat4 tracker_from_sensor = glm::inverse(table.truth.table_from_tracker.matrix()) *
@@ -40,8 +40,6 @@ RigidTransform reported(const SimulatedTable& table, const glm::dmat4& table_fro
     report.rotation = glm::normalize(off * glm::quat_cast(glm::dmat3(tracker_from_sensor)));
     return report;
 }
-
-} // namespace
 
 TagCorners sheet_with_prop(double top_m) {
     TagCorners corners;
@@ -85,9 +83,9 @@ std::vector<PlacedRest> placed_rests(const SimulatedTable& table, const RestPlan
         const glm::dvec3 raised(0.0, 0.0, leans ? 0.05 : noise.block_m * numbers.normal());
         PlacedRest rest;
         rest.table_from_prop =
-            placed(light + raised, numbers.between(0.0, 2.0 * pi), lean, numbers.between(0.0, 2.0 * pi));
+            placed_prop(light + raised, numbers.between(0.0, 2.0 * pi), lean, numbers.between(0.0, 2.0 * pi));
         rest.rest.name = k + 1;
-        rest.rest.tracker_from_sensor = reported(table, rest.table_from_prop, noise, numbers);
+        rest.rest.tracker_from_sensor = simulated_report(table, rest.table_from_prop, noise, numbers);
         rest.rest.block_m = leans ? std::nullopt : std::optional(block);
         rests.push_back(std::move(rest));
     }
@@ -137,8 +135,8 @@ PictureError prop_error(const SimulatedTable& table, const CalibratedTable& cali
         const glm::dvec2 pixel(table.truth.pinhole.width * (k / 4 % 7) / 6.0,
                                table.truth.pinhole.height * (k / 28) / 4.0);
         const glm::dmat4 table_from_prop =
-            placed(true_light(table.truth, pixel, 0.0), 0.5 * pi * (k % 4), 0.0, 0.0);
-        const RigidTransform report = reported(table, table_from_prop, {0.0, 0.0, 0.0, 0.0}, none);
+            placed_prop(true_light(table.truth, pixel, 0.0), 0.5 * pi * (k % 4), 0.0, 0.0);
+        const RigidTransform report = simulated_report(table, table_from_prop, {0.0, 0.0, 0.0, 0.0}, none);
         for (const glm::dvec3& point : points) {
             const glm::dvec3 place(table_from_prop * glm::dvec4(point, 1.0));
             if (!true_pixel(table.truth, place)) {

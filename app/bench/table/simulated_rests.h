@@ -30,6 +30,12 @@ struct PlacedRest {
     Rest rest;
     glm::dmat4 table_from_prop{1.0};
 };
+/// Leaning by `lean_rad` about an axis in the table towards `towards_rad`, turned by `yaw_rad` before.
+[[nodiscard]] glm::dmat4 placed_prop(const glm::dvec3& bottom, double yaw_rad, double lean_rad,
+                                     double towards_rad);
+/// What the tracker reports of a prop that is there, with its noise.
+[[nodiscard]] RigidTransform simulated_report(const SimulatedTable& table, const glm::dmat4& table_from_prop,
+                                              const RestNoise& noise, SeededNumbers& numbers);
 /// Anywhere: each cell of a grid over the picture has one rest at a place of chance, turned by chance, on some block.
 [[nodiscard]] std::vector<PlacedRest> placed_rests(const SimulatedTable& table, const RestPlan& plan,
                                                    const RestNoise& noise, SeededNumbers& numbers);

@@ -2,6 +2,7 @@
 
 #include "app/calibration/calibrate_auto.h"
 #include "app/calibration/point_files.h"
+#include "app/programs/calibrate/auto_table.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/touch_command.h"
 
@@ -55,6 +56,9 @@ std::string auto_text(const AutoCalibration& c, const Rests& rests) {
 }
 
 Result<int> calibrate(const CalibrateRequest& request) {
+    if (request.from.empty()) {
+        return calibrate_by_camera(request);
+    }
     const Result<Described> described = describe(request);
     if (!described) {
         return tl::unexpected<Error>(described.error());
@@ -80,11 +84,31 @@ Result<int> calibrate(const CalibrateRequest& request) {
 
 void add_auto_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
     CLI::App* const command = app.add_subcommand(
-        "auto",
-        "from rests of the prop with pixels of known points of it: projector, tracker and the sensor");
+        "auto", "by a camera, on the table itself: the prop rests here and there on its printed board, the "
+                "projector shows stripes; Back and "
+                "Next are the first and the second button. Or, with --from, from a file of rests");
     add_common_options(*command, request);
+    CLI::Option* const from = command->get_option("--from")->required(false);
     add_touch_options(*command, request);
-    command->callback([&] { chosen = [&] { return end_with(calibrate(request)); }; });
+    command->add_option("--rests", request.rests, "on the table: how many; 16 are recommended")
+        ->check(CLI::Range(6, 40))
+        ->excludes(from);
+    command
+        ->add_option("--board", request.board_m,
+                     "on the table: how thick the board is, metres; 0.003 if left out")
+        ->check(CLI::Range(0.0, 0.05))
+        ->excludes(from);
+    command->add_option("--out", request.out, "on the table: writes the rests, CSV, for --from")
+        ->excludes(from);
+    command->add_flag("--headless", request.headless, "on the table: without a screen, for tests")
+        ->excludes(from);
+    command->callback([&] {
+        if (request.from.empty() && (request.config.empty() || request.json)) {
+            throw CLI::RequiredError(request.json ? "--from FILE, with --json,"
+                                                  : "--config FILE, or --from FILE,");
+        }
+        chosen = [&] { return end_with(calibrate(request)); };
+    });
 }
 
 } // namespace frustumscreen

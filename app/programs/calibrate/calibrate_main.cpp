@@ -2,6 +2,7 @@
 #include "app/programs/calibrate/auto_command.h"
 #include "app/programs/calibrate/corners_command.h"
 #include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/sheet_command.h"
 #include "app/programs/calibrate/table_command.h"
 #include "app/programs/calibrate/touch_command.h"
 #include "app/programs/common/guarded_main.h"
@@ -12,8 +13,9 @@ namespace {
 
 int run(int argc, char** argv) {
     CLI::App app("Projector and tracker of a table, from points that were touched or measured on it: on the "
-                 "table itself (table), or "
-                 "without a device from a file (touch, auto, corners); and what is kept of it (kept).",
+                 "table itself (table, or auto with a camera), or "
+                 "without a device from a file (touch, auto, corners); the board that auto needs (sheet); "
+                 "and what is kept of it (kept).",
                  "frustumscreen-calibrate");
     app.set_version_flag("--version", "frustumscreen-calibrate " FRUSTUMSCREEN_VERSION);
     app.require_subcommand(1);
@@ -26,6 +28,7 @@ int run(int argc, char** argv) {
     add_auto_command(app, request, chosen);
     add_corners_command(app, request, chosen);
     add_table_command(app, request, chosen);
+    add_sheet_command(app, request, chosen);
     add_kept_command(app, request, chosen);
     if (const auto end = end_of_arguments(app, argc, argv, [&] { check_request(request); })) {
         return *end;

@@ -34,6 +34,8 @@ struct CalibrateRequest {
     // On the table; what is left out stands in the settings:
     std::optional<int> touches;
     std::optional<double> block_m;
+    std::optional<int> rests;
+    std::optional<double> board_m;
     std::filesystem::path out;
     bool headless = false;
     bool json = false;

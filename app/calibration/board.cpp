@@ -1,0 +1,86 @@
+#include "app/calibration/board.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Ids that tags on a prop's skirt hardly have: people number those from 0.
+constexpr int first_id = 570;
+constexpr double largest_m = 0.05;
+constexpr double least_m = 0.025;
+/// With the white rim that the tag needs, by its black square.
+constexpr double rim = 1.25;
+/// Of the paper, which no printer reaches; and beside the prop.
+constexpr double margin_m = 0.008;
+constexpr double beside_prop_m = 0.001;
+constexpr double around_top_m = 0.002;
+
+/// In whole millimetres, so that a ruler can check it.
+double whole_mm(double metres) {
+    return std::floor(1e3 * metres + 1e-9) / 1e3;
+}
+
+/// Where a tag with its rim has such a room.
+double fitting(double room_m) {
+    return whole_mm(std::fmin(largest_m, room_m / rim));
+}
+
+PropTag flat_tag(int id, double size_m, const glm::dvec3& middle) {
+    return {id, size_m, {{1.0, 0.0, 0.0, 0.0}, middle}};
+}
+
+} // namespace
+
+Result<Board> board_for(const FrustumSize& prop) {
+    const glm::dvec2 reach = 0.5 * Board::size_m - margin_m;
+    const glm::dvec2 band = reach - 0.5 * prop.base_m - beside_prop_m;
+    const double in_ring = fitting(std::fmin(band.x, band.y));
+    const double in_columns = fitting(std::fmin(band.x, 2.0 * reach.y / 5.0));
+    const double size = std::fmax(in_ring, in_columns);
+    if (size < least_m) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            fmt::format(
+                "the prop's bottom is {:.0f} mm wide, which leaves no room for tags on a sheet of A3; up to "
+                "{:.0f} mm are allowed",
+                1e3 * prop.base_m, 2e3 * (reach.x - beside_prop_m - rim * least_m)));
+    }
+    const double on_top = whole_mm(std::fmin(1.6 * largest_m, (prop.top_m - 2.0 * around_top_m) / rim));
+    if (on_top < least_m) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            fmt::format("the prop's top is {:.0f} mm wide, which is too small for a tag; {:.0f} mm at least "
+                        "are needed",
+                        1e3 * prop.top_m, 1e3 * (rim * least_m + 2.0 * around_top_m)));
+    }
+    const glm::dvec2 far = reach - 0.5 * rim * size;
+    Board board{prop, {}};
+    const auto add = [&](double x, double y) {
+        board.tags.push_back(
+            flat_tag(first_id + static_cast<int>(board.tags.size()), size, {x * far.x, y * far.y, 0.0}));
+    };
+    if (in_ring + 1e-9 >= in_columns) {
+        for (const double y : {1.0, -1.0}) {
+            for (const double x : {-1.0, -1.0 / 3.0, 1.0 / 3.0, 1.0}) {
+                add(x, y);
+            }
+        }
+        add(-1.0, 0.0);
+        add(1.0, 0.0);
+    } else {
+        for (const double x : {-1.0, 1.0}) {
+            for (const double y : {1.0, 0.5, 0.0, -0.5, -1.0}) {
+                add(x, y);
+            }
+        }
+    }
+    board.tags.push_back(
+        flat_tag(first_id + static_cast<int>(board.tags.size()), on_top, {0.0, 0.0, prop.height_m}));
+    return board;
+}
+
+} // namespace frustumscreen

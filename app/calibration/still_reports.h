@@ -1,0 +1,44 @@
+/// The tracker's reports of a prop that rests: since when, and where on average.
+///
+/// Frames   tracker K, as the device reports.
+/// Threads  one caller.
+#pragma once
+
+#include "app/geometry/transform.h"
+#include "firmware_host/base/time.h"
+
+#include <optional>
+
+namespace frustumscreen {
+
+class StillReports {
+public:
+    static constexpr double still_m = 1.5e-3; ///< from the first report of the rest
+    static constexpr double still_rad = 0.02;
+    static constexpr int strays = 3; ///< so many reports in a row lie elsewhere: it moved; fewer are left out
+
+    /// False: the prop moved, and a new rest begins with this report.
+    bool add(MonotonicTime now, const RigidTransform& report);
+    void clear() { *this = {}; }
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+    /// How long it has rested; no report yet: zero.
+    [[nodiscard]] Nanoseconds rest() const { return count_ > 0 ? last_ - began_ : Nanoseconds(0); }
+    /// Of the rest's reports; there is one at least.
+    [[nodiscard]] RigidTransform mean() const;
+
+private:
+    std::size_t count_ = 0;
+    int elsewhere_ = 0; ///< reports in a row
+    MonotonicTime began_{};
+    MonotonicTime last_{};
+    RigidTransform first_;
+    glm::dvec3 places_{0.0}; ///< sums
+    glm::dquat turns_{0.0, 0.0, 0.0, 0.0};
+};
+
+/// Whether two poses are as near as that.
+[[nodiscard]] bool is_near(const RigidTransform& a, const RigidTransform& b, double distance_m,
+                           double angle_rad);
+
+} // namespace frustumscreen

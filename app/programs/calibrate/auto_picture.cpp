@@ -1,0 +1,230 @@
+#include "app/programs/calibrate/auto_picture.h"
+
+#include "app/exhibit/canvas.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr Colour ground{150, 150, 150};
+constexpr Colour ink{0, 0, 0};
+constexpr Colour place_colour{255, 255, 255};
+constexpr Colour taken_colour{0, 70, 0};
+
+/// A reason is half a sentence, as programs say it behind a colon.
+std::string sentence(std::string_view reason) {
+    std::string text(reason);
+    if (!text.empty()) {
+        text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+        text += '.';
+    }
+    return text;
+}
+
+std::string words_of(const AutoProcedure& procedure) {
+    switch (procedure.word()) {
+    case AutoWord::None:
+        return "";
+    case AutoWord::NoLight:
+        return "The camera does not see the projector's light. Turn it to the table, then press Next.";
+    case AutoWord::CameraFault:
+        return sentence(sentence_of(procedure.camera()));
+    case AutoWord::NoFrames:
+        return "The camera has stopped sending. Look at its cable; the stripes come again by themselves.";
+    case AutoWord::NotSeen:
+        return "The tracker does not see the prop. Look at its cable and its sensor.";
+    case AutoWord::FewTags:
+        return fmt::format("The camera sees {} of {} tags whole in the light: {} are needed. Nothing may lie "
+                           "on them or stand "
+                           "before them; put the board more into the middle.",
+                           procedure.tags(), procedure.board().tags.size(), AutoProcedure::least_tags);
+    case AutoWord::TurnIt:
+        return "Turn it too: the first three rests must look in different directions.";
+    case AutoWord::NotFlat:
+        return "The first three rests were not all flat. Press Back three times, and lay the board flat each "
+               "time.";
+    case AutoWord::LeansLittle:
+        return "It lies neither flat nor on the wedge. Lay it flat, or lean it by 15 to 30 degrees.";
+    case AutoWord::WrongHeight:
+        return fmt::format("It lies neither on the table nor on {:.0f} mm of board.",
+                           1e3 * procedure.plan().block_m);
+    case AutoWord::Moved:
+        return "It moved, or the camera did. Leave both alone; the stripes come again by themselves.";
+    case AutoWord::Disturbed:
+        return "Something passed through the light. Step back; the stripes come again by themselves.";
+    case AutoWord::TooBright:
+        return "The tags are too bright for the camera. Shorten camera.exposure_ms in the settings, or close "
+               "its lens a little.";
+    case AutoWord::Taken:
+        return fmt::format("Good: {} of {} tags.", procedure.tags(), procedure.board().tags.size());
+    case AutoWord::Dropped:
+        return "The last rest is dropped.";
+    case AutoWord::TooFew:
+        return fmt::format("{} rests are needed at least.", AutoProcedure::enough);
+    }
+    return "";
+}
+
+std::string words_of(const AutoPlan& plan, const RestWish& wish) {
+    switch (wish.posture) {
+    case Posture::Flat:
+        return "Lay the board flat on the table, the prop in the ring, turned by about a quarter from "
+               "before. Take your hands away.";
+    case Posture::Block:
+        return fmt::format(
+            "Lay the board flat on {:.0f} mm of board, the prop in the ring. Take your hands away.",
+            1e3 * plan.block_m);
+    case Posture::Leaning:
+        return "Lean the board on the wedge by 15 to 30 degrees, the prop about in the ring. Take your hands "
+               "away.";
+    }
+    return "";
+}
+
+std::vector<std::string> words_of_begin(const AutoProcedure& procedure) {
+    if (!procedure.problem().empty()) {
+        return {"The table cannot be measured", sentence(procedure.problem()),
+                "Back returns to the exhibit."};
+    }
+    return {"Staff: measure the table with the camera",
+            fmt::format("Projector, tracker and the prop's sensor are measured with {} rests of the board; "
+                        "that takes about "
+                        "eight minutes. You need the prop on its printed board ({:.0f} mm thick), and a "
+                        "wedge to lean it on.",
+                        procedure.wanted(), 1e3 * procedure.plan().board_m),
+            "Next begins. Back returns to the exhibit; so does a minute without a press."};
+}
+
+std::vector<std::string> words_of_verdict(const AutoProcedure& procedure) {
+    const TouchCalibration& found = procedure.judged()->found;
+    std::vector<std::string> words{fmt::format("The calibration is: {}", name_of(found.verdict)),
+                                   sentence(found.reason)};
+    if (found.table) {
+        words.push_back(fmt::format(
+            "The points of a rest lie {:.1f} mm from where the others expect them, {:.1f} mm at worst.",
+            1e3 * found.mean_residual_m, 1e3 * found.worst_residual_m));
+    }
+    switch (found.verdict) {
+    case Verdict::Good:
+    case Verdict::Usable:
+        words.emplace_back("Next keeps it. Back goes on with four more rests.");
+        break;
+    case Verdict::Repeat:
+        words.emplace_back(
+            found.repeat.empty()
+                ? "Next goes on with four more rests."
+                : "Next takes as many anew in their place. Back goes on with four more rests.");
+        break;
+    case Verdict::Refused:
+        words.emplace_back("Next begins anew. Back goes on with four more rests.");
+        break;
+    }
+    return words;
+}
+
+} // namespace
+
+std::vector<std::string> auto_words(const AutoProcedure& procedure) {
+    std::vector<std::string> words;
+    switch (procedure.stage()) {
+    case AutoStage::Begin:
+        return words_of_begin(procedure);
+    case AutoStage::Delay:
+        words = {"The camera looks at the light", "Light and dark follow each other. Back returns."};
+        break;
+    case AutoStage::Place:
+        words = {fmt::format("Rest {} of {}", procedure.taken() + 1, procedure.wanted()),
+                 words_of(procedure.plan(), procedure.wish())};
+        break;
+    case AutoStage::Capture:
+        return {fmt::format("Rest {} of {}", procedure.taken() + 1, procedure.wanted()), "Stripes."};
+    case AutoStage::Solve:
+        return {"One moment, please."};
+    case AutoStage::Judged:
+        return words_of_verdict(procedure);
+    case AutoStage::Done:
+        return {"The calibration is kept.", "The exhibit comes back with it."};
+    case AutoStage::Left:
+        return {"Nothing was changed.", "The exhibit comes back."};
+    }
+    if (std::string more = words_of(procedure); !more.empty()) {
+        words.push_back(std::move(more));
+    }
+    // It goes on all the same.
+    if (procedure.camera() == CameraState::Slow || procedure.camera() == CameraState::Unlocked) {
+        words.push_back(sentence(sentence_of(procedure.camera())));
+    }
+    return words;
+}
+
+std::string_view word_key(const AutoProcedure& procedure) {
+    switch (procedure.stage()) {
+    case AutoStage::Begin:
+        return procedure.problem().empty() ? "calibration.begin" : "";
+    case AutoStage::Place:
+        return procedure.word() == AutoWord::Moved     ? "calibration.moved"
+               : procedure.word() == AutoWord::NotSeen ? "calibration.not_seen"
+                                                       : "";
+    case AutoStage::Solve:
+        return "calibration.all_taken";
+    case AutoStage::Judged:
+        switch (procedure.judged()->found.verdict) {
+        case Verdict::Good:
+        case Verdict::Usable:
+            return "calibration.may_be_kept";
+        case Verdict::Repeat:
+            return ""; // the words speak of touches
+        case Verdict::Refused:
+            return "calibration.refused";
+        }
+        return "";
+    case AutoStage::Done:
+        return "calibration.kept";
+    case AutoStage::Left:
+        return "calibration.left";
+    case AutoStage::Delay:
+    case AutoStage::Capture:
+        break;
+    }
+    return "";
+}
+
+Image8 auto_picture(const AutoProcedure& procedure, int width, int height, double board_px,
+                    const Typesetter& typesetter) {
+    Canvas canvas(width, height, ground);
+    const double unit = width / 160.0;
+    const bool has_place = procedure.stage() == AutoStage::Place;
+    const glm::dvec2 place = procedure.wish().pixel;
+    if (has_place) {
+        canvas.circle(place, 0.42 * board_px, 4.0, place_colour);
+        canvas.circle(place, unit, 3.0, place_colour);
+    }
+    // The words stand in the half of the picture where the board is not.
+    const bool below = !has_place || place.y < 0.45 * height;
+    std::vector<Paragraph> paragraphs;
+    for (const std::string& line : auto_words(procedure)) {
+        const bool is_first = paragraphs.empty();
+        paragraphs.push_back({line, (is_first ? 4.0 : 2.6) * unit, is_first, 1.0, is_first ? 0.0 : unit});
+    }
+    const Image<std::uint8_t> coverage = typesetter.set(paragraphs, 0.7 * width);
+    const double room = height - 5.0 * unit - coverage.height;
+    const double top = !has_place ? 0.4 * height : below ? std::fmin(room, 0.68 * height) : 5.0 * unit;
+    canvas.coverage(coverage, {(width - coverage.width) / 2, static_cast<int>(std::fmax(top, unit))}, ink);
+    const auto wanted = static_cast<int>(procedure.wanted());
+    for (int k = 0; k < wanted; ++k) { // one dot for each rest
+        const bool is_taken = k < static_cast<int>(procedure.taken());
+        canvas.circle(
+            {0.5 * width + (k - 0.5 * (wanted - 1)) * 4.0 * unit, below ? height - 3.0 * unit : 3.0 * unit},
+            unit, is_taken ? 4.0 : 1.0, is_taken ? taken_colour : ink);
+    }
+    return canvas.take();
+}
+
+} // namespace frustumscreen

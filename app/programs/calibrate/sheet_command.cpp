@@ -1,0 +1,46 @@
+#include "app/programs/calibrate/sheet_command.h"
+
+#include "app/drawing/board/board_sheet.h"
+#include "firmware_host/base/output_file.h"
+
+#include <array>
+
+namespace frustumscreen {
+
+namespace {
+
+Result<int> draw(const CalibrateRequest& request) {
+    const std::array inputs{request.config};
+    if (const Result<void> other = check_output_is_no_input(request.out, inputs); !other) {
+        return tl::unexpected<Error>(other.error());
+    }
+    const Result<Described> described = describe(request);
+    if (!described) {
+        return tl::unexpected<Error>(described.error());
+    }
+    const Result<Board> board = board_of(*described->settings);
+    if (!board) {
+        return tl::unexpected<Error>(board.error());
+    }
+    return write_file(request.out, as_bytes(board_sheet(*board, request.config.filename().string()))).map([] {
+        return 0;
+    });
+}
+
+} // namespace
+
+Result<Board> board_of(const Settings& settings) {
+    const PropSettings& prop = settings.prop;
+    return board_for(prop.kind == PropKind::Cube ? FrustumSize{prop.base_m, prop.base_m, prop.base_m}
+                                                 : FrustumSize{prop.base_m, prop.top_m, prop.height_m});
+}
+
+void add_sheet_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
+    CLI::App* const command = app.add_subcommand(
+        "sheet", "draws the board of tags that auto needs, for the settings' prop: A3, true size, SVG");
+    command->add_option("--config", request.config, "the kiosk's settings, TOML")->required();
+    command->add_option("-o,--output", request.out, "the sheet, SVG")->required();
+    command->callback([&] { chosen = [&] { return end_with(draw(request)); }; });
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,18 @@
+/// frustumscreen-calibrate sheet: the board of tags as a sheet to print.
+///
+/// Threads  the main one.
+#pragma once
+
+#include "app/calibration/board.h"
+#include "app/programs/calibrate/calibrate_request.h"
+
+#include <functional>
+
+namespace frustumscreen {
+
+/// Of the settings' prop.
+[[nodiscard]] Result<Board> board_of(const Settings& settings);
+
+void add_sheet_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen);
+
+} // namespace frustumscreen
