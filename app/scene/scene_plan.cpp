@@ -270,6 +270,21 @@ std::string techniques_of(const PackOutline& pack, const std::vector<ReliefOutli
     return listed("auto", "auto,", names);
 }
 
+/// What the camera's reader does with each frame.
+std::string camera_uses(const DevicePlan& plan) {
+    std::vector<std::string_view> uses;
+    if (plan.tags) {
+        uses.emplace_back("finds the prop's tags");
+    }
+    if (plan.visitor) {
+        uses.emplace_back("sees who stands at the table");
+    }
+    if (plan.drift) {
+        uses.emplace_back("finds the marks");
+    }
+    return fmt::format("{}", fmt::join(uses, " and "));
+}
+
 } // namespace
 
 std::string name_of(const Rung& rung) {
@@ -365,21 +380,6 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
     plan.needs.outline = largest_outline(settings, plan.projector, plan.visibility);
     plan.needs.bent_by = if_it_bends(plan.projector);
     return plan;
-}
-
-/// What the camera's reader does with each frame.
-std::string camera_uses(const DevicePlan& plan) {
-    std::vector<std::string_view> uses;
-    if (plan.tags) {
-        uses.emplace_back("finds the prop's tags");
-    }
-    if (plan.visitor) {
-        uses.emplace_back("sees who stands at the table");
-    }
-    if (plan.drift) {
-        uses.emplace_back("finds the marks");
-    }
-    return fmt::format("{}", fmt::join(uses, " and "));
 }
 
 DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file) {

@@ -4,16 +4,10 @@
 #include "app/programs/calibrate/auto_picture.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/sheet_command.h"
-#include "app/programs/calibrate/table_voice.h"
+#include "app/programs/calibrate/table_devices.h"
 #include "app/programs/devices/wiring.h"
-#include "app/render/picture_upload.h"
-#include "app/show/house_words.h"
-#include "firmware_host/base/standard_error.h"
-#include "firmware_host/service/service_manager.h"
-#include "firmware_host/service/stop_signals.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -23,9 +17,6 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr const char* program = "frustumscreen-calibrate";
-constexpr int back_button = 0;
-constexpr int next_button = 1;
 constexpr Nanoseconds between_rounds = std::chrono::milliseconds(5);
 
 Image8 grey_picture(const StripeSetup& stripes, const Pattern& pattern) {
@@ -36,32 +27,17 @@ Image8 grey_picture(const StripeSetup& stripes, const Pattern& pattern) {
     return picture;
 }
 
-/// A calibration goes on without a voice.
-std::optional<TableVoice> voice_of(const Settings& settings) {
-    if (settings.exhibit.words.empty() || settings.sound.kind == SoundKind::None) {
-        return std::nullopt;
-    }
-    const Result<LanguageWords> words = read_house_words(settings, "calibration.begin");
-    if (!words) {
-        say_line(program, words.error().message);
-        return std::nullopt;
-    }
-    return TableVoice(*words, make_sound(settings.sound), settings.sound.gain_db);
-}
-
-/// The devices, and what is shown.
+/// The procedure on the table, and the camera that sees it.
 class CameraTable {
 public:
-    CameraTable(const Settings& settings, Inputs inputs, std::unique_ptr<Camera> camera,
-                std::unique_ptr<Display> display, Typesetter typesetter)
-        : inputs_(std::move(inputs)), camera_(std::move(camera)), display_(std::move(display)),
-          typesetter_(std::move(typesetter)), upload_(display_->width(), display_->height()),
-          voice_(voice_of(settings)), board_px_(Board::size_m.x * settings.projector.pinhole.fx /
-                                                settings.projector.table_from_projector.translation.z) {}
+    CameraTable(const Settings& settings, TableDevices& devices, std::unique_ptr<Camera> camera)
+        : devices_(devices), camera_(std::move(camera)),
+          board_px_(Board::size_m.x * settings.projector.pinhole.fx /
+                    settings.projector.table_from_projector.translation.z) {}
 
     /// Until it is done or left; nothing: it was told to stop.
     [[nodiscard]] Result<std::optional<AutoStage>> run(AutoProcedure& procedure, const AutoSetup& setup) {
-        while (!stop_.received()) {
+        while (!devices_.told_to_stop()) {
             const MonotonicTime now = monotonic_now();
             if (Result<void> shown = show(procedure, now); !shown) {
                 return tl::unexpected<Error>(shown.error());
@@ -72,125 +48,65 @@ public:
             if (procedure.stage() == AutoStage::Solve) {
                 procedure.judge(calibrate_auto(procedure.rests(), setup));
             }
-            poll(procedure, now);
+            step(procedure, now);
             std::this_thread::sleep_for(between_rounds);
         }
         return std::optional<AutoStage>();
     }
     /// Leaves the last words to be read.
     void stay(const AutoProcedure& procedure) {
-        const MonotonicTime end = monotonic_now() + last_words;
-        while (!stop_.received() && monotonic_now() < end && show(procedure, monotonic_now())) {
+        const MonotonicTime end = monotonic_now() + TableDevices::last_words;
+        while (!devices_.told_to_stop() && monotonic_now() < end && show(procedure, monotonic_now())) {
             std::this_thread::sleep_for(between_rounds);
         }
     }
 
 private:
-    void poll(AutoProcedure& procedure, MonotonicTime now) {
-        AutoProcedure::Input input;
-        input.now = now;
-        input.lit = lit_;
-        samples_.clear();
-        static_cast<void>(inputs_.tracker->poll(now, samples_)); // its state says what is wrong
-        for (const PoseSample& sample : samples_) {
-            if (sample.station == prop_station && sample.ok) {
-                input.report = RigidTransform{sample.rotation, sample.position_m};
-            }
-        }
-        events_.clear();
-        static_cast<void>(inputs_.panel->poll(now, events_));
-        for (const PanelEvent& event : events_) {
-            input.next |= event.kind == PressKind::Press && event.button == next_button;
-            input.back |= event.kind == PressKind::Press && event.button == back_button;
-        }
-        input.frame = camera_->poll(frame_) ? &frame_ : nullptr;
-        input.camera = camera_->state();
-        procedure.step(input);
-        tell(inputs_.tracker->state(), "tracker", tracker_state_);
-        tell(inputs_.panel->state(), "panel", panel_state_);
+    void step(AutoProcedure& procedure, MonotonicTime now) {
+        const TableDevices::Heard heard = devices_.hear(now);
+        const CameraFrame* const frame = camera_->poll(frame_) ? &frame_ : nullptr;
+        const CameraState state = camera_->state();
+        procedure.step({now, heard.report, frame, state, lit_, heard.next, heard.back});
         if (!procedure.shown()) { // what the stripes do to the camera is no fault of it
-            tell(sentence_of(input.camera), "camera", camera_state_);
+            TableDevices::tell(sentence_of(state), "camera", camera_state_);
         }
     }
-    static void tell(std::string_view state, std::string_view device, Sentence& told) {
-        if (const Sentence now(state); now != told) {
-            told = now;
-            say_line(program, fmt::format("{}: {}", device, state));
-        }
-    }
-    /// A picture goes into each of the display's buffers once.
     [[nodiscard]] Result<void> show(const AutoProcedure& procedure, MonotonicTime now) {
         draw(procedure);
-        if (uploads_left_ > 0 || display_->buffer_age() == 0) {
-            uploads_left_ = std::max(uploads_left_ - 1, 0);
-            upload_.show(picture_, display_->framebuffer());
-        }
-        if (voice_) {
-            voice_->poll(now);
-        }
-        const Result<MonotonicTime> lit = display_->present(now);
-        if (!lit) {
-            return tl::unexpected<Error>(lit.error());
-        }
-        if (!lit_ || lit_->number != procedure.number()) {
+        const Result<MonotonicTime> lit = devices_.present(now);
+        if (lit && (!lit_ || lit_->number != procedure.number())) {
             lit_ = AutoProcedure::Lit{procedure.number(), *lit};
         }
-        if (!fed_) {
-            manager_.ready();
-        }
-        if (!fed_ || now - *fed_ >= between_feeds) {
-            manager_.feed_watchdog();
-            fed_ = now;
-        }
-        return {};
+        return lit.map([](MonotonicTime) {});
     }
     /// Where something else is to be shown than before.
     void draw(const AutoProcedure& procedure) {
+        const bool is_new = drawn_ != procedure.number();
+        drawn_ = procedure.number();
         if (procedure.shown()) {
-            if (drawn_ != procedure.number()) {
-                picture_ = grey_picture(procedure.plan().stripes, *procedure.shown());
-                uploads_left_ = most_buffers;
+            if (is_new) {
+                devices_.show(grey_picture(procedure.plan().stripes, *procedure.shown()));
             }
-            drawn_ = procedure.number();
             words_.clear();
             return;
         }
         std::vector<std::string> words = auto_words(procedure);
-        if (words != words_ || drawn_ != procedure.number()) {
+        if (is_new || words != words_) {
             words_ = std::move(words);
-            drawn_ = procedure.number();
-            uploads_left_ = most_buffers;
-            say_line(program, fmt::format("{}", fmt::join(words_, " ")));
-            picture_ = auto_picture(procedure, display_->width(), display_->height(), board_px_, typesetter_);
-            if (voice_) {
-                voice_->say(word_key(procedure));
-            }
+            devices_.say(words_, word_key(procedure));
+            devices_.show(auto_picture(procedure, devices_.width(), devices_.height(), board_px_,
+                                       devices_.typesetter()));
         }
     }
 
-    static constexpr int most_buffers = 4; ///< of a display
-    static constexpr Nanoseconds between_feeds = std::chrono::seconds(1);
-    static constexpr Nanoseconds last_words = std::chrono::seconds(3);
-
-    StopSignals stop_;
-    ServiceManager manager_;
-    std::optional<MonotonicTime> fed_;
-    Inputs inputs_;
+    TableDevices& devices_;
     std::unique_ptr<Camera> camera_;
-    std::unique_ptr<Display> display_;
-    Typesetter typesetter_;
-    PictureUpload upload_;
-    std::optional<TableVoice> voice_; ///< none: it is silent
     double board_px_;
-    Image8 picture_;
     std::vector<std::string> words_;     ///< that are shown
     std::optional<std::uint64_t> drawn_; ///< number of what is shown
-    int uploads_left_ = 0;
     std::optional<AutoProcedure::Lit> lit_;
     CameraFrame frame_;
-    std::vector<PoseSample> samples_;
-    std::vector<PanelEvent> events_;
-    Sentence tracker_state_, panel_state_, camera_state_;
+    Sentence camera_state_;
 };
 
 /// From the first words on the table to the kept file.
@@ -220,23 +136,6 @@ Result<int> go_through(CameraTable& table, const Settings& settings, const Board
     return kept.map([] { return 0; });
 }
 
-Result<void> check(const CalibrateRequest& request, const Settings& settings, const DevicePlan& plan) {
-    if (plan.tracker == TrackerKind::None || !plan.panel) {
-        return fail(ErrorKind::BadConfiguration,
-                    fmt::format("{}: a calibration on the table needs a tracker and two buttons; set "
-                                "tracker.kind and panel.kind, or give --from",
-                                request.config.string()));
-    }
-    if (settings.camera.kind == CameraKind::None) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format("{}: the settings have no camera; set camera.kind = \"v4l2\", or touch crosses "
-                        "(frustumscreen-calibrate table)",
-                        request.config.string()));
-    }
-    return {};
-}
-
 } // namespace
 
 Result<int> calibrate_by_camera(const CalibrateRequest& request) {
@@ -245,38 +144,30 @@ Result<int> calibrate_by_camera(const CalibrateRequest& request) {
         return tl::unexpected<Error>(described.error());
     }
     const Settings& settings = *described->settings;
-    Settings raw = settings;
-    raw.tracker.registration = {}; // the device's own reports
-    raw.camera.tags = false;
-    const DevicePlan devices = plan_devices(raw, false, false);
-    if (const Result<void> can = check(request, settings, devices); !can) {
-        return tl::unexpected<Error>(can.error());
+    if (settings.camera.kind == CameraKind::None) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            fmt::format("{}: the settings have no camera; set camera.kind = \"v4l2\", or touch crosses "
+                        "(frustumscreen-calibrate table)",
+                        request.config.string()));
     }
     const Result<Board> board = board_of(settings);
     if (!board) {
         return tl::unexpected<Error>(board.error());
     }
+    const Result<std::unique_ptr<TableDevices>> devices =
+        TableDevices::open(request, settings, ", or give --from");
+    if (!devices) {
+        return tl::unexpected<Error>(devices.error());
+    }
     const rlimit none{0, 0};
     static_cast<void>(::setrlimit(RLIMIT_CORE, &none)); // a frame would lie in it
-    Result<std::unique_ptr<Display>> display = make_display(raw, request.headless);
-    if (!display) {
-        return tl::unexpected<Error>(display.error());
-    }
-    Result<Typesetter> typesetter = Typesetter::open();
-    if (!typesetter) {
-        return tl::unexpected<Error>(typesetter.error());
-    }
-    Result<Inputs> inputs = make_inputs(raw, devices, std::nullopt, monotonic_now());
-    if (!inputs) {
-        return tl::unexpected<Error>(inputs.error());
-    }
     AutoPlan plan;
     plan.rests = request.rests.value_or(plan.rests);
     plan.board_m = request.board_m.value_or(plan.board_m);
     plan.block_m = settings.calibration.block_m;
     plan.stripes = stripes_for(described->width, described->height);
-    CameraTable table(raw, *std::move(inputs), make_camera(settings.camera), *std::move(display),
-                      *std::move(typesetter));
+    CameraTable table(settings, **devices, make_camera(settings.camera));
     return go_through(table, settings, *board, plan, set_up_for<AutoSetup>(*described, request), request.out);
 }
 

@@ -6,7 +6,6 @@
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/touch_table.h"
 #include "app/programs/calibrate/touch_up_command.h"
-#include "app/programs/devices/wiring.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
 
@@ -168,31 +167,13 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
         fmt::print("{}\n", crosses_json(crosses).dump(2));
         return 0;
     }
-    Settings raw = settings;
-    raw.tracker.registration = {}; // the device's own reports
-    raw.camera = {};               // the tracker and the buttons are all that it needs
-    const DevicePlan plan = plan_devices(raw, false, false);
-    if (plan.tracker == TrackerKind::None || !plan.panel) {
-        return fail(ErrorKind::BadConfiguration,
-                    fmt::format("{}: a calibration on the table needs a tracker and two buttons; set "
-                                "tracker.kind and panel.kind",
-                                request.config.string()));
-    }
-    Result<std::unique_ptr<Display>> display = make_display(raw, request.headless);
-    if (!display) {
-        return tl::unexpected<Error>(display.error());
-    }
-    Result<Typesetter> typesetter = Typesetter::open();
-    if (!typesetter) {
-        return tl::unexpected<Error>(typesetter.error());
-    }
-    Result<Inputs> inputs = make_inputs(raw, plan, std::nullopt, monotonic_now());
-    if (!inputs) {
-        return tl::unexpected<Error>(inputs.error());
+    const Result<std::unique_ptr<TableDevices>> devices = TableDevices::open(request, settings, "");
+    if (!devices) {
+        return tl::unexpected<Error>(devices.error());
     }
     CalibrateRequest known = request;
     known.sensor_height_m = sensor_height(settings, request);
-    TouchTable table(raw, *std::move(inputs), *std::move(display), *std::move(typesetter));
+    TouchTable table(settings, **devices);
     const Session session{table, settings, known, set_up_for<TouchSetup>(*described, known)};
     return (touches_up ? touch_up_on_table(session, std::move(crosses))
                        : measure_anew(session, std::move(crosses)))

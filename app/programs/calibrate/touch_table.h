@@ -1,31 +1,21 @@
-/// The table during a calibration by touch: projector, tracker, two buttons and a voice, and the procedure that goes on with them.
+/// The procedure of a calibration by touch on the table.
 ///
-/// Errors   the display stops. What tracker and buttons say of themselves goes to standard error, as does what the table says.
+/// Errors   the display stops.
 /// Threads  the main one, with the display's context current.
 #pragma once
 
 #include "app/calibration/touch_procedure.h"
-#include "app/exhibit/text_image.h"
-#include "app/pack/words_file.h"
-#include "app/programs/calibrate/table_voice.h"
-#include "app/render/picture_upload.h"
-#include "app/settings/settings.h"
-#include "app/show/inputs.h"
-#include "firmware_host/display/display.h"
-#include "firmware_host/service/service_manager.h"
-#include "firmware_host/service/stop_signals.h"
+#include "app/programs/calibrate/table_devices.h"
 
 #include <functional>
-#include <memory>
 #include <optional>
 
 namespace frustumscreen {
 
 class TouchTable {
 public:
-    /// The tracker reports in its own frame.
-    TouchTable(const Settings& settings, Inputs inputs, std::unique_ptr<Display> display,
-               Typesetter typesetter);
+    /// `devices` outlive it.
+    TouchTable(const Settings& settings, TableDevices& devices);
 
     /// What comes of the touches, in stage Solve.
     using Judge = std::function<TouchJudgement(const Touches& touches)>;
@@ -35,7 +25,6 @@ public:
     void stay(const TouchProcedure& procedure);
 
 private:
-    void poll(TouchProcedure& procedure, MonotonicTime now);
     [[nodiscard]] Result<void> show(const TouchProcedure& procedure, MonotonicTime now);
 
     /// What the picture depends on.
@@ -47,22 +36,9 @@ private:
         [[nodiscard]] bool operator==(const Shown&) const = default;
     };
 
-    StopSignals stop_;
-    ServiceManager manager_;
-    std::optional<MonotonicTime> fed_;
-    Inputs inputs_;
-    std::unique_ptr<Display> display_;
-    Typesetter typesetter_;
-    PictureUpload upload_;
-    std::optional<LanguageWords> house_; ///< none: it is silent, and in English alone
-    std::optional<TableVoice> voice_;
+    TableDevices& devices_;
     double prop_px_;
-    Image8 picture_;
     std::optional<Shown> shown_;
-    int uploads_left_ = 0;
-    std::vector<PoseSample> samples_;
-    std::vector<PanelEvent> events_;
-    Sentence tracker_state_, panel_state_;
 };
 
 } // namespace frustumscreen

@@ -1,0 +1,139 @@
+#include "app/programs/calibrate/table_devices.h"
+
+#include "app/programs/devices/wiring.h"
+#include "app/show/house_words.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr const char* program = "frustumscreen-calibrate";
+constexpr int back_button = 0;
+constexpr int next_button = 1;
+constexpr Nanoseconds between_feeds = std::chrono::seconds(1);
+constexpr int most_buffers = 4; // of a display: each gets the picture once
+
+/// A calibration goes on without them, in English.
+std::optional<LanguageWords> house_words(const Settings& settings) {
+    if (settings.exhibit.words.empty()) {
+        return std::nullopt;
+    }
+    Result<LanguageWords> words = read_house_words(settings, "calibration.begin");
+    if (!words) {
+        say_line(program, words.error().message);
+        return std::nullopt;
+    }
+    return *std::move(words);
+}
+
+std::optional<TableVoice> voice_of(const Settings& settings, const std::optional<LanguageWords>& words) {
+    if (!words || settings.sound.kind == SoundKind::None) {
+        return std::nullopt;
+    }
+    return TableVoice(*words, make_sound(settings.sound), settings.sound.gain_db);
+}
+
+} // namespace
+
+Result<std::unique_ptr<TableDevices>> TableDevices::open(const CalibrateRequest& request, Settings settings,
+                                                         std::string_view instead) {
+    settings.tracker.registration = {}; // the device's own reports
+    settings.camera = {};
+    const DevicePlan plan = plan_devices(settings, false, false);
+    if (plan.tracker == TrackerKind::None || !plan.panel) {
+        return fail(ErrorKind::BadConfiguration,
+                    fmt::format("{}: a calibration on the table needs a tracker and two buttons; set "
+                                "tracker.kind and panel.kind{}",
+                                request.config.string(), instead));
+    }
+    Result<std::unique_ptr<Display>> display = make_display(settings, request.headless);
+    if (!display) {
+        return tl::unexpected<Error>(display.error());
+    }
+    Result<Typesetter> typesetter = Typesetter::open();
+    if (!typesetter) {
+        return tl::unexpected<Error>(typesetter.error());
+    }
+    Result<Inputs> inputs = make_inputs(settings, plan, std::nullopt, monotonic_now());
+    if (!inputs) {
+        return tl::unexpected<Error>(inputs.error());
+    }
+    return std::make_unique<TableDevices>(settings, *std::move(inputs), *std::move(display),
+                                          *std::move(typesetter));
+}
+
+TableDevices::TableDevices(const Settings& settings, Inputs inputs, std::unique_ptr<Display> display,
+                           Typesetter typesetter)
+    : inputs_(std::move(inputs)), display_(std::move(display)), typesetter_(std::move(typesetter)),
+      upload_(display_->width(), display_->height()), house_(house_words(settings)),
+      voice_(voice_of(settings, house_)) {}
+
+TableDevices::Heard TableDevices::hear(MonotonicTime now) {
+    Heard heard;
+    samples_.clear();
+    static_cast<void>(inputs_.tracker->poll(now, samples_)); // its state says what is wrong
+    for (const PoseSample& sample : samples_) {
+        if (sample.station == prop_station && sample.ok) {
+            heard.report = RigidTransform{sample.rotation, sample.position_m};
+        }
+    }
+    events_.clear();
+    static_cast<void>(inputs_.panel->poll(now, events_));
+    for (const PanelEvent& event : events_) {
+        heard.next |= event.kind == PressKind::Press && event.button == next_button;
+        heard.back |= event.kind == PressKind::Press && event.button == back_button;
+    }
+    tell(inputs_.tracker->state(), "tracker", tracker_state_);
+    tell(inputs_.panel->state(), "panel", panel_state_);
+    return heard;
+}
+
+void TableDevices::show(Image8 picture) {
+    picture_ = std::move(picture);
+    uploads_left_ = most_buffers;
+}
+
+void TableDevices::say(const std::vector<std::string>& words, std::string_view key) {
+    say_line(program, fmt::format("{}", fmt::join(words, " ")));
+    if (voice_) {
+        voice_->say(key);
+    }
+}
+
+void TableDevices::tell(std::string_view state, std::string_view device, Sentence& told) {
+    if (const Sentence now(state); now != told) {
+        told = now;
+        say_line(program, fmt::format("{}: {}", device, state));
+    }
+}
+
+Result<MonotonicTime> TableDevices::present(MonotonicTime now) {
+    if (uploads_left_ > 0 || display_->buffer_age() == 0) {
+        uploads_left_ = std::max(uploads_left_ - 1, 0);
+        upload_.show(picture_, display_->framebuffer());
+    }
+    if (voice_) {
+        voice_->poll(now);
+    }
+    const Result<MonotonicTime> lit = display_->present(now);
+    if (!lit) {
+        return lit;
+    }
+    if (!fed_) {
+        manager_.ready();
+    }
+    if (!fed_ || now - *fed_ >= between_feeds) {
+        manager_.feed_watchdog();
+        fed_ = now;
+    }
+    return lit;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,78 @@
+/// The table during a calibration: projector, tracker, two buttons and a voice.
+///
+/// Errors   `open`: the settings have no tracker or no buttons, or a device or a typeface is not there; `present`: the display stops. What tracker and buttons say of themselves goes to standard error, as do the words on the table.
+/// Threads  the main one, with the display's context current.
+#pragma once
+
+#include "app/exhibit/text_image.h"
+#include "app/image/image.h"
+#include "app/pack/words_file.h"
+#include "app/programs/calibrate/calibrate_request.h"
+#include "app/programs/calibrate/table_voice.h"
+#include "app/render/picture_upload.h"
+#include "app/settings/settings.h"
+#include "app/show/inputs.h"
+#include "firmware_host/display/display.h"
+#include "firmware_host/service/service_manager.h"
+#include "firmware_host/service/stop_signals.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+class TableDevices {
+public:
+    static constexpr Nanoseconds last_words = std::chrono::seconds(3); ///< so long they are left to be read
+
+    /// Of the settings, their camera excepted; the tracker reports in its own frame. `instead`: what else the technician may do where
+    /// they have no tracker or no buttons, the end of a sentence.
+    [[nodiscard]] static Result<std::unique_ptr<TableDevices>>
+    open(const CalibrateRequest& request, Settings settings, std::string_view instead);
+    TableDevices(const Settings& settings, Inputs inputs, std::unique_ptr<Display> display,
+                 Typesetter typesetter);
+
+    /// What came since the call before.
+    struct Heard {
+        std::optional<RigidTransform> report; ///< the latest one of the prop's sensor
+        bool next = false;                    ///< a button was pressed
+        bool back = false;
+    };
+    [[nodiscard]] Heard hear(MonotonicTime now);
+    /// Another picture is presented from now on.
+    void show(Image8 picture);
+    /// Words that are on it; `key`: of what is said aloud for them.
+    void say(const std::vector<std::string>& words, std::string_view key);
+    /// Says what a device says of itself, where that is something else than `told`.
+    static void tell(std::string_view state, std::string_view device, Sentence& told);
+    /// Since when the picture is lit; the voice and the service manager's watchdog get their turn too.
+    [[nodiscard]] Result<MonotonicTime> present(MonotonicTime now);
+
+    [[nodiscard]] bool told_to_stop() const { return stop_.received(); }
+    [[nodiscard]] int width() const { return display_->width(); }
+    [[nodiscard]] int height() const { return display_->height(); }
+    [[nodiscard]] const Typesetter& typesetter() const { return typesetter_; }
+    /// None: it is silent, and in English alone.
+    [[nodiscard]] const LanguageWords* house() const { return house_ ? &*house_ : nullptr; }
+
+private:
+    StopSignals stop_;
+    ServiceManager manager_;
+    std::optional<MonotonicTime> fed_;
+    Inputs inputs_;
+    std::unique_ptr<Display> display_;
+    Typesetter typesetter_;
+    PictureUpload upload_;
+    std::optional<LanguageWords> house_;
+    std::optional<TableVoice> voice_;
+    Image8 picture_;
+    int uploads_left_ = 0;
+    std::vector<PoseSample> samples_;
+    std::vector<PanelEvent> events_;
+    Sentence tracker_state_, panel_state_;
+};
+
+} // namespace frustumscreen
