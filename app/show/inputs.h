@@ -12,7 +12,6 @@
 #include "firmware_host/sound/sound.h"
 #include "firmware_host/tracker/packet_recorder.h"
 
-#include <array>
 #include <memory>
 #include <string_view>
 
@@ -43,20 +42,6 @@ struct Inputs {
         }
     }
     return sentence_of(state);
-}
-
-/// What it is used for; empty: nothing.
-[[nodiscard]] inline std::string_view camera_uses(const Inputs& inputs) {
-    constexpr std::array<std::string_view, 8> uses{
-        "",
-        "the prop's tags",
-        "the visitor's eye",
-        "the prop's tags and the visitor's eye",
-        "the picture's place",
-        "the prop's tags and the picture's place",
-        "the visitor's eye and the picture's place",
-        "the prop's tags, the visitor's eye and the picture's place"};
-    return uses[(inputs.tags ? 1U : 0U) + (inputs.visitor ? 2U : 0U) + (inputs.drift ? 4U : 0U)];
 }
 
 } // namespace frustumscreen

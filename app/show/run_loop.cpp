@@ -363,7 +363,7 @@ private:
     void renew_camera(RunStatus& status) {
         status.camera = Sentence(camera_state(inputs_));
         status.camera_hz = inputs_.camera ? inputs_.camera->rate_hz() : 0.0;
-        status.camera_for = camera_uses(inputs_);
+        status.camera_for = {inputs_.tags != nullptr, inputs_.visitor != nullptr, inputs_.drift != nullptr};
         if (inputs_.drift) {
             const DriftVerdict& verdict = inputs_.drift->verdict();
             status.drift = sentence_of(verdict);

@@ -10,6 +10,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
@@ -23,6 +24,21 @@
 namespace frustumscreen {
 
 namespace {
+
+/// Empty: nothing.
+std::string words_of(const CameraUses& uses) {
+    std::vector<std::string_view> words;
+    if (uses.tags) {
+        words.emplace_back("the prop's tags");
+    }
+    if (uses.visitor) {
+        words.emplace_back("the visitor's eye");
+    }
+    if (uses.drift) {
+        words.emplace_back("the picture's place");
+    }
+    return fmt::format("{}", fmt::join(words, ", "));
+}
 
 /// Quotes a text for CSV where it must be.
 std::string csv_text(std::string_view text) {
@@ -218,7 +234,7 @@ std::string status_json(const RunStatus& status) {
         {"tracker_counts", json_of(status.tracker_counts)},
         {"camera", status.camera.view()},
         {"camera_hz", rounded(status.camera_hz)},
-        {"camera_for", status.camera_for},
+        {"camera_for", words_of(status.camera_for)},
         {"drift", status.drift.view()},
         {"drift_mm", status.drift_m ? nlohmann::ordered_json(rounded(1e3 * *status.drift_m))
                                     : nlohmann::ordered_json(nullptr)},

@@ -99,6 +99,13 @@ struct HoursStatus {
     bool asleep = false;
 };
 
+/// What the camera's frames are used for.
+struct CameraUses {
+    bool tags = false;
+    bool visitor = false;
+    bool drift = false;
+};
+
 struct RunStatus {
     std::chrono::system_clock::time_point written_at; ///< `stamp` sets these four when the status is written
     MonotonicTime written_at_monotonic;
@@ -138,10 +145,10 @@ struct RunStatus {
     Sentence settings; ///< why others than those of the file are used; empty: they are those of the file
     Sentence display;  ///< states of the devices; empty where there is nothing to say
     Sentence tracker;
-    bool tracker_hangs = false;    ///< Tracker::hangs
-    Sentence camera;               ///< empty: there is none
-    double camera_hz = 0.0;        ///< frames that came of late
-    std::string_view camera_for;   ///< what it is used for, a literal; empty: nothing
+    bool tracker_hangs = false; ///< Tracker::hangs
+    Sentence camera;            ///< empty: there is none
+    double camera_hz = 0.0;     ///< frames that came of late
+    CameraUses camera_for;
     Sentence drift;                ///< whether the picture lies where it was calibrated; empty: nothing looks
     std::optional<double> drift_m; ///< how far beside it; nothing: not known
     bool drifted = false;          ///< so far that it is to be put right

@@ -1,6 +1,7 @@
 // The estimate of a frame's error against the ray cast, on shapes that it was not made with; and what counts as covered.
 
 #include "app/bench/measures/coverage.h"
+#include "app/pack/pack_relief.h"
 #include "assets_baked/bake/bake.h"
 #include "tests/bake/shapes.h"
 #include "tests/bench/near_stage.h"
@@ -69,7 +70,7 @@ void expect_covered(const std::shared_ptr<const SourceMesh>& mesh, double most_m
     const SetUpResult result =
         measure_estimates(set_up, pack, mesh, {12, 7, 4}, [](const std::string&, double) {}).value();
     const std::vector<NamedCoverage> rows = coverages_of("shape", result);
-    EXPECT_EQ(rows.size(), pack.levels.size() + 1); // and what `auto` takes
+    EXPECT_EQ(rows.size(), pack.levels.size() + reliefs_of(pack).value().size() + 1); // and what `auto` takes
     double poses = 0.0;
     double covered = 0.0;
     for (const NamedCoverage& row : rows) {

@@ -133,7 +133,7 @@ TEST(RunReport, WhatIsPresentedAndCountedIsInTheStatus) {
     status.eye_by = "camera";
     status.eye_sd_m = 0.021;
     status.camera_hz = 29.97;
-    status.camera_for = "the picture's place";
+    status.camera_for = {true, false, true};
     status.drift_m = 0.00312;
     status.drifted = true;
     status.tracker_counts.broken = 4;
@@ -154,7 +154,7 @@ TEST(RunReport, WhatIsPresentedAndCountedIsInTheStatus) {
     EXPECT_EQ(json.at("eye_by"), "camera");
     EXPECT_EQ(json.at("eye_sd_mm"), 21.0);
     EXPECT_EQ(json.at("camera_hz"), 29.97);
-    EXPECT_EQ(json.at("camera_for"), "the picture's place");
+    EXPECT_EQ(json.at("camera_for"), "the prop's tags, the picture's place");
     EXPECT_EQ(json.at("drift_mm"), 3.12);
     EXPECT_EQ(json.at("drifted"), true);
     EXPECT_EQ(json.at("tracker_counts").at("broken"), 4);
