@@ -16,10 +16,16 @@ constexpr float spreads = 4.0F;
 constexpr float least_variance = 0.5F;
 constexpr float darkest = 16.0F; ///< codes; a darker pixel says little of the gain
 constexpr float least_gain = 0.05F;
-constexpr std::size_t gain_step = 13; ///< every so many pixels are asked for the gain
-constexpr double projector_s = 2.0;   ///< time constant of the table's change squared, and of the shares
-constexpr double all_changed = 0.7;   ///< of the pixels
+constexpr std::size_t gain_step = 13;  ///< every so many pixels are asked for the gain
+constexpr double projector_s = 2.0;    ///< time constant of the table's change squared, and of the shares
+constexpr float little_change = 25.0F; ///< codes^2 of the table; such changes say little of the shares
+constexpr double all_changed = 0.7;    ///< of the pixels
 constexpr Nanoseconds all_changed_for = std::chrono::seconds(1);
+
+/// Codes that a pixel may be off and yet be background.
+float most_off(float variance) {
+    return std::max(least_off, spreads * std::sqrt(variance));
+}
 
 } // namespace
 
@@ -85,9 +91,9 @@ std::span<const std::uint8_t> Background::find(MonotonicTime time, const SmallFr
     measure_gain(frame);
     std::size_t count = 0;
     for (const std::uint32_t at : heads_) {
-        const float most = std::max(least_off, spreads * std::sqrt(model_[at].variance));
-        const bool is_off = knows_ && std::abs(off(at, frame.luma[at])) > most;
-        raw_[at] = is_off ? 1 : 0;
+        const Pixel& pixel = model_[at];
+        const bool is_off = knows_ && std::abs(off(at, frame.luma[at])) > most_off(pixel.variance);
+        raw_[at] = is_off && pixel.share < lit_share ? 1 : 0;
         count += is_off ? 1 : 0;
     }
     const bool changed = static_cast<double>(count) > all_changed * static_cast<double>(heads_.size());
@@ -145,25 +151,42 @@ void Background::learn(const SmallFrame& frame, std::span<const PixelBox> people
     }
     const float first = 1.0F / static_cast<float>(frames_);
     const auto daylight = static_cast<float>(follow_share(dt_s_, daylight_s));
-    const auto thing = static_cast<float>(follow_share(dt_s_, thing_s));
-    const float projector = change_square_ > 0.25F ? static_cast<float>(follow_share(dt_s_, projector_s)) *
-                                                         change_ / change_square_
-                                                   : 0.0F;
+    const float projector = knows_ && !all_changed_since_
+                                ? static_cast<float>(follow_share(dt_s_, projector_s)) * change_ /
+                                      (change_square_ + little_change)
+                                : 0.0F;
     for (const std::uint32_t at : heads_) {
         if (occupied_[at] != 0) {
             continue;
         }
         Pixel& pixel = model_[at];
         const float error = off(at, frame.luma[at]);
-        const bool is_thing = knows_ && (raw_[at] != 0 || foreground_[at] != 0);
-        const float share = !knows_ ? first : is_thing ? thing : daylight;
-        pixel.usual += share * error / gain_;
-        if (!is_thing) {
-            pixel.share += knows_ ? projector * error : 0.0F;
-            const float square = frames_ > 1 ? error * error : 0.0F; // at first nothing is expected
-            pixel.variance = std::max(least_variance, pixel.variance + share * (square - pixel.variance));
+        const float most = most_off(pixel.variance);
+        pixel.share += projector * std::clamp(error, -most, most); // what passes counts little
+        if (knows_ && (raw_[at] != 0 || foreground_[at] != 0)) {
+            pixel.usual += hold(pixel, error) ? error / gain_ : 0.0F;
+            continue;
         }
+        const float share = knows_ ? daylight : first;
+        const float square = frames_ > 1 ? error * error : 0.0F; // at first nothing is expected
+        pixel.usual += share * error / gain_;
+        pixel.variance = std::max(least_variance, pixel.variance + share * (square - pixel.variance));
+        pixel.held_s = 0.0F;
     }
+}
+
+bool Background::hold(Pixel& pixel, float error) const {
+    const bool is_same = pixel.held_s > 0.0F && std::abs(error - pixel.thing) <= most_off(pixel.variance);
+    if (!is_same) {
+        pixel.thing = error;
+        pixel.held_s = 0.0F;
+    }
+    pixel.held_s += static_cast<float>(dt_s_);
+    if (pixel.held_s < static_cast<float>(thing_s)) {
+        return false;
+    }
+    pixel.held_s = 0.0F;
+    return true;
 }
 
 } // namespace frustumscreen

@@ -4,9 +4,11 @@
 ///          to the table's own pixels on average, since the table shows how bright the picture on it is. A pixel is foreground where
 ///          it differs from usual code x gain + share x the table's change by four spreads. The gain is that of the whole picture: a lamp
 ///          that is dimmed, a camera that exposes longer. The share is learnt by least mean squares.
-/// Learns   within a second at first; then as slowly as daylight changes, faster where something stands that nobody is (a chair, a bag),
-///          and not at all where the caller says that somebody is. Where nearly all has changed at once, such as by a light that is
-///          switched, it begins anew.
+/// Prop     what has more of the projector's light than a wall can get back is lit directly: the prop, which hides whoever is behind it.
+///          It is never foreground, since what moves in its picture no share explains.
+/// Learns   within a second at first; then as slowly as daylight changes, and not at all where the caller says that somebody is. Something
+///          else that stays the same for ten seconds (a chair, a bag) is background from then on; what passes leaves no trace. Where nearly
+///          all has changed at once, such as by a light that is switched, it begins anew.
 /// Units    luma codes.
 /// Threads  one caller. Allocates nothing once the first frame was seen.
 /// Source   Wren, Azarbayejani, Darrell and Pentland, Pfinder, 1997 (one Gaussian a pixel); differs in gain and projector's light.
@@ -29,8 +31,9 @@ struct PixelBox {
 
 class Background {
 public:
-    static constexpr double daylight_s = 30.0; ///< time constants
-    static constexpr double thing_s = 10.0;
+    static constexpr double daylight_s = 30.0; ///< time constant
+    static constexpr double thing_s = 10.0;    ///< that something stays the same
+    static constexpr float lit_share = 0.7F;   ///< of the projector's light; more has only the prop
     static constexpr Nanoseconds first_look = std::chrono::seconds(1);
 
     explicit Background(std::vector<Shows> shows);
@@ -48,11 +51,15 @@ private:
     struct Pixel {
         float usual = 0.0F;
         float variance = 0.0F;
-        float share = 0.0F; ///< of the table's change
+        float share = 0.0F;  ///< of the table's change
+        float thing = 0.0F;  ///< how far from usual it is where something hides it
+        float held_s = 0.0F; ///< since when it is that far
     };
     void measure_table(const SmallFrame& frame);
     void measure_gain(const SmallFrame& frame);
     void clean(const SmallFrame& frame);
+    /// True once it was there for long enough to be background.
+    [[nodiscard]] bool hold(Pixel& pixel, float error) const;
     void begin(MonotonicTime time);
     [[nodiscard]] float off(std::size_t at, float luma) const {
         return luma - gain_ * model_[at].usual - model_[at].share * change_;
