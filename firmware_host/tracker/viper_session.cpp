@@ -72,7 +72,9 @@ std::span<const std::byte> ViperSession::due(MonotonicTime now) {
     if (progress_.silent(now, intake_)) {
         try_again(steps_.size() - 1, UsbTrackerState::Silent);
     }
-    if (progress_.unanswered(now)) {
+    if (progress_.unanswered(now) && asks_filter_again()) {
+        progress_.put_off(UsbTrackerState::SettingUp, now);
+    } else if (progress_.unanswered(now)) {
         fail_step(progress_.step(), progress_.trouble_without_answer(), now);
     }
     if (!progress_.may_send(now)) {
@@ -85,6 +87,7 @@ std::span<const std::byte> ViperSession::due(MonotonicTime now) {
     if (progress_.step() == 0) {
         filter_stays_on_ = false; // until the device shows otherwise
         doubtful_ = false;
+        filter_unanswered_ = 0;
     }
     progress_.sent(now);
     return steps_[progress_.step()].command.bytes();
@@ -100,6 +103,12 @@ void ViperSession::fail_step(std::size_t back_to, UsbTrackerState trouble, Monot
     do { // a setting that was not made is not read back either
         progress_.next(now);
     } while (steps_[progress_.step()].need == Need::Same);
+}
+
+/// On a busy machine an answer may be late, and a filter that stays on lags for as long as the tracker is plugged in.
+bool ViperSession::asks_filter_again() {
+    return steps_[progress_.step()].name == ViperCommand::Filter &&
+           ++filter_unanswered_ < SessionTimes::tries;
 }
 
 void ViperSession::try_again(std::size_t from, UsbTrackerState trouble) {

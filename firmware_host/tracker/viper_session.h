@@ -1,5 +1,5 @@
 /// A VIPER's session: every setting is sent, then read back; the confirmed frame rate is the clock's tick.
-/// Its filters, which lag, are switched off. Where they stay on, or an answer is refused or comes with a
+/// Its filters, which lag, are switched off; without an answer that is asked for three times. Where they stay on, or an answer is refused or comes with a
 /// warning, it streams all the same and says so.
 ///
 /// Frame, units, time, threads: see device_session.h.
@@ -41,6 +41,7 @@ private:
     void answer(const ViperReply& reply, MonotonicTime now);
     void refused(const ViperReply& reply, MonotonicTime now);
     [[nodiscard]] bool repeats_what_was_set(const ViperReply& reply) const;
+    [[nodiscard]] bool asks_filter_again();
     void fail_step(std::size_t back_to, UsbTrackerState trouble, MonotonicTime now);
     void try_again(std::size_t from, UsbTrackerState trouble);
 
@@ -48,6 +49,7 @@ private:
     std::vector<Step> steps_;
     SetUpProgress progress_;
     bool filter_stays_on_ = false;
+    int filter_unanswered_ = 0; ///< times since the set-up began
     bool doubtful_ = false;     ///< it warned, or did not say how it is set
     bool stream_stale_ = false; ///< what came before is useless; cleared with the next command
     StreamBuffer stream_;

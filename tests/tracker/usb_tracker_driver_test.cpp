@@ -137,6 +137,16 @@ TEST(UsbTrackerDriver, AFilterThatCannotBeSwitchedOffIsSaidAndNoReasonNotToStrea
     }
 }
 
+TEST(UsbTrackerDriver, AFilterWhoseAnswerDidNotComeIsAskedAgain) {
+    Bench bench(UsbTrackerModel::Viper);
+    bench.device.filter = FakeFilter::SaysNothing;
+    bench.run(milliseconds(800)); // one answer is overdue
+    bench.device.filter = FakeFilter::Obeys;
+    ASSERT_TRUE(bench.until_streaming(seconds(2)));
+    bench.run(seconds(1));
+    EXPECT_EQ(bench.state(), UsbTrackerState::Streaming);
+}
+
 TEST(UsbTrackerDriver, AViperThatAnswersLateStreamsAndItsUnitsAreNotDoubted) {
     for (const Nanoseconds late : {milliseconds(150), milliseconds(250), milliseconds(450)}) {
         Bench bench(UsbTrackerModel::Viper);
