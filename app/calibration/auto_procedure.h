@@ -117,8 +117,6 @@ public:
     [[nodiscard]] const Board& board() const { return board_; }
     [[nodiscard]] Rests rests() const;
     [[nodiscard]] std::size_t taken() const { return taken_.size(); }
-    /// Of the latest one; there is one.
-    [[nodiscard]] int last_name() const { return taken_.back().rest.name; }
     /// How many are wanted in all.
     [[nodiscard]] std::size_t wanted() const { return wanted_; }
     /// Of the latest look: whole and lit.
@@ -163,7 +161,7 @@ private:
     std::optional<MonotonicTime> active_; ///< the latest press or rest, or the beginning
     std::optional<LightDelay> light_;
     std::optional<Nanoseconds> delay_;
-    StillReports still_;
+    StillReports still_{3};
     std::optional<MonotonicTime> seen_;       ///< the tracker's latest report
     std::optional<RigidTransform> done_with_; ///< the prop is to move on from there
     std::optional<MonotonicTime> not_before_; ///< stripes were of no use there

@@ -13,7 +13,7 @@ bool is_near(const RigidTransform& a, const RigidTransform& b, double distance_m
 
 bool StillReports::add(MonotonicTime now, const RigidTransform& report) {
     const bool is_near_first = count_ == 0 || is_near(report, first_, still_m, still_rad);
-    if (!is_near_first && ++elsewhere_ < strays) {
+    if (!is_near_first && ++elsewhere_ < strays_) {
         return true;
     }
     if (!is_near_first) {

@@ -15,11 +15,13 @@ class StillReports {
 public:
     static constexpr double still_m = 1.5e-3; ///< from the first report of the rest
     static constexpr double still_rad = 0.02;
-    static constexpr int strays = 3; ///< so many reports in a row lie elsewhere: it moved; fewer are left out
+
+    /// `strays`: so many reports in a row lie elsewhere: it moved; fewer are left out.
+    explicit StillReports(int strays) : strays_(strays) {}
 
     /// False: the prop moved, and a new rest begins with this report.
     bool add(MonotonicTime now, const RigidTransform& report);
-    void clear() { *this = {}; }
+    void clear() { *this = StillReports(strays_); }
 
     [[nodiscard]] std::size_t count() const { return count_; }
     /// How long it has rested; no report yet: zero.
@@ -28,6 +30,7 @@ public:
     [[nodiscard]] RigidTransform mean() const;
 
 private:
+    int strays_;
     std::size_t count_ = 0;
     int elsewhere_ = 0; ///< reports in a row
     MonotonicTime began_{};

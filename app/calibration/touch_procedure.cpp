@@ -1,31 +1,9 @@
 #include "app/calibration/touch_procedure.h"
 
-#include "app/geometry/rotation_angle.h"
-
 #include <algorithm>
 #include <cassert>
 
 namespace frustumscreen {
-
-namespace {
-
-bool is_near(const RigidTransform& a, const RigidTransform& b, double distance_m, double angle_rad) {
-    return glm::distance(a.translation, b.translation) <= distance_m &&
-           rotation_angle(a.rotation, b.rotation) <= angle_rad;
-}
-
-/// Of poses that hardly differ: the sum of quaternions on one side is their mean to the second order.
-RigidTransform mean_of(const std::vector<RigidTransform>& poses) {
-    glm::dvec3 translation(0.0);
-    glm::dquat rotation(0.0, 0.0, 0.0, 0.0);
-    for (const RigidTransform& pose : poses) {
-        translation += pose.translation / static_cast<double>(poses.size());
-        rotation += glm::dot(pose.rotation, poses.front().rotation) < 0.0 ? -pose.rotation : pose.rotation;
-    }
-    return {glm::normalize(rotation), translation};
-}
-
-} // namespace
 
 void TouchProcedure::step(const Input& input) {
     if (nobody_is_there(input)) {
@@ -83,7 +61,7 @@ void TouchProcedure::lay(const Input& input) {
 }
 
 void TouchProcedure::begin_rest(MonotonicTime now) {
-    reports_.clear();
+    still_.clear();
     rest_began_ = now;
     seen_ = now;
 }
@@ -96,16 +74,15 @@ void TouchProcedure::hold_still(const Input& input) {
     }
     if (input.report) {
         seen_ = input.now;
-        if (!reports_.empty() && !is_near(*input.report, reports_.front(), still_m, still_rad)) {
-            begin_rest(input.now);
+        if (!still_.add(input.now, *input.report)) {
+            rest_began_ = input.now;
             word_ = TouchWord::Moved;
         }
-        reports_.push_back(*input.report);
     }
     if (input.now - seen_ > patience) {
         stage_ = TouchStage::Lay;
         word_ = TouchWord::NotSeen;
-    } else if (input.now - rest_began_ >= rest && reports_.size() >= least_reports) {
+    } else if (input.now - rest_began_ >= rest && still_.count() >= least_reports) {
         take();
     }
 }
@@ -125,7 +102,7 @@ bool TouchProcedure::lies_where_another_lay(const RigidTransform& pose) const {
 }
 
 void TouchProcedure::take() {
-    const RigidTransform pose = mean_of(reports_);
+    const RigidTransform pose = still_.mean();
     if (lies_where_another_lay(pose)) {
         stage_ = TouchStage::Lay;
         word_ = TouchWord::SamePlace;

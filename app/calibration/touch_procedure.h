@@ -15,6 +15,7 @@
 
 #include "app/calibration/calibrate_touch.h"
 #include "app/calibration/choose_crosses.h"
+#include "app/calibration/still_reports.h"
 #include "firmware_host/base/time.h"
 
 #include <optional>
@@ -63,8 +64,6 @@ public:
     static constexpr Nanoseconds patience = std::chrono::seconds(2); ///< for the tracker's reports
     static constexpr Nanoseconds to_begin = std::chrono::minutes(1); ///< without a press: it is left
     static constexpr Nanoseconds to_go_on = std::chrono::minutes(10);
-    static constexpr double still_m = 1.5e-3; ///< from the first report of the rest
-    static constexpr double still_rad = 0.02;
     static constexpr double same_place_m = 5e-3;
     static constexpr double same_place_rad = 0.2;
     static constexpr std::size_t least_reports = 5; ///< in the second of rest
@@ -125,7 +124,7 @@ private:
     TouchStage stage_ = TouchStage::Begin;
     std::optional<MonotonicTime> pressed_; ///< the latest press, or the beginning
     TouchWord word_ = TouchWord::None;
-    std::vector<RigidTransform> reports_; ///< of the rest so far
+    StillReports still_{1}; ///< of the rest so far
     MonotonicTime rest_began_{};
     MonotonicTime seen_{};
     std::optional<TouchJudgement> judged_;

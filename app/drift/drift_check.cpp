@@ -1,10 +1,12 @@
 #include "app/drift/drift_check.h"
 
 #include "app/calibration/homography.h"
+#include "firmware_host/base/quantile.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -18,9 +20,7 @@ Eigen::Vector2d eigen(const glm::dvec2& v) {
 }
 
 double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    return quantile(std::move(values), 0.5);
 }
 
 glm::dvec2 median(const std::vector<glm::dvec2>& places) {

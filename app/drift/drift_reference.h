@@ -20,7 +20,8 @@
 namespace frustumscreen {
 
 inline constexpr std::size_t most_marks = 10;
-inline constexpr std::size_t largest_reference_bytes = 65536;
+/// In the folder of the kept calibrations.
+inline constexpr const char* drift_file = "drift.json";
 
 /// A tag that lies on the table for good.
 struct AnchorTag {

@@ -3,7 +3,7 @@
 ///
 /// Threads  `use`: the camera's; no frame leaves it, and it alone writes the reference's file, once after a calibration. All else: the
 ///          render thread, which waits for nothing and allocates nothing.
-/// Errors   none; `status` says what is the matter. A reference that cannot be read is learned anew; one that cannot be written is a line
+/// Errors   none; `verdict` says what is the matter. A reference that cannot be read is learned anew; one that cannot be written is a line
 ///          on standard error, and is learned anew with the next start.
 #pragma once
 

@@ -1,5 +1,7 @@
 #include "app/drift/mark_finder.h"
 
+#include "firmware_host/base/quantile.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -54,9 +56,7 @@ double noise_of(std::span<const float> values, std::vector<float>& room) {
     for (std::size_t k = 0; k < values.size(); k += step) {
         room.push_back(std::abs(values[k]));
     }
-    const auto middle = room.begin() + static_cast<std::ptrdiff_t>(room.size() / 2);
-    std::nth_element(room.begin(), middle, room.end());
-    return 1.4826 * static_cast<double>(*middle);
+    return 1.4826 * quantile_in(std::span(room), 0.5);
 }
 
 void add_to(std::vector<std::uint16_t>& sums, std::span<const std::uint8_t> luma, bool is_first) {

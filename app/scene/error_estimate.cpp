@@ -84,20 +84,7 @@ SeenLevel derived(const LevelError& error, const glm::dvec3& box_size) {
     return {{eye}, {seen}};
 }
 
-Result<std::vector<SeenLevel>> seen_levels(const PackOutline& pack) {
-    const Result<SeenErrors> seen = seen_errors_of(pack.description, pack.levels.size());
-    if (!seen) {
-        return tl::unexpected<Error>(seen.error());
-    }
-    std::vector<SeenLevel> levels;
-    for (std::size_t k = 0; k < pack.levels.size(); ++k) {
-        levels.push_back(seen->eyes.empty() ? derived(pack.levels[k].error, pack.description.box_size)
-                                            : SeenLevel{seen->eyes, seen->levels[k]});
-    }
-    return levels;
-}
-
-Result<std::vector<SeenLevel>> seen_reliefs(const PackOutline& pack) {
+Result<SeenByEyes> seen_by_eyes(const PackOutline& pack) {
     const Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack.description);
     if (!reliefs) {
         return tl::unexpected<Error>(reliefs.error());
@@ -110,12 +97,18 @@ Result<std::vector<SeenLevel>> seen_reliefs(const PackOutline& pack) {
         return bad_input(fmt::format("sections.seen_reliefs.data has {} reliefs; allowed are the pack's {}",
                                      seen->reliefs.size(), reliefs->size()));
     }
-    std::vector<SeenLevel> levels;
-    for (std::size_t k = 0; k < reliefs->size(); ++k) {
-        levels.push_back(seen->reliefs.empty() ? derived((*reliefs)[k].error, pack.description.box_size)
-                                               : SeenLevel{seen->eyes, seen->reliefs[k]});
+    SeenByEyes surfaces;
+    for (std::size_t k = 0; k < pack.levels.size(); ++k) {
+        surfaces.levels.push_back(seen->eyes.empty()
+                                      ? derived(pack.levels[k].error, pack.description.box_size)
+                                      : SeenLevel{seen->eyes, seen->levels[k]});
     }
-    return levels;
+    for (std::size_t k = 0; k < reliefs->size(); ++k) {
+        surfaces.reliefs.push_back(seen->reliefs.empty()
+                                       ? derived((*reliefs)[k].error, pack.description.box_size)
+                                       : SeenLevel{seen->eyes, seen->reliefs[k]});
+    }
+    return surfaces;
 }
 
 SeenError worst_of(const SeenLevel& seen) {

@@ -57,10 +57,12 @@ struct SeenLevel {
 };
 /// What is known of a level where no eye was asked.
 [[nodiscard]] SeenLevel derived(const LevelError& error, const glm::dvec3& box_size);
-/// One for each level; derived where the pack has no SeenErrors. Errors: as seen_errors_of.
-[[nodiscard]] Result<std::vector<SeenLevel>> seen_levels(const PackOutline& pack);
-/// The same of the reliefs that are cast, in the order of `reliefs_of`.
-[[nodiscard]] Result<std::vector<SeenLevel>> seen_reliefs(const PackOutline& pack);
+/// All of a pack: one for each level, and one for each relief that is cast, in the order of `reliefs_of`.
+struct SeenByEyes {
+    std::vector<SeenLevel> levels, reliefs;
+};
+/// Derived where the pack has no SeenErrors. Errors: as seen_errors_of.
+[[nodiscard]] Result<SeenByEyes> seen_by_eyes(const PackOutline& pack);
 
 /// Each figure as the eye sees it that sees the most of it.
 [[nodiscard]] SeenError worst_of(const SeenLevel& seen);

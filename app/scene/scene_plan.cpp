@@ -346,13 +346,12 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
     if (bends) {
         reliefs->clear();
     }
-    Result<std::vector<SeenLevel>> seen = seen_levels(pack);
-    Result<std::vector<SeenLevel>> seen_cast = seen_reliefs(pack);
-    if (!seen || !seen_cast) {
-        return tl::unexpected<Error>(seen ? seen_cast.error() : seen.error());
+    Result<SeenByEyes> seen = seen_by_eyes(pack);
+    if (!seen) {
+        return tl::unexpected<Error>(seen.error());
     }
     ScenePlan plan;
-    plan.seen = *std::move(seen);
+    plan.seen = std::move(seen->levels);
     plan.economies = request.economies;
     plan.projector = settings.projector.pinhole;
     plan.table_from_projector = settings.projector.table_from_projector;
@@ -370,7 +369,8 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
         return tl::unexpected<Error>(asked.error());
     }
     choose_levels(pack, request, 1e3 * settings.render.error_tolerance_px * pixel_m,
-                  pixel_m / plan.metres_per_box, *asked, {*std::move(reliefs), *std::move(seen_cast)}, plan);
+                  pixel_m / plan.metres_per_box, *asked, {*std::move(reliefs), std::move(seen->reliefs)},
+                  plan);
     choose_captions(settings, pack, request, plan);
     choose_shaders(request,
                    request.live && (shows_zone_frame(settings) || guides_visitors(settings) ||

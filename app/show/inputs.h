@@ -13,7 +13,6 @@
 #include "firmware_host/tracker/packet_recorder.h"
 
 #include <memory>
-#include <string_view>
 
 namespace frustumscreen {
 
@@ -28,20 +27,5 @@ struct Inputs {
     std::unique_ptr<Panel> panel;   ///< none: nothing is pressed
     std::unique_ptr<Sound> sound;   ///< none: there is nothing to say
 };
-
-/// How the camera is, in one plain sentence; empty: there is none.
-[[nodiscard]] inline std::string_view camera_state(const Inputs& inputs) {
-    if (!inputs.camera) {
-        return {};
-    }
-    const CameraState state = inputs.camera->state();
-    for (const std::string_view trouble : {inputs.tags ? inputs.tags->trouble() : std::string_view{},
-                                           inputs.visitor ? inputs.visitor->trouble() : std::string_view{}}) {
-        if (!trouble.empty() && health_of(state) == CameraHealth::Well) {
-            return trouble;
-        }
-    }
-    return sentence_of(state);
-}
 
 } // namespace frustumscreen

@@ -184,9 +184,11 @@ private:
 
     /// Marks of light are for nobody's eyes but the camera's.
     [[nodiscard]] std::optional<ShownMark> mark(MonotonicTime now) {
+        if (!inputs_.drift) {
+            return std::nullopt;
+        }
         const bool is_seen = !inputs_.camera || health_of(inputs_.camera->state()) == CameraHealth::Well;
-        const bool quiet = attracts_ && !asleep_ && commands_.empty() && is_seen;
-        return inputs_.drift ? inputs_.drift->step(now, quiet) : std::nullopt;
+        return inputs_.drift->step(now, attracts_ && !asleep_ && commands_.empty() && is_seen);
     }
 
     /// What is pressed while it sleeps wakes it and does nothing else.
@@ -360,8 +362,24 @@ private:
         status.recording = inputs_.recorder ? Sentence(inputs_.recorder->state()) : inputs_.why_not_recorded;
     }
 
+    /// In one plain sentence; empty: there is none.
+    [[nodiscard]] std::string_view camera_state() const {
+        if (!inputs_.camera) {
+            return {};
+        }
+        const CameraState state = inputs_.camera->state();
+        if (health_of(state) == CameraHealth::Well && inputs_.tags && !inputs_.tags->trouble().empty()) {
+            return inputs_.tags->trouble();
+        }
+        if (health_of(state) == CameraHealth::Well && inputs_.visitor &&
+            !inputs_.visitor->trouble().empty()) {
+            return inputs_.visitor->trouble();
+        }
+        return sentence_of(state);
+    }
+
     void renew_camera(RunStatus& status) {
-        status.camera = Sentence(camera_state(inputs_));
+        status.camera = Sentence(camera_state());
         status.camera_hz = inputs_.camera ? inputs_.camera->rate_hz() : 0.0;
         status.camera_for = {inputs_.tags != nullptr, inputs_.visitor != nullptr, inputs_.drift != nullptr};
         if (inputs_.drift) {

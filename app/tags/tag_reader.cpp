@@ -1,7 +1,5 @@
 #include "app/tags/tag_reader.h"
 
-#include <cmath>
-#include <ctime>
 #include <utility>
 
 namespace frustumscreen {
@@ -14,30 +12,22 @@ constexpr int frames_at_half = 100;
 
 } // namespace
 
-double TagReader::thread_seconds() {
-    timespec time{};
-    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 TagReader::TagReader(TagSetUp set_up, std::function<double()> busy)
-    : set_up_(std::move(set_up)), busy_(std::move(busy)), half_({.decimate = 2.0}) {}
+    : set_up_(std::move(set_up)), pace_(most_share, std::move(busy)), half_({.decimate = 2.0}) {}
 
 std::optional<UncertainPose> TagReader::read(const CameraFrame& frame) {
-    if (frame.time < next_) {
+    if (!pace_.begin(frame.time)) {
         ++counts_.passed_over;
         return std::nullopt;
     }
-    const double begin_s = busy_();
     const std::optional<UncertainPose> pose = look(frame);
-    const double took_s = std::fmax(0.0, busy_() - begin_s);
+    const double took_s = pace_.end();
     if (half_for_ > 0) {
         --half_for_;
         ++counts_.at_half_size;
     } else if (took_s > longest_whole_s) {
         half_for_ = frames_at_half;
     }
-    next_ = frame.time + Nanoseconds(std::llround(1e9 * took_s / most_share));
     ++counts_.looked_at;
     counts_.posed += pose ? 1 : 0;
     return pose;

@@ -13,6 +13,7 @@
 #include "app/tags/tag_pose.h"
 #include "app/tracking/uncertain_pose.h"
 #include "firmware_host/camera/camera.h"
+#include "firmware_host/camera/frame_pace.h"
 
 #include <atomic>
 #include <functional>
@@ -45,18 +46,15 @@ public:
     [[nodiscard]] std::optional<UncertainPose> read(const CameraFrame& frame);
     [[nodiscard]] const TagCounts& counts() const { return counts_; }
 
-    [[nodiscard]] static double thread_seconds();
-
 private:
     [[nodiscard]] std::optional<UncertainPose> look(const CameraFrame& frame);
 
     TagSetUp set_up_;
-    std::function<double()> busy_;
+    FramePace pace_;
     TagDetector whole_;
     TagDetector half_;
     int half_for_ = 0; ///< frames to come are searched at half size
     std::vector<FoundTag> found_;
-    MonotonicTime next_; ///< earlier frames are passed over
     TagCounts counts_;
 };
 

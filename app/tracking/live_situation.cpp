@@ -14,8 +14,6 @@ namespace {
 constexpr double longest_flip_s = 0.1;
 /// The lever is 0, because only the place of the head counts and not its turn.
 constexpr double head_lever_m = 0.0;
-/// From one head to another, or to none.
-constexpr Nanoseconds eye_glides = std::chrono::milliseconds(250);
 
 /// What no filter sees of the tracker: its registration, and its field bent by metal. Polhemus calls poses with a distortion that it
 /// reports wrong by some millimetres.
@@ -55,7 +53,7 @@ LiveSituation::LiveSituation(const glm::dvec3& default_eye_m, double lever_m)
     : default_eye_m_(default_eye_m), prop_(estimator()), tags_(estimator()), head_(estimator()),
       visitor_(std::make_unique<MotionFilter>(seen_head_filter()), seen_head_options()), lever_m_(lever_m),
       hand_over_({.lever_m = lever_m}), shown_prop_({.lever_m = lever_m}),
-      shown_head_({.lever_m = head_lever_m, .return_time = eye_glides}) {}
+      shown_head_({.lever_m = head_lever_m}) {}
 
 bool LiveSituation::take(const PoseSample& sample) {
     if (!sample.ok || (sample.station != prop_station && sample.station != head_station)) {

@@ -107,7 +107,7 @@ std::optional<HeadOutline> outline_of(const Top& top) {
     if (widest < narrowest || static_cast<double>(used) < widest_from * widest) {
         return std::nullopt;
     }
-    HeadOutline outline{{}, widest, top.row};
+    HeadOutline outline{{}, widest};
     for (std::size_t k = 0; k < used; ++k) {
         const double y = top.row + static_cast<double>(k) + 0.5;
         outline.edge.emplace_back(top.runs[k].left, y);

@@ -16,7 +16,6 @@ namespace frustumscreen {
 struct HeadOutline {
     std::vector<glm::dvec2> edge; ///< ends of the rows of the head's upper part, left and right in turn
     double width = 0.0;           ///< of the widest of them
-    int top = 0;                  ///< row
 };
 
 /// `foreground`: [height][width], 0 or not.

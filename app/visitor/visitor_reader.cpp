@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <utility>
 
 namespace frustumscreen {
@@ -23,25 +22,17 @@ glm::dvec3 middle_of_table() {
 
 } // namespace
 
-double VisitorReader::thread_seconds() {
-    timespec time{};
-    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 VisitorReader::VisitorReader(VisitorSetUp set_up, std::function<double()> busy)
-    : set_up_(std::move(set_up)), busy_(std::move(busy)) {}
+    : set_up_(std::move(set_up)), pace_(most_share, std::move(busy)) {}
 
 std::span<const SeenHead> VisitorReader::read(const CameraFrame& frame) {
     heads_.clear();
-    if (frame.time < next_ && next_ - frame.time < std::chrono::seconds(10)) {
+    if (!pace_.begin(frame.time)) {
         ++counts_.passed_over;
         return heads_;
     }
-    const double begin_s = busy_();
     look(frame);
-    const double took_s = std::fmax(0.0, busy_() - begin_s);
-    next_ = frame.time + Nanoseconds(std::llround(1e9 * took_s / most_share));
+    pace_.end();
     ++counts_.looked_at;
     return heads_;
 }

@@ -14,6 +14,7 @@
 #include "app/visitor/background.h"
 #include "app/visitor/head_fit.h"
 #include "firmware_host/camera/camera.h"
+#include "firmware_host/camera/frame_pace.h"
 
 #include <functional>
 #include <optional>
@@ -50,8 +51,6 @@ public:
     [[nodiscard]] std::span<const SeenHead> read(const CameraFrame& frame);
     [[nodiscard]] const VisitorCounts& counts() const { return counts_; }
 
-    [[nodiscard]] static double thread_seconds();
-
 private:
     /// Somebody, from frame to frame.
     struct Person {
@@ -70,7 +69,7 @@ private:
     [[nodiscard]] SeenHead seen(const Person& person) const;
 
     VisitorSetUp set_up_;
-    std::function<double()> busy_;
+    FramePace pace_;
     Pinhole camera_; ///< of the small frame
     SmallFrame small_;
     std::optional<Background> background_;
@@ -79,7 +78,6 @@ private:
     std::vector<PixelBox> boxes_;
     std::vector<SeenHead> heads_;
     std::uint32_t last_number_ = 0;
-    MonotonicTime next_; ///< earlier frames are passed over
     VisitorCounts counts_;
 };
 

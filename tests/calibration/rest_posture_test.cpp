@@ -34,7 +34,7 @@ TEST(RestWish, ThreeFlatOnesFirstThenEveryFourthLeansAndABlockComesInForAHiddenT
 }
 
 TEST(StillReports, LeaveAStrayReportOut) {
-    StillReports still;
+    StillReports still(3);
     const RigidTransform here;
     const RigidTransform elsewhere{{1.0, 0.0, 0.0, 0.0}, {0.01, 0.0, 0.0}};
     MonotonicTime now{};

@@ -156,7 +156,7 @@ TEST(ErrorEstimate, OfAnOlderPackComesFromItsSurfacesDistance) {
     PackOutline outline;
     outline.levels.resize(2);
     outline.levels[1].error = {1e-3F, 4e-3F, 1.0F, 0.0F};
-    const std::vector<SeenLevel> seen = seen_levels(outline).value();
+    const std::vector<SeenLevel> seen = seen_by_eyes(outline).value().levels;
     ASSERT_EQ(seen.size(), 2U);
     EXPECT_FLOAT_EQ(worst_of(seen[1]).mean_box, 2e-3F); // tests/bake holds the factor against rays
     EXPECT_FLOAT_EQ(worst_of(seen[1]).p95_box, 8e-3F);
@@ -164,9 +164,9 @@ TEST(ErrorEstimate, OfAnOlderPackComesFromItsSurfacesDistance) {
     EXPECT_NEAR(kiosk.estimate(seen[1])->mean_mm, 0.16, 2e-3);
     put_seen_errors({{eye_at({0.0, 0.6, 0.8})}, {{seen_of(0.5F)}, {seen_of(0.25F)}}, {}},
                     outline.description);
-    EXPECT_FLOAT_EQ(worst_of(seen_levels(outline).value()[1]).mean_box, 0.25F);
+    EXPECT_FLOAT_EQ(worst_of(seen_by_eyes(outline).value().levels[1]).mean_box, 0.25F);
     outline.levels.resize(3);
-    EXPECT_FALSE(seen_levels(outline));
+    EXPECT_FALSE(seen_by_eyes(outline));
 }
 
 } // namespace

@@ -237,7 +237,7 @@ Result<void> TechniqueSet::add_relief(const Pack& pack, TechniqueKind kind, Bloc
 
 Result<void> TechniqueSet::add_reliefs(const Pack& pack, const PictureOptions& options) {
     const Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack);
-    const Result<std::vector<SeenLevel>> seen = seen_reliefs(outline_of(pack));
+    const Result<SeenByEyes> seen = seen_by_eyes(outline_of(pack));
     if (!reliefs || !seen) {
         return tl::unexpected<Error>(reliefs ? seen.error() : reliefs.error());
     }
@@ -248,8 +248,8 @@ Result<void> TechniqueSet::add_reliefs(const Pack& pack, const PictureOptions& o
             return tl::unexpected<Error>(relief.error());
         }
         const std::string name = name_of(Rung{outline.texels, pack.samples, false, true});
-        if (const Result<void> added =
-                add_relief(pack, TechniqueKind::PackRelief, *std::move(relief), (*seen)[k], options, name);
+        if (const Result<void> added = add_relief(pack, TechniqueKind::PackRelief, *std::move(relief),
+                                                  seen->reliefs[k], options, name);
             !added) {
             return added;
         }

@@ -53,12 +53,12 @@ TagFigures measure(const TagCase& of, std::size_t pictures, std::uint64_t seed) 
     for (std::size_t k = 0; k < pictures; ++k) {
         const PropMotion motion = any_motion(of, random);
         const std::vector<std::uint8_t> picture = scene.picture(motion, random());
-        const double begin = 1e3 * TagReader::thread_seconds();
+        const double begin = 1e3 * thread_seconds();
         detector.find(picture, camera.pinhole.width, camera.pinhole.height, found);
-        const double between = 1e3 * TagReader::thread_seconds();
+        const double between = 1e3 * thread_seconds();
         const auto pose = pose_from_tags(found, tags, camera.pinhole, usual_corner_sd_px);
         lists.find_ms.push_back(between - begin);
-        lists.fit_ms.push_back(1e3 * TagReader::thread_seconds() - between);
+        lists.fit_ms.push_back(1e3 * thread_seconds() - between);
         figures.tags += static_cast<double>(found.size()) / static_cast<double>(pictures);
         figures.posed += pose ? 1.0 / static_cast<double>(pictures) : 0.0;
         if (!pose || !is_sure(*pose)) {

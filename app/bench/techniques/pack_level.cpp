@@ -93,7 +93,7 @@ private:
 
 Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pack& pack, std::uint32_t level,
                                                    const PictureOptions& options, std::string name) {
-    const Result<std::vector<SeenLevel>> seen = seen_levels(outline_of(pack));
+    const Result<SeenByEyes> seen = seen_by_eyes(outline_of(pack));
     if (!seen) {
         return tl::unexpected<Error>(seen.error());
     }
@@ -121,7 +121,7 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
     }
     PlacedLevel shown = placed(pack, level, place(pack, stage.prop).metres_per_box, *drawable);
     shown.samples = samples;
-    return std::make_unique<PackLevelTechnique>(stage, shown, (*seen)[level],
+    return std::make_unique<PackLevelTechnique>(stage, shown, seen->levels[level],
                                                 lights_of(stage, options, pack, level), std::move(name),
                                                 Parts{std::move(*renderer), std::move(*hit_points)});
 }

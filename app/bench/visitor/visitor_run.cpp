@@ -117,8 +117,7 @@ Room room_of(const VisitorCase& of, bool comes, std::mt19937_64& random) {
             std::move(people),
             std::move(lights),
             VisitorScene(of.camera, of.light, table_size_m, make_frustum(shipped_frustum), prop),
-            VisitorReader({of.camera.pinhole, believed(of).table_from_camera(), zone},
-                          VisitorReader::thread_seconds),
+            VisitorReader({of.camera.pinhole, believed(of).table_from_camera(), zone}, thread_seconds),
             LiveSituation(default_eye_m, 0.5 * shipped_frustum.height_m)};
 }
 
@@ -143,10 +142,10 @@ void step(Room& room, double t_s, std::uint64_t seed) {
     const Pinhole& pinhole = room.of.camera.pinhole;
     const CameraFrame frame{time_of(t_s), 1, pinhole.width, pinhole.height,
                             room.scene.picture(bodies, room.lights, t_s, seed)};
-    const double begin = VisitorReader::thread_seconds();
+    const double begin = thread_seconds();
     const std::span<const SeenHead> heads = room.reader.read(frame);
     VisitMoment moment;
-    moment.ms = 1e3 * (VisitorReader::thread_seconds() - begin);
+    moment.ms = 1e3 * (thread_seconds() - begin);
     PoseSample prop;
     prop.time = frame.time;
     prop.station = prop_station;

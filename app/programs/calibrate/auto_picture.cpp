@@ -1,12 +1,10 @@
 #include "app/programs/calibrate/auto_picture.h"
 
-#include "app/exhibit/canvas.h"
+#include "app/programs/calibrate/table_words.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 namespace frustumscreen {
@@ -18,16 +16,6 @@ constexpr Colour ink{0, 0, 0};
 constexpr Colour place_colour{255, 255, 255};
 constexpr Colour taken_colour{0, 70, 0};
 
-/// A reason is half a sentence, as programs say it behind a colon.
-std::string sentence(std::string_view reason) {
-    std::string text(reason);
-    if (!text.empty()) {
-        text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-        text += '.';
-    }
-    return text;
-}
-
 std::string words_of(const AutoProcedure& procedure) {
     switch (procedure.word()) {
     case AutoWord::None:
@@ -35,7 +23,7 @@ std::string words_of(const AutoProcedure& procedure) {
     case AutoWord::NoLight:
         return "The camera does not see the projector's light. Turn it to the table, then press Next.";
     case AutoWord::CameraFault:
-        return sentence(sentence_of(procedure.camera()));
+        return as_sentence(std::string(sentence_of(procedure.camera())));
     case AutoWord::NoFrames:
         return "The camera has stopped sending. Look at its cable; the stripes come again by themselves.";
     case AutoWord::NotSeen:
@@ -90,7 +78,7 @@ std::string words_of(const AutoPlan& plan, const RestWish& wish) {
 
 std::vector<std::string> words_of_begin(const AutoProcedure& procedure) {
     if (!procedure.problem().empty()) {
-        return {"The table cannot be measured", sentence(procedure.problem()),
+        return {"The table cannot be measured", as_sentence(procedure.problem()),
                 "Back returns to the exhibit."};
     }
     return {"Staff: measure the table with the camera",
@@ -105,7 +93,7 @@ std::vector<std::string> words_of_begin(const AutoProcedure& procedure) {
 std::vector<std::string> words_of_verdict(const AutoProcedure& procedure) {
     const TouchCalibration& found = procedure.judged()->found;
     std::vector<std::string> words{fmt::format("The calibration is: {}", name_of(found.verdict)),
-                                   sentence(found.reason)};
+                                   as_sentence(found.reason)};
     if (found.table) {
         words.push_back(fmt::format(
             "The points of a rest lie {:.1f} mm from where the others expect them, {:.1f} mm at worst.",
@@ -159,7 +147,7 @@ std::vector<std::string> auto_words(const AutoProcedure& procedure) {
     }
     // It goes on all the same.
     if (procedure.camera() == CameraState::Slow || procedure.camera() == CameraState::Unlocked) {
-        words.push_back(sentence(sentence_of(procedure.camera())));
+        words.push_back(as_sentence(std::string(sentence_of(procedure.camera()))));
     }
     return words;
 }
@@ -208,22 +196,14 @@ Image8 auto_picture(const AutoProcedure& procedure, int width, int height, doubl
     }
     // The words stand in the half of the picture where the board is not.
     const bool below = !has_place || place.y < 0.45 * height;
-    std::vector<Paragraph> paragraphs;
-    for (const std::string& line : auto_words(procedure)) {
-        const bool is_first = paragraphs.empty();
-        paragraphs.push_back({line, (is_first ? 4.0 : 2.6) * unit, is_first, 1.0, is_first ? 0.0 : unit});
-    }
-    const Image<std::uint8_t> coverage = typesetter.set(paragraphs, 0.7 * width);
+    const Image<std::uint8_t> coverage =
+        typesetter.set(paragraphs_of(auto_words(procedure), unit), 0.7 * width);
     const double room = height - 5.0 * unit - coverage.height;
     const double top = !has_place ? 0.4 * height : below ? std::fmin(room, 0.68 * height) : 5.0 * unit;
     canvas.coverage(coverage, {(width - coverage.width) / 2, static_cast<int>(std::fmax(top, unit))}, ink);
-    const auto wanted = static_cast<int>(procedure.wanted());
-    for (int k = 0; k < wanted; ++k) { // one dot for each rest
-        const bool is_taken = k < static_cast<int>(procedure.taken());
-        canvas.circle(
-            {0.5 * width + (k - 0.5 * (wanted - 1)) * 4.0 * unit, below ? height - 3.0 * unit : 3.0 * unit},
-            unit, is_taken ? 4.0 : 1.0, is_taken ? taken_colour : ink);
-    }
+    draw_dots(canvas, {0.5 * width, below ? height - 3.0 * unit : 3.0 * unit}, unit,
+              static_cast<int>(procedure.wanted()),
+              [&](int k) { return k < static_cast<int>(procedure.taken()); }, {taken_colour, ink});
     return canvas.take();
 }
 

@@ -8,7 +8,6 @@
 #include "app/programs/devices/wiring.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <thread>
@@ -160,8 +159,6 @@ Result<int> calibrate_by_camera(const CalibrateRequest& request) {
     if (!devices) {
         return tl::unexpected<Error>(devices.error());
     }
-    const rlimit none{0, 0};
-    static_cast<void>(::setrlimit(RLIMIT_CORE, &none)); // a frame would lie in it
     AutoPlan plan;
     plan.rests = request.rests.value_or(plan.rests);
     plan.board_m = request.board_m.value_or(plan.board_m);

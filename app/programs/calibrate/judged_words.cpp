@@ -1,8 +1,8 @@
 #include "app/programs/calibrate/judged_words.h"
 
-#include <fmt/format.h>
+#include "app/programs/calibrate/table_words.h"
 
-#include <cctype>
+#include <fmt/format.h>
 
 namespace frustumscreen {
 
@@ -30,14 +30,6 @@ std::string right_again(const TouchUp& found) {
 }
 
 } // namespace
-
-std::string as_sentence(std::string reason) {
-    if (!reason.empty()) {
-        reason.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(reason.front())));
-        reason += '.';
-    }
-    return reason;
-}
 
 TouchJudgement judgement_of(const TouchCalibration& calibration) {
     TouchJudgement judged{calibration.verdict,

@@ -6,14 +6,9 @@
 #include "app/calibration/touch_procedure.h"
 #include "app/calibration/touch_up.h"
 
-#include <string>
-
 namespace frustumscreen {
 
 [[nodiscard]] TouchJudgement judgement_of(const TouchCalibration& calibration);
 [[nodiscard]] TouchJudgement judgement_of(const TouchUp& found);
-
-/// A reason is half a sentence, as programs say it behind a colon: this makes a whole one.
-[[nodiscard]] std::string as_sentence(std::string reason);
 
 } // namespace frustumscreen

@@ -3,7 +3,7 @@
 #include "app/exhibit/canvas.h"
 #include "app/exhibit/coverage.h"
 #include "app/exhibit/glyph_image.h"
-#include "app/programs/calibrate/judged_words.h"
+#include "app/programs/calibrate/table_words.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -268,25 +268,16 @@ Image8 touch_picture(const TouchProcedure& procedure, int width, int height, dou
     }
     // The words stand in the half of the picture where the cross is not, so that the prop hides none of them.
     const bool below = !has_cross || procedure.cross().pixel.y < 0.5 * height;
-    std::vector<Paragraph> paragraphs;
-    for (const std::string& line : touch_words(procedure)) {
-        const bool is_first = paragraphs.empty();
-        paragraphs.push_back({line, (is_first ? 4.0 : 2.6) * unit, is_first, 1.0, is_first ? 0.0 : unit});
-    }
-    const Image<std::uint8_t> coverage = above(house_sentence(procedure, house, 0.6 * width),
-                                               typesetter.set(paragraphs, 0.6 * width), 2.5 * unit);
+    const Image<std::uint8_t> coverage =
+        above(house_sentence(procedure, house, 0.6 * width),
+              typesetter.set(paragraphs_of(touch_words(procedure), unit), 0.6 * width), 2.5 * unit);
     const double top = below ? (has_cross ? 0.62 : 0.4) * height : 0.38 * height - coverage.height;
     canvas.coverage(
         coverage, {(width - coverage.width) / 2, static_cast<int>(std::max(top, unit))},
         procedure.word() == TouchWord::Taken || procedure.word() == TouchWord::None ? white : front_colour);
-    for (int k = 0; k < static_cast<int>(procedure.count());
-         ++k) { // one dot for each touch, on the same side
-        const glm::dvec2 at((0.5 * width) +
-                                (k - 0.5 * (static_cast<int>(procedure.count()) - 1)) * 4.0 * unit,
-                            below ? height - 3.0 * unit : 3.0 * unit);
-        canvas.circle(at, unit, procedure.is_taken(static_cast<std::size_t>(k)) ? 4.0 : 1.0,
-                      procedure.is_taken(static_cast<std::size_t>(k)) ? good_colour : dim);
-    }
+    const double row = below ? height - 3.0 * unit : 3.0 * unit; // on the same side
+    draw_dots(canvas, {0.5 * width, row}, unit, static_cast<int>(procedure.count()),
+              [&](int k) { return procedure.is_taken(static_cast<std::size_t>(k)); }, {good_colour, dim});
     return canvas.take();
 }
 

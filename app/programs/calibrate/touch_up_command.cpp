@@ -1,7 +1,7 @@
 #include "app/programs/calibrate/touch_up_command.h"
 
 #include "app/calibration/touch_up.h"
-#include "app/drift/drift_file.h"
+#include "app/drift/drift_reference.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/touch_command.h"
 

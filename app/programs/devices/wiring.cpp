@@ -1,6 +1,6 @@
 #include "app/programs/devices/wiring.h"
 
-#include "app/drift/drift_file.h"
+#include "app/drift/drift_reference.h"
 #include "app/drift/mark_places.h"
 #include "app/settings/command.h"
 #include "app/settings/lit_zone.h"
@@ -242,11 +242,8 @@ CameraWish camera_wish(const CameraSettings& settings) {
 }
 
 std::unique_ptr<Camera> make_camera(const CameraSettings& settings, std::vector<FrameUse> uses) {
-    if (uses.empty()) {
-        return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_wish(settings));
-    }
     const rlimit none{0, 0};
-    static_cast<void>(::setrlimit(RLIMIT_CORE, &none));
+    static_cast<void>(::setrlimit(RLIMIT_CORE, &none)); // a frame would lie in it
     return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_wish(settings),
                                         [uses = std::move(uses)](const CameraFrame& frame) {
                                             for (const FrameUse& use : uses) {

@@ -35,8 +35,8 @@ namespace frustumscreen {
 [[nodiscard]] std::unique_ptr<Sound> make_sound(const SoundSettings& settings);
 
 [[nodiscard]] CameraWish camera_wish(const CameraSettings& settings);
-/// Starts its thread, which hands each frame to all uses, one after the other. The settings have one. With a use the process dumps
-/// no core from then on: a frame would lie in it.
+/// Starts its thread, which hands each frame to all uses, one after the other. The settings have one. The process dumps no core from
+/// then on.
 [[nodiscard]] std::unique_ptr<Camera> make_camera(const CameraSettings& settings,
                                                   std::vector<FrameUse> uses = {});
 

@@ -10,7 +10,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <cmath>
 #include <cstdio>
@@ -93,8 +92,6 @@ Result<int> run(const Request& request, std::unique_ptr<Camera>& camera) {
     if (request.is_on) {
         return report.is_on ? 0 : 1;
     }
-    const rlimit none{0, 0};
-    static_cast<void>(::setrlimit(RLIMIT_CORE, &none)); // a frame would lie in it
     report.found = list_cameras(*kernel_v4l2_devices(), camera_wish(wished));
     report.begun = monotonic_now();
     if (report.is_on) {

@@ -1,0 +1,35 @@
+#include "firmware_host/camera/frame_pace.h"
+
+#include <cmath>
+#include <ctime>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr Nanoseconds longest_pause = std::chrono::seconds(10);
+
+} // namespace
+
+double thread_seconds() {
+    timespec time{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+bool FramePace::begin(MonotonicTime frame) {
+    if (frame < next_ && next_ - frame < longest_pause) {
+        return false;
+    }
+    frame_ = frame;
+    began_s_ = busy_();
+    return true;
+}
+
+double FramePace::end() {
+    const double took_s = std::fmax(0.0, busy_() - began_s_);
+    next_ = frame_ + Nanoseconds(std::llround(1e9 * took_s / most_share_));
+    return took_s;
+}
+
+} // namespace frustumscreen

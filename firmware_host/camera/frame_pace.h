@@ -1,0 +1,36 @@
+/// Keeps what is done with a camera's frames within a share of one core: after a frame that took some time, those that come too soon
+/// are passed over.
+///
+/// Time     the frames' own. Where it goes back by much, as another clock's would, the frame is looked at.
+/// Threads  one caller: the camera's own thread.
+#pragma once
+
+#include "firmware_host/base/time.h"
+
+#include <functional>
+
+namespace frustumscreen {
+
+/// Of the processor, that this thread has used.
+[[nodiscard]] double thread_seconds();
+
+class FramePace {
+public:
+    /// `busy`: seconds of the processor, ascending.
+    explicit FramePace(double most_share, std::function<double()> busy = thread_seconds)
+        : most_share_(most_share), busy_(std::move(busy)) {}
+
+    /// Whether the frame of that time is to be looked at; then the look begins.
+    [[nodiscard]] bool begin(MonotonicTime frame);
+    /// The look has ended; returns the seconds that it took.
+    double end();
+
+private:
+    double most_share_;
+    std::function<double()> busy_;
+    double began_s_ = 0.0;
+    MonotonicTime frame_; ///< that is looked at
+    MonotonicTime next_;  ///< earlier frames are passed over
+};
+
+} // namespace frustumscreen
