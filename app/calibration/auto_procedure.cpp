@@ -31,6 +31,9 @@ AutoProcedure::AutoProcedure(Board board, const AutoPlan& plan, std::string prob
 
 void AutoProcedure::step(const Input& input) {
     camera_ = input.camera;
+    if (stage_ != AutoStage::Begin || !camera_well_ || can_be_used(camera_, false)) {
+        camera_well_ = input.now;
+    }
     if (nobody_is_there(input)) {
         stage_ = AutoStage::Left;
     }
@@ -52,6 +55,7 @@ void AutoProcedure::step(const Input& input) {
         break;
     case AutoStage::Solve:
     case AutoStage::Done:
+    case AutoStage::Crosses:
     case AutoStage::Left:
         break;
     }
@@ -65,7 +69,7 @@ bool AutoProcedure::nobody_is_there(const Input& input) {
     if (!active_ || input.next || input.back) {
         active_ = input.now;
     }
-    return stage_ != AutoStage::Done &&
+    return stage_ != AutoStage::Done && stage_ != AutoStage::Crosses &&
            input.now - *active_ > (stage_ == AutoStage::Begin ? to_begin : to_go_on);
 }
 
@@ -80,11 +84,12 @@ std::optional<MonotonicTime> AutoProcedure::lit(const Input& input) const {
     return input.lit && input.lit->number == number_ ? std::optional(input.lit->since) : std::nullopt;
 }
 
+/// A camera that is not there or sees nothing is told here, once it had the time to be set up: nothing begins with it.
 void AutoProcedure::begin(const Input& input) {
-    word_ = AutoWord::None;
+    word_ = input.now - *camera_well_ > patience ? AutoWord::CameraFault : AutoWord::None;
     if (input.back) {
-        stage_ = AutoStage::Left;
-    } else if (input.next && problem_.empty()) {
+        stage_ = problem_.empty() && plan_.crosses_follow ? AutoStage::Crosses : AutoStage::Left;
+    } else if (input.next && problem_.empty() && word_ == AutoWord::None) {
         stage_ = AutoStage::Delay;
     }
 }
@@ -92,9 +97,9 @@ void AutoProcedure::begin(const Input& input) {
 /// Where the camera does not see the light, that is said, and it is measured again as soon as Next is pressed.
 void AutoProcedure::measure_delay(const Input& input) {
     if (input.back) {
+        stage_ = word_ != AutoWord::None && plan_.crosses_follow ? AutoStage::Crosses : AutoStage::Begin;
         light_.reset();
         word_ = AutoWord::None;
-        stage_ = AutoStage::Begin;
         return;
     }
     if (!can_be_used(input.camera, true)) {

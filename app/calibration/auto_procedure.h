@@ -1,7 +1,9 @@
 /// The way through a calibration by a camera, for one technician: what the projector shows, what is said, and which rests of the board come of it.
 ///
-/// Begin    What is needed is told, or why it cannot be done. Next begins, Back leaves; who does nothing for a while leaves too.
-/// Delay    The projector shows light and dark, and it is measured how long the camera takes to see it.
+/// Begin    What is needed is told, or why it cannot be done, or what is the matter with the camera. Next begins, Back leaves, or goes on
+///          to the crosses where they follow; who does nothing for a while leaves too.
+/// Delay    The projector shows light and dark, and it is measured how long the camera takes to see it. From a camera that does not, Back goes
+///          on to the crosses too.
 /// Rests    It is said where the board is to stand next, and how. When the tracker's reports have come to rest somewhere else than before, the
 ///          stripes are shown, without a press. What moved, or was shadowed, is done again by itself.
 /// Buttons  Between rests Back drops the last one, and Next ends early, from `enough` rests on. While stripes are shown Back ends them.
@@ -34,6 +36,7 @@ enum class AutoStage {
     Solve,   ///< all rests are there: call `judge`
     Judged,  ///< the verdict is told
     Done,    ///< it is to be kept
+    Crosses, ///< they are wanted in its place
     Left     ///< it ends without one
 };
 
@@ -62,7 +65,8 @@ struct AutoPlan {
     double board_m = 0.003; ///< how thick the board is
     double block_m = 0.12;  ///< how high the block raises it, where one is needed
     StripeSetup stripes;
-    int frames = 2; ///< of each striped picture
+    int frames = 2;              ///< of each striped picture
+    bool crosses_follow = false; ///< Back goes on to them, and not out
 };
 /// A period of the stripes that suits the picture's width: a camera's pixel covers more of a finer picture.
 [[nodiscard]] StripeSetup stripes_for(int width, int height);
@@ -70,7 +74,8 @@ struct AutoPlan {
 class AutoProcedure {
 public:
     static constexpr Nanoseconds rest = std::chrono::milliseconds(1500);
-    static constexpr Nanoseconds patience = std::chrono::seconds(2);  ///< for the tracker's reports
+    static constexpr Nanoseconds patience =
+        std::chrono::seconds(2); ///< for the tracker's reports, and for a camera to be set up
     static constexpr Nanoseconds to_begin = std::chrono::minutes(1);  ///< without a press: it is left
     static constexpr Nanoseconds to_go_on = std::chrono::minutes(10); ///< without a press or a rest
     static constexpr Nanoseconds pause =
@@ -159,6 +164,8 @@ private:
     std::optional<Pattern> shown_;
     std::uint64_t number_ = 0;
     std::optional<MonotonicTime> active_; ///< the latest press or rest, or the beginning
+    std::optional<MonotonicTime>
+        camera_well_; ///< at the beginning: so long it could be used, or nothing was to be seen yet
     std::optional<LightDelay> light_;
     std::optional<Nanoseconds> delay_;
     StillReports still_{3};

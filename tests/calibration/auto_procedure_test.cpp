@@ -3,13 +3,18 @@
 #include "app/bench/table/simulated_board.h"
 #include "app/calibration/auto_procedure.h"
 #include "app/programs/calibrate/auto_picture.h"
+#include "app/programs/calibrate/calibration_way.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <deque>
+#include <fstream>
 #include <functional>
+#include <set>
+#include <sstream>
 
 namespace frustumscreen {
 namespace {
@@ -319,6 +324,7 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
         live.procedure.judge(std::move(judged));
     };
     judge(Verdict::Usable, {});
+    EXPECT_EQ(word_key(live.procedure), "calibration.may_be_kept");
     live.press_back();
     EXPECT_EQ(live.procedure.stage(), AutoStage::Place);
     EXPECT_EQ(live.procedure.wanted(), 5U);
@@ -329,6 +335,166 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
     EXPECT_EQ(live.procedure.taken(), 0U);
     live.press_back();
     EXPECT_EQ(live.procedure.stage(), AutoStage::Begin);
+}
+
+/// Without pictures, tracker and tags: how it begins.
+struct Beginning {
+    explicit Beginning(bool crosses_follow) : procedure(*board_for(prop), plan(crosses_follow)) {}
+    static AutoPlan plan(bool crosses_follow) {
+        AutoPlan plan;
+        plan.stripes = stripes_for(640, 400);
+        plan.crosses_follow = crosses_follow;
+        return plan;
+    }
+    void wait(double seconds, CameraState state) {
+        for (const MonotonicTime end = input.now + std::chrono::milliseconds(std::llround(1e3 * seconds));
+             input.now < end;) {
+            input.now += std::chrono::milliseconds(100);
+            input.camera = state;
+            procedure.step(input);
+        }
+    }
+    /// The camera sends one picture again and again, whatever is shown.
+    void see(CameraFrame frame, double seconds) {
+        for (const MonotonicTime end = input.now + std::chrono::milliseconds(std::llround(1e3 * seconds));
+             input.now < end;) {
+            input.now += std::chrono::milliseconds(20);
+            if (!input.lit || input.lit->number != procedure.number()) {
+                input.lit = AutoProcedure::Lit{procedure.number(), input.now};
+            }
+            frame.time = input.now;
+            ++frame.number;
+            input.frame = &frame;
+            procedure.step(input);
+        }
+        input.frame = nullptr;
+    }
+    void press(bool AutoProcedure::Input::*button) {
+        input.*button = true;
+        procedure.step(input);
+        input.*button = false;
+    }
+    AutoProcedure procedure;
+    AutoProcedure::Input input;
+};
+constexpr auto next = &AutoProcedure::Input::next;
+constexpr auto back = &AutoProcedure::Input::back;
+
+TEST(AutoProcedure, GoesOnToTheCrossesWhereTheyFollow) {
+    for (const bool follow : {false, true}) {
+        Beginning table(follow);
+        table.wait(0.1, CameraState::Running);
+        EXPECT_EQ(word_key(table.procedure), follow ? "calibration.by_camera" : "calibration.begin");
+        table.press(back);
+        EXPECT_EQ(table.procedure.stage(), follow ? AutoStage::Crosses : AutoStage::Left);
+    }
+    AutoProcedure refused(*board_for(prop), Beginning::plan(true), "the folder is full");
+    EXPECT_EQ(word_key(refused), "") << "there is none for every reason";
+    AutoProcedure::Input pressed;
+    pressed.back = true;
+    refused.step(pressed);
+    EXPECT_EQ(refused.stage(), AutoStage::Left) << "it was measured, and could not be kept";
+}
+
+TEST(AutoProcedure, TellsOfACameraThatSeesNothingAndGoesOn) {
+    for (const CameraState fault : {CameraState::NotConnected, CameraState::Dark, CameraState::InUse}) {
+        Beginning table(true);
+        table.wait(1.5, fault); // cameras take as long to be set up
+        EXPECT_EQ(table.procedure.word(), AutoWord::None);
+        table.wait(1.0, fault);
+        EXPECT_EQ(table.procedure.word(), AutoWord::CameraFault);
+        EXPECT_EQ(word_key(table.procedure), "calibration.no_camera");
+        std::string sentence(sentence_of(fault));
+        sentence.erase(0, 1); // begins with a capital letter
+        EXPECT_NE(auto_words(table.procedure)[1].find(sentence), std::string::npos);
+        table.press(next);
+        EXPECT_EQ(table.procedure.stage(), AutoStage::Begin);
+        table.wait(0.1, CameraState::Running); // somebody mended it
+        EXPECT_EQ(word_key(table.procedure), "calibration.by_camera");
+        table.wait(2.5, fault);
+        table.press(back);
+        EXPECT_EQ(table.procedure.stage(), AutoStage::Crosses);
+        table.wait(3600.0, fault);
+        EXPECT_EQ(table.procedure.stage(), AutoStage::Crosses);
+    }
+    Beginning forgotten(true);
+    forgotten.wait(62.0, CameraState::NotConnected);
+    EXPECT_EQ(forgotten.procedure.stage(), AutoStage::Left);
+}
+
+TEST(AutoProcedure, GoesOnFromACameraThatDoesNotSeeTheLight) {
+    for (const bool follow : {false, true}) {
+        const AutoStage after = follow ? AutoStage::Crosses : AutoStage::Begin;
+        Beginning lost(follow);
+        lost.wait(0.1, CameraState::Running);
+        lost.press(next);
+        ASSERT_EQ(lost.procedure.stage(), AutoStage::Delay);
+        EXPECT_EQ(word_key(lost.procedure), "calibration.look_at_light");
+        lost.wait(0.5, CameraState::NotConnected);
+        EXPECT_EQ(word_key(lost.procedure), follow ? "calibration.no_camera" : "calibration.camera_fault");
+        lost.press(back);
+        EXPECT_EQ(lost.procedure.stage(), after);
+
+        Beginning well(follow);
+        well.wait(0.1, CameraState::Running);
+        well.press(next);
+        well.wait(0.5, CameraState::Dark); // while dark is shown
+        EXPECT_EQ(well.procedure.word(), AutoWord::None);
+        well.press(back);
+        EXPECT_EQ(well.procedure.stage(), AutoStage::Begin);
+        well.wait(1.0, CameraState::Dark); // it has yet to see the words' light
+        EXPECT_EQ(well.procedure.word(), AutoWord::None);
+    }
+}
+
+TEST(AutoProcedure, GoesOnFromACameraThatLooksElsewhere) {
+    for (const bool follow : {false, true}) {
+        Beginning elsewhere(follow);
+        elsewhere.wait(0.1, CameraState::Running);
+        elsewhere.press(next);
+        const CameraFrame same{{}, 0, 8, 8, std::vector<std::uint8_t>(64, 90)};
+        elsewhere.see(same, 30.0);
+        ASSERT_EQ(elsewhere.procedure.stage(), AutoStage::Delay);
+        EXPECT_EQ(elsewhere.procedure.word(), AutoWord::NoLight);
+        EXPECT_EQ(word_key(elsewhere.procedure), "calibration.no_light");
+        elsewhere.press(next); // it is measured anew
+        EXPECT_EQ(elsewhere.procedure.word(), AutoWord::None);
+        elsewhere.see(same, 30.0);
+        EXPECT_EQ(elsewhere.procedure.word(), AutoWord::NoLight);
+        elsewhere.press(back);
+        EXPECT_EQ(elsewhere.procedure.stage(), follow ? AutoStage::Crosses : AutoStage::Begin);
+    }
+}
+
+TEST(AutoProcedure, EverythingThatIsSaidHasItsWord) {
+    std::ifstream file(FRUSTUMSCREEN_SOURCE_DIR "/assets_baked/texts/words/en.toml");
+    std::stringstream text;
+    text << file.rdbuf();
+    const std::string words = text.str().substr(text.str().find("[calibration]"));
+    std::set<std::string> said;
+    for (int word = 0; word <= static_cast<int>(AutoWord::TooFew); ++word) {
+        for (const Posture wished : {Posture::Flat, Posture::Block, Posture::Leaning}) {
+            for (const bool may_go_on : {false, true}) {
+                said.insert(std::string(word_key(static_cast<AutoWord>(word), wished, may_go_on)));
+            }
+        }
+    }
+    EXPECT_EQ(said.size(), 17U);
+    said.insert({"calibration.by_camera", "calibration.look_at_light", "calibration.more_rests",
+                 "calibration.repeat"});
+    for (const std::string& key : said) {
+        ASSERT_TRUE(key.starts_with("calibration.")) << key;
+        EXPECT_NE(words.find("\n" + key.substr(12) + " = "), std::string::npos) << key;
+    }
+}
+
+TEST(CalibrationWays, BackLeadsFromTheQuickestToTheCrosses) {
+    using enum CalibrationWay;
+    using Ways = std::vector<CalibrationWay>;
+    EXPECT_EQ(ways_through(true, true), (Ways{TouchUp, Camera, Crosses}));
+    EXPECT_EQ(ways_through(true, false), (Ways{TouchUp, Crosses}));
+    EXPECT_EQ(ways_through(false, true), (Ways{Camera, Crosses}));
+    EXPECT_EQ(ways_through(false, false), (Ways{Crosses}));
 }
 
 TEST(AutoProcedure, LeavesWhenNobodyIsThere) {

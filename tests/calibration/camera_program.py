@@ -10,6 +10,8 @@ import tempfile
 import unittest
 import xml.etree.ElementTree
 
+from true_table import TrueTable
+
 PROGRAM = pathlib.Path(sys.argv.pop(1)) / "frustumscreen-calibrate"
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -26,13 +28,15 @@ kind = "{camera}"
 device = "/dev/video-that-is-not-there"
 [panel]
 kind = "scripted"
-script = [{ at_s = 0.3, button = 1 }, { at_s = 1.2, button = 0 }, { at_s = 1.5, button = 0 }]
+script = [{script}]
 repeat_s = 100.0
 [exhibit]
 library = "none"
 [calibration]
 folder = "kept"
+sensor_height_m = 0.085
 """
+BACK, NEXT = 0, 1
 
 
 class Camera(unittest.TestCase):
@@ -40,8 +44,10 @@ class Camera(unittest.TestCase):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.config = self.folder / "kiosk.toml"
 
-    def run_program(self, *words, camera="v4l2", base=0.30):
-        self.config.write_text(SETTINGS.replace("{camera}", camera).replace("{base}", str(base)))
+    def run_program(self, *words, camera="v4l2", base=0.30, presses=((0.3, NEXT), (1.2, BACK), (1.5, BACK))):
+        script = ", ".join(f"{{ at_s = {at}, button = {button} }}" for at, button in presses)
+        text = SETTINGS.replace("{script}", script).replace("{camera}", camera).replace("{base}", str(base))
+        self.config.write_text(text)
         return subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=120, check=False)
 
     def test_no_camera_is_found(self):
@@ -52,6 +58,46 @@ class Camera(unittest.TestCase):
         self.assertIn("Light and dark follow each other. Back returns. No camera is connected; check its USB cable", done.stderr)
         self.assertTrue(done.stderr.endswith("it ended before a calibration was kept; the one before counts\n"), done.stderr)
         self.assertFalse((self.folder / "kept").exists())
+
+    def assert_said_in_turn(self, done, *sentences):
+        at = 0
+        for sentence in sentences:
+            found = done.stderr.find(sentence, at)
+            self.assertGreaterEqual(found, 0, f"'{sentence}' is not said, or not then: {done.stderr}")
+            at = found + len(sentence)
+
+    def test_the_buttons_offer_the_camera_and_lead_on_to_the_crosses(self):
+        table = ("table", "--config", self.config, "--headless")
+        done = self.run_program(*table, presses=((0.5, BACK), (2.0, BACK)))
+        self.assertEqual(done.returncode, 1)
+        self.assert_said_in_turn(done, "Staff: measure the table with the camera", "Back goes on to measuring it with crosses.",
+                                 "Staff: measure the table anew", "Nothing was changed.", "it ended before a calibration was kept")
+        # Next does nothing with a camera that is not there.
+        done = self.run_program(*table, presses=((6.0, NEXT), (7.0, BACK), (8.5, BACK)))
+        self.assertEqual(done.returncode, 1)
+        self.assert_said_in_turn(done, "Staff: measure the table with the camera", "The camera cannot be used now No camera is connected",
+                                 "press Back to measure the table with crosses.", "Staff: measure the table anew", "Nothing was changed.")
+        self.assertNotIn("The camera looks at the light", done.stderr)
+        # Begun at once, it is told there.
+        done = self.run_program(*table, presses=((0.5, NEXT), (2.0, BACK), (3.5, BACK)))
+        self.assert_said_in_turn(done, "The camera looks at the light", "Back goes on to the crosses. No camera is connected",
+                                 "Staff: measure the table anew", "Nothing was changed.")
+        self.assertFalse((self.folder / "kept").exists())
+
+    def test_after_the_touch_up_comes_the_camera(self):
+        (self.folder / "kept").mkdir()
+        (self.folder / "kept/calibration-0001.toml").write_text(TrueTable(640, 0.4).calibration(0.085))
+        done = self.run_program("table", "--config", self.config, "--headless", presses=((0.5, BACK), (2.0, BACK), (3.5, BACK)))
+        self.assertEqual(done.returncode, 1)
+        self.assert_said_in_turn(done, "Staff: put the picture right", "Staff: measure the table with the camera",
+                                 "Staff: measure the table anew", "Nothing was changed.")
+
+    def test_without_a_camera_or_its_board_the_crosses_come_first(self):
+        for camera, base, said in (("none", 0.30, ""), ("v4l2", 0.36, "leaves no room for tags on a sheet of A3")):
+            done = self.run_program("table", "--config", self.config, "--headless", camera=camera, base=base, presses=((0.5, BACK),))
+            self.assertEqual(done.returncode, 1)
+            self.assert_said_in_turn(done, said, "Staff: measure the table anew", "Nothing was changed.")
+            self.assertNotIn("with the camera", done.stderr)
 
     def test_wrong_use(self):
         none = self.run_program("auto", "--config", self.config, camera="none")

@@ -58,6 +58,14 @@ if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; th
         die "systemd-analyze verify: $said"
     grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts of the calibration"
     locked_in frustumscreen-calibrate.service 16
+    # Both look through the camera, as any of its user's groups (video, below): no list of devices stands before it.
+    for name in frustumscreen.service frustumscreen-calibrate.service; do
+        systemd-analyze security --no-pager --offline=true --root="$root" "$name" >"$root/security" || true
+        for open in PrivateDevices DeviceAllow; do
+            grep -q "✗ *$open=" "$root/security" || die "$name has no access to the camera: $open= is set"
+        done
+        grep -q '^User=frustumscreen$' "$units/$name" || die "$name runs as another user than the one in the group video"
+    done
     said=$(systemd-analyze verify --root="$root" "$units/frustumscreen-watchdog.service" 2>&1) || die "systemd-analyze verify: $said"
     grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts of the watchdog"
     locked_in frustumscreen-watchdog.service 4

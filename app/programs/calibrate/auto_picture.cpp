@@ -81,13 +81,31 @@ std::vector<std::string> words_of_begin(const AutoProcedure& procedure) {
         return {"The table cannot be measured", as_sentence(procedure.problem()),
                 "Back returns to the exhibit."};
     }
+    if (procedure.word() == AutoWord::CameraFault) {
+        return {"The camera cannot be used now", as_sentence(std::string(sentence_of(procedure.camera()))),
+                procedure.plan().crosses_follow
+                    ? "Put that right, or press Back to measure the table with crosses."
+                    : "Put that right. Back returns to the exhibit."};
+    }
     return {"Staff: measure the table with the camera",
             fmt::format("Projector, tracker and the prop's sensor are measured with {} rests of the board; "
                         "that takes about "
                         "eight minutes. You need the prop on its printed board ({:.0f} mm thick), and a "
                         "wedge to lean it on.",
                         procedure.wanted(), 1e3 * procedure.plan().board_m),
-            "Next begins. Back returns to the exhibit; so does a minute without a press."};
+            procedure.plan().crosses_follow
+                ? "Next begins. Back goes on to measuring it with crosses. A minute without a press returns "
+                  "to the exhibit."
+                : "Next begins. Back returns to the exhibit; so does a minute without a press."};
+}
+
+std::vector<std::string> words_of_delay(const AutoProcedure& procedure) {
+    std::vector<std::string> words{"The camera looks at the light",
+                                   "Light and dark follow each other. Back returns."};
+    if (procedure.word() != AutoWord::None && procedure.plan().crosses_follow) {
+        words.back() = "Light and dark follow each other. Back goes on to the crosses.";
+    }
+    return words;
 }
 
 std::vector<std::string> words_of_verdict(const AutoProcedure& procedure) {
@@ -117,6 +135,46 @@ std::vector<std::string> words_of_verdict(const AutoProcedure& procedure) {
     return words;
 }
 
+std::string_view key_of(Posture wished) {
+    switch (wished) {
+    case Posture::Flat:
+        return "calibration.lay_flat";
+    case Posture::Block:
+        return "calibration.lay_on_boards";
+    case Posture::Leaning:
+        return "calibration.lean";
+    }
+    return "";
+}
+
+std::string_view key_of_word(const AutoProcedure& procedure) {
+    const bool may_go_on = procedure.plan().crosses_follow && procedure.stage() != AutoStage::Place;
+    return word_key(procedure.word(), procedure.wish().posture, may_go_on);
+}
+
+std::string_view key_of_begin(const AutoProcedure& procedure) {
+    if (!procedure.problem().empty()) {
+        return "";
+    }
+    if (procedure.word() != AutoWord::None) {
+        return key_of_word(procedure);
+    }
+    return procedure.plan().crosses_follow ? "calibration.by_camera" : "calibration.begin";
+}
+
+std::string_view key_of_verdict(const TouchCalibration& found) {
+    switch (found.verdict) {
+    case Verdict::Good:
+    case Verdict::Usable:
+        return "calibration.may_be_kept";
+    case Verdict::Repeat:
+        return found.repeat.empty() ? "calibration.more_rests" : "calibration.repeat";
+    case Verdict::Refused:
+        return "calibration.refused";
+    }
+    return "";
+}
+
 } // namespace
 
 std::vector<std::string> auto_words(const AutoProcedure& procedure) {
@@ -125,7 +183,7 @@ std::vector<std::string> auto_words(const AutoProcedure& procedure) {
     case AutoStage::Begin:
         return words_of_begin(procedure);
     case AutoStage::Delay:
-        words = {"The camera looks at the light", "Light and dark follow each other. Back returns."};
+        words = words_of_delay(procedure);
         break;
     case AutoStage::Place:
         words = {fmt::format("Rest {} of {}", procedure.taken() + 1, procedure.wanted()),
@@ -134,6 +192,7 @@ std::vector<std::string> auto_words(const AutoProcedure& procedure) {
     case AutoStage::Capture:
         return {fmt::format("Rest {} of {}", procedure.taken() + 1, procedure.wanted()), "Stripes."};
     case AutoStage::Solve:
+    case AutoStage::Crosses:
         return {"One moment, please."};
     case AutoStage::Judged:
         return words_of_verdict(procedure);
@@ -155,37 +214,64 @@ std::vector<std::string> auto_words(const AutoProcedure& procedure) {
 std::string_view word_key(const AutoProcedure& procedure) {
     switch (procedure.stage()) {
     case AutoStage::Begin:
-        return procedure.problem().empty() ? "calibration.begin" : "";
+        return key_of_begin(procedure);
+    case AutoStage::Delay:
+        return procedure.word() == AutoWord::None ? "calibration.look_at_light" : key_of_word(procedure);
     case AutoStage::Place:
-        return procedure.word() == AutoWord::Moved     ? "calibration.moved"
-               : procedure.word() == AutoWord::NotSeen ? "calibration.not_seen"
-                                                       : "";
+        return key_of_word(procedure);
+    case AutoStage::Capture:
+        return "";
     case AutoStage::Solve:
+    case AutoStage::Crosses:
         return "calibration.all_taken";
     case AutoStage::Judged:
-        switch (procedure.judged()->found.verdict) {
-        case Verdict::Good:
-        case Verdict::Usable:
-            return "calibration.may_be_kept";
-        case Verdict::Repeat:
-            return ""; // the words speak of touches
-        case Verdict::Refused:
-            return "calibration.refused";
-        }
-        return "";
+        return key_of_verdict(procedure.judged()->found);
     case AutoStage::Done:
         return "calibration.kept";
     case AutoStage::Left:
         return "calibration.left";
-    case AutoStage::Delay:
-    case AutoStage::Capture:
-        break;
+    }
+    return "";
+}
+
+std::string_view word_key(AutoWord word, Posture wished, bool may_go_on) {
+    switch (word) {
+    case AutoWord::None:
+    case AutoWord::Taken:
+        return key_of(wished);
+    case AutoWord::NoLight:
+        return "calibration.no_light";
+    case AutoWord::CameraFault:
+    case AutoWord::NoFrames:
+        return may_go_on ? "calibration.no_camera" : "calibration.camera_fault";
+    case AutoWord::NotSeen:
+        return "calibration.not_seen";
+    case AutoWord::FewTags:
+        return "calibration.few_tags";
+    case AutoWord::TurnIt:
+        return "calibration.turn_it";
+    case AutoWord::NotFlat:
+        return "calibration.not_flat";
+    case AutoWord::LeansLittle:
+        return "calibration.leans_little";
+    case AutoWord::WrongHeight:
+        return "calibration.wrong_height";
+    case AutoWord::Moved:
+        return "calibration.board_moved";
+    case AutoWord::Disturbed:
+        return "calibration.disturbed";
+    case AutoWord::TooBright:
+        return "calibration.too_bright";
+    case AutoWord::Dropped:
+        return "calibration.dropped";
+    case AutoWord::TooFew:
+        return "calibration.too_few";
     }
     return "";
 }
 
 Image8 auto_picture(const AutoProcedure& procedure, int width, int height, double board_px,
-                    const Typesetter& typesetter) {
+                    const Typesetter& typesetter, const LanguageWords* house) {
     Canvas canvas(width, height, ground);
     const double unit = width / 160.0;
     const bool has_place = procedure.stage() == AutoStage::Place;
@@ -197,7 +283,8 @@ Image8 auto_picture(const AutoProcedure& procedure, int width, int height, doubl
     // The words stand in the half of the picture where the board is not.
     const bool below = !has_place || place.y < 0.45 * height;
     const Image<std::uint8_t> coverage =
-        typesetter.set(paragraphs_of(auto_words(procedure), unit), 0.7 * width);
+        above(house_sentence(house, word_key(procedure), 0.7 * width),
+              typesetter.set(paragraphs_of(auto_words(procedure), unit), 0.7 * width), 2.0 * unit);
     const double room = height - 5.0 * unit - coverage.height;
     const double top = !has_place ? 0.4 * height : below ? std::fmin(room, 0.68 * height) : 5.0 * unit;
     canvas.coverage(coverage, {(width - coverage.width) / 2, static_cast<int>(std::fmax(top, unit))}, ink);

@@ -4,7 +4,6 @@
 #include "app/programs/calibrate/auto_picture.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/sheet_command.h"
-#include "app/programs/calibrate/table_devices.h"
 #include "app/programs/devices/wiring.h"
 
 #include <fmt/format.h>
@@ -17,6 +16,10 @@ namespace frustumscreen {
 namespace {
 
 constexpr Nanoseconds between_rounds = std::chrono::milliseconds(5);
+
+bool has_ended(AutoStage stage) {
+    return stage == AutoStage::Done || stage == AutoStage::Crosses || stage == AutoStage::Left;
+}
 
 Image8 grey_picture(const StripeSetup& stripes, const Pattern& pattern) {
     const std::vector<std::uint8_t> codes = pattern_picture(stripes, pattern);
@@ -41,7 +44,7 @@ public:
             if (Result<void> shown = show(procedure, now); !shown) {
                 return tl::unexpected<Error>(shown.error());
             }
-            if (procedure.stage() == AutoStage::Done || procedure.stage() == AutoStage::Left) {
+            if (has_ended(procedure.stage())) {
                 return std::optional(procedure.stage());
             }
             if (procedure.stage() == AutoStage::Solve) {
@@ -94,7 +97,7 @@ private:
             words_ = std::move(words);
             devices_.say(words_, word_key(procedure));
             devices_.show(auto_picture(procedure, devices_.width(), devices_.height(), board_px_,
-                                       devices_.typesetter()));
+                                       devices_.typesetter(), devices_.house()));
         }
     }
 
@@ -108,21 +111,42 @@ private:
     Sentence camera_state_;
 };
 
-/// From the first words on the table to the kept file.
-Result<int> go_through(CameraTable& table, const Settings& settings, const Board& board, const AutoPlan& plan,
-                       const AutoSetup& setup, const std::filesystem::path& out) {
+AutoPlan plan_for(const Settings& settings, const CalibrateRequest& request, bool crosses_follow) {
+    AutoPlan plan;
+    plan.rests = request.rests.value_or(plan.rests);
+    plan.board_m = request.board_m.value_or(plan.board_m);
+    plan.block_m = settings.calibration.block_m;
+    plan.stripes = stripes_for(settings.projector.pinhole.width, settings.projector.pinhole.height);
+    plan.crosses_follow = crosses_follow;
+    return plan;
+}
+
+/// Nothing that was seen is lost.
+Result<void> write_rests(const CalibrateRequest& request, const Rests& rests) {
+    return request.out.empty() || rests.empty() ? Result<void>()
+                                                : write_file(request.out, as_bytes(rests_text(rests)));
+}
+
+} // namespace
+
+Result<WayEnd> measure_by_camera(const Settings& settings, const CalibrateRequest& request,
+                                 const Board& board, TableDevices& devices, bool crosses_follow) {
+    const Described described = described_by(settings);
+    const AutoSetup setup = set_up_for<AutoSetup>(described, request);
+    const AutoPlan plan = plan_for(settings, request, crosses_follow);
+    CameraTable table(settings, devices, make_camera(settings.camera));
     AutoProcedure procedure(board, plan);
     const Result<std::optional<AutoStage>> ended = table.run(procedure, setup);
-    if (!out.empty() && procedure.taken() > 0) { // nothing that was seen is lost
-        if (const Result<void> written = write_file(out, as_bytes(rests_text(procedure.rests()))); !written) {
-            return tl::unexpected<Error>(written.error());
-        }
+    if (const Result<void> written = write_rests(request, procedure.rests()); !written) {
+        return tl::unexpected<Error>(written.error());
     }
     if (!ended) {
         return tl::unexpected<Error>(ended.error());
     }
-    Result<void> kept =
-        fail(ErrorKind::BadInput, "it ended before a calibration was kept; the one before counts");
+    if (*ended == AutoStage::Crosses) {
+        return WayEnd::GoesOn;
+    }
+    Result<void> kept = ended_without();
     if (*ended == AutoStage::Done) {
         kept = keep_auto(settings, *procedure.judged());
     }
@@ -132,10 +156,8 @@ Result<int> go_through(CameraTable& table, const Settings& settings, const Board
     } else if (*ended) {
         table.stay(procedure);
     }
-    return kept.map([] { return 0; });
+    return kept.map([] { return WayEnd::Kept; });
 }
-
-} // namespace
 
 Result<int> calibrate_by_camera(const CalibrateRequest& request) {
     const Result<Described> described = describe(request);
@@ -159,13 +181,7 @@ Result<int> calibrate_by_camera(const CalibrateRequest& request) {
     if (!devices) {
         return tl::unexpected<Error>(devices.error());
     }
-    AutoPlan plan;
-    plan.rests = request.rests.value_or(plan.rests);
-    plan.board_m = request.board_m.value_or(plan.board_m);
-    plan.block_m = settings.calibration.block_m;
-    plan.stripes = stripes_for(described->width, described->height);
-    CameraTable table(settings, **devices, make_camera(settings.camera));
-    return go_through(table, settings, *board, plan, set_up_for<AutoSetup>(*described, request), request.out);
+    return measure_by_camera(settings, request, *board, **devices, false).map([](WayEnd) { return 0; });
 }
 
 } // namespace frustumscreen

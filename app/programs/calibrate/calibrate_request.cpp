@@ -44,8 +44,12 @@ Result<Described> describe(const CalibrateRequest& request) {
     if (!settings) {
         return tl::unexpected<Error>(settings.error());
     }
-    const Pinhole& pinhole = (*settings)->projector.pinhole;
-    return Described{**settings, pinhole.width, pinhole.height, (*settings)->prop.height_m};
+    return described_by(**settings);
+}
+
+Described described_by(const Settings& settings) {
+    const Pinhole& pinhole = settings.projector.pinhole;
+    return {settings, pinhole.width, pinhole.height, settings.prop.height_m};
 }
 
 nlohmann::ordered_json matrix_json(const RigidTransform& transform) {

@@ -55,6 +55,7 @@ void add_touch_options(CLI::App& command, CalibrateRequest& request);
 /// Throws a CLI::ParseError at what does not go.
 void check_request(const CalibrateRequest& request);
 [[nodiscard]] Result<Described> describe(const CalibrateRequest& request);
+[[nodiscard]] Described described_by(const Settings& settings);
 
 /// The points of --from; `parse` is one of point_files.h.
 template <typename Points>

@@ -2,12 +2,16 @@
 
 #include "app/calibration/point_files.h"
 #include "app/calibration/touch_procedure.h"
+#include "app/programs/calibrate/auto_table.h"
+#include "app/programs/calibrate/calibration_way.h"
 #include "app/programs/calibrate/judged_words.h"
 #include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/sheet_command.h"
 #include "app/programs/calibrate/touch_table.h"
 #include "app/programs/calibrate/touch_up_command.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
 
@@ -77,10 +81,11 @@ nlohmann::ordered_json crosses_json(const std::vector<Cross>& crosses) {
 
 /// A table with a technician at it, and what is asked of both.
 struct Session {
+    TableDevices& devices;
     TouchTable& table;
     const Settings& settings;
     const CalibrateRequest& request;
-    TouchSetup setup;
+    TouchSetup setup; ///< with the sensor's height, where it is known
 
     /// Nothing that was touched is lost.
     [[nodiscard]] Result<void> write_touches(const Touches& touches) const {
@@ -89,66 +94,103 @@ struct Session {
                    : write_file(request.out, as_bytes(touches_text(touches)));
     }
     /// The last words are read; or, where it could not be kept, why: nobody reads a service's standard error.
-    [[nodiscard]] Result<void> end(const TouchProcedure& procedure, Result<void> kept) const {
+    [[nodiscard]] Result<WayEnd> end(const TouchProcedure& procedure, const Result<void>& kept) const {
         if (procedure.stage() == TouchStage::Done && !kept) {
             TouchProcedure told(procedure.crosses(), kept.error().message);
             static_cast<void>(table.run(told, {}));
         } else {
             table.stay(procedure);
         }
-        return kept;
+        return kept.map([] { return WayEnd::Kept; });
     }
 };
 
-Result<void> ended_without(const std::string& problem) {
-    return fail(ErrorKind::BadInput,
-                problem.empty() ? "it ended before a calibration was kept; the one before counts" : problem);
-}
-
 /// From the first word on the table to the kept file.
-Result<void> measure_anew(const Session& session, std::vector<Cross> crosses) {
-    TouchProcedure procedure(std::move(crosses), session.setup.sensor_height_m ? "" : no_sensor_height);
+Result<WayEnd> measure_by_crosses(const Session& session) {
+    TouchProcedure procedure(crosses_for(session.settings, session.request),
+                             session.setup.sensor_height_m ? "" : no_sensor_height);
     TouchCalibration judged;
     const auto ended = session.table.run(procedure, [&](const Touches& touches) {
         judged = calibrate_touch(touches, session.setup);
         return judgement_of(judged);
     });
     if (const Result<void> written = session.write_touches(procedure.touches()); !written) {
-        return written;
+        return tl::unexpected<Error>(written.error());
     }
     if (!ended) {
         return tl::unexpected<Error>(ended.error());
     }
+    const Result<void> without = ended_without(procedure.problem());
     if (!*ended) {
-        return ended_without(procedure.problem());
+        return tl::unexpected<Error>(without.error());
     }
     return session.end(procedure, *ended == TouchStage::Done
                                       ? keep_touch(session.settings, judged, procedure.touches())
-                                      : ended_without(procedure.problem()));
+                                      : without);
 }
 
 /// The same of a touch-up, which may end with the wish for the whole.
-Result<void> touch_up_on_table(const Session& session, std::vector<Cross> crosses) {
-    TouchProcedure procedure(std::move(crosses), few_crosses);
+Result<WayEnd> touch_up_on_table(const Session& session) {
+    TouchProcedure procedure(touch_up_crosses_for(session.settings, session.request), few_crosses);
     TouchUp found;
     const auto ended = session.table.run(procedure, [&](const Touches& touches) {
         found = touch_up(kept_table_of(session.settings), touches, session.setup);
         return judgement_of(found);
     });
     if (const Result<void> written = session.write_touches(procedure.touches()); !written) {
-        return written;
+        return tl::unexpected<Error>(written.error());
     }
     if (!ended) {
         return tl::unexpected<Error>(ended.error());
     }
     if (*ended == TouchStage::Anew) {
-        return measure_anew(session, crosses_for(session.settings, session.request));
+        return WayEnd::GoesOn;
     }
     if (!*ended) {
-        return ended_without("");
+        return tl::unexpected<Error>(ended_without().error());
     }
-    return session.end(procedure, *ended == TouchStage::Done ? keep_touch_up(session.settings, found)
-                                                             : ended_without(""));
+    return session.end(procedure,
+                       *ended == TouchStage::Done ? keep_touch_up(session.settings, found) : ended_without());
+}
+
+/// A board that cannot be made for the prop is no reason to touch nothing.
+std::optional<Board> board_for_camera(const Settings& settings) {
+    if (settings.camera.kind == CameraKind::None) {
+        return std::nullopt;
+    }
+    Result<Board> board = board_of(settings);
+    if (!board) {
+        say_line("frustumscreen-calibrate", board.error().message);
+        return std::nullopt;
+    }
+    return *std::move(board);
+}
+
+Result<WayEnd> take(CalibrationWay way, const Session& session, const std::optional<Board>& board) {
+    switch (way) {
+    case CalibrationWay::TouchUp:
+        return touch_up_on_table(session);
+    case CalibrationWay::Camera:
+        return measure_by_camera(session.settings, session.request, *board, session.devices, true);
+    case CalibrationWay::Crosses:
+        break;
+    }
+    return measure_by_crosses(session);
+}
+
+/// One way after the other, until one ends with a calibration or without.
+Result<int> take_first_wanted(const Session& session, bool touches_up) {
+    const std::optional<Board> board = board_for_camera(session.settings);
+    for (const CalibrationWay way : ways_through(touches_up, board.has_value())) {
+        const Result<WayEnd> ended = take(way, session, board);
+        if (!ended) {
+            return tl::unexpected<Error>(ended.error());
+        }
+        if (*ended == WayEnd::Kept) {
+            break;
+        }
+    }
+    return 0;
 }
 
 Result<int> calibrate_table(const CalibrateRequest& request) {
@@ -161,10 +203,10 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
         return none_kept(settings);
     }
     const bool touches_up = settings.calibration.used && !request.anew && (request.touch_up || !request.json);
-    std::vector<Cross> crosses =
-        touches_up ? touch_up_crosses_for(settings, request) : crosses_for(settings, request);
     if (request.json) {
-        fmt::print("{}\n", crosses_json(crosses).dump(2));
+        fmt::print("{}\n", crosses_json(touches_up ? touch_up_crosses_for(settings, request)
+                                                   : crosses_for(settings, request))
+                               .dump(2));
         return 0;
     }
     const Result<std::unique_ptr<TableDevices>> devices = TableDevices::open(request, settings, "");
@@ -174,10 +216,8 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     CalibrateRequest known = request;
     known.sensor_height_m = sensor_height(settings, request);
     TouchTable table(settings, **devices);
-    const Session session{table, settings, known, set_up_for<TouchSetup>(*described, known)};
-    return (touches_up ? touch_up_on_table(session, std::move(crosses))
-                       : measure_anew(session, std::move(crosses)))
-        .map([] { return 0; });
+    return take_first_wanted({**devices, table, settings, request, set_up_for<TouchSetup>(*described, known)},
+                             touches_up);
 }
 
 } // namespace
@@ -187,7 +227,7 @@ void add_table_command(CLI::App& app, CalibrateRequest& request, std::function<i
         app.add_subcommand("table", "on the table itself, step by step: the projector shows crosses, the "
                                     "prop is laid on them; Back and Next are the "
                                     "first and the second button. Where a calibration is kept, its touch-up "
-                                    "is offered first");
+                                    "is offered first; then, with a camera in the settings, the way of auto");
     command->add_option("--config", request.config, "the kiosk's settings, TOML")->required();
     command
         ->add_option("--touches", request.touches,
@@ -199,7 +239,8 @@ void add_table_command(CLI::App& app, CalibrateRequest& request, std::function<i
     command
         ->add_option("--sensor-height", request.sensor_height_m, "the sensor above the prop's bottom, metres")
         ->check(CLI::Range(-2.0, 2.0));
-    command->add_option("--out", request.out, "writes the touches, CSV, for frustumscreen-calibrate touch");
+    command->add_option("--out", request.out,
+                        "writes the touches, or the rests, CSV, for touch or auto --from");
     CLI::Option* const touch_up = command->add_flag(
         "--touch-up", request.touch_up, "of the kept calibration, or nothing: without one it is an error");
     command->add_flag("--anew", request.anew, "the whole calibration, also where one is kept")

@@ -1,8 +1,18 @@
 #include "app/programs/calibrate/table_words.h"
 
+#include "app/exhibit/coverage.h"
+#include "app/exhibit/glyph_image.h"
+
+#include <algorithm>
 #include <cctype>
 
 namespace frustumscreen {
+
+namespace {
+
+constexpr double widest_em = 36.0; ///< what words are broken for at the bake
+
+} // namespace
 
 std::string as_sentence(std::string reason) {
     if (!reason.empty()) {
@@ -19,6 +29,28 @@ std::vector<Paragraph> paragraphs_of(const std::vector<std::string>& lines, doub
         paragraphs.push_back({line, (is_first ? 4.0 : 2.6) * unit, is_first, 1.0, is_first ? 0.0 : unit});
     }
     return paragraphs;
+}
+
+Image<std::uint8_t> house_sentence(const LanguageWords* house, std::string_view key, double width_px) {
+    if (house == nullptr || house->language.starts_with("en")) {
+        return {};
+    }
+    const double em_px = width_px / widest_em;
+    const GlyphSetting* const setting = fitting_setting(house->runs.find(key), widest_em);
+    return setting != nullptr ? glyph_image(house->runs, house->atlas, *setting, em_px).coverage
+                              : Image<std::uint8_t>();
+}
+
+Image<std::uint8_t> above(const Image<std::uint8_t>& upper, const Image<std::uint8_t>& lower,
+                          double between_px) {
+    if (upper.width == 0) {
+        return lower;
+    }
+    const int top = upper.height + static_cast<int>(between_px);
+    Image<std::uint8_t> both(std::max(upper.width, lower.width), top + lower.height);
+    draw_lighter(upper, 1.0, 0, 0, both);
+    draw_lighter(lower, 1.0, 0, top, both);
+    return both;
 }
 
 void draw_dots(Canvas& canvas, const glm::dvec2& middle, double unit, int count,

@@ -1,8 +1,6 @@
 #include "app/programs/calibrate/touch_picture.h"
 
 #include "app/exhibit/canvas.h"
-#include "app/exhibit/coverage.h"
-#include "app/exhibit/glyph_image.h"
 #include "app/programs/calibrate/table_words.h"
 
 #include <fmt/format.h>
@@ -16,7 +14,6 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double widest_em = 36.0; ///< what words are broken for at the bake
 constexpr Colour white{255, 255, 255};
 constexpr Colour dim{150, 150, 150};
 constexpr Colour front_colour{255, 184, 92};
@@ -172,31 +169,6 @@ std::string_view key_of_verdict(const TouchProcedure& procedure) {
     return "";
 }
 
-/// What is said now, set in the house's language; empty where that is English, which the other words are in.
-Image<std::uint8_t> house_sentence(const TouchProcedure& procedure, const LanguageWords* house,
-                                   double width_px) {
-    if (house == nullptr || house->language.starts_with("en")) {
-        return {};
-    }
-    const double em_px = width_px / widest_em;
-    const GlyphSetting* const setting = fitting_setting(house->runs.find(word_key(procedure)), widest_em);
-    return setting != nullptr ? glyph_image(house->runs, house->atlas, *setting, em_px).coverage
-                              : Image<std::uint8_t>();
-}
-
-/// One picture of two, from their left edges.
-Image<std::uint8_t> above(const Image<std::uint8_t>& upper, const Image<std::uint8_t>& lower,
-                          double between_px) {
-    if (upper.width == 0) {
-        return lower;
-    }
-    const int top = upper.height + static_cast<int>(between_px);
-    Image<std::uint8_t> both(std::max(upper.width, lower.width), top + lower.height);
-    draw_lighter(upper, 1.0, 0, 0, both);
-    draw_lighter(lower, 1.0, 0, top, both);
-    return both;
-}
-
 } // namespace
 
 std::vector<std::string> touch_words(const TouchProcedure& procedure) {
@@ -269,7 +241,7 @@ Image8 touch_picture(const TouchProcedure& procedure, int width, int height, dou
     // The words stand in the half of the picture where the cross is not, so that the prop hides none of them.
     const bool below = !has_cross || procedure.cross().pixel.y < 0.5 * height;
     const Image<std::uint8_t> coverage =
-        above(house_sentence(procedure, house, 0.6 * width),
+        above(house_sentence(house, word_key(procedure), 0.6 * width),
               typesetter.set(paragraphs_of(touch_words(procedure), unit), 0.6 * width), 2.5 * unit);
     const double top = below ? (has_cross ? 0.62 : 0.4) * height : 0.38 * height - coverage.height;
     canvas.coverage(
