@@ -1,8 +1,10 @@
-// Draws what the table shows during its calibration and its touch-up, for the guide: the beginning, a cross, a verdict.
+// Draws what the table shows during its calibration, by touch and by a camera, and its touch-up, for the guide: the beginning, a cross or the
+// place of a rest, a verdict.
 //
 //   draw_calibration_pictures FOLDER [WORDS LANGUAGE]
 
 #include "app/image/image.h"
+#include "app/programs/calibrate/auto_picture.h"
 #include "app/programs/calibrate/judged_words.h"
 #include "app/programs/calibrate/touch_picture.h"
 #include "app/settings/settings.h"
@@ -10,17 +12,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace frustumscreen {
 namespace {
 
 constexpr int width = 1280;
 constexpr int height = 800;
-constexpr double prop_px = 480.0; ///< 30 cm under a projector of throw ratio 1.875 at 1.5 m
+constexpr double prop_px = 480.0;  ///< 30 cm under a projector of throw ratio 1.875 at 1.5 m
+constexpr double board_px = 670.0; ///< 42 cm there
 
 struct Means {
     Typesetter typesetter;
@@ -86,6 +91,45 @@ Result<void> draw_touch_up(const TouchModel& kept, const Means& means, const std
     return drawn ? draw(procedure, means, folder / "touch_up_verdict.png") : drawn;
 }
 
+Result<void> draw(const AutoProcedure& procedure, const Means& means, const std::filesystem::path& file) {
+    return write_file(file, encode_png(auto_picture(procedure, width, height, board_px, means.typesetter,
+                                                    means.house ? &*means.house : nullptr)));
+}
+
+/// Next is pressed, and the camera sees the light and the dark that are shown.
+void look_at_light(AutoProcedure& procedure) {
+    CameraFrame frame{{}, 0, 16, 12, std::vector<std::uint8_t>(16 * 12)};
+    AutoProcedure::Input input;
+    input.next = true;
+    procedure.step(input);
+    input.next = false;
+    for (int k = 0; k < 1000 && procedure.stage() == AutoStage::Delay; ++k) {
+        input.now += std::chrono::milliseconds(20);
+        if (!input.lit || input.lit->number != procedure.number()) {
+            input.lit = AutoProcedure::Lit{procedure.number(), input.now};
+        }
+        const bool is_white = procedure.shown() == Pattern{Stripes::White};
+        std::fill(frame.luma.begin(), frame.luma.end(), static_cast<std::uint8_t>(is_white ? 200 : 10));
+        frame.time = input.now;
+        input.frame = &frame;
+        procedure.step(input);
+    }
+}
+
+Result<void> draw_by_camera(const Means& means, const std::filesystem::path& folder) {
+    const Result<Board> board = board_for({0.30, 0.08, 0.155});
+    if (!board) {
+        return tl::unexpected<Error>(board.error());
+    }
+    AutoPlan plan;
+    plan.stripes = stripes_for(width, height);
+    plan.crosses_follow = true;
+    AutoProcedure procedure(*board, plan);
+    Result<void> drawn = draw(procedure, means, folder / "camera_begin.png");
+    look_at_light(procedure);
+    return drawn ? draw(procedure, means, folder / "camera_rest.png") : drawn;
+}
+
 Result<void> draw_all(const std::filesystem::path& folder, std::span<char*> words) {
     const Result<Means> means = means_with(words);
     if (!means) {
@@ -115,7 +159,10 @@ Result<void> draw_all(const std::filesystem::path& folder, std::span<char*> word
     if (drawn) {
         drawn = draw(procedure, *means, folder / "calibrate_verdict.png");
     }
-    return drawn ? draw_touch_up(kept, *means, folder) : drawn;
+    if (drawn) {
+        drawn = draw_touch_up(kept, *means, folder);
+    }
+    return drawn ? draw_by_camera(*means, folder) : drawn;
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 /// Says aloud what the table shows, in the house's language.
 ///
-/// Threads  one caller. All is decoded at the beginning: a dozen short sentences.
+/// Threads  one caller. All is decoded at the beginning: some forty short sentences, in less than a second.
 /// Errors   what cannot be decoded is silent.
 #pragma once
 
