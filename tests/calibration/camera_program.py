@@ -29,7 +29,7 @@ device = "/dev/video-that-is-not-there"
 [panel]
 kind = "scripted"
 script = [{script}]
-repeat_s = 100.0
+repeat_s = {repeat_s}
 [exhibit]
 library = "none"
 [calibration]
@@ -37,6 +37,7 @@ folder = "kept"
 sensor_height_m = 0.085
 """
 BACK, NEXT = 0, 1
+ALWAYS_BACK = {"presses": ((1.0, BACK),), "repeat_s": 1.5}  # until it ends, however slow the machine is
 
 
 class Camera(unittest.TestCase):
@@ -44,10 +45,10 @@ class Camera(unittest.TestCase):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.config = self.folder / "kiosk.toml"
 
-    def run_program(self, *words, camera="v4l2", base=0.30, presses=((0.3, NEXT), (1.2, BACK), (1.5, BACK))):
+    def run_program(self, *words, camera="v4l2", base=0.30, presses=((0.3, NEXT), (1.2, BACK), (1.5, BACK)), repeat_s=100.0):
         script = ", ".join(f"{{ at_s = {at}, button = {button} }}" for at, button in presses)
         text = SETTINGS.replace("{script}", script).replace("{camera}", camera).replace("{base}", str(base))
-        self.config.write_text(text)
+        self.config.write_text(text.replace("{repeat_s}", str(repeat_s)))
         return subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=120, check=False)
 
     def test_no_camera_is_found(self):
@@ -68,18 +69,18 @@ class Camera(unittest.TestCase):
 
     def test_the_buttons_offer_the_camera_and_lead_on_to_the_crosses(self):
         table = ("table", "--config", self.config, "--headless")
-        done = self.run_program(*table, presses=((0.5, BACK), (2.0, BACK)))
+        done = self.run_program(*table, **ALWAYS_BACK)
         self.assertEqual(done.returncode, 1)
         self.assert_said_in_turn(done, "Staff: measure the table with the camera", "Back goes on to measuring it with crosses.",
                                  "Staff: measure the table anew", "Nothing was changed.", "it ended before a calibration was kept")
         # Next does nothing with a camera that is not there.
-        done = self.run_program(*table, presses=((6.0, NEXT), (7.0, BACK), (8.5, BACK)))
+        done = self.run_program(*table, presses=((5.0, NEXT), (8.0, BACK), (11.0, BACK), (14.0, BACK)))
         self.assertEqual(done.returncode, 1)
         self.assert_said_in_turn(done, "Staff: measure the table with the camera", "The camera cannot be used now No camera is connected",
                                  "press Back to measure the table with crosses.", "Staff: measure the table anew", "Nothing was changed.")
         self.assertNotIn("The camera looks at the light", done.stderr)
         # Begun at once, it is told there.
-        done = self.run_program(*table, presses=((0.5, NEXT), (2.0, BACK), (3.5, BACK)))
+        done = self.run_program(*table, presses=((0.5, NEXT), (3.5, BACK), (6.5, BACK), (9.5, BACK)))
         self.assert_said_in_turn(done, "The camera looks at the light", "Back goes on to the crosses. No camera is connected",
                                  "Staff: measure the table anew", "Nothing was changed.")
         self.assertFalse((self.folder / "kept").exists())
@@ -87,14 +88,14 @@ class Camera(unittest.TestCase):
     def test_after_the_touch_up_comes_the_camera(self):
         (self.folder / "kept").mkdir()
         (self.folder / "kept/calibration-0001.toml").write_text(TrueTable(640, 0.4).calibration(0.085))
-        done = self.run_program("table", "--config", self.config, "--headless", presses=((0.5, BACK), (2.0, BACK), (3.5, BACK)))
+        done = self.run_program("table", "--config", self.config, "--headless", **ALWAYS_BACK)
         self.assertEqual(done.returncode, 1)
         self.assert_said_in_turn(done, "Staff: put the picture right", "Staff: measure the table with the camera",
                                  "Staff: measure the table anew", "Nothing was changed.")
 
     def test_without_a_camera_or_its_board_the_crosses_come_first(self):
         for camera, base, said in (("none", 0.30, ""), ("v4l2", 0.36, "leaves no room for tags on a sheet of A3")):
-            done = self.run_program("table", "--config", self.config, "--headless", camera=camera, base=base, presses=((0.5, BACK),))
+            done = self.run_program("table", "--config", self.config, "--headless", camera=camera, base=base, **ALWAYS_BACK)
             self.assertEqual(done.returncode, 1)
             self.assert_said_in_turn(done, said, "Staff: measure the table anew", "Nothing was changed.")
             self.assertNotIn("with the camera", done.stderr)
