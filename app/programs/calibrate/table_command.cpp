@@ -86,6 +86,9 @@ struct Session {
     const Settings& settings;
     const CalibrateRequest& request;
     TouchSetup setup; ///< with the sensor's height, where it is known
+    // Chosen before the devices are opened: that takes a second, in which nobody would feed the service manager's watchdog.
+    std::vector<Cross> crosses;
+    std::vector<Cross> touch_up_crosses; ///< none: there is nothing to touch up
 
     /// Nothing that was touched is lost.
     [[nodiscard]] Result<void> write_touches(const Touches& touches) const {
@@ -107,8 +110,7 @@ struct Session {
 
 /// From the first word on the table to the kept file.
 Result<WayEnd> measure_by_crosses(const Session& session) {
-    TouchProcedure procedure(crosses_for(session.settings, session.request),
-                             session.setup.sensor_height_m ? "" : no_sensor_height);
+    TouchProcedure procedure(session.crosses, session.setup.sensor_height_m ? "" : no_sensor_height);
     TouchCalibration judged;
     const auto ended = session.table.run(procedure, [&](const Touches& touches) {
         judged = calibrate_touch(touches, session.setup);
@@ -131,7 +133,7 @@ Result<WayEnd> measure_by_crosses(const Session& session) {
 
 /// The same of a touch-up, which may end with the wish for the whole.
 Result<WayEnd> touch_up_on_table(const Session& session) {
-    TouchProcedure procedure(touch_up_crosses_for(session.settings, session.request), few_crosses);
+    TouchProcedure procedure(session.touch_up_crosses, few_crosses);
     TouchUp found;
     const auto ended = session.table.run(procedure, [&](const Touches& touches) {
         found = touch_up(kept_table_of(session.settings), touches, session.setup);
@@ -179,9 +181,9 @@ Result<WayEnd> take(CalibrationWay way, const Session& session, const std::optio
 }
 
 /// One way after the other, until one ends with a calibration or without.
-Result<int> take_first_wanted(const Session& session, bool touches_up) {
+Result<int> take_first_wanted(const Session& session) {
     const std::optional<Board> board = board_for_camera(session.settings);
-    for (const CalibrationWay way : ways_through(touches_up, board.has_value())) {
+    for (const CalibrationWay way : ways_through(!session.touch_up_crosses.empty(), board.has_value())) {
         const Result<WayEnd> ended = take(way, session, board);
         if (!ended) {
             return tl::unexpected<Error>(ended.error());
@@ -203,10 +205,15 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
         return none_kept(settings);
     }
     const bool touches_up = settings.calibration.used && !request.anew && (request.touch_up || !request.json);
+    const std::vector<Cross> touch_up_crosses =
+        touches_up ? touch_up_crosses_for(settings, request) : std::vector<Cross>();
+    if (request.json && touches_up) {
+        fmt::print("{}\n", crosses_json(touch_up_crosses).dump(2));
+        return 0;
+    }
+    const std::vector<Cross> crosses = crosses_for(settings, request);
     if (request.json) {
-        fmt::print("{}\n", crosses_json(touches_up ? touch_up_crosses_for(settings, request)
-                                                   : crosses_for(settings, request))
-                               .dump(2));
+        fmt::print("{}\n", crosses_json(crosses).dump(2));
         return 0;
     }
     const Result<std::unique_ptr<TableDevices>> devices = TableDevices::open(request, settings, "");
@@ -216,8 +223,8 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     CalibrateRequest known = request;
     known.sensor_height_m = sensor_height(settings, request);
     TouchTable table(settings, **devices);
-    return take_first_wanted({**devices, table, settings, request, set_up_for<TouchSetup>(*described, known)},
-                             touches_up);
+    return take_first_wanted({**devices, table, settings, request, set_up_for<TouchSetup>(*described, known),
+                              crosses, touch_up_crosses});
 }
 
 } // namespace
