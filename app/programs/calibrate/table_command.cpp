@@ -205,17 +205,15 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
         return none_kept(settings);
     }
     const bool touches_up = settings.calibration.used && !request.anew && (request.touch_up || !request.json);
-    const std::vector<Cross> touch_up_crosses =
-        touches_up ? touch_up_crosses_for(settings, request) : std::vector<Cross>();
-    if (request.json && touches_up) {
-        fmt::print("{}\n", crosses_json(touch_up_crosses).dump(2));
-        return 0;
-    }
-    const std::vector<Cross> crosses = crosses_for(settings, request);
     if (request.json) {
+        const std::vector<Cross> crosses =
+            touches_up ? touch_up_crosses_for(settings, request) : crosses_for(settings, request);
         fmt::print("{}\n", crosses_json(crosses).dump(2));
         return 0;
     }
+    const std::vector<Cross> crosses = crosses_for(settings, request);
+    const std::vector<Cross> touch_up_crosses =
+        touches_up ? touch_up_crosses_for(settings, request) : std::vector<Cross>();
     const Result<std::unique_ptr<TableDevices>> devices = TableDevices::open(request, settings, "");
     if (!devices) {
         return tl::unexpected<Error>(devices.error());
