@@ -1,7 +1,8 @@
 #include "app/drift/drift_reference.h"
 
+#include "firmware_host/base/json.h"
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

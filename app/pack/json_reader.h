@@ -6,9 +6,9 @@
 #pragma once
 
 #include "app/pack/limits.h"
+#include "firmware_host/base/json.h"
 
 #include <glm/glm.hpp>
-#include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <optional>

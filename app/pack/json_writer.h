@@ -4,9 +4,10 @@
 /// Threads  values; any.
 #pragma once
 
+#include "firmware_host/base/json.h"
+
 #include <fmt/format.h>
 #include <glm/glm.hpp>
-#include <nlohmann/json.hpp>
 
 #include <cstdlib>
 #include <optional>

@@ -3,8 +3,7 @@
 #include "app/settings/describe_settings.h"
 #include "app/settings/light_range.h"
 #include "app/settings/lit_zone.h"
-
-#include <nlohmann/json.hpp>
+#include "firmware_host/base/json.h"
 
 namespace frustumscreen {
 

@@ -2,10 +2,10 @@
 
 #include "app/show/mark_show.h"
 #include "app/status/status_lines.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>

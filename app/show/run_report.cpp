@@ -3,6 +3,7 @@
 #include "app/pack/pack_file.h"
 #include "firmware_host/base/device_thread.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/base/local_time.h"
 #include "firmware_host/base/quantile.h"
 #include "firmware_host/base/standard_error.h"
@@ -11,7 +12,6 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <algorithm>

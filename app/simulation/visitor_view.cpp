@@ -1,9 +1,8 @@
 #include "app/simulation/visitor_view.h"
 
 #include "app/simulation/room_light.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/base/parallel.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 /// Errors   none. Texts come as one printable line.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include "firmware_host/base/json.h"
 
 #include <optional>
 #include <string>

@@ -9,9 +9,8 @@
 #include "app/status/system_image.h"
 #include "app/watch/outcome.h"
 #include "app/watch/service_ends.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/base/time.h"
-
-#include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <filesystem>

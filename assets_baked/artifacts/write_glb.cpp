@@ -1,6 +1,6 @@
 #include "assets_baked/artifacts/write_glb.h"
 
-#include <nlohmann/json.hpp>
+#include "firmware_host/base/json.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 #include "assets_baked/artifacts/write_glb.h"
+#include "firmware_host/base/json.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <cstring>
 #include <memory>

@@ -2,10 +2,9 @@
 // `config --json` has them, and the paper.
 
 #include "app/drawing/drawing.h"
+#include "firmware_host/base/json.h"
 #include "tests/drawing/svg_text.h"
 #include "tests/programs/program_folder.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,8 @@
 // be reported, and all its numbers are finite.
 #include "app/settings/config_json.h"
 #include "app/settings/settings.h"
+#include "firmware_host/base/json.h"
 #include "tests/fuzz/fuzz.h"
-
-#include <nlohmann/json.hpp>
 
 using namespace frustumscreen;
 

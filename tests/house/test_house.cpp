@@ -107,6 +107,15 @@ TEST(House, EveryHeaderSaysWhatItIs) {
     }
 }
 
+/// Past json.h, a file compiles all of the library anew.
+TEST(House, JsonIsIncludedByItsHeader) {
+    for (const fs::path& file : files_ending({".h", ".cpp"})) {
+        for (const std::string& line : lines_of(file)) {
+            EXPECT_TRUE(line != "#include <nlohmann/json.hpp>" || file == "firmware_host/base/json.h") << file;
+        }
+    }
+}
+
 TEST(House, EveryFileIsFormatted) {
     if (std::system("command -v clang-format >/dev/null") != 0) {
         GTEST_SKIP() << "clang-format is not installed";

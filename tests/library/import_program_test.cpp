@@ -1,10 +1,10 @@
 // frustumscreen-import on real folders: what it says, what it leaves, and that it may be killed.
 #include "app/pack/signature.h"
+#include "firmware_host/base/json.h"
 #include "tests/library/museum.h"
 #include "tests/programs/program_folder.h"
 
 #include <fcntl.h>
-#include <nlohmann/json.hpp>
 #include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>

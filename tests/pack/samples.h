@@ -8,10 +8,10 @@
 #include "app/pack/pack_texts.h"
 #include "app/pack/sha256.h"
 #include "app/pack/zip_archive.h"
+#include "firmware_host/base/json.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <map>

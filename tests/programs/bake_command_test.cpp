@@ -3,10 +3,10 @@
 #include "app/image/image.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_texts.h"
+#include "firmware_host/base/json.h"
 #include "tests/programs/program_folder.h"
 #include "tests/texts/wav_bytes.h"
 
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // `frustumscreen camera` where there is no camera; with one, tests/hil/test_camera.py has it.
 
+#include "firmware_host/base/json.h"
 #include "tests/programs/program_folder.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <filesystem>
 

@@ -1,8 +1,7 @@
 // `frustumscreen config` from outside: the page in words, the JSON, and what it says of missing files.
 
+#include "firmware_host/base/json.h"
 #include "tests/programs/program_folder.h"
-
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 

@@ -1,9 +1,8 @@
 // A cube from a mesh to its pictures and its measured error, by the programs alone.
 
 #include "app/pack/pack_file.h"
+#include "firmware_host/base/json.h"
 #include "tests/programs/program_folder.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
 // `frustumscreen run` at rest, on a pack made in memory.
 
 #include "app/render/probe.h"
+#include "firmware_host/base/json.h"
 #include "tests/programs/kiosk_folder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
 #include <cstdlib>

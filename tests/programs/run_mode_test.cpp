@@ -1,9 +1,9 @@
 // `frustumscreen run --mode-file`: what the watchdog wants to be shown, and with which settings.
 
+#include "firmware_host/base/json.h"
 #include "tests/programs/kiosk_folder.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
 namespace frustumscreen::synthetic {

@@ -1,7 +1,6 @@
 #include "app/settings/config_json.h"
+#include "firmware_host/base/json.h"
 #include "tests/settings/settings_text.h"
-
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <map>

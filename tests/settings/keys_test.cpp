@@ -1,8 +1,7 @@
 // The museum's public keys in the settings, and what becomes of unsigned packs.
 #include "app/settings/config_json.h"
+#include "firmware_host/base/json.h"
 #include "tests/settings/settings_text.h"
-
-#include <nlohmann/json.hpp>
 
 namespace frustumscreen {
 namespace {

@@ -1,8 +1,7 @@
 #include "app/settings/language_tag.h"
 #include "app/settings/missing_files.h"
+#include "firmware_host/base/json.h"
 #include "tests/settings/settings_text.h"
-
-#include <nlohmann/json.hpp>
 
 #include <set>
 #include <utility>

@@ -4,6 +4,7 @@
 #include "app/show/artifact_show.h"
 #include "app/show/import_journal.h"
 #include "app/show/live_exhibit.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/display/surfaceless_display.h"
 #include "firmware_host/sound/mixer.h"
 #include "firmware_host/sound/opus_reader.h"
@@ -13,7 +14,6 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
 #include <array>

@@ -1,8 +1,8 @@
 #include "app/show/run_report.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/json.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 
 #include "app/render/sample_grid.h"
 #include "app/scene/frame_plan.h"
+#include "firmware_host/base/json.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 
 #include "app/bench/measures/dominance.h"
 #include "app/bench/truth/csv_fields.h"
+#include "firmware_host/base/json.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 

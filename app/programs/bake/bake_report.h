@@ -9,8 +9,7 @@
 #include "app/programs/preview/preview_page.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/source_mesh.h"
-
-#include <nlohmann/json.hpp>
+#include "firmware_host/base/json.h"
 
 #include <filesystem>
 #include <string>

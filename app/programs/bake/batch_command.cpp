@@ -7,6 +7,7 @@
 #include "app/programs/common/progress_line.h"
 #include "app/programs/common/read_arguments.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/base/output_file.h"
 #include "firmware_host/base/standard_error.h"
 #include "firmware_host/base/time.h"
@@ -14,7 +15,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <filesystem>

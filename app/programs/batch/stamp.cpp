@@ -1,8 +1,7 @@
 #include "app/programs/batch/stamp.h"
 
 #include "firmware_host/base/file.h"
-
-#include <nlohmann/json.hpp>
+#include "firmware_host/base/json.h"
 
 #include <exception>
 #include <string_view>

@@ -8,10 +8,10 @@
 #include "app/geometry/transform.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/base/result.h"
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <optional>

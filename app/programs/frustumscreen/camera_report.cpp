@@ -1,7 +1,8 @@
 #include "app/programs/frustumscreen/camera_report.h"
 
+#include "firmware_host/base/json.h"
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 

@@ -6,11 +6,11 @@
 #include "app/programs/common/read_arguments.h"
 #include "app/programs/frustumscreen/pose_input.h"
 #include "app/settings/settings.h"
+#include "firmware_host/base/json.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <filesystem>

@@ -11,11 +11,11 @@
 #include "app/settings/settings.h"
 #include "firmware_host/base/disk_tree.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/base/printable.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <time.h>

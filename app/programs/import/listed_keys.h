@@ -5,8 +5,7 @@
 
 #include "app/library/set_file.h"
 #include "app/pack/signature.h"
-
-#include <nlohmann/json.hpp>
+#include "firmware_host/base/json.h"
 
 #include <span>
 #include <string>

@@ -8,8 +8,7 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/signature.h"
 #include "app/settings/settings.h"
-
-#include <nlohmann/json.hpp>
+#include "firmware_host/base/json.h"
 
 #include <filesystem>
 #include <optional>

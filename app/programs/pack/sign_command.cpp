@@ -15,11 +15,11 @@
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/pack/password_prompt.h"
 #include "app/settings/settings.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/base/open_file.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cstdio>
 

@@ -7,10 +7,10 @@
 #include "app/pack/pack_texts.h"
 #include "app/pack/signed_pack.h"
 #include "app/programs/common/guarded_main.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>

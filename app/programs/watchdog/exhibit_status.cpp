@@ -1,6 +1,6 @@
 #include "app/programs/watchdog/exhibit_status.h"
 
-#include <nlohmann/json.hpp>
+#include "firmware_host/base/json.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "app/programs/watchdog/watchdog_report.h"
 
-#include <nlohmann/json.hpp>
+#include "firmware_host/base/json.h"
 
 namespace frustumscreen {
 

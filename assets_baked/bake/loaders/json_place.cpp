@@ -1,8 +1,7 @@
 #include "assets_baked/bake/loaders/json_place.h"
 
 #include "assets_baked/bake/loaders/refusal.h"
-
-#include <nlohmann/json.hpp>
+#include "firmware_host/base/json.h"
 
 #include <cmath>
 

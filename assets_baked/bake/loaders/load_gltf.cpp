@@ -1,9 +1,8 @@
 #include "assets_baked/bake/loaders/load_gltf.h"
 
 #include "assets_baked/bake/loaders/gltf_primitive.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/base/printable.h"
-
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <map>
