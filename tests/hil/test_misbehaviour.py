@@ -49,7 +49,7 @@ FAULTS = {
 }
 # "noise" has the first four at once; the drivers' own tests have all of these too
 LONG = ("drop", "corrupt", "duplicate", "reorder", "warn", "nak_questions", "filter_stays", "wrong_units", "distortion", "nak",
-        "sensor_missing")
+        "sensor_missing", "built_in_test", "slow_boot", "stall")
 
 
 def write_strokes(path):

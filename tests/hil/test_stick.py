@@ -80,6 +80,7 @@ class Stick(StickTest):
         self.assertEqual(pulled_packs(self.outcome()), {"vase.fspack": ("taken", "none")})
         self.assertEqual(self.installed(), [("nautilus-cup", 1), ("Vase", 2)])
 
+    @long
     def test_4_two_at_once(self):
         part = self.make("part", "exfat", {"amphora.fspack": self.signed("amphora", 3)})
         first = sticks.partitioned(self.image("first"), [("exfat", part)], "gpt")

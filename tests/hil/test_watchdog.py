@@ -95,6 +95,7 @@ class Watchdog(HilTest):
         self.assert_lives()
         self.assertEqual(len(self.faults()), 1, f"more steps than one: {self.faults()}")
 
+    @long
     def test_spoilt_settings(self):
         machine = self.bench.machine
         self.show("nautilus-cup")
@@ -113,6 +114,7 @@ class Watchdog(HilTest):
         self.assert_at((0.0, 0.0, 0.0), artifact="amphora")  # the pack of this name has the same triangles
         self.assert_lives()
 
+    @long
     def test_tracker_hung_until_its_port_is_reset(self):
         self.broken()
         self.bench.tracker.tell("hang-until-reset")
