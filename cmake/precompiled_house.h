@@ -30,5 +30,5 @@
 #include <vector>
 
 // libfmt has it: without this line every file that formats into a string compiles it anew.
-extern template void fmt::detail::vformat_to<char>(fmt::detail::buffer<char>&, fmt::string_view, fmt::format_args,
-                                                   fmt::detail::locale_ref);
+extern template void fmt::detail::vformat_to<char>(fmt::detail::buffer<char>&, fmt::string_view,
+                                                   fmt::format_args, fmt::detail::locale_ref);

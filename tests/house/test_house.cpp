@@ -111,7 +111,8 @@ TEST(House, EveryHeaderSaysWhatItIs) {
 TEST(House, JsonIsIncludedByItsHeader) {
     for (const fs::path& file : files_ending({".h", ".cpp"})) {
         for (const std::string& line : lines_of(file)) {
-            EXPECT_TRUE(line != "#include <nlohmann/json.hpp>" || file == "firmware_host/base/json.h") << file;
+            EXPECT_TRUE(line != "#include <nlohmann/json.hpp>" || file == "firmware_host/base/json.h")
+                << file;
         }
     }
 }
