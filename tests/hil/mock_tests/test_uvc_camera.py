@@ -1,9 +1,12 @@
 import ctypes
+import pathlib
+import random
 import struct
+import tempfile
 import unittest
 
 from mock_tests.usbredir_host import UsbredirHost
-from mocks import test_picture
+from mocks import pgm, test_picture
 from mocks.camera_console import CameraConsole
 from mocks.usb_device import Request
 from mocks.uvc_camera import AUTO_EXPOSURE, EXPOSURE, PAYLOAD_BYTES, STREAM, UvcCamera
@@ -42,14 +45,15 @@ class Picture(unittest.TestCase):
             self.assertNotEqual(test_picture.luma(*SMALL, 0, light), test_picture.luma(*SMALL, 1, light))
 
     def test_as_yuyv_has_no_colour(self):
-        data = test_picture.yuyv(*SMALL, 3)
-        self.assertEqual(data[0::2], bytes(test_picture.luma(*SMALL, 3)))
+        luma = test_picture.luma(*SMALL, 3)
+        data = test_picture.yuyv(*SMALL, luma)
+        self.assertEqual(data[0::2], bytes(luma))
         self.assertEqual(set(data[1::2]), {128})
 
     def test_as_jpeg_is_what_libjpeg_reads(self):
         for number, light in ((0, "usual"), (0x1234, "usual"), (5, "dark"), (6, "blind")):
             meant = test_picture.luma(*SMALL, number, light)
-            found = decoded(test_picture.jpeg(*SMALL, number, light), *SMALL)
+            found = decoded(test_picture.jpeg(*SMALL, meant), *SMALL)
             self.assertIsNotNone(found)
             for left, top in ((0, 0), (80, 64), (152, 112)):
                 block = [(meant[y * SMALL[0] + x], found[y * SMALL[0] + x]) for y in range(top, top + 8) for x in range(left, left + 8)]
@@ -118,7 +122,7 @@ class Camera(UsbredirHost):
         self.commit()
         first, second = self.frame(), self.frame()
         self.assertEqual([len(payload) for payload in first], [PAYLOAD_BYTES, PAYLOAD_BYTES, 38400 - 2 * (PAYLOAD_BYTES - 2) + 2])
-        self.assertEqual(b"".join(payload[2:] for payload in first), test_picture.yuyv(*SMALL, 1))
+        self.assertEqual(b"".join(payload[2:] for payload in first), test_picture.yuyv(*SMALL, test_picture.luma(*SMALL, 1)))
         self.assertEqual([payload[1] & 2 for payload in first], [0, 0, 2])
         self.assertEqual({payload[1] & 1 for payload in first}, {1})
         self.assertEqual({payload[1] & 1 for payload in second}, {0})
@@ -166,6 +170,41 @@ class Camera(UsbredirHost):
             self.console.execute("slow 1000")
         with self.assertRaises(ValueError):
             self.console.execute("drop 0.1")  # a tracker's
+
+    async def test_plays_a_picture_where_its_size_was_agreed_on(self):
+        meant = bytes(random.Random(1).choices(range(253), k=SMALL[0] * SMALL[1]))
+        with tempfile.TemporaryDirectory() as folder:
+            file = f"{folder}/a picture.pgm"
+            pgm.write(file, *SMALL, meant)
+            self.console.execute(f"play {file}")
+        self.commit()
+        first, second = (b"".join(payload[2:] for payload in self.frame())[0::2] for _ in range(2))
+        self.assertNotEqual(first, second)
+        for sent in (first, second):
+            self.assertEqual({code - of for code, of in zip(sent, meant)}, {0, 1, 2, 3})
+        self.commit(size=2)
+        self.assertEqual(test_picture.number_in(b"".join(payload[2:] for payload in self.frame())[0::2], 320), 3)
+        self.commit()
+        self.console.execute("dark")
+        self.assertLess(max(b"".join(payload[2:] for payload in self.frame())[0::2]), 20)
+        self.console.execute("good")
+        self.console.execute("play off")
+        self.assertEqual(b"".join(payload[2:] for payload in self.frame()), test_picture.yuyv(*SMALL, test_picture.luma(*SMALL, 5)))
+
+    async def test_the_brightest_picture_carries_over_into_no_neighbour(self):
+        self.assertGreaterEqual(min(test_picture.with_noise(b"\xff" * 999, 1)), 252)
+
+    async def test_what_it_cannot_play_is_said(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for content, words in ((b"P5 32 20 255\n" + bytes(640), "160 x 120, 320 x 240"), (b"P5 160 120 255\n" + bytes(9), "found 9"),
+                                   (b"P6 1 1 255\n123", "not a binary PGM")):
+                file = pathlib.Path(folder) / "wrong.pgm"
+                file.write_bytes(content)
+                with self.assertRaisesRegex(ValueError, words):
+                    self.console.execute(f"play {file}")
+            with self.assertRaisesRegex(ValueError, "No such file"):
+                self.console.execute(f"play {folder}/none.pgm")
+        self.assertFalse(self.console.execute("status")["plays"])
 
 
 if __name__ == "__main__":

@@ -28,6 +28,14 @@ def _ground(width, height, kind, light):
     return bytes(255 - extra // 255 for extra in noise.randbytes(count))
 
 
+_BELOW_NOISE = bytes(min(code, 252) for code in range(256))
+
+
+@functools.lru_cache(None)
+def _noise(count, kind):
+    return bytes(extra % 4 for extra in random.Random(kind).randbytes(count))
+
+
 def luma(width, height, number, light="usual"):
     picture = bytearray(_ground(width, height, number % _KINDS, light))
     if light != "usual":
@@ -49,9 +57,17 @@ def number_in(picture, width):
     return sum(1 << bit for bit in range(BITS) if row[bit * block + block // 2] > 128)
 
 
-def yuyv(width, height, number, light="usual"):
+def with_noise(picture, number):
+    """A luma picture, and on each pixel 0 to 3 codes of a sensor's noise; 252 is the brightest that a pixel can have without."""
+    picture = bytes(picture).translate(_BELOW_NOISE)
+    # One sum of two long numbers: no byte carries over.
+    total = int.from_bytes(picture, "little") + int.from_bytes(_noise(len(picture), number % _KINDS), "little")
+    return total.to_bytes(len(picture), "little")
+
+
+def yuyv(width, height, picture):
     data = bytearray(b"\x80") * (2 * width * height)
-    data[0::2] = luma(width, height, number, light)
+    data[0::2] = picture
     return bytes(data)
 
 
@@ -73,8 +89,7 @@ def _segment(marker, body):
     return struct.pack(">BBH", 0xFF, marker, 2 + len(body)) + body
 
 
-def jpeg(width, height, number, light="usual"):
-    picture = luma(width, height, number, light)
+def jpeg(width, height, picture):
     bits, count, before = 0, 0, 0
     for top in range(0, height, BLOCK):
         rows = [picture[y * width:(y + 1) * width] for y in range(top, top + BLOCK)]

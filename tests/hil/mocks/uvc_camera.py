@@ -1,4 +1,4 @@
-"""A camera of the USB Video Class, as webcams are: it sends a test picture by bulk transfers.
+"""A camera of the USB Video Class, as webcams are: it sends a test picture, or one that it is told to play, by bulk transfers.
 
 Source   USB Device Class Definition for Video Devices, revision 1.1: chapters 3 (descriptors), 4.2 (controls), 4.3.1 (probe and
          commit), 2.4.3.3 (payload headers); its payload specifications for uncompressed video and Motion-JPEG. Written from these
@@ -123,6 +123,7 @@ class UvcCamera(UsbDevice):
         self.faults = Faults(seed, kinds=KINDS)
         self.counts = {"sent": 0, "skipped": 0}  # frames; skipped: the host had not yet read the one before
         self.number = 0  # of the latest frame
+        self.played = None  # what the lens sees in place of the test picture: (width, height, luma)
         self.start_anew()
 
     def start_anew(self):
@@ -251,9 +252,20 @@ class UvcCamera(UsbDevice):
             self._frozen = (self.committed, self.number)
         number = self._frozen[1] if self._frozen else self.number
         light = "dark" if self.faults.on("dark") else "blind" if self.faults.on("blind") else "usual"
+        if light == "usual" and self.played is not None and self.played[:2] == SIZES[size - 1]:
+            luma = test_picture.with_noise(self.played[2], number)
+        else:
+            luma = test_picture.luma(*SIZES[size - 1], number, light)
         make = test_picture.yuyv if FORMATS[format_ - 1] == "yuyv" else test_picture.jpeg
-        data = make(*SIZES[size - 1], number, light)
+        data = make(*SIZES[size - 1], luma)
         return data[:len(data) - len(data) // 10] if self.faults.on("short-frames") else data
+
+    def play(self, width, height, luma):
+        """From the next frame on, where a host has agreed on this size. Errors: ValueError."""
+        if (width, height) not in SIZES:
+            sizes = ", ".join(f"{allowed[0]} x {allowed[1]}" for allowed in SIZES)
+            raise ValueError(f"the picture is {width} x {height} pixels; allowed are {sizes}")
+        self.played = (width, height, luma)
 
     def payloads(self, data):
         self._toggle ^= _FID
@@ -269,6 +281,6 @@ class UvcCamera(UsbDevice):
         format_, size, interval = self.committed
         return {"device": "uvc", "t_ns": time.monotonic_ns(), "connected": self.link.connected, "streams": self.streams,
                 "format": FORMATS[format_ - 1], "size": SIZES[size - 1], "rate_hz": 10_000_000 / interval, "number": self.number,
-                **self.counts, "discarded": self.discarded, "faults": self.faults.active(),
+                **self.counts, "plays": self.played is not None, "discarded": self.discarded, "faults": self.faults.active(),
                 "auto_exposure": self.values[AUTO_EXPOSURE], "exposure": self.values[EXPOSURE], "gain": self.values[GAIN],
                 "auto_white_balance": self.values[AUTO_WHITE_BALANCE], "white_balance": self.values[WHITE_BALANCE]}
