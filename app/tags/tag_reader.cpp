@@ -8,7 +8,7 @@ namespace {
 
 /// A whole picture that takes longer does not keep the pace of 30 frames a second within the share.
 constexpr double longest_whole_s = TagReader::most_share / 30.0;
-constexpr int frames_at_half = 100;
+constexpr int frames_at_once = 100; ///< at one size
 
 } // namespace
 
@@ -21,16 +21,28 @@ std::optional<UncertainPose> TagReader::read(const CameraFrame& frame) {
         return std::nullopt;
     }
     const std::optional<UncertainPose> pose = look(frame);
-    const double took_s = pace_.end();
-    if (half_for_ > 0) {
-        --half_for_;
-        ++counts_.at_half_size;
-    } else if (took_s > longest_whole_s) {
-        half_for_ = frames_at_half;
-    }
+    follow_size(pose.has_value(), pace_.end());
     ++counts_.looked_at;
     counts_.posed += pose ? 1 : 0;
     return pose;
+}
+
+void TagReader::follow_size(bool posed, double took_s) {
+    if (half_for_ > 0) {
+        ++counts_.at_half_size;
+        --half_for_;
+        if (!posed && whole_posed_) { // its tags are too small for that
+            half_for_ = 0;
+            whole_for_ = frames_at_once;
+        }
+        return;
+    }
+    whole_posed_ = posed;
+    if (whole_for_ > 0) {
+        --whole_for_;
+    } else if (took_s > longest_whole_s) {
+        half_for_ = frames_at_once;
+    }
 }
 
 std::optional<UncertainPose> TagReader::look(const CameraFrame& frame) {

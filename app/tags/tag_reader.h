@@ -5,7 +5,7 @@
 /// Share    after a frame that took some time it passes over those that come within four times that: it never takes more than a
 ///          quarter of one core, however full of edges a picture is. Where the whole picture costs more than that at 30 frames a
 ///          second, the next hundred are searched at half size: that costs less than half, and finds fewer of the tags that are small,
-///          blurred or dark.
+///          blurred or dark. Where it finds no pose and the whole picture gave one, the next hundred are whole again, and come less often.
 /// Threads  one caller: the camera's own thread. Allocates.
 /// Errors   none: no pose. One that is not sure (tag_pose.h) is not handed on.
 #pragma once
@@ -48,12 +48,16 @@ public:
 
 private:
     [[nodiscard]] std::optional<UncertainPose> look(const CameraFrame& frame);
+    /// Chooses how large the next picture is searched, after one that gave a pose or not and took so long.
+    void follow_size(bool posed, double took_s);
 
     TagSetUp set_up_;
     FramePace pace_;
     TagDetector whole_;
     TagDetector half_;
-    int half_for_ = 0; ///< frames to come are searched at half size
+    int half_for_ = 0;         ///< frames to come are searched at half size
+    int whole_for_ = 0;        ///< frames to come are searched whole, whatever they cost
+    bool whole_posed_ = false; ///< the latest one that was searched whole gave a pose
     std::vector<FoundTag> found_;
     TagCounts counts_;
 };
