@@ -83,10 +83,12 @@ TEST(TagReader, TagsThatAreFoundInTheWholePictureAloneAreNotLostWhereItTakesLong
     const std::vector<std::uint8_t> picture = scene.picture([](double) { return standing; }, 1);
     std::vector<FoundTag> at_half;
     TagDetector({.decimate = 2.0}).find(picture, 640, 360, at_half);
-    ASSERT_FALSE(pose_from_tags(at_half, tags_of({}), small.pinhole, usual_corner_sd_px)) << "this proves nothing";
+    ASSERT_FALSE(pose_from_tags(at_half, tags_of({}), small.pinhole, usual_corner_sd_px))
+        << "this proves nothing";
 
     double busy_s = 0.0;
-    TagReader reader({small.pinhole, small.table_from_camera, tags_of({})}, [&busy_s] { return busy_s += 0.013; });
+    TagReader reader({small.pinhole, small.table_from_camera, tags_of({})},
+                     [&busy_s] { return busy_s += 0.013; });
     for (int k = 1; k <= 202; ++k) {
         static_cast<void>(reader.read({MonotonicTime(milliseconds(100 * k)), 1, 640, 360, picture}));
     }
