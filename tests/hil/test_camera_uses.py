@@ -1,0 +1,299 @@
+"""What a camera is for, in the emulated machine: the prop's tags stand in for a lost tracker, the picture turns to whoever stands at the table,
+and a picture that lies beside its place is told. The camera's mock plays what a camera would see there."""
+
+import base64
+import math
+import pathlib
+import shutil
+import tempfile
+import threading
+import time
+
+import screen
+from bench import EYE_M, HEIGHT, UPRIGHT, USUAL, WIDTH, Patience
+from camera_view import View, body, by_columns, looks, room_seen, skirt, tags_seen, turn
+from hil_test import CENTRE_M, PIXELS, HilTest, long
+from mocks import pgm
+
+CAMERA = """
+[camera]
+kind = "v4l2"
+rate_hz = 15.0
+exposure_ms = 8.0
+"""
+SMALL = (160, 120)  # an emulated processor looks for tags and heads in it
+ARTIFACT = "amphora"
+DOWN = ((1, 0, 0), (0, -1, 0), (0, 0, -1))
+TOLD_S = 30.0
+
+
+def pose_of(place_m, yaw):
+    return (*place_m, math.cos(0.5 * yaw), 0.0, 0.0, math.sin(0.5 * yaw))
+
+
+class CameraUse(HilTest):
+    """The exhibit with a camera, of this view, that sees `at_first()` from the beginning."""
+
+    view: View
+
+    @classmethod
+    def at_first(cls):
+        raise NotImplementedError
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="hil-seen-"))
+        cls.bench.camera.tell("unplug")
+        cls.sees(cls.at_first())
+        super().setUpClass()
+        cls.bench.camera.tell("good")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.bench.camera.tell("play", "off")
+        cls.bench.camera.tell("unplug")
+        shutil.rmtree(cls.folder)
+        super().tearDownClass()
+
+    def setUp(self):
+        super().setUp()
+        self.bench.status_says("camera", "the camera is running")
+
+    @classmethod
+    def sees(cls, luma):
+        pgm.write(cls.folder / "seen.pgm", cls.view.width, cls.view.height, luma)
+        cls.bench.camera.tell("play", cls.folder / "seen.pgm")
+
+    def middle(self):
+        """Of what is lit on the screen now, pixels."""
+        return screen.centroid(screen.lit(self.bench.screendump()), self.bench.machine.width)
+
+
+@long
+class Tags(CameraUse):
+    """A camera above the table, aslant."""
+
+    view = View(*SMALL, 210.0, looks(math.radians(-81.0), 0.1), (0.02, -0.17, 1.1))
+    tags = skirt(0.30, 0.09, 4)
+    settings = (USUAL + CAMERA + "tags = true\n" + view.settings()
+                + "tag = [" + ", ".join(tag.settings() for tag in tags) + "]\n")
+    first, second = ((0.02, 0.02, 0.0), 0.3), ((-0.05, -0.02, 0.0), -0.2)  # places and turns
+    beside_m = 0.012  # that the tracker has it from where the tags have it
+    near_m, near_turn = 0.004, math.radians(1.0)
+
+    @classmethod
+    def at_first(cls):
+        return tags_seen(cls.view, cls.tags, *cls.first)
+
+    def test_stand_in_for_a_lost_tracker_and_give_the_lead_back(self):
+        bench = self.bench
+        pose = pose_of((self.second[0][0] + self.beside_m, *self.second[0][1:]), self.second[1])
+        *_, meant = bench.rendered([pose_of(*self.first), pose_of(*self.second), pose], ARTIFACT)  # before the host has other work
+        seen_there = tags_seen(self.view, self.tags, *self.second)
+        self.show(ARTIFACT)
+        bench.place(self.first[0], pose_of(*self.first)[3:])
+        self.assert_at(self.first[0], pose_of(*self.first)[3:], ARTIFACT)
+        self.warm_up()
+        before = bench.status()
+        self.assertEqual((before["prop_by"], before["camera_for"]), ("tracker", "the prop's tags"))
+        self.assert_at(self.first[0], pose_of(*self.first)[3:], ARTIFACT)
+
+        at = self.middle()
+        bench.tracker.tell("unplug")
+        bench.status_says("prop_by", "tags")
+        self.assertLess(math.dist(self.middle(), at), PIXELS, "the picture jumps when the tags take over")
+        self.sees(seen_there)
+        self.assert_shown_near(self.second)
+        self.assertIn("no tracker is connected", bench.status()["tracker"])
+
+        bench.place(pose[:3], pose[3:])
+        self.assert_glides(self.middle(), screen.centroid(screen.lit(meant), meant.width))
+        self.assert_at(pose[:3], pose[3:], ARTIFACT)
+        after = bench.status_says("prop_by", "tracker")
+        self.assertGreaterEqual(after["hand_overs"] - before["hand_overs"], 2)  # more where the emulated tracker pauses for 150 ms
+
+    def warm_up(self):
+        """Until tags are found in each frame: of its first frame an emulated processor has so much to do that the camera's thread, which keeps to its
+        share, rests for some seconds."""
+        self.bench.tracker.tell("unplug")
+        self.bench.status_says("prop_by", "tags")
+        self.bench.tracker.tell("unplug", "off")
+        self.bench.status_says("prop_by", "tracker")
+
+    def assert_shown_near(self, where):
+        """The picture lies where `render` has it for the true pose, which the exhibit knows by the tags alone."""
+        pose = pose_of(*where)
+
+        def is_near(placed):
+            turned = 2.0 * math.acos(min(1.0, abs(sum(a * b for a, b in zip(placed["prop_wxyz"], pose[3:])))))
+            return math.dist(placed["prop_m"], pose[:3]) < self.near_m and turned < self.near_turn
+
+        picture = self.bench.picture_where(is_near, where)
+        self.assert_same_place(picture, self.bench.rendered([pose], ARTIFACT)[0])
+        found = self.bench.status()["presented"]["prop_m"]
+        print(f"  by the tags: {1e3 * math.dist(found, pose[:3]):.2f} mm from the truth", flush=True)
+
+    def assert_glides(self, begin, end):
+        """The tracker is plugged in; the picture is seen at places between `begin` and `end`."""
+        whole = math.dist(begin, end)
+        self.assertGreater(whole, 2 * PIXELS)
+        self.bench.tracker.tell("unplug", "off")
+        shares, deadline = [], self.bench.machine.granted_s() + TOLD_S * Patience.factor
+        while self.bench.machine.granted_s() < deadline and (not shares or shares[-1] < 0.95):
+            middle = self.middle()
+            shares.append(sum((m - b) * (e - b) for m, b, e in zip(middle, begin, end)) / whole ** 2)
+        between = [share for share in shares if 0.1 < share < 0.9]
+        farthest = max(b - a for a, b in zip(shares, shares[1:]))
+        print(f"  the picture goes over {whole:.1f} pixels, by {farthest * whole:.1f} at most from look to look, {len(between)} between", flush=True)
+        self.assertGreaterEqual(len(between), 2, shares)
+        self.assertLess(farthest, 0.6, shares)
+
+
+@long
+class Visitor(CameraUse):
+    """A camera at the table's far edge that looks up at those who stand in front."""
+
+    view = View(*SMALL, 80.0, looks(math.radians(20.0), math.pi), (0.0, 0.28, 0.12))
+    settings = USUAL + CAMERA + "visitor = true\n" + view.settings()
+    eye_m = (0.33, -0.52, 0.48)
+    looked_at_m = (0.0, 0.0, 0.07)
+    most_across_m = 0.05  # docs/visitor_eye.md: 36 mm at the 95th percentile
+
+    @classmethod
+    def at_first(cls):
+        return room_seen(cls.view)
+
+    def test_the_picture_turns_to_whoever_comes(self):
+        bench, pose = self.bench, (*CENTRE_M, *UPRIGHT)
+        bench.tracker.tell("sensor-missing", 2)  # nobody wears a sensor on the head
+        self.show(ARTIFACT)
+        self.assert_at(CENTRE_M)
+        bench.status_says("eye_by", "settings")
+
+        self.sees(room_seen(self.view, body(self.eye_m, self.looked_at_m)))
+        bench.status_says("eye_by", "camera")
+        picture = bench.picture_where(lambda placed: self.across_m(placed["eye_m"]) < self.most_across_m, "the visitor")
+        status = bench.status()
+        eye = tuple(status["presented"]["eye_m"])
+        print(f"  eye off by {1e3 * self.across_m(eye):.0f} mm across, {1e3 * math.dist(eye, self.eye_m):.0f} mm in all, said {status['eye_sd_mm']}",
+              flush=True)
+        self.assertGreater(status["eye_sd_mm"], 0.0)
+        of_default, of_truth = (bench.rendered([pose], ARTIFACT, eye_m)[0] for eye_m in (EYE_M, self.eye_m))
+        self.assert_same_place(picture, bench.render([pose], ARTIFACT, eye)[0])
+        turned, off = (self.apart_px(picture, other) for other in (of_default, of_truth))
+        print(f"  {off:.1f} pixels from the true eye's picture, {turned:.1f} from that of the usual eye", flush=True)
+        self.assertLess(3 * off, turned)
+
+        self.sees(self.at_first())
+        bench.status_says("eye_by", "settings")
+        self.assert_at(CENTRE_M)
+
+    def across_m(self, eye):
+        """How far an eye is off across the true one's line to the prop."""
+        line = [a - b for a, b in zip(self.looked_at_m, self.eye_m)]
+        off = [a - b for a, b in zip(eye, self.eye_m)]
+        along = sum(a * b for a, b in zip(line, off)) / math.hypot(*line)
+        return math.sqrt(max(0.0, math.hypot(*off) ** 2 - along ** 2))
+
+    @staticmethod
+    def apart_px(one, other):
+        """Of the middles and edges of what is lit, the farthest."""
+        a, b = screen.lit(one), screen.lit(other)
+        return max(abs(x - y) for x, y in zip((*screen.centroid(a, one.width), *screen.box(a, one.width)),
+                                              (*screen.centroid(b, other.width), *screen.box(b, other.width))))
+
+
+class ScreenCamera:
+    """While it is open the camera sees the guest's own screen, as it is now, on a table of wood; nobody else may ask for a screendump.
+
+    `shift_px`: by how many of the screen's pixels the picture lies to the right of its place."""
+
+    pause_s = 0.04
+
+    def __init__(self, test):
+        self._test, self._ends = test, threading.Event()
+        self.shift_px, self.looks = 0, 0
+        self._thread = threading.Thread(target=self._run)
+
+    def __enter__(self):
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self._ends.set()
+        self._thread.join()
+
+    def _run(self):
+        while not self._ends.wait(self.pause_s):
+            self._test.sees(seen_on_wood(self._test.bench.screendump(), self.shift_px))
+            self.looks += 1
+
+
+def seen_on_wood(picture, shift_px):
+    """Every fourth pixel of a picture of the screen, to the right by `shift_px` of its own, with bare table above and below."""
+    green, width = picture.rgb[1::3], picture.width
+    rows = (bytes(shift_px) + green[width * y:width * (y + 1) - shift_px] for y in range(0, picture.height, 4))
+    lit = b"".join(row[::4] for row in rows)
+    bare = bytes((SMALL[0] * SMALL[1] - len(lit)) // 2)
+    return (bare + lit + bare).translate(ON_WOOD)
+
+
+ON_WOOD = bytes(70 + 120 * code // 255 for code in range(256))
+
+
+@long
+class Drift(CameraUse):
+    """A camera that looks straight down, of which only drift and tags make use. The check takes its time: a look a minute, three to learn, five
+    to tell, five to tell that it is over."""
+
+    folder_of_calibrations = "/var/lib/frustumscreen/calibration"
+    focal_px, above_m = 1200.0, 1.5  # the projector, as in the settings
+    calibration = (f'version = 1\nmade = "2026-11-01"\nmethod = "touch"\nplaces = 9\n[residual]\nmean_mm = 0.0\nworst_mm = 0.0\nmean_px = 0.0\n'
+                   f"[projector]\nwidth = 640\nheight = 400\nfx = {focal_px}\nfy = {focal_px}\ncx = 320.0\ncy = 200.0\nk1 = 0.0\nk2 = 0.0\n"
+                   f"table_from_projector = {by_columns(DOWN, (0.0, 0.0, above_m))}\n"
+                   f"[tracker]\ntable_from_tracker = {by_columns(turn((0, 0, 1), 0.0), (0.0, 0.0, 0.0))}\n"
+                   f"sensor_from_prop = {by_columns(turn((0, 0, 1), 0.0), (0.0, 0.0, 0.0))}\neye_in_sensor_m = [0.0, 0.0, 0.0]\n")
+    before = (f"mkdir -p {folder_of_calibrations}; echo {base64.b64encode(calibration.encode()).decode()} | "
+              f"base64 -d > {folder_of_calibrations}/calibration-0001.toml")
+    after = f"rm -rf {folder_of_calibrations}/*"
+    view = View(*SMALL, 200.0, DOWN, (0.0, 0.0, 1.0))
+    settings = (USUAL.replace("rest_s = 3600.0", "rest_s = 10.0") + CAMERA + "drift = true\ntags = true\n" + view.settings()
+                + "tag = [" + ", ".join(tag.settings() for tag in Tags.tags) + "]\n")
+    shift_px = 4
+    shift_mm = 1e3 * shift_px * above_m / focal_px
+    look_s = 60.0
+
+    @classmethod
+    def at_first(cls):
+        return seen_on_wood(screen.Picture(WIDTH, HEIGHT, bytes(3 * WIDTH * HEIGHT)), 0)
+
+    def test_a_picture_beside_its_place_is_told_and_that_it_is_over(self):
+        with ScreenCamera(self) as camera:
+            status = self.drift_says("the camera looks whether", 3)
+            self.assertEqual(status["camera_for"], "the prop's tags, the picture's place")
+            self.assertFalse(status["drifted"])
+            self.assertIn("calibration-0001.toml", self.bench.machine.read(f"{self.folder_of_calibrations}/drift.json"))
+            camera.shift_px = self.shift_px
+            status = self.drift_says("moved by 5 mm", 5)
+            self.assertTrue(status["drifted"])
+            self.assertAlmostEqual(status["drift_mm"], self.shift_mm, delta=0.5)
+            for said in (self.bench.journal(), self.bench.machine.check("frustumscreen status")):  # its lines are those of the staff's picture
+                self.assertIn("moved by 5 mm since the calibration", said)
+            camera.shift_px = 0
+            status = self.drift_says("the picture lies where it was calibrated", 5)
+            self.assertFalse(status["drifted"])
+
+    def drift_says(self, words, looks):
+        """Waits for so many looks; asks seldom, because each question makes the guest's processor wait."""
+        begun = self.bench.machine.granted_s()
+        deadline = begun + (looks + 2) * self.look_s * Patience.factor
+        status = None
+        while self.bench.machine.granted_s() < deadline:
+            status = self.bench.status()
+            if status and words in status["drift"]:
+                print(f"  '{words}' after {self.bench.machine.granted_s() - begun:.0f} s", flush=True)
+                return status
+            for _ in range(40):
+                time.sleep(0.05)
+                self.bench.machine.given()
+        self.fail(f"'drift' never says '{words}', at last '{status and status['drift']}' in state '{status and status['state']}'")
