@@ -4,11 +4,39 @@
 #include "firmware_host/base/usable_cores.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 #include <span>
 #include <utility>
 
 namespace frustumscreen {
+
+namespace {
+
+/// Whether nothing stands there before the relief comes: no fade, no mesh, no picture that lies on the table. What blackens the faces
+/// under such a picture leaves what the relief does not light as the relief has it.
+bool stands_alone(const FramePlan& plan, const PixelRectangle& part) {
+    return plan.cast_count == 1 && std::none_of(plan.draws.begin(), plan.draws.end(), [&](const Draw& draw) {
+               const bool black =
+                   draw.face == Draw::on_table && draw.drawable.material.texture == TextureId::None;
+               return draw.shader.pass == ShaderKey::Pass::Cast
+                          ? draw.shader.dithered
+                          : !black && !intersected(draw.bounds, part).empty();
+           });
+}
+
+/// The colour of the framebuffer that is drawn into.
+GLuint texture_of_framebuffer() {
+    const auto ask = [](GLenum what) {
+        GLint answer = 0;
+        glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, what, &answer);
+        return answer;
+    };
+    assert(ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) == GL_TEXTURE);
+    return static_cast<GLuint>(ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME));
+}
+
+} // namespace
 
 Result<void> CastPass::prepare(std::size_t casts, int width, int height) {
     if (casts > 0 && !painter_) {
@@ -35,6 +63,7 @@ void CastPass::paint(const FramePlan& plan, const GpuStore& store) {
     for (std::size_t k = 0; k < pictures_.size(); ++k) {
         Picture& picture = pictures_[k];
         picture.painted.clear();
+        picture.copied = 0;
         const BlockRelief* const relief =
             k < plan.cast_count ? store.find_relief(plan.casts[k].relief) : nullptr;
         if (relief == nullptr) {
@@ -45,32 +74,43 @@ void CastPass::paint(const FramePlan& plan, const GpuStore& store) {
             painter_->paint(*relief, plan.casts[k].view, plan.casts[k].samples,
                             {memory_.texels.data(), memory_.width, memory_.height, memory_.width}, &light_);
         picture.painted.assign(painted.begin(), painted.end());
-        upload(picture);
+        const auto drawn =
+            std::partition(picture.painted.begin(), picture.painted.end(),
+                           [&](const PixelRectangle& part) { return stands_alone(plan, part); });
+        picture.copied = static_cast<std::size_t>(drawn - picture.painted.begin());
+        glActiveTexture(GL_TEXTURE0);
+        glBindTexture(GL_TEXTURE_2D, picture.texels.get());
+        upload(std::span(picture.painted).subspan(picture.copied));
     }
 }
 
-void CastPass::upload(const Picture& picture) const {
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, picture.texels.get());
+void CastPass::upload(std::span<const PixelRectangle> parts) const {
     glPixelStorei(GL_UNPACK_ROW_LENGTH, memory_.width);
-    for (const PixelRectangle& part : picture.painted) {
+    for (const PixelRectangle& part : parts) {
         glTexSubImage2D(GL_TEXTURE_2D, 0, part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE,
                         &memory_.at(part.x, part.y));
     }
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
-int CastPass::draw(const FramePlan& plan, const ShaderCache& shaders) const {
+int CastPass::show(const FramePlan& plan, const ShaderCache& shaders) const {
     glBindVertexArray(no_attributes_.get());
     glActiveTexture(GL_TEXTURE0);
     int calls = 0;
     for (std::size_t k = 0; k < std::min(plan.cast_count, pictures_.size()); ++k) {
+        const std::span<const PixelRectangle> painted(pictures_[k].painted);
+        const std::span<const PixelRectangle> copied = painted.first(pictures_[k].copied);
+        const std::span<const PixelRectangle> drawn = painted.subspan(pictures_[k].copied);
+        if (!copied.empty()) {
+            glBindTexture(GL_TEXTURE_2D, texture_of_framebuffer());
+            upload(copied);
+        }
         // On whatever face, it is drawn in the same way: the faces' pixels are apart, and each has its light.
         const auto shown = std::find_if(plan.draws.begin(), plan.draws.end(), [k](const Draw& draw) {
             return draw.shader.pass == ShaderKey::Pass::Cast && draw.cast == k;
         });
         const Shader* const shader = shown != plan.draws.end() ? shaders.find(shown->shader) : nullptr;
-        if (shader == nullptr || pictures_[k].painted.empty()) {
+        if (shader == nullptr || drawn.empty()) {
             continue;
         }
         shader->use();
@@ -78,7 +118,7 @@ int CastPass::draw(const FramePlan& plan, const ShaderCache& shaders) const {
         glUniform2f(shader->location(Uniform::Dither), shown->dither.share,
                     shown->dither.complement ? 0.0F : 1.0F);
         glBindTexture(GL_TEXTURE_2D, pictures_[k].texels.get());
-        shader->draw_rectangles({memory_.width, memory_.height}, pictures_[k].painted);
+        shader->draw_rectangles({memory_.width, memory_.height}, drawn);
         ++calls;
     }
     glBindVertexArray(0);

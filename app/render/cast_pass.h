@@ -1,6 +1,7 @@
 /// Reliefs cast on the processor, as pictures in the GPU's memory: what a plan's casts see, for the draws that name them.
 ///
-/// They are drawn into the framebuffer that is bound, a pixel for a pixel, over what stands there; state as FacePass.
+/// What is lit is copied into the picture where nothing else may stand, and drawn, a pixel for a pixel, over what stands there elsewhere
+/// and in a fade. State as FacePass.
 ///
 /// Colour   sRGB codes, in the projector's light (scene/cast_light.h); alpha 0 where nothing was met.
 /// Threads  the render thread, with as many more of its own as there are further cores; `paint` allocates nothing once a picture as
@@ -21,6 +22,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace frustumscreen {
@@ -30,20 +32,23 @@ public:
     /// Has room for so many casts a plan, of the whole picture each.
     [[nodiscard]] Result<void> prepare(std::size_t casts, int width, int height);
 
-    /// Casts all of the plan's, and uploads what they light. Those whose relief is not in the store stay out.
+    /// Casts all of the plan's. Those whose relief is not in the store stay out.
     void paint(const FramePlan& plan, const GpuStore& store);
-    /// Draws what was painted for this plan; returns the number of draw calls.
-    int draw(const FramePlan& plan, const ShaderCache& shaders) const;
+    /// Shows what was painted for this plan in the framebuffer that is bound, whose colour is a texture; returns the number of draw
+    /// calls.
+    int show(const FramePlan& plan, const ShaderCache& shaders) const;
 
     /// Bytes of GPU memory, as the driver says.
     [[nodiscard]] std::uint64_t bytes() const;
 
 private:
     struct Picture {
-        GlTexture texels;
-        std::vector<PixelRectangle> painted; ///< what lies outside is of another frame
+        GlTexture texels;                    ///< of what is drawn; what lies outside is of another frame
+        std::vector<PixelRectangle> painted; ///< first what is copied, then what is drawn
+        std::size_t copied = 0;
     };
-    void upload(const Picture& picture) const;
+    /// The memory's texels go into the texture that is bound.
+    void upload(std::span<const PixelRectangle> parts) const;
 
     std::unique_ptr<ReliefPainter> painter_; ///< none: no cast was prepared
     CastLight light_;

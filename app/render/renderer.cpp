@@ -171,7 +171,7 @@ void Renderer::paint(const FramePlan& plan, const RenderTarget& target, const Re
         result.draw_calls += faces_.draw(plan, store_, shaders_);
     }
     if (repaint.prop) {
-        result.draw_calls += casts_.draw(plan, shaders_);
+        result.draw_calls += casts_.show(plan, shaders_);
     }
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
 }

@@ -33,7 +33,7 @@ inline constexpr int default_samples = 4;
 /// For the finest level, where the cost does not matter.
 inline constexpr int finest_samples = 16;
 
-/// Display::framebuffer and Display::buffer_age.
+/// Display::framebuffer, whose colour is a texture, and Display::buffer_age.
 struct RenderTarget {
     unsigned framebuffer = 0;
     int buffer_age = 0;

@@ -20,7 +20,7 @@ public:
     virtual ~Display() = default;
     [[nodiscard]] virtual int width() const = 0;
     [[nodiscard]] virtual int height() const = 0;
-    /// GL name of the framebuffer to draw the next picture into: colour sRGB 8-bit, depth 24, stencil 8.
+    /// GL name of the framebuffer to draw the next picture into: colour a texture, sRGB 8-bit; depth 24, stencil 8.
     /// Row 0 of a read-back is the picture's top row (as `Pinhole::clip_from_point`).
     [[nodiscard]] virtual unsigned framebuffer() const = 0;
     /// How many presents old the framebuffer's content is; 0 = undefined, 1 = the last picture.

@@ -167,6 +167,67 @@ TEST(Relief, HidesWhatShinesOnThePropWhereItIsAndNowhereElse) {
     EXPECT_GT(shown, 1000U);
 }
 
+/// Where nothing else stands it is copied, which is no draw call, and else drawn: the pixels are the same, and what lies on the table
+/// beside the prop stays as it is, whichever way a strip takes.
+TEST(Relief, LeavesWhatLiesOnTheTableAsItIs) {
+    ReliefRig rig(2);
+    Stage stage(320, 200);
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> place_m(-0.12, 0.12);
+    const TextureId texture = rig.renderer->store().upload(Image<std::uint8_t>(16, 16, 255)).value();
+    std::size_t drawn = 0;
+    std::size_t copied = 0;
+    std::size_t beside = 0;
+    for (int pose = 0; pose < 30; ++pose) {
+        stage.shuffle(random);
+        PlanView view = stage.view(LightCompensation{});
+        plan_frame(rig.prop, rig.cast, view, rig.plan);
+        EXPECT_EQ(rig.draw(Redraw::Everything).draw_calls, 0);
+        const Image8 alone = rig.picture();
+        const double half_m = pose == 0 ? 0.4 : 0.03;
+        const glm::dvec2 middle_m =
+            pose == 0 ? glm::dvec2(0.0) : glm::dvec2(place_m(random), place_m(random));
+        TablePicture lying;
+        lying.texture = texture;
+        for (std::size_t k = 0; k < 4; ++k) {
+            lying.corners_m[k] = {middle_m.x + (k == 1 || k == 2 ? half_m : -half_m),
+                                  middle_m.y + (k < 2 ? half_m : -half_m), 0.0};
+        }
+        view.on_table = {&lying, 1};
+        plan_frame(rig.prop, PlacedLevel{}, view, rig.plan);
+        const int without = rig.draw(Redraw::Everything).draw_calls;
+        const Image8 table = rig.picture();
+        plan_frame(rig.prop, rig.cast, view, rig.plan);
+        const int with = rig.draw(Redraw::Everything).draw_calls;
+        const Image8 both = rig.picture();
+        (with > without ? drawn : copied) += 1;
+        for (std::size_t k = 0; k < both.texels.size(); ++k) {
+            const bool lit = alone.texels[k].r + alone.texels[k].g + alone.texels[k].b > 0;
+            beside += table.texels[k].r > 0 ? 1U : 0U;
+            ASSERT_EQ(both.texels[k], lit ? alone.texels[k] : table.texels[k]) << pose << " " << k;
+        }
+    }
+    std::printf("%zu drawn, %zu copied, %zu pixels on the table\n", drawn, copied, beside);
+    EXPECT_GT(drawn, 5U);
+    EXPECT_GT(copied, 5U);
+    EXPECT_GT(beside, 10'000U);
+}
+
+TEST(Relief, LeavesNothingBehindWhereItWas) {
+    ReliefRig rig(2);
+    Stage stage(320, 200);
+    std::mt19937 random(12);
+    for (int pose = 0; pose < 8; ++pose) {
+        stage.shuffle(random);
+        plan_frame(rig.prop, rig.cast, stage.view(LightCompensation{}), rig.plan);
+        ASSERT_TRUE(rig.draw(Redraw::Changes).drawn);
+        const Image8 moved = rig.picture();
+        rig.draw(Redraw::Everything);
+        ASSERT_EQ(moved.texels, rig.picture().texels) << pose;
+        EXPECT_GT(lit_pixels(moved), 500U);
+    }
+}
+
 TEST(Relief, AndAMeshShareTheirPixelsInAFade) {
     for (const int samples : {1, 4}) {
         ReliefRig rig(samples);
