@@ -16,9 +16,9 @@ namespace {
 struct ReadyItem {
     const BlockItem& item;
     const ReliefBlock& block;
-    const CastFace& face;
     const std::uint32_t* codes;
     const std::uint64_t* covers;
+    std::array<glm::vec3, 4> edges; ///< the face's, as CastFace
     CornerMap map;
     float outward; ///< the sign of a cell's area in the picture, where it faces the eye
 };
@@ -27,13 +27,14 @@ FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const CastView& 
                                      const BlockItem& item) {
     const ReliefBlock& block = relief.blocks[item.block];
     const GridView& grid = items.grids[item.face][item.direction];
+    const std::array<glm::dvec3, 4>& edges = view.faces[item.face].edges;
     const float turn =
         glm::dot(glm::vec3(grid.pixel[0]), glm::cross(glm::vec3(grid.pixel[1]), glm::vec3(grid.pixel[2])));
     return {item,
             block,
-            view.faces[item.face],
             &relief.corner_codes[std::size_t{item.block} * block_cells * block_cells],
             relief.covers.data() + block.first_cover,
+            {edges[0], edges[1], edges[2], edges[3]},
             corner_map(block, grid),
             turn > 0.0F ? -1.0F : 1.0F};
 }
@@ -52,64 +53,81 @@ FRUSTUMSCREEN_INLINE bool is_covered(const ReadyItem& ready, std::uint32_t place
 }
 
 /// Meetings on their way into the picture. To take them at once, a lane each, would be a branch for each that nobody foresees: they
-/// are kept in eights, `list` names those that count, and all are taken in one loop.
+/// are kept in eights, `list_` names those that count, and all are taken in one loop.
 class Meetings {
 public:
     FRUSTUMSCREEN_INLINE bool full() const { return eights_ == most_eights; }
     FRUSTUMSCREEN_INLINE void add(const Meeting& meeting, Ints in, int row, Ints sample) {
+        const unsigned bits = bits_of(meeting.met & in);
+        const std::size_t at = eights_ * lanes;
+        store(&u_[at], meeting.u);
+        store(&v_[at], meeting.v);
+        store(&nearness_[at], meeting.nearness);
+        store(&sample_[at], sample);
+        row_[eights_] = row;
+        bits_[eights_] = static_cast<std::uint8_t>(bits);
+        eights_ += bits != 0 ? 1U : 0U; // half of them have none: the next ones are written over them
+    }
+    /// Those that are nearer than what was met before.
+    FRUSTUMSCREEN_INLINE void take(CastSamples& samples, const ReadyItem& ready) {
+        const std::size_t count = list();
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t from = list_[k];
+            const auto to = static_cast<std::size_t>(sample_[from]);
+            bool taken = nearness_[from] > samples.nearness[to];
+            if (ready.block.cut != 0) {
+                taken = taken && is_covered(ready, place_[from]);
+            }
+            if (taken) {
+                samples.nearness[to] = nearness_[from];
+                samples.block[to] = ready.item.block;
+                samples.place[to] = place_[from];
+            }
+        }
+        eights_ = 0;
+    }
+
+private:
+    using Bytes = std::uint8_t __attribute__((vector_size(lanes)));
+    using Halves = std::uint16_t __attribute__((vector_size(2 * lanes)));
+
+    /// Finds the places, and lists what counts; returns how many.
+    FRUSTUMSCREEN_INLINE std::size_t list() {
         constexpr auto unit = static_cast<std::int32_t>(CastSamples::places_per_cell);
-        constexpr Ints columns = {0, unit, 2 * unit, 3 * unit, 4 * unit, 5 * unit, 6 * unit, 7 * unit};
         const auto part = [](Floats at) FRUSTUMSCREEN_INLINED {
             return __builtin_convertvector(
                 least(most(at * static_cast<float>(unit), Floats{}), all(static_cast<float>(unit - 1))),
                 Ints);
         };
-        const std::size_t at = eights_ * lanes;
-        store(&nearness_[at], meeting.nearness);
-        store(&place_[at], (part(meeting.u) + columns) | ((part(meeting.v) + row * unit) << 16));
-        store(&sample_[at], sample);
-        const unsigned bits = bits_of(meeting.met & in);
-        for (unsigned lane = 0; lane < lanes; ++lane) {
-            list_[count_] = static_cast<std::uint16_t>(at + lane);
-            count_ += bits >> lane & 1U;
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < eights_; ++k) {
+            const std::size_t at = k * lanes;
+            const Ints u = part(load(&u_[at])) + lane_numbers * unit;
+            const Ints v = part(load(&v_[at])) + row_[k] * unit;
+            store(&place_[at], u | v << 16);
+            Bytes counting;
+            std::memcpy(&counting, set_bits[bits_[k]].data(), sizeof counting);
+            store(&list_[count], __builtin_convertvector(counting, Halves) + static_cast<std::uint16_t>(at));
+            count += static_cast<std::size_t>(std::popcount(bits_[k]));
         }
-        ++eights_;
-    }
-    /// Those that are nearer than what was met before.
-    FRUSTUMSCREEN_INLINE void take(CastSamples& samples, const ReadyItem& ready) {
-        float* const nearness = samples.nearness.data();
-        std::uint32_t* const block = samples.block.data();
-        std::uint32_t* const place = samples.place.data();
-        for (std::size_t k = 0; k < count_; ++k) {
-            const std::size_t from = list_[k];
-            const auto to = static_cast<std::size_t>(sample_[from]);
-            bool taken = nearness_[from] > nearness[to];
-            if (ready.block.cut != 0) {
-                taken = taken && is_covered(ready, place_[from]);
-            }
-            nearness[to] = taken ? nearness_[from] : nearness[to];
-            block[to] = taken ? ready.item.block : block[to];
-            place[to] = taken ? place_[from] : place[to];
-        }
-        eights_ = count_ = 0;
+        return count;
     }
 
-private:
     static constexpr std::size_t most_eights = 64;
-    std::size_t eights_ = 0, count_ = 0;
-    std::array<float, most_eights * lanes> nearness_;
-    std::array<std::uint32_t, most_eights * lanes> place_;
-    std::array<std::int32_t, most_eights * lanes> sample_;
-    std::array<std::uint16_t, most_eights * lanes + 1>
-        list_; ///< the last is written before it is known not to count
+    static constexpr std::size_t room = (most_eights + 1) * lanes; ///< with one that is written over
+    std::size_t eights_ = 0;
+    std::array<float, room> u_, v_, nearness_;
+    std::array<std::int32_t, room> sample_;
+    std::array<std::uint32_t, room> place_;
+    std::array<std::int32_t, most_eights + 1> row_;
+    std::array<std::uint8_t, most_eights + 1> bits_; ///< which lanes count
+    std::array<std::uint16_t, room> list_;           ///< eight are written, however many count
 };
 
-FRUSTUMSCREEN_INLINE Ints in_face(const CastFace& face, Floats x, Floats y) {
+FRUSTUMSCREEN_INLINE Ints in_face(const ReadyItem& ready, Floats x, Floats y) {
     Ints inside = Ints{} - 1;
-    for (const glm::dvec3& edge : face.edges) {
-        inside &=
-            static_cast<float>(edge.x) * x + static_cast<float>(edge.y) * y + static_cast<float>(edge.z) >
-            0.0F;
+    for (const glm::vec3& edge : ready.edges) {
+        inside &= edge.x * x + edge.y * y + edge.z > 0.0F;
     }
     return inside;
 }
@@ -164,14 +182,14 @@ FRUSTUMSCREEN_INLINE void cast_cells(CastSamples& samples, Meetings& meetings, c
         steps = ready_to_step ? steps : cell_steps(corners);
         ready_to_step = true;
         const Ints first =
-            ((pixels.top - all_pixels.y) * all_pixels.width + (pixels.left - all_pixels.x)) * count + k;
+            ((pixels.top - all_pixels.y) * count + k) * all_pixels.width + (pixels.left - all_pixels.x);
         const auto visit = [&](const Weights& weights, Ints in, int x, int y) FRUSTUMSCREEN_INLINED {
             if (!ready.item.inside) {
-                in &= in_face(ready.face, __builtin_convertvector(pixels.left + x, Floats) + sample.x,
+                in &= in_face(ready, __builtin_convertvector(pixels.left + x, Floats) + sample.x,
                               __builtin_convertvector(pixels.top + y, Floats) + sample.y);
             }
             meetings.add(meeting_at(at, corners, weights), in, row,
-                         first + (y * all_pixels.width + x) * count);
+                         first + (y * count * all_pixels.width + x));
             if (meetings.full()) {
                 meetings.take(samples, ready);
             }
@@ -193,16 +211,12 @@ FRUSTUMSCREEN_INLINE PixelSpan within(const PixelSpan& area, const PixelRectangl
 /// Whether all of the area's samples show something nearer.
 FRUSTUMSCREEN_INLINE bool is_hidden(const CastSamples& samples, const PixelSpan& area, float nearest) {
     for (int y = area.top; y < area.bottom; ++y) {
-        const float* at = &samples.nearness[samples.at(area.left, y)];
-        const float* const end = &samples.nearness[samples.at(area.right - 1, y)] + samples.places().size();
-        for (; at + lanes <= end; at += lanes) {
-            if (any(load(at) < nearest)) {
-                return false;
-            }
-        }
-        for (; at < end; ++at) {
-            if (*at < nearest) {
-                return false;
+        for (std::size_t k = 0; k < samples.places().size(); ++k) {
+            const float* const row = &samples.nearness[samples.at(area.left, y, k)];
+            for (int x = 0; x < area.right - area.left; x += lanes) {
+                if (any((load(row + x) < nearest) & (lane_numbers + x < area.right - area.left))) {
+                    return false;
+                }
             }
         }
     }
@@ -273,7 +287,8 @@ glm::vec2 sample_place(int k, int n) {
 
 void CastSamples::make_room(int width, int height, int count) {
     const std::size_t samples =
-        static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(count);
+        static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(count) +
+        lanes;
     places_.reserve(static_cast<std::size_t>(count));
     extents_.reserve(static_cast<std::size_t>(height));
     nearness.reserve(samples);
@@ -290,7 +305,8 @@ void CastSamples::begin(const PixelRectangle& pixels, int count) {
     }
     extents_.assign(static_cast<std::size_t>(pixels.height), {pixels.x + pixels.width, pixels.x});
     nearness.assign(static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height) *
-                        static_cast<std::size_t>(count),
+                            static_cast<std::size_t>(count) +
+                        lanes,
                     0.0F);
 }
 

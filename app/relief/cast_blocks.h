@@ -19,7 +19,8 @@
 
 namespace frustumscreen {
 
-/// The samples of a rectangle of pixels, those of a pixel one after another, pixels row by row.
+/// The samples of a rectangle of pixels, row by row: first those of all of a row's pixels that are their first, then the second ones,
+/// and so on, so that neighbours' lie side by side. Behind the last, `lanes` more may be read.
 class CastSamples {
 public:
     static constexpr std::uint32_t places_per_cell = 4096;
@@ -33,11 +34,11 @@ public:
     [[nodiscard]] const PixelRectangle& pixels() const { return pixels_; }
     /// Of each pixel, from its corner: one is at its centre; of more each has a column and a row of its own.
     [[nodiscard]] const std::vector<glm::vec2>& places() const { return places_; }
-    /// A pixel's first sample.
-    [[nodiscard]] std::size_t at(int x, int y) const {
-        return (static_cast<std::size_t>(y - pixels_.y) * static_cast<std::size_t>(pixels_.width) +
-                static_cast<std::size_t>(x - pixels_.x)) *
-               places_.size();
+    /// A pixel's sample `k`.
+    [[nodiscard]] std::size_t at(int x, int y, std::size_t k = 0) const {
+        return (static_cast<std::size_t>(y - pixels_.y) * places_.size() + k) *
+                   static_cast<std::size_t>(pixels_.width) +
+               static_cast<std::size_t>(x - pixels_.x);
     }
     /// Columns of a row that may have met something, the last one excluded.
     struct Extent {

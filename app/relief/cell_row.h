@@ -152,7 +152,8 @@ FRUSTUMSCREEN_INLINE Meeting meeting_at(const CellRow& row, const CellCorners& a
             first ? a + to_b * (b - a) + to_c * (c - a) : d + from_d_to_c * (c - d) + from_d_to_b * (b - d)};
 }
 
-/// Calls visit(weights, lanes, column, row) for the `sample` of the pixels (left + column, top + row) of all cells.
+/// Calls visit(weights, lanes, column, row) for the `sample` of the pixels (left + column, top + row) of all cells. How many there are is
+/// found first, since a loop that asks in every step whether any lane goes on waits for the answer.
 template <typename Visit>
 FRUSTUMSCREEN_INLINE void for_each_pixel(const CellPixels& pixels, const CellCorners& at,
                                          const CellSteps& steps, const glm::vec2& sample,
@@ -166,14 +167,15 @@ FRUSTUMSCREEN_INLINE void for_each_pixel(const CellPixels& pixels, const CellCor
                      from_a_x * along_x.to_c + from_a_y * along_y.to_c,
                      from_d_x * along_x.from_d_to_c + from_d_y * along_y.from_d_to_c,
                      from_d_x * along_x.from_d_to_b + from_d_y * along_y.from_d_to_b};
-    const Ints columns = pixels.right - pixels.left;
-    const Ints rows = pixels.bottom - pixels.top;
-    int y = 0;
-    for (Ints in_y = pixels.there; any(in_y); ++y, in_y = pixels.there & (y < rows)) {
+    const Ints columns = pixels.there & (pixels.right - pixels.left);
+    const Ints rows = pixels.there & (pixels.bottom - pixels.top);
+    const int most_columns = most_of(columns);
+    const int most_rows = most_of(rows);
+    for (int y = 0; y < most_rows; ++y) {
+        const Ints in_y = y < rows;
         Weights weights = begin;
-        int x = 0;
-        for (Ints in_x = in_y; any(in_x); ++x, in_x = in_y & (x < columns)) {
-            visit(weights, in_x, x, y);
+        for (int x = 0; x < most_columns; ++x) {
+            visit(weights, in_y & (x < columns), x, y);
             weights = weights.plus(along_x);
         }
         begin = begin.plus(along_y);

@@ -11,123 +11,163 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::uint32_t unit = CastSamples::places_per_cell;
+constexpr std::int32_t unit = CastSamples::places_per_cell;
 using Words = std::uint32_t __attribute__((vector_size(4 * lanes)));
-
-/// A pixel whose samples are shown by one place of one block.
-struct Shown {
-    std::uint32_t block = 0, place = 0;
-};
-enum class Met { Nothing, OnePlace, Several };
-
-/// What the samples of a pixel met, from `first` on; `shown` is told of one place alone. Within a cell the codes are nearly even: their
-/// mean is the one in the middle.
-template <std::size_t count>
-FRUSTUMSCREEN_INLINE Met met_by(const CastSamples& samples, std::size_t first, Shown& shown) {
-    const std::uint32_t block = samples.block[first];
-    std::uint32_t low_u = std::numeric_limits<std::uint32_t>::max(), low_v = low_u;
-    std::uint32_t high_u = 0, high_v = 0, sum_u = 0, sum_v = 0;
-    std::size_t met = 0;
-    bool together = true;
-    for (std::size_t k = first; k < first + count; ++k) {
-        const bool here = samples.nearness[k] > 0.0F;
-        const std::uint32_t u = samples.place[k] & 0xFFFFU;
-        const std::uint32_t v = samples.place[k] >> 16U;
-        met += here ? 1 : 0;
-        together = together && here && samples.block[k] == block;
-        low_u = std::min(low_u, u);
-        low_v = std::min(low_v, v);
-        high_u = std::max(high_u, u);
-        high_v = std::max(high_v, v);
-        sum_u += u;
-        sum_v += v;
-    }
-    if (met == 0) {
-        return Met::Nothing;
-    }
-    if (!together || std::max(high_u - low_u, high_v - low_v) >= unit) {
-        return Met::Several;
-    }
-    constexpr auto of = static_cast<std::uint32_t>(count);
-    shown = {block, sum_u / of | sum_v / of << 16U};
-    return Met::OnePlace;
-}
 
 /// Two channels at once, in the lower bytes of two halves: the mean of `from` and `to` with weights 256 - share and share.
 FRUSTUMSCREEN_INLINE Words blend(Words from, Words to, Words share) {
     return (from * (256 - share) + to * share + 0x00800080U) >> 8 & 0x00FF00FFU;
 }
 
+/// Eight places of blocks: what shows one pixel or one sample each.
+struct Shown {
+    Ints block, place;
+};
+
 /// As colour_at, of eight places.
-FRUSTUMSCREEN_INLINE void colours_at(const BlockRelief& relief, const std::array<Shown, lanes>& shown,
-                                     std::uint32_t* codes) {
-    std::array<std::array<std::uint32_t, lanes>, 6> at{}; // four corners, two shares
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const auto& [block, place] = shown[lane];
-        const std::uint32_t u = place & 0xFFFFU;
-        const std::uint32_t v = place >> 16U;
-        const glm::u8vec4* const corner = &relief.colours[std::size_t{block} * block_corners * block_corners +
-                                                          (v / unit) * block_corners + u / unit];
-        at[0][lane] = std::bit_cast<std::uint32_t>(corner[0]);
-        at[1][lane] = std::bit_cast<std::uint32_t>(corner[1]);
-        at[2][lane] = std::bit_cast<std::uint32_t>(corner[block_corners]);
-        at[3][lane] = std::bit_cast<std::uint32_t>(corner[block_corners + 1]);
-        at[4][lane] = u % unit / (unit / 256);
-        at[5][lane] = v % unit / (unit / 256);
-    }
-    const auto words = [&](std::size_t k) FRUSTUMSCREEN_INLINED {
-        Words value;
-        std::memcpy(&value, at[k].data(), sizeof value);
-        return value;
+FRUSTUMSCREEN_INLINE Words colours_at(const BlockRelief& relief, const Shown& shown) {
+    const Ints u = shown.place & 0xFFFF;
+    const Ints v = shown.place >> 16;
+    const Ints corners = shown.block * (block_corners * block_corners) + v / unit * block_corners + u / unit;
+    // A corner and the one beside it lie in one word of 64 bits.
+    using Pairs = std::uint64_t __attribute__((vector_size(4 * lanes)));
+    struct Row {
+        Words left, right;
     };
-    const Words share_u = words(4);
-    const Words share_v = words(5);
+    const auto row = [&](int down) FRUSTUMSCREEN_INLINED {
+        const auto pair = [&](int lane) FRUSTUMSCREEN_INLINED {
+            std::uint64_t two;
+            std::memcpy(&two, &relief.colours[static_cast<std::size_t>(corners[lane] + down)], sizeof two);
+            return two;
+        };
+        const auto low = std::bit_cast<Words>(Pairs{pair(0), pair(1), pair(2), pair(3)});
+        const auto high = std::bit_cast<Words>(Pairs{pair(4), pair(5), pair(6), pair(7)});
+        return Row{__builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14),
+                   __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15)};
+    };
+    const Row near = row(0);
+    const Row far = row(block_corners);
+    const auto share_u = std::bit_cast<Words>(u % unit / (unit / 256));
+    const auto share_v = std::bit_cast<Words>(v % unit / (unit / 256));
     const auto mean = [&](int shift) FRUSTUMSCREEN_INLINED {
-        const auto channels = [&](std::size_t corner)
-                                  FRUSTUMSCREEN_INLINED { return words(corner) >> shift & 0x00FF00FFU; };
-        return blend(blend(channels(0), channels(1), share_u), blend(channels(2), channels(3), share_u),
-                     share_v);
+        const auto channels = [&](Words of) FRUSTUMSCREEN_INLINED { return of >> shift & 0x00FF00FFU; };
+        return blend(blend(channels(near.left), channels(near.right), share_u),
+                     blend(channels(far.left), channels(far.right), share_u), share_v);
     };
-    store(codes, mean(0) | mean(8) << 8);
+    return mean(0) | mean(8) << 8;
 }
 
-/// The mean light of samples that do not show one place.
-glm::u8vec4 mean_code(const CastSamples& samples, std::size_t first, std::size_t count,
-                      const BlockRelief& relief, const SampleLight& light) {
-    glm::uvec3 sum(0);
-    for (std::size_t k = first; k < first + count; ++k) {
-        if (samples.nearness[k] > 0.0F) {
-            sum += light.light(colour_at(relief, samples.block[k], samples.place[k]));
-        }
+/// What the samples of eight pixels met. Within a cell the codes are nearly even: their mean is the one in the middle.
+struct Met {
+    Ints one;     ///< a place of one block, `shown`
+    Ints several; ///< more than that
+    Shown shown;
+};
+
+template <std::size_t count>
+FRUSTUMSCREEN_INLINE Met met_by(const CastSamples& samples, int x, int y, Ints pixels) {
+    const auto words = [](const std::uint32_t* from) FRUSTUMSCREEN_INLINED {
+        Ints value;
+        std::memcpy(&value, from, sizeof value);
+        return value;
+    };
+    const auto larger = [](Ints a, Ints b) FRUSTUMSCREEN_INLINED { return a > b ? a : b; };
+    const auto smaller = [](Ints a, Ints b) FRUSTUMSCREEN_INLINED { return a < b ? a : b; };
+    const Ints block = words(&samples.block[samples.at(x, y)]);
+    Ints together = Ints{} - 1;
+    Ints any_met{};
+    Ints sum_u{}, sum_v{}, high_u{}, high_v{}, low_u = Ints{} + 0xFFFF, low_v = low_u;
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t at = samples.at(x, y, k);
+        const Ints met = load(&samples.nearness[at]) > 0.0F;
+        const Ints place = words(&samples.place[at]);
+        const Ints u = place & 0xFFFF;
+        const Ints v = place >> 16;
+        any_met |= met;
+        together &= met & (words(&samples.block[at]) == block);
+        high_u = larger(high_u, u);
+        high_v = larger(high_v, v);
+        low_u = smaller(low_u, u);
+        low_v = smaller(low_v, v);
+        sum_u += u;
+        sum_v += v;
     }
-    return light.mean(sum, static_cast<unsigned>(count));
+    const Ints one = pixels & together & (larger(high_u - low_u, high_v - low_v) < unit);
+    constexpr auto of = static_cast<std::int32_t>(count);
+    return {one, pixels & any_met & ~one, {one & block, one & (sum_u / of | sum_v / of << 16)}};
 }
+
+/// Pixels whose samples show several places, each the mean light of what they show; a sample that met nothing is black. They are kept
+/// until there are some, so that eight samples' colours are looked up at once, of whatever pixels.
+template <std::size_t count> class Several {
+public:
+    FRUSTUMSCREEN_INLINE bool full() const { return pixels_ == most_pixels; }
+    FRUSTUMSCREEN_INLINE void add(const CastSamples& samples, int x, int y, glm::u8vec4& code) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t at = samples.at(x, y, k);
+            block_[shown_] = samples.block[at];
+            place_[shown_] = samples.place[at];
+            shown_ += samples.nearness[at] > 0.0F ? 1U : 0U;
+        }
+        code_[pixels_] = &code;
+        end_[pixels_++] = shown_;
+    }
+    /// Writes the codes of all that were added.
+    FRUSTUMSCREEN_INLINE void resolve(const BlockRelief& relief, const SampleLight& light) {
+        for (std::size_t k = 0; k < shown_; k += lanes) {
+            Shown shown;
+            std::memcpy(&shown.block, &block_[k], sizeof shown.block);
+            std::memcpy(&shown.place, &place_[k], sizeof shown.place);
+            const Ints there = lane_numbers < static_cast<std::int32_t>(shown_ - k);
+            const Words codes = colours_at(relief, {there & shown.block, there & shown.place});
+            std::memcpy(static_cast<void*>(&colour_[k]), &codes, sizeof codes);
+        }
+        std::size_t first = 0;
+        for (std::size_t pixel = 0; pixel < pixels_; ++pixel) {
+            glm::uvec3 sum(0);
+            for (; first < end_[pixel]; ++first) {
+                sum += light.light(colour_[first]);
+            }
+            *code_[pixel] = light.mean(sum, count);
+        }
+        pixels_ = shown_ = 0;
+    }
+
+private:
+    static constexpr std::size_t most_pixels = 64;
+    static constexpr std::size_t most_shown =
+        most_pixels * count + lanes; ///< eights are read and written whole
+    std::size_t pixels_ = 0, shown_ = 0;
+    std::array<std::uint32_t, most_shown> block_, place_; ///< of the samples that met something
+    std::array<glm::u8vec4, most_shown> colour_;
+    std::array<glm::u8vec4*, most_pixels> code_;
+    std::array<std::size_t, most_pixels> end_; ///< one past the pixel's last sample
+};
 
 template <std::size_t count>
 FRUSTUMSCREEN_INLINE void resolve_samples(const CastSamples& samples, const BlockRelief& relief,
                                           const SampleLight& light, int y, int first,
                                           std::span<glm::u8vec4> codes) {
+    Several<count> several;
     for (std::size_t begin = 0; begin < codes.size(); begin += lanes) {
-        const std::size_t pixels = std::min<std::size_t>(lanes, codes.size() - begin);
-        const std::size_t from = samples.at(first + static_cast<int>(begin), y);
-        std::array<Shown, lanes> shown{};
-        std::array<Met, lanes> met{};
-        bool any_place = false;
-        for (std::size_t k = 0; k < pixels; ++k) {
-            met[k] = met_by<count>(samples, from + k * count, shown[k]);
-            any_place = any_place || met[k] == Met::OnePlace;
+        const std::size_t rest = std::min<std::size_t>(lanes, codes.size() - begin);
+        const int x = first + static_cast<int>(begin);
+        const Ints pixels = lane_numbers < static_cast<std::int32_t>(rest);
+        const Met met = met_by<count>(samples, x, y, pixels);
+        Words together{};
+        if (any(met.one)) {
+            together = std::bit_cast<Words>(met.one) & colours_at(relief, met.shown);
         }
-        std::array<std::uint32_t, lanes> together{};
-        if (any_place) {
-            colours_at(relief, shown, together.data());
-        }
-        for (std::size_t k = 0; k < pixels; ++k) {
-            codes[begin + k] = met[k] == Met::OnePlace ? std::bit_cast<glm::u8vec4>(together[k])
-                               : met[k] == Met::Several
-                                   ? mean_code(samples, from + k * count, count, relief, light)
-                                   : glm::u8vec4(0);
+        std::memcpy(static_cast<void*>(&codes[begin]), &together, rest * sizeof(glm::u8vec4));
+        for (unsigned bits = bits_of(met.several); bits != 0; bits &= bits - 1) {
+            const int lane = std::countr_zero(bits);
+            if (several.full()) {
+                several.resolve(relief, light);
+            }
+            several.add(samples, x + lane, y, codes[begin + static_cast<std::size_t>(lane)]);
         }
     }
+    several.resolve(relief, light);
 }
 
 FRUSTUMSCREEN_INLINE void resolve(const CastSamples& samples, const BlockRelief& relief,

@@ -96,6 +96,61 @@ TEST(Painter, TheProcessorsInstructionsDoNotChangeACode) {
     }
 }
 
+/// A sample at a time, by colour_at and in linear light: where a pixel's samples show one cell, their mean code is within the range of
+/// theirs; where they show several blocks, or not all show something, it is their mean light.
+TEST(Painter, APixelIsTheMeanOfWhatItsSamplesShow) {
+    const Painting painting;
+    const SampleLight light;
+    BlockItems items;
+    CastSamples samples;
+    const CastView view = painting.view(painting.poses[0]);
+    list_blocks(items, painting.relief, view);
+    for (const unsigned count : {2U, 4U, 16U}) {
+        samples.begin(view.lit, static_cast<int>(count));
+        cast(samples, painting.relief, view, items);
+        std::vector<glm::u8vec4> codes(static_cast<std::size_t>(view.lit.width));
+        int mixed = 0;
+        int even = 0;
+        for (int y = view.lit.y; y < view.lit.y + view.lit.height; ++y) {
+            resolve_row(samples, painting.relief, light, y, view.lit.x, codes);
+            for (int x = view.lit.x; x < view.lit.x + view.lit.width; ++x) {
+                glm::uvec3 sum(0);
+                glm::u8vec4 low(255);
+                glm::u8vec4 high(0);
+                unsigned met = 0;
+                bool one_block = true;
+                for (unsigned k = 0; k < count; ++k) {
+                    const std::size_t at = samples.at(x, y, k);
+                    if (samples.nearness[at] > 0.0F) {
+                        const glm::u8vec4 code =
+                            colour_at(painting.relief, samples.block[at], samples.place[at]);
+                        sum += light.light(code);
+                        low = glm::min(low, code);
+                        high = glm::max(high, code);
+                        one_block = one_block && samples.block[at] == samples.block[samples.at(x, y)];
+                        ++met;
+                    }
+                }
+                const glm::u8vec4 shown = codes[static_cast<std::size_t>(x - view.lit.x)];
+                if (met == 0) {
+                    ASSERT_EQ(shown, glm::u8vec4(0)) << x << " " << y;
+                } else if (met < count || !one_block) {
+                    ++mixed;
+                    ASSERT_EQ(shown, light.mean(sum, count)) << x << " " << y;
+                } else {
+                    ++even;
+                    for (int channel = 0; channel < 4; ++channel) {
+                        ASSERT_GE(shown[channel] + 1, low[channel]) << x << " " << y;
+                        ASSERT_LE(shown[channel], high[channel] + 1) << x << " " << y;
+                    }
+                }
+            }
+        }
+        EXPECT_GT(mixed, 500) << count;
+        EXPECT_GT(even, 1000) << count;
+    }
+}
+
 TEST(Painter, OneThreadOrFivePaintTheSame) {
     const Painting painting;
     ReliefPainter alone(1);
