@@ -18,6 +18,8 @@ constexpr std::array<std::string_view, 10> touch_columns{"tx_m", "ty_m", "tz_m",
                                                          "qy",   "qz",   "u_px", "v_px", "block_m"};
 constexpr std::array<std::string_view, 14> rest_columns{
     "rest", "tx_m", "ty_m", "tz_m", "qw", "qx", "qy", "qz", "x_m", "y_m", "z_m", "u_px", "v_px", "block_m"};
+constexpr std::array<std::string_view, 13> sight_columns{"eye", "tx_m", "ty_m", "tz_m", "qw",  "qx", "qy",
+                                                         "qz",  "u_px", "v_px", "x_m",  "y_m", "z_m"};
 constexpr std::array<std::string_view, 5> corner_columns{"distance", "corner", "x_m", "y_m", "z_m"};
 constexpr std::array<std::string_view, 4> corner_names{"top_left", "top_right", "bottom_right",
                                                        "bottom_left"};
@@ -25,6 +27,8 @@ constexpr std::array<std::string_view, 4> corner_names{"top_left", "top_right", 
 constexpr std::size_t most_rows = 1000;
 /// Rests have a row for each of their points.
 constexpr std::size_t most_points = 50000;
+/// Nobody makes as many; each two are tried without.
+constexpr std::size_t most_sights = 100;
 
 Result<void> read_header(TextRows& rows, std::span<const std::string_view> columns) {
     if (!rows.next() ||
@@ -170,6 +174,41 @@ std::string rests_text(std::span<const Rest> rests) {
         }
     }
     return text;
+}
+
+Result<ReportedSights> parse_sights(std::string_view text, std::string_view name) {
+    TextRows rows(text, name);
+    if (const Result<void> header = read_header(rows, sight_columns); !header) {
+        return tl::unexpected(header.error());
+    }
+    ReportedSights sights;
+    while (rows.next()) {
+        if (const Result<void> row = check_row(rows, sight_columns, sights.size(), most_sights); !row) {
+            return tl::unexpected(row.error());
+        }
+        const std::string_view eye = rows.fields()[0];
+        if (eye != "left" && eye != "right") {
+            return bad_input(rows.located(
+                fmt::format("eye is {}; allowed are left, right: the one that was open", quoted(eye))));
+        }
+        std::array<double, sight_columns.size()> n{};
+        for (std::size_t k = 1; k < n.size(); ++k) {
+            const Result<double> number = number_at(rows, sight_columns, k);
+            if (!number) {
+                return tl::unexpected(number.error());
+            }
+            n[k] = *number;
+        }
+        const glm::dquat turn(n[4], n[5], n[6], n[7]);
+        if (std::abs(glm::length(turn) - 1.0) > 0.01) {
+            return bad_input(rows.located("qw,qx,qy,qz are no rotation: their squares must add up to 1"));
+        }
+        sights.push_back({eye == "left" ? OpenEye::Left : OpenEye::Right,
+                          {glm::normalize(turn), {n[1], n[2], n[3]}},
+                          {n[8], n[9]},
+                          {n[10], n[11], n[12]}});
+    }
+    return sights;
 }
 
 Result<std::vector<MeasuredCorner>> parse_corners(std::string_view text, std::string_view name) {

@@ -1,6 +1,7 @@
 /// frustumscreen-calibrate: projector and tracker of a table, from points that were touched or measured.
 #include "app/programs/calibrate/auto_command.h"
 #include "app/programs/calibrate/corners_command.h"
+#include "app/programs/calibrate/eye_command.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/sheet_command.h"
 #include "app/programs/calibrate/table_command.h"
@@ -15,7 +16,7 @@ int run(int argc, char** argv) {
     CLI::App app("Projector and tracker of a table, from points that were touched or measured on it: on the "
                  "table itself (table, or auto with a camera), or "
                  "without a device from a file (touch, auto, corners); the board that auto needs (sheet); "
-                 "and what is kept of it (kept).",
+                 "the eyes' place in the head's sensor (eye); and what is kept (kept).",
                  "frustumscreen-calibrate");
     app.set_version_flag("--version", "frustumscreen-calibrate " FRUSTUMSCREEN_VERSION);
     app.require_subcommand(1);
@@ -28,6 +29,7 @@ int run(int argc, char** argv) {
     add_auto_command(app, request, chosen);
     add_corners_command(app, request, chosen);
     add_table_command(app, request, chosen);
+    add_eye_command(app, request, chosen);
     add_sheet_command(app, request, chosen);
     add_kept_command(app, request, chosen);
     if (const auto end = end_of_arguments(app, argc, argv, [&] { check_request(request); })) {

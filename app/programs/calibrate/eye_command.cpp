@@ -1,0 +1,124 @@
+#include "app/programs/calibrate/eye_command.h"
+
+#include "app/calibration/eye_fit.h"
+#include "app/calibration/point_files.h"
+#include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/touch_command.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vector_json(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+/// Every key is always there; what is not known is null.
+Json eye_json(const EyeFit& fit) {
+    Json json{{"eye_in_sensor_m", nullptr}, {"deviation_mm", nullptr},
+              {"left_m", nullptr},          {"right_m", nullptr},
+              {"pupils_mm", nullptr},       {"picture_mm", nullptr},
+              {"hidden_error_mm", nullptr}, {"residual_mm", nullptr},
+              {"rows", Json::array()},      {"verdict", name_of(fit.verdict)},
+              {"reason", fit.reason},       {"repeat", Json::array()}};
+    for (const std::size_t row : fit.repeat) {
+        json["repeat"].push_back(row + 1);
+    }
+    if (fit.eyes) {
+        const EyeFit::Eyes& eyes = *fit.eyes;
+        const Eigen::Vector3d deviation = eyes.covariance.diagonal().cwiseSqrt();
+        json["eye_in_sensor_m"] = vector_json(eyes.middle_m);
+        json["deviation_mm"] = {1e3 * deviation.x(), 1e3 * deviation.y(), 1e3 * deviation.z()};
+        json["left_m"] = vector_json(eyes.left_m);
+        json["right_m"] = vector_json(eyes.right_m);
+        json["pupils_mm"] = 1e3 * glm::distance(eyes.left_m, eyes.right_m);
+        json["picture_mm"] = 1e3 * eyes.picture_m;
+        json["hidden_error_mm"] = 1e3 * eyes.hidden_m;
+        json["residual_mm"] = mm_json(fit.mean_residual_m, fit.worst_residual_m);
+        for (std::size_t k = 0; k < fit.residuals_m.size(); ++k) {
+            json["rows"].push_back({{"row", k + 1}, {"mm", 1e3 * fit.residuals_m[k]}});
+        }
+    }
+    return json;
+}
+
+std::string eye_text(const EyeFit& fit) {
+    std::string text = fmt::format("{}: {}\n", name_of(fit.verdict), fit.reason);
+    if (fit.eyes) {
+        const glm::dvec3& eye = fit.eyes->middle_m;
+        text += fmt::format("The point between the eyes, in the head's sensor: eye_in_sensor_m = [{:.4f}, "
+                            "{:.4f}, {:.4f}]; the eyes are "
+                            "{:.0f} mm apart.\n",
+                            eye.x, eye.y, eye.z, 1e3 * glm::distance(fit.eyes->left_m, fit.eyes->right_m));
+        text += fmt::format("A line of sight passes the eye that the others find by {:.1f} mm on average, "
+                            "{:.1f} mm at worst.\n",
+                            1e3 * fit.mean_residual_m, 1e3 * fit.worst_residual_m);
+    }
+    return text;
+}
+
+/// The kept calibration with this eye in it becomes the newest one; projector, tracker and sensor stay.
+Result<void> keep_eye(const Settings& settings, const glm::dvec3& eye_in_sensor_m) {
+    Calibration next = *settings.calibration.used;
+    next.registration.eye_in_sensor_m = eye_in_sensor_m;
+    return keep_next(settings, std::move(next));
+}
+
+Result<int> eye(const CalibrateRequest& request) {
+    const Result<CheckedSettings> settings = load_settings(request.config);
+    if (!settings) {
+        return tl::unexpected<Error>(settings.error());
+    }
+    if (request.keep && !(*settings)->calibration.used) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            fmt::format(
+                "{}: no calibration is kept there with which the eye could be kept: keep one first, by "
+                "touch --keep or table",
+                (*settings)->calibration.folder.string()));
+    }
+    const auto reported = read_points(request, parse_sights);
+    if (!reported) {
+        return tl::unexpected<Error>(reported.error());
+    }
+    const ProjectorSettings& projector = (*settings)->projector;
+    const auto sights = placed_sights(*reported, projector.pinhole, projector.table_from_projector,
+                                      (*settings)->tracker.registration.table_from_tracker);
+    if (!sights) {
+        return bad_input(fmt::format("{}: the light of a cross does not come down on the table; u_px, v_px "
+                                     "is its pixel in the picture",
+                                     request.from.string()));
+    }
+    const EyeFit fit = fit_eyes(*sights, 0.5 * (*settings)->prop.base_m);
+    if (request.json) {
+        fmt::print("{}\n", eye_json(fit).dump(2));
+    } else {
+        fmt::print("{}", eye_text(fit));
+    }
+    const int status = status_of(fit.verdict, request, fit.reason);
+    if (status == 0 && request.keep) {
+        return keep_eye(**settings, fit.eyes->middle_m).map([] { return 0; });
+    }
+    return status;
+}
+
+} // namespace
+
+void add_eye_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
+    CLI::App* const command = app.add_subcommand(
+        "eye", "from sightings over the prop, with one eye each: the eyes' place in the head's sensor");
+    command->add_option("--from", request.from, "the sightings, CSV")->required();
+    command->add_option("--config", request.config, "the kiosk's settings, TOML")->required();
+    command->add_flag("--json", request.json, "for programs");
+    command->add_flag("--keep", request.keep,
+                      "keeps what is good or usable, with the calibration that is kept");
+    command->callback([&] { chosen = [&] { return end_with(eye(request)); }; });
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,15 @@
+/// frustumscreen-calibrate eye: where the eyes are in the sensor on the head, from sightings over the prop.
+///
+/// Threads  the main one.
+#pragma once
+
+#include "app/programs/calibrate/calibrate_request.h"
+
+#include <functional>
+
+namespace frustumscreen {
+
+/// Sets `chosen` if this is the command; what it returns is the exit status.
+void add_eye_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen);
+
+} // namespace frustumscreen
