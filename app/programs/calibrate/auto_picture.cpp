@@ -277,7 +277,8 @@ Image8 auto_picture(const AutoProcedure& procedure, int width, int height, doubl
     const bool has_place = procedure.stage() == AutoStage::Place;
     const glm::dvec2 place = procedure.wish().pixel;
     if (has_place) {
-        canvas.circle(place, 0.42 * board_px, 4.0, place_colour);
+        constexpr double about_the_prop = 0.27; // of the board, in whose middle it stands
+        canvas.circle(place, about_the_prop * board_px, 4.0, place_colour);
         canvas.circle(place, unit, 3.0, place_colour);
     }
     // The words stand in the half of the picture where the board is not.
@@ -287,7 +288,10 @@ Image8 auto_picture(const AutoProcedure& procedure, int width, int height, doubl
               typesetter.set(paragraphs_of(auto_words(procedure), unit), 0.7 * width), 2.0 * unit);
     const double room = height - 5.0 * unit - coverage.height;
     const double top = !has_place ? 0.4 * height : below ? std::fmin(room, 0.68 * height) : 5.0 * unit;
-    canvas.coverage(coverage, {(width - coverage.width) / 2, static_cast<int>(std::fmax(top, unit))}, ink);
+    const glm::ivec2 corner{(width - coverage.width) / 2, static_cast<int>(std::fmax(top, unit))};
+    const glm::dvec2 end = glm::dvec2(corner) + glm::dvec2(coverage.width, coverage.height);
+    canvas.fill(glm::dvec2(corner) - 0.5 * unit, end + 0.5 * unit, ground); // the ring leads behind the words
+    canvas.coverage(coverage, corner, ink);
     draw_dots(canvas, {0.5 * width, below ? height - 3.0 * unit : 3.0 * unit}, unit,
               static_cast<int>(procedure.wanted()),
               [&](int k) { return k < static_cast<int>(procedure.taken()); }, {taken_colour, ink});
