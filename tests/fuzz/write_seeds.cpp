@@ -51,6 +51,18 @@ void texts(const Seeds& seeds) {
               "# timestamp tx ty tz qx qy qz qw\n1.5 0.1 0.2 0.3 0 0 0 1\n1.6 0.4 0 1 0 0 1 0\n");
     seeds.add("recording", "commas",
               "t,x,y,z,qx,qy,qz,qw\n-1e3,1,2,3,0.5,0.5,0.5,0.5\n4,5,6,7,-0.5,-0.5,-0.5,-0.5\n");
+    seeds.add("point_files", "touches",
+              "tx_m,ty_m,tz_m,qw,qx,qy,qz,u_px,v_px,block_m\n0.1,-0.2,0.3,1,0,0,0,640,400,0.12\n");
+    seeds.add("point_files", "rests",
+              "rest,tx_m,ty_m,tz_m,qw,qx,qy,qz,x_m,y_m,z_m,u_px,v_px,block_m\n"
+              "1,0.1,-0.2,0.3,0.5,0.5,-0.5,0.5,0.05,0.05,0,640.5,400,0.003\n"
+              "2,0.1,-0.2,0.3,0.5,0.5,-0.5,0.5,0.05,0.05,0,640.5,400,\n");
+    seeds.add("point_files", "sights",
+              "eye,tx_m,ty_m,tz_m,qw,qx,qy,qz,u_px,v_px,x_m,y_m,z_m\nleft,0,-0.8,0.5,1,0,0,0,700,300,0.04,0."
+              "04,0.12\n"
+              "right,0,-0.8,0.5,0.5,0.5,0.5,0.5,700,300,0.04,0.04,0.12\n");
+    seeds.add("point_files", "corners",
+              "distance,corner,x_m,y_m,z_m\n1,top_left,-0.5,0.3,0\n2,bottom_right,0.5,-0.3,0.4\n");
     seeds.add("settings", "shipped", file_text("config/kiosk.toml"));
     seeds.add("settings", "gpio",
               "[panel]\nkind = \"gpio\"\nlines = [\"4\", \"5\", \"6\"]\nbias = \"pull-down\"\n");

@@ -1,0 +1,86 @@
+// Files of a calibration: touches, rests, sightings, corners. What is taken is finite, and what is written of it reads the same.
+#include "app/calibration/point_files.h"
+#include "tests/fuzz/fuzz.h"
+
+using namespace frustumscreen;
+
+namespace {
+
+constexpr const char* name = "points.csv";
+
+template <typename Value> bool is_taken(const Result<Value>& points) {
+    if (!points) {
+        fuzz::require_one_line(points.error().message);
+    }
+    return points.has_value();
+}
+
+/// Whether a touch's or a rest's rotation is one, the calibration judges.
+void require_sound(const RigidTransform& reported, const glm::dvec2& pixel) {
+    const glm::dquat& q = reported.rotation;
+    fuzz::require(fuzz::is_finite(reported.translation), "a place is finite");
+    fuzz::require(fuzz::is_finite({q.x, q.y, q.z}) && std::isfinite(q.w), "a rotation is finite");
+    fuzz::require(std::isfinite(pixel.x) && std::isfinite(pixel.y), "a pixel is finite");
+}
+
+void check_touches(std::string_view text) {
+    const Result<Touches> touches = parse_touches(text, name);
+    if (!is_taken(touches)) {
+        return;
+    }
+    for (const Touch& touch : *touches) {
+        require_sound(touch.tracker_from_sensor, touch.pixel);
+        fuzz::require(std::isfinite(touch.block_m), "a height is finite");
+    }
+    const Result<Touches> again = parse_touches(touches_text(*touches), name);
+    fuzz::require(again && again->size() == touches->size(), "what was written is read",
+                  again ? "" : again.error().message);
+}
+
+void check_rests(std::string_view text) {
+    const Result<Rests> rests = parse_rests(text, name);
+    if (!is_taken(rests)) {
+        return;
+    }
+    for (const Rest& rest : *rests) {
+        fuzz::require(!rest.points.empty(), "a rest has points");
+        for (const auto& point : rest.points) {
+            require_sound(rest.tracker_from_sensor, point.pixel);
+        }
+    }
+    const Result<Rests> again = parse_rests(rests_text(*rests), name);
+    fuzz::require(again && again->size() == rests->size(), "what was written is read",
+                  again ? "" : again.error().message);
+}
+
+void check_sights(std::string_view text) {
+    const Result<ReportedSights> sights = parse_sights(text, name);
+    if (is_taken(sights)) {
+        for (const ReportedSight& sight : *sights) {
+            require_sound(sight.tracker_from_sensor, sight.pixel);
+            fuzz::require(fuzz::is_unit(sight.tracker_from_sensor.rotation),
+                          "a head's rotation has length 1");
+            fuzz::require(fuzz::is_finite(sight.tip_m), "a tip is finite");
+        }
+    }
+}
+
+void check_corners(std::string_view text) {
+    const Result<std::vector<MeasuredCorner>> corners = parse_corners(text, name);
+    if (is_taken(corners)) {
+        for (const MeasuredCorner& corner : *corners) {
+            fuzz::require(fuzz::is_finite(corner.place_m), "a corner is finite");
+        }
+    }
+}
+
+} // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view text = fuzz::text_of(data, size);
+    check_touches(text);
+    check_rests(text);
+    check_sights(text);
+    check_corners(text);
+    return 0;
+}
