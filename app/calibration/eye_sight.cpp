@@ -1,5 +1,7 @@
 #include "app/calibration/eye_sight.h"
 
+#include "app/geometry/table_plane.h"
+
 namespace frustumscreen {
 
 std::optional<EyeSights> placed_sights(std::span<const ReportedSight> reported, const Pinhole& pinhole,
@@ -7,13 +9,12 @@ std::optional<EyeSights> placed_sights(std::span<const ReportedSight> reported, 
                                        const RigidTransform& table_from_tracker) {
     EyeSights sights;
     for (const ReportedSight& sight : reported) {
-        const glm::dvec3 ray = table_from_projector.direction(pinhole.ray(sight.pixel));
-        if (!(ray.z < -1e-3)) {
+        const std::optional<glm::dvec2> cross = lights_table(pinhole, table_from_projector, sight.pixel);
+        if (!cross) {
             return std::nullopt;
         }
-        const glm::dvec3& lens = table_from_projector.translation;
-        sights.push_back({sight.eye, table_from_tracker * sight.tracker_from_sensor,
-                          lens - ray * (lens.z / ray.z), sight.tip_m});
+        sights.push_back({sight.eye, table_from_tracker * sight.tracker_from_sensor, glm::dvec3(*cross, 0.0),
+                          sight.tip_m});
     }
     return sights;
 }

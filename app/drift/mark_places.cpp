@@ -1,5 +1,7 @@
 #include "app/drift/mark_places.h"
 
+#include "app/geometry/table_plane.h"
+
 #include <array>
 #include <cmath>
 
@@ -25,17 +27,14 @@ constexpr std::array<glm::dvec2, 10> shares{{{0.04, 0.06},
 
 std::vector<glm::dvec2> mark_places(const Settings& settings) {
     const Pinhole& pinhole = settings.projector.pinhole;
-    const RigidTransform& pose = settings.projector.table_from_projector;
     std::vector<glm::dvec2> places;
     for (const glm::dvec2& share : shares) {
-        const glm::dvec3 ray = pose.direction(pinhole.ray(share * glm::dvec2(pinhole.width, pinhole.height)));
-        if (ray.z >= 0.0) {
-            continue;
-        }
-        const glm::dvec2 place(pose.translation - ray * (pose.translation.z / ray.z));
-        if (std::abs(place.x) <= 0.5 * settings.table.width_m - rim_m &&
-            std::abs(place.y) <= 0.5 * settings.table.depth_m - rim_m) {
-            places.push_back(place);
+        const std::optional<glm::dvec2> place =
+            lights_table(pinhole, settings.projector.table_from_projector,
+                         share * glm::dvec2(pinhole.width, pinhole.height));
+        if (place && std::abs(place->x) <= 0.5 * settings.table.width_m - rim_m &&
+            std::abs(place->y) <= 0.5 * settings.table.depth_m - rim_m) {
+            places.push_back(*place);
         }
     }
     return places;

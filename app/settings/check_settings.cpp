@@ -1,5 +1,6 @@
 #include "app/settings/check_settings.h"
 
+#include "app/geometry/table_plane.h"
 #include "app/settings/lit_zone.h"
 #include "app/settings/table_reader.h"
 #include "firmware_host/base/printable.h"
@@ -69,18 +70,16 @@ std::string_view position_key(const Fitness& fitness) {
 /// "x 0.80 to 1.60 m, y -0.25 to 0.25 m"; nothing if a part of the picture never meets the table's plane.
 std::optional<std::string> place_of_picture(const ProjectorSettings& projector) {
     const Pinhole& p = projector.pinhole;
-    const RigidTransform& pose = projector.table_from_projector;
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high = -low;
     for (const glm::dvec2& corner :
          {glm::dvec2(0, 0), glm::dvec2(p.width, 0), glm::dvec2(p.width, p.height), glm::dvec2(0, p.height)}) {
-        const glm::dvec3 ray = pose.direction(p.ray(corner));
-        if (ray.z >= 0.0) {
+        const std::optional<glm::dvec2> lit = lights_table(p, projector.table_from_projector, corner);
+        if (!lit) {
             return std::nullopt;
         }
-        const glm::dvec2 meets(pose.translation - ray * (pose.translation.z / ray.z));
-        low = glm::min(low, meets);
-        high = glm::max(high, meets);
+        low = glm::min(low, *lit);
+        high = glm::max(high, *lit);
     }
     return fmt::format("x {:.2f} to {:.2f} m, y {:.2f} to {:.2f} m", low.x, high.x, low.y, high.y);
 }

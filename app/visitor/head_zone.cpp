@@ -1,5 +1,7 @@
 #include "app/visitor/head_zone.h"
 
+#include "app/geometry/table_plane.h"
+
 #include <cmath>
 
 namespace frustumscreen {
@@ -16,10 +18,8 @@ Shows what_ray_shows(const HeadZone& zone, const glm::dvec3& origin, const glm::
             return Shows::Head;
         }
     }
-    if (direction.z < 0.0 && zone.outside_m(origin - direction * (origin.z / direction.z)) < 0.0) {
-        return Shows::Table;
-    }
-    return Shows::Neither;
+    const std::optional<glm::dvec2> meets = meets_table(origin, direction);
+    return meets && zone.outside_m(glm::dvec3(*meets, 0.0)) < 0.0 ? Shows::Table : Shows::Neither;
 }
 
 } // namespace

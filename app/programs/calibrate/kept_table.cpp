@@ -1,6 +1,7 @@
 #include "app/programs/calibrate/kept_table.h"
 
 #include "app/calibration/upright_touches.h"
+#include "app/geometry/table_plane.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtx/quaternion.hpp>
@@ -14,20 +15,16 @@ namespace {
 
 const glm::dvec3 up(0.0, 0.0, 1.0);
 
-/// Where the light of a pixel meets the table.
-glm::dvec3 on_table(const ProjectorSettings& projector, const glm::dvec2& pixel) {
-    const RigidTransform& pose = projector.table_from_projector;
-    const glm::dvec3 ray = pose.direction(projector.pinhole.ray(pixel));
-    return pose.translation - ray * (pose.translation.z / ray.z);
-}
-
 } // namespace
 
 RigidTransform settings_from_measured(const ProjectorSettings& projector) {
     const glm::dvec2 middle = 0.5 * glm::dvec2(projector.pinhole.width, projector.pinhole.height);
-    const glm::dvec3 origin = on_table(projector, middle);
-    const glm::dvec3 along_u = on_table(projector, middle + glm::dvec2(1.0, 0.0)) - origin;
-    return {glm::angleAxis(std::atan2(along_u.y, along_u.x), up), glm::dvec3(origin.x, origin.y, 0.0)};
+    const auto lit = [&](const glm::dvec2& pixel) { // settings whose light misses the table were refused
+        return lights_table(projector.pinhole, projector.table_from_projector, pixel).value();
+    };
+    const glm::dvec2 origin = lit(middle);
+    const glm::dvec2 along_u = lit(middle + glm::dvec2(1.0, 0.0)) - origin;
+    return {glm::angleAxis(std::atan2(along_u.y, along_u.x), up), glm::dvec3(origin, 0.0)};
 }
 
 RigidTransform sensor_from_prop(const CalibratedTable& table, std::span<const Touch> touches,

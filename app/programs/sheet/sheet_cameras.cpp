@@ -1,5 +1,7 @@
 #include "app/programs/sheet/sheet_cameras.h"
 
+#include "app/geometry/table_plane.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -74,13 +76,11 @@ VisitorCamera room_camera(const VisitorScene& scene, const glm::ivec2& size) {
 }
 
 std::vector<glm::dvec3> lit_corners(const VisitorScene& scene) {
-    const glm::dvec3& lens = scene.table_from_projector.translation;
     const glm::dvec2 size(scene.projector.width, scene.projector.height);
     std::vector<glm::dvec3> corners;
     for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)}) {
-        const glm::dvec3 ray = scene.table_from_projector.direction(scene.projector.ray(corner * size));
-        if (ray.z < 0.0) {
-            corners.push_back(lens - ray * (lens.z / ray.z));
+        if (const auto lit = lights_table(scene.projector, scene.table_from_projector, corner * size)) {
+            corners.emplace_back(*lit, 0.0);
         }
     }
     return corners;

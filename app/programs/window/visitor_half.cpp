@@ -1,5 +1,6 @@
 #include "app/programs/window/visitor_half.h"
 
+#include "app/geometry/table_plane.h"
 #include "app/simulation/room_light.h"
 
 #include <array>
@@ -72,12 +73,11 @@ void add_shadow(const Viewer& viewer, const Quad& face, const glm::dvec3& lens, 
                 SeenSurfaces& seen) {
     Quad shadow{};
     for (std::size_t k = 0; k < face.size(); ++k) {
-        const glm::dvec3 ray = face[k] - lens;
-        if (ray.z >= 0.0) {
+        const std::optional<glm::dvec2> meets = meets_table(lens, face[k] - lens);
+        if (!meets) {
             return; // higher than the lens
         }
-        const glm::dvec2 meets(lens - ray * (lens.z / ray.z));
-        shadow[k] = glm::dvec3(glm::clamp(meets, -half, half), 0.0);
+        shadow[k] = glm::dvec3(glm::clamp(*meets, -half, half), 0.0);
     }
     viewer.add(shadow, up, table_albedo, false, seen);
 }
@@ -128,8 +128,7 @@ void VisitorHalf::see(const PoseSample& prop, const glm::dvec3& eye_m, PixelSize
 std::optional<glm::dvec2> VisitorHalf::on_table(const glm::dvec2& pixel, const glm::dvec3& eye_m,
                                                 PixelSize half) const {
     const VisitorCamera seen_by = camera(eye_m, half);
-    const glm::dvec3 ray = seen_by.table_from_camera.direction(seen_by.pinhole.ray(pixel));
-    return ray.z < 0.0 ? std::optional(glm::dvec2(eye_m - ray * (eye_m.z / ray.z))) : std::nullopt;
+    return meets_table(eye_m, seen_by.table_from_camera.direction(seen_by.pinhole.ray(pixel)));
 }
 
 } // namespace frustumscreen

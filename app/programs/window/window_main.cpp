@@ -1,4 +1,5 @@
 /// frustumscreen-window: the exhibit in a window on a developer's desktop, with the mouse for the prop.
+#include "app/geometry/table_plane.h"
 #include "app/programs/common/argument_checks.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/read_arguments.h"
@@ -56,13 +57,8 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
 
 /// Where a pixel of the projector's picture lies on the table.
 TableFromPicture table_from_picture(const ProjectorSettings& projector) {
-    return [projector](const glm::dvec2& pixel) -> std::optional<glm::dvec2> {
-        const RigidTransform& pose = projector.table_from_projector;
-        const glm::dvec3 ray = pose.direction(projector.pinhole.ray(pixel));
-        if (ray.z >= 0.0) {
-            return std::nullopt;
-        }
-        return glm::dvec2(pose.translation - ray * (pose.translation.z / ray.z));
+    return [projector](const glm::dvec2& pixel) {
+        return lights_table(projector.pinhole, projector.table_from_projector, pixel);
     };
 }
 

@@ -1,0 +1,32 @@
+/// Where rays and the projector's light come down on the table, the plane z = 0.
+///
+/// Frames   table T, +Z up.
+/// Units    metres; pixels of the projector's picture.
+/// Errors   none: what does not come down, and what is no number, meets nothing.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/geometry/pinhole.h"
+#include "app/geometry/transform.h"
+
+#include <optional>
+
+namespace frustumscreen {
+
+/// `direction`: of any length.
+[[nodiscard]] inline std::optional<glm::dvec2> meets_table(const glm::dvec3& origin,
+                                                           const glm::dvec3& direction) {
+    if (!(direction.z < 0.0)) {
+        return std::nullopt;
+    }
+    return glm::dvec2(origin - direction * (origin.z / direction.z));
+}
+
+/// Where the light of a pixel comes down.
+[[nodiscard]] inline std::optional<glm::dvec2>
+lights_table(const Pinhole& projector, const RigidTransform& table_from_projector, const glm::dvec2& pixel) {
+    return meets_table(table_from_projector.translation,
+                       table_from_projector.direction(projector.ray(pixel)));
+}
+
+} // namespace frustumscreen
