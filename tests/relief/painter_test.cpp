@@ -76,16 +76,26 @@ TEST(Painter, PaintsWhatIsCastAndNothingOutsideItsRectangles) {
     }
 }
 
-TEST(Painter, TheProcessorsInstructionsDoNotChangeACode) {
-    const Painting painting;
-    const SampleLight light;
+/// The first pose's blocks, cast with any number of samples.
+struct PoseCast {
+    Painting painting;
+    SampleLight light;
     BlockItems items;
     CastSamples samples;
-    const CastView view = painting.view(painting.poses[0]);
-    list_blocks(items, painting.relief, view);
-    for (const int count : {1, 2, 4, 8, 16}) {
+    CastView view = painting.view(painting.poses[0]);
+
+    PoseCast() { list_blocks(items, painting.relief, view); }
+    void take(int count) {
         samples.begin(view.lit, count);
         cast(samples, painting.relief, view, items);
+    }
+};
+
+TEST(Painter, TheProcessorsInstructionsDoNotChangeACode) {
+    PoseCast pose;
+    const auto& [painting, light, items, samples, view] = pose;
+    for (const int count : {1, 2, 4, 8, 16}) {
+        pose.take(count);
         std::vector<glm::u8vec4> best(static_cast<std::size_t>(view.lit.width));
         std::vector<glm::u8vec4> plain = best;
         for (int y = view.lit.y; y < view.lit.y + view.lit.height; ++y) {
@@ -99,15 +109,10 @@ TEST(Painter, TheProcessorsInstructionsDoNotChangeACode) {
 /// A sample at a time, by colour_at and in linear light: where a pixel's samples show one cell, their mean code is within the range of
 /// theirs; where they show several blocks, or not all show something, it is their mean light.
 TEST(Painter, APixelIsTheMeanOfWhatItsSamplesShow) {
-    const Painting painting;
-    const SampleLight light;
-    BlockItems items;
-    CastSamples samples;
-    const CastView view = painting.view(painting.poses[0]);
-    list_blocks(items, painting.relief, view);
+    PoseCast pose;
+    const auto& [painting, light, items, samples, view] = pose;
     for (const unsigned count : {2U, 4U, 16U}) {
-        samples.begin(view.lit, static_cast<int>(count));
-        cast(samples, painting.relief, view, items);
+        pose.take(static_cast<int>(count));
         std::vector<glm::u8vec4> codes(static_cast<std::size_t>(view.lit.width));
         int mixed = 0;
         int even = 0;
