@@ -71,6 +71,24 @@ TEST(Verdicts, WhatAutoDrawsIsUnderTheDefaultLevelsLimits) {
     EXPECT_EQ(missed(judge(result)), 2U);
 }
 
+TEST(Verdicts, OfWhatAutoMayDrawTheQuickerOneIsJudged) {
+    for (const double mesh_cost : {3.0, 2.0}) {
+        SetUpResult result = example();
+        result.techniques.push_back(technique("auto (mesh 0)", TechniqueKind::Auto, 0, mesh_cost,
+                                              {picture_error(0.1, 0.1, 0.1, 1.0)}));
+        result.techniques.push_back(
+            technique("auto (relief96)", TechniqueKind::Auto, -1, 2.5, {picture_error(0.1, 0.1, 0.1, 1.0)}));
+        std::size_t of_mesh = 0;
+        std::size_t of_relief = 0;
+        for (const Verdict& verdict : judge(result)) {
+            of_mesh += verdict.what.starts_with("auto (mesh 0): ") ? 1 : 0;
+            of_relief += verdict.what.starts_with("auto (relief96): ") ? 1 : 0;
+        }
+        EXPECT_EQ(of_mesh > 0, mesh_cost < 2.5);
+        EXPECT_EQ(of_relief > 0, mesh_cost > 2.5);
+    }
+}
+
 TEST(Verdicts, OneBadPoseMissesALimit) {
     TechniqueResult level = technique("t", TechniqueKind::PackLevel, 0, 1.0,
                                       {picture_error(0, 0, 0.01, 1.0), picture_error(0, 0, 0.21, 1.0)});

@@ -119,7 +119,7 @@ std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const So
     const double full = times * ((peers.mesh ? 1.0 : 0.0) + (peers.two_pass ? eye_images : 0.0));
     const double small = static_cast<double>(pack.levels.size() +
                                              reliefs_of(pack).value_or(std::vector<ReliefOutline>{}).size()) +
-                         1.0 +
+                         2.0 +
                          times * ((peers.ray_cast ? 1.0 : 0.0) + (peers.lod ? details : 0.0) +
                                   (peers.two_pass_lod ? details * eye_images : 0.0));
     const auto triangles = static_cast<double>(mesh.triangles.size());

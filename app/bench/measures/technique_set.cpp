@@ -50,6 +50,13 @@ std::string level_name(const Pack& pack, std::uint32_t level) {
                        level, level == pack.default_level ? " (default)" : "");
 }
 
+/// The first one: the best.
+std::optional<Rung> rung_that(const std::vector<Rung>& rungs, bool casts) {
+    const auto found =
+        std::find_if(rungs.begin(), rungs.end(), [casts](const Rung& each) { return each.relief == casts; });
+    return found != rungs.end() ? std::optional(*found) : std::nullopt;
+}
+
 } // namespace
 
 std::string_view name_of(TechniqueKind kind) {
@@ -134,19 +141,26 @@ Result<void> TechniqueSet::add_auto(const Pack& pack, const PictureOptions& opti
     if (!plan) {
         return tl::unexpected<Error>(plan.error());
     }
-    // Of meshes: whether a relief is quicker, the exhibit measures.
-    const auto mesh =
-        std::find_if(plan->rungs.begin(), plan->rungs.end(), [](const Rung& each) { return !each.relief; });
-    const Rung& rung = *mesh;
+    const Result<void> added = add_auto_mesh(pack, rung_that(plan->rungs, false).value(), options);
+    const std::optional<Rung> relief = rung_that(plan->rungs, true);
+    if (!added || !relief) {
+        return added;
+    }
+    PictureOptions cast = options;
+    cast.samples = relief->samples;
+    return add_pack_reliefs(pack, TechniqueKind::Auto, cast,
+                            [&](std::uint32_t texels) { return texels == relief->level; });
+}
+
+Result<void> TechniqueSet::add_auto_mesh(const Pack& pack, const Rung& rung, PictureOptions options) {
     if (const Result<void> kept = keep_drawn(pack, rung.level); !kept) {
         return kept;
     }
-    PictureOptions taken = options;
-    taken.samples = rung.samples;
+    options.samples = rung.samples;
     TechniqueResult result = described(TechniqueKind::Auto, static_cast<int>(rung.level),
                                        pack.levels[rung.level].indices.size() / 3);
     result.samples = rung.samples;
-    return add(make_pack_level(stage_, pack, rung.level, taken,
+    return add(make_pack_level(stage_, pack, rung.level, options,
                                fmt::format("auto ({})", level_name(pack, rung.level))),
                std::move(result));
 }
@@ -235,26 +249,31 @@ Result<void> TechniqueSet::add_relief(const Pack& pack, TechniqueKind kind, Bloc
                std::move(result));
 }
 
-Result<void> TechniqueSet::add_reliefs(const Pack& pack, const PictureOptions& options) {
+Result<void> TechniqueSet::add_pack_reliefs(const Pack& pack, TechniqueKind kind,
+                                            const PictureOptions& options,
+                                            const std::function<bool(std::uint32_t)>& wanted) {
     const Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack);
     const Result<SeenByEyes> seen = seen_by_eyes(outline_of(pack));
     if (!reliefs || !seen) {
         return tl::unexpected<Error>(reliefs ? seen.error() : reliefs.error());
     }
-    for (std::size_t k = 0; k < reliefs->size(); ++k) {
+    Result<void> added;
+    for (std::size_t k = 0; added && k < reliefs->size(); ++k) {
         const ReliefOutline& outline = (*reliefs)[k];
-        Result<BlockRelief> relief = relief_of(pack, outline);
-        if (!relief) {
-            return tl::unexpected<Error>(relief.error());
+        if (!wanted(outline.texels)) {
+            continue;
         }
         const std::string name = name_of(Rung{outline.texels, pack.samples, false, true});
-        if (const Result<void> added = add_relief(pack, TechniqueKind::PackRelief, *std::move(relief),
-                                                  seen->reliefs[k], options, name);
-            !added) {
-            return added;
-        }
+        added = relief_of(pack, outline).and_then([&](BlockRelief relief) {
+            return add_relief(pack, kind, std::move(relief), seen->reliefs[k], options,
+                              kind == TechniqueKind::Auto ? fmt::format("auto ({})", name) : name);
+        });
     }
-    return {};
+    return added;
+}
+
+Result<void> TechniqueSet::add_reliefs(const Pack& pack, const PictureOptions& options) {
+    return add_pack_reliefs(pack, TechniqueKind::PackRelief, options, [](std::uint32_t) { return true; });
 }
 
 Result<void> TechniqueSet::add_relief_casts(const Pack& pack, const std::vector<int>& texels,

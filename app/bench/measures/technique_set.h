@@ -10,6 +10,7 @@
 #include "app/bench/techniques/peer_choice.h"
 #include "app/bench/techniques/peers.h"
 #include "app/pack/pack_file.h"
+#include "app/scene/governor.h"
 #include "firmware_host/display/display.h"
 
 #include <functional>
@@ -65,7 +66,8 @@ public:
     TechniqueSet(const TechniqueSet&) = delete;
     TechniqueSet& operator=(const TechniqueSet&) = delete;
 
-    /// The pack must outlive the set.
+    /// What the exhibit may take while it is in time: the mesh that is good enough, and the relief that is, if one is. It takes the quicker
+    /// one of them, which it measures. The pack must outlive the set.
     [[nodiscard]] Result<void> add_auto(const Pack& pack, const PictureOptions& options);
     [[nodiscard]] Result<void> add_level(const Pack& pack, std::uint32_t level,
                                          const PictureOptions& options);
@@ -109,6 +111,11 @@ public:
 private:
     TechniqueSet(std::unique_ptr<Display> display, Stage stage)
         : display_(std::move(display)), stage_(std::move(stage)) {}
+    [[nodiscard]] Result<void> add_auto_mesh(const Pack& pack, const Rung& rung, PictureOptions options);
+    /// The pack's reliefs of the texels that are wanted.
+    [[nodiscard]] Result<void> add_pack_reliefs(const Pack& pack, TechniqueKind kind,
+                                                const PictureOptions& options,
+                                                const std::function<bool(std::uint32_t)>& wanted);
     /// Without colour.
     [[nodiscard]] Result<Drawn> places(std::size_t k, const BenchPose& pose);
     /// Of each technique; the floor's mean nothing.
