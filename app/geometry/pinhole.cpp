@@ -36,6 +36,21 @@ double Pinhole::farthest_r2() const {
     return r2;
 }
 
+void Pinhole::bend_around(glm::dvec2& low, glm::dvec2& high) const {
+    if (lens.is_plain() || !(low.x <= high.x && low.y <= high.y)) {
+        return;
+    }
+    const glm::dvec2 centre(cx, cy);
+    const glm::dvec2 focal(fx, fy);
+    low = (low - centre) / focal;
+    high = (high - centre) / focal;
+    const glm::dvec2 far = glm::max(glm::abs(low), glm::abs(high));
+    const auto [below, most] = lens.factors_within(glm::dot(far, far));
+    const double least = std::fmax(below, 0.0); // none is drawn with such a factor
+    low = glm::min(low * least, low * most) * focal + centre;
+    high = glm::max(high * least, high * most) * focal + centre;
+}
+
 Pinhole Pinhole::scaled_to(int new_width, int new_height) const {
     const double sx = static_cast<double>(new_width) / width;
     const double sy = static_cast<double>(new_height) / height;

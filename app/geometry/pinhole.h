@@ -34,6 +34,11 @@ struct Pinhole {
     [[nodiscard]] Pinhole ideal() const;
     /// r^2 of the farthest ideal direction in the picture.
     [[nodiscard]] double farthest_r2() const;
+    /// r^2 of ideal directions up to which drawing bends: beyond the picture, as far as the settings' check looks. Farther out the factor
+    /// stays as it is there, so that nothing folds back into the picture.
+    [[nodiscard]] double bends_to_r2() const { return 1.05 * farthest_r2(); }
+    /// Widens two corners in pixels of the ideal pinhole to where the lens brings what lies between them: not closely, but around it all.
+    void bend_around(glm::dvec2& low, glm::dvec2& high) const;
     /// Of the ideal pinhole: rows 0, 1, 3 of the OpenGL clip matrix for points in the pinhole's frame. The y row is NOT mirrored
     /// for GL: clip y = -1 is the top of the picture, so that row 0 of a read-back is the picture's top row.
     /// Row 2 (depth) is left zero: the caller fits it to what is drawn.

@@ -1,6 +1,6 @@
 #include "app/relief/block_items.h"
 
-#include "app/relief/lanes.h"
+#include "app/relief/lens_lanes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,15 +50,44 @@ FRUSTUMSCREEN_INLINE bool may_face(const ReliefBlock& block, const glm::vec3& ey
            0.0F;
 }
 
-struct Bounds {
+struct Sides {
     float left, right, top, bottom;
+};
+constexpr Sides everywhere{-1.0F, 65e3F, -1.0F, 65e3F};
+
+FRUSTUMSCREEN_INLINE Sides sides_of(const PixelLanes& at) {
+    return {least_of(at.x), most_of(at.x), least_of(at.y), most_of(at.y)};
+}
+
+/// Around what the lens makes of the pixels between the corners. The second derivative of a pixel that it moves is at most
+/// 6 |k1| r + 20 |k2| r^3, a focal length being 1. So what lies between corners that are D apart comes at most a quarter of that times D^2
+/// beside what lies between their new places.
+FRUSTUMSCREEN_INLINE Sides lit_sides(const PixelLens& lens, const PixelLanes& corners, const Sides& ideal) {
+    const float r2 = most_of(squared_radius(lens, corners));
+    if (!(r2 <= lens.most_r2)) {
+        return everywhere;
+    }
+    const float along = std::max(lens.focal.x, lens.focal.y) * std::max(lens.per_focal.x, lens.per_focal.y);
+    const float second = std::sqrt(r2) * (6.0F * std::abs(lens.k1) + 20.0F * std::abs(lens.k2) * r2) * along *
+                         std::max(lens.per_focal.x, lens.per_focal.y);
+    const float width = ideal.right - ideal.left;
+    const float height = ideal.bottom - ideal.top;
+    const float beside = 0.25F * second * (width * width + height * height);
+    const Sides lit = sides_of(bent(lens, corners));
+    return {lit.left - beside, lit.right + beside, lit.top - beside, lit.bottom + beside};
+}
+
+struct Bounds {
+    Sides ideal;   ///< pixels
+    Sides lit;     ///< of the projector's picture
     float nearest; ///< 1 / t
     bool in_front; ///< all of the block; else the others say nothing
     bool outside;  ///< of an edge of the face
 };
 
 /// Of the eight corners of the block's slab, in pixels.
-FRUSTUMSCREEN_INLINE Bounds bounds_of(const ReliefBlock& block, const GridView& grid, const CastFace& face) {
+FRUSTUMSCREEN_INLINE Bounds bounds_of(const ReliefBlock& block, const GridView& grid, const CastFace& face,
+                                      const PixelLens& lens) {
     const float i0 = block.cells[0];
     const float i1 = block.cells[1];
     const float j0 = block.cells[2];
@@ -80,10 +109,11 @@ FRUSTUMSCREEN_INLINE Bounds bounds_of(const ReliefBlock& block, const GridView& 
     const Floats t = row(2);
     const float shortest = least_of(t);
     if (shortest > 0.0F) {
-        const Floats x = xt / t;
-        const Floats y = yt / t;
+        const PixelLanes corners{xt / t, yt / t};
+        const Sides ideal = sides_of(corners);
         constexpr float rounding = 1.0001F;
-        return {least_of(x), most_of(x), least_of(y), most_of(y), rounding / shortest, true, false};
+        return {ideal, lens.bends ? lit_sides(lens, corners, ideal) : ideal, rounding / shortest, true,
+                false};
     }
     // An edge and the eye span a plane of the box's frame, on whose sides the corners are also where they have no pixel.
     bool outside = false;
@@ -92,7 +122,7 @@ FRUSTUMSCREEN_INLINE Bounds bounds_of(const ReliefBlock& block, const GridView& 
                               static_cast<float>(edge.z) * t;
         outside = outside || most_of(inside) < 0.0F;
     }
-    return {0.0F, 0.0F, 0.0F, 0.0F, std::numeric_limits<float>::infinity(), false, outside};
+    return {everywhere, everywhere, std::numeric_limits<float>::infinity(), false, outside};
 }
 
 enum class Place { Outside, Across, Inside };
@@ -101,15 +131,14 @@ FRUSTUMSCREEN_INLINE Place place_of(const Bounds& bounds, const CastFace& face) 
     if (!bounds.in_front) {
         return bounds.outside ? Place::Outside : Place::Across;
     }
+    const Sides& at = bounds.ideal;
     Place place = Place::Inside;
     for (const glm::dvec3& edge : face.edges) {
         const auto x = static_cast<float>(edge.x);
         const auto y = static_cast<float>(edge.y);
         const auto rest = static_cast<float>(edge.z);
-        const float most =
-            rest + std::max(x * bounds.left, x * bounds.right) + std::max(y * bounds.top, y * bounds.bottom);
-        const float least =
-            rest + std::min(x * bounds.left, x * bounds.right) + std::min(y * bounds.top, y * bounds.bottom);
+        const float most = rest + std::max(x * at.left, x * at.right) + std::max(y * at.top, y * at.bottom);
+        const float least = rest + std::min(x * at.left, x * at.right) + std::min(y * at.top, y * at.bottom);
         if (most < -0.5F) {
             return Place::Outside;
         }
@@ -119,22 +148,18 @@ FRUSTUMSCREEN_INLINE Place place_of(const Bounds& bounds, const CastFace& face) 
 }
 
 /// False: none of the face's pixels.
-FRUSTUMSCREEN_INLINE bool set_area(BlockItem& item, const Bounds& bounds, const PixelRectangle& lit) {
-    int left = lit.x;
-    int right = lit.x + lit.width;
-    int top = lit.y;
-    int bottom = lit.y + lit.height;
-    if (bounds.in_front) {
-        constexpr float slack = 0.05F; // pixels: cells are drawn wider than they are by `grown` (cell_row.h)
-        const auto first = [](float at) { return static_cast<int>(std::floor(std::max(at - slack, -1.0F))); };
-        const auto end = [](float at) {
-            return static_cast<int>(std::floor(std::min(at + slack, 65e3F))) + 1;
-        };
-        left = std::max(left, first(bounds.left));
-        right = std::min(right, end(bounds.right));
-        top = std::max(top, first(bounds.top));
-        bottom = std::min(bottom, end(bounds.bottom));
-    }
+FRUSTUMSCREEN_INLINE bool set_area(BlockItem& item, const Sides& sides, const PixelRectangle& lit) {
+    constexpr float slack = 0.05F; // pixels: cells are drawn wider than they are by `grown` (cell_row.h)
+    const auto first = [](float at, float least) {
+        return static_cast<int>(std::floor(std::max(at - slack, least)));
+    };
+    const auto end = [](float at, float most) {
+        return static_cast<int>(std::floor(std::min(at + slack, most))) + 1;
+    };
+    const int left = std::max(lit.x, first(sides.left, everywhere.left));
+    const int right = std::min(lit.x + lit.width, end(sides.right, everywhere.right));
+    const int top = std::max(lit.y, first(sides.top, everywhere.top));
+    const int bottom = std::min(lit.y + lit.height, end(sides.bottom, everywhere.bottom));
     if (left >= right || top >= bottom) {
         return false;
     }
@@ -167,12 +192,12 @@ FRUSTUMSCREEN_INLINE std::uint8_t bin_of(const ReliefBlock& block, const glm::ve
 FRUSTUMSCREEN_INLINE void list_block(std::vector<BlockItem>& list, const BlockItems& items,
                                      const CastView& view, const ReliefBlock& block, BlockItem item) {
     for (std::size_t f = 0; f < view.faces.size(); ++f) {
-        const Bounds bounds = bounds_of(block, items.grids[f][item.direction], view.faces[f]);
+        const Bounds bounds = bounds_of(block, items.grids[f][item.direction], view.faces[f], items.lens);
         const Place place = place_of(bounds, view.faces[f]);
         item.face = static_cast<std::uint8_t>(f);
         item.inside = place == Place::Inside;
         item.nearest = bounds.nearest;
-        if (place != Place::Outside && set_area(item, bounds, view.faces[f].lit)) {
+        if (place != Place::Outside && set_area(item, bounds.lit, view.faces[f].lit)) {
             list.push_back(item);
         }
         if (item.inside) {
@@ -253,6 +278,7 @@ void list_plainly(BlockItems& items, const BlockRelief& relief, const CastView& 
 } // namespace
 
 void begin_list(BlockItems& items, const BlockRelief& relief, const CastView& view) {
+    items.lens = PixelLens(view.projector);
     items.grids.resize(view.faces.size());
     for (std::size_t f = 0; f < view.faces.size(); ++f) {
         for (std::size_t d = 0; d < relief.grids.size(); ++d) {

@@ -8,6 +8,7 @@
 
 #include "app/relief/block_relief.h"
 #include "app/relief/cast_view.h"
+#include "app/relief/pixel_lens.h"
 
 #include <array>
 #include <cstdint>
@@ -19,7 +20,7 @@ inline constexpr int rows_of_band = 64; ///< of pixels: small enough that thread
 
 /// A face's pixels as one direction's grid knows them.
 struct GridView {
-    /// (x t, y t, t) from the grid's (u, v, w, 1): the pixel that lights a point, and the length of its ray (cast_view.h).
+    /// (x t, y t, t) from the grid's (u, v, w, 1): the ideal pixel that lights a point, and the length of its ray (cast_view.h).
     std::array<glm::vec4, 3> pixel{};
     glm::vec3 eye{0.0F};
 };
@@ -32,7 +33,7 @@ struct PixelSpan {
 
 struct BlockItem {
     std::uint32_t block = 0;
-    PixelSpan area; ///< may show some of it
+    PixelSpan area; ///< of the projector's pixels: may show some of it
     std::uint8_t face = 0, direction = 0;
     bool inside = false; ///< no edge of the face comes near, and all of it lies in front of the eye
     std::uint8_t bin = 0;
@@ -42,6 +43,7 @@ struct BlockItem {
 
 /// Lists are kept from frame to frame: nothing is allocated once they are large enough.
 struct BlockItems {
+    PixelLens lens;
     std::vector<std::array<GridView, 6>> grids; ///< [face][direction]
     std::vector<std::vector<BlockItem>> parts;  ///< of some thousand blocks each
     std::vector<BlockItem> sorted;              ///< front to back, roughly

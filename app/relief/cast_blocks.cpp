@@ -1,7 +1,7 @@
 #include "app/relief/cast_blocks.h"
 
 #include "app/relief/cell_row.h"
-#include "app/relief/lanes.h"
+#include "app/relief/lens_lanes.h"
 
 #include <algorithm>
 #include <array>
@@ -18,6 +18,7 @@ struct ReadyItem {
     const ReliefBlock& block;
     const std::uint32_t* codes;
     const std::uint64_t* covers;
+    const PixelLens& lens;
     std::array<glm::vec3, 4> edges; ///< the face's, as CastFace
     CornerMap map;
     float outward; ///< the sign of a cell's area in the picture, where it faces the eye
@@ -34,6 +35,7 @@ FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const CastView& 
             block,
             &relief.corner_codes[std::size_t{item.block} * block_cells * block_cells],
             relief.covers.data() + block.first_cover,
+            items.lens,
             {edges[0], edges[1], edges[2], edges[3]},
             corner_map(block, grid),
             turn > 0.0F ? -1.0F : 1.0F};
@@ -124,10 +126,11 @@ private:
     std::array<std::uint16_t, room> list_;           ///< eight are written, however many count
 };
 
-FRUSTUMSCREEN_INLINE Ints in_face(const ReadyItem& ready, Floats x, Floats y) {
+FRUSTUMSCREEN_INLINE Ints in_face(const ReadyItem& ready, const PixelLanes& pixels) {
+    const PixelLanes at = ready.lens.bends ? unbent(ready.lens, pixels) : pixels;
     Ints inside = Ints{} - 1;
     for (const glm::vec3& edge : ready.edges) {
-        inside &= edge.x * x + edge.y * y + edge.z > 0.0F;
+        inside &= edge.x * at.x + edge.y * at.y + edge.z > 0.0F;
     }
     return inside;
 }
@@ -147,8 +150,14 @@ template <typename Meet> FRUSTUMSCREEN_INLINE void for_each_row(const ReadyItem&
         Ints codes;
         std::memcpy(&codes, ready.codes + row * block_cells, sizeof codes);
         const auto corners = [&](int column, int up, int shift) FRUSTUMSCREEN_INLINED {
-            return corners_at(ready.map, columns + static_cast<float>(column), row + up,
-                              codes >> shift & 255);
+            Corners ideal =
+                corners_at(ready.map, columns + static_cast<float>(column), row + up, codes >> shift & 255);
+            if (ready.lens.bends) {
+                const PixelLanes lit = bent(ready.lens, {ideal.x, ideal.y});
+                ideal.x = lit.x;
+                ideal.y = lit.y;
+            }
+            return ideal;
         };
         at.a = known ? at.c : corners(0, 0, 0);
         at.b = known ? at.d : corners(1, 0, 8);
@@ -185,8 +194,8 @@ FRUSTUMSCREEN_INLINE void cast_cells(CastSamples& samples, Meetings& meetings, c
             ((pixels.top - all_pixels.y) * count + k) * all_pixels.width + (pixels.left - all_pixels.x);
         const auto visit = [&](const Weights& weights, Ints in, int x, int y) FRUSTUMSCREEN_INLINED {
             if (!ready.item.inside) {
-                in &= in_face(ready, __builtin_convertvector(pixels.left + x, Floats) + sample.x,
-                              __builtin_convertvector(pixels.top + y, Floats) + sample.y);
+                in &= in_face(ready, {__builtin_convertvector(pixels.left + x, Floats) + sample.x,
+                                      __builtin_convertvector(pixels.top + y, Floats) + sample.y});
             }
             meetings.add(meeting_at(at, corners, weights), in, row,
                          first + (y * count * all_pixels.width + x));

@@ -27,44 +27,48 @@ Box placed_box(const CastScene& scene) {
     return box;
 }
 
-PixelRectangle pixels_between(const glm::dvec2& low, const glm::dvec2& high, int width, int height) {
+/// Of the projector's picture, around what the lens brings between two ideal pixels.
+PixelRectangle pixels_between(glm::dvec2 low, glm::dvec2 high, const Pinhole& projector) {
+    projector.bend_around(low, high);
     const auto clamped = [](double value, int most) {
         return static_cast<int>(std::clamp(value, 0.0, double(most)));
     };
-    const int left = clamped(std::floor(low.x), width);
-    const int top = clamped(std::floor(low.y), height);
-    return {left, top, clamped(std::ceil(high.x), width) - left, clamped(std::ceil(high.y), height) - top};
+    const int left = clamped(std::floor(low.x), projector.width);
+    const int top = clamped(std::floor(low.y), projector.height);
+    return {left, top, clamped(std::ceil(high.x), projector.width) - left,
+            clamped(std::ceil(high.y), projector.height) - top};
 }
 
 /// The pixels around the box's corners; all, if a corner is not in front of the eye.
-PixelRectangle pixels_around(const CastFace& face, const glm::dvec3& size, int width, int height) {
+PixelRectangle pixels_around(const CastFace& face, const glm::dvec3& size, const Pinhole& projector) {
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high = -low;
     for (unsigned k = 0; k < 8; ++k) {
         const glm::dvec3 at = face.pixel_from_box * glm::dvec4(corner_of_box(size, k), 1.0);
         if (!(at.z > 0.0)) {
-            return {0, 0, width, height};
+            return {0, 0, projector.width, projector.height};
         }
         low = glm::min(low, glm::dvec2(at) / at.z);
         high = glm::max(high, glm::dvec2(at) / at.z);
     }
-    return pixels_between(low, high, width, height);
+    return pixels_between(low, high, projector);
 }
 
 /// The pixels around what the projector lights of a face; all, if a corner is not in front of it.
 PixelRectangle pixels_of(const PropFace& face, const CastScene& scene) {
     const RigidTransform projector_from_prop = scene.prop_from_projector.inverse();
+    const Pinhole ideal = scene.projector.ideal();
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high = -low;
     for (const glm::dvec3& corner : face.corners) {
-        const std::optional<glm::dvec2> pixel = scene.projector.pixel(projector_from_prop.point(corner));
+        const std::optional<glm::dvec2> pixel = ideal.pixel(projector_from_prop.point(corner));
         if (!pixel) {
             return {0, 0, scene.projector.width, scene.projector.height};
         }
         low = glm::min(low, *pixel);
         high = glm::max(high, *pixel);
     }
-    return pixels_between(low, high, scene.projector.width, scene.projector.height);
+    return pixels_between(low, high, scene.projector);
 }
 
 /// Turned so that the inside is positive, and as long as one pixel is wide.
@@ -88,6 +92,7 @@ void set_up(CastView& view, const PropShape& prop, const CastScene& scene) {
     view.eye_box = glm::dvec3(box_from_prop * glm::dvec4(scene.eye_m, 1.0));
     view.faces.clear();
     view.lit = {};
+    view.projector = scene.projector;
     for (std::size_t k = 0; k < prop.faces.size(); ++k) {
         const PropFace& face = prop.faces[k];
         if (!(face.plane.distance(scene.prop_from_projector.translation) > 0.0)) {
@@ -97,13 +102,14 @@ void set_up(CastView& view, const PropShape& prop, const CastScene& scene) {
         if (!clip) {
             continue;
         }
-        const FaceRays rays = face_rays(face, scene.projector, scene.prop_from_projector, scene.eye_m);
+        const FaceRays rays =
+            face_rays(face, scene.projector.ideal(), scene.prop_from_projector, scene.eye_m);
         CastFace cast;
         cast.face = static_cast<int>(k);
         cast.direction = glm::dmat3(box_from_prop) * rays.direction;
         std::transform(rays.edges.begin(), rays.edges.end(), cast.edges.begin(), inward_edge);
         cast.pixel_from_box = pixel_from_clip * *clip * scene.prop_from_box;
-        cast.lit = intersected(pixels_around(cast, scene.box_size, width, height), pixels_of(face, scene));
+        cast.lit = intersected(pixels_around(cast, scene.box_size, scene.projector), pixels_of(face, scene));
         if (!cast.lit.empty()) {
             view.lit = united(view.lit, cast.lit);
             view.faces.push_back(cast);

@@ -1,11 +1,12 @@
 /// What a frame's casting starts from: the eye, the rays through each visible face, and where the box's points are lit.
 ///
-/// Frames   box; pixels as in geometry/face_rays.h.
+/// Frames   box; pixels as in geometry/face_rays.h, of the ideal pinhole where nothing else is said: a lens that distorts lights others.
 /// Threads  pure; any.
 /// Errors   a face that the eye or the projector sees at less than `least_sine` is left out (geometry/collineation.h).
 #pragma once
 
 #include "app/geometry/face_rays.h"
+#include "app/geometry/pinhole.h"
 #include "firmware_host/base/pixel_rectangle.h"
 
 #include <glm/glm.hpp>
@@ -22,13 +23,14 @@ struct CastFace {
     std::array<glm::dvec3, 4> edges{}; ///< times (x, y, 1): pixels inside the edge
     /// (x w, y w, w) of the pixel that lights a box point on this face; w > 0.
     glm::mat<4, 3, double> pixel_from_box{1.0};
-    PixelRectangle lit; ///< the pixels that may show the box on this face
+    PixelRectangle lit; ///< the projector's pixels that may show the box on this face
 };
 
 struct CastView {
     glm::dvec3 eye_box{0.0};
     std::vector<CastFace> faces;
     PixelRectangle lit; ///< around all of them
+    Pinhole projector;
 };
 
 /// How the artifact stands in the prop, and who looks.

@@ -1,6 +1,6 @@
 /// A row of a block's eight cells as a face's picture shows them: which pixels they cover, where, and how near.
 ///
-/// Frames   pixels as in cast_view.h; places in cells of the block.
+/// Frames   pixels of the projector's picture; places in cells of the block.
 /// Method   micropolygons (Cook 1987): a cell is smaller than a few pixels, so its two triangles are tested at the pixels around it;
 ///          eight cells at once, a cell a lane. Places and nearness are linear over a triangle: within a cell, perspective does
 ///          not show.
@@ -19,7 +19,7 @@ namespace frustumscreen {
 
 static_assert(lanes == block_cells);
 
-/// The block's corners are (x t, y t, t) = origin + column * i + row * j + code * residual code.
+/// The block's corners, in pixels of the ideal pinhole, are (x t, y t, t) = origin + column * i + row * j + code * residual code.
 struct CornerMap {
     std::array<float, 3> origin{}, column{}, row{}, code{};
 };

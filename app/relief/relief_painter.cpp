@@ -23,7 +23,13 @@ PixelRectangle band_of(const PixelRectangle& lit, int k) {
     return intersected(lit, {lit.x, (lit.y / rows_of_band + k) * rows_of_band, lit.width, rows_of_band});
 }
 
-/// The face that a pixel lights: the one whose nearest edge is farthest away.
+/// Of the ideal pinhole, for (x, y, 1): where the middle of one of the projector's comes from.
+glm::dvec3 ideal_pixel(const Pinhole& projector, int x, int y) {
+    const glm::dvec3 ray = projector.ray({x + 0.5, y + 0.5});
+    return {projector.fx * ray.x + projector.cx, projector.fy * ray.y + projector.cy, 1.0};
+}
+
+/// The face that an ideal pixel lights: the one whose nearest edge is farthest away.
 const CastFace& face_at(const CastView& view, const glm::dvec3& pixel) {
     const auto depth = [&pixel](const CastFace& face) {
         double least = std::numeric_limits<double>::infinity();
@@ -120,7 +126,7 @@ void ReliefPainter::hit_points(const BlockRelief& relief, const CastView& view,
         for (int x = lit.x; x < lit.x + lit.width; ++x) {
             const auto nearness = static_cast<double>(centres.nearness[centres.at(x, y)]);
             if (nearness > 0.0) {
-                const glm::dvec3 pixel(x + 0.5, y + 0.5, 1.0);
+                const glm::dvec3 pixel = ideal_pixel(view.projector, x, y);
                 points.at(x, y) = glm::vec3(view.eye_box + face_at(view, pixel).direction * pixel / nearness);
             }
         }

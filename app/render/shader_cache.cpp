@@ -23,9 +23,7 @@ void set_lens(GLuint program, const Pinhole& pinhole) {
     const glm::dvec2 half = 0.5 * glm::dvec2(pinhole.width, pinhole.height);
     const glm::dvec2 focal(pinhole.fx, pinhole.fy);
     const glm::vec4 lens_from_clip(half / focal, (half - glm::dvec2(pinhole.cx, pinhole.cy)) / focal);
-    // Beyond the picture, as far as the settings' check looks, the factor stays as it is, so that nothing folds back into it.
-    const double limit = 1.05 * pinhole.farthest_r2();
-    const glm::vec3 distortion(pinhole.lens.k1, pinhole.lens.k2, limit);
+    const glm::vec3 distortion(pinhole.lens.k1, pinhole.lens.k2, pinhole.bends_to_r2());
     glUniform4fv(glGetUniformLocation(program, "lens_from_clip"), 1, &lens_from_clip.x);
     glUniform3fv(glGetUniformLocation(program, "distortion"), 1, &distortion.x);
 }

@@ -1,10 +1,12 @@
 #include "app/scene/cast_light.h"
 
-#include "app/relief/lanes.h"
+#include "app/relief/lens_lanes.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace frustumscreen {
@@ -13,33 +15,7 @@ namespace {
 
 /// Codes are multiplied by what light is multiplied by to this power: sRGB's own, away from black.
 constexpr float code_power = 1.0F / 2.4F;
-constexpr std::size_t most_faces = 16; // more than any prop has
 constexpr float code_offset = 0.055F * 255.0F;
-
-/// Pixels [first, end) of a row.
-struct Run {
-    int first = 0, end = 0;
-    [[nodiscard]] bool empty() const { return first >= end; }
-};
-
-/// Those of row `y` whose middle lies where (x, y, 1) times each line is positive, or on its left end: of two faces that share an edge,
-/// one has it.
-template <std::size_t Lines> Run run_inside(const std::array<glm::dvec3, Lines>& lines, int y, Run run) {
-    for (const glm::dvec3& line : lines) {
-        const double at_left = line.y * (y + 0.5) + line.z + 0.5 * line.x;
-        if (line.x == 0.0) {
-            run.end = at_left > 0.0 ? run.end : run.first;
-            continue;
-        }
-        const double edge = std::ceil(-at_left / line.x);
-        if (line.x > 0.0) {
-            run.first = static_cast<int>(std::clamp(edge, double(run.first), double(run.end)));
-        } else {
-            run.end = static_cast<int>(std::clamp(edge, double(run.first), double(run.end)));
-        }
-    }
-    return run;
-}
 
 FRUSTUMSCREEN_INLINE Floats root_of(Floats values) {
     Floats roots;
@@ -49,20 +25,33 @@ FRUSTUMSCREEN_INLINE Floats root_of(Floats values) {
     return roots;
 }
 
-/// Eight pixels of row `y`, from `x` on; a texel each, red in the lowest byte.
-FRUSTUMSCREEN_INLINE Ints lit(const CastLight::Gain& gain, float x, float y, Ints texels) {
-    constexpr Floats columns = {0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F};
-    const Floats ray_x = (x + columns) * gain.ray_per_pixel.x + gain.first_ray.x;
-    const float ray_y = y * gain.ray_per_pixel.y + gain.first_ray.y;
+/// What the lens takes of a pixel's light: it packs pixels more densely by its area factor.
+struct Share {
+    float linear = 1.0F, code = 1.0F;
+};
+
+/// Over eight pixels it changes by a tenth of a code at most.
+FRUSTUMSCREEN_INLINE Share share_of(const PixelLens& lens, const PixelLanes& ideal) {
+    const float r2 = squared_radius(lens, ideal)[lanes / 2];
+    const float area =
+        (1.0F + r2 * (lens.k1 + lens.k2 * r2)) * (1.0F + r2 * (3.0F * lens.k1 + 5.0F * lens.k2 * r2));
+    return {1.0F / area, std::pow(area, -code_power)};
+}
+
+/// Eight ideal pixels; a texel each, red in the lowest byte.
+FRUSTUMSCREEN_INLINE Ints lit(const CastLight::Gain& gain, const PixelLanes& at, const Share& share,
+                              Ints texels) {
+    const Floats ray_x = at.x * gain.ray_per_pixel.x + gain.first_ray.x;
+    const Floats ray_y = at.y * gain.ray_per_pixel.y + gain.first_ray.y;
     const Floats distance =
         root_of(ray_x * ray_x + (ray_y * ray_y + 1.0F)) /
         (ray_x * gain.inverse_depth.x + (ray_y * gain.inverse_depth.y + gain.inverse_depth.z));
     // 3 / 2.4 is 1 + 1 / 4.
-    const Floats linear =
-        gain.brightness * least(all(gain.most), gain.per_cubic_metre * distance * distance * distance);
+    const Floats linear = gain.brightness * least(all(gain.most), share.linear * gain.per_cubic_metre *
+                                                                      distance * distance * distance);
     const Floats power =
-        gain.brightness_code *
-        least(all(gain.most_code), gain.per_cubic_metre_code * distance * root_of(root_of(distance)));
+        gain.brightness_code * least(all(gain.most_code), share.code * gain.per_cubic_metre_code * distance *
+                                                              root_of(root_of(distance)));
     const auto channel = [&](int shift) FRUSTUMSCREEN_INLINED {
         const Floats code = __builtin_convertvector(texels >> shift & 255, Floats);
         const Floats shown = most(linear * code, (code + code_offset) * power - code_offset);
@@ -73,39 +62,92 @@ FRUSTUMSCREEN_INLINE Ints lit(const CastLight::Gain& gain, float x, float y, Int
     return seen != 0 ? channel(0) | channel(8) | channel(16) | seen : Ints{};
 }
 
-FRUSTUMSCREEN_INLINE void light_run(const CastLight::Gain& gain, int y, int first,
+FRUSTUMSCREEN_INLINE Floats at_pixels(const glm::vec3& linear, const PixelLanes& at) {
+    return linear.x * at.x + linear.y * at.y + linear.z;
+}
+
+/// Which of the pixels lie within the face: those on an edge too, and the first face of two takes them.
+FRUSTUMSCREEN_INLINE Ints inside(const std::array<glm::vec3, 4>& edges, const PixelLanes& at) {
+    Ints in = Ints{} - 1;
+    for (const glm::vec3& edge : edges) {
+        in &= at_pixels(edge, at) >= 0.0F;
+    }
+    return in;
+}
+
+FRUSTUMSCREEN_INLINE Ints softened(const CastLight::Feather& feather, const PixelLanes& at, Ints own,
+                                   Ints texels) {
+    const Floats along = at_pixels(feather.along, at);
+    const Floats inward = at_pixels(feather.inward, at);
+    own &= (along >= 0.0F) & (along <= 1.0F) & (inward >= 0.0F) & (inward <= 1.0F);
+    for (unsigned lanes_left = bits_of(own); lanes_left != 0; lanes_left &= lanes_left - 1) {
+        const int lane = std::countr_zero(lanes_left);
+        const float share =
+            glm::mix(glm::mix(feather.share.x, feather.share.y, along[lane]), 1.0F, inward[lane]);
+        const float factor = std::pow(std::max(share, 0.0F), code_power);
+        const auto code = std::bit_cast<glm::u8vec4>(texels[lane]);
+        texels[lane] =
+            std::bit_cast<std::int32_t>(glm::u8vec4(glm::u8vec3(factor * glm::vec3(code) + 0.5F), code.a));
+    }
+    return texels;
+}
+
+/// Whether a part may have some of the eight pixels from `x` on.
+FRUSTUMSCREEN_INLINE bool may_have(const PixelRectangle& part, int x, int y) {
+    return y >= part.y && y < part.y + part.height && x + lanes > part.x && x < part.x + part.width;
+}
+
+/// Eight pixels of row `y`, from `x` on.
+FRUSTUMSCREEN_INLINE Ints shown(const CastLight::Parts& parts, int x, int y, Ints texels) {
+    constexpr Floats middles = {0.5F, 1.5F, 2.5F, 3.5F, 4.5F, 5.5F, 6.5F, 7.5F};
+    PixelLanes at{static_cast<float>(x) + middles, all(static_cast<float>(y) + 0.5F)};
+    Share share;
+    if (parts.lens.bends) {
+        at = unbent(parts.lens, at);
+        share = share_of(parts.lens, at);
+    }
+    Ints left = Ints{} - 1; // what no face has taken
+    Ints result{};
+    for (const CastLight::Face& face : parts.faces) {
+        const Ints own = may_have(face.lit, x, y) ? left & inside(face.edges, at) : Ints{};
+        if (!any(own)) {
+            continue;
+        }
+        left &= ~own;
+        Ints codes = parts.changes_codes ? lit(face.gain, at, share, texels) : texels;
+        for (const CastLight::Feather& feather : parts.feathers) {
+            if (feather.face == face.face && may_have(feather.lit, x, y)) {
+                codes = softened(feather, at, own, codes);
+            }
+        }
+        result = own != 0 ? codes : result;
+    }
+    return result;
+}
+
+FRUSTUMSCREEN_INLINE void light_row(const CastLight::Parts& parts, int y, int first,
                                     std::span<glm::u8vec4> codes) {
     for (std::size_t k = 0; k < codes.size(); k += lanes) {
         const std::size_t bytes = sizeof(glm::u8vec4) * std::min<std::size_t>(lanes, codes.size() - k);
         Ints texels{};
         std::memcpy(&texels, &codes[k], bytes);
-        texels = lit(gain, static_cast<float>(first + static_cast<int>(k)), static_cast<float>(y), texels);
+        texels = shown(parts, first + static_cast<int>(k), y, texels);
         std::memcpy(static_cast<void*>(&codes[k]), &texels, bytes);
     }
 }
 
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] void light_with_avx2(const CastLight::Gain& gain, int y, int first,
+[[gnu::target("avx2")]] void light_with_avx2(const CastLight::Parts& parts, int y, int first,
                                              std::span<glm::u8vec4> codes) {
-    light_run(gain, y, first, codes);
+    light_row(parts, y, first, codes);
 }
 #endif
-
-void light_codes(const CastLight::Gain& gain, int y, int first, std::span<glm::u8vec4> codes) {
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) {
-        light_with_avx2(gain, y, first, codes);
-        return;
-    }
-#endif
-    light_run(gain, y, first, codes);
-}
 
 CastLight::Gain gain_of(const FacePlan& face, const Pinhole& pinhole, bool even_light, float brightness) {
     CastLight::Gain gain;
     const glm::dvec2 per_pixel = 1.0 / glm::dvec2(pinhole.fx, pinhole.fy);
     gain.ray_per_pixel = glm::vec2(per_pixel);
-    gain.first_ray = glm::vec2((0.5 - glm::dvec2(pinhole.cx, pinhole.cy)) * per_pixel);
+    gain.first_ray = glm::vec2(-glm::dvec2(pinhole.cx, pinhole.cy) * per_pixel);
     gain.brightness = brightness;
     gain.brightness_code = std::pow(brightness, code_power);
     gain.per_cubic_metre = gain.per_cubic_metre_code = std::numeric_limits<float>::infinity();
@@ -125,85 +167,66 @@ glm::dvec3 linear_between(const glm::dvec2& from, const glm::dvec2& to) {
     return {slope, -glm::dot(slope, from)};
 }
 
+PixelRectangle around(const std::array<glm::dvec2, 4>& ideal_corners, const Pinhole& projector) {
+    glm::dvec2 low = ideal_corners[0];
+    glm::dvec2 high = low;
+    for (const glm::dvec2& corner : ideal_corners) {
+        low = glm::min(low, corner);
+        high = glm::max(high, corner);
+    }
+    projector.bend_around(low, high);
+    const glm::dvec2 size(projector.width, projector.height);
+    const glm::ivec2 first(glm::clamp(glm::floor(low), glm::dvec2(0.0), size));
+    const glm::ivec2 end(glm::clamp(glm::ceil(high), glm::dvec2(0.0), size));
+    return {first.x, first.y, end.x - first.x, end.y - first.y};
+}
+
 } // namespace
 
 void CastLight::begin(const FramePlan& plan, std::size_t cast) {
-    faces_.clear();
-    feathers_.clear();
-    faces_.reserve(plan.faces.capacity());
-    feathers_.reserve(plan.feathers.capacity());
     const CastPlan& planned = plan.casts[cast];
-    changes_codes_ = planned.even_light;
+    parts_.lens = PixelLens(plan.projector);
+    parts_.changes_codes = planned.even_light;
+    parts_.faces.clear();
+    parts_.feathers.clear();
+    parts_.faces.reserve(plan.faces.capacity());
+    parts_.feathers.reserve(plan.feathers.capacity());
     for (const Draw& draw : plan.draws) {
         if (draw.shader.pass != ShaderKey::Pass::Cast || draw.cast != cast) {
             continue;
         }
-        changes_codes_ = changes_codes_ || draw.brightness != 1.0F;
+        parts_.changes_codes = parts_.changes_codes || draw.brightness != 1.0F;
         const FacePlan& face = plan.faces[static_cast<std::size_t>(draw.face)];
         for (const CastFace& seen : planned.view.faces) {
             if (seen.face == face.face) {
-                faces_.push_back({draw.face, seen.edges,
-                                  gain_of(face, plan.projector, planned.even_light, draw.brightness)});
+                const auto& [a, b, c, d] = seen.edges;
+                parts_.faces.push_back({draw.face,
+                                        seen.lit,
+                                        {a, b, c, d},
+                                        gain_of(face, plan.projector, planned.even_light, draw.brightness)});
             }
         }
     }
-    const auto pixel = [&](const glm::vec4& clip) {
-        return (0.5 * glm::dvec2(clip) + 0.5) * glm::dvec2(plan.projector.width, plan.projector.height);
-    };
     for (const EdgeFeather& feather : plan.feathers) {
-        const glm::dvec2 start = pixel(feather.corners_clip[0]);
-        feathers_.push_back({feather.face, linear_between(start, pixel(feather.corners_clip[1])),
-                             linear_between(start, pixel(feather.corners_clip[3])), feather.share});
+        std::array<glm::dvec2, 4> corners{};
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            corners[k] = (0.5 * glm::dvec2(feather.corners_clip[k]) + 0.5) *
+                         glm::dvec2(plan.projector.width, plan.projector.height);
+        }
+        parts_.feathers.push_back({feather.face, around(corners, plan.projector),
+                                   linear_between(corners[0], corners[1]),
+                                   linear_between(corners[0], corners[3]), feather.share});
     }
 }
 
 void CastLight::light(int y, int first, std::span<glm::u8vec4> codes) const {
-    const Run all_of{first, first + static_cast<int>(codes.size())};
-    const auto part = [&](const Run& run) {
-        return codes.subspan(static_cast<std::size_t>(run.first - first),
-                             static_cast<std::size_t>(run.end - run.first));
-    };
-    std::array<Run, most_faces> lit_runs{};
-    std::size_t runs = 0;
-    for (const Face& face : faces_) {
-        const Run run = run_inside(face.edges, y, all_of);
-        if (run.empty() || runs == lit_runs.size()) {
-            continue;
-        }
-        lit_runs[runs++] = run;
-        if (changes_codes_) {
-            light_codes(face.gain, y, run.first, part(run));
-        }
-        for (const Feather& feather : feathers_) {
-            if (feather.face == face.face) {
-                soften(feather, y, run.first, part(run));
-            }
-        }
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2")) {
+        light_with_avx2(parts_, y, first, codes);
+        return;
     }
-    std::sort(lit_runs.begin(), lit_runs.begin() + static_cast<std::ptrdiff_t>(runs),
-              [](const Run& a, const Run& b) { return a.first < b.first; });
-    int dark = first; // what no face has lies before, between and behind them
-    for (std::size_t k = 0; k < runs; ++k) {
-        std::ranges::fill(part({dark, std::max(dark, lit_runs[k].first)}), glm::u8vec4(0));
-        dark = lit_runs[k].end;
-    }
-    std::ranges::fill(part({dark, all_of.end}), glm::u8vec4(0));
-}
-
-void CastLight::soften(const Feather& feather, int y, int first, std::span<glm::u8vec4> codes) const {
-    const glm::dvec3 one(0.0, 0.0, 1.0);
-    const std::array<glm::dvec3, 4> sides{feather.along, one - feather.along, feather.inward,
-                                          one - feather.inward};
-    const Run run = run_inside(sides, y, {first, first + static_cast<int>(codes.size())});
-    for (int x = run.first; x < run.end; ++x) {
-        const glm::dvec3 pixel(x + 0.5, y + 0.5, 1.0);
-        const auto along = static_cast<float>(glm::dot(feather.along, pixel));
-        const auto inward = static_cast<float>(glm::dot(feather.inward, pixel));
-        const float share = glm::mix(glm::mix(feather.share.x, feather.share.y, along), 1.0F, inward);
-        const float factor = std::pow(std::max(share, 0.0F), code_power);
-        glm::u8vec4& code = codes[static_cast<std::size_t>(x - first)];
-        code = glm::u8vec4(glm::u8vec3(factor * glm::vec3(code) + 0.5F), code.a);
-    }
+#endif
+    light_row(parts_, y, first, codes);
 }
 
 } // namespace frustumscreen

@@ -48,19 +48,6 @@ std::pair<glm::dvec2, glm::dvec2> ideal_edges(const Pinhole& pinhole) {
     return {low, high};
 }
 
-/// Where the lens brings the pixels between two: not closely, but around them all.
-void bend(const Pinhole& pinhole, glm::dvec2& low, glm::dvec2& high) {
-    const glm::dvec2 centre(pinhole.cx, pinhole.cy);
-    const glm::dvec2 focal(pinhole.fx, pinhole.fy);
-    low = (low - centre) / focal;
-    high = (high - centre) / focal;
-    const glm::dvec2 far = glm::max(glm::abs(low), glm::abs(high));
-    const auto [below, most] = pinhole.lens.factors_within(glm::dot(far, far));
-    const double least = std::max(below, 0.0); // none is drawn with such a factor (render/shader_cache.cpp)
-    low = glm::min(low * least, low * most) * focal + centre;
-    high = glm::max(high * least, high * most) * focal + centre;
-}
-
 } // namespace
 
 PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const Pinhole& pinhole) {
@@ -75,9 +62,7 @@ PixelRectangle pixels_around(std::span<const glm::dvec4> clip, const Pinhole& pi
         low = glm::min(low, pixel);
         high = glm::max(high, pixel);
     }
-    if (!pinhole.lens.is_plain() && low.x <= high.x) {
-        bend(pinhole, low, high);
-    }
+    pinhole.bend_around(low, high);
     low = glm::clamp(glm::floor(low) - 1.0, glm::dvec2(0.0), size);
     high = glm::clamp(glm::ceil(high) + 1.0, glm::dvec2(0.0), size);
     return {static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(high.x - low.x),

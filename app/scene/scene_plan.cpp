@@ -336,16 +336,6 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
     if (!reliefs) {
         return tl::unexpected<Error>(reliefs.error());
     }
-    const bool bends = !settings.projector.pinhole.lens.is_plain();
-    if (bends && request.technique.starts_with(relief_prefix)) {
-        return bad_input(fmt::format(
-            "technique '{}': a relief is cast for a lens that does not distort, and projector.k1 or k2 "
-            "says that this one does; take auto or a level",
-            request.technique));
-    }
-    if (bends) {
-        reliefs->clear();
-    }
     Result<SeenByEyes> seen = seen_by_eyes(pack);
     if (!seen) {
         return tl::unexpected<Error>(seen.error());

@@ -52,9 +52,9 @@ Errors errors_of(const Frame& frame, const BlockRelief& relief, const TruthPictu
             for (const PropFace& face : prop.faces) {
                 if (face.plane.distance(view.eye_m) > 0.0 &&
                     face.plane.distance(view.prop_from_projector.translation) > 0.0) {
-                    const FaceRays rays =
-                        face_rays(face, view.projector, view.prop_from_projector, view.eye_m);
-                    const glm::dvec3 pixel(x + 0.5, y + 0.5, 1.0);
+                    const Pinhole ideal = view.projector.ideal();
+                    const FaceRays rays = face_rays(face, ideal, view.prop_from_projector, view.eye_m);
+                    const glm::dvec3 pixel(ideal.pixel(view.projector.ray({x + 0.5, y + 0.5})).value(), 1.0);
                     bool inside = true;
                     for (const glm::dvec3& edge : rays.edges) {
                         inside = inside && glm::dot(edge, pixel) <= 0.0;
@@ -118,6 +118,60 @@ TEST(Cast, ARingIsWhereTheRayCastFindsIt) {
         EXPECT_LT(sum.missing + sum.extra, wrong_share * sum.truth) << texels;
         EXPECT_LT(sum.mean_mm, mean_mm) << texels;
         EXPECT_LT(sum.colour_rmse, 2.0) << texels;
+    }
+}
+
+constexpr std::array<Lens, 3> lenses{Lens{0.1, 0.0}, Lens{-0.12, 0.04}, Lens{0.3, -0.2}};
+
+TEST(Cast, BehindALensThatDistortsARingIsWhereTheRayCastFindsIt) {
+    const Subject subject;
+    const BlockRelief relief = subject.relief(256);
+    for (const Lens& lens : lenses) {
+        Settings settings = near_settings();
+        settings.projector.pinhole.lens = lens;
+        const PropShape prop = make_prop(settings.prop);
+        const std::vector<BenchPose> poses = draw_poses(settings, prop, 8, 5).value();
+        const Errors sum = errors_over(subject, relief, settings, prop, poses);
+        std::printf("k1 %g: %d pixels, missing %.3f %%, extra %.3f %%, far %.3f %%, %.5f mm, RMSE %.2f\n",
+                    lens.k1, sum.truth, 100.0 * sum.missing / sum.truth, 100.0 * sum.extra / sum.truth,
+                    100.0 * sum.far / sum.truth, sum.mean_mm, sum.colour_rmse);
+        EXPECT_LT(sum.missing + sum.extra, 0.0012 * sum.truth) << lens.k1; // as without a lens, above
+        EXPECT_LT(sum.mean_mm, 0.01) << lens.k1;
+        EXPECT_LT(sum.colour_rmse, 2.0) << lens.k1;
+    }
+}
+
+/// Blocks of a coarse relief, which are large, behind a lens that bends much: each in all of its face's pixels, and in its own alone.
+TEST(Cast, BehindALensTheListLeavesNothingOut) {
+    const Subject subject;
+    const BlockRelief relief = subject.relief(32);
+    for (const Lens& lens : lenses) {
+        Settings settings = near_settings();
+        Pinhole& pinhole = settings.projector.pinhole;
+        pinhole.lens = lens;
+        const PropShape prop = make_prop(settings.prop);
+        std::size_t narrowed = 0;
+        const std::vector<BenchPose> poses = draw_poses(settings, prop, 8, 6).value();
+        for (const BenchPose& pose : poses) {
+            Frame frame;
+            draw(frame, subject, relief, settings, prop, pose);
+            const std::vector<float> own = frame.picture.nearness;
+            for (std::vector<BlockItem>& part : frame.items.parts) {
+                for (BlockItem& item : part) {
+                    const PixelRectangle& lit = frame.view.faces[item.face].lit;
+                    const PixelSpan whole{
+                        static_cast<std::uint16_t>(lit.x), static_cast<std::uint16_t>(lit.x + lit.width),
+                        static_cast<std::uint16_t>(lit.y), static_cast<std::uint16_t>(lit.y + lit.height)};
+                    narrowed += item.area == whole ? 0U : 1U;
+                    item.area = whole;
+                }
+            }
+            end_list(frame.items);
+            frame.picture.begin(frame.view.lit, 1);
+            cast(frame.picture, relief, frame.view, frame.items);
+            EXPECT_EQ(own, frame.picture.nearness) << lens.k1;
+        }
+        EXPECT_GT(narrowed, 100U);
     }
 }
 

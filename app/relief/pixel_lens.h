@@ -1,0 +1,23 @@
+/// The projector's lens (geometry/lens.h) between pixels of its ideal pinhole and those that it lights, in 32-bit.
+///
+/// Threads  values; any.
+#pragma once
+
+#include "app/geometry/pinhole.h"
+
+namespace frustumscreen {
+
+struct PixelLens {
+    glm::vec2 centre{0.0F}, focal{1.0F}, per_focal{1.0F};
+    float k1 = 0.0F, k2 = 0.0F;
+    float most_r2 = 0.0F; ///< beyond, the factor stays as it is (Pinhole::bends_to_r2)
+    bool bends = false;
+
+    PixelLens() = default;
+    explicit PixelLens(const Pinhole& pinhole)
+        : centre(pinhole.cx, pinhole.cy), focal(pinhole.fx, pinhole.fy), per_focal(1.0F / focal),
+          k1(static_cast<float>(pinhole.lens.k1)), k2(static_cast<float>(pinhole.lens.k2)),
+          most_r2(static_cast<float>(pinhole.bends_to_r2())), bends(!pinhole.lens.is_plain()) {}
+};
+
+} // namespace frustumscreen
