@@ -38,16 +38,14 @@ struct MarkSet {
 };
 
 struct DriftReference {
-    std::string calibration;                         ///< the name of its file
-    std::string made;                                ///< its date
     int width = 0, height = 0;                       ///< of the camera's frames
     std::vector<glm::dvec2> marks_m;                 ///< where they were lit on the table
     std::vector<std::optional<glm::dvec2>> marks_px; ///< as many
     std::vector<AnchorTag> anchors;
 
-    /// Whether it is of this calibration and these marks.
-    [[nodiscard]] bool fits(std::string_view calibration, std::string_view made,
-                            const std::vector<glm::dvec2>& marks_m) const;
+    /// Whether it is of a projector that lights the marks there. Another calibration of it lights them at least a little beside; one that
+    /// has another eye or tracker alone leaves them where they are.
+    [[nodiscard]] bool fits(const std::vector<glm::dvec2>& marks_m) const;
 };
 
 [[nodiscard]] std::string drift_reference_text(const DriftReference& reference);

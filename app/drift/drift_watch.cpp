@@ -17,8 +17,6 @@ constexpr double window_share = 0.125;
 
 DriftReference blank_of(const DriftSetUp& set_up) {
     DriftReference blank;
-    blank.calibration = set_up.calibration;
-    blank.made = set_up.made;
     blank.marks_m = set_up.marks_m;
     blank.marks_px.resize(set_up.marks_m.size());
     return blank;
@@ -36,8 +34,7 @@ std::optional<DriftReference> stored(const DriftSetUp& set_up) {
         say_line("frustumscreen", read.error().message);
         return std::nullopt;
     }
-    return read->fits(set_up.calibration, set_up.made, set_up.marks_m) ? std::optional(*std::move(read))
-                                                                       : std::nullopt;
+    return read->fits(set_up.marks_m) ? std::optional(*std::move(read)) : std::nullopt;
 }
 
 } // namespace

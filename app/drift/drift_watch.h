@@ -22,11 +22,9 @@
 namespace frustumscreen {
 
 struct DriftSetUp {
-    std::string calibration; ///< the kept one's file name
-    std::string made;        ///< and date
-    std::vector<glm::dvec2> marks_m;
-    std::vector<int> moving_tags; ///< ids that do not lie on the table for good: the prop's
-    std::filesystem::path file;   ///< where the reference is stored
+    std::vector<glm::dvec2> marks_m; ///< by the kept calibration
+    std::vector<int> moving_tags;    ///< ids that do not lie on the table for good: the prop's
+    std::filesystem::path file;      ///< where the reference is stored
 };
 
 /// A mark that is to be lit in this frame.
@@ -40,7 +38,7 @@ struct ShownMark {
 
 class DriftWatch {
 public:
-    /// Reads the reference, if there is one of this calibration.
+    /// Reads the reference, if there is one of these marks.
     explicit DriftWatch(DriftSetUp set_up);
 
     void use(const CameraFrame& frame);

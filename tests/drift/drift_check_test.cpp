@@ -25,7 +25,6 @@ glm::dvec2 seen_at(const glm::dvec2& place_m) {
 
 DriftReference blank() {
     DriftReference blank;
-    blank.calibration = "calibration-0001.toml";
     blank.marks_m = places_m;
     blank.marks_px.resize(places_m.size());
     return blank;

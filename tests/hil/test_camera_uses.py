@@ -272,7 +272,7 @@ class Drift(CameraUse):
             status = self.drift_says("the camera looks whether", 3)
             self.assertEqual(status["camera_for"], "the prop's tags, the picture's place")
             self.assertFalse(status["drifted"])
-            self.assertIn("calibration-0001.toml", self.bench.machine.read(f"{self.folder_of_calibrations}/drift.json"))
+            self.assertIn("camera_px", self.bench.machine.read(f"{self.folder_of_calibrations}/drift.json"))
             camera.shift_px = self.shift_px
             status = self.drift_says("moved by 5 mm", 5)
             self.assertTrue(status["drifted"])

@@ -90,8 +90,8 @@ TEST(RunLoop, MarksOfLightAreShownWhileNobodyIsThere) {
     QuietShow show;
     show.comes = start + seconds(62);
     Inputs inputs;
-    inputs.drift = std::make_unique<DriftWatch>(DriftSetUp{
-        "calibration-0001.toml", "", {{-0.3, 0.2}, {0.3, -0.2}, {0.3, 0.2}, {-0.3, -0.2}}, {}, {}});
+    inputs.drift = std::make_unique<DriftWatch>(
+        DriftSetUp{{{-0.3, 0.2}, {0.3, -0.2}, {0.3, 0.2}, {-0.3, -0.2}}, {}, {}});
     LoopOptions options;
     options.length = seconds(150);
     options.fast = true;

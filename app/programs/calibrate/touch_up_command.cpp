@@ -70,9 +70,12 @@ tl::unexpected<Error> none_kept(const Settings& settings) {
 
 Result<void> keep_touch_up(const Settings& settings, const TouchUp& found) {
     if (found.moved != Moved::Nothing) {
-        return keep_next(settings, next_calibration(settings, found));
+        if (Result<void> kept = keep_next(settings, next_calibration(settings, found)); !kept) {
+            return kept;
+        }
     }
-    std::error_code none; // where a camera said that something moved, it was the camera: it learns anew
+    // A camera may have said that something moved. Where the projector did not, it was the camera: it learns anew.
+    std::error_code none;
     std::filesystem::remove(settings.calibration.folder / drift_file, none);
     return {};
 }

@@ -13,7 +13,7 @@ namespace frustumscreen {
 [[nodiscard]] CalibratedTable kept_table_of(const Settings& settings);
 /// That there is none.
 [[nodiscard]] tl::unexpected<Error> none_kept(const Settings& settings);
-/// As another calibration. Where nothing moved nothing is kept, and a camera that looks for drift learns anew.
+/// As another calibration. Where nothing moved nothing is kept. A camera that looks for drift learns anew.
 [[nodiscard]] Result<void> keep_touch_up(const Settings& settings, const TouchUp& found);
 
 /// The request has --config. Prints what moved, keeps it where that is asked for, and returns the exit status.

@@ -152,11 +152,7 @@ VisitorSetUp visitor_set_up(const Settings& settings) {
 }
 
 DriftSetUp drift_set_up(const Settings& settings) {
-    DriftSetUp set_up{settings.calibration.used_name,
-                      settings.calibration.used->made,
-                      mark_places(settings),
-                      {},
-                      settings.calibration.folder / drift_file};
+    DriftSetUp set_up{mark_places(settings), {}, settings.calibration.folder / drift_file};
     for (const TagSettings& tag : settings.camera.tag) {
         set_up.moving_tags.push_back(tag.id);
     }
