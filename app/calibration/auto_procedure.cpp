@@ -129,7 +129,7 @@ void AutoProcedure::place(const Input& input) {
         return;
     }
     if (input.next) {
-        const bool is_enough = taken_.size() >= std::min(enough, wanted_);
+        const bool is_enough = taken_.size() >= least();
         stage_ = is_enough ? AutoStage::Solve : stage_;
         word_ = is_enough ? AutoWord::None : AutoWord::TooFew;
         return;

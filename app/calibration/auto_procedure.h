@@ -22,6 +22,7 @@
 
 #include <tl/expected.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -124,6 +125,8 @@ public:
     [[nodiscard]] std::size_t taken() const { return taken_.size(); }
     /// How many are wanted in all.
     [[nodiscard]] std::size_t wanted() const { return wanted_; }
+    /// How many are needed for Next to end early.
+    [[nodiscard]] std::size_t least() const { return std::min(enough, wanted_); }
     /// Of the latest look: whole and lit.
     [[nodiscard]] int tags() const { return tags_; }
     [[nodiscard]] RestWish wish() const {

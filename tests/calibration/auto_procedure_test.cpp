@@ -330,6 +330,7 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
     EXPECT_EQ(live.procedure.wanted(), 5U);
     live.press_next();
     EXPECT_EQ(live.procedure.word(), AutoWord::TooFew);
+    EXPECT_EQ(auto_words(live.procedure).back(), "5 rests are needed at least.") << "no more than are wanted";
     live.press_back();
     EXPECT_EQ(live.procedure.word(), AutoWord::Dropped);
     EXPECT_EQ(live.procedure.taken(), 0U);

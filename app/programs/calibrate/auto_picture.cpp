@@ -55,7 +55,7 @@ std::string words_of(const AutoProcedure& procedure) {
     case AutoWord::Dropped:
         return "The last rest is dropped.";
     case AutoWord::TooFew:
-        return fmt::format("{} rests are needed at least.", AutoProcedure::enough);
+        return fmt::format("{} rests are needed at least.", procedure.least());
     }
     return "";
 }
