@@ -169,11 +169,10 @@ AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, cons
 
 } // namespace
 
-AutoCalibration calibrate_auto(std::span<const Rest> reported, const AutoSetup& setup) {
-    if (auto reason = refusal_of(reported, setup.width, setup.height)) {
+AutoCalibration calibrate_auto(std::span<const Rest> rests, const AutoSetup& setup) {
+    if (auto reason = refusal_of(rests, setup.width, setup.height)) {
         return refused(std::move(*reason));
     }
-    const Rests rests = with_unit_rotations(reported);
     std::vector<std::optional<PlaneView>> views;
     for (const Rest& rest : rests) {
         views.push_back(plane_view(rest));

@@ -190,11 +190,10 @@ std::string in_words(std::span<const std::string> words) {
                : fmt::format("{} and {}", fmt::join(words.first(words.size() - 1), ", "), words.back());
 }
 
-TouchCalibration calibrate_touch(std::span<const Touch> reported, const TouchSetup& setup) {
-    if (auto reason = refusal_of(reported, setup.width, setup.height)) {
+TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetup& setup) {
+    if (auto reason = refusal_of(touches, setup.width, setup.height)) {
         return refused(std::move(*reason));
     }
-    const Touches touches = with_unit_rotations(reported);
     const std::vector<TouchModel> starts = starting_models(touches, setup.width, setup.height);
     FitSetup fit_setup{setup.noise, setup.priors, setup.sensor_height_m,
                        upright_ones(touches, starts[0].table_up)};

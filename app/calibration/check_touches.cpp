@@ -27,15 +27,8 @@ Refusal bad_numbers(std::span<const Touch> touches, const PlaceName& name) {
     for (std::size_t k = 0; k < touches.size(); ++k) {
         const Touch& touch = touches[k];
         const glm::dvec3& t = touch.tracker_from_sensor.translation;
-        const double length = glm::length(touch.tracker_from_sensor.rotation);
-        if (!std::isfinite(t.x + t.y + t.z + touch.pixel.x + touch.pixel.y + touch.block_m + length)) {
+        if (!std::isfinite(t.x + t.y + t.z + touch.pixel.x + touch.pixel.y + touch.block_m)) {
             return fmt::format("{} has a number that is not finite", name(k));
-        }
-        if (std::abs(length - 1.0) > 0.02) {
-            return fmt::format(
-                "{}: the quaternion's length is {:.3g} and not 1; are these angles in degrees, or "
-                "in another order than w, x, y, z?",
-                name(k), length);
         }
     }
     return std::nullopt;

@@ -36,14 +36,4 @@ using PlaceName = std::function<std::string(std::size_t)>;
 [[nodiscard]] std::optional<std::string> refusal_of_few(std::span<const Touch> touches, int width,
                                                         int height);
 
-/// The same touches, or rests, their quaternions of unit length.
-template <typename Reported>
-[[nodiscard]] std::vector<Reported> with_unit_rotations(std::span<const Reported> reported) {
-    std::vector<Reported> out(reported.begin(), reported.end());
-    for (Reported& each : out) {
-        each.tracker_from_sensor.rotation = glm::normalize(each.tracker_from_sensor.rotation);
-    }
-    return out;
-}
-
 } // namespace frustumscreen

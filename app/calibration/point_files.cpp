@@ -62,6 +62,20 @@ Result<double> number_at(const TextRows& rows, std::span<const std::string_view>
     return *number;
 }
 
+/// The tracker's report of a row: `n` has its place and its quaternion. One whose length is nearly 1 is rounded, and becomes 1.
+Result<RigidTransform> report_of(const TextRows& rows, std::span<const double, 7> n) {
+    constexpr double most_rounded = 0.02;
+    const glm::dquat turn(n[3], n[4], n[5], n[6]);
+    const double length = glm::length(turn);
+    if (!(std::abs(length - 1.0) <= most_rounded)) {
+        return bad_input(rows.located(
+            fmt::format("qw,qx,qy,qz are no rotation: their squares must add up to 1, and the root of that "
+                        "is {:.3g}; are these angles in degrees?",
+                        length)));
+    }
+    return RigidTransform{glm::normalize(turn), {n[0], n[1], n[2]}};
+}
+
 } // namespace
 
 Result<Touches> parse_touches(std::string_view text, std::string_view name) {
@@ -82,8 +96,11 @@ Result<Touches> parse_touches(std::string_view text, std::string_view name) {
             }
             n[k] = *number;
         }
-        touches.push_back(
-            {{glm::dquat(n[3], n[4], n[5], n[6]), glm::dvec3(n[0], n[1], n[2])}, {n[7], n[8]}, n[9]});
+        const Result<RigidTransform> report = report_of(rows, std::span(n).first<7>());
+        if (!report) {
+            return tl::unexpected(report.error());
+        }
+        touches.push_back({*report, {n[7], n[8]}, n[9]});
     }
     return touches;
 }
@@ -117,9 +134,13 @@ Result<Rest> rest_row(const TextRows& rows) {
         }
         n[k] = *number;
     }
+    const Result<RigidTransform> report = report_of(rows, std::span(n).subspan<1, 7>());
+    if (!report) {
+        return tl::unexpected(report.error());
+    }
     Rest rest;
     rest.name = static_cast<int>(*name);
-    rest.tracker_from_sensor = {{n[4], n[5], n[6], n[7]}, {n[1], n[2], n[3]}};
+    rest.tracker_from_sensor = *report;
     rest.points.push_back({{n[8], n[9], n[10]}, {n[11], n[12]}});
     rest.block_m = leans ? std::nullopt : std::optional(n[13]);
     return rest;
@@ -199,16 +220,27 @@ Result<ReportedSights> parse_sights(std::string_view text, std::string_view name
             }
             n[k] = *number;
         }
-        const glm::dquat turn(n[4], n[5], n[6], n[7]);
-        if (std::abs(glm::length(turn) - 1.0) > 0.01) {
-            return bad_input(rows.located("qw,qx,qy,qz are no rotation: their squares must add up to 1"));
+        const Result<RigidTransform> report = report_of(rows, std::span(n).subspan<1, 7>());
+        if (!report) {
+            return tl::unexpected(report.error());
         }
-        sights.push_back({eye == "left" ? OpenEye::Left : OpenEye::Right,
-                          {glm::normalize(turn), {n[1], n[2], n[3]}},
-                          {n[8], n[9]},
-                          {n[10], n[11], n[12]}});
+        sights.push_back(
+            {eye == "left" ? OpenEye::Left : OpenEye::Right, *report, {n[8], n[9]}, {n[10], n[11], n[12]}});
     }
     return sights;
+}
+
+std::string sights_text(std::span<const ReportedSight> sights) {
+    std::string text = fmt::format("{}\n", fmt::join(sight_columns, ","));
+    for (const ReportedSight& sight : sights) {
+        const glm::dvec3& t = sight.tracker_from_sensor.translation;
+        const glm::dquat& q = sight.tracker_from_sensor.rotation;
+        const glm::dvec3& tip = sight.tip_m;
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                            sight.eye == OpenEye::Left ? "left" : "right", t.x, t.y, t.z, q.w, q.x, q.y, q.z,
+                            sight.pixel.x, sight.pixel.y, tip.x, tip.y, tip.z);
+    }
+    return text;
 }
 
 Result<std::vector<MeasuredCorner>> parse_corners(std::string_view text, std::string_view name) {

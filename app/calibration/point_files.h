@@ -6,7 +6,8 @@
 /// Sights   eye,tx_m,ty_m,tz_m,qw,qx,qy,qz,u_px,v_px,x_m,y_m,z_m: left or right, the head's sensor, the cross's pixel, and in the table's frame
 ///          the place of the prop that covers it
 /// Corners  distance,corner,x_m,y_m,z_m
-/// Errors   one sentence with file and line. Numbers are taken as they stand: whether they make sense is the calibration's to say.
+/// Errors   one sentence with file and line, also of a quaternion that is no rotation; those that are get length 1. Other numbers are taken as they
+///          stand: whether they make sense is the calibration's to say.
 /// Threads  pure; any.
 #pragma once
 
@@ -22,14 +23,15 @@
 
 namespace frustumscreen {
 
-/// `name` stands in messages. Quaternions keep their length.
+/// `name` stands in messages.
 [[nodiscard]] Result<Touches> parse_touches(std::string_view text, std::string_view name);
 /// What parse_touches reads.
 [[nodiscard]] std::string touches_text(std::span<const Touch> touches);
 [[nodiscard]] Result<Rests> parse_rests(std::string_view text, std::string_view name);
 /// What parse_rests reads.
 [[nodiscard]] std::string rests_text(std::span<const Rest> rests);
-/// Their rotations are unit.
+/// What parse_sights reads.
+[[nodiscard]] std::string sights_text(std::span<const ReportedSight> sights);
 [[nodiscard]] Result<ReportedSights> parse_sights(std::string_view text, std::string_view name);
 [[nodiscard]] Result<std::vector<MeasuredCorner>> parse_corners(std::string_view text, std::string_view name);
 

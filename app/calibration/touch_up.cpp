@@ -161,11 +161,10 @@ CalibratedTable corrected(const CalibratedTable& kept, const Explanation& best, 
 
 } // namespace
 
-TouchUp touch_up(const CalibratedTable& kept, std::span<const Touch> reported, const TouchSetup& setup) {
-    if (auto reason = refusal_of_few(reported, setup.width, setup.height)) {
+TouchUp touch_up(const CalibratedTable& kept, std::span<const Touch> touches, const TouchSetup& setup) {
+    if (auto reason = refusal_of_few(touches, setup.width, setup.height)) {
         return refused(std::move(*reason));
     }
-    const Touches touches = with_unit_rotations(reported);
     FitSetup noise{setup.noise, {}, std::nullopt, {}};
     noise.noise.position_m = std::hypot(setup.noise.position_m, kept_error_m);
     const TouchModel before = model_of(kept);

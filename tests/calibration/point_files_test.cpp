@@ -48,6 +48,33 @@ TEST(PointFiles, WhatIsWrongIsSaidWithItsLine) {
     EXPECT_FALSE(parse_touches("", "t.csv"));
 }
 
+TEST(PointFiles, EachReportIsARotation) {
+    const auto touch_of = [](const std::string& turn) { return touch_error("0,0,0," + turn + ",1,2,0\n"); };
+    EXPECT_NE(touch_of("0,0,0,0").find("t.csv:2: qw,qx,qy,qz are no rotation"), std::string::npos);
+    EXPECT_NE(touch_of("90,0,0,0").find("90; are these angles in degrees?"), std::string::npos);
+    EXPECT_NE(touch_of("1.03,0,0,0").find("no rotation"), std::string::npos);
+    const auto rounded = parse_touches(std::string(touch_header) + "0,0,0,0.6,0.79,0,0,1,2,0\n", "t.csv");
+    ASSERT_TRUE(rounded);
+    EXPECT_NEAR(glm::length((*rounded)[0].tracker_from_sensor.rotation), 1.0, 1e-15);
+    const std::string rest_rows =
+        "rest,tx_m,ty_m,tz_m,qw,qx,qy,qz,x_m,y_m,z_m,u_px,v_px,block_m\n1,0,0,0,0.5,0,0,0,0,0,0,1,2,0\n";
+    const auto rest = parse_rests(rest_rows, "r.csv");
+    ASSERT_FALSE(rest);
+    EXPECT_NE(rest.error().message.find("r.csv:2: qw,qx,qy,qz are no rotation"), std::string::npos);
+}
+
+TEST(PointFiles, SightsAreReadAsTheyWereWritten) {
+    const ReportedSights sights{
+        {OpenEye::Left, {{0.6, 0.0, 0.8, 0.0}, {0.1, -0.2, 1.0 / 3.0}}, {100.25, 2e-7}, {0.04, 0.05, 0.155}},
+        {OpenEye::Right, {{1.0, 0.0, 0.0, 0.0}, {1e-9, 0.0, -7.0}}, {5.0, 6.0}, {0.0, 0.0, 0.12}}};
+    const auto read = parse_sights(sights_text(sights), "s.csv");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(sights_text(*read), sights_text(sights));
+    EXPECT_EQ((*read)[1].eye, OpenEye::Right);
+    EXPECT_EQ((*read)[0].pixel, sights[0].pixel);
+    EXPECT_EQ((*read)[0].tip_m, sights[0].tip_m);
+}
+
 TEST(PointFiles, CornersHaveNames) {
     const auto read = parse_corners(std::string(corner_header) + "2,bottom_left,0.1,0.2,0\n", "c.csv");
     ASSERT_TRUE(read);
