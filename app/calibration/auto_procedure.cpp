@@ -66,11 +66,9 @@ void AutoProcedure::step(const Input& input) {
 }
 
 bool AutoProcedure::nobody_is_there(const Input& input) {
-    if (!active_ || input.next || input.back) {
-        active_ = input.now;
-    }
-    return stage_ != AutoStage::Done && stage_ != AutoStage::Crosses &&
-           input.now - *active_ > (stage_ == AutoStage::Begin ? to_begin : to_go_on);
+    const Nanoseconds patient = stage_ == AutoStage::Begin ? to_begin : to_go_on;
+    return last_press_.is_older_than(patient, input.now, input.next || input.back) &&
+           stage_ != AutoStage::Done && stage_ != AutoStage::Crosses;
 }
 
 std::optional<Pattern> AutoProcedure::to_show() const {
@@ -288,7 +286,7 @@ void AutoProcedure::take(MonotonicTime now, const BoardView& view) {
     }
     taken_.push_back({{++last_name_, report, view.points, block_m}, *posture, view.has_top});
     done_with_ = report;
-    active_ = now;
+    last_press_.renew(now);
     end_capture(now, AutoWord::Taken);
     if (taken_.size() >= wanted_) {
         stage_ = AutoStage::Solve;

@@ -15,6 +15,7 @@
 
 #include "app/calibration/board_view.h"
 #include "app/calibration/calibrate_auto.h"
+#include "app/calibration/last_press.h"
 #include "app/calibration/light_delay.h"
 #include "app/calibration/rest_wish.h"
 #include "app/calibration/still_reports.h"
@@ -166,7 +167,7 @@ private:
     CameraState camera_ = CameraState::Running;
     std::optional<Pattern> shown_;
     std::uint64_t number_ = 0;
-    std::optional<MonotonicTime> active_; ///< the latest press or rest, or the beginning
+    LastPress last_press_; ///< or rest
     std::optional<MonotonicTime>
         camera_well_; ///< at the beginning: so long it could be used, or nothing was to be seen yet
     std::optional<LightDelay> light_;

@@ -12,7 +12,7 @@ bool is_near(const RigidTransform& a, const RigidTransform& b, double distance_m
 }
 
 bool StillReports::add(MonotonicTime now, const RigidTransform& report) {
-    const bool is_near_first = count_ == 0 || is_near(report, first_, still_m, still_rad);
+    const bool is_near_first = count_ == 0 || is_near(report, first_, limits_.move_m, limits_.turn_rad);
     if (!is_near_first && ++elsewhere_ < strays_) {
         return true;
     }

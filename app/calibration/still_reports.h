@@ -1,4 +1,4 @@
-/// The tracker's reports of a prop that rests: since when, and where on average.
+/// The tracker's reports of a prop that rests, or of a head that is held still: since when, and where on average.
 ///
 /// Frames   tracker K, as the device reports.
 /// Threads  one caller.
@@ -11,17 +11,20 @@
 
 namespace frustumscreen {
 
+/// How far a report may lie from the first one of its rest.
+struct StillLimits {
+    double move_m = 1.5e-3;
+    double turn_rad = 0.02;
+};
+
 class StillReports {
 public:
-    static constexpr double still_m = 1.5e-3; ///< from the first report of the rest
-    static constexpr double still_rad = 0.02;
-
     /// `strays`: so many reports in a row lie elsewhere: it moved; fewer are left out.
-    explicit StillReports(int strays) : strays_(strays) {}
+    explicit StillReports(int strays, const StillLimits& limits = {}) : strays_(strays), limits_(limits) {}
 
-    /// False: the prop moved, and a new rest begins with this report.
+    /// False: it moved, and a new rest begins with this report.
     bool add(MonotonicTime now, const RigidTransform& report);
-    void clear() { *this = StillReports(strays_); }
+    void clear() { *this = StillReports(strays_, limits_); }
 
     [[nodiscard]] std::size_t count() const { return count_; }
     /// How long it has rested; no report yet: zero.
@@ -31,6 +34,7 @@ public:
 
 private:
     int strays_;
+    StillLimits limits_;
     std::size_t count_ = 0;
     int elsewhere_ = 0; ///< reports in a row
     MonotonicTime began_{};

@@ -31,11 +31,9 @@ void TouchProcedure::step(const Input& input) {
 }
 
 bool TouchProcedure::nobody_is_there(const Input& input) {
-    if (!pressed_ || input.next || input.back) {
-        pressed_ = input.now;
-    }
-    return stage_ != TouchStage::Done && stage_ != TouchStage::Anew &&
-           input.now - *pressed_ > (stage_ == TouchStage::Begin ? to_begin : to_go_on);
+    const Nanoseconds patient = stage_ == TouchStage::Begin ? to_begin : to_go_on;
+    return last_press_.is_older_than(patient, input.now, input.next || input.back) &&
+           stage_ != TouchStage::Done && stage_ != TouchStage::Anew;
 }
 
 void TouchProcedure::begin(const Input& input) {

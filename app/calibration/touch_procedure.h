@@ -15,6 +15,7 @@
 
 #include "app/calibration/calibrate_touch.h"
 #include "app/calibration/choose_crosses.h"
+#include "app/calibration/last_press.h"
 #include "app/calibration/still_reports.h"
 #include "firmware_host/base/time.h"
 
@@ -122,7 +123,7 @@ private:
     std::string problem_;
     std::size_t at_ = 0;
     TouchStage stage_ = TouchStage::Begin;
-    std::optional<MonotonicTime> pressed_; ///< the latest press, or the beginning
+    LastPress last_press_;
     TouchWord word_ = TouchWord::None;
     StillReports still_{1}; ///< of the rest so far
     MonotonicTime rest_began_{};

@@ -4,12 +4,12 @@
 #include "app/programs/calibrate/auto_picture.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/sheet_command.h"
+#include "app/programs/calibrate/table_rounds.h"
 #include "app/programs/devices/wiring.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <thread>
 
 namespace frustumscreen {
 
@@ -39,36 +39,33 @@ public:
 
     /// Until it is done or left; nothing: it was told to stop.
     [[nodiscard]] Result<std::optional<AutoStage>> run(AutoProcedure& procedure, const AutoSetup& setup) {
-        while (!devices_.told_to_stop()) {
-            const MonotonicTime now = monotonic_now();
-            if (Result<void> shown = show(procedure, now); !shown) {
-                return tl::unexpected<Error>(shown.error());
-            }
-            if (has_ended(procedure.stage())) {
-                return std::optional(procedure.stage());
-            }
+        TableRounds rounds = rounds_of(procedure);
+        rounds.has_ended = [&] { return has_ended(procedure.stage()); };
+        rounds.step = [&](MonotonicTime now) {
             if (procedure.stage() == AutoStage::Solve) {
                 procedure.judge(calibrate_auto(procedure.rests(), setup));
             }
             step(procedure, now);
-            std::this_thread::sleep_for(between_rounds);
-        }
-        return std::optional<AutoStage>();
+        };
+        return run_rounds(devices_, rounds).map([&](bool ended) {
+            return ended ? std::optional(procedure.stage()) : std::nullopt;
+        });
     }
     /// Leaves the last words to be read.
-    void stay(const AutoProcedure& procedure) {
-        const MonotonicTime end = monotonic_now() + TableDevices::last_words;
-        while (!devices_.told_to_stop() && monotonic_now() < end && show(procedure, monotonic_now())) {
-            std::this_thread::sleep_for(between_rounds);
-        }
-    }
+    void stay(const AutoProcedure& procedure) { frustumscreen::stay(devices_, rounds_of(procedure)); }
 
 private:
+    [[nodiscard]] TableRounds rounds_of(const AutoProcedure& procedure) {
+        TableRounds rounds;
+        rounds.show = [&](MonotonicTime now) { return show(procedure, now); };
+        rounds.between = between_rounds;
+        return rounds;
+    }
     void step(AutoProcedure& procedure, MonotonicTime now) {
         const TableDevices::Heard heard = devices_.hear(now);
         const CameraFrame* const frame = camera_->poll(frame_) ? &frame_ : nullptr;
         const CameraState state = camera_->state();
-        procedure.step({now, heard.report, frame, state, lit_, heard.next, heard.back});
+        procedure.step({now, heard.prop, frame, state, lit_, heard.next, heard.back});
         if (!procedure.shown()) { // what the stripes do to the camera is no fault of it
             TableDevices::tell(sentence_of(state), "camera", camera_state_);
         }

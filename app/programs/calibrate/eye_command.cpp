@@ -1,7 +1,8 @@
 #include "app/programs/calibrate/eye_command.h"
 
-#include "app/calibration/eye_fit.h"
+#include "app/calibration/eye_procedure.h"
 #include "app/calibration/point_files.h"
+#include "app/programs/calibrate/eye_table.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/touch_command.h"
 
@@ -63,11 +64,52 @@ std::string eye_text(const EyeFit& fit) {
     return text;
 }
 
-/// The kept calibration with this eye in it becomes the newest one; projector, tracker and sensor stay.
-Result<void> keep_eye(const Settings& settings, const glm::dvec3& eye_in_sensor_m) {
-    Calibration next = *settings.calibration.used;
-    next.registration.eye_in_sensor_m = eye_in_sensor_m;
-    return keep_next(settings, std::move(next));
+/// Of the prop where it is wished to stand, and of a head where visitors' are.
+Json crosses_json(const Settings& settings) {
+    const SightScene scene = sight_scene(settings);
+    const SightPlan plan =
+        plan_sights(scene, wished_place(scene), scene.usual_eye_m, EyeProcedure::most_of_each);
+    Json crosses = Json::array();
+    for (const SightCross& cross : plan.crosses) {
+        crosses.push_back(
+            {{"u_px", cross.pixel.x}, {"v_px", cross.pixel.y}, {"tip_m", vector_json(cross.tip_m)}});
+    }
+    return {{"table_from_prop", matrix_json(wished_place(scene))}, {"crosses", crosses}};
+}
+
+Result<int> on_table(const Settings& settings, const CalibrateRequest& request) {
+    if (request.json) {
+        fmt::print("{}\n", crosses_json(settings).dump(2));
+        return 0;
+    }
+    return measure_eyes(settings, request).map([] { return 0; });
+}
+
+Result<int> from_file(const Settings& settings, const CalibrateRequest& request) {
+    if (const std::string why = why_no_eye(settings); request.keep && !why.empty()) {
+        return fail(ErrorKind::BadConfiguration,
+                    fmt::format("{}: {}", settings.calibration.folder.string(), why));
+    }
+    const auto reported = read_points(request, parse_sights);
+    if (!reported) {
+        return tl::unexpected<Error>(reported.error());
+    }
+    const std::optional<EyeFit> fit = fit_reported(*reported, settings);
+    if (!fit) {
+        return bad_input(fmt::format("{}: the light of a cross does not come down on the table; u_px, v_px "
+                                     "is its pixel in the picture",
+                                     request.from.string()));
+    }
+    if (request.json) {
+        fmt::print("{}\n", eye_json(*fit).dump(2));
+    } else {
+        fmt::print("{}", eye_text(*fit));
+    }
+    const int status = status_of(fit->verdict, request, fit->reason);
+    if (status == 0 && request.keep) {
+        return keep_eye(settings, fit->eyes->middle_m).map([] { return 0; });
+    }
+    return status;
 }
 
 Result<int> eye(const CalibrateRequest& request) {
@@ -75,49 +117,29 @@ Result<int> eye(const CalibrateRequest& request) {
     if (!settings) {
         return tl::unexpected<Error>(settings.error());
     }
-    if (request.keep && !(*settings)->calibration.used) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format(
-                "{}: no calibration is kept there with which the eye could be kept: keep one first, by "
-                "touch --keep or table",
-                (*settings)->calibration.folder.string()));
-    }
-    const auto reported = read_points(request, parse_sights);
-    if (!reported) {
-        return tl::unexpected<Error>(reported.error());
-    }
-    const ProjectorSettings& projector = (*settings)->projector;
-    const auto sights = placed_sights(*reported, projector.pinhole, projector.table_from_projector,
-                                      (*settings)->tracker.registration.table_from_tracker);
-    if (!sights) {
-        return bad_input(fmt::format("{}: the light of a cross does not come down on the table; u_px, v_px "
-                                     "is its pixel in the picture",
-                                     request.from.string()));
-    }
-    const EyeFit fit = fit_eyes(*sights, 0.5 * (*settings)->prop.base_m);
-    if (request.json) {
-        fmt::print("{}\n", eye_json(fit).dump(2));
-    } else {
-        fmt::print("{}", eye_text(fit));
-    }
-    const int status = status_of(fit.verdict, request, fit.reason);
-    if (status == 0 && request.keep) {
-        return keep_eye(**settings, fit.eyes->middle_m).map([] { return 0; });
-    }
-    return status;
+    return request.from.empty() ? on_table(**settings, request) : from_file(**settings, request);
 }
 
 } // namespace
 
 void add_eye_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
     CLI::App* const command = app.add_subcommand(
-        "eye", "from sightings over the prop, with one eye each: the eyes' place in the head's sensor");
-    command->add_option("--from", request.from, "the sightings, CSV")->required();
+        "eye",
+        "the eyes' place in the head's sensor, on the table itself: the projector shows crosses behind the "
+        "prop, a person with the sensor on brings a corner of the prop over each, with one eye; Back and "
+        "Next are the first and the second button. Or, with --from, from a file of such sightings");
+    CLI::Option* const from = command->add_option("--from", request.from, "the sightings, CSV");
     command->add_option("--config", request.config, "the kiosk's settings, TOML")->required();
-    command->add_flag("--json", request.json, "for programs");
-    command->add_flag("--keep", request.keep,
-                      "keeps what is good or usable, with the calibration that is kept");
+    command->add_flag("--json", request.json,
+                      "for programs; without --from: prints the crosses for a prop on its square, and ends");
+    command
+        ->add_flag("--keep", request.keep,
+                   "keeps what is good or usable, with the calibration that is kept; on the table, Next does")
+        ->needs(from);
+    command->add_option("--out", request.out, "on the table: writes the sightings, CSV, for --from")
+        ->excludes(from);
+    command->add_flag("--headless", request.headless, "on the table: without a screen, for tests")
+        ->excludes(from);
     command->callback([&] { chosen = [&] { return end_with(eye(request)); }; });
 }
 

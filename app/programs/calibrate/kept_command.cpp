@@ -133,6 +133,19 @@ Result<void> keep_auto(const Settings& settings, const AutoCalibration& calibrat
     return keep(settings, calibration.found, calibration.found.residuals.size(), std::move(next));
 }
 
+std::string why_no_eye(const Settings& settings) {
+    return settings.calibration.used
+               ? ""
+               : "no calibration is kept with which the eye could be kept: keep one first, "
+                 "by touch --keep or table";
+}
+
+Result<void> keep_eye(const Settings& settings, const glm::dvec3& eye_in_sensor_m) {
+    Calibration next = *settings.calibration.used;
+    next.registration.eye_in_sensor_m = eye_in_sensor_m;
+    return keep_next(settings, std::move(next));
+}
+
 void add_kept_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
     CLI::App* const command = app.add_subcommand(
         "kept", "lists the calibrations that this kiosk keeps, the newest first; undoes the newest");

@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <span>
+#include <string>
 
 namespace frustumscreen {
 
@@ -19,6 +20,11 @@ void add_kept_command(CLI::App& app, CalibrateRequest& request, std::function<in
 [[nodiscard]] Result<void> keep_touch(const Settings& settings, const TouchCalibration& calibration,
                                       std::span<const Touch> touches);
 [[nodiscard]] Result<void> keep_auto(const Settings& settings, const AutoCalibration& calibration);
+
+/// Why the eye cannot be kept, as a half sentence: there is no calibration to keep it with. Empty: it can.
+[[nodiscard]] std::string why_no_eye(const Settings& settings);
+/// The kept calibration with this eye in it becomes the newest one; projector, tracker and sensor stay.
+[[nodiscard]] Result<void> keep_eye(const Settings& settings, const glm::dvec3& eye_in_sensor_m);
 
 /// Keeps this one; when it was made is set here.
 [[nodiscard]] Result<void> keep_next(const Settings& settings, Calibration next);

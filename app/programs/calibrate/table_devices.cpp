@@ -80,8 +80,11 @@ TableDevices::Heard TableDevices::hear(MonotonicTime now) {
     samples_.clear();
     static_cast<void>(inputs_.tracker->poll(now, samples_)); // its state says what is wrong
     for (const PoseSample& sample : samples_) {
-        if (sample.station == prop_station && sample.ok) {
-            heard.report = RigidTransform{sample.rotation, sample.position_m};
+        std::optional<RigidTransform>* const of = sample.station == prop_station   ? &heard.prop
+                                                  : sample.station == head_station ? &heard.head
+                                                                                   : nullptr;
+        if (of != nullptr && sample.ok) {
+            *of = RigidTransform{sample.rotation, sample.position_m};
         }
     }
     events_.clear();

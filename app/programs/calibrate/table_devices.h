@@ -37,8 +37,9 @@ public:
 
     /// What came since the call before.
     struct Heard {
-        std::optional<RigidTransform> report; ///< the latest one of the prop's sensor
-        bool next = false;                    ///< a button was pressed
+        std::optional<RigidTransform> prop; ///< the latest report of its sensor
+        std::optional<RigidTransform> head; ///< the same of the head's
+        bool next = false;                  ///< a button was pressed
         bool back = false;
     };
     [[nodiscard]] Heard hear(MonotonicTime now);

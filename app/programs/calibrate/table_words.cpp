@@ -8,12 +8,6 @@
 
 namespace frustumscreen {
 
-namespace {
-
-constexpr double widest_em = 36.0; ///< what words are broken for at the bake
-
-} // namespace
-
 std::string as_sentence(std::string reason) {
     if (!reason.empty()) {
         reason.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(reason.front())));
@@ -31,12 +25,13 @@ std::vector<Paragraph> paragraphs_of(const std::vector<std::string>& lines, doub
     return paragraphs;
 }
 
-Image<std::uint8_t> house_sentence(const LanguageWords* house, std::string_view key, double width_px) {
+Image<std::uint8_t> house_sentence(const LanguageWords* house, std::string_view key, double width_px,
+                                   double width_em) {
     if (house == nullptr || house->language.starts_with("en")) {
         return {};
     }
-    const double em_px = width_px / widest_em;
-    const GlyphSetting* const setting = fitting_setting(house->runs.find(key), widest_em);
+    const double em_px = width_px / width_em;
+    const GlyphSetting* const setting = fitting_setting(house->runs.find(key), width_em);
     return setting != nullptr ? glyph_image(house->runs, house->atlas, *setting, em_px).coverage
                               : Image<std::uint8_t>();
 }

@@ -1,4 +1,4 @@
-/// Words on the table during a calibration, by touch or by a camera: how they are set, in English and in the house's language, and the
+/// Words on the table during a calibration, by touch, by a camera or by eye: how they are set, in English and in the house's language, and the
 /// dots that count what is done.
 ///
 /// Units    pixels of the projector's picture; `unit`: a hundred and sixtieth of its width.
@@ -21,12 +21,23 @@ namespace frustumscreen {
 /// The first line is the largest.
 [[nodiscard]] std::vector<Paragraph> paragraphs_of(const std::vector<std::string>& lines, double unit);
 
+/// What words are broken for at the bake, type sizes: over the table's width, or beside the prop.
+inline constexpr double widest_em = 36.0, beside_em = 20.0;
 /// The word of that key, set in the house's language; empty where there is none, or where that is English, which the other words are in.
 [[nodiscard]] Image<std::uint8_t> house_sentence(const LanguageWords* house, std::string_view key,
-                                                 double width_px);
+                                                 double width_px, double width_em = widest_em);
 /// One picture of two, from their left edges.
 [[nodiscard]] Image<std::uint8_t> above(const Image<std::uint8_t>& upper, const Image<std::uint8_t>& lower,
                                         double between_px);
+
+/// On a dark ground.
+struct TableColours {
+    static constexpr Colour white{255, 255, 255};
+    static constexpr Colour dim{150, 150, 150};
+    static constexpr Colour front{255, 184, 92}; ///< where the prop's front or corner is, and what is amiss
+    static constexpr Colour good{120, 240, 120};
+    static constexpr Colour bad{255, 110, 90};
+};
 
 struct DotColours {
     Colour done, open;

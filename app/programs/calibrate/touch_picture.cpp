@@ -14,12 +14,6 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr Colour white{255, 255, 255};
-constexpr Colour dim{150, 150, 150};
-constexpr Colour front_colour{255, 184, 92};
-constexpr Colour good_colour{120, 240, 120};
-constexpr Colour bad_colour{255, 110, 90};
-
 std::string_view words_of(TouchWord word) {
     switch (word) {
     case TouchWord::None:
@@ -101,9 +95,9 @@ std::vector<std::string> words_of_begin(const TouchProcedure& procedure) {
 
 Colour colour_of(const TouchProcedure& procedure) {
     if (procedure.stage() == TouchStage::HoldStill) {
-        return procedure.word() == TouchWord::Moved ? bad_colour : good_colour;
+        return procedure.word() == TouchWord::Moved ? TableColours::bad : TableColours::good;
     }
-    return white;
+    return TableColours::white;
 }
 
 /// Directions of the picture: u to the right, v down; a turn is counter-clockwise as one looks at the table.
@@ -125,10 +119,10 @@ void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, do
     };
     line({-arm, 0.0}, {arm, 0.0}, 1.0, colour);
     line({0.0, -arm}, {0.0, arm}, 1.0, colour);
-    line({0.0, 2.0 * unit}, {0.0, arm}, 3.0, front_colour);
+    line({0.0, 2.0 * unit}, {0.0, arm}, 3.0, TableColours::front);
     const auto arrow_head = [&](const glm::dvec2& tip) {
-        line(tip, tip + glm::dvec2(-2.0, -2.5) * unit, 3.0, front_colour);
-        line(tip, tip + glm::dvec2(2.0, -2.5) * unit, 3.0, front_colour);
+        line(tip, tip + glm::dvec2(-2.0, -2.5) * unit, 3.0, TableColours::front);
+        line(tip, tip + glm::dvec2(2.0, -2.5) * unit, 3.0, TableColours::front);
     };
     arrow_head({0.0, arm});
     arrow_head({-0.85 * arm, 2.0 * unit});
@@ -244,12 +238,14 @@ Image8 touch_picture(const TouchProcedure& procedure, int width, int height, dou
         above(house_sentence(house, word_key(procedure), 0.6 * width),
               typesetter.set(paragraphs_of(touch_words(procedure), unit), 0.6 * width), 2.5 * unit);
     const double top = below ? (has_cross ? 0.62 : 0.4) * height : 0.38 * height - coverage.height;
-    canvas.coverage(
-        coverage, {(width - coverage.width) / 2, static_cast<int>(std::max(top, unit))},
-        procedure.word() == TouchWord::Taken || procedure.word() == TouchWord::None ? white : front_colour);
+    canvas.coverage(coverage, {(width - coverage.width) / 2, static_cast<int>(std::max(top, unit))},
+                    procedure.word() == TouchWord::Taken || procedure.word() == TouchWord::None
+                        ? TableColours::white
+                        : TableColours::front);
     const double row = below ? height - 3.0 * unit : 3.0 * unit; // on the same side
     draw_dots(canvas, {0.5 * width, row}, unit, static_cast<int>(procedure.count()),
-              [&](int k) { return procedure.is_taken(static_cast<std::size_t>(k)); }, {good_colour, dim});
+              [&](int k) { return procedure.is_taken(static_cast<std::size_t>(k)); },
+              {TableColours::good, TableColours::dim});
     return canvas.take();
 }
 

@@ -1,14 +1,11 @@
 #include "app/programs/calibrate/touch_table.h"
 
+#include "app/programs/calibrate/table_rounds.h"
 #include "app/programs/calibrate/touch_picture.h"
-
-#include <thread>
 
 namespace frustumscreen {
 
 namespace {
-
-constexpr Nanoseconds between_frames = std::chrono::milliseconds(20);
 
 bool has_ended(TouchStage stage) {
     return stage == TouchStage::Done || stage == TouchStage::Anew || stage == TouchStage::Left;
@@ -21,29 +18,25 @@ TouchTable::TouchTable(const Settings& settings, TableDevices& devices)
                                   settings.projector.table_from_projector.translation.z) {}
 
 Result<std::optional<TouchStage>> TouchTable::run(TouchProcedure& procedure, const Judge& judge) {
-    while (!devices_.told_to_stop()) {
-        const MonotonicTime now = monotonic_now();
-        if (Result<void> shown = show(procedure, now); !shown) {
-            return tl::unexpected<Error>(shown.error());
-        }
-        if (has_ended(procedure.stage())) {
-            return std::optional(procedure.stage());
-        }
+    TableRounds rounds;
+    rounds.show = [&](MonotonicTime now) { return show(procedure, now); };
+    rounds.has_ended = [&] { return has_ended(procedure.stage()); };
+    rounds.step = [&](MonotonicTime now) {
         if (procedure.stage() == TouchStage::Solve) {
             procedure.judge(judge(procedure.touches()));
         }
         const TableDevices::Heard heard = devices_.hear(now);
-        procedure.step({now, heard.report, heard.next, heard.back});
-        std::this_thread::sleep_for(between_frames);
-    }
-    return std::optional<TouchStage>();
+        procedure.step({now, heard.prop, heard.next, heard.back});
+    };
+    return run_rounds(devices_, rounds).map([&](bool ended) {
+        return ended ? std::optional(procedure.stage()) : std::nullopt;
+    });
 }
 
 void TouchTable::stay(const TouchProcedure& procedure) {
-    const MonotonicTime end = monotonic_now() + TableDevices::last_words;
-    while (!devices_.told_to_stop() && monotonic_now() < end && show(procedure, monotonic_now())) {
-        std::this_thread::sleep_for(between_frames);
-    }
+    TableRounds rounds;
+    rounds.show = [&](MonotonicTime now) { return show(procedure, now); };
+    frustumscreen::stay(devices_, rounds);
 }
 
 Result<void> TouchTable::show(const TouchProcedure& procedure, MonotonicTime now) {

@@ -1,0 +1,120 @@
+#include "app/programs/calibrate/eye_table.h"
+
+#include "app/calibration/eye_procedure.h"
+#include "app/calibration/point_files.h"
+#include "app/programs/calibrate/calibration_way.h"
+#include "app/programs/calibrate/eye_picture.h"
+#include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/table_rounds.h"
+
+namespace frustumscreen {
+
+namespace {
+
+bool has_ended(EyeStage stage) {
+    return stage == EyeStage::Done || stage == EyeStage::Left;
+}
+
+/// The procedure on the table.
+class EyeTable {
+public:
+    EyeTable(const Settings& settings, TableDevices& devices) : settings_(settings), devices_(devices) {}
+
+    /// False: it was told to stop.
+    [[nodiscard]] Result<bool> run(EyeProcedure& procedure) {
+        TableRounds rounds = rounds_of(procedure);
+        rounds.has_ended = [&] { return has_ended(procedure.stage()); };
+        rounds.step = [&](MonotonicTime now) {
+            if (procedure.stage() == EyeStage::Solve) {
+                procedure.judge(fit_reported(procedure.sights(), settings_).value()); // its crosses are lit
+            }
+            const TableDevices::Heard heard = devices_.hear(now);
+            procedure.step({now, heard.prop, heard.head, heard.next, heard.back});
+        };
+        return run_rounds(devices_, rounds);
+    }
+    void stay(const EyeProcedure& procedure) { frustumscreen::stay(devices_, rounds_of(procedure)); }
+
+private:
+    [[nodiscard]] TableRounds rounds_of(const EyeProcedure& procedure) {
+        TableRounds rounds;
+        rounds.show = [&](MonotonicTime now) { return show(procedure, now); };
+        return rounds;
+    }
+    [[nodiscard]] Result<void> show(const EyeProcedure& procedure, MonotonicTime now) {
+        const Shown next{procedure.stage(), procedure.word(), procedure.at(),
+                         procedure.table_from_prop().translation};
+        if (next != shown_) {
+            shown_ = next;
+            devices_.say(eye_words(procedure), word_key(procedure));
+            devices_.show(eye_picture(procedure, devices_.typesetter(), devices_.house()));
+        }
+        return devices_.present(now).map([](MonotonicTime) {});
+    }
+
+    /// What the picture depends on.
+    struct Shown {
+        EyeStage stage = EyeStage::Begin;
+        EyeWord word = EyeWord::None;
+        std::size_t at = 0;
+        glm::dvec3 prop_m{0.0};
+        [[nodiscard]] bool operator==(const Shown&) const = default;
+    };
+
+    const Settings& settings_;
+    TableDevices& devices_;
+    std::optional<Shown> shown_;
+};
+
+/// Nothing that was seen is lost.
+Result<void> write_sights(const CalibrateRequest& request, const ReportedSights& sights) {
+    return request.out.empty() || sights.empty() ? Result<void>()
+                                                 : write_file(request.out, as_bytes(sights_text(sights)));
+}
+
+} // namespace
+
+SightScene sight_scene(const Settings& settings) {
+    return {settings.projector.pinhole, settings.projector.table_from_projector, make_prop(settings.prop),
+            settings.eye.default_m};
+}
+
+/// An eye sees the artifact's middle through a face: half the prop's width behind it.
+std::optional<EyeFit> fit_reported(std::span<const ReportedSight> sights, const Settings& settings) {
+    const ProjectorSettings& projector = settings.projector;
+    const std::optional<EyeSights> placed =
+        placed_sights(sights, projector.pinhole, projector.table_from_projector,
+                      settings.tracker.registration.table_from_tracker);
+    return placed ? std::optional(fit_eyes(*placed, 0.5 * settings.prop.base_m)) : std::nullopt;
+}
+
+Result<void> measure_eyes(const Settings& settings, const CalibrateRequest& request) {
+    const Result<std::unique_ptr<TableDevices>> devices =
+        TableDevices::open(request, settings, ", or give --from");
+    if (!devices) {
+        return tl::unexpected<Error>(devices.error());
+    }
+    const Registration& registration = settings.tracker.registration;
+    EyeTable table(settings, **devices);
+    EyeProcedure procedure(sight_scene(settings), registration, why_no_eye(settings));
+    const Result<bool> ended = table.run(procedure);
+    if (const Result<void> written = write_sights(request, procedure.sights()); !written) {
+        return written;
+    }
+    if (!ended) {
+        return tl::unexpected<Error>(ended.error());
+    }
+    Result<void> kept = ended_without(procedure.problem());
+    if (procedure.stage() == EyeStage::Done) {
+        kept = keep_eye(settings, procedure.judged()->eyes->middle_m);
+    }
+    if (procedure.stage() == EyeStage::Done && !kept) { // whoever stands at the table reads no standard error
+        EyeProcedure told(sight_scene(settings), registration, kept.error().message);
+        static_cast<void>(table.run(told));
+    } else if (*ended) {
+        table.stay(procedure);
+    }
+    return kept;
+}
+
+} // namespace frustumscreen

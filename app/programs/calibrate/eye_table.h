@@ -1,0 +1,25 @@
+/// The eyes' place in the head's sensor, measured on the table itself, with the projector, the tracker's sensors of prop and head, and two buttons.
+///
+/// Errors   settings without what it needs, a screen that fails, an end without an eye.
+/// Threads  the main one.
+#pragma once
+
+#include "app/calibration/eye_fit.h"
+#include "app/calibration/sight_plan.h"
+#include "app/programs/calibrate/calibrate_request.h"
+
+#include <optional>
+#include <span>
+
+namespace frustumscreen {
+
+[[nodiscard]] SightScene sight_scene(const Settings& settings);
+
+/// On the settings' table. Nothing: the light of a cross does not come down on it.
+[[nodiscard]] std::optional<EyeFit> fit_reported(std::span<const ReportedSight> sights,
+                                                 const Settings& settings);
+
+/// From the first word on the table to the kept file.
+[[nodiscard]] Result<void> measure_eyes(const Settings& settings, const CalibrateRequest& request);
+
+} // namespace frustumscreen

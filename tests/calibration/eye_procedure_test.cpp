@@ -1,0 +1,512 @@
+// A person with a sensor on the head at the table, played by the report: from the first word to the eyes, and what goes wrong on the way.
+#include "app/calibration/eye_procedure.h"
+#include "app/programs/calibrate/eye_picture.h"
+#include "tests/calibration/simulated_sights.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace frustumscreen {
+namespace {
+
+constexpr Nanoseconds tick = std::chrono::milliseconds(20); // 50 reports a second
+constexpr double base_m = 0.30, top_m = 0.08, height_m = 0.155;
+constexpr double deep_m = 0.5 * base_m;
+
+glm::dquat about(double angle, const glm::dvec3& axis) {
+    return glm::angleAxis(angle, axis);
+}
+
+/// A kiosk of the shipped size with its truth, and what a good calibration makes of it.
+struct World {
+    explicit World(std::uint64_t seed) : numbers(seed), person(some_person(seed)) {
+        truth.pinhole = {1920, 1200, 3600.0, 3605.0, 962.0, 640.0};
+        truth.pinhole.lens.k1 = 0.03;
+        truth.table_from_projector = {about(0.02, {1, 0.3, 0}) * glm::dquat(0.0, 1.0, 0.0, 0.0),
+                                      {0.01, 0.02, 1.5}};
+        truth.table_from_tracker = {numbers.rotation(), 0.4 * numbers.normals()};
+        sensor_from_prop = {numbers.rotation(), 0.04 * numbers.normals()};
+        table_from_prop = {about(numbers.between(-0.4, 0.4), {0, 0, 1}), {0.11, -0.04, 0.0}};
+    }
+    /// As it is kept: half a millimetre beside the truth, and a lens that is not quite it.
+    [[nodiscard]] SightScene scene() {
+        SightScene scene{truth.pinhole,
+                         truth.table_from_projector,
+                         make_frustum({base_m, top_m, height_m}),
+                         {0.0, -0.55, 0.5}};
+        scene.pinhole.lens.k1 += 0.004;
+        scene.table_from_projector.translation += 3e-4 * numbers.normals();
+        return scene;
+    }
+    [[nodiscard]] Registration registration() {
+        Registration kept{truth.table_from_tracker, sensor_from_prop, {}};
+        kept.table_from_tracker.translation += 3e-4 * numbers.normals();
+        return kept;
+    }
+    [[nodiscard]] RigidTransform prop_report() {
+        RigidTransform report =
+            truth.table_from_tracker.inverse() * table_from_prop * sensor_from_prop.inverse();
+        report.translation += 2e-4 * numbers.normals();
+        return report;
+    }
+    /// The prop's true corner that is nearest to where the procedure has it.
+    [[nodiscard]] glm::dvec3 corner_near(const glm::dvec3& place) const {
+        glm::dvec3 nearest(1e9);
+        for (const glm::dvec2 side :
+             {glm::dvec2(1, 1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(-1, -1)}) {
+            const glm::dvec3 corner = table_from_prop.point({0.5 * top_m * side, height_m});
+            nearest = glm::distance(corner, place) < glm::distance(nearest, place) ? corner : nearest;
+        }
+        return nearest;
+    }
+    /// Whether a point of the table's space lies in the prop: by its width at that height.
+    [[nodiscard]] bool is_in_prop(const glm::dvec3& point) const {
+        const glm::dvec3 p = table_from_prop.inverse().point(point);
+        const double half = 0.5 * (base_m + (top_m - base_m) * p.z / height_m);
+        return p.z > 0.0 && p.z < height_m && std::fmax(std::abs(p.x), std::abs(p.y)) < half;
+    }
+
+    SeededNumbers numbers;
+    SimulatedPerson person;
+    CalibratedTable truth;
+    RigidTransform sensor_from_prop, table_from_prop;
+};
+
+/// How well somebody does what is asked.
+struct Manner {
+    double turn = 0.4, nod = 0.3; ///< how far the head is turned, its chin lifted or lowered
+    SightNoise noise;
+    double spread = 0.08; ///< by chance, of each angle
+};
+
+class Live {
+public:
+    explicit Live(std::uint64_t seed, const Manner& manner = {})
+        : world(seed), manner(manner), procedure(world.scene(), world.registration()) {}
+
+    void step(bool next = false, bool back = false) {
+        now += tick;
+        std::optional<RigidTransform> prop, head;
+        if (sees_prop) {
+            prop = world.prop_report();
+        }
+        if (sees_head) {
+            head = trembling();
+        }
+        procedure.step({now, prop, head, next, back});
+    }
+    void wait(double seconds) {
+        for (int k = 0; k < static_cast<int>(50.0 * seconds); ++k) {
+            step();
+        }
+    }
+    void next() { step(true, false); }
+    void back() { step(false, true); }
+    /// To the first eye that is to be shut.
+    void begin() {
+        wait(0.2);
+        next();
+        wait(1.5);
+    }
+    /// The true eye on the line from the true cross through the true corner; the head as it is asked for.
+    void aim() {
+        const AskedSight& asked = procedure.asked();
+        const SightCross& shown = procedure.cross();
+        const glm::dvec3 cross = true_light(world.truth, shown.pixel, 0.0) + cross_aside_m;
+        const glm::dvec3 tip = world.corner_near(shown.tip_m);
+        ASSERT_LT(glm::distance(tip, shown.tip_m), 3e-3) << "what is lit is a corner";
+        const glm::dvec3 way = tip - cross;
+        const double times = world.numbers.between(0.4, 0.55) / std::hypot(way.x, way.y);
+        eye_m = tip + times * way + (1.0 + times) * manner.noise.aim_m * world.numbers.normals();
+        const double left = asked.posture == HeadPosture::TurnedLeft    ? 1.0
+                            : asked.posture == HeadPosture::TurnedRight ? -1.0
+                                                                        : 0.0;
+        const double up = asked.posture == HeadPosture::ChinUp     ? 1.0
+                          : asked.posture == HeadPosture::ChinDown ? -1.0
+                                                                   : 0.0;
+        const auto by_chance = [&] { return manner.spread * world.numbers.between(-1.0, 1.0); };
+        const double ahead =
+            std::atan2(way.x, -way.y); // of the eye, from the cross: it looks back along that
+        const glm::dquat table_from_head = about(ahead + left * manner.turn + by_chance(), {0, 0, 1}) *
+                                           about(up * manner.nod - 0.45 + by_chance(), {1, 0, 0}) *
+                                           about(by_chance(), {0, 1, 0});
+        const glm::dquat rotation = table_from_head * world.person.head_from_sensor;
+        const glm::dvec3 in_sensor = asked.eye == open ? eye_of(asked.eye) : eye_of(open);
+        const glm::dvec3 turned = manner.noise.head_rad * world.numbers.normals();
+        const glm::dquat off(1.0, 0.5 * turned.x, 0.5 * turned.y, 0.5 * turned.z);
+        table_from_sensor = {glm::normalize(off) * rotation,
+                             eye_m - rotation * in_sensor + manner.noise.head_m * world.numbers.normals()};
+    }
+    [[nodiscard]] glm::dvec3 eye_of(OpenEye eye) const {
+        return eye == OpenEye::Left ? world.person.left_m : world.person.right_m;
+    }
+    /// One sighting, as it is asked for.
+    void sight() {
+        if (procedure.stage() == EyeStage::Shut) {
+            open = procedure.asked().eye;
+            next();
+        }
+        ASSERT_EQ(procedure.stage(), EyeStage::Aim) << static_cast<int>(procedure.word());
+        aim();
+        wait(0.3);
+        next();
+        wait(1.1);
+    }
+    void sight_all() {
+        for (int k = 0; k < 60 && procedure.stage() != EyeStage::Solve; ++k) {
+            sight();
+        }
+    }
+    [[nodiscard]] EyeFit fit() {
+        const auto placed = placed_sights(procedure.sights(), procedure.scene().pinhole,
+                                          procedure.scene().table_from_projector, kept_table_from_tracker());
+        return fit_eyes(*placed, deep_m);
+    }
+    void judge() {
+        ASSERT_EQ(procedure.stage(), EyeStage::Solve);
+        procedure.judge(fit());
+    }
+    [[nodiscard]] RigidTransform kept_table_from_tracker() const { return world.truth.table_from_tracker; }
+
+    World world;
+    Manner manner;
+    EyeProcedure procedure;
+    MonotonicTime now = from_microseconds(1'000'000);
+    bool sees_prop = true, sees_head = true;
+    OpenEye open = OpenEye::Left; ///< which one really is
+    glm::dvec3 cross_aside_m{0.0};
+    glm::dvec3 eye_m{0.0};
+    RigidTransform table_from_sensor{{1.0, 0.0, 0.0, 0.0}, {0.0, -0.6, 0.55}};
+
+private:
+    /// A head sways by a millimetre or two, and the tracker adds its noise.
+    [[nodiscard]] RigidTransform trembling() {
+        const double t = to_seconds(now.time_since_epoch());
+        RigidTransform head = table_from_sensor;
+        head.translation +=
+            glm::dvec3(1.5e-3 * std::sin(5.0 * t), 1.5e-3 * std::cos(3.7 * t), 5e-4 * std::sin(11.0 * t));
+        head.translation += 3e-4 * world.numbers.normals();
+        head.rotation = about(5e-3 * std::sin(4.0 * t), {1, 0, 0}) * head.rotation;
+        return world.truth.table_from_tracker.inverse() * head;
+    }
+};
+
+bool may_be_kept(Verdict verdict) {
+    return verdict == Verdict::Good || verdict == Verdict::Usable;
+}
+
+/// Of so many people: how many end with an eye, and how far that is off.
+struct Outcome {
+    int good = 0, kept = 0;
+    double off_mm = 0.0; ///< root mean square
+};
+
+Outcome outcome_of(const char* name, int people, const Manner& manner) {
+    Outcome outcome;
+    for (int seed = 1; seed <= people; ++seed) {
+        Live live(static_cast<std::uint64_t>(seed), manner);
+        live.begin();
+        live.sight_all();
+        const EyeFit fit = live.fit();
+        outcome.good += fit.verdict == Verdict::Good ? 1 : 0;
+        outcome.kept += may_be_kept(fit.verdict) ? 1 : 0;
+        if (fit.eyes) {
+            const glm::dvec3 off = fit.eyes->middle_m - live.world.person.middle_m();
+            outcome.off_mm += 1e6 * glm::dot(off, off) / people;
+        }
+    }
+    outcome.off_mm = std::sqrt(outcome.off_mm);
+    std::printf("%s: good %d, good or usable %d of %d; off by %.1f mm\n", name, outcome.good, outcome.kept,
+                people, outcome.off_mm);
+    return outcome;
+}
+
+TEST(EyeProcedure, ThePosturesThatAreAskedForTellWhereTheEyesAre) {
+    const Outcome usual = outcome_of("as asked", 40, {});
+    EXPECT_GE(usual.kept, 38);
+    EXPECT_LT(usual.off_mm, 8.0);
+    Manner half;
+    half.turn = 0.2;
+    half.nod = 0.15;
+    const Outcome less = outcome_of("half as far", 40, half);
+    EXPECT_GE(less.kept, 20);
+    Manner more = half;
+    more.turn = 0.6;
+    more.nod = 0.4;
+    EXPECT_LT(outcome_of("farther", 40, more).off_mm, usual.off_mm);
+}
+
+TEST(EyeProcedure, EachCrossIsLitAndSeenAndAimedAtWithoutAStep) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        Live live(seed);
+        live.begin();
+        std::set<std::pair<int, int>> places;
+        for (std::size_t k = 0; k < EyeProcedure::of_each; ++k) {
+            live.sight();
+            const SightCross& shown = live.procedure.cross();
+            if (live.procedure.stage() != EyeStage::Aim) {
+                break;
+            }
+            live.aim();
+            places.insert({std::lround(shown.pixel.x / 20.0), std::lround(shown.pixel.y / 20.0)});
+            EXPECT_GT(shown.pixel.x, 40.0);
+            EXPECT_LT(shown.pixel.x, 1880.0);
+            EXPECT_GT(shown.pixel.y, 40.0);
+            EXPECT_LT(shown.pixel.y, 1160.0);
+            const double apart = glm::distance(glm::dvec2(shown.tip_m), glm::dvec2(shown.cross_m));
+            EXPECT_GT(apart, 0.10);
+            EXPECT_LT(apart, 0.25);
+            const glm::dvec3 cross = true_light(live.world.truth, shown.pixel, 0.0);
+            const glm::dvec3 tip = live.world.corner_near(shown.tip_m);
+            for (double share = 0.0; share < 0.99; share += 0.01) {
+                EXPECT_FALSE(live.world.is_in_prop(glm::mix(cross, tip, share)));
+                EXPECT_FALSE(live.world.is_in_prop(glm::mix(live.eye_m, tip, share)));
+                EXPECT_FALSE(live.world.is_in_prop(
+                    glm::mix(cross, live.world.truth.table_from_projector.translation, share)));
+            }
+            EXPECT_LT(live.eye_m.y, -0.25) << "over the table's front edge or before it";
+            EXPECT_GT(live.eye_m.z, 0.3);
+            EXPECT_LT(live.eye_m.z, 0.8);
+            EXPECT_LT(std::abs(live.eye_m.x), 0.35);
+        }
+        EXPECT_GE(places.size(), EyeProcedure::of_each - 1) << "another place each time";
+    }
+}
+
+TEST(EyeProcedure, FromTheFirstWordToAnEyeThatIsKept) {
+    Live live(7);
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Begin);
+    EXPECT_EQ(live.procedure.count(), 12U);
+    live.begin();
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Shut);
+    EXPECT_EQ(live.procedure.asked().eye, OpenEye::Left);
+    EXPECT_EQ(eye_words(live.procedure)[0], "Shut your right eye");
+    for (std::size_t k = 0; k < 12; ++k) {
+        EXPECT_EQ(live.procedure.at(), k);
+        EXPECT_EQ(live.procedure.asked().eye, k < 6 ? OpenEye::Left : OpenEye::Right);
+        EXPECT_EQ(live.procedure.stage(), k % 6 == 0 ? EyeStage::Shut : EyeStage::Aim);
+        live.sight();
+    }
+    live.judge();
+    ASSERT_TRUE(may_be_kept(live.procedure.judged()->verdict)) << live.procedure.judged()->reason;
+    const glm::dvec3 off = live.procedure.judged()->eyes->middle_m - live.world.person.middle_m();
+    EXPECT_LT(glm::length(off), 0.02);
+    live.next();
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Done);
+    live.wait(1.0);
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Done);
+}
+
+TEST(EyeProcedure, APropThatIsPushedIsTakenAnewAndNothingIsLost) {
+    Live live(3);
+    live.begin();
+    for (int k = 0; k < 4; ++k) {
+        live.sight();
+    }
+    const glm::dvec3 before = live.procedure.sights().front().tip_m;
+    live.world.table_from_prop.translation += glm::dvec3(-0.02, 0.015, 0.0);
+    live.world.table_from_prop.rotation = about(0.1, {0, 0, 1}) * live.world.table_from_prop.rotation;
+    live.wait(0.2);
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Rest);
+    EXPECT_EQ(live.procedure.word(), EyeWord::PropMoved);
+    EXPECT_NE(eye_words(live.procedure).back().find("pushed"), std::string::npos);
+    live.wait(1.2);
+    ASSERT_EQ(live.procedure.stage(), EyeStage::Aim);
+    EXPECT_EQ(live.procedure.word(), EyeWord::PropMoved) << "it is still to be read";
+    EXPECT_EQ(live.procedure.at(), 4U);
+    live.aim();
+    live.next();
+    live.wait(0.4);
+    live.world.table_from_prop.translation.x += 0.01; // and once more, in the second
+    live.wait(0.2);
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Rest);
+    live.wait(1.2);
+    live.sight_all();
+    EXPECT_EQ(live.procedure.sights().front().tip_m, before) << "it keeps its own corner";
+    live.judge();
+    EXPECT_TRUE(may_be_kept(live.procedure.judged()->verdict)) << live.procedure.judged()->reason;
+}
+
+TEST(EyeProcedure, AWrongAimComesAgainByItself) {
+    Live live(5);
+    live.begin();
+    for (int k = 0; k < 8; ++k) {
+        live.cross_aside_m = k == 2 ? glm::dvec3(0.04, 0.0, 0.0) : glm::dvec3(0.0);
+        live.sight();
+    }
+    live.sight_all();
+    live.judge();
+    ASSERT_EQ(live.procedure.judged()->verdict, Verdict::Repeat) << live.procedure.judged()->reason;
+    ASSERT_EQ(live.procedure.judged()->repeat, (std::vector<std::size_t>{2}));
+    EXPECT_FALSE(live.procedure.asks_for_more());
+    live.next();
+    live.wait(0.1);
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Shut) << "both eyes may be open since";
+    EXPECT_EQ(live.procedure.at(), 2U);
+    live.sight();
+    live.judge();
+    EXPECT_TRUE(may_be_kept(live.procedure.judged()->verdict)) << live.procedure.judged()->reason;
+    live.back(); // the farthest off again
+    live.wait(0.1);
+    const std::vector<double>& off = live.procedure.judged()->residuals_m;
+    EXPECT_EQ(static_cast<std::ptrdiff_t>(live.procedure.at()),
+              std::max_element(off.begin(), off.end()) - off.begin());
+}
+
+TEST(EyeProcedure, AHeadThatIsAlwaysHeldAlikeIsToldAndRefused) {
+    Manner alike;
+    alike.turn = alike.nod = alike.spread = 0.0;
+    Live stiff(6, alike);
+    stiff.begin();
+    stiff.sight();
+    stiff.sight();
+    EXPECT_EQ(stiff.procedure.word(), EyeWord::SameHead);
+    EXPECT_EQ(stiff.procedure.at(), 1U) << "it is not taken";
+    alike.turn = 0.13; // just enough from one to the next, and too little to tell anything
+    alike.nod = 0.1;
+    Live live(6, alike);
+    live.begin();
+    live.sight_all();
+    live.judge();
+    ASSERT_EQ(live.procedure.judged()->verdict, Verdict::Refused);
+    EXPECT_NE(eye_words(live.procedure)[1].find("turn the head, and the chin up and down"), std::string::npos)
+        << eye_words(live.procedure)[1];
+    live.next();
+    live.wait(0.1);
+    EXPECT_EQ(live.procedure.at(), 0U);
+    EXPECT_TRUE(live.procedure.sights().empty());
+}
+
+TEST(EyeProcedure, WhatTheTrackerDoesNotSeeIsSaid) {
+    Live nobody(8);
+    nobody.sees_prop = false;
+    nobody.begin();
+    nobody.wait(1.0);
+    EXPECT_EQ(nobody.procedure.stage(), EyeStage::Rest);
+    EXPECT_EQ(nobody.procedure.word(), EyeWord::PropNotSeen);
+    Live live(8);
+    live.sees_head = false;
+    live.begin();
+    live.wait(1.0);
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Rest);
+    EXPECT_EQ(live.procedure.word(), EyeWord::HeadNotSeen);
+    live.sees_head = true;
+    live.wait(0.1);
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Shut) << "the prop has rested meanwhile";
+    live.sight();
+    live.aim();
+    live.next();
+    live.wait(0.5);
+    live.sees_head = false; // its cable came off
+    live.wait(2.2);
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Aim);
+    EXPECT_EQ(live.procedure.word(), EyeWord::HeadNotSeen);
+    EXPECT_EQ(live.procedure.at(), 1U);
+    live.sees_head = true;
+    live.sees_prop = false;
+    live.wait(2.2);
+    live.next();
+    live.wait(0.1);
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Aim);
+    EXPECT_EQ(live.procedure.word(), EyeWord::PropNotSeen);
+    live.sees_prop = true;
+    live.sight();
+    EXPECT_EQ(live.procedure.at(), 2U);
+}
+
+TEST(EyeProcedure, AHeadThatMovesBeginsItsSecondAnew) {
+    Live live(9);
+    live.begin();
+    live.next(); // the right eye is shut
+    live.aim();
+    live.next();
+    live.wait(0.7);
+    live.table_from_sensor.translation.x += 0.02;
+    live.wait(0.7);
+    EXPECT_EQ(live.procedure.stage(), EyeStage::HoldStill);
+    EXPECT_EQ(live.procedure.word(), EyeWord::HeadMoved);
+    live.back();
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Aim);
+    live.sight();
+    EXPECT_EQ(live.procedure.at(), 1U);
+}
+
+TEST(EyeProcedure, BackDoesTheSightingBeforeAgainAndLeavesAtTheBeginning) {
+    Live live(10);
+    live.begin();
+    live.back();
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Begin);
+    live.begin();
+    for (int k = 0; k < 6; ++k) {
+        live.sight();
+    }
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Shut);
+    live.back();
+    EXPECT_EQ(live.procedure.at(), 5U);
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Aim) << "that eye is still the open one";
+    EXPECT_EQ(live.procedure.sights().size(), 5U);
+    for (int k = 0; k < 6; ++k) {
+        live.back();
+    }
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Begin);
+    live.back();
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Left);
+}
+
+TEST(EyeProcedure, WhoDoesNothingLeaves) {
+    Live live(11);
+    live.wait(59.0);
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Begin);
+    live.wait(2.0);
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Left);
+    Live later(11);
+    later.begin();
+    later.now += EyeProcedure::to_go_on;
+    later.step();
+    EXPECT_EQ(later.procedure.stage(), EyeStage::Left);
+}
+
+TEST(EyeProcedure, APlaceThatDoesNotDoIsSaid) {
+    Live live(12);
+    live.world.table_from_prop.translation.z = 0.03;
+    live.begin();
+    EXPECT_EQ(live.procedure.word(), EyeWord::OffTable);
+    live.world.table_from_prop.translation = {0.0, 0.3, 0.0}; // nothing lights the table behind it
+    live.wait(1.5);
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Rest);
+    EXPECT_EQ(live.procedure.word(), EyeWord::NoRoom);
+    live.world.table_from_prop.translation = {0.1, -0.05, 0.0};
+    live.wait(0.1);
+    EXPECT_EQ(live.procedure.word(), EyeWord::PropMoves);
+    live.wait(1.2);
+    EXPECT_EQ(live.procedure.stage(), EyeStage::Shut);
+    const EyeProcedure cannot(live.world.scene(), live.world.registration(), "no calibration is kept");
+    EXPECT_EQ(eye_words(cannot)[1], "No calibration is kept.");
+}
+
+TEST(EyeProcedure, SightingsThatAreTooFewBringMore) {
+    Live live(13);
+    live.begin();
+    live.sight_all();
+    EyeFit few = live.fit();
+    few.verdict = Verdict::Repeat;
+    few.repeat.clear();
+    live.procedure.judge(few);
+    EXPECT_TRUE(live.procedure.asks_for_more());
+    live.next();
+    live.wait(0.1);
+    EXPECT_EQ(live.procedure.count(), 16U);
+    EXPECT_EQ(live.procedure.at(), 12U);
+    EXPECT_EQ(live.procedure.asked().eye, OpenEye::Left);
+    live.sight_all();
+    EXPECT_EQ(live.procedure.sights().size(), 16U);
+    live.judge();
+    EXPECT_TRUE(may_be_kept(live.procedure.judged()->verdict));
+}
+
+} // namespace
+} // namespace frustumscreen
