@@ -18,7 +18,7 @@ build/release/tests/draw_staff_picture "$guide/staff.png"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 build/release/tests/draw_calibration_pictures "$folder"
-cp "$folder/calibrate_cross.png" "$folder/camera_rest.png" "$guide/"
+cp "$folder/calibrate_cross.png" "$folder/camera_rest.png" "$folder/eyes_cross.png" "$guide/"
 cd "$folder"
 # A stick with a pack that is signed and one that is not, taken in by the importer itself.
 mkdir stick library keys

@@ -20,7 +20,8 @@ struct StillLimits {
 class StillReports {
 public:
     /// `strays`: so many reports in a row lie elsewhere: it moved; fewer are left out.
-    explicit StillReports(int strays, const StillLimits& limits = {}) : strays_(strays), limits_(limits) {}
+    explicit StillReports(int strays) : strays_(strays) {}
+    StillReports(int strays, StillLimits limits) : strays_(strays), limits_(limits) {}
 
     /// False: it moved, and a new rest begins with this report.
     bool add(MonotonicTime now, const RigidTransform& report);

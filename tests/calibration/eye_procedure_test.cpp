@@ -1,199 +1,14 @@
 // A person with a sensor on the head at the table, played by the report: from the first word to the eyes, and what goes wrong on the way.
-#include "app/calibration/eye_procedure.h"
 #include "app/programs/calibrate/eye_picture.h"
-#include "tests/calibration/simulated_sights.h"
+#include "tests/calibration/person_at_table.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 namespace frustumscreen {
 namespace {
-
-constexpr Nanoseconds tick = std::chrono::milliseconds(20); // 50 reports a second
-constexpr double base_m = 0.30, top_m = 0.08, height_m = 0.155;
-constexpr double deep_m = 0.5 * base_m;
-
-glm::dquat about(double angle, const glm::dvec3& axis) {
-    return glm::angleAxis(angle, axis);
-}
-
-/// A kiosk of the shipped size with its truth, and what a good calibration makes of it.
-struct World {
-    explicit World(std::uint64_t seed) : numbers(seed), person(some_person(seed)) {
-        truth.pinhole = {1920, 1200, 3600.0, 3605.0, 962.0, 640.0};
-        truth.pinhole.lens.k1 = 0.03;
-        truth.table_from_projector = {about(0.02, {1, 0.3, 0}) * glm::dquat(0.0, 1.0, 0.0, 0.0),
-                                      {0.01, 0.02, 1.5}};
-        truth.table_from_tracker = {numbers.rotation(), 0.4 * numbers.normals()};
-        sensor_from_prop = {numbers.rotation(), 0.04 * numbers.normals()};
-        table_from_prop = {about(numbers.between(-0.4, 0.4), {0, 0, 1}), {0.11, -0.04, 0.0}};
-    }
-    /// As it is kept: half a millimetre beside the truth, and a lens that is not quite it.
-    [[nodiscard]] SightScene scene() {
-        SightScene scene{truth.pinhole,
-                         truth.table_from_projector,
-                         make_frustum({base_m, top_m, height_m}),
-                         {0.0, -0.55, 0.5}};
-        scene.pinhole.lens.k1 += 0.004;
-        scene.table_from_projector.translation += 3e-4 * numbers.normals();
-        return scene;
-    }
-    [[nodiscard]] Registration registration() {
-        Registration kept{truth.table_from_tracker, sensor_from_prop, {}};
-        kept.table_from_tracker.translation += 3e-4 * numbers.normals();
-        return kept;
-    }
-    [[nodiscard]] RigidTransform prop_report() {
-        RigidTransform report =
-            truth.table_from_tracker.inverse() * table_from_prop * sensor_from_prop.inverse();
-        report.translation += 2e-4 * numbers.normals();
-        return report;
-    }
-    /// The prop's true corner that is nearest to where the procedure has it.
-    [[nodiscard]] glm::dvec3 corner_near(const glm::dvec3& place) const {
-        glm::dvec3 nearest(1e9);
-        for (const glm::dvec2 side :
-             {glm::dvec2(1, 1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(-1, -1)}) {
-            const glm::dvec3 corner = table_from_prop.point({0.5 * top_m * side, height_m});
-            nearest = glm::distance(corner, place) < glm::distance(nearest, place) ? corner : nearest;
-        }
-        return nearest;
-    }
-    /// Whether a point of the table's space lies in the prop: by its width at that height.
-    [[nodiscard]] bool is_in_prop(const glm::dvec3& point) const {
-        const glm::dvec3 p = table_from_prop.inverse().point(point);
-        const double half = 0.5 * (base_m + (top_m - base_m) * p.z / height_m);
-        return p.z > 0.0 && p.z < height_m && std::fmax(std::abs(p.x), std::abs(p.y)) < half;
-    }
-
-    SeededNumbers numbers;
-    SimulatedPerson person;
-    CalibratedTable truth;
-    RigidTransform sensor_from_prop, table_from_prop;
-};
-
-/// How well somebody does what is asked.
-struct Manner {
-    double turn = 0.4, nod = 0.3; ///< how far the head is turned, its chin lifted or lowered
-    SightNoise noise;
-    double spread = 0.08; ///< by chance, of each angle
-};
-
-class Live {
-public:
-    explicit Live(std::uint64_t seed, const Manner& manner = {})
-        : world(seed), manner(manner), procedure(world.scene(), world.registration()) {}
-
-    void step(bool next = false, bool back = false) {
-        now += tick;
-        std::optional<RigidTransform> prop, head;
-        if (sees_prop) {
-            prop = world.prop_report();
-        }
-        if (sees_head) {
-            head = trembling();
-        }
-        procedure.step({now, prop, head, next, back});
-    }
-    void wait(double seconds) {
-        for (int k = 0; k < static_cast<int>(50.0 * seconds); ++k) {
-            step();
-        }
-    }
-    void next() { step(true, false); }
-    void back() { step(false, true); }
-    /// To the first eye that is to be shut.
-    void begin() {
-        wait(0.2);
-        next();
-        wait(1.5);
-    }
-    /// The true eye on the line from the true cross through the true corner; the head as it is asked for.
-    void aim() {
-        const AskedSight& asked = procedure.asked();
-        const SightCross& shown = procedure.cross();
-        const glm::dvec3 cross = true_light(world.truth, shown.pixel, 0.0) + cross_aside_m;
-        const glm::dvec3 tip = world.corner_near(shown.tip_m);
-        ASSERT_LT(glm::distance(tip, shown.tip_m), 3e-3) << "what is lit is a corner";
-        const glm::dvec3 way = tip - cross;
-        const double times = world.numbers.between(0.4, 0.55) / std::hypot(way.x, way.y);
-        eye_m = tip + times * way + (1.0 + times) * manner.noise.aim_m * world.numbers.normals();
-        const double left = asked.posture == HeadPosture::TurnedLeft    ? 1.0
-                            : asked.posture == HeadPosture::TurnedRight ? -1.0
-                                                                        : 0.0;
-        const double up = asked.posture == HeadPosture::ChinUp     ? 1.0
-                          : asked.posture == HeadPosture::ChinDown ? -1.0
-                                                                   : 0.0;
-        const auto by_chance = [&] { return manner.spread * world.numbers.between(-1.0, 1.0); };
-        const double ahead =
-            std::atan2(way.x, -way.y); // of the eye, from the cross: it looks back along that
-        const glm::dquat table_from_head = about(ahead + left * manner.turn + by_chance(), {0, 0, 1}) *
-                                           about(up * manner.nod - 0.45 + by_chance(), {1, 0, 0}) *
-                                           about(by_chance(), {0, 1, 0});
-        const glm::dquat rotation = table_from_head * world.person.head_from_sensor;
-        const glm::dvec3 in_sensor = asked.eye == open ? eye_of(asked.eye) : eye_of(open);
-        const glm::dvec3 turned = manner.noise.head_rad * world.numbers.normals();
-        const glm::dquat off(1.0, 0.5 * turned.x, 0.5 * turned.y, 0.5 * turned.z);
-        table_from_sensor = {glm::normalize(off) * rotation,
-                             eye_m - rotation * in_sensor + manner.noise.head_m * world.numbers.normals()};
-    }
-    [[nodiscard]] glm::dvec3 eye_of(OpenEye eye) const {
-        return eye == OpenEye::Left ? world.person.left_m : world.person.right_m;
-    }
-    /// One sighting, as it is asked for.
-    void sight() {
-        if (procedure.stage() == EyeStage::Shut) {
-            open = procedure.asked().eye;
-            next();
-        }
-        ASSERT_EQ(procedure.stage(), EyeStage::Aim) << static_cast<int>(procedure.word());
-        aim();
-        wait(0.3);
-        next();
-        wait(1.1);
-    }
-    void sight_all() {
-        for (int k = 0; k < 60 && procedure.stage() != EyeStage::Solve; ++k) {
-            sight();
-        }
-    }
-    [[nodiscard]] EyeFit fit() {
-        const auto placed = placed_sights(procedure.sights(), procedure.scene().pinhole,
-                                          procedure.scene().table_from_projector, kept_table_from_tracker());
-        return fit_eyes(*placed, deep_m);
-    }
-    void judge() {
-        ASSERT_EQ(procedure.stage(), EyeStage::Solve);
-        procedure.judge(fit());
-    }
-    [[nodiscard]] RigidTransform kept_table_from_tracker() const { return world.truth.table_from_tracker; }
-
-    World world;
-    Manner manner;
-    EyeProcedure procedure;
-    MonotonicTime now = from_microseconds(1'000'000);
-    bool sees_prop = true, sees_head = true;
-    OpenEye open = OpenEye::Left; ///< which one really is
-    glm::dvec3 cross_aside_m{0.0};
-    glm::dvec3 eye_m{0.0};
-    RigidTransform table_from_sensor{{1.0, 0.0, 0.0, 0.0}, {0.0, -0.6, 0.55}};
-
-private:
-    /// A head sways by a millimetre or two, and the tracker adds its noise.
-    [[nodiscard]] RigidTransform trembling() {
-        const double t = to_seconds(now.time_since_epoch());
-        RigidTransform head = table_from_sensor;
-        head.translation +=
-            glm::dvec3(1.5e-3 * std::sin(5.0 * t), 1.5e-3 * std::cos(3.7 * t), 5e-4 * std::sin(11.0 * t));
-        head.translation += 3e-4 * world.numbers.normals();
-        head.rotation = about(5e-3 * std::sin(4.0 * t), {1, 0, 0}) * head.rotation;
-        return world.truth.table_from_tracker.inverse() * head;
-    }
-};
 
 bool may_be_kept(Verdict verdict) {
     return verdict == Verdict::Good || verdict == Verdict::Usable;
@@ -238,6 +53,14 @@ TEST(EyeProcedure, ThePosturesThatAreAskedForTellWhereTheEyesAre) {
     more.turn = 0.6;
     more.nod = 0.4;
     EXPECT_LT(outcome_of("farther", 40, more).off_mm, usual.off_mm);
+}
+
+TEST(EyeProcedure, APropThatIsTurnedInItsSensorOtherwiseThanKeptIsNoticedAtTenDegrees) {
+    Manner manner; // touches do not tell that turn; below, the dot of light beside the corner tells it
+    manner.kept_turn_rad = glm::radians(4.0);
+    EXPECT_LT(outcome_of("prop turned by 4 degrees", 40, manner).off_mm, 15.0);
+    manner.kept_turn_rad = glm::radians(10.0);
+    EXPECT_EQ(outcome_of("prop turned by 10 degrees", 40, manner).kept, 0);
 }
 
 TEST(EyeProcedure, EachCrossIsLitAndSeenAndAimedAtWithoutAStep) {

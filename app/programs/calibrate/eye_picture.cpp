@@ -112,7 +112,8 @@ std::vector<std::string> words_of_begin(const EyeProcedure& procedure) {
 
 std::vector<std::string> words_of_shut(OpenEye open) {
     return {fmt::format("Shut your {} eye", open == OpenEye::Left ? "right" : "left"),
-            fmt::format("Look with the {} one alone, until you are asked for the other. Then press Next.",
+            fmt::format("Or cover it with your hand. Look with the {} one alone, until you are asked for the "
+                        "other. Then press Next.",
                         name_of(open))};
 }
 

@@ -1,6 +1,6 @@
 /// Says aloud what the table shows, in the house's language.
 ///
-/// Threads  one caller. All is decoded at the beginning: some forty short sentences, in less than a second.
+/// Threads  one caller. All is decoded at the beginning: some sixty short sentences.
 /// Errors   what cannot be decoded is silent.
 #pragma once
 

@@ -11,7 +11,7 @@ namespace frustumscreen {
 std::string as_sentence(std::string reason) {
     if (!reason.empty()) {
         reason.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(reason.front())));
-        reason += '.';
+        reason += reason.back() == '?' ? "" : ".";
     }
     return reason;
 }
