@@ -18,8 +18,12 @@ constexpr std::array postures{HeadPosture::ChinUp,      HeadPosture::TurnedLeft,
 } // namespace
 
 EyeProcedure::EyeProcedure(SightScene scene, const Registration& registration, std::string problem)
-    : scene_(std::move(scene)), registration_(registration), problem_(std::move(problem)),
-      wished_words_(plan_sights(scene_, wished_place(scene_), scene_.usual_eye_m, 0).words) {
+    : scene_(std::move(scene)), registration_(registration), problem_(std::move(problem)) {
+    const SightPlan wished = plan_sights(scene_, wished_place(scene_), scene_.usual_eye_m, least_crosses);
+    wished_words_ = wished.words;
+    if (problem_.empty() && wished.crosses.size() < least_crosses) {
+        problem_ = "the picture is too small for crosses behind a prop of this size";
+    }
     ask(0, of_each);
 }
 

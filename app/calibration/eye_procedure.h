@@ -79,7 +79,7 @@ public:
         0.1; ///< of the line of sight in the head, from one sighting to the next, at least
     static constexpr double off_table_m = 0.015;
 
-    /// `problem`: a sentence on why it cannot be done; empty: it can.
+    /// `problem`: half a sentence on why it cannot be done; empty: it can, unless the picture is too small.
     EyeProcedure(SightScene scene, const Registration& registration, std::string problem = {});
 
     struct Input {

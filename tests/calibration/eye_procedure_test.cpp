@@ -309,6 +309,9 @@ TEST(EyeProcedure, APlaceThatDoesNotDoIsSaid) {
     EXPECT_EQ(live.procedure.stage(), EyeStage::Shut);
     const EyeProcedure cannot(live.world.scene(), live.world.registration(), "no calibration is kept");
     EXPECT_EQ(eye_words(cannot)[1], "No calibration is kept.");
+    SightScene small = live.world.scene();
+    small.table_from_projector.translation.z = 0.7; // a picture of 37 x 23 cm
+    EXPECT_NE(eye_words(EyeProcedure(small, {}))[1].find("too small for crosses"), std::string::npos);
 }
 
 TEST(EyeProcedure, SightingsThatAreTooFewBringMore) {
