@@ -50,22 +50,25 @@ class Table(unittest.TestCase):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.config = self.folder / "kiosk.toml"
 
-    def write(self, presses_s):
-        script = ", ".join(f"{{ at_s = {at:.2f}, button = 1 }}" for at in presses_s)
+    def write(self, presses_s, back_s=None):
+        presses = [(at, 1) for at in presses_s] + ([(back_s, 0)] if back_s else [])
+        script = ", ".join(f"{{ at_s = {at:.2f}, button = {button} }}" for at, button in presses)
         self.config.write_text(SETTINGS.replace("{script}", script).replace("{sensor_m}", str(SENSOR_M)))
 
     def run_program(self, *words):
         return subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=120, check=False)
 
-    def record(self, crosses, truth):
+    def record(self, crosses, truth, head=None):
         """The prop on one cross after the other; the tracker's frame is the table's, turned and shifted."""
         rows = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]
-        end_s = EACH_S * len(crosses) + 6.0
+        end_s = EACH_S * len(crosses) + 12.0
         for k in range(int(50 * end_s)):
             cross = crosses[min(int(k / 50 / EACH_S), len(crosses) - 1)]
             place = truth.light(cross["u_px"], cross["v_px"], cross["block_m"])
             report = truth.report(place, math.radians(cross["turn_deg"]), SENSOR_M)
-            rows.append(f"{k * 20000},1," + ",".join(f"{value:.9f}" for value in report) + ",1")
+            for station, report in ((1, report), (2, head)):
+                if report:
+                    rows.append(f"{k * 20000},{station}," + ",".join(f"{value:.9f}" for value in report) + ",1")
         (self.folder / "poses.csv").write_text("\n".join(rows) + "\n")
 
     def test_from_the_first_cross_to_the_kept_file(self):
@@ -82,6 +85,7 @@ class Table(unittest.TestCase):
         done = self.run_program("table", "--config", self.config, "--headless", "--out", self.folder / "touches.csv")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(len((self.folder / "touches.csv").read_text().splitlines()), 10)
+        self.assertNotIn("where are the eyes", done.stderr)  # there is no head's sensor
         self.check_kept(0.4)
         self.check_listed()
 
@@ -178,10 +182,13 @@ class Table(unittest.TestCase):
         (kept / "calibration-0001.toml").write_text(truth.calibration(SENSOR_M))
         crosses = json.loads(self.run_program("table", "--touch-up", "--config", self.config, "--json").stdout)["crosses"][:7]
         truth.place = (0.066, -0.034, 1.445)  # the projector was bumped by 10 mm
-        self.record(crosses, truth)
-        self.write([BEGIN_S] + [EACH_S * k + PRESS_S for k in range(7)] + [EACH_S * 7 + 2.0])
-        done = self.run_program("table", "--config", self.config, "--headless")
+        self.record(crosses, truth, truth.report((0.0, -0.5, 0.5), 0.0, 0.0))
+        touched_s = EACH_S * 7
+        self.write([BEGIN_S] + [EACH_S * k + PRESS_S for k in range(7)] + [touched_s + 2.0], touched_s + 8.0)
+        done = self.run_program("table", "--config", self.config, "--headless", "--out", self.folder / "touches.csv")
         self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("Staff: where are the eyes?", done.stderr)  # a head's sensor is seen, and nobody knows where the eyes are in it
+        self.assertEqual(len((self.folder / "touches.csv").read_text().splitlines()), 8)
         self.assertIn("Staff: put the picture right", done.stderr)
         self.assertIn("Touch 7 of 7", done.stderr)
         self.assertRegex(done.stderr, r"The projector moved.* The picture was (8|9|10) mm beside its place\.")

@@ -82,7 +82,7 @@ Result<int> on_table(const Settings& settings, const CalibrateRequest& request) 
         fmt::print("{}\n", crosses_json(settings).dump(2));
         return 0;
     }
-    return measure_eyes(settings, request).map([] { return 0; });
+    return calibrate_eyes(settings, request).map([] { return 0; });
 }
 
 Result<int> from_file(const Settings& settings, const CalibrateRequest& request) {

@@ -88,33 +88,37 @@ std::optional<EyeFit> fit_reported(std::span<const ReportedSight> sights, const 
     return placed ? std::optional(fit_eyes(*placed, 0.5 * settings.prop.base_m)) : std::nullopt;
 }
 
-Result<void> measure_eyes(const Settings& settings, const CalibrateRequest& request) {
+Result<bool> measure_eyes(const Settings& settings, const CalibrateRequest& request, TableDevices& devices) {
+    const Registration& registration = settings.tracker.registration;
+    EyeTable table(settings, devices);
+    EyeProcedure procedure(sight_scene(settings), registration, why_no_eye(settings));
+    const Result<bool> ended = table.run(procedure);
+    if (const Result<void> written = write_sights(request, procedure.sights()); !written) {
+        return tl::unexpected<Error>(written.error());
+    }
+    if (!ended || !*ended) {
+        return ended;
+    }
+    if (procedure.stage() == EyeStage::Done) {
+        if (const Result<void> kept = keep_eye(settings, procedure.judged()->eyes->middle_m); !kept) {
+            EyeProcedure told(sight_scene(settings), registration, kept.error().message);
+            static_cast<void>(table.run(told)); // whoever stands at the table reads no standard error
+            return tl::unexpected<Error>(kept.error());
+        }
+    }
+    table.stay(procedure);
+    return procedure.stage() == EyeStage::Done;
+}
+
+Result<void> calibrate_eyes(const Settings& settings, const CalibrateRequest& request) {
     const Result<std::unique_ptr<TableDevices>> devices =
         TableDevices::open(request, settings, ", or give --from");
     if (!devices) {
         return tl::unexpected<Error>(devices.error());
     }
-    const Registration& registration = settings.tracker.registration;
-    EyeTable table(settings, **devices);
-    EyeProcedure procedure(sight_scene(settings), registration, why_no_eye(settings));
-    const Result<bool> ended = table.run(procedure);
-    if (const Result<void> written = write_sights(request, procedure.sights()); !written) {
-        return written;
-    }
-    if (!ended) {
-        return tl::unexpected<Error>(ended.error());
-    }
-    Result<void> kept = ended_without(procedure.problem());
-    if (procedure.stage() == EyeStage::Done) {
-        kept = keep_eye(settings, procedure.judged()->eyes->middle_m);
-    }
-    if (procedure.stage() == EyeStage::Done && !kept) { // whoever stands at the table reads no standard error
-        EyeProcedure told(sight_scene(settings), registration, kept.error().message);
-        static_cast<void>(table.run(told));
-    } else if (*ended) {
-        table.stay(procedure);
-    }
-    return kept;
+    return measure_eyes(settings, request, **devices).and_then([&](bool kept) {
+        return kept ? Result<void>() : ended_without(why_no_eye(settings));
+    });
 }
 
 } // namespace frustumscreen

@@ -7,6 +7,7 @@
 #include "app/calibration/eye_fit.h"
 #include "app/calibration/sight_plan.h"
 #include "app/programs/calibrate/calibrate_request.h"
+#include "app/programs/calibrate/table_devices.h"
 
 #include <optional>
 #include <span>
@@ -19,7 +20,10 @@ namespace frustumscreen {
 [[nodiscard]] std::optional<EyeFit> fit_reported(std::span<const ReportedSight> sights,
                                                  const Settings& settings);
 
-/// From the first word on the table to the kept file.
-[[nodiscard]] Result<void> measure_eyes(const Settings& settings, const CalibrateRequest& request);
+/// From the first word on the table to the kept file. False: it ended without an eye.
+[[nodiscard]] Result<bool> measure_eyes(const Settings& settings, const CalibrateRequest& request,
+                                        TableDevices& devices);
+/// The same alone, where an end without an eye is an error.
+[[nodiscard]] Result<void> calibrate_eyes(const Settings& settings, const CalibrateRequest& request);
 
 } // namespace frustumscreen

@@ -4,6 +4,7 @@
 #include "app/calibration/touch_procedure.h"
 #include "app/programs/calibrate/auto_table.h"
 #include "app/programs/calibrate/calibration_way.h"
+#include "app/programs/calibrate/eye_table.h"
 #include "app/programs/calibrate/judged_words.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/sheet_command.h"
@@ -180,6 +181,22 @@ Result<WayEnd> take(CalibrationWay way, const Session& session, const std::optio
     return measure_by_crosses(session);
 }
 
+/// Once a calibration is kept, where the tracker reports a head's sensor and nobody has measured where the eyes are in it. Whoever goes
+/// without them keeps the calibration.
+Result<int> measure_missing_eyes(const Session& session) {
+    const Result<CheckedSettings> settings = load_settings(session.request.config); // with what was kept
+    if (!settings) {
+        return tl::unexpected<Error>(settings.error());
+    }
+    const bool are_known = (*settings)->tracker.registration.eye_in_sensor_m != glm::dvec3(0.0);
+    if (are_known || !session.devices.has_seen_head()) {
+        return 0;
+    }
+    CalibrateRequest request = session.request;
+    request.out.clear(); // it has the touches, or the rests
+    return measure_eyes(**settings, request, session.devices).map([](bool) { return 0; });
+}
+
 /// One way after the other, until one ends with a calibration or without.
 Result<int> take_first_wanted(const Session& session) {
     const std::optional<Board> board = board_for_camera(session.settings);
@@ -189,7 +206,7 @@ Result<int> take_first_wanted(const Session& session) {
             return tl::unexpected<Error>(ended.error());
         }
         if (*ended == WayEnd::Kept) {
-            break;
+            return measure_missing_eyes(session);
         }
     }
     return 0;

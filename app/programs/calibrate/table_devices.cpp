@@ -87,6 +87,7 @@ TableDevices::Heard TableDevices::hear(MonotonicTime now) {
             *of = RigidTransform{sample.rotation, sample.position_m};
         }
     }
+    has_seen_head_ |= heard.head.has_value();
     events_.clear();
     static_cast<void>(inputs_.panel->poll(now, events_));
     for (const PanelEvent& event : events_) {

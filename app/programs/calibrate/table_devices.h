@@ -43,6 +43,8 @@ public:
         bool back = false;
     };
     [[nodiscard]] Heard hear(MonotonicTime now);
+    /// Whether the tracker has reported a head's sensor so far.
+    [[nodiscard]] bool has_seen_head() const { return has_seen_head_; }
     /// Another picture is presented from now on.
     void show(Image8 picture);
     /// Words that are on it; `key`: of what is said aloud for them.
@@ -73,6 +75,7 @@ private:
     int uploads_left_ = 0;
     std::vector<PoseSample> samples_;
     std::vector<PanelEvent> events_;
+    bool has_seen_head_ = false;
     Sentence tracker_state_, panel_state_;
 };
 
