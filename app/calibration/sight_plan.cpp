@@ -1,5 +1,7 @@
 #include "app/calibration/sight_plan.h"
 
+#include "app/geometry/table_plane.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -190,10 +192,10 @@ std::optional<glm::dvec2> pixel_of(const SightScene& scene, const glm::dvec3& po
 /// To the right, so that words fit beside it, and to the front, so that crosses fit behind it.
 RigidTransform wished_place(const SightScene& scene) {
     constexpr glm::dvec2 share(0.63, 0.6);
-    const glm::dvec3 ray = scene.table_from_projector.direction(
-        scene.pinhole.ray(share * glm::dvec2(scene.pinhole.width, scene.pinhole.height)));
-    const glm::dvec3& lens = scene.table_from_projector.translation;
-    return {{1.0, 0.0, 0.0, 0.0}, lens - ray * (lens.z / ray.z)};
+    const glm::dvec2 size(scene.pinhole.width, scene.pinhole.height);
+    const glm::dvec2 lit =
+        lights_table(scene.pinhole, scene.table_from_projector, share * size).value_or(glm::dvec2(0.0));
+    return {{1.0, 0.0, 0.0, 0.0}, glm::dvec3(lit, 0.0)};
 }
 
 SightPlan plan_sights(const SightScene& scene, const RigidTransform& table_from_prop,
