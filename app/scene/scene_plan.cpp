@@ -49,15 +49,21 @@ std::optional<ReliefOutline> relief_of(const std::vector<ReliefOutline>& reliefs
     return found != reliefs.end() ? std::optional(*found) : std::nullopt;
 }
 
-/// The coarsest whose texel is a pixel, or not clearly more; else the finest.
-std::optional<ReliefOutline> relief_for(const std::vector<ReliefOutline>& reliefs, double pixel_box) {
+/// The coarsest of those that are wanted whose texel is a pixel, or not clearly more; else the finest.
+template <typename Wanted>
+std::optional<ReliefOutline> relief_for(const std::vector<ReliefOutline>& reliefs, double pixel_box,
+                                        const Wanted& wanted) {
     constexpr double not_clearly = 1.25;
+    std::optional<ReliefOutline> found;
     for (const ReliefOutline& relief : reliefs) {
-        if (1.0 <= not_clearly * pixel_box * relief.texels) {
-            return relief;
+        if (wanted(relief)) {
+            found = relief;
+            if (1.0 <= not_clearly * pixel_box * relief.texels) {
+                break;
+            }
         }
     }
-    return reliefs.empty() ? std::nullopt : std::optional(reliefs.back());
+    return found;
 }
 
 /// A pack's, and what eyes see of each.
@@ -126,12 +132,12 @@ void choose_levels(const PackOutline& pack, const SceneRequest& request, double 
     asked.enough = true;
     plan.rungs = {asked};
     if (governed) {
-        std::optional<ReliefOutline> relief = relief_for(reliefs.outlines, pixel_box);
-        if (relief && !within_tolerance(relief->error, worst_of(reliefs.seen_of(*relief)),
-                                        1e3 * plan.metres_per_box, tolerance_mm)) {
-            relief.reset();
-        }
-        plan.rungs = ladder(pack.levels, good_levels(pack, plan, tolerance_mm), asked.samples, relief);
+        const auto is_good = [&](const ReliefOutline& relief) {
+            return within_tolerance(relief.error, worst_of(reliefs.seen_of(relief)),
+                                    1e3 * plan.metres_per_box, tolerance_mm);
+        };
+        plan.rungs = ladder(pack.levels, good_levels(pack, plan, tolerance_mm), asked.samples,
+                            relief_for(reliefs.outlines, pixel_box, is_good));
     }
     choose_what_is_read(reliefs, plan);
     plan.exposure_level = plan.levels.empty() ? pack.description.default_level : plan.levels.front();
@@ -308,7 +314,8 @@ Result<Rung> rung_of(const PackOutline& pack, std::string_view technique, double
         return Rung{*level};
     }
     std::optional<std::uint32_t> texels = number_behind(relief_prefix, technique);
-    if (const std::optional<ReliefOutline> relief = relief_for(*reliefs, pixel_box);
+    if (const std::optional<ReliefOutline> relief =
+            relief_for(*reliefs, pixel_box, [](const ReliefOutline&) { return true; });
         relief && technique == relief_prefix) {
         texels = relief->texels;
     }

@@ -29,12 +29,14 @@ PackOutline outline() {
     return pack;
 }
 
-/// With reliefs of these texels, each with this error, box.
-PackOutline outline_with_reliefs(const std::vector<std::uint32_t>& texels, float p95_box) {
+/// With reliefs of these texels, each with this error, box; those from `good` texels on with a small one.
+PackOutline outline_with_reliefs(const std::vector<std::uint32_t>& texels, float error_box,
+                                 std::uint32_t good = 1U << 31U) {
     PackOutline pack = outline();
     std::string reliefs;
     std::vector<std::string> parts;
     for (const std::uint32_t each : texels) {
+        const float p95_box = each < good ? error_box : 1e-4F;
         parts.push_back(fmt::format("relief_blocks/{}.bin", each));
         reliefs += fmt::format(
             R"({}{{"blocks":5,"bytes":9,"error":{{"mean_box":{},"p95_box":{},"max_box":{},)"
@@ -148,6 +150,12 @@ TEST(ScenePlan, TheGovernorMayPickTheReliefWhoseTexelIsAPixel) {
         plan_scene(settings, outline_with_reliefs({96, 192, 384}, 8e-3F), request(settings)).value();
     EXPECT_TRUE(meshes.reliefs.empty());
     EXPECT_EQ(meshes.needs.casts, 0U);
+    const ScenePlan finer =
+        plan_scene(settings, outline_with_reliefs({96, 192, 384, 768}, 8e-3F, 384), request(settings))
+            .value();
+    ASSERT_EQ(finer.reliefs.size(), 1U);
+    EXPECT_EQ(finer.reliefs.front().texels, 384U)
+        << "the pixel's own strays too far: the next finer one is good";
     PackOutline damaged = outline_with_reliefs({96}, 1e-4F);
     damaged.description.sections.front().data = "{}";
     EXPECT_FALSE(plan_scene(settings, damaged, request(settings)));
