@@ -90,12 +90,7 @@ ReliefScene::ReliefScene(const BlockRelief& relief)
 }
 
 SurfaceHit ReliefScene::trace(const glm::vec3& eye, const glm::vec3& direction) const {
-    constexpr float beyond_box = 1e-5F;
-    SurfaceHit hit = scene_.trace(eye, direction);
-    while (hit.hit && !is_drawn(hit, direction)) {
-        hit = scene_.trace(eye, direction, hit.distance + beyond_box);
-    }
-    return hit;
+    return scene_.trace(eye, direction, [&](const SurfaceHit& hit) { return is_drawn(hit, direction); });
 }
 
 bool ReliefScene::is_drawn(const SurfaceHit& hit, const glm::vec3& direction) const {

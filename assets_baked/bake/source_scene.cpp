@@ -134,6 +134,51 @@ void cut(const RTCFilterFunctionNArguments* arguments) {
     }
 }
 
+struct CountingContext : RTCIntersectContext {
+    const SourceScene::Counts* counts = nullptr;
+};
+
+void leave_out(const RTCFilterFunctionNArguments* arguments) {
+    const auto* context = static_cast<const CountingContext*>(arguments->context);
+    SurfaceHit hit;
+    hit.hit = true;
+    hit.distance = RTCRayN_tfar(arguments->ray, 1, 0);
+    hit.triangle = RTCHitN_primID(arguments->hit, 1, 0);
+    hit.u = RTCHitN_u(arguments->hit, 1, 0);
+    hit.v = RTCHitN_v(arguments->hit, 1, 0);
+    if (!(*context->counts)(hit)) {
+        arguments->valid[0] = 0;
+    }
+}
+
+SurfaceHit first_hit(RTCScene scene, RTCIntersectContext& context, const glm::vec3& origin,
+                     const glm::vec3& direction, float near, float far) {
+    RTCRayHit query{};
+    query.ray.org_x = origin.x;
+    query.ray.org_y = origin.y;
+    query.ray.org_z = origin.z;
+    query.ray.dir_x = direction.x;
+    query.ray.dir_y = direction.y;
+    query.ray.dir_z = direction.z;
+    query.ray.tnear = near;
+    query.ray.tfar = far;
+    query.ray.mask = 0xFFFFFFFFU;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene, &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        return {};
+    }
+    const glm::vec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+    const float length = glm::length(normal);
+    return {true,
+            query.ray.tfar,
+            query.hit.primID,
+            query.hit.u,
+            query.hit.v,
+            origin + direction * query.ray.tfar,
+            length > 0.0F ? normal / length : glm::vec3(0.0F)};
+}
+
 struct NearestQuery {
     const SourceScene* scene;
     glm::vec3 point;
@@ -178,7 +223,8 @@ SourceScene::SourceScene(const SourceMesh& mesh, std::span<const glm::dvec3> poi
 
     embree_->device = rtcNewDevice(nullptr);
     embree_->scene = rtcNewScene(embree_->device);
-    rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(embree_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
+                                                                RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
     RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                embree_->positions.data(), 0, sizeof(glm::vec3), points.size());
@@ -206,30 +252,16 @@ SurfaceHit SourceScene::trace(const glm::vec3& origin, const glm::vec3& directio
                               float far) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRayHit query{};
-    query.ray.org_x = origin.x;
-    query.ray.org_y = origin.y;
-    query.ray.org_z = origin.z;
-    query.ray.dir_x = direction.x;
-    query.ray.dir_y = direction.y;
-    query.ray.dir_z = direction.z;
-    query.ray.tnear = near;
-    query.ray.tfar = far;
-    query.ray.mask = 0xFFFFFFFFU;
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(embree_->scene, &context, &query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-        return {};
-    }
-    const glm::vec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
-    const float length = glm::length(normal);
-    return {true,
-            query.ray.tfar,
-            query.hit.primID,
-            query.hit.u,
-            query.hit.v,
-            origin + direction * query.ray.tfar,
-            length > 0.0F ? normal / length : glm::vec3(0.0F)};
+    return first_hit(embree_->scene, context, origin, direction, near, far);
+}
+
+SurfaceHit SourceScene::trace(const glm::vec3& origin, const glm::vec3& direction,
+                              const Counts& counts) const {
+    CountingContext context;
+    rtcInitIntersectContext(&context);
+    context.filter = leave_out;
+    context.counts = &counts;
+    return first_hit(embree_->scene, context, origin, direction, 0.0F, 1e30F);
 }
 
 bool SourceScene::occluded(const glm::vec3& origin, const glm::vec3& direction, float near, float far) const {

@@ -40,6 +40,11 @@ public:
     /// First hit with near < distance < far; `direction` is unit.
     [[nodiscard]] SurfaceHit trace(const glm::vec3& origin, const glm::vec3& direction, float near = 0.0F,
                                    float far = 1e30F) const;
+    /// Told a hit's distance, triangle, u and v: whether it counts. Else the ray goes on, to what lies at the same place too.
+    using Counts = std::function<bool(const SurfaceHit&)>;
+    /// First hit that counts.
+    [[nodiscard]] SurfaceHit trace(const glm::vec3& origin, const glm::vec3& direction,
+                                   const Counts& counts) const;
     [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction, float near,
                                 float far) const;
     /// Nearest surface point within `reach`.

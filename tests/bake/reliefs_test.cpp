@@ -2,6 +2,7 @@
 #include "app/pack/block_part.h"
 #include "app/pack/pack_relief.h"
 #include "assets_baked/bake/bake.h"
+#include "assets_baked/bake/block_relief.h"
 #include "assets_baked/bake/measured_reliefs.h"
 #include "assets_baked/bake/relief_scene.h"
 #include "tests/bake/shapes.h"
@@ -57,6 +58,33 @@ TEST(Reliefs, OfASphereLieOnItAndSayByHowMuchTheyMissIt) {
         EXPECT_LT(outline.error.colour_rmse, 2.0F);
     }
     EXPECT_LT(reliefs[1].error.mean_box, reliefs[0].error.mean_box);
+}
+
+/// A sheet without thickness, of which both sides are kept: its cells lie at the same place, and each shows to one side. A ray that passes the
+/// back of one meets the front of the other.
+TEST(Reliefs, OfASheetASideIsMetFromEitherSide) {
+    SourceMesh sheet = test::empty_mesh();
+    sheet.positions = {{-0.5, 0.0, 0.0}, {0.5, 0.0, 0.0}, {0.5, 0.0, 1.0}, {-0.5, 0.0, 1.0}};
+    test::add_triangle(sheet, 0, 1, 2);
+    test::add_triangle(sheet, 0, 2, 3);
+    test::add_triangle(sheet, 0, 2, 1);
+    test::add_triangle(sheet, 0, 3, 2);
+    const SourceScene source(sheet, sheet.positions, Sides::Front);
+    const BlockRelief relief =
+        bake_blocks({source, {1.0, 0.1, 1.0}, {ReliefDirection::PlusY, ReliefDirection::MinusY}, 48});
+    const ReliefScene drawn(relief);
+    constexpr int rays = 100;
+    for (const float side : {1.0F, -1.0F}) {
+        int missing = 0;
+        for (int z = 0; z < rays; ++z) {
+            for (int x = 0; x < rays; ++x) {
+                const glm::vec3 from(0.96F * ((static_cast<float>(x) + 0.5F) / rays - 0.5F), 2.0F * side,
+                                     0.02F + 0.96F * (static_cast<float>(z) + 0.5F) / rays);
+                missing += drawn.trace(from, {0.0F, -side, 0.0F}).hit ? 0 : 1;
+            }
+        }
+        EXPECT_EQ(missing, 0) << side;
+    }
 }
 
 } // namespace
