@@ -1,6 +1,7 @@
 #include "app/scene/cast_light.h"
 
 #include "app/relief/lens_lanes.h"
+#include "app/scene/face_view.h"
 
 #include <algorithm>
 #include <array>
@@ -167,20 +168,6 @@ glm::dvec3 linear_between(const glm::dvec2& from, const glm::dvec2& to) {
     return {slope, -glm::dot(slope, from)};
 }
 
-PixelRectangle around(const std::array<glm::dvec2, 4>& ideal_corners, const Pinhole& projector) {
-    glm::dvec2 low = ideal_corners[0];
-    glm::dvec2 high = low;
-    for (const glm::dvec2& corner : ideal_corners) {
-        low = glm::min(low, corner);
-        high = glm::max(high, corner);
-    }
-    projector.bend_around(low, high);
-    const glm::dvec2 size(projector.width, projector.height);
-    const glm::ivec2 first(glm::clamp(glm::floor(low), glm::dvec2(0.0), size));
-    const glm::ivec2 end(glm::clamp(glm::ceil(high), glm::dvec2(0.0), size));
-    return {first.x, first.y, end.x - first.x, end.y - first.y};
-}
-
 } // namespace
 
 void CastLight::begin(const FramePlan& plan, std::size_t cast) {
@@ -207,15 +194,16 @@ void CastLight::begin(const FramePlan& plan, std::size_t cast) {
             }
         }
     }
+    const auto pixel = [&](const glm::vec4& clip) {
+        return (0.5 * glm::dvec2(clip) + 0.5) * glm::dvec2(plan.projector.width, plan.projector.height);
+    };
     for (const EdgeFeather& feather : plan.feathers) {
-        std::array<glm::dvec2, 4> corners{};
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            corners[k] = (0.5 * glm::dvec2(feather.corners_clip[k]) + 0.5) *
-                         glm::dvec2(plan.projector.width, plan.projector.height);
-        }
-        parts_.feathers.push_back({feather.face, around(corners, plan.projector),
-                                   linear_between(corners[0], corners[1]),
-                                   linear_between(corners[0], corners[3]), feather.share});
+        const auto& [a, b, c, d] = feather.corners_clip;
+        const std::array<glm::dvec4, 4> corners{a, b, c, d};
+        const glm::dvec2 start = pixel(a);
+        parts_.feathers.push_back({feather.face, pixels_around(corners, plan.projector),
+                                   linear_between(start, pixel(b)), linear_between(start, pixel(d)),
+                                   feather.share});
     }
 }
 

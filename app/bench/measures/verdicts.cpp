@@ -120,13 +120,14 @@ std::vector<Verdict> judge(const SetUpResult& result) {
             verdicts.push_back(std::move(verdict));
         }
     };
+    const TechniqueResult* const drawn = auto_drawn(result);
     for (const TechniqueResult& technique : result.techniques) {
         if (technique.kind == TechniqueKind::PackLevel &&
             technique.level == static_cast<int>(result.default_level)) {
             add("default level", judge(technique, default_level_limits));
             add("default level, pushed", judge(technique, pushed_default_limits));
         }
-        if (&technique == auto_drawn(result)) {
+        if (&technique == drawn) {
             add(technique.name, judge(technique, default_level_limits));
         }
         if (technique.kind == TechniqueKind::PackLevel &&
