@@ -1,4 +1,4 @@
-# Headers that most files include, parsed once for the rooms, once for the programs and once for the tests: half of the
+# Headers that most files include, parsed once for the rooms and programs and once for the tests: half of the
 # processor time of a build. Every file names what it needs all the same: the presets debug and fuzz build without them.
 function(frustumscreen_precompile name header)
     file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${name}.cpp CONTENT "") # keeps its time where it is there
@@ -7,7 +7,7 @@ function(frustumscreen_precompile name header)
     target_precompile_headers(${name} PRIVATE ${CMAKE_SOURCE_DIR}/cmake/${header})
 endfunction()
 
-# frustumscreen_use_precompiled(<target> house|programs|tests)
+# frustumscreen_use_precompiled(<target> house|tests)
 function(frustumscreen_use_precompiled target which)
     if(FRUSTUMSCREEN_PRECOMPILED)
         target_precompile_headers(${target} REUSE_FROM precompiled_${which})
@@ -21,7 +21,6 @@ endfunction()
 
 if(FRUSTUMSCREEN_PRECOMPILED)
     frustumscreen_precompile(precompiled_house precompiled_house.h)
-    frustumscreen_precompile(precompiled_programs precompiled_programs.h CLI11::CLI11)
     if(BUILD_TESTING)
         frustumscreen_precompile(precompiled_tests precompiled_tests.h GTest::gtest)
         target_compile_options(precompiled_tests PRIVATE ${test_options})

@@ -1,6 +1,6 @@
 /// frustumscreen-artifact: writes a built-in artifact's mesh as a GLB file, or a curator's folder with it.
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/settings/language_tag.h"
 #include "assets_baked/artifacts/builtin.h"
 #include "assets_baked/artifacts/write_glb.h"
@@ -8,7 +8,6 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/printable.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -79,25 +78,26 @@ int run(int argc, char** argv) {
     std::filesystem::path folder;
     bool list = false;
 
-    CLI::App app{"Writes a built-in artifact's mesh as a GLB file (millimetres, +Y up).",
-                 "frustumscreen-artifact"};
+    CommandLine app{"Writes a built-in artifact's mesh as a GLB file (millimetres, +Y up).",
+                    "frustumscreen-artifact"};
     app.set_version_flag("--version", "frustumscreen-artifact " FRUSTUMSCREEN_VERSION);
-    auto* name_option = app.add_option("name", name, "Name of the artifact; --list shows them");
-    app.add_option("--triangles", triangles, "Number of triangles, kept within 5 %")->capture_default_str();
-    auto* output_option = app.add_option("-o,--output", output, "GLB file to write");
-    auto* folder_option =
+    const CommandOption name_option = app.add_option("name", name, "Name of the artifact; --list shows them");
+    app.add_option("--triangles", triangles, "Number of triangles, kept within 5 %").capture_default_str();
+    const CommandOption output_option = app.add_option("-o,--output", output, "GLB file to write");
+    const CommandOption folder_option =
         app.add_option(
                "--folder", folder,
                "Folder to write, in place of a single file: the mesh, and an artifact.toml with texts and "
                "hotspots for frustumscreen-bake")
-            ->excludes(output_option);
-    auto* list_option = app.add_flag("--list", list, "Print name, title and text of each, separated by tabs");
+            .excludes(output_option);
+    const CommandOption list_option =
+        app.add_flag("--list", list, "Print name, title and text of each, separated by tabs");
     app.add_option("--language", language, "Language of --list: en, de, fr, es, el; English for others")
-        ->capture_default_str();
-    list_option->excludes(name_option)->excludes(output_option)->excludes(folder_option);
-    if (const auto end = end_of_arguments(app, argc, argv, [&] {
+        .capture_default_str();
+    list_option.excludes(name_option).excludes(output_option).excludes(folder_option);
+    if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (!list && (name.empty() || (output.empty() && folder.empty()))) {
-                throw CLI::RequiredError("NAME and -o or --folder, or --list,");
+                throw missing("NAME and -o or --folder, or --list,");
             }
         })) {
         return *end;

@@ -7,12 +7,11 @@
 #include "app/programs/bake/batch_command.h"
 #include "app/programs/bake/watch_command.h"
 #include "app/programs/bake/words_command.h"
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/common/read_arguments.h"
 #include "assets_baked/bake/load_mesh.h"
 #include "assets_baked/folder/new_folder.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -77,19 +76,19 @@ int bake_and_report(const BakeArguments& arguments) {
     return 0;
 }
 
-void add_options(CLI::App& app, BakeArguments& arguments) {
+void add_options(CommandLine& app, BakeArguments& arguments) {
     app.add_option("INPUT", arguments.input, "artifact file, or a folder with an artifact.toml");
-    auto* output = app.add_option("-o,--output", arguments.output, "pack to write (*.fspack)");
+    const CommandOption output = app.add_option("-o,--output", arguments.output, "pack to write (*.fspack)");
     app.add_option(
            "--new", arguments.new_folder,
            "starts a folder from the artifact file INPUT: copies it there and writes an artifact.toml to "
            "edit; bakes nothing")
-        ->type_name("FOLDER")
-        ->excludes(output);
+        .type_name("FOLDER")
+        .excludes(output);
     app.add_option("--preview", arguments.preview,
                    "page to write beside the pack (*.html): how it looks, says, errs");
     app.add_flag("--json", arguments.json, "the report for programs");
-    app.add_flag("--while-watched", arguments.watched)->group(""); // for --watch
+    app.add_flag("--while-watched", arguments.watched).hidden(); // for --watch
     app.add_option("--texture", arguments.texture,
                    "picture of the colours, where the file names one that is missing, or none");
     app.add_option("--title", arguments.title,
@@ -109,7 +108,7 @@ int run(int argc, char** argv) {
         return batch_command(argc, argv);
     }
     BakeArguments arguments;
-    CLI::App app(
+    CommandLine app(
         "Bakes an artifact (glTF, OBJ, PLY, STL) into a pack for the FrustumScreen. Options stand above "
         "what a folder's artifact.toml says.",
         "frustumscreen-bake");
@@ -119,14 +118,14 @@ int run(int argc, char** argv) {
         "--batch DIR "
         "bakes a collection; --words bakes the exhibit's own words. Each says more with --help behind it.");
     add_options(app, arguments);
-    if (const auto end = end_of_arguments(app, argc, argv, [&] {
+    if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (arguments.input.empty()) {
-                throw CLI::RequiredError(arguments.new_folder.empty()
-                                             ? "INPUT, a scan or a folder with an artifact.toml,"
-                                             : "the scan, behind the folder of --new,");
+                throw missing(arguments.new_folder.empty()
+                                  ? "INPUT, a scan or a folder with an artifact.toml,"
+                                  : "the scan, behind the folder of --new,");
             }
             if (arguments.output.empty() && arguments.new_folder.empty()) {
-                throw CLI::RequiredError("-o NAME.fspack, the pack to write,");
+                throw missing("-o NAME.fspack, the pack to write,");
             }
         })) {
         return *end;

@@ -1,37 +1,38 @@
 #include "app/programs/bake/bake_options.h"
 
-#include <CLI/CLI.hpp>
+#include "app/programs/common/command_line.h"
+
 #include <fmt/format.h>
 
 namespace frustumscreen {
 
-void add_bake_options(CLI::App& app, BakeArguments& arguments) {
+void add_bake_options(CommandLine& app, BakeArguments& arguments) {
     app.add_flag("--force", arguments.force, "replace the output also if it is not a pack");
     app.add_option("--size", arguments.size,
                    "texels along the longest edge of a face, 16 to 4096 (default: 512)")
-        ->check(CLI::Range(16, 4096));
+        .within(16, 4096);
     app.add_flag("--unlit", arguments.unlit,
                  "base colour alone, no museum light: for colours that already contain light");
     app.add_flag("--no-relief", arguments.no_relief,
                  "no layered relief: a smaller pack, of which the exhibit draws meshes alone");
     app.add_option("--prop", arguments.prop,
                    "prop whose directions the relief is made for (default: frustum)")
-        ->check(CLI::IsMember({"frustum", "cube"}));
+        .one_of({"frustum", "cube"});
     app.add_option("--up", arguments.up, "the file's up axis (default: glTF, OBJ, PLY y; STL z)")
-        ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
+        .one_of({"x", "y", "z", "-x", "-y", "-z"});
     app.add_option(
            "--turn", arguments.turn_deg,
            "degrees about the vertical axis, counter-clockwise seen from above; 0 = as the file has it "
            "(default: the largest size and the best side)")
-        ->check(CLI::Range(-360.0, 360.0));
+        .within(-360.0, 360.0);
     app.add_option(
            "--scale", arguments.scale,
            "factor on the largest size that fits into the prop; above 1 the prop cuts it off (default: 1)")
-        ->check(CLI::Range(0.05, 20.0));
+        .within(0.05, 20.0);
     app.add_option(
            "--lift", arguments.lift,
            "raises the artifact above the prop's bottom, in heights of the artifact, 0 to 1 (default: 0)")
-        ->check(CLI::Range(0.0, 1.0));
+        .within(0.0, 1.0);
     app.add_flag("--strict", arguments.strict,
                  "refuse a file of which something would be lost; nothing is written");
     app.add_option(

@@ -4,8 +4,8 @@
 #include "app/programs/batch/batch_report.h"
 #include "app/programs/batch/content_hash.h"
 #include "app/programs/batch/run_batch.h"
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/progress_line.h"
-#include "app/programs/common/read_arguments.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/json.h"
 #include "firmware_host/base/output_file.h"
@@ -13,9 +13,9 @@
 #include "firmware_host/base/time.h"
 #include "firmware_host/base/words_of_time.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -170,10 +170,12 @@ Result<bool> work(const Arguments& arguments) {
     return count_of(rows, BatchStatus::Failed) + count_of(rows, BatchStatus::Missing) == 0;
 }
 
-CLI::Validator is_memory_limit() {
-    const auto check = [](std::string& text) {
+ArgumentCheck is_memory_limit() {
+    const auto check = [](const std::string& text) {
         double megabytes = -1.0;
-        const bool is_number = CLI::detail::lexical_cast(text, megabytes);
+        const char* const end = text.data() + text.size();
+        const std::from_chars_result read = std::from_chars(text.data(), end, megabytes);
+        const bool is_number = read.ec == std::errc{} && read.ptr == end;
         const bool well =
             is_number && (megabytes == 0.0 || (megabytes >= least_memory_mb && megabytes <= 1e8));
         return well ? std::string()
@@ -183,23 +185,23 @@ CLI::Validator is_memory_limit() {
     return {check, ""};
 }
 
-void add_options(CLI::App& app, Arguments& arguments) {
+void add_options(CommandLine& app, Arguments& arguments) {
     app.add_option("--batch", arguments.folder,
                    "DIR whose subfolders have an artifact.toml each; scans may lie there too")
-        ->expected(0, 1);
+        .expected(0, 1);
     app.add_option("-o,--output", arguments.output, "folder of the packs, their stamps and the report");
     app.add_option("-j,--jobs", arguments.jobs, "bakes at a time, 1 to 256; each uses all cores")
-        ->check(CLI::Range(1, 256))
-        ->capture_default_str();
+        .within(1, 256)
+        .capture_default_str();
     app.add_option("--shard", arguments.shard,
                    "i/n: every n-th object, from the i-th on, for one of n machines");
     app.add_option("--time-limit", arguments.time_limit_s, "seconds for one bake")
-        ->check(CLI::Range(1.0, 1e6))
-        ->capture_default_str();
+        .within(1.0, 1e6)
+        .capture_default_str();
     app.add_option("--memory-limit", arguments.memory_limit_mb,
                    fmt::format("megabytes for one bake, {} or more; 0: no limit", least_memory_mb))
-        ->check(is_memory_limit())
-        ->capture_default_str();
+        .check(is_memory_limit())
+        .capture_default_str();
     app.add_flag("--previews", arguments.pages, "a page beside each pack, as --preview makes it");
     app.add_flag("--report-only", arguments.report_only,
                  "bakes nothing: reports of what is there, such as of all shards together");
@@ -211,16 +213,16 @@ void add_options(CLI::App& app, Arguments& arguments) {
 
 int batch_command(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app("Bakes every object of a folder into a pack. What is done already and has not changed is "
-                 "left; what fails stops "
-                 "nothing else. A run that was ended goes on where it was.",
-                 program);
+    CommandLine app("Bakes every object of a folder into a pack. What is done already and has not changed is "
+                    "left; what fails stops "
+                    "nothing else. A run that was ended goes on where it was.",
+                    program);
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
     add_options(app, arguments);
-    if (const auto end = end_of_arguments(app, argc, argv, [&] {
+    if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (arguments.folder.empty() || arguments.output.empty()) {
-                throw CLI::ValidationError(
-                    "--batch needs the folder DIR of the objects behind it, and -o that of the packs");
+                throw WrongUse{
+                    "--batch needs the folder DIR of the objects behind it, and -o that of the packs"};
             }
         })) {
         return *end;

@@ -2,8 +2,8 @@
 
 #include "app/programs/bake/bake_options.h"
 #include "app/programs/batch/child_sentence.h"
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/programs/preview/preview_page.h"
 #include "app/programs/watch/folder_watch.h"
 #include "app/programs/watch/settle_time.h"
@@ -12,7 +12,6 @@
 #include "firmware_host/base/run_program.h"
 #include "firmware_host/service/stop_signals.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
@@ -207,19 +206,19 @@ Result<void> work(Arguments arguments) {
 
 int watch_command(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app("Bakes a coarse preview of a curator's folder again whenever a file in it changes. A "
-                 "browser that has the page "
-                 "open shows each new one by itself.",
-                 program);
+    CommandLine app("Bakes a coarse preview of a curator's folder again whenever a file in it changes. A "
+                    "browser that has the page "
+                    "open shows each new one by itself.",
+                    program);
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
-    app.add_option("--watch", arguments.folder, "FOLDER with an artifact.toml")->expected(0, 1);
+    app.add_option("--watch", arguments.folder, "FOLDER with an artifact.toml").expected(0, 1);
     app.add_option("--preview", arguments.page,
                    "page to write (default: FOLDER.preview.html beside the folder)");
     app.add_option("-o,--output", arguments.pack, "coarse pack to keep (default: none is kept)");
     add_bake_options(app, arguments.bake);
-    if (const auto end = end_of_arguments(app, argc, argv, [&] {
+    if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (arguments.folder.empty()) {
-                throw CLI::ValidationError("--watch needs the FOLDER of an artifact behind it");
+                throw WrongUse{"--watch needs the FOLDER of an artifact behind it"};
             }
         })) {
         return *end;

@@ -3,9 +3,9 @@
 #include "app/pack/words_file.h"
 #include "app/programs/bake/words_folder.h"
 #include "app/programs/bake/words_preview.h"
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/settings/language_tag.h"
 #include "assets_baked/texts/bake_words.h"
 #include "assets_baked/texts/speak_words.h"
@@ -14,7 +14,6 @@
 #include "firmware_host/base/printable.h"
 #include "firmware_host/base/standard_error.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -234,16 +233,16 @@ Result<void> work(const Arguments& arguments) {
 
 int words_command(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app("Bakes the exhibit's own words (advice, faults, invitations) into a file for the kiosk.",
-                 program);
+    CommandLine app("Bakes the exhibit's own words (advice, faults, invitations) into a file for the kiosk.",
+                    program);
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
     app.add_option("--words", arguments.folder, "folder with LANGUAGE.toml; without one the built-in words")
-        ->expected(0, 1);
-    app.add_option("-o,--output", arguments.output, "file to write (*.fswords)")->required();
+        .expected(0, 1);
+    app.add_option("-o,--output", arguments.output, "file to write (*.fswords)").required();
     app.add_option(
            "--languages", arguments.languages,
            "the house's language first, such as en,de (default: all built-in ones, and those of the folder)")
-        ->delimiter(',');
+        .delimiter(',');
     app.add_option("--preview", arguments.preview, "also draw all texts into this PNG");
     app.add_option(
         "--speech", arguments.speech,
@@ -252,7 +251,7 @@ int words_command(int argc, char** argv) {
     app.add_flag("--force", arguments.force, "replace the output also if it is not a file of words");
     app.add_flag("--strict", arguments.strict,
                  "refuse words of which something would be lost; nothing is written");
-    if (const auto end = end_of_arguments(app, argc, argv)) {
+    if (const auto end = app.end_of_arguments(argc, argv)) {
         return *end;
     }
     return exit_status(program, work(arguments));

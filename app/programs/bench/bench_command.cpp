@@ -3,6 +3,7 @@
 #include "app/bench/plots/draw_tables.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/sha256.h"
+#include "app/programs/common/command_line.h"
 #include "app/settings/settings.h"
 #include "assets_baked/bake/load_mesh.h"
 #include "firmware_host/base/file.h"
@@ -21,29 +22,27 @@ void BenchProgress::show(const std::string& step, double done) {
                           left_s ? fmt::format(", {} left", words_of_time(*left_s)) : std::string()));
 }
 
-void add_place_options(CLI::App& command, BenchPlace& place) {
-    command.add_option("--out", place.out, "folder for the tables and plots")->required();
+void add_place_options(CommandLine& command, BenchPlace& place) {
+    command.add_option("--out", place.out, "folder for the tables and plots").required();
     command.add_option(
         "--config", place.configs,
         "settings of a set-up; may be repeated (default: config/near.toml, config/kiosk.toml)");
 }
 
-void add_picture_options(CLI::App& command, PictureOptions& picture) {
+void add_picture_options(CommandLine& command, PictureOptions& picture) {
     command.add_option("--samples", picture.samples, "samples a pixel; 0 = what the pack asks for")
-        ->check(CLI::IsMember({0, 1, 2, 4, 8, 16}))
-        ->capture_default_str();
+        .one_of_numbers({0, 1, 2, 4, 8, 16})
+        .capture_default_str();
 }
 
-void add_pose_options(CLI::App& command, int& poses, std::uint64_t& seed) {
-    command.add_option("--poses", poses, "poses of prop and eye")
-        ->check(CLI::Range(1, 10000))
-        ->capture_default_str();
-    command.add_option("--seed", seed, "of the poses")->capture_default_str();
+void add_pose_options(CommandLine& command, int& poses, std::uint64_t& seed) {
+    command.add_option("--poses", poses, "poses of prop and eye").within(1, 10000).capture_default_str();
+    command.add_option("--seed", seed, "of the poses").capture_default_str();
 }
 
-void add_artifact_options(CLI::App& command, BenchArtifact& artifact) {
-    command.add_option("--pack", artifact.pack, "pack")->required();
-    command.add_option("--mesh", artifact.mesh, "the file that the pack was baked from")->required();
+void add_artifact_options(CommandLine& command, BenchArtifact& artifact) {
+    command.add_option("--pack", artifact.pack, "pack").required();
+    command.add_option("--mesh", artifact.mesh, "the file that the pack was baked from").required();
 }
 
 namespace {

@@ -1,5 +1,5 @@
 /// What the commands of frustumscreen-bench share: each command is a file of its own with one function
-/// `BenchCommand ..._command(CLI::App&)` that declares its options and says how it runs.
+/// `BenchCommand ..._command(CommandLine&)` that declares its options and says how it runs.
 ///
 /// Threads  one.
 /// Errors   as Result; the sentence goes to standard error by bench_main.cpp.
@@ -8,11 +8,11 @@
 #include "app/bench/measures/technique_set.h"
 #include "app/bench/measures/time_left.h"
 #include "app/bench/techniques/pack_level.h"
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/progress_line.h"
 #include "assets_baked/bake/source_mesh.h"
 #include "firmware_host/base/time.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -40,7 +40,7 @@ private:
 };
 
 struct BenchCommand {
-    CLI::App* options = nullptr; ///< the subcommand; `parsed()` once it was chosen
+    CommandLine options; ///< of the subcommand; `parsed()` once it was chosen
     std::function<Result<void>(BenchProgress&)> run;
 };
 
@@ -50,11 +50,11 @@ struct BenchPlace {
     std::vector<std::filesystem::path> configs; ///< none: the near and the shipped set-up
 };
 /// --out and --config.
-void add_place_options(CLI::App& command, BenchPlace& place);
+void add_place_options(CommandLine& command, BenchPlace& place);
 /// --samples.
-void add_picture_options(CLI::App& command, PictureOptions& picture);
+void add_picture_options(CommandLine& command, PictureOptions& picture);
 /// --poses and --seed.
-void add_pose_options(CLI::App& command, int& poses, std::uint64_t& seed);
+void add_pose_options(CommandLine& command, int& poses, std::uint64_t& seed);
 
 /// A pack and the file that it was baked from.
 struct BenchArtifact {
@@ -62,7 +62,7 @@ struct BenchArtifact {
     std::filesystem::path mesh;
 };
 /// --pack and --mesh.
-void add_artifact_options(CLI::App& command, BenchArtifact& artifact);
+void add_artifact_options(CommandLine& command, BenchArtifact& artifact);
 
 struct LoadedArtifact {
     VerifiedPack pack;
@@ -116,32 +116,32 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
 }
 
 /// Every level of a pack and its peers against a ray cast.
-[[nodiscard]] BenchCommand error_time_command(CLI::App& app);
+[[nodiscard]] BenchCommand error_time_command(CommandLine& app);
 /// What the exhibit says of its pictures' errors, against a ray cast.
-[[nodiscard]] BenchCommand estimate_command(CLI::App& app);
+[[nodiscard]] BenchCommand estimate_command(CommandLine& app);
 /// The prop's pose by its tags, in rendered scenes.
-[[nodiscard]] BenchCommand tags_command(CLI::App& app);
+[[nodiscard]] BenchCommand tags_command(CommandLine& app);
 /// The visitor's eye by a camera, in rendered scenes.
-[[nodiscard]] BenchCommand visitor_command(CLI::App& app);
+[[nodiscard]] BenchCommand visitor_command(CommandLine& app);
 /// Cost against the source's size, built-in amphora.
-[[nodiscard]] BenchCommand scaling_command(CLI::App& app);
+[[nodiscard]] BenchCommand scaling_command(CommandLine& app);
 /// The visitor's view against an ordinary ray cast.
-[[nodiscard]] BenchCommand projection_command(CLI::App& app);
+[[nodiscard]] BenchCommand projection_command(CommandLine& app);
 /// The prop moved by 0.1 pixel steps, against the ray cast.
-[[nodiscard]] BenchCommand shimmer_command(CLI::App& app);
+[[nodiscard]] BenchCommand shimmer_command(CommandLine& app);
 /// Numerical stability on stiff and extreme cases.
-[[nodiscard]] BenchCommand stability_command(CLI::App& app);
+[[nodiscard]] BenchCommand stability_command(CommandLine& app);
 /// The results of several artifacts on one sheet.
-[[nodiscard]] BenchCommand plot_command(CLI::App& app);
+[[nodiscard]] BenchCommand plot_command(CommandLine& app);
 /// What a frame takes, in numbers that do not depend on the machine.
-[[nodiscard]] BenchCommand counts_command(CLI::App& app);
+[[nodiscard]] BenchCommand counts_command(CommandLine& app);
 /// How far the picture slips on a prop that moves, with and without prediction.
-[[nodiscard]] BenchCommand latency_command(CLI::App& app);
+[[nodiscard]] BenchCommand latency_command(CommandLine& app);
 /// Which prop and projector suit a table.
-[[nodiscard]] BenchCommand setup_command(CLI::App& app);
+[[nodiscard]] BenchCommand setup_command(CommandLine& app);
 /// Whether advice helps visitors.
-[[nodiscard]] BenchCommand guidance_command(CLI::App& app);
+[[nodiscard]] BenchCommand guidance_command(CommandLine& app);
 /// What the recovery ladder is worth over years of faults.
-[[nodiscard]] BenchCommand ladder_command(CLI::App& app);
+[[nodiscard]] BenchCommand ladder_command(CommandLine& app);
 
 } // namespace frustumscreen

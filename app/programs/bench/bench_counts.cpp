@@ -1,5 +1,6 @@
 #include "app/bench/measures/counts.h"
 #include "app/programs/bench/bench_command.h"
+#include "app/programs/common/command_line.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
@@ -84,15 +85,15 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 } // namespace
 
-BenchCommand counts_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
+BenchCommand counts_command(CommandLine& app) {
+    CommandLine command = app.add_subcommand(
         "counts", "triangles, samples and bytes of a frame; their change against a reference");
     const auto arguments = std::make_shared<Arguments>();
-    add_place_options(*command, arguments->place);
-    command->add_option("--pack", arguments->packs, "one or several packs")->required();
-    command->add_option("--reference", arguments->reference,
-                        "counts.json to compare with, as docs/reference_counts.json");
-    add_pose_options(*command, arguments->poses, arguments->seed);
+    add_place_options(command, arguments->place);
+    command.add_option("--pack", arguments->packs, "one or several packs").required();
+    command.add_option("--reference", arguments->reference,
+                       "counts.json to compare with, as docs/reference_counts.json");
+    add_pose_options(command, arguments->poses, arguments->seed);
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

@@ -2,6 +2,7 @@
 #include "app/bench/measures/figures.h"
 #include "app/bench/measures/report.h"
 #include "app/programs/bench/bench_command.h"
+#include "app/programs/common/command_line.h"
 
 #include <fmt/format.h>
 
@@ -109,38 +110,39 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 } // namespace
 
-BenchCommand error_time_command(CLI::App& app) {
-    CLI::App* command =
+BenchCommand error_time_command(CommandLine& app) {
+    CommandLine command =
         app.add_subcommand("error-time", "every level of a pack and its peers against a ray cast");
     const auto arguments = std::make_shared<Arguments>();
-    add_place_options(*command, arguments->place);
-    add_artifact_options(*command, arguments->artifact);
-    add_picture_options(*command, arguments->options.picture);
-    add_pose_options(*command, arguments->options.poses, arguments->options.seed);
-    command->add_flag("--timed-lit", arguments->options.picture.timed_lit,
-                      "time levels and reliefs in the projector's light, as visitors see them; errors are of "
-                      "pictures without, and so are peers");
+    add_place_options(command, arguments->place);
+    add_artifact_options(command, arguments->artifact);
+    add_picture_options(command, arguments->options.picture);
+    add_pose_options(command, arguments->options.poses, arguments->options.seed);
+    command.add_flag("--timed-lit", arguments->options.picture.timed_lit,
+                     "time levels and reliefs in the projector's light, as visitors see them; errors are of "
+                     "pictures without, and so are peers");
     command
-        ->add_option("--peers", arguments->peers,
-                     "none, all, or some of mesh, two-pass, ray-cast, lod, two-pass-lod, relief, "
-                     "relief-cast, with commas between")
-        ->check([](const std::string& words) {
-            const Result<PeerChoice> choice = parse_peers(words);
-            return choice ? std::string() : choice.error().message;
-        })
-        ->capture_default_str();
+        .add_option("--peers", arguments->peers,
+                    "none, all, or some of mesh, two-pass, ray-cast, lod, two-pass-lod, relief, "
+                    "relief-cast, with commas between")
+        .check({[](const std::string& words) {
+                    const Result<PeerChoice> choice = parse_peers(words);
+                    return choice ? std::string() : choice.error().message;
+                },
+                ""})
+        .capture_default_str();
     command
-        ->add_option(
+        .add_option(
             "--peer-samples", arguments->options.peers.samples,
             "samples a pixel that peers are drawn with, some of 1, 2, 4, 8, with commas between (default: 1 "
             "and what the pack asks for)")
-        ->delimiter(',')
-        ->check(CLI::IsMember({1, 2, 4, 8}));
+        .delimiter(',')
+        .one_of_numbers({1, 2, 4, 8});
     command
-        ->add_option("--limits", arguments->limits,
-                     "all: exit with 1 when a limit of the table is missed; none: only measure")
-        ->check(CLI::IsMember({"all", "none"}))
-        ->capture_default_str();
+        .add_option("--limits", arguments->limits,
+                    "all: exit with 1 when a limit of the table is missed; none: only measure")
+        .one_of({"all", "none"})
+        .capture_default_str();
     return {command, [arguments](BenchProgress& progress) {
                 std::vector<int> samples = std::move(arguments->options.peers.samples);
                 arguments->options.peers = *parse_peers(arguments->peers); // checked above

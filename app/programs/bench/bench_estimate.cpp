@@ -1,5 +1,6 @@
 #include "app/bench/measures/coverage.h"
 #include "app/programs/bench/bench_command.h"
+#include "app/programs/common/command_line.h"
 
 #include <algorithm>
 #include <memory>
@@ -75,23 +76,23 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 } // namespace
 
-BenchCommand estimate_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
+BenchCommand estimate_command(CommandLine& app) {
+    CommandLine command = app.add_subcommand(
         "estimate", "what the exhibit says of its pictures' errors, level by level, against a ray cast");
     const auto arguments = std::make_shared<Arguments>();
-    add_place_options(*command, arguments->place);
-    command->add_option("--pack", arguments->packs, "one or several packs")->required();
-    command->add_option("--mesh", arguments->meshes, "for each pack the file that it was baked from")
-        ->required();
-    add_pose_options(*command, arguments->options.poses, arguments->options.seed);
-    command->add_option("--rays", arguments->options.rays, "rays a pixel, of which the true mean is taken")
-        ->check(CLI::IsMember({1, 2, 4, 8, 16}))
-        ->capture_default_str();
+    add_place_options(command, arguments->place);
+    command.add_option("--pack", arguments->packs, "one or several packs").required();
+    command.add_option("--mesh", arguments->meshes, "for each pack the file that it was baked from")
+        .required();
+    add_pose_options(command, arguments->options.poses, arguments->options.seed);
+    command.add_option("--rays", arguments->options.rays, "rays a pixel, of which the true mean is taken")
+        .one_of_numbers({1, 2, 4, 8, 16})
+        .capture_default_str();
     command
-        ->add_option("--limits", arguments->limits,
-                     "all: exit with 1 when too few poses are covered; none: only measure")
-        ->check(CLI::IsMember({"all", "none"}))
-        ->capture_default_str();
+        .add_option("--limits", arguments->limits,
+                    "all: exit with 1 when too few poses are covered; none: only measure")
+        .one_of({"all", "none"})
+        .capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

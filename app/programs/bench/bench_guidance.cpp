@@ -2,6 +2,7 @@
 #include "app/bench/truth/seeded_situations.h"
 #include "app/exhibit/guidance_setup.h"
 #include "app/programs/bench/bench_command.h"
+#include "app/programs/common/command_line.h"
 
 #include <memory>
 
@@ -39,24 +40,23 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 } // namespace
 
-BenchCommand guidance_command(CLI::App& app) {
-    CLI::App* command =
+BenchCommand guidance_command(CommandLine& app) {
+    CommandLine command =
         app.add_subcommand("guidance", "whether advice helps: seeded situations and simulated visitors");
     const auto arguments = std::make_shared<Arguments>();
-    command->add_option("--out", arguments->out, "folder for the table and the plot")->required();
-    command->add_option("--config", arguments->config,
-                        "settings; without it the shipped set-up and a cube in the hand");
-    command->add_option("--situations", arguments->options.situations, "seeded situations of each prop")
-        ->check(CLI::Range(1, 10000000))
-        ->capture_default_str();
-    command->add_option("--visitors", arguments->options.visitors, "of each prop and kind of advice")
-        ->check(CLI::Range(1, 100000))
-        ->capture_default_str();
-    command->add_option("--seconds", arguments->options.seconds, "of each visit")
-        ->check(CLI::Range(5.0, 3600.0))
-        ->capture_default_str();
-    command->add_option("--seed", arguments->options.seed, "of situations and visitors")
-        ->capture_default_str();
+    command.add_option("--out", arguments->out, "folder for the table and the plot").required();
+    command.add_option("--config", arguments->config,
+                       "settings; without it the shipped set-up and a cube in the hand");
+    command.add_option("--situations", arguments->options.situations, "seeded situations of each prop")
+        .within(1, 10000000)
+        .capture_default_str();
+    command.add_option("--visitors", arguments->options.visitors, "of each prop and kind of advice")
+        .within(1, 100000)
+        .capture_default_str();
+    command.add_option("--seconds", arguments->options.seconds, "of each visit")
+        .within(5.0, 3600.0)
+        .capture_default_str();
+    command.add_option("--seed", arguments->options.seed, "of situations and visitors").capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

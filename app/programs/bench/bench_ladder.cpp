@@ -1,5 +1,6 @@
 #include "app/bench/museum/museum_report.h"
 #include "app/programs/bench/bench_command.h"
+#include "app/programs/common/command_line.h"
 
 #include <memory>
 
@@ -33,18 +34,16 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 } // namespace
 
-BenchCommand ladder_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
+BenchCommand ladder_command(CommandLine& app) {
+    CommandLine command = app.add_subcommand(
         "ladder", "the recovery ladder over simulated days of a museum, beside other policies");
     const auto arguments = std::make_shared<Arguments>();
-    command->add_option("--out", arguments->out, "folder for the tables and the plot")->required();
-    command->add_option("--days", arguments->days, "simulated")
-        ->check(CLI::Range(1, 10000))
-        ->capture_default_str();
-    command->add_option("--seed", arguments->seed, "of the faults")->capture_default_str();
-    command->add_option("--times", arguments->times, "as many faults as usual")
-        ->check(CLI::Range(0.01, 1000.0))
-        ->capture_default_str();
+    command.add_option("--out", arguments->out, "folder for the tables and the plot").required();
+    command.add_option("--days", arguments->days, "simulated").within(1, 10000).capture_default_str();
+    command.add_option("--seed", arguments->seed, "of the faults").capture_default_str();
+    command.add_option("--times", arguments->times, "as many faults as usual")
+        .within(0.01, 1000.0)
+        .capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

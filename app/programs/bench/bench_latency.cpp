@@ -1,5 +1,6 @@
 #include "app/bench/latency/latency_report.h"
 #include "app/programs/bench/bench_command.h"
+#include "app/programs/common/command_line.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/tracker/convert_recording.h"
 
@@ -83,22 +84,22 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 } // namespace
 
-BenchCommand latency_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
+BenchCommand latency_command(CommandLine& app) {
+    CommandLine command = app.add_subcommand(
         "latency", "slip of the picture on a moving prop: filters and prediction against latency");
     const auto arguments = std::make_shared<Arguments>();
-    command->add_option("--out", arguments->out, "folder for the tables and plots")->required();
-    command->add_option("--recordings", arguments->recordings, "folder of recordings to replay as well")
-        ->capture_default_str();
+    command.add_option("--out", arguments->out, "folder for the tables and plots").required();
+    command.add_option("--recordings", arguments->recordings, "folder of recordings to replay as well")
+        .capture_default_str();
     command
-        ->add_option("--display-latency-ms", arguments->options.setting.display_latency_ms,
-                     "from the poll until the picture is lit")
-        ->check(CLI::Range(0.0, 200.0))
-        ->capture_default_str();
-    command->add_option("--seconds", arguments->options.length_s, "of each motion")
-        ->check(CLI::Range(5.0, 3600.0))
-        ->capture_default_str();
-    command->add_option("--seed", arguments->options.seed, "of motion and noise")->capture_default_str();
+        .add_option("--display-latency-ms", arguments->options.setting.display_latency_ms,
+                    "from the poll until the picture is lit")
+        .within(0.0, 200.0)
+        .capture_default_str();
+    command.add_option("--seconds", arguments->options.length_s, "of each motion")
+        .within(5.0, 3600.0)
+        .capture_default_str();
+    command.add_option("--seed", arguments->options.seed, "of motion and noise").capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

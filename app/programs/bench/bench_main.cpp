@@ -1,7 +1,7 @@
 /// frustumscreen-bench: what is measured, as tables and plots; each command is a file of its own.
 #include "app/programs/bench/bench_command.h"
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/common/read_arguments.h"
 
 #include <fmt/format.h>
 
@@ -12,22 +12,23 @@ namespace frustumscreen {
 namespace {
 
 int run(int argc, char** argv) {
-    CLI::App app("Measures the FrustumScreen's picture: error against run time, scaling, the visitor's view,"
-                 " shimmer, numerical stability, latency; which set-up suits a table; what the"
-                 " recovery ladder, tags on the prop and a camera that sees the visitors are worth.",
-                 "frustumscreen-bench");
+    CommandLine app(
+        "Measures the FrustumScreen's picture: error against run time, scaling, the visitor's view,"
+        " shimmer, numerical stability, latency; which set-up suits a table; what the"
+        " recovery ladder, tags on the prop and a camera that sees the visitors are worth.",
+        "frustumscreen-bench");
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
-    app.require_subcommand(1);
+    app.require_subcommand();
     const std::array commands = {error_time_command(app), scaling_command(app),   projection_command(app),
                                  shimmer_command(app),    stability_command(app), plot_command(app),
                                  counts_command(app),     latency_command(app),   setup_command(app),
                                  guidance_command(app),   ladder_command(app),    estimate_command(app),
                                  tags_command(app),       visitor_command(app)};
-    if (const auto end = end_of_arguments(app, argc, argv)) {
+    if (const auto end = app.end_of_arguments(argc, argv)) {
         return *end;
     }
     for (const BenchCommand& command : commands) {
-        if (!command.options->parsed()) {
+        if (!command.options.parsed()) {
             continue;
         }
         BenchProgress progress;

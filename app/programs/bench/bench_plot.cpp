@@ -1,5 +1,6 @@
 #include "app/bench/plots/draw_tables.h"
 #include "app/programs/bench/bench_command.h"
+#include "app/programs/common/command_line.h"
 
 #include <memory>
 
@@ -25,12 +26,12 @@ Result<void> run(const Arguments& arguments) {
 
 } // namespace
 
-BenchCommand plot_command(CLI::App& app) {
-    CLI::App* command =
+BenchCommand plot_command(CommandLine& app) {
+    CommandLine command =
         app.add_subcommand("plot", "results of error-time on several artifacts, as fronts on one sheet");
     const auto arguments = std::make_shared<Arguments>();
-    command->add_option("--from", arguments->from, "folders that error-time wrote")->required();
-    command->add_option("--out", arguments->out, "folder for the plot")->required();
+    command.add_option("--from", arguments->from, "folders that error-time wrote").required();
+    command.add_option("--out", arguments->out, "folder for the plot").required();
     return {command, [arguments](BenchProgress&) { return run(*arguments); }};
 }
 

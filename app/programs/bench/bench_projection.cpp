@@ -1,5 +1,6 @@
 #include "app/bench/measures/projection.h"
 #include "app/programs/bench/bench_command.h"
+#include "app/programs/common/command_line.h"
 
 #include <memory>
 
@@ -26,14 +27,14 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 } // namespace
 
-BenchCommand projection_command(CLI::App& app) {
-    CLI::App* command =
+BenchCommand projection_command(CommandLine& app) {
+    CommandLine command =
         app.add_subcommand("projection", "the visitor's view of default and finest level against a ray cast");
     const auto arguments = std::make_shared<Arguments>();
-    add_place_options(*command, arguments->place);
-    add_artifact_options(*command, arguments->artifact);
-    add_picture_options(*command, arguments->options.picture);
-    add_pose_options(*command, arguments->options.poses, arguments->options.seed);
+    add_place_options(command, arguments->place);
+    add_artifact_options(command, arguments->artifact);
+    add_picture_options(command, arguments->options.picture);
+    add_pose_options(command, arguments->options.poses, arguments->options.seed);
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

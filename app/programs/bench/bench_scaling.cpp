@@ -2,6 +2,7 @@
 #include "app/bench/measures/scaling.h"
 #include "app/bench/measures/verdicts.h"
 #include "app/programs/bench/bench_command.h"
+#include "app/programs/common/command_line.h"
 
 #include <fmt/format.h>
 
@@ -88,21 +89,21 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 } // namespace
 
-BenchCommand scaling_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("scaling", "cost against the source's size, built-in amphora");
+BenchCommand scaling_command(CommandLine& app) {
+    CommandLine command = app.add_subcommand("scaling", "cost against the source's size, built-in amphora");
     const auto arguments = std::make_shared<Arguments>();
-    add_place_options(*command, arguments->place);
-    add_picture_options(*command, arguments->options.picture);
-    add_pose_options(*command, arguments->options.poses, arguments->options.seed);
-    command->add_flag("--no-peers", arguments->no_peers, "leave out the two-pass method");
+    add_place_options(command, arguments->place);
+    add_picture_options(command, arguments->options.picture);
+    add_pose_options(command, arguments->options.poses, arguments->options.seed);
+    command.add_flag("--no-peers", arguments->no_peers, "leave out the two-pass method");
     command
-        ->add_option("--size", arguments->options.size,
-                     "of the bakes, texels along the longest edge of a face")
-        ->check(CLI::Range(16, 4096))
-        ->capture_default_str();
-    command->add_option("--triangles", arguments->options.triangles, "counts of source triangles")
-        ->check(CLI::Range(1000, 20'000'000))
-        ->capture_default_str();
+        .add_option("--size", arguments->options.size,
+                    "of the bakes, texels along the longest edge of a face")
+        .within(16, 4096)
+        .capture_default_str();
+    command.add_option("--triangles", arguments->options.triangles, "counts of source triangles")
+        .within(1000, 20'000'000)
+        .capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

@@ -1,6 +1,7 @@
 #include "app/bench/setup/advice_report.h"
 #include "app/pack/pack_file.h"
 #include "app/programs/bench/bench_command.h"
+#include "app/programs/common/command_line.h"
 
 #include <memory>
 #include <optional>
@@ -94,40 +95,39 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 } // namespace
 
-BenchCommand setup_command(CLI::App& app) {
-    CLI::App* command =
+BenchCommand setup_command(CommandLine& app) {
+    CommandLine command =
         app.add_subcommand("setup", "which prop and which place of the projector suit a table");
     const auto arguments = std::make_shared<Arguments>();
-    command->add_option("--config", arguments->config, "settings: the table, the eyes, the prop as it is")
-        ->required();
-    command->add_option("--out", arguments->out, "folder for the table and the plot")->required();
-    command->add_option(
+    command.add_option("--config", arguments->config, "settings: the table, the eyes, the prop as it is")
+        .required();
+    command.add_option("--out", arguments->out, "folder for the table and the plot").required();
+    command.add_option(
         "--pack", arguments->pack,
         "a pack: what its frames cost in the best choices, in times of the settings as they are");
-    command
-        ->add_option("--picture", arguments->picture, "width and height of the projector's picture, pixels")
-        ->expected(2)
-        ->check(CLI::Range(64, 8192));
+    command.add_option("--picture", arguments->picture, "width and height of the projector's picture, pixels")
+        .expected(2)
+        .within(64, 8192);
     AdviceOptions& options = arguments->options;
-    command->add_option("--lowest-m", options.lowest_m, "of the lens over the table")
-        ->check(CLI::Range(0.3, 5.0))
-        ->capture_default_str();
-    command->add_option("--highest-m", options.highest_m, "of the lens over the table")
-        ->check(CLI::Range(0.3, 5.0))
-        ->capture_default_str();
-    command->add_option("--sides-m", options.sides_m, "how far from the table's middle the lens may be")
-        ->check(CLI::Range(0.0, 2.0))
-        ->capture_default_str();
+    command.add_option("--lowest-m", options.lowest_m, "of the lens over the table")
+        .within(0.3, 5.0)
+        .capture_default_str();
+    command.add_option("--highest-m", options.highest_m, "of the lens over the table")
+        .within(0.3, 5.0)
+        .capture_default_str();
+    command.add_option("--sides-m", options.sides_m, "how far from the table's middle the lens may be")
+        .within(0.0, 2.0)
+        .capture_default_str();
     command
-        ->add_option("--evenness", options.evenness,
-                     "light of the darkest face that is seen, as a share of the brightest one's")
-        ->check(CLI::Range(0.05, 0.95))
-        ->capture_default_str();
+        .add_option("--evenness", options.evenness,
+                    "light of the darkest face that is seen, as a share of the brightest one's")
+        .within(0.05, 0.95)
+        .capture_default_str();
     command
-        ->add_option("--pixels", options.pixels,
-                     "projector pixels on the artifact, times as many as it has now")
-        ->check(CLI::Range(0.1, 100.0))
-        ->capture_default_str();
+        .add_option("--pixels", options.pixels,
+                    "projector pixels on the artifact, times as many as it has now")
+        .within(0.1, 100.0)
+        .capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

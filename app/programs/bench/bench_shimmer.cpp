@@ -1,5 +1,6 @@
 #include "app/bench/measures/shimmer.h"
 #include "app/programs/bench/bench_command.h"
+#include "app/programs/common/command_line.h"
 
 #include <memory>
 
@@ -28,21 +29,21 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 } // namespace
 
-BenchCommand shimmer_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
+BenchCommand shimmer_command(CommandLine& app) {
+    CommandLine command = app.add_subcommand(
         "shimmer",
         "the prop moved by small steps: default and finest level against a ray cast, edges between faces");
     const auto arguments = std::make_shared<Arguments>();
-    add_place_options(*command, arguments->place);
-    add_artifact_options(*command, arguments->artifact);
-    add_picture_options(*command, arguments->options.picture);
-    add_pose_options(*command, arguments->options.poses, arguments->options.seed);
+    add_place_options(command, arguments->place);
+    add_artifact_options(command, arguments->artifact);
+    add_picture_options(command, arguments->options.picture);
+    add_pose_options(command, arguments->options.poses, arguments->options.seed);
     command
-        ->add_option("--steps", arguments->options.steps,
-                     "in each direction: of 0.1 projector pixel, and of 0.1 mm for the edges")
-        ->check(CLI::Range(2, 1000))
-        ->capture_default_str();
-    command->add_flag("--one-ray", arguments->one_ray, "leave out the ray cast with 16 rays a pixel");
+        .add_option("--steps", arguments->options.steps,
+                    "in each direction: of 0.1 projector pixel, and of 0.1 mm for the edges")
+        .within(2, 1000)
+        .capture_default_str();
+    command.add_flag("--one-ray", arguments->one_ray, "leave out the ray cast with 16 rays a pixel");
     return {command, [arguments](BenchProgress& progress) {
                 arguments->options.sixteen_rays = !arguments->one_ray;
                 return run(*arguments, progress);

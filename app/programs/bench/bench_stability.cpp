@@ -1,6 +1,7 @@
 #include "app/bench/stability/report.h"
 #include "app/bench/stability/stability.h"
 #include "app/programs/bench/bench_command.h"
+#include "app/programs/common/command_line.h"
 
 #include <fmt/format.h>
 
@@ -44,16 +45,16 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 } // namespace
 
-BenchCommand stability_command(CLI::App& app) {
-    CLI::App* command =
+BenchCommand stability_command(CommandLine& app) {
+    CommandLine command =
         app.add_subcommand("stability", "numerical stability on stiff and extreme cases, bound by bound");
     const auto arguments = std::make_shared<Arguments>();
-    command->add_option("--out", arguments->out, "folder for the tables and the plot")->required();
-    command->add_option("--recordings", arguments->options.recordings, "folder of tracker recordings")
-        ->capture_default_str();
-    command->add_option("--triangles", arguments->options.triangles, "of the largest artifact")
-        ->check(CLI::Range(10'000, 8'000'000))
-        ->capture_default_str();
+    command.add_option("--out", arguments->out, "folder for the tables and the plot").required();
+    command.add_option("--recordings", arguments->options.recordings, "folder of tracker recordings")
+        .capture_default_str();
+    command.add_option("--triangles", arguments->options.triangles, "of the largest artifact")
+        .within(10'000, 8'000'000)
+        .capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

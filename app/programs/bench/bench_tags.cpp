@@ -1,5 +1,6 @@
 #include "app/bench/tags/tag_figures.h"
 #include "app/programs/bench/bench_command.h"
+#include "app/programs/common/command_line.h"
 #include "firmware_host/base/file.h"
 
 #include <memory>
@@ -32,17 +33,17 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 } // namespace
 
-BenchCommand tags_command(CLI::App& app) {
-    CLI::App* command =
+BenchCommand tags_command(CommandLine& app) {
+    CommandLine command =
         app.add_subcommand("tags", "the prop's pose by its tags, in rendered scenes: error, spread and time");
     const auto arguments = std::make_shared<Arguments>();
-    command->add_option("--out", arguments->out, "folder for the table")->required();
-    command->add_option("--pictures", arguments->pictures, "of each scene")
-        ->check(CLI::Range(1, 100000))
-        ->capture_default_str();
-    command->add_flag("--half", arguments->half,
-                      "search at half size, as the exhibit does where a frame costs much");
-    command->add_option("--seed", arguments->seed, "of poses and noise")->capture_default_str();
+    command.add_option("--out", arguments->out, "folder for the table").required();
+    command.add_option("--pictures", arguments->pictures, "of each scene")
+        .within(1, 100000)
+        .capture_default_str();
+    command.add_flag("--half", arguments->half,
+                     "search at half size, as the exhibit does where a frame costs much");
+    command.add_option("--seed", arguments->seed, "of poses and noise").capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

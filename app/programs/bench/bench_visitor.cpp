@@ -1,5 +1,6 @@
 #include "app/bench/visitor/visitor_figures.h"
 #include "app/programs/bench/bench_command.h"
+#include "app/programs/common/command_line.h"
 #include "firmware_host/base/file.h"
 
 #include <memory>
@@ -36,18 +37,18 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
 
 } // namespace
 
-BenchCommand visitor_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
+BenchCommand visitor_command(CommandLine& app) {
+    CommandLine command = app.add_subcommand(
         "visitor", "the visitor's eye by a camera, in rendered scenes: presence, error, jitter and time");
     const auto arguments = std::make_shared<Arguments>();
-    command->add_option("--out", arguments->out, "folder for the tables")->required();
-    command->add_option("--visits", arguments->visits, "of each scene, seven seconds long")
-        ->check(CLI::Range(1, 100000))
-        ->capture_default_str();
-    command->add_option("--minutes", arguments->minutes, "of each scene without anybody")
-        ->check(CLI::Range(0.1, 10000.0))
-        ->capture_default_str();
-    command->add_option("--seed", arguments->seed, "of people, light and noise")->capture_default_str();
+    command.add_option("--out", arguments->out, "folder for the tables").required();
+    command.add_option("--visits", arguments->visits, "of each scene, seven seconds long")
+        .within(1, 100000)
+        .capture_default_str();
+    command.add_option("--minutes", arguments->minutes, "of each scene without anybody")
+        .within(0.1, 10000.0)
+        .capture_default_str();
+    command.add_option("--seed", arguments->seed, "of people, light and noise").capture_default_str();
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

@@ -5,6 +5,7 @@
 #include "app/programs/calibrate/auto_table.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/touch_command.h"
+#include "app/programs/common/command_line.h"
 
 #include <fmt/format.h>
 
@@ -82,30 +83,29 @@ Result<int> calibrate(const CalibrateRequest& request) {
 
 } // namespace
 
-void add_auto_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
-    CLI::App* const command = app.add_subcommand(
+void add_auto_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen) {
+    CommandLine command = app.add_subcommand(
         "auto", "by a camera, on the table itself: the prop rests here and there on its printed board, the "
                 "projector shows stripes; Back and "
                 "Next are the first and the second button. Or, with --from, from a file of rests");
-    add_common_options(*command, request);
-    CLI::Option* const from = command->get_option("--from")->required(false);
-    add_touch_options(*command, request);
-    command->add_option("--rests", request.rests, "on the table: how many; 16 are recommended")
-        ->check(CLI::Range(6, 40))
-        ->excludes(from);
+    add_common_options(command, request);
+    const CommandOption from = command.get_option("--from").required(false);
+    add_touch_options(command, request);
+    command.add_option("--rests", request.rests, "on the table: how many; 16 are recommended")
+        .within(6, 40)
+        .excludes(from);
     command
-        ->add_option("--board", request.board_m,
-                     "on the table: how thick the board is, metres; 0.003 if left out")
-        ->check(CLI::Range(0.0, 0.05))
-        ->excludes(from);
-    command->add_option("--out", request.out, "on the table: writes the rests, CSV, for --from")
-        ->excludes(from);
-    command->add_flag("--headless", request.headless, "on the table: without a screen, for tests")
-        ->excludes(from);
-    command->callback([&] {
+        .add_option("--board", request.board_m,
+                    "on the table: how thick the board is, metres; 0.003 if left out")
+        .within(0.0, 0.05)
+        .excludes(from);
+    command.add_option("--out", request.out, "on the table: writes the rests, CSV, for --from")
+        .excludes(from);
+    command.add_flag("--headless", request.headless, "on the table: without a screen, for tests")
+        .excludes(from);
+    command.callback([&] {
         if (request.from.empty() && (request.config.empty() || request.json)) {
-            throw CLI::RequiredError(request.json ? "--from FILE, with --json,"
-                                                  : "--config FILE, or --from FILE,");
+            throw missing(request.json ? "--from FILE, with --json," : "--config FILE, or --from FILE,");
         }
         chosen = [&] { return end_with(calibrate(request)); };
     });

@@ -6,20 +6,21 @@
 #include "app/programs/calibrate/sheet_command.h"
 #include "app/programs/calibrate/table_command.h"
 #include "app/programs/calibrate/touch_command.h"
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/common/read_arguments.h"
 
 namespace frustumscreen {
 namespace {
 
 int run(int argc, char** argv) {
-    CLI::App app("Projector and tracker of a table, from points that were touched or measured on it: on the "
-                 "table itself (table, or auto with a camera), or "
-                 "without a device from a file (touch, auto, corners); the board that auto needs (sheet); "
-                 "the eyes' place in the head's sensor (eye); and what is kept (kept).",
-                 "frustumscreen-calibrate");
+    CommandLine app(
+        "Projector and tracker of a table, from points that were touched or measured on it: on the "
+        "table itself (table, or auto with a camera), or "
+        "without a device from a file (touch, auto, corners); the board that auto needs (sheet); "
+        "the eyes' place in the head's sensor (eye); and what is kept (kept).",
+        "frustumscreen-calibrate");
     app.set_version_flag("--version", "frustumscreen-calibrate " FRUSTUMSCREEN_VERSION);
-    app.require_subcommand(1);
+    app.require_subcommand();
     app.footer("Status 0: a calibration that is good or usable; 1: points are to be done again, or say "
                "nothing (with --json the "
                "verdict is printed all the same); 2: wrong use.");
@@ -32,7 +33,7 @@ int run(int argc, char** argv) {
     add_eye_command(app, request, chosen);
     add_sheet_command(app, request, chosen);
     add_kept_command(app, request, chosen);
-    if (const auto end = end_of_arguments(app, argc, argv, [&] { check_request(request); })) {
+    if (const auto end = app.end_of_arguments(argc, argv, [&] { check_request(request); })) {
         return *end;
     }
     return chosen();

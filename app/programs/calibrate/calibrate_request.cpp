@@ -1,5 +1,6 @@
 #include "app/programs/calibrate/calibrate_request.h"
 
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
 
 #include <fmt/format.h>
@@ -8,31 +9,31 @@
 
 namespace frustumscreen {
 
-void add_common_options(CLI::App& command, CalibrateRequest& request) {
-    command.add_option("--from", request.from, "the points, CSV")->required();
-    CLI::Option* const picture =
+void add_common_options(CommandLine& command, CalibrateRequest& request) {
+    command.add_option("--from", request.from, "the points, CSV").required();
+    const CommandOption picture =
         command
             .add_option("--picture", request.picture, "width and height of the projector's picture, pixels")
-            ->expected(2)
-            ->check(CLI::Range(16, 16384));
+            .expected(2)
+            .within(16, 16384);
     command.add_option("--config", request.config, "or the kiosk's settings, TOML, which have it")
-        ->excludes(picture);
+        .excludes(picture);
     command.add_flag("--json", request.json, "for programs");
 }
 
-void add_touch_options(CLI::App& command, CalibrateRequest& request) {
+void add_touch_options(CommandLine& command, CalibrateRequest& request) {
     command
         .add_option("--sensor-height", request.sensor_height_m,
                     "the sensor above the touched place while the prop stands upright, metres")
-        ->check(CLI::Range(-2.0, 2.0));
+        .within(-2.0, 2.0);
     command
         .add_flag("--keep", request.keep, "keeps what is good or usable, in the settings' calibration.folder")
-        ->needs("--config");
+        .needs("--config");
 }
 
 void check_request(const CalibrateRequest& request) {
     if (!request.from.empty() && request.picture.empty() && request.config.empty()) {
-        throw CLI::RequiredError("--picture W H, or --config FILE,");
+        throw missing("--picture W H, or --config FILE,");
     }
 }
 

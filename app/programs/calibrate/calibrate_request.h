@@ -6,12 +6,11 @@
 #include "app/calibration/verdict.h"
 #include "app/geometry/pinhole.h"
 #include "app/geometry/transform.h"
+#include "app/programs/common/command_line.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/json.h"
 #include "firmware_host/base/result.h"
-
-#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -49,10 +48,10 @@ struct Described {
     double top_m = 0.12; ///< the prop's height
 };
 
-void add_common_options(CLI::App& command, CalibrateRequest& request);
+void add_common_options(CommandLine& command, CalibrateRequest& request);
 /// --sensor-height and --keep.
-void add_touch_options(CLI::App& command, CalibrateRequest& request);
-/// Throws a CLI::ParseError at what does not go.
+void add_touch_options(CommandLine& command, CalibrateRequest& request);
+/// Throws a WrongUse at what does not go.
 void check_request(const CalibrateRequest& request);
 [[nodiscard]] Result<Described> describe(const CalibrateRequest& request);
 [[nodiscard]] Described described_by(const Settings& settings);

@@ -3,6 +3,7 @@
 #include "app/calibration/corners.h"
 #include "app/calibration/point_files.h"
 #include "app/programs/calibrate/touch_command.h"
+#include "app/programs/common/command_line.h"
 
 #include <fmt/format.h>
 
@@ -60,11 +61,11 @@ Result<int> corners(const CalibrateRequest& request) {
 
 } // namespace
 
-void add_corners_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
-    CLI::App* const command = app.add_subcommand(
+void add_corners_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen) {
+    CommandLine command = app.add_subcommand(
         "corners", "from the picture's four corners, measured by hand at two distances: the projector");
-    add_common_options(*command, request);
-    command->callback([&] { chosen = [&] { return end_with(corners(request)); }; });
+    add_common_options(command, request);
+    command.callback([&] { chosen = [&] { return end_with(corners(request)); }; });
 }
 
 } // namespace frustumscreen

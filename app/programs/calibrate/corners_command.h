@@ -4,12 +4,13 @@
 #pragma once
 
 #include "app/programs/calibrate/calibrate_request.h"
+#include "app/programs/common/command_line.h"
 
 #include <functional>
 
 namespace frustumscreen {
 
 /// Sets `chosen` if this is the command; what it returns is the exit status.
-void add_corners_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen);
+void add_corners_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen);
 
 } // namespace frustumscreen

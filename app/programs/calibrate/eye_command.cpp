@@ -5,6 +5,7 @@
 #include "app/programs/calibrate/eye_table.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/touch_command.h"
+#include "app/programs/common/command_line.h"
 
 #include <fmt/format.h>
 
@@ -122,25 +123,25 @@ Result<int> eye(const CalibrateRequest& request) {
 
 } // namespace
 
-void add_eye_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
-    CLI::App* const command = app.add_subcommand(
+void add_eye_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen) {
+    CommandLine command = app.add_subcommand(
         "eye",
         "the eyes' place in the head's sensor, on the table itself: the projector shows crosses behind the "
         "prop, a person with the sensor on brings a corner of the prop over each, with one eye; Back and "
         "Next are the first and the second button. Or, with --from, from a file of such sightings");
-    CLI::Option* const from = command->add_option("--from", request.from, "the sightings, CSV");
-    command->add_option("--config", request.config, "the kiosk's settings, TOML")->required();
-    command->add_flag("--json", request.json,
-                      "for programs; without --from: prints the crosses for a prop on its square, and ends");
+    const CommandOption from = command.add_option("--from", request.from, "the sightings, CSV");
+    command.add_option("--config", request.config, "the kiosk's settings, TOML").required();
+    command.add_flag("--json", request.json,
+                     "for programs; without --from: prints the crosses for a prop on its square, and ends");
     command
-        ->add_flag("--keep", request.keep,
-                   "keeps what is good or usable, with the calibration that is kept; on the table, Next does")
-        ->needs(from);
-    command->add_option("--out", request.out, "on the table: writes the sightings, CSV, for --from")
-        ->excludes(from);
-    command->add_flag("--headless", request.headless, "on the table: without a screen, for tests")
-        ->excludes(from);
-    command->callback([&] { chosen = [&] { return end_with(eye(request)); }; });
+        .add_flag("--keep", request.keep,
+                  "keeps what is good or usable, with the calibration that is kept; on the table, Next does")
+        .needs(from);
+    command.add_option("--out", request.out, "on the table: writes the sightings, CSV, for --from")
+        .excludes(from);
+    command.add_flag("--headless", request.headless, "on the table: without a screen, for tests")
+        .excludes(from);
+    command.callback([&] { chosen = [&] { return end_with(eye(request)); }; });
 }
 
 } // namespace frustumscreen

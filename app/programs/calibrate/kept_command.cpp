@@ -1,6 +1,7 @@
 #include "app/programs/calibrate/kept_command.h"
 
 #include "app/programs/calibrate/kept_table.h"
+#include "app/programs/common/command_line.h"
 #include "app/settings/kept_calibrations.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/disk_tree.h"
@@ -146,13 +147,13 @@ Result<void> keep_eye(const Settings& settings, const glm::dvec3& eye_in_sensor_
     return keep_next(settings, std::move(next));
 }
 
-void add_kept_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
-    CLI::App* const command = app.add_subcommand(
+void add_kept_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen) {
+    CommandLine command = app.add_subcommand(
         "kept", "lists the calibrations that this kiosk keeps, the newest first; undoes the newest");
-    command->add_option("--config", request.config, "the kiosk's settings, TOML")->required();
-    command->add_flag("--undo", request.undo, "the one before the newest counts again");
-    command->add_flag("--json", request.json, "for programs");
-    command->callback([&] { chosen = [&] { return end_with(show_kept(request)); }; });
+    command.add_option("--config", request.config, "the kiosk's settings, TOML").required();
+    command.add_flag("--undo", request.undo, "the one before the newest counts again");
+    command.add_flag("--json", request.json, "for programs");
+    command.callback([&] { chosen = [&] { return end_with(show_kept(request)); }; });
 }
 
 } // namespace frustumscreen

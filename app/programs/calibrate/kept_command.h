@@ -7,6 +7,7 @@
 #include "app/calibration/calibrate_auto.h"
 #include "app/calibration/calibrate_touch.h"
 #include "app/programs/calibrate/calibrate_request.h"
+#include "app/programs/common/command_line.h"
 
 #include <functional>
 #include <span>
@@ -14,7 +15,7 @@
 
 namespace frustumscreen {
 
-void add_kept_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen);
+void add_kept_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen);
 
 /// Keeps a calibration that is good or usable in the settings' folder, dated by this machine's clock, and says where.
 [[nodiscard]] Result<void> keep_touch(const Settings& settings, const TouchCalibration& calibration,

@@ -1,6 +1,7 @@
 #include "app/programs/calibrate/sheet_command.h"
 
 #include "app/drawing/board/board_sheet.h"
+#include "app/programs/common/command_line.h"
 #include "firmware_host/base/output_file.h"
 
 #include <array>
@@ -35,12 +36,12 @@ Result<Board> board_of(const Settings& settings) {
                                                  : FrustumSize{prop.base_m, prop.top_m, prop.height_m});
 }
 
-void add_sheet_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
-    CLI::App* const command = app.add_subcommand(
+void add_sheet_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen) {
+    CommandLine command = app.add_subcommand(
         "sheet", "draws the board of tags that auto needs, for the settings' prop: A3, true size, SVG");
-    command->add_option("--config", request.config, "the kiosk's settings, TOML")->required();
-    command->add_option("-o,--output", request.out, "the sheet, SVG")->required();
-    command->callback([&] { chosen = [&] { return end_with(draw(request)); }; });
+    command.add_option("--config", request.config, "the kiosk's settings, TOML").required();
+    command.add_option("-o,--output", request.out, "the sheet, SVG").required();
+    command.callback([&] { chosen = [&] { return end_with(draw(request)); }; });
 }
 
 } // namespace frustumscreen

@@ -5,6 +5,7 @@
 
 #include "app/calibration/board.h"
 #include "app/programs/calibrate/calibrate_request.h"
+#include "app/programs/common/command_line.h"
 
 #include <functional>
 
@@ -13,6 +14,6 @@ namespace frustumscreen {
 /// Of the settings' prop.
 [[nodiscard]] Result<Board> board_of(const Settings& settings);
 
-void add_sheet_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen);
+void add_sheet_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen);
 
 } // namespace frustumscreen

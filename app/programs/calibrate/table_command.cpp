@@ -10,6 +10,7 @@
 #include "app/programs/calibrate/sheet_command.h"
 #include "app/programs/calibrate/touch_table.h"
 #include "app/programs/calibrate/touch_up_command.h"
+#include "app/programs/common/command_line.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/standard_error.h"
@@ -244,32 +245,32 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
 
 } // namespace
 
-void add_table_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
-    CLI::App* const command =
+void add_table_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen) {
+    CommandLine command =
         app.add_subcommand("table", "on the table itself, step by step: the projector shows crosses, the "
                                     "prop is laid on them; Back and Next are the "
                                     "first and the second button. Where a calibration is kept, its touch-up "
                                     "is offered first; then, with a camera in the settings, the way of auto");
-    command->add_option("--config", request.config, "the kiosk's settings, TOML")->required();
+    command.add_option("--config", request.config, "the kiosk's settings, TOML").required();
     command
-        ->add_option("--touches", request.touches,
-                     "how many crosses, 6 to 30; this and the next two are else as the settings have them")
-        ->check(CLI::Range(6, 30));
+        .add_option("--touches", request.touches,
+                    "how many crosses, 6 to 30; this and the next two are else as the settings have them")
+        .within(6, 30);
     command
-        ->add_option("--block", request.block_m, "how high a block raises the prop for half of them, metres")
-        ->check(CLI::Range(0.02, 0.5));
+        .add_option("--block", request.block_m, "how high a block raises the prop for half of them, metres")
+        .within(0.02, 0.5);
     command
-        ->add_option("--sensor-height", request.sensor_height_m, "the sensor above the prop's bottom, metres")
-        ->check(CLI::Range(-2.0, 2.0));
-    command->add_option("--out", request.out,
-                        "writes the touches, or the rests, CSV, for touch or auto --from");
-    CLI::Option* const touch_up = command->add_flag(
+        .add_option("--sensor-height", request.sensor_height_m, "the sensor above the prop's bottom, metres")
+        .within(-2.0, 2.0);
+    command.add_option("--out", request.out,
+                       "writes the touches, or the rests, CSV, for touch or auto --from");
+    const CommandOption touch_up = command.add_flag(
         "--touch-up", request.touch_up, "of the kept calibration, or nothing: without one it is an error");
-    command->add_flag("--anew", request.anew, "the whole calibration, also where one is kept")
-        ->excludes(touch_up);
-    command->add_flag("--headless", request.headless, "without a screen, for tests");
-    command->add_flag("--json", request.json, "prints the crosses and ends");
-    command->callback([&] { chosen = [&] { return end_with(calibrate_table(request)); }; });
+    command.add_flag("--anew", request.anew, "the whole calibration, also where one is kept")
+        .excludes(touch_up);
+    command.add_flag("--headless", request.headless, "without a screen, for tests");
+    command.add_flag("--json", request.json, "prints the crosses and ends");
+    command.callback([&] { chosen = [&] { return end_with(calibrate_table(request)); }; });
 }
 
 } // namespace frustumscreen

@@ -2,11 +2,12 @@
 #pragma once
 
 #include "app/programs/calibrate/calibrate_request.h"
+#include "app/programs/common/command_line.h"
 
 #include <functional>
 
 namespace frustumscreen {
 
-void add_table_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen);
+void add_table_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen);
 
 } // namespace frustumscreen

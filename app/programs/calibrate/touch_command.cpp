@@ -4,6 +4,7 @@
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/touch_up_command.h"
 #include "app/programs/calibrate/uncertainty_picture.h"
+#include "app/programs/common/command_line.h"
 
 #include <fmt/format.h>
 
@@ -117,20 +118,20 @@ nlohmann::ordered_json touch_json(const TouchCalibration& c) {
     return json;
 }
 
-void add_touch_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen) {
-    CLI::App* const command = app.add_subcommand(
+void add_touch_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen) {
+    CommandLine command = app.add_subcommand(
         "touch", "from the prop laid on crosses: projector, tracker and the sensor's place in the prop");
-    add_common_options(*command, request);
-    add_touch_options(*command, request);
-    CLI::Option* const map = command->add_option(
+    add_common_options(command, request);
+    add_touch_options(command, request);
+    const CommandOption map = command.add_option(
         "--map", request.map, "draws how uncertain the picture is, on the table and at the prop's top: PNG");
     command
-        ->add_flag("--touch-up", request.touch_up,
-                   "corrects the kept calibration by three touches or more: what moved since, and how far")
-        ->needs("--config")
-        ->excludes(map)
-        ->excludes("--sensor-height");
-    command->callback([&] { chosen = [&] { return end_with(touch(request)); }; });
+        .add_flag("--touch-up", request.touch_up,
+                  "corrects the kept calibration by three touches or more: what moved since, and how far")
+        .needs("--config")
+        .excludes(map)
+        .excludes("--sensor-height");
+    command.callback([&] { chosen = [&] { return end_with(touch(request)); }; });
 }
 
 } // namespace frustumscreen

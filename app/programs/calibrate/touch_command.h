@@ -5,6 +5,7 @@
 
 #include "app/calibration/calibrate_touch.h"
 #include "app/programs/calibrate/calibrate_request.h"
+#include "app/programs/common/command_line.h"
 
 #include <functional>
 #include <span>
@@ -17,6 +18,6 @@ namespace frustumscreen {
 [[nodiscard]] nlohmann::ordered_json mm_json(double mean_m, double worst_m);
 [[nodiscard]] nlohmann::ordered_json rows_json(std::span<const TouchResidual> residuals);
 /// Sets `chosen` if this is the command; what it returns is the exit status.
-void add_touch_command(CLI::App& app, CalibrateRequest& request, std::function<int()>& chosen);
+void add_touch_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen);
 
 } // namespace frustumscreen

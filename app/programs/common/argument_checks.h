@@ -3,9 +3,9 @@
 /// Threads  any.
 #pragma once
 
+#include "app/programs/common/command_line.h"
 #include "app/scene/scene_plan.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <charconv>
@@ -14,8 +14,8 @@
 namespace frustumscreen {
 
 /// Checks only the form of the word: which levels exist is known from the packs.
-[[nodiscard]] inline CLI::Validator is_technique_word() {
-    const auto check = [](std::string& text) {
+[[nodiscard]] inline ArgumentCheck is_technique_word() {
+    const auto check = [](const std::string& text) {
         return is_technique(text)
                    ? std::string()
                    : fmt::format("'{}' is no technique; allowed: auto, finest, level0, level1, ..., "
@@ -25,8 +25,8 @@ namespace frustumscreen {
     return {check, ""};
 }
 
-[[nodiscard]] inline CLI::Validator seconds_between(double low, double high) {
-    const auto check = [low, high](std::string& text) {
+[[nodiscard]] inline ArgumentCheck seconds_between(double low, double high) {
+    const auto check = [low, high](const std::string& text) {
         double seconds = 0.0;
         const char* const end = text.data() + text.size();
         const std::from_chars_result read = std::from_chars(text.data(), end, seconds);

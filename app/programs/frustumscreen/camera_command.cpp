@@ -1,14 +1,13 @@
 #include "app/programs/frustumscreen/camera_command.h"
 
 #include "app/programs/common/argument_checks.h"
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/programs/devices/wiring.h"
 #include "app/programs/frustumscreen/camera_report.h"
 #include "firmware_host/service/stop_signals.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -37,20 +36,20 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CLI::App app(
+    CommandLine app(
         "Says which cameras are there, how that of the settings is set, and whether its frames show "
         "anything. No picture is kept. Exit status: 0 it is well, or the settings have none; 1 it is "
         "not well.",
         "frustumscreen camera");
-    app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
+    app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
     app.add_option("--seconds", request.seconds, "how long to look")
-        ->check(seconds_between(0.01, longest_s))
-        ->capture_default_str();
-    CLI::Option* json = app.add_flag("--json", request.json, "all that is found, as JSON");
+        .check(seconds_between(0.01, longest_s))
+        .capture_default_str();
+    const CommandOption json = app.add_flag("--json", request.json, "all that is found, as JSON");
     app.add_flag("--is-on", request.is_on,
                  "only whether the settings have a camera, by the exit status; nothing is opened")
-        ->excludes(json);
-    return end_of_arguments(app, argc, argv);
+        .excludes(json);
+    return app.end_of_arguments(argc, argv);
 }
 
 /// Takes the camera's frames until the time is over or a stop is asked for; each new state goes to standard error.

@@ -1,14 +1,13 @@
 #include "app/programs/frustumscreen/config_command.h"
 
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/programs/frustumscreen/setup_page.h"
 #include "app/settings/config_json.h"
 #include "app/settings/missing_files.h"
 #include "app/settings/settings_page.h"
 #include "firmware_host/base/standard_error.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -26,21 +25,21 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CLI::App app(
+    CommandLine app(
         "Prints the resolved, checked settings, what they mean on the table, or what settings there are.",
         "frustumscreen config");
     app.add_option("--config", request.config, "the kiosk's settings, TOML");
-    CLI::Option* const json = app.add_flag("--json", request.json, "the settings as JSON (the default)");
-    CLI::Option* const explain = app.add_flag(
+    const CommandOption json = app.add_flag("--json", request.json, "the settings as JSON (the default)");
+    const CommandOption explain = app.add_flag(
         "--explain", request.explain, "in words: the picture on the table, the light on the prop, the zone");
     app.add_flag("--describe", request.describe,
                  "every setting with its default and what it is; needs no --config")
-        ->excludes(json)
-        ->excludes(explain);
-    explain->excludes(json);
-    return end_of_arguments(app, argc, argv, [&] {
+        .excludes(json)
+        .excludes(explain);
+    explain.excludes(json);
+    return app.end_of_arguments(argc, argv, [&] {
         if (request.config.empty() && !request.describe) {
-            throw CLI::RequiredError("--config");
+            throw missing("--config");
         }
     });
 }

@@ -1,12 +1,10 @@
 #include "app/programs/frustumscreen/drawing_command.h"
 
 #include "app/drawing/drawing.h"
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/common/read_arguments.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/output_file.h"
-
-#include <CLI/CLI.hpp>
 
 #include <array>
 #include <filesystem>
@@ -24,16 +22,16 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CLI::App app("Draws, from the settings, what there is to build: SVG, to scale, lengths in mm.",
-                 "frustumscreen drawing");
-    app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
-    app.add_option("-o,--output", request.output, "the drawing, SVG")->required();
+    CommandLine app("Draws, from the settings, what there is to build: SVG, to scale, lengths in mm.",
+                    "frustumscreen drawing");
+    app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
+    app.add_option("-o,--output", request.output, "the drawing, SVG").required();
     app.add_option(
            "--sheet", request.sheet,
            "table: A3, table, projector and eyes (the default); prop: A3, its views, its faces unfolded; "
            "net: these in true size, to cut along")
-        ->check(CLI::IsMember({"table", "prop", "net"}));
-    return end_of_arguments(app, argc, argv);
+        .one_of({"table", "prop", "net"});
+    return app.end_of_arguments(argc, argv);
 }
 
 Result<void> draw(const Request& request) {

@@ -2,13 +2,12 @@
 
 #include "app/exhibit/guidance_setup.h"
 #include "app/guidance/advise.h"
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/programs/frustumscreen/pose_input.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/json.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -142,14 +141,14 @@ Result<void> guide(const Request& request) {
 
 int guide_command(int argc, char** argv) {
     Request request;
-    CLI::App app(
+    CommandLine app(
         "For each pose: the faces that the visitor sees, those that the projector lights, and the one move\n"
         "that lets the visitor see the whole artifact.",
         "frustumscreen guide");
-    app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
-    app.add_option("--poses", request.poses, "poses, CSV")->required();
+    app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
+    app.add_option("--poses", request.poses, "poses, CSV").required();
     app.add_flag("--json", request.json, "one JSON object a line");
-    if (const auto end = end_of_arguments(app, argc, argv)) {
+    if (const auto end = app.end_of_arguments(argc, argv)) {
         return *end;
     }
     return exit_status("frustumscreen", guide(request));

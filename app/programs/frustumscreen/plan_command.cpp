@@ -1,13 +1,12 @@
 #include "app/programs/frustumscreen/plan_command.h"
 
 #include "app/programs/common/argument_checks.h"
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/programs/devices/wiring.h"
 #include "app/programs/frustumscreen/plan_report.h"
 #include "app/settings/settings.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -25,17 +24,18 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CLI::App app("Says what the exhibit needs of a pack and of this machine, what it leaves out and why, and "
-                 "measures what that saves.",
-                 "frustumscreen plan");
-    app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
-    app.add_option("--pack", request.pack, "the artifact, *.fspack")->required();
+    CommandLine app(
+        "Says what the exhibit needs of a pack and of this machine, what it leaves out and why, and "
+        "measures what that saves.",
+        "frustumscreen plan");
+    app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
+    app.add_option("--pack", request.pack, "the artifact, *.fspack").required();
     app.add_option("--technique", request.technique,
                    "auto, finest, level0, level1, ..., relief, relief96, ...")
-        ->check(is_technique_word())
-        ->capture_default_str();
+        .check(is_technique_word())
+        .capture_default_str();
     app.add_flag("--json", request.json, "report as JSON");
-    return end_of_arguments(app, argc, argv);
+    return app.end_of_arguments(argc, argv);
 }
 
 Result<void> plan(const Request& request) {

@@ -1,9 +1,9 @@
 #include "app/programs/frustumscreen/record_command.h"
 
 #include "app/programs/common/argument_checks.h"
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/programs/devices/wiring.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
@@ -12,7 +12,6 @@
 #include "firmware_host/service/stop_signals.h"
 #include "firmware_host/tracker/pose_file.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -41,18 +40,18 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CLI::App app(
+    CommandLine app(
         "Records what the tracker sends, before it is smoothed: poses in table coordinates, or with --raw "
         "the packets themselves.",
         "frustumscreen record");
-    app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
-    app.add_option("-o,--output", request.output, "the file to write")->required();
+    app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
+    app.add_option("-o,--output", request.output, "the file to write").required();
     app.add_option("--seconds", request.seconds, "stop after so many seconds; else at SIGINT or SIGTERM")
-        ->check(seconds_between(0.01, longest_s));
+        .check(seconds_between(0.01, longest_s));
     app.add_flag("--raw", request.raw,
                  "the packets with their times of arrival, in a new file, readable also if it is cut off; "
                  "frustumscreen-poses convert makes poses of it");
-    return end_of_arguments(app, argc, argv);
+    return app.end_of_arguments(argc, argv);
 }
 
 /// Polls until the time is over or a stop is asked for; writes each new state of the tracker to standard

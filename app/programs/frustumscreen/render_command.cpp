@@ -2,8 +2,8 @@
 
 #include "app/pack/prop_note.h"
 #include "app/programs/common/argument_checks.h"
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/progress_line.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/programs/frustumscreen/pose_input.h"
 #include "app/settings/settings.h"
 #include "app/show/offline_renderer.h"
@@ -11,7 +11,6 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/standard_error.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,30 +37,30 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CLI::App app("Replays a pose file into pictures: DIR/frame_00000.png ... and DIR/frames.csv.",
-                 "frustumscreen render");
-    app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
-    app.add_option("--pack", request.pack, "the artifact, *.fspack")->required();
-    app.add_option("--poses", request.poses, "poses, CSV")->required();
-    app.add_option("--out", request.out, "folder for the pictures; made if missing")->required();
+    CommandLine app("Replays a pose file into pictures: DIR/frame_00000.png ... and DIR/frames.csv.",
+                    "frustumscreen render");
+    app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
+    app.add_option("--pack", request.pack, "the artifact, *.fspack").required();
+    app.add_option("--poses", request.poses, "poses, CSV").required();
+    app.add_option("--out", request.out, "folder for the pictures; made if missing").required();
     app.add_option("--technique", request.options.technique,
                    "auto, finest, level0, level1, ..., relief, relief96, ...")
-        ->check(is_technique_word())
-        ->capture_default_str();
-    CLI::Option* width =
-        app.add_option("--width", request.width, "picture's width in pixels")->check(CLI::Range(1, 16384));
-    CLI::Option* height =
-        app.add_option("--height", request.height, "picture's height in pixels")->check(CLI::Range(1, 16384));
-    width->needs(height);
-    height->needs(width);
+        .check(is_technique_word())
+        .capture_default_str();
+    const CommandOption width =
+        app.add_option("--width", request.width, "picture's width in pixels").within(1, 16384);
+    const CommandOption height =
+        app.add_option("--height", request.height, "picture's height in pixels").within(1, 16384);
+    width.needs(height);
+    height.needs(width);
     app.add_option("--view", request.view,
                    "projector: its picture; visitor: what the eye sees of it, half as wide and high as the"
                    " configured projector's picture, or as --width and --height say")
-        ->check(CLI::IsMember({"projector", "visitor"}))
-        ->capture_default_str();
+        .one_of({"projector", "visitor"})
+        .capture_default_str();
     app.add_flag("--no-light", request.no_light, "leave out the compensation of the projector's fall-off");
     app.add_flag("--aov", request.options.hit_points, "also frame_00000.pfm: hit points, prop frame, metres");
-    const std::optional<int> end = end_of_arguments(app, argc, argv);
+    const std::optional<int> end = app.end_of_arguments(argc, argv);
     request.options.light = !request.no_light;
     if (request.view == "projector") {
         request.options.width = request.width;

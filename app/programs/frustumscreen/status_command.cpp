@@ -1,7 +1,7 @@
 #include "app/programs/frustumscreen/status_command.h"
 
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/programs/frustumscreen/staff_service.h"
 #include "app/status/exhibit_verdict.h"
 #include "app/status/prometheus_text.h"
@@ -9,7 +9,6 @@
 #include "app/status/status_lines.h"
 #include "firmware_host/base/file.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -33,19 +32,20 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CLI::App app("Says how the exhibit on this machine is. Exit status: 0 it is well, 1 it is not or nothing "
-                 "is known.",
-                 "frustumscreen status");
-    CLI::Option* json = app.add_flag("--json", request.json, "all that is known, as JSON");
-    app.add_flag("--prometheus", request.prometheus, "numbers in Prometheus' text format")->excludes(json);
+    CommandLine app(
+        "Says how the exhibit on this machine is. Exit status: 0 it is well, 1 it is not or nothing "
+        "is known.",
+        "frustumscreen status");
+    const CommandOption json = app.add_flag("--json", request.json, "all that is known, as JSON");
+    app.add_flag("--prometheus", request.prometheus, "numbers in Prometheus' text format").excludes(json);
     app.add_option("--screenshot", request.screenshot, "write the picture that is projected now, as PNG");
-    app.add_option("--status-file", request.status_file, "the exhibit's status")->capture_default_str();
-    app.add_option("--watchdog-file", request.watchdog_file, "its watchdog's status")->capture_default_str();
+    app.add_option("--status-file", request.status_file, "the exhibit's status").capture_default_str();
+    app.add_option("--watchdog-file", request.watchdog_file, "its watchdog's status").capture_default_str();
     app.add_option("--boot-folder", request.boot_folder, "what the start of an appliance has left")
-        ->capture_default_str();
+        .capture_default_str();
     app.add_option("--staff-socket", request.staff_socket, "where the exhibit gives its picture")
-        ->capture_default_str();
-    return end_of_arguments(app, argc, argv);
+        .capture_default_str();
+    return app.end_of_arguments(argc, argv);
 }
 
 Result<void> write_screenshot(const Request& request) {

@@ -1,11 +1,10 @@
 /// frustumscreen-import: takes a stick's packs into the installed set.
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/programs/import/import_command.h"
 #include "app/programs/import/import_watcher.h"
 #include "app/programs/import/stick_label.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -64,7 +63,7 @@ int list(const ImportArguments& arguments) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App app(
+    CommandLine app(
         "Takes packs from a stick into the set that the exhibit shows: signed, whole, or not at all.",
         "frustumscreen-import");
     app.set_version_flag("--version", "frustumscreen-import " FRUSTUMSCREEN_VERSION);
@@ -73,51 +72,55 @@ int run(int argc, char** argv) {
     bool to_list = false;
     bool is_unmounted = false;
     bool has_ended = false;
-    auto* from = app.add_option("--from", arguments.from, "the stick's folder; nothing is written to it");
-    auto* into =
+    const CommandOption from =
+        app.add_option("--from", arguments.from, "the stick's folder; nothing is written to it");
+    const CommandOption into =
         app.add_option("--into", arguments.into, "folder of the installed set; made where it is missing");
-    auto* keys = app.add_option("--keys", arguments.keys, "folder of the museum's public keys (*.pub)");
-    auto* config =
+    const CommandOption keys =
+        app.add_option("--keys", arguments.keys, "folder of the museum's public keys (*.pub)");
+    const CommandOption config =
         app.add_option("--config", arguments.config, "settings (TOML): exhibit.keys, exhibit.unsigned");
     app.add_option("--settings", arguments.settings,
                    "folder of the kiosk's own kiosk.toml: the stick's replaces it, signed if it names a key; "
                    "a file settings-taken beside the report says so");
     app.add_option("--unsigned", unsigned_packs, "\"allow\": packs without a signature too, for a bench")
-        ->check(CLI::IsMember({"refuse", "allow"}));
-    auto* report = app.add_option("--report", arguments.report,
-                                  "file that says what happens, renewed while it does (JSON)");
+        .one_of({"refuse", "allow"});
+    const CommandOption report = app.add_option("--report", arguments.report,
+                                                "file that says what happens, renewed while it does (JSON)");
     app.add_option("--report-stands", arguments.report_stands_s,
                    "s that another stick's report stands once it is over, before this one's replaces it")
-        ->check(CLI::Range(0.0, 60.0));
-    auto* label = app.add_option("--label", arguments.label, "the stick's name, for the report");
+        .within(0.0, 60.0);
+    const CommandOption label =
+        app.add_option("--label", arguments.label, "the stick's name, for the report");
     std::string label_folder;
     app.add_option("--label-from", label_folder,
                    "folder in which udev left the stick's name, as a link label=NAME")
-        ->excludes(label);
+        .excludes(label);
     app.add_flag("--json", arguments.json, "for programs");
-    auto* list_flag = app.add_flag(
+    const CommandOption list_flag = app.add_flag(
         "--list", to_list,
         "the set that an exhibit started now would show, and the keys that count; takes nothing");
     app.add_flag("--unmounted", is_unmounted, "only leaves the report of a stick that cannot be mounted");
-    auto* ended = app.add_flag("--ended", has_ended,
-                               "only leaves the last word on an import that was stopped (ExecStopPost=)");
-    auto* id = app.add_option("--id", arguments.id, "name of this import; another one for each stick");
-    ended->needs(id)->needs(report);
-    list_flag->needs(into)->excludes(from);
+    const CommandOption ended = app.add_flag(
+        "--ended", has_ended, "only leaves the last word on an import that was stopped (ExecStopPost=)");
+    const CommandOption id =
+        app.add_option("--id", arguments.id, "name of this import; another one for each stick");
+    ended.needs(id).needs(report);
+    list_flag.needs(into).excludes(from);
     const auto check = [&] {
         if (to_list || is_unmounted || has_ended) {
             return;
         }
-        for (const CLI::Option* wanted : {from, into}) {
-            if (wanted->count() == 0) {
-                throw CLI::RequiredError(wanted->get_name());
+        for (const CommandOption& wanted : {from, into}) {
+            if (wanted.count() == 0) {
+                throw missing(wanted.get_name());
             }
         }
-        if (keys->count() + config->count() == 0 && unsigned_packs == "refuse") {
-            throw CLI::RequiredError("--keys or --config");
+        if (keys.count() + config.count() == 0 && unsigned_packs == "refuse") {
+            throw missing("--keys or --config");
         }
     };
-    if (const auto end = end_of_arguments(app, argc, argv, check)) {
+    if (const auto end = app.end_of_arguments(argc, argv, check)) {
         return *end;
     }
     if (!label_folder.empty()) {

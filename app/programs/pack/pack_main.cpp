@@ -1,7 +1,7 @@
 /// frustumscreen-pack: verifies, lists, explains, draws and signs packs, and makes the keys for that.
 #include "app/pack/pack_sections.h"
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/programs/pack/keygen_command.h"
 #include "app/programs/pack/pack_preview.h"
 #include "app/programs/pack/pack_report.h"
@@ -10,7 +10,6 @@
 #include "app/settings/settings.h"
 #include "firmware_host/base/output_file.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <chrono>
@@ -121,59 +120,58 @@ int sign(SignRequest request) {
 /// Numbers that a reader of JSON keeps exactly.
 constexpr std::uint64_t most_serial = (std::uint64_t{1} << 53U) - 1;
 
-void add_looking_commands(CLI::App& app, Request& request) {
-    CLI::App* to_verify = app.add_subcommand("verify", "checks packs wholly; status 1 if one is not sound");
-    to_verify->add_option("PACK", request.verify.packs, "packs (*.fspack)")->required();
+void add_looking_commands(CommandLine& app, Request& request) {
+    CommandLine to_verify = app.add_subcommand("verify", "checks packs wholly; status 1 if one is not sound");
+    to_verify.add_option("PACK", request.verify.packs, "packs (*.fspack)").required();
     to_verify
-        ->add_option("--key", request.verify.keys, "a public key (NAME.pub); others than these are refused")
-        ->allow_extra_args(false);
-    to_verify->add_flag("--json", request.verify.json, "for programs");
-    CLI::App* to_list = app.add_subcommand("list", "title, levels with their errors, parts with their sizes");
-    to_list->add_option("PACK", request.pack, "a pack (*.fspack)")->required();
-    CLI::App* to_explain =
+        .add_option("--key", request.verify.keys, "a public key (NAME.pub); others than these are refused")
+        .allow_extra_args(false);
+    to_verify.add_flag("--json", request.verify.json, "for programs");
+    CommandLine to_list =
+        app.add_subcommand("list", "title, levels with their errors, parts with their sizes");
+    to_list.add_option("PACK", request.pack, "a pack (*.fspack)").required();
+    CommandLine to_explain =
         app.add_subcommand("explain", "all that the pack says, and how it stands in the prop");
-    to_explain->add_option("PACK", request.pack, "a pack (*.fspack)")->required();
-    to_explain->add_option("--config", request.config,
-                           "settings (TOML) with the prop; else the default prop");
-    CLI::App* to_preview =
+    to_explain.add_option("PACK", request.pack, "a pack (*.fspack)").required();
+    to_explain.add_option("--config", request.config, "settings (TOML) with the prop; else the default prop");
+    CommandLine to_preview =
         app.add_subcommand("preview", "draws the artifact from four sides into one picture");
-    to_preview->add_option("PACK", request.pack, "a pack (*.fspack)")->required();
-    to_preview->add_option("-o,--output", request.output, "picture to write (*.png)")->required();
-    to_preview->add_flag("--table", request.table,
-                         "the small picture that lies on the table instead, cut out");
-    for (CLI::App* command : {to_list, to_explain}) {
-        command->add_flag("--json", request.json, "for programs");
+    to_preview.add_option("PACK", request.pack, "a pack (*.fspack)").required();
+    to_preview.add_option("-o,--output", request.output, "picture to write (*.png)").required();
+    to_preview.add_flag("--table", request.table,
+                        "the small picture that lies on the table instead, cut out");
+    for (CommandLine command : {to_list, to_explain}) {
+        command.add_flag("--json", request.json, "for programs");
     }
 }
 
-void add_signing_commands(CLI::App& app, Request& request) {
-    CLI::App* to_keygen = app.add_subcommand(
+void add_signing_commands(CommandLine& app, Request& request) {
+    CommandLine to_keygen = app.add_subcommand(
         "keygen", "makes a pair of keys in minisign's format; on a terminal it asks for a password");
-    to_keygen->add_option("-o,--output", request.key_name, "NAME: writes NAME.key and NAME.pub")->required();
-    CLI::App* to_sign = app.add_subcommand(
+    to_keygen.add_option("-o,--output", request.key_name, "NAME: writes NAME.key and NAME.pub").required();
+    CommandLine to_sign = app.add_subcommand(
         "sign", "signs packs, set files and a kiosk's settings (*.toml -> *.toml.minisig)");
     to_sign
-        ->add_option("FILE", request.sign.files,
-                     "packs (*.fspack), set files (*.toml), settings (kiosk.toml)")
-        ->required();
-    to_sign->add_option("--key", request.sign.key, "the secret key (NAME.key)")->required();
+        .add_option("FILE", request.sign.files, "packs (*.fspack), set files (*.toml), settings (kiosk.toml)")
+        .required();
+    to_sign.add_option("--key", request.sign.key, "the secret key (NAME.key)").required();
     to_sign
-        ->add_option("--serial", request.sign.serial,
-                     "a higher one replaces a lower one on the kiosk; without it the seconds since 1970")
-        ->check(CLI::Range(std::uint64_t{1}, most_serial));
-    to_sign->add_flag("--json", request.sign.json, "for programs");
+        .add_option("--serial", request.sign.serial,
+                    "a higher one replaces a lower one on the kiosk; without it the seconds since 1970")
+        .within(std::uint64_t{1}, most_serial);
+    to_sign.add_flag("--json", request.sign.json, "for programs");
 }
 
 int run(int argc, char** argv) {
-    CLI::App app(
+    CommandLine app(
         "Packs for FrustumScreen: are they sound, what do they hold, how do they look, who signed them?",
         "frustumscreen-pack");
     app.set_version_flag("--version", "frustumscreen-pack " FRUSTUMSCREEN_VERSION);
-    app.require_subcommand(1);
+    app.require_subcommand();
     Request request;
     add_looking_commands(app, request);
     add_signing_commands(app, request);
-    if (const auto end = end_of_arguments(app, argc, argv)) {
+    if (const auto end = app.end_of_arguments(argc, argv)) {
         return *end;
     }
     return app.got_subcommand("verify")    ? verify_packs(request.verify)

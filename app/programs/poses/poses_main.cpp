@@ -1,6 +1,6 @@
 /// frustumscreen-poses: pose files from recordings of other trackers, from the simulated visitor, and along a path.
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/settings/lit_zone.h"
 #include "app/settings/settings.h"
 #include "app/tracking/registered_tracker.h"
@@ -12,7 +12,6 @@
 #include "firmware_host/tracker/pose_path.h"
 #include "firmware_host/tracker/simulated_tracker.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -174,57 +173,51 @@ Result<void> follow_path(const PathRequest& request) {
                            *path);
 }
 
-void add_convert(CLI::App& app, ConvertRequest& request, std::vector<double>& within) {
-    CLI::App* command = app.add_subcommand(
+void add_convert(CommandLine& app, ConvertRequest& request, std::vector<double>& within) {
+    CommandLine command = app.add_subcommand(
         "convert", "a recording (rows of t x y z qx qy qz qw; seconds, metres; or packets) into a pose file");
     command
-        ->add_option("INPUT", request.input,
-                     "the recording: CSV, the TUM benchmark's text, or packets of frustumscreen record --raw")
-        ->required();
-    command->add_option("-o,--output", request.output, "the pose file to write")->required();
-    command->add_option("--config", request.settings,
-                        "packets: the settings whose table_from_tracker places the poses on the table");
-    command->add_option("--station", request.recording.station, "1 prop, 2 head, 3 torch")
-        ->check(CLI::Range(1, 3))
-        ->capture_default_str();
-    command->add_flag("--flat", request.recording.flat,
-                      "lay the motion onto the table: x, y and the turn about Z");
+        .add_option("INPUT", request.input,
+                    "the recording: CSV, the TUM benchmark's text, or packets of frustumscreen record --raw")
+        .required();
+    command.add_option("-o,--output", request.output, "the pose file to write").required();
+    command.add_option("--config", request.settings,
+                       "packets: the settings whose table_from_tracker places the poses on the table");
+    command.add_option("--station", request.recording.station, "1 prop, 2 head, 3 torch")
+        .within(1, 3)
+        .capture_default_str();
+    command.add_flag("--flat", request.recording.flat,
+                     "lay the motion onto the table: x, y and the turn about Z");
     command
-        ->add_option("--within", within,
-                     "flat: half the width and half the depth of where the prop may be, metres")
-        ->expected(2)
-        ->check(CLI::Range(0.001, 10.0));
+        .add_option("--within", within,
+                    "flat: half the width and half the depth of where the prop may be, metres")
+        .expected(2)
+        .within(0.001, 10.0);
 }
 
-void add_simulate(CLI::App& app, SimulateRequest& request) {
-    CLI::App* command = app.add_subcommand("simulate", "a pose file of a simulated visitor");
-    command->add_option("--config", request.settings, "the settings: table, light and eye")->required();
-    command->add_option("-o,--output", request.output, "the pose file to write")->required();
-    command->add_option("--seed", request.seed, "another seed, another visit")->capture_default_str();
-    command->add_option("--seconds", request.seconds, "how long")
-        ->check(CLI::Range(0.001, 86400.0))
-        ->capture_default_str();
-    command->add_option("--hz", request.rate_hz, "poses a second")
-        ->check(CLI::Range(0.1, 1000.0))
-        ->capture_default_str();
+void add_simulate(CommandLine& app, SimulateRequest& request) {
+    CommandLine command = app.add_subcommand("simulate", "a pose file of a simulated visitor");
+    command.add_option("--config", request.settings, "the settings: table, light and eye").required();
+    command.add_option("-o,--output", request.output, "the pose file to write").required();
+    command.add_option("--seed", request.seed, "another seed, another visit").capture_default_str();
+    command.add_option("--seconds", request.seconds, "how long").within(0.001, 86400.0).capture_default_str();
+    command.add_option("--hz", request.rate_hz, "poses a second").within(0.1, 1000.0).capture_default_str();
 }
 
-void add_path(CLI::App& app, PathRequest& request) {
-    CLI::App* command = app.add_subcommand("path", "a pose file of a smooth path through a few poses");
-    command->add_option("INPUT", request.input, "a pose file: where the prop and the head are, and when")
-        ->required();
-    command->add_option("-o,--output", request.output, "the pose file to write")->required();
-    command->add_option("--hz", request.rate_hz, "poses a second")
-        ->check(CLI::Range(0.1, 1000.0))
-        ->capture_default_str();
+void add_path(CommandLine& app, PathRequest& request) {
+    CommandLine command = app.add_subcommand("path", "a pose file of a smooth path through a few poses");
+    command.add_option("INPUT", request.input, "a pose file: where the prop and the head are, and when")
+        .required();
+    command.add_option("-o,--output", request.output, "the pose file to write").required();
+    command.add_option("--hz", request.rate_hz, "poses a second").within(0.1, 1000.0).capture_default_str();
 }
 
 int run(int argc, char** argv) {
-    CLI::App app(
+    CommandLine app(
         "Pose files for FrustumScreen: from recordings of other trackers, simulated, and along a path.",
         "frustumscreen-poses");
     app.set_version_flag("--version", "frustumscreen-poses " FRUSTUMSCREEN_VERSION);
-    app.require_subcommand(1);
+    app.require_subcommand();
     ConvertRequest to_convert;
     SimulateRequest to_simulate;
     PathRequest to_follow;
@@ -232,7 +225,7 @@ int run(int argc, char** argv) {
     add_convert(app, to_convert, within);
     add_simulate(app, to_simulate);
     add_path(app, to_follow);
-    if (const auto end = end_of_arguments(app, argc, argv)) {
+    if (const auto end = app.end_of_arguments(argc, argv)) {
         return *end;
     }
     if (within.size() == 2) {

@@ -1,12 +1,11 @@
 /// frustumscreen-safe: a calm picture with words for visitors and staff, for when the exhibit itself cannot run.
 #include "app/image/image.h"
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/programs/safe/show_safe_picture.h"
 #include "app/safe/draw_safe_page.h"
 #include "firmware_host/base/file.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <charconv>
@@ -50,15 +49,17 @@ Result<void> write_picture(const std::string& file, const Size& size, const Safe
 }
 
 int run(int argc, char** argv) {
-    CLI::App app("Shows that the exhibit rests, in all languages, and tells the staff why and what to do. It "
-                 "needs a graphics "
-                 "card's driver and nothing else: no settings, no packs, no OpenGL.",
-                 "frustumscreen-safe");
+    CommandLine app(
+        "Shows that the exhibit rests, in all languages, and tells the staff why and what to do. It "
+        "needs a graphics "
+        "card's driver and nothing else: no settings, no packs, no OpenGL.",
+        "frustumscreen-safe");
     app.set_version_flag("--version", "frustumscreen-safe " FRUSTUMSCREEN_VERSION);
     SafeArguments arguments;
     arguments.languages = safe_languages();
     std::string png;
     Size size;
+    std::string size_text;
     std::vector<std::string> languages;
     app.add_option("--card", arguments.card,
                    "the graphics card, such as /dev/dri/card0; else the first with a projector");
@@ -67,17 +68,13 @@ int run(int argc, char** argv) {
     app.add_option("--alive", arguments.alive,
                    "file rewritten after each picture shown: how many, and CLOCK_MONOTONIC in ns");
     app.add_option("--language", languages, "for visitors, all if left out; the first is the staff's too")
-        ->check(CLI::IsMember(arguments.languages));
-    auto* out =
+        .one_of({arguments.languages.begin(), arguments.languages.end()});
+    const CommandOption out =
         app.add_option("--png", png, "draws the picture into this file and ends; needs no graphics card");
-    app.add_option("--size", "of that picture in pixels, such as 1280x800; else 1920x1080")
-        ->needs(out)
-        ->each([&size](const std::string& text) {
-            if (const std::string wrong = read_size(text, size); !wrong.empty()) {
-                throw CLI::ValidationError("--size", wrong);
-            }
-        });
-    if (const auto end = end_of_arguments(app, argc, argv)) {
+    app.add_option("--size", size_text, "of that picture in pixels, such as 1280x800; else 1920x1080")
+        .needs(out)
+        .check({[&size](const std::string& text) { return read_size(text, size); }, ""});
+    if (const auto end = app.end_of_arguments(argc, argv)) {
         return *end;
     }
     if (!languages.empty()) {

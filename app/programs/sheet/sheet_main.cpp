@@ -1,8 +1,8 @@
 /// frustumscreen-sheet: pictures for people, made from the projector's pictures, their poses and the settings
 /// alone.
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/programs/sheet/room_picture.h"
 #include "app/programs/sheet/sheet_animation.h"
 #include "app/programs/sheet/sheet_frames.h"
@@ -10,7 +10,6 @@
 #include "app/programs/sheet/sheet_table.h"
 #include "firmware_host/base/file.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -38,52 +37,52 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CLI::App app(
+    CommandLine app(
         "Makes a contact sheet (projector's picture and visitor's view), an animation and a table of frame "
         "times from pictures of 'frustumscreen run' or 'render'.",
         "frustumscreen-sheet");
     app.set_version_flag("--version", "frustumscreen-sheet " FRUSTUMSCREEN_VERSION);
-    app.add_option("--config", request.config, "the settings that the pictures were made with")->required();
-    app.add_option("--frames", request.folders, "folders with frame_00000.png ...")->required();
+    app.add_option("--config", request.config, "the settings that the pictures were made with").required();
+    app.add_option("--frames", request.folders, "folders with frame_00000.png ...").required();
     app.add_option("--poses", request.poses, "a pose file for each folder (default: its poses.csv)");
     app.add_option("--label", request.labels,
                    "a label for each folder (default: the artifact in its frames.csv)");
     app.add_option("-o,--output", request.sheet, "contact sheet to write, PNG");
     app.add_option("--rows", request.rows, "frames of each folder on the sheet")
-        ->check(CLI::Range(1, 64))
-        ->capture_default_str();
+        .within(1, 64)
+        .capture_default_str();
     app.add_option("--columns", request.sheet_options.columns, "frames beside each other (default: 1 or 2)")
-        ->check(CLI::Range(1, 4));
+        .within(1, 4);
     app.add_flag("--whole-table", request.sheet_options.whole_table,
                  "the sheet shows all of the table, with its words, not the prop alone");
     app.add_option("--title", request.sheet_options.title, "the sheet's and the table's title")
-        ->capture_default_str();
+        .capture_default_str();
     app.add_option("--animation", request.animation, "animation of the first folder to write, animated WebP");
     app.add_option("--animation-frames", request.animation_frames, "at most so many pictures each way")
-        ->check(CLI::Range(2, 600))
-        ->capture_default_str();
+        .within(2, 600)
+        .capture_default_str();
     app.add_flag("--closed", request.animation_options.closed,
                  "the last picture leads to the first: play forwards only, not there and back");
     app.add_flag("--lossless", request.animation_options.lossless,
                  "the animation without loss, several times as large");
     app.add_option("--width", request.animation_options.width, "the animation's width")
-        ->check(CLI::Range(16, 4096))
-        ->capture_default_str();
+        .within(16, 4096)
+        .capture_default_str();
     app.add_option("--height", request.animation_options.height, "the animation's height")
-        ->check(CLI::Range(16, 4096))
-        ->capture_default_str();
+        .within(16, 4096)
+        .capture_default_str();
     app.add_option(
         "--room", request.room,
         "picture of the first frame to write, PNG: the table in its room, the projector's picture, the "
         "visitor's view");
     app.add_option("--table", request.table, "table of frame times and errors to write, .html or .md");
-    return end_of_arguments(app, argc, argv, [&] {
+    return app.end_of_arguments(argc, argv, [&] {
         if (request.sheet.empty() && request.animation.empty() && request.room.empty() &&
             request.table.empty()) {
-            throw CLI::ValidationError("nothing to make; give -o, --animation, --room or --table");
+            throw WrongUse{"nothing to make; give -o, --animation, --room or --table"};
         }
         if (request.poses.size() > request.folders.size() || request.labels.size() > request.folders.size()) {
-            throw CLI::ValidationError("more --poses or --label than --frames");
+            throw WrongUse{"more --poses or --label than --frames"};
         }
     });
 }

@@ -1,7 +1,7 @@
 /// frustumscreen-watchdog: watches what comes of the exhibit, and climbs the recovery ladder. No GL, no USB, no packs, no
 /// settings; one thread; its memory is locked, so that a machine without memory cannot stop it.
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/programs/watchdog/fault_book.h"
 #include "app/programs/watchdog/kiosk_view.h"
 #include "app/programs/watchdog/memory_file.h"
@@ -15,7 +15,6 @@
 #include "firmware_host/service/service_manager.h"
 #include "firmware_host/service/stop_signals.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -161,23 +160,23 @@ int watch(const Arguments& arguments) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App app("Watches what comes of the exhibit, and climbs the recovery ladder. A kiosk's service "
-                 "manager starts it.",
-                 "frustumscreen-watchdog");
+    CommandLine app("Watches what comes of the exhibit, and climbs the recovery ladder. A kiosk's service "
+                    "manager starts it.",
+                    "frustumscreen-watchdog");
     app.set_version_flag("--version", "frustumscreen-watchdog " FRUSTUMSCREEN_VERSION);
     Arguments arguments;
     app.add_option("--run-folder", arguments.run_folder, "folder for its status and its orders")
-        ->capture_default_str();
+        .capture_default_str();
     app.add_option("--state-folder", arguments.state_folder, "folder for what survives a reboot")
-        ->capture_default_str();
+        .capture_default_str();
     app.add_option("--start-patience", arguments.start_patience_s, "s that a start of the exhibit may take")
-        ->check(CLI::Range(5.0, 600.0))
-        ->capture_default_str();
+        .within(5.0, 600.0)
+        .capture_default_str();
     app.add_option("--root", arguments.places.root, "a folder that stands for /, for tests")
-        ->capture_default_str();
+        .capture_default_str();
     app.add_option("--seconds", arguments.seconds, "s after which it ends; 0: when it is told to")
-        ->check(CLI::Range(0.0, 1e6));
-    if (const auto end = end_of_arguments(app, argc, argv)) {
+        .within(0.0, 1e6);
+    if (const auto end = app.end_of_arguments(argc, argv)) {
         return *end;
     }
     return watch(arguments);

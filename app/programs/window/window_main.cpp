@@ -1,8 +1,8 @@
 /// frustumscreen-window: the exhibit in a window on a developer's desktop, with the mouse for the prop.
 #include "app/geometry/table_plane.h"
 #include "app/programs/common/argument_checks.h"
+#include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/common/read_arguments.h"
 #include "app/programs/window/help_picture.h"
 #include "app/programs/window/visitor_half.h"
 #include "app/scene/scene_plan.h"
@@ -17,7 +17,6 @@
 #include "firmware_host/service/stop_signals.h"
 #include "firmware_host/window/sdl_window.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -37,22 +36,22 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CLI::App app(
+    CommandLine app(
         "The exhibit in a window: left the projector's picture, right what the visitor sees. Drag: slide the "
         "prop; "
         "wheel or right drag: turn it; middle drag: move the eye; 1, 2, 3: the buttons; H: help; Esc: end.",
         "frustumscreen-window");
     app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
-    app.add_option("--config", request.config, "the kiosk's settings, TOML")->required();
+    app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
     app.add_option("--packs", request.show.packs, "artifacts to show instead of those in the settings");
     app.add_option("--technique", request.show.technique,
                    "auto, finest, level0, level1, ..., relief, relief96, ...")
-        ->check(is_technique_word())
-        ->capture_default_str();
+        .check(is_technique_word())
+        .capture_default_str();
     app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
     app.add_option("--seconds", request.seconds, "stop after so many seconds")
-        ->check(seconds_between(0.01, 1e6));
-    return end_of_arguments(app, argc, argv);
+        .check(seconds_between(0.01, 1e6));
+    return app.end_of_arguments(argc, argv);
 }
 
 /// Where a pixel of the projector's picture lies on the table.
