@@ -161,10 +161,12 @@ void NoticeShow::step(MonotonicTime now, const Situation& situation, Presentatio
         presentation.notice->ring_full = shown ? shown->ring.value_or(1.0) : 1.0;
         presentation.settled = presentation.settled && presentation.notice->brightness >= 1.0;
     }
-    lies_there_ = presentation.notice.has_value() && !presentation.staff;
+    const bool between_two =
+        lies_there_ && notice != nullptr; // one text has gone, and the next is on its way
+    lies_there_ = (presentation.notice || between_two) && !presentation.staff;
     due_.reset();
-    if (shown && lies_there_ && presentation.notice->picture == notice && !shown->speech.empty() &&
-        said_ != Said{shown->import, shown->speech}) {
+    if (shown && lies_there_ && presentation.notice && presentation.notice->picture == notice &&
+        !shown->speech.empty() && said_ != Said{shown->import, shown->speech}) {
         due_ = {shown->import, shown->speech};
     }
     announcement_ = !due_ ? nullptr : due_->key == "stick.found" ? found_ : take_out_;

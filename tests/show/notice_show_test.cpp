@@ -224,6 +224,25 @@ TEST_F(Notice, PressesAreVisitorsWhileItIsCopiedAndTheChordUndoesNoneOfThem) {
     EXPECT_EQ(show->state().artifact, chosen);
 }
 
+TEST_F(Notice, APressBetweenTwoTextsEndsTheSecondAndDoesNothingElse) {
+    const Image8 without = picture();
+    const std::string shown(show->state().artifact);
+    put(report, report_of(ImportStage::MayTakeOut, 1000));
+    wait(seconds(2));
+    EXPECT_NE(picture().texels, without.texels);
+    put(report, done_with(1));
+    for (int k = 0; k < 100 && picture().texels != without.texels; ++k) {
+        wait(milliseconds(20));
+    }
+    ASSERT_EQ(picture().texels, without.texels) << "the first has gone, and the second is not there yet";
+    wait(milliseconds(20), std::array{Command::NextArtifact});
+    for (int k = 0; k < 30; ++k) {
+        wait(milliseconds(100));
+        ASSERT_EQ(picture().texels, without.texels) << k;
+    }
+    EXPECT_EQ(show->state().artifact, shown);
+}
+
 TEST_F(Notice, ItSaysOnceThatTheStickMayBeTakenOut) {
     const std::vector<std::int16_t> truth = read_opus(tone())->samples;
     const auto is_loud = [&] {
