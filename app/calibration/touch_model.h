@@ -1,6 +1,6 @@
 /// What touches determine: the projector, the table and the sensor in the prop, as the tracker's frame has them.
 ///
-/// Frames   K, the tracker's own; J, the projector's. table_frame.h takes it into the table's frame.
+/// Frames   K, the tracker's own; J, the projector's. calibrated_table.h takes it into the table's frame.
 /// Units    metres, pixels.
 /// Threads  values; any.
 #pragma once

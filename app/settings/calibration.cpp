@@ -56,7 +56,7 @@ void measured(auto& file, auto& calibration) {
     file.text("made", calibration.made, "when, by the machine's clock");
     file.choice("method", calibration.method, method_names, "how");
     file.integer("places", calibration.places, 1, 1000, "that were measured");
-    file.table("residual", "How far a place is off that was not used.",
+    file.table("residual", "How far a place is off that was not used; after a touch-up, one that was.",
                [&](auto& fields) { measured_errors(fields, calibration); });
     file.table("projector", "As measured.", [&](auto& fields) { measured_projector(fields, calibration); });
     file.table("tracker", "As measured.", [&](auto& fields) {

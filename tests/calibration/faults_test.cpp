@@ -11,7 +11,8 @@
 namespace frustumscreen {
 namespace {
 
-/// What a verdict promises (docs/calibration.md).
+/// The farthest that the worst place may lie off: three to four of the standard deviations that a verdict promises there, 1.4 and 2.5 mm
+/// (docs/calibration.md).
 constexpr double good_within_m = 5e-3;
 constexpr double usable_within_m = 8e-3;
 

@@ -1,7 +1,10 @@
 // Touches that determine nothing are refused, each with its own reason.
 #include "tests/calibration/simulated_touches.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <functional>
 
 namespace frustumscreen {
 namespace {
@@ -69,6 +72,61 @@ TEST(Refusals, EachDegenerateSetHasItsReason) {
         }
         expect_refused(calibrated(seed, unturned), "turned the same way");
         expect_refused(calibrated(seed, usual, false), "--sensor-height");
+    }
+}
+
+TEST(Refusals, WhatIsWrongWithAllTouchesIsTheReason) {
+    struct WrongSet {
+        std::string word;
+        std::function<void(Touches&, const SimulatedTable&)> make;
+    };
+    const auto each = [](Touches& touches, const auto& change) {
+        for (Touch& touch : touches) {
+            change(touch);
+        }
+    };
+    const std::vector<WrongSet> sets = {
+        {"mirrored",
+         [&](Touches& touches, const SimulatedTable& table) {
+             each(touches, [&](Touch& touch) { touch.pixel.x = table.truth.pinhole.width - touch.pixel.x; });
+         }},
+        {"in millimetres or inches",
+         [&](Touches& touches, const SimulatedTable&) {
+             each(touches, [](Touch& touch) { touch.tracker_from_sensor.translation *= 1000.0; });
+         }},
+        {"in millimetres or inches",
+         [&](Touches& touches, const SimulatedTable&) {
+             each(touches, [](Touch& touch) { touch.tracker_from_sensor.translation /= 0.0254; });
+         }},
+        {"a block is",
+         [&](Touches& touches, const SimulatedTable&) {
+             each(touches, [](Touch& touch) { touch.block_m *= 1000.0; });
+         }},
+        {"shares of the picture",
+         [&](Touches& touches, const SimulatedTable& table) {
+             each(touches, [&](Touch& touch) {
+                 touch.pixel /= glm::dvec2(table.truth.pinhole.width, table.truth.pinhole.height);
+             });
+         }},
+        {"contradict each other",
+         [](Touches& touches, const SimulatedTable&) { // four of twelve, each by 5 cm in another direction
+             for (std::size_t k = 0; k < 4; ++k) {
+                 const double angle = 1.7 * static_cast<double>(k);
+                 touches[3 * k].tracker_from_sensor.translation +=
+                     0.05 * glm::dvec3(std::cos(angle), std::sin(angle), 0.0);
+             }
+         }},
+    };
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const SimulatedTable table = some_table(seed);
+        SeededNumbers numbers(seed);
+        const Touches right = touches_of(table, grid(table, 0.9, 0.9), {}, numbers);
+        for (const WrongSet& wrong : sets) {
+            Touches touches = right;
+            wrong.make(touches, table);
+            SCOPED_TRACE(fmt::format("seed {}: {}", seed, wrong.word));
+            expect_refused(calibrate_touch(touches, setup_for(table)), wrong.word);
+        }
     }
 }
 

@@ -104,7 +104,7 @@ class Update(ImageTest):
         self.pc.wait_for_start()
 
     def calibrate(self):
-        """Keeps a calibration that says the same as the settings. Its form is that of docs/calibration.md, not our program's."""
+        """Keeps a calibration that says the same as the settings. It is written by hand here, not by our program."""
         settings = json.loads(self.pc.check(CONFIG))
         self.assertNotIn("used", settings["calibration"])
         text = 'version = 1\nmade = "2026-11-25 10:12 UTC"\nmethod = "touch"\nplaces = 9\n'
