@@ -89,6 +89,8 @@ function(frustumscreen_test name)
         FRUSTUMSCREEN_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
     add_test(NAME ${name} COMMAND ${name})
+    # Of the five slots that ./test has on two cores: a test without this, which mostly waits for another program, runs beside two with it.
+    set_tests_properties(${name} PROPERTIES PROCESSORS 2)
     if(TEST_LABELS)
         set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABELS}")
     endif()

@@ -142,6 +142,7 @@ class Camera(HilTest):
         books = dict(line.split(": ") for line in self.bench.machine.check(f"cat /proc/{process}/io").splitlines())
         self.assertLess(int(books["wchar"]), MOST_WRITTEN)
 
+    @long
     def test_3_faults_are_told(self):
         self.plug()
         self.connected()

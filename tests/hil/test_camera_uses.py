@@ -1,7 +1,6 @@
 """What a camera is for, in the emulated machine: the prop's tags stand in for a lost tracker, the picture turns to whoever stands at the table,
 and a picture that lies beside its place is told. The camera's mock plays what a camera would see there."""
 
-import base64
 import math
 import pathlib
 import shutil
@@ -9,6 +8,7 @@ import tempfile
 import threading
 import time
 
+import kept_calibration
 import screen
 from bench import EYE_M, HEIGHT, UPRIGHT, USUAL, WIDTH, Patience
 from camera_view import View, body, by_columns, looks, room_seen, skirt, tags_seen, turn
@@ -23,7 +23,6 @@ exposure_ms = 8.0
 """
 SMALL = (160, 120)  # an emulated processor looks for tags and heads in it
 ARTIFACT = "amphora"
-DOWN = ((1, 0, 0), (0, -1, 0), (0, 0, -1))
 TOLD_S = 30.0
 
 
@@ -246,21 +245,12 @@ class Drift(CameraUse):
     """A camera that looks straight down, of which only drift and tags make use. The check takes its time: a look a minute, three to learn, five
     to tell, five to tell that it is over."""
 
-    folder_of_calibrations = "/var/lib/frustumscreen/calibration"
-    focal_px, above_m = 1200.0, 1.5  # the projector, as in the settings
-    calibration = (f'version = 1\nmade = "2026-11-01"\nmethod = "touch"\nplaces = 9\n[residual]\nmean_mm = 0.0\nworst_mm = 0.0\nmean_px = 0.0\n'
-                   f"[projector]\nwidth = 640\nheight = 400\nfx = {focal_px}\nfy = {focal_px}\ncx = 320.0\ncy = 200.0\nk1 = 0.0\nk2 = 0.0\n"
-                   f"table_from_projector = {by_columns(DOWN, (0.0, 0.0, above_m))}\n"
-                   f"[tracker]\ntable_from_tracker = {by_columns(turn((0, 0, 1), 0.0), (0.0, 0.0, 0.0))}\n"
-                   f"sensor_from_prop = {by_columns(turn((0, 0, 1), 0.0), (0.0, 0.0, 0.0))}\neye_in_sensor_m = [0.0, 0.0, 0.0]\n")
-    before = (f"mkdir -p {folder_of_calibrations}; echo {base64.b64encode(calibration.encode()).decode()} | "
-              f"base64 -d > {folder_of_calibrations}/calibration-0001.toml")
-    after = f"rm -rf {folder_of_calibrations}/*"
-    view = View(*SMALL, 200.0, DOWN, (0.0, 0.0, 1.0))
+    before, after = kept_calibration.KEEP, kept_calibration.FORGET
+    view = View(*SMALL, 200.0, kept_calibration.DOWN, (0.0, 0.0, 1.0))
     settings = (USUAL.replace("rest_s = 3600.0", "rest_s = 10.0") + CAMERA + "drift = true\ntags = true\n" + view.settings()
                 + "tag = [" + ", ".join(tag.settings() for tag in Tags.tags) + "]\n")
     shift_px = 4
-    shift_mm = 1e3 * shift_px * above_m / focal_px
+    shift_mm = 1e3 * shift_px * kept_calibration.ABOVE_M / kept_calibration.FOCAL_PX
     look_s = 60.0
 
     @classmethod
@@ -272,7 +262,7 @@ class Drift(CameraUse):
             status = self.drift_says("the camera looks whether", 3)
             self.assertEqual(status["camera_for"], "the prop's tags, the picture's place")
             self.assertFalse(status["drifted"])
-            self.assertIn("camera_px", self.bench.machine.read(f"{self.folder_of_calibrations}/drift.json"))
+            self.assertIn("camera_px", self.bench.machine.read(f"{kept_calibration.FOLDER}/drift.json"))
             camera.shift_px = self.shift_px
             status = self.drift_says("moved by 5 mm", 5)
             self.assertTrue(status["drifted"])

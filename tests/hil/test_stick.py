@@ -1,5 +1,6 @@
 """Sticks with packs: put in, the artifacts change on the screen and in the status; unsigned, pulled out half-way, two at once."""
 
+import kept_calibration
 import screen
 import sticks
 from bench import UPRIGHT, USUAL, WIDTH, eventually
@@ -15,6 +16,7 @@ SHOWN_S = 90.0  # until the exhibit has the new set: it is opened beside it, and
 class Stick(StickTest):
     # With words, so that the table says what is done with a stick.
     settings = USUAL.replace("captions = false", 'captions = false\nwords = "/var/lib/frustumscreen/words.fswords"')
+    before, after = kept_calibration.KEEP, kept_calibration.FORGET
 
     @classmethod
     def setUpClass(cls):
@@ -57,6 +59,7 @@ class Stick(StickTest):
         self.bench.status_says("artifact", "^nautilus-cup$", SHOWN_S)
         self.assert_at(CENTRE_M, artifact="nautilus-cup")
         self.assertEqual(self.bench.main_process(), before, "the exhibit was restarted")
+        self.assertEqual(self.bench.machine.read(kept_calibration.FILE), kept_calibration.TEXT, "new packs cost the table's calibration")
 
     def test_2_unsigned(self):
         self.plug("unsigned", self.make("unsigned", "ext4", {"packs/amphora.fspack": self.bench.packs / "amphora.fspack"}))
