@@ -11,7 +11,7 @@ import time
 import kept_calibration
 import screen
 from bench import EYE_M, HEIGHT, UPRIGHT, USUAL, WIDTH, Patience
-from camera_view import View, body, by_columns, looks, room_seen, skirt, tags_seen, turn
+from camera_view import View, body, looks, room_seen, skirt, tags_seen
 from hil_test import CENTRE_M, PIXELS, HilTest, long
 from mocks import pgm
 
