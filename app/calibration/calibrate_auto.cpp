@@ -158,6 +158,7 @@ AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, cons
     const std::vector<ZonePlace> places = zone_places(fit.model, fit.middle, zone);
     table.uncertainty = picture_uncertainty(
         places, found.scatter * found.scatter * fit.information().ldlt().solve(Covariance::Identity()));
+    table.zone = by_place(places, table.uncertainty.each_m);
     table.hidden_error_m = hidden_error_of(found, places);
     table.prior_shares = prior_shares(fit);
     table.repeat = found.wrong;

@@ -40,13 +40,6 @@ struct TouchResidual {
 [[nodiscard]] TouchResidual residual_of(const TouchModel& model, const glm::dvec3& place, double height_m,
                                         const glm::dvec2& pixel);
 
-/// Of the picture at a place of the zone: root mean square over the prop's turns.
-struct PlaceUncertainty {
-    glm::dvec2 pixel{0.0};
-    double height_m = 0.0;
-    double rms_m = 0.0;
-};
-
 struct TouchCalibration {
     Verdict verdict = Verdict::Refused;
     std::string reason;                   ///< one sentence

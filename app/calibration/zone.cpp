@@ -69,4 +69,20 @@ PictureUncertainty picture_uncertainty(std::span<const ZonePlace> places, const 
     return uncertainty;
 }
 
+std::vector<PlaceUncertainty> by_place(std::span<const ZonePlace> places, std::span<const double> each_m) {
+    std::vector<PlaceUncertainty> zone;
+    constexpr double turns = 4.0;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        if (zone.empty() || zone.back().pixel != places[k].pixel ||
+            zone.back().height_m != places[k].height_m) {
+            zone.push_back({places[k].pixel, places[k].height_m});
+        }
+        zone.back().rms_m += each_m[k] * each_m[k] / turns;
+    }
+    for (PlaceUncertainty& place : zone) {
+        place.rms_m = std::sqrt(place.rms_m);
+    }
+    return zone;
+}
+
 } // namespace frustumscreen

@@ -44,4 +44,14 @@ struct PictureUncertainty {
 [[nodiscard]] PictureUncertainty picture_uncertainty(std::span<const ZonePlace> places,
                                                      const Covariance& covariance);
 
+/// Of the picture at a place of the zone: root mean square over the prop's turns.
+struct PlaceUncertainty {
+    glm::dvec2 pixel{0.0};
+    double height_m = 0.0;
+    double rms_m = 0.0;
+};
+/// The turns of the prop at each place together: zone_columns x zone_rows of each height, from the table up.
+[[nodiscard]] std::vector<PlaceUncertainty> by_place(std::span<const ZonePlace> places,
+                                                     std::span<const double> each_m);
+
 } // namespace frustumscreen

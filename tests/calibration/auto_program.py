@@ -7,6 +7,7 @@ SciPy solves for the error of every report of the tracker too, each with its own
 
 import json
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -182,9 +183,23 @@ def test_command_line(programs):
         assert done.stderr.count("\n") == 1 and word in done.stderr, (word, done.stderr)
 
 
+def test_map(programs):
+    """A picture of the size that the page has, also beside JSON; none of rests that say nothing, whose reason is told."""
+    picture = ("--picture", str(WIDTH), str(HEIGHT))
+    text = HEADER + "".join(rest.rows() for rest in rests_of(Truth(), 1.0))
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "map.png"
+        run(programs, text, *picture, "--json", "--map", file)
+        assert struct.unpack(">II", file.read_bytes()[16:24]) == (1600, 900)
+        file.unlink()
+        few = HEADER + "".join(rest.rows() for rest in rests_of(Truth(), 1.0)[:3])
+        run(programs, few, *picture, "--map", file, status=1)
+        assert not file.exists()
+
+
 def main():
     programs = pathlib.Path(sys.argv[1])
-    for test in (test_exact, test_scipy, test_wrong, test_command_line):
+    for test in (test_exact, test_scipy, test_wrong, test_command_line, test_map):
         test(programs)
         print(f"{test.__name__}: well")
 

@@ -68,7 +68,7 @@ TEST(UncertaintyPicture, ItsWordsAndCrossesStayWithin) {
         const TouchCalibration found = calibrate_touch(touches, setup_for(table));
         ASSERT_TRUE(found.table);
         ASSERT_EQ(found.zone.size(), 3 * zone_columns * zone_rows);
-        const Image8 picture = uncertainty_picture(found, touches, top_m, *typesetter);
+        const Image8 picture = uncertainty_picture(found, places_of(touches), top_m, *typesetter);
         int marked = 0;
         for (int y = 0; y < picture.height; ++y) {
             for (int x = 0; x < picture.width; ++x) {

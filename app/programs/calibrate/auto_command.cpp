@@ -5,6 +5,7 @@
 #include "app/programs/calibrate/auto_table.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/touch_command.h"
+#include "app/programs/calibrate/uncertainty_picture.h"
 #include "app/programs/common/command_line.h"
 
 #include <fmt/format.h>
@@ -73,6 +74,13 @@ Result<int> calibrate(const CalibrateRequest& request) {
         fmt::print("{}\n", auto_json(calibration, *rests).dump(2));
     } else {
         fmt::print("{}", auto_text(calibration, *rests));
+    }
+    if (!request.map.empty()) {
+        if (const Result<void> drawn =
+                write_uncertainty(request.map, calibration.found, places_of(*rests), described->top_m);
+            !drawn) {
+            return tl::unexpected<Error>(drawn.error());
+        }
     }
     const int status = status_of(calibration.found.verdict, request, calibration.found.reason);
     if (status == 0 && request.keep) {

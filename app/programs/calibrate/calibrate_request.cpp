@@ -29,6 +29,10 @@ void add_touch_options(CommandLine& command, CalibrateRequest& request) {
     command
         .add_flag("--keep", request.keep, "keeps what is good or usable, in the settings' calibration.folder")
         .needs("--config");
+    command
+        .add_option("--map", request.map,
+                    "draws how uncertain the picture is, on the table and at the prop's top: PNG")
+        .needs("--from");
 }
 
 void check_request(const CalibrateRequest& request) {

@@ -49,7 +49,7 @@ struct Described {
 };
 
 void add_common_options(CommandLine& command, CalibrateRequest& request);
-/// --sensor-height and --keep.
+/// --sensor-height, --keep and --map.
 void add_touch_options(CommandLine& command, CalibrateRequest& request);
 /// Throws a WrongUse at what does not go.
 void check_request(const CalibrateRequest& request);

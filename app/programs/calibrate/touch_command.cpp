@@ -30,18 +30,6 @@ std::string touch_text(const TouchCalibration& c) {
     return text;
 }
 
-Result<void> write_map(const CalibrateRequest& request, const TouchCalibration& calibration,
-                       std::span<const Touch> touches, double top_m) {
-    if (!calibration.table) {
-        return {}; // refused: nothing is known, and the reason is told
-    }
-    const Result<Typesetter> typesetter = Typesetter::open();
-    if (!typesetter) {
-        return tl::unexpected<Error>(typesetter.error());
-    }
-    return write_file(request.map, encode_png(uncertainty_picture(calibration, touches, top_m, *typesetter)));
-}
-
 Result<int> touch(const CalibrateRequest& request) {
     const Result<Described> described = describe(request);
     if (!described) {
@@ -62,7 +50,9 @@ Result<int> touch(const CalibrateRequest& request) {
         fmt::print("{}", touch_text(calibration));
     }
     if (!request.map.empty()) {
-        if (const Result<void> drawn = write_map(request, calibration, *touches, described->top_m); !drawn) {
+        if (const Result<void> drawn =
+                write_uncertainty(request.map, calibration, places_of(*touches), described->top_m);
+            !drawn) {
             return tl::unexpected<Error>(drawn.error());
         }
     }
@@ -123,13 +113,11 @@ void add_touch_command(CommandLine& app, CalibrateRequest& request, std::functio
         "touch", "from the prop laid on crosses: projector, tracker and the sensor's place in the prop");
     add_common_options(command, request);
     add_touch_options(command, request);
-    const CommandOption map = command.add_option(
-        "--map", request.map, "draws how uncertain the picture is, on the table and at the prop's top: PNG");
     command
         .add_flag("--touch-up", request.touch_up,
                   "corrects the kept calibration by three touches or more: what moved since, and how far")
         .needs("--config")
-        .excludes(map)
+        .excludes("--map")
         .excludes("--sensor-height");
     command.callback([&] { chosen = [&] { return end_with(touch(request)); }; });
 }

@@ -1,6 +1,7 @@
 #include "app/programs/calibrate/uncertainty_picture.h"
 
 #include "app/exhibit/canvas.h"
+#include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
 
@@ -133,7 +134,7 @@ Image8 coloured(std::span<const Level> levels, std::span<const Field> fields, do
     return image;
 }
 
-void draw_cross(Canvas& canvas, const Typesetter& typesetter, const glm::dvec2& at, std::size_t number) {
+void draw_cross(Canvas& canvas, const Typesetter& typesetter, const glm::dvec2& at, int number) {
     constexpr double arm = 9.0;
     for (const auto& [width, colour] : {std::pair(6.0, paper), std::pair(2.5, ink)}) {
         canvas.line(at - glm::dvec2(arm, 0.0), at + glm::dvec2(arm, 0.0), width, colour);
@@ -168,7 +169,7 @@ void draw_scale(Canvas& canvas, const Typesetter& typesetter, const Field& field
     canvas.text(typesetter, "200 mm", end + glm::dvec2(14.0, 0.0), 20.0, ink, {0.0, 0.5});
 }
 
-void draw_legend(Canvas& canvas, const Typesetter& typesetter, double width_mm) {
+void draw_legend(Canvas& canvas, const Typesetter& typesetter, double width_mm, const std::string& what) {
     constexpr double box_px = 90.0;
     const glm::dvec2 at(margin_px, 796.0);
     for (int k = 0; k < bands; ++k) {
@@ -186,13 +187,34 @@ void draw_legend(Canvas& canvas, const Typesetter& typesetter, double width_mm) 
                 ink, {0.0, 0.5});
     const glm::dvec2 cross = at + glm::dvec2(bands * box_px + 340.0, 15.0);
     draw_cross(canvas, typesetter, cross, 1);
-    canvas.text(typesetter, "a touched cross, on the nearer height", cross + glm::dvec2(40.0, 0.0), 19.0, ink,
+    canvas.text(typesetter, what + ", on the nearer height", cross + glm::dvec2(40.0, 0.0), 19.0, ink,
                 {0.0, 0.5});
 }
 
 } // namespace
 
-Image8 uncertainty_picture(const TouchCalibration& calibration, std::span<const Touch> touches, double top_m,
+MeasuredPlaces places_of(std::span<const Touch> touches) {
+    MeasuredPlaces measured{"a touched cross", {}};
+    for (const Touch& touch : touches) {
+        measured.places.push_back({touch.pixel, touch.block_m, static_cast<int>(measured.places.size()) + 1});
+    }
+    return measured;
+}
+
+MeasuredPlaces places_of(std::span<const Rest> rests) {
+    MeasuredPlaces measured{"the points of a rest", {}};
+    for (const Rest& rest : rests) {
+        MeasuredPlace middle{{}, rest.block_m.value_or(0.0), rest.name};
+        for (const PropPoint& point : rest.points) {
+            middle.pixel += point.pixel / static_cast<double>(rest.points.size());
+            middle.height_m += point.prop_m.z / static_cast<double>(rest.points.size());
+        }
+        measured.places.push_back(middle);
+    }
+    return measured;
+}
+
+Image8 uncertainty_picture(const TouchCalibration& calibration, const MeasuredPlaces& measured, double top_m,
                            const Typesetter& typesetter) {
     const CalibratedTable& table = *calibration.table;
     const std::array<Level, 2> levels{Level(calibration, 0.0), Level(calibration, top_m)};
@@ -217,13 +239,25 @@ Image8 uncertainty_picture(const TouchCalibration& calibration, std::span<const 
         draw_edge(canvas, table, fields[k], levels[k].height_m());
         draw_scale(canvas, typesetter, fields[k]);
     }
-    for (std::size_t k = 0; k < touches.size(); ++k) {
-        const std::size_t level = touches[k].block_m > 0.5 * top_m ? 1 : 0;
-        const glm::dvec2 at = light_of(table, touches[k].pixel, levels[level].height_m());
-        draw_cross(canvas, typesetter, fields[level].pixel(at), k + 1);
+    for (const MeasuredPlace& place : measured.places) {
+        const std::size_t level = place.height_m > 0.5 * top_m ? 1 : 0;
+        const glm::dvec2 at = light_of(table, place.pixel, levels[level].height_m());
+        draw_cross(canvas, typesetter, fields[level].pixel(at), place.number);
     }
-    draw_legend(canvas, typesetter, width_mm);
+    draw_legend(canvas, typesetter, width_mm, measured.what);
     return canvas.take();
+}
+
+Result<void> write_uncertainty(const std::filesystem::path& file, const TouchCalibration& calibration,
+                               const MeasuredPlaces& measured, double top_m) {
+    if (!calibration.table) {
+        return {}; // nothing is known, and the reason is told
+    }
+    const Result<Typesetter> typesetter = Typesetter::open();
+    if (!typesetter) {
+        return tl::unexpected<Error>(typesetter.error());
+    }
+    return write_file(file, encode_png(uncertainty_picture(calibration, measured, top_m, *typesetter)));
 }
 
 } // namespace frustumscreen
