@@ -1,9 +1,9 @@
 #include "app/calibration/agreement.h"
 
+#include "app/calibration/dense_solvers.h"
 #include "app/calibration/reliability.h"
 #include "app/calibration/starts.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -29,7 +29,7 @@ bool agrees(std::span<const Touch> touches, const FitSetup& setup, const Fit& fi
     if (!(fit.chi2 / scale < chi2_limit(fit.freedom))) {
         return false;
     }
-    const Covariance covariance = fit.information().ldlt().solve(Covariance::Identity());
+    const Covariance covariance = inverse_of(fit.information());
     const WhitenedTouches whitened = whitened_touches(touches, setup, fit.model, fit.middle);
     for (std::size_t k = 0; k < touches.size(); ++k) {
         if (left_out_chi2(whitened.rows[k], whitened.residuals[k], covariance) / scale > touch_chi2_limit) {

@@ -2,6 +2,7 @@
 
 #include "app/calibration/check_rests.h"
 #include "app/calibration/check_touches.h"
+#include "app/calibration/dense_solvers.h"
 #include "app/calibration/reliability.h"
 #include "app/calibration/rest_agreement.h"
 #include "app/calibration/rest_starts.h"
@@ -73,7 +74,7 @@ std::vector<TouchResidual> residuals_of(std::span<const Rest> rests, const Agree
 }
 
 double hidden_error_of(const AgreeingRests& found, std::span<const ZonePlace> places) {
-    const RestCovariance covariance = found.fit.information().ldlt().solve(RestCovariance::Identity());
+    const RestCovariance covariance = inverse_of(found.fit.information());
     std::vector<UnseenError<6>> unseen;
     for (std::size_t k = 0; k < found.fit.rests.size(); ++k) {
         if (std::binary_search(found.wrong.begin(), found.wrong.end(), k)) {
@@ -156,8 +157,8 @@ AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, cons
     calibration.print = found.fit.model.print;
     count_wrong_points(calibration, found.weights);
     const std::vector<ZonePlace> places = zone_places(fit.model, fit.middle, zone);
-    table.uncertainty = picture_uncertainty(
-        places, found.scatter * found.scatter * fit.information().ldlt().solve(Covariance::Identity()));
+    table.uncertainty =
+        picture_uncertainty(places, found.scatter * found.scatter * inverse_of(fit.information()));
     table.zone = by_place(places, table.uncertainty.each_m);
     table.hidden_error_m = hidden_error_of(found, places);
     table.prior_shares = prior_shares(fit);

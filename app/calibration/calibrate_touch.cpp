@@ -2,6 +2,7 @@
 
 #include "app/calibration/agreement.h"
 #include "app/calibration/check_touches.h"
+#include "app/calibration/dense_solvers.h"
 #include "app/calibration/picture_limits.h"
 #include "app/calibration/reliability.h"
 #include "app/calibration/starts.h"
@@ -10,7 +11,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -24,8 +24,7 @@ constexpr double most_hidden_m = 60e-3;
 double hidden_error_of(std::span<const Touch> touches, const FitSetup& setup, const Fit& fit,
                        const ZoneSetup& zone) {
     return hidden_error_m(whitened_touches(touches, setup, fit.model, fit.middle).rows,
-                          fit.information().ldlt().solve(Covariance::Identity()),
-                          zone_places(fit.model, fit.middle, zone));
+                          inverse_of(fit.information()), zone_places(fit.model, fit.middle, zone));
 }
 
 TouchCalibration refused(std::string reason) {
@@ -198,8 +197,7 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
     if (!calibration.table) {
         return refused("the light of the picture's middle does not come down on the table");
     }
-    const Covariance covariance =
-        found.scatter * found.scatter * found.fit.information().ldlt().solve(Covariance::Identity());
+    const Covariance covariance = found.scatter * found.scatter * inverse_of(found.fit.information());
     const std::vector<ZonePlace> places = zone_places(found.fit.model, found.fit.middle, zone);
     calibration.uncertainty = picture_uncertainty(places, covariance);
     calibration.zone = by_place(places, calibration.uncertainty.each_m);

@@ -1,11 +1,11 @@
 #include "app/calibration/check_touches.h"
 
+#include "app/calibration/dense_solvers.h"
 #include "app/calibration/starts.h"
 #include "app/calibration/unknowns.h"
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -79,7 +79,7 @@ glm::dvec2 spread(std::span<const Touch> touches) {
         const Eigen::Vector2d off = Eigen::Vector2d(touch.pixel.x, touch.pixel.y) - mean;
         square += off * off.transpose() / count;
     }
-    const Eigen::Vector2d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(square).eigenvalues();
+    const Eigen::Vector2d values = axes_of(square).values;
     return {4.0 * std::sqrt(std::fmax(0.0, values[1])), 4.0 * std::sqrt(std::fmax(0.0, values[0]))};
 }
 

@@ -1,11 +1,12 @@
 #include "app/calibration/corners.h"
 
 #include "app/calibration/calibrated_table.h"
+#include "app/calibration/dense_solvers.h"
 #include "app/calibration/unknowns.h"
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -35,7 +36,7 @@ Line line_through(std::span<const Place> places) {
     for (const Place& place : places) {
         square += (place - middle) * (place - middle).transpose();
     }
-    return {middle, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(square).eigenvectors().col(2)};
+    return {middle, axes_of(square).vectors.col(2)};
 }
 
 /// The place with the least sum of squared distances from the lines, and how well it is determined.
@@ -51,8 +52,8 @@ Meeting meeting_of(std::span<const Line> lines) {
         square += across;
         goal += across * line.middle;
     }
-    const Eigen::Vector3d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(square).eigenvalues();
-    return {square.ldlt().solve(goal), std::sqrt(values[2] / std::fmax(values[0], 1e-30))};
+    const Eigen::Vector3d values = axes_of(square).values;
+    return {inverse_of(square) * goal, std::sqrt(values[2] / std::fmax(values[0], 1e-30))};
 }
 
 double least_way(std::span<const Place> places, const Place& along) {

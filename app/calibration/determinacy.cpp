@@ -1,7 +1,7 @@
 #include "app/calibration/determinacy.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include "app/calibration/dense_solvers.h"
+
 #include <cmath>
 
 namespace frustumscreen {
@@ -19,14 +19,14 @@ std::optional<Undetermined> undetermined(const Fit& fit, const ZoneSetup& zone) 
     // What is not determined at all is left some hundred metres and radians wide, not infinitely.
     const Covariance known =
         fit.from_touches + fit.from_height + fit.from_priors / 100.0 + 1e-5 * Covariance::Identity();
-    const Covariance covariance = known.ldlt().solve(Covariance::Identity());
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> offsets(covariance.block<3, 3>(offset_x, offset_x));
-    if (std::sqrt(offsets.eigenvalues()[1]) > widest_offset_m) {
+    const Covariance covariance = inverse_of(known);
+    const SymmetricAxes offsets = axes_of(covariance.block<3, 3>(offset_x, offset_x));
+    if (std::sqrt(offsets.values[1]) > widest_offset_m) {
         return Undetermined{Undetermined::What::SensorAcross};
     }
-    if (std::sqrt(offsets.eigenvalues()[2]) > widest_offset_m) {
+    if (std::sqrt(offsets.values[2]) > widest_offset_m) {
         const Eigen::Vector3d up_in_sensor = eigen(zone.upright).transpose() * eigen(fit.model.table_up);
-        const bool upwards = std::abs(offsets.eigenvectors().col(2).dot(up_in_sensor)) > 0.7;
+        const bool upwards = std::abs(offsets.vectors.col(2).dot(up_in_sensor)) > 0.7;
         return Undetermined{upwards ? Undetermined::What::SensorAbove : Undetermined::What::SensorAcross};
     }
     const PictureUncertainty left = picture_uncertainty(zone_places(fit.model, fit.middle, zone), covariance);
@@ -37,7 +37,7 @@ std::optional<Undetermined> undetermined(const Fit& fit, const ZoneSetup& zone) 
 }
 
 PriorShares prior_shares(const Fit& fit) {
-    const Covariance covariance = fit.information().ldlt().solve(Covariance::Identity());
+    const Covariance covariance = inverse_of(fit.information());
     const auto share = [&](Unknown which) {
         return std::fmin(1.0, covariance(which, which) * fit.from_priors(which, which));
     };

@@ -1,12 +1,14 @@
 #include "app/calibration/eye_fit.h"
 
+#include "app/calibration/dense_solvers.h"
 #include "app/calibration/unknowns.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -100,7 +102,7 @@ Solution solved(std::span<const Line> lines, const std::vector<bool>& used, cons
                 shared += rows.rows.transpose() * rows.by_shared;
             }
         }
-        solution.by_noise = information.llt().solve(BothCovariance::Identity());
+        solution.by_noise = inverse_of(information);
         solution.eyes = solution.by_noise * right;
         const Eigen::Matrix<double, 6, 5> moves = solution.by_noise * shared;
         solution.covariance = solution.by_noise + moves * moves.transpose();
@@ -166,12 +168,12 @@ bool is_shared_off(const Solution& solution, const std::vector<bool>& used) {
     }
     told -= mixed.transpose() * solution.by_noise * mixed;
     // The pull is told * shared + noise of covariance told, and shared has unit variance. Axes of which nothing is told are left out.
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 5, 5>> axes(told);
+    const SymmetricAxes axes = axes_of(told);
     constexpr double limit = 20.5; // chi squared of five
     double chi2 = 0.0;
     for (Eigen::Index k = 0; k < 5; ++k) {
-        const double t = axes.eigenvalues()[k];
-        chi2 += t > 1e-3 ? std::pow(axes.eigenvectors().col(k).dot(pull), 2.0) / (t + t * t) : 0.0;
+        const double t = axes.values[k];
+        chi2 += t > 1e-3 ? std::pow(axes.vectors.col(k).dot(pull), 2.0) / (t + t * t) : 0.0;
     }
     return chi2 > limit;
 }
@@ -218,8 +220,8 @@ double spread_rad(std::span<const Line> lines, Eigen::Index first) {
             count += 1.0;
         }
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(parallel / count);
-    return std::sqrt(std::fmax(0.0, 1.0 - axes.eigenvalues()[2]));
+    const SymmetricAxes axes = axes_of(parallel / count);
+    return std::sqrt(std::fmax(0.0, 1.0 - axes.values[2]));
 }
 
 /// Why nothing can follow from these; empty: something can.

@@ -1,6 +1,7 @@
 #include "app/calibration/homography.h"
 
-#include <Eigen/Eigenvalues>
+#include "app/calibration/dense_solvers.h"
+
 #include <Eigen/LU>
 
 namespace frustumscreen {
@@ -40,12 +41,12 @@ std::optional<Eigen::Matrix3d> homography(std::span<const Eigen::Vector2d> from,
         rows << x, Eigen::RowVector3d::Zero(), -u.x() * x, Eigen::RowVector3d::Zero(), x, -u.y() * x;
         sum += rows.transpose() * rows;
     }
-    const Eigen::SelfAdjointEigenSolver<Square> solver(sum);
+    const SymmetricAxes axes = axes_of(sum);
     constexpr double least = 1e-4; // of the second; one direction alone is to be undetermined
-    if (!(solver.eigenvalues()[1] > least)) {
+    if (!(axes.values[1] > least)) {
         return std::nullopt;
     }
-    const Eigen::Matrix<double, 9, 1> h = solver.eigenvectors().col(0);
+    const Eigen::Matrix<double, 9, 1> h = axes.vectors.col(0);
     Eigen::Matrix3d scaled;
     scaled << h.segment<3>(0).transpose(), h.segment<3>(3).transpose(), h.segment<3>(6).transpose();
     return scale_to.inverse() * scaled * scale_from;

@@ -1,5 +1,7 @@
 #include "app/calibration/rest_agreement.h"
 
+#include "app/calibration/dense_solvers.h"
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
@@ -91,7 +93,7 @@ RestFit robust_fit(std::span<const Rest> rests, std::span<const std::optional<Pl
 
 /// How far each rest's report is from what all others say of it; chi squared with six degrees of freedom.
 std::vector<double> left_out_chi2(const RestFit& fit) {
-    const RestCovariance covariance = fit.information().ldlt().solve(RestCovariance::Identity());
+    const RestCovariance covariance = inverse_of(fit.information());
     std::vector<double> chi2;
     for (const FittedRest& rest : fit.rests) {
         const Eigen::Matrix<double, 6, 1> off = rest.by_pose.transpose() * rest.residuals;

@@ -1,8 +1,8 @@
 #include "app/calibration/rest_posture.h"
 
+#include "app/calibration/dense_solvers.h"
 #include "app/geometry/rotation_angle.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +29,7 @@ std::optional<FlatPosture> flat_posture(std::span<const RigidTransform> rests) {
         return std::nullopt;
     }
     // What no turn between them moves: their common axis, in the sensor.
-    const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(0);
+    const Eigen::Vector3d axis = axes_of(sum).vectors.col(0);
     FlatPosture flat;
     flat.in_sensor = {axis.x(), axis.y(), axis.z()};
     glm::dvec3 normals(0.0);
