@@ -59,6 +59,21 @@ Result<std::vector<CountedPack>> load_reference(const std::filesystem::path& fil
     return counts ? std::move(counts) : at(file.string(), counts.error());
 }
 
+/// An artifact that the reference lacks is an error too: it would go on unwatched.
+Result<void> require_reference(std::span<const CountedPack> counted, std::span<const CountedPack> reference,
+                               std::span<const CountChange> against, const std::filesystem::path& file) {
+    if (std::any_of(against.begin(), against.end(), [](const CountChange& one) { return one.grown; })) {
+        return fail(ErrorKind::Internal, fmt::format("a frame takes over {:.0f} % more than {} says",
+                                                     100.0 * (most_count_growth - 1.0), file.string()));
+    }
+    if (const std::vector<std::string> lacking = without_reference(counted, reference); !lacking.empty()) {
+        return bad_input(
+            fmt::format("{} lacks {}; compare with a file that has them, or add them from counts.json",
+                        file.string(), fmt::join(lacking, "; ")));
+    }
+    return {};
+}
+
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     const Result<std::vector<CountedPack>> reference = load_reference(arguments.reference);
     if (!reference) {
@@ -75,10 +90,8 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     if (!written) {
         return written;
     }
-    if (std::any_of(against.begin(), against.end(), [](const CountChange& one) { return one.grown; })) {
-        return fail(ErrorKind::Internal,
-                    fmt::format("a frame takes over {:.0f} % more than {} says",
-                                100.0 * (most_count_growth - 1.0), arguments.reference.string()));
+    if (!arguments.reference.empty()) {
+        return require_reference(*counted, *reference, against, arguments.reference);
     }
     return {};
 }
