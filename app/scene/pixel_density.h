@@ -24,7 +24,7 @@ private:
 };
 
 /// How many samples a pixel takes that asked for `samples`, at such a share: the bake chooses them for pictures of at least half the
-/// density. At most 16.
+/// density, and each further half of the pixels takes twice the samples. At most 16; as asked for where the density is 0.
 [[nodiscard]] int samples_at(double density, int samples);
 
 } // namespace frustumscreen

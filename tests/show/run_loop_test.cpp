@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace frustumscreen {
 namespace {
 
@@ -109,6 +112,52 @@ TEST(RunLoop, MarksOfLightAreShownWhileNobodyIsThere) {
     EXPECT_NE(run->status.drift.view().find("the camera learns where the picture lies"),
               std::string_view::npos);
     EXPECT_FALSE(run->status.drifted);
+}
+
+/// Has something new to draw in every third frame.
+class TimedShow final : public Show {
+public:
+    void step(MonotonicTime /*now*/, std::span<const Command> /*commands*/,
+              const Situation& /*on_table*/) override {}
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& /*on_table*/,
+                                  const RenderTarget& /*target*/, Redraw /*redraw*/) override {
+        DrawResult result;
+        result.drawn = ++frames % 3 == 0;
+        if (result.drawn) {
+            result.redrawn = {0, 0, 64, 40};
+            drawn.push_back(now);
+        }
+        return result;
+    }
+    void record_time(MonotonicTime now, double ms) override {
+        timed.push_back(now);
+        least_ms = std::min(least_ms, ms);
+    }
+    [[nodiscard]] ShowState state() const override { return {}; }
+
+    int frames = 0;
+    std::vector<MonotonicTime> drawn, timed;
+    double least_ms = 1.0;
+};
+
+TEST(RunLoop, TellsTheShowTheTimeOfEachFrameThatWasDrawn) {
+    const MonotonicTime start = monotonic_now();
+    TimedShow show;
+    Inputs inputs;
+    LoopOptions options;
+    options.length = seconds(2);
+    options.fast = true;
+    NoDisplay display;
+    StatusFile no_file{std::filesystem::path{}};
+    ServiceManager manager;
+    const Journal journal("test");
+    RunWatch watch(manager, journal);
+    const Result<LoopResult> run =
+        run_loop(Settings{}, display, inputs, show, options, no_file, watch, start);
+    ASSERT_TRUE(run) << run.error().message;
+    EXPECT_GT(show.drawn.size(), 30U);
+    EXPECT_EQ(show.timed, show.drawn);
+    EXPECT_GT(show.least_ms, 0.0);
 }
 
 TEST(RunLoop, EndsWhereNothingCanBeShownForAMinute) {
