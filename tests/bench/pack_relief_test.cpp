@@ -9,6 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdio>
+
 namespace frustumscreen {
 namespace {
 
@@ -51,6 +54,8 @@ TEST_F(PackRelief, ThereIsARowForEachByTheNameThatDrawsIt) {
         const double texel_mm = 1e3 * place(pack_, stage_.prop).metres_per_box / outlines[k].texels;
         EXPECT_LT(reliefs[k].error.mean.geometric_mean_mm, 0.5 * texel_mm);
         EXPECT_LT(reliefs[k].error.worst.outline_shift_px, 1.0);
+        EXPECT_FALSE(reliefs[k].drawn_as.empty());
+        EXPECT_EQ(reliefs[k].bytes, bytes_of(relief_of(pack_, outlines[k]).value()));
         for (const std::optional<ErrorEstimate>& estimate : reliefs[k].estimates) {
             EXPECT_TRUE(estimate.has_value());
         }
@@ -59,15 +64,32 @@ TEST_F(PackRelief, ThereIsARowForEachByTheNameThatDrawsIt) {
     EXPECT_LT(reliefs[1].error.mean.sixteen_rays.rmse, reliefs[0].error.mean.sixteen_rays.rmse);
 }
 
-TEST_F(PackRelief, TheDefaultLevelIsDrawnWhereItsMeshIs) {
-    const std::vector<std::uint32_t> levels{pack_.default_level};
-    Result<Comparison> opened = open_comparison({"near", stage_.settings}, pack_, levels, mesh_, {{}, 3, 3});
-    ASSERT_TRUE(opened) << opened.error().message;
-    ASSERT_TRUE(opened->set->measure_errors(opened->truth, opened->poses, 0, [](double) {}));
-    const TechniqueResult& level = opened->set->results().back();
-    ASSERT_EQ(level.kind, TechniqueKind::PackLevel);
-    EXPECT_GT(level.error.worst.drawn_shift_px, 0.0);
-    EXPECT_LT(level.error.worst.drawn_shift_px, 0.05);
+/// With light baked into its colours and without: light that falls off towards an outline is none that moves it.
+TEST_F(PackRelief, LevelsAndReliefsAreDrawnWhereTheirSurfacesAre) {
+    BakeOptions lit;
+    lit.size = 96;
+    const Pack with_light = bake(*mesh_, lit).value();
+    for (const Pack* const pack : std::array<const Pack*, 2>{&pack_, &with_light}) {
+        const std::vector<std::uint32_t> levels{pack->default_level};
+        Result<Comparison> opened =
+            open_comparison({"near", stage_.settings}, *pack, levels, mesh_, {{}, 3, 3});
+        ASSERT_TRUE(opened) << opened.error().message;
+        ASSERT_TRUE(opened->set->add_reliefs(*pack, {}));
+        ASSERT_TRUE(opened->set->measure_errors(opened->truth, opened->poses, 0, [](double) {}));
+        std::size_t judged = 0;
+        for (const TechniqueResult& result : opened->set->results()) {
+            if (result.kind == TechniqueKind::Floor) {
+                continue;
+            }
+            ++judged;
+            std::printf("%s, %s: worst pose %.4f px\n", result.name.c_str(), pack->unlit ? "unlit" : "lit",
+                        result.error.worst.drawn_shift_px);
+            EXPECT_FALSE(result.drawn_as.empty());
+            EXPECT_GT(result.error.worst.drawn_shift_px, 0.0) << result.name;
+            EXPECT_LT(result.error.worst.drawn_shift_px, 0.05) << result.name;
+        }
+        EXPECT_EQ(judged, 1 + reliefs_of(*pack).value().size());
+    }
 }
 
 /// What the bench bakes by itself is what the bake puts into a pack.

@@ -23,6 +23,7 @@ TechniqueResult technique(const std::string& name, TechniqueKind kind, int level
     result.name = name;
     result.kind = kind;
     result.level = level;
+    result.drawn_as = kind == TechniqueKind::PackLevel ? name : std::string();
     result.errors = std::move(errors);
     result.error = summarise(result.errors);
     result.time_ms = {times_floor, times_floor, times_floor};
@@ -45,8 +46,9 @@ SetUpResult example() {
 }
 
 std::size_t missed(const std::vector<Verdict>& verdicts) {
-    return static_cast<std::size_t>(std::count_if(verdicts.begin(), verdicts.end(),
-                                                  [](const Verdict& verdict) { return !verdict.held; }));
+    return static_cast<std::size_t>(
+        std::count_if(verdicts.begin(), verdicts.end(),
+                      [](const Verdict& verdict) { return !verdict.held && !verdict.wished; }));
 }
 
 TEST(Verdicts, ASilhouetteHoldsInAPoseByItsShareOrByItsShift) {
@@ -66,7 +68,8 @@ TEST(Verdicts, WhatAutoDrawsIsUnderTheDefaultLevelsLimits) {
         technique("auto (mesh 0)", TechniqueKind::Auto, 0, 3.0, {picture_error(1.79, 0.9, 0.229, 10.0)}));
     std::vector<Verdict> verdicts = judge(result);
     std::erase_if(verdicts, [](const Verdict& verdict) { return verdict.what.find("auto (mesh 0): ") != 0; });
-    EXPECT_EQ(verdicts.size(), judge(result.techniques[1], default_level_limits).size());
+    // Where nobody asked where it is drawn, nothing is said of it.
+    EXPECT_EQ(verdicts.size() + 1, judge(result.techniques[1], default_level_limits).size());
     EXPECT_EQ(missed(verdicts), 2U); // silhouette and geometry
     EXPECT_EQ(missed(judge(result)), 2U);
 }
@@ -168,6 +171,47 @@ TEST(Verdicts, AFineLevelIsBothFineAndCheap) {
     result.techniques[2].errors[0].geometric_mean_mm = 0.06;
     result.techniques[2].error = summarise(result.techniques[2].errors);
     EXPECT_EQ(missed(judge(result)), 2U); // the finest level misses its own limit too
+}
+
+TEST(Verdicts, AReliefMayBeTheFineOne) {
+    SetUpResult result = example();
+    result.techniques[2].times_floor = 8.1;
+    result.techniques[3].times_floor = 80.0;
+    ASSERT_EQ(missed(judge(result)), 1U);
+    result.techniques.push_back(
+        technique("relief192", TechniqueKind::PackRelief, -1, 7.0, {picture_error(0.1, 0.1, 0.04, 9.0)}));
+    EXPECT_EQ(missed(judge(result)), 0U);
+    result.techniques.back().kind = TechniqueKind::ReliefCast; // not the pack's
+    EXPECT_EQ(missed(judge(result)), 1U);
+}
+
+TEST(Verdicts, WishesAreSaidOfThePacksCheapestRowAndEndNoRun) {
+    SetUpResult result = example();
+    const auto wishes = [&result] {
+        std::vector<Verdict> verdicts = judge(result);
+        std::erase_if(verdicts, [](const Verdict& verdict) { return !verdict.wished; });
+        return verdicts;
+    };
+    ASSERT_EQ(wishes().size(), 2U);
+    EXPECT_EQ(wishes()[0].found, "mesh 1: 5.00 x");
+    EXPECT_FALSE(wishes()[0].held);
+    EXPECT_EQ(wishes()[1].found, "no level or relief is as fine");
+    EXPECT_FALSE(wishes()[1].held);
+    EXPECT_TRUE(require_limits({&result, 1}));
+    EXPECT_NE(lines_of(judge(result)).find("wished wished: <= 0.15 % or 0.1 px, <= 0.05 mm at <= 2 x floor"),
+              std::string::npos);
+    EXPECT_NE(verdicts_csv({&result, 1}, {}).find("mesh 1: 5.00 x\",wished"), std::string::npos);
+    result.techniques.push_back(
+        technique("relief192", TechniqueKind::PackRelief, -1, 2.0, {picture_error(0.15, 9.0, 0.05, 99.0)}));
+    EXPECT_TRUE(wishes()[0].held);
+    EXPECT_FALSE(wishes()[1].held);
+    result.techniques.push_back(
+        technique("mesh 2", TechniqueKind::PackLevel, 2, 4.0, {picture_error(9.0, 0.05, 0.01, 99.0)}));
+    EXPECT_TRUE(wishes()[1].held);
+    result.techniques.back().errors.push_back(
+        picture_error(9.0, 0.05, 0.0101, 99.0)); // the worst pose counts
+    result.techniques.back().error = summarise(result.techniques.back().errors);
+    EXPECT_FALSE(wishes()[1].held);
 }
 
 TEST(Report, EveryRowHasAsManyFieldsAsTheHeader) {

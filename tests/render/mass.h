@@ -16,18 +16,22 @@ struct Mass {
     [[nodiscard]] glm::dvec2 centre() const { return moment / light; }
 };
 
-/// 16 rays a pixel, 4 x 4.
-inline Mass cast_mass(const ReferenceCast& cast, const Stage& stage) {
+/// 16 rays a pixel, 4 x 4, each found one weighed by `weight` of its pixel.
+template <typename Weight> Mass cast_mass(const ReferenceCast& cast, const Stage& stage, Weight weight) {
     Mass mass;
     for (int y = 0; y < stage.projector.height; ++y) {
         for (int x = 0; x < stage.projector.width; ++x) {
             for (int k = 0; k < 16; ++k) {
                 const glm::dvec2 at = glm::dvec2(x, y) + (glm::dvec2(k & 3, k >> 2) + 0.5) / 4.0;
-                mass.add(at, cast.through_pixel(stage, at).found ? 1.0 / 16.0 : 0.0);
+                mass.add(at, cast.through_pixel(stage, at).found ? weight(at) / 16.0 : 0.0);
             }
         }
     }
     return mass;
+}
+
+inline Mass cast_mass(const ReferenceCast& cast, const Stage& stage) {
+    return cast_mass(cast, stage, [](const glm::dvec2&) { return 1.0; });
 }
 
 inline Mass shown_mass(const Image8& picture) {

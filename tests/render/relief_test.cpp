@@ -1,6 +1,7 @@
 // A relief in the picture: where the ray cast has the artifact, in the colours of its mesh, beside meshes in a fade.
 
 #include "tests/render/counted_new.h"
+#include "tests/render/mass.h"
 #include "tests/render/reference_cast.h"
 #include "tests/render/rig.h"
 #include "tests/render/ring_relief.h"
@@ -98,6 +99,36 @@ TEST(Relief, ShowsEachPlaceWhereTheRayCastFindsIt) {
             EXPECT_LT(mm / static_cast<double>(both),
                       0.1); // one pixel of 750 that sees past an edge makes .06 of it
         }
+    }
+}
+
+/// What a place must show, so that all send back the same light: less light falls on it with the square of its distance, and aslant.
+double evened(const Stage& stage, const glm::dvec2& pixel) {
+    const RigidTransform prop_from_projector = stage.table_from_prop.inverse() * stage.table_from_projector;
+    const glm::dvec3 ray = prop_from_projector.direction(stage.projector.ray(pixel));
+    PropHit lit;
+    if (!intersect(stage.prop, prop_from_projector.translation, ray, lit)) {
+        return 0.0;
+    }
+    const double d = lit.t * glm::length(ray);
+    const glm::dvec3& normal = stage.prop.faces[static_cast<std::size_t>(lit.face)].plane.normal;
+    return d * d / glm::dot(normal, -glm::normalize(ray));
+}
+
+TEST(Relief, LiesWithinATwentiethOfAPixelOfARayCastAsItIsAndInEvenLight) {
+    ReliefRig rig(16, 256, white(rings(16, 8)));
+    const ReferenceCast cast(rig.pack, metres_per_box(rig.pack, rig.prop));
+    Stage stage(320, 200);
+    const Mass plain = cast_mass(cast, stage);
+    ASSERT_GT(plain.light, 400.0);
+    const Mass shown = shown_mass(rig.one(stage, rig.cast));
+    EXPECT_NEAR(shown.light, plain.light, 0.01 * plain.light);
+    EXPECT_LT(glm::distance(shown.centre(), plain.centre()), 0.05);
+    rig.prop = stage.prop = make_frustum({0.2, 0.06, 0.08}); // the light grazes no face
+    const Mass even = cast_mass(cast, stage, [&](const glm::dvec2& at) { return evened(stage, at); });
+    for (const PlacedLevel& which : {rig.cast, rig.level}) {
+        const Mass lit = shown_mass(rig.one(stage, which, LightCompensation{}));
+        EXPECT_LT(glm::distance(lit.centre(), even.centre()), 0.05) << (which.relief ? "relief" : "mesh");
     }
 }
 

@@ -33,7 +33,7 @@ struct PictureError {
     /// Of the shown picture against 16 rays (picture_shift.h); zero where the truth has none. A simplified outline that gives way
     /// more on one side than on the other shifts the picture too.
     double picture_shift_px = 0.0;
-    /// Of the shown picture against 16 rays at the very mesh that is drawn: how far drawing alone puts it beside its place. Zero
+    /// Of the shown picture against 16 rays at the very surface that is drawn: how far drawing alone puts it beside its place. Zero
     /// where nobody asked.
     double drawn_shift_px = 0.0;
     ColourError one_ray;

@@ -42,6 +42,7 @@ nlohmann::json json_of(const TechniqueResult& technique) {
     nlohmann::json json = {{"name", technique.name},
                            {"kind", name_of(technique.kind)},
                            {"triangles", technique.triangles},
+                           {"bytes", technique.bytes},
                            {"samples", technique.samples},
                            {"median_ms", technique.time_ms.median},
                            {"p10_ms", technique.time_ms.p10},
@@ -63,7 +64,10 @@ nlohmann::json json_of(const TechniqueResult& technique) {
 nlohmann::json json_of(std::span<const Verdict> verdicts) {
     nlohmann::json json = nlohmann::json::array();
     for (const Verdict& verdict : verdicts) {
-        json.push_back({{"what", verdict.what}, {"found", verdict.found}, {"held", verdict.held}});
+        json.push_back({{"what", verdict.what},
+                        {"found", verdict.found},
+                        {"held", verdict.held},
+                        {"wished", verdict.wished}});
     }
     return json;
 }
@@ -76,8 +80,8 @@ std::string field(const std::string& text) {
 } // namespace
 
 std::string summary_csv(std::span<const SetUpResult> results) {
-    std::string csv =
-        "set_up,technique,kind,triangles,samples,median_ms,p10_ms,p90_ms,times_floor,cpu_ms,cpu_times_floor";
+    std::string csv = "set_up,technique,kind,triangles,bytes,samples,median_ms,p10_ms,p90_ms,times_floor,cpu_"
+                      "ms,cpu_times_floor";
     for (const char* which : {"mean", "worst"}) {
         for (const Figure& figure : figures) {
             csv += fmt::format(",{}_{}", which, figure.name);
@@ -87,8 +91,9 @@ std::string summary_csv(std::span<const SetUpResult> results) {
     for (const SetUpResult& result : results) {
         const std::vector<const TechniqueResult*> best = at_best_eye_images(result);
         for (const TechniqueResult& technique : result.techniques) {
-            csv += fmt::format("{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}", result.name,
+            csv += fmt::format("{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}", result.name,
                                field(technique.name), name_of(technique.kind), technique.triangles,
+                               technique.bytes > 0 ? std::to_string(technique.bytes) : std::string(),
                                technique.samples, technique.time_ms.median, technique.time_ms.p10,
                                technique.time_ms.p90, technique.times_floor, technique.cpu_ms,
                                technique.cpu_times_floor);
@@ -170,7 +175,7 @@ std::string verdicts_csv(std::span<const SetUpResult> results, std::span<const V
     const auto add = [&csv](const std::string& set_up, std::span<const Verdict> verdicts) {
         for (const Verdict& verdict : verdicts) {
             csv += fmt::format("{},{},{},{}\n", set_up, quoted(verdict.what), quoted(verdict.found),
-                               verdict.held ? "held" : "missed");
+                               verdict.held ? "held" : (verdict.wished ? "wished" : "missed"));
         }
     };
     add("pack", pack_figures);

@@ -1,27 +1,39 @@
 #include "app/bench/measures/picture_shift.h"
 #include "app/bench/measures/technique_set.h"
+#include "app/bench/techniques/relief_surface.h"
 #include "app/pack/pack_file.h"
 #include "app/render/sample_grid.h"
 #include "assets_baked/bake/level.h"
 
+#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace frustumscreen {
 
-Result<void> TechniqueSet::keep_drawn(const Pack& pack, std::uint32_t level) {
-    if (drawn_.contains(static_cast<int>(level))) {
-        return {};
-    }
+Result<std::string> TechniqueSet::keep_drawn(const Pack& pack, std::uint32_t level) {
     const PackLevel& shown = pack.levels[level];
+    return keep_surface(pack, textured_source(shown, pack.textures[shown.texture], pack.box_size),
+                        fmt::format("level {}", level));
+}
+
+Result<std::string> TechniqueSet::keep_drawn(const Pack& pack, const BlockRelief& relief,
+                                             const std::string& name) {
+    return keep_surface(pack, cut_surface_of(relief), name);
+}
+
+Result<std::string> TechniqueSet::keep_surface(const Pack& pack, SourceMesh surface,
+                                               const std::string& name) {
+    if (drawn_.contains(name)) {
+        return name;
+    }
     const double metres_per_box = place(pack, stage_.prop).metres_per_box;
-    Result<Truth> truth = Truth::build(std::make_shared<const SourceMesh>(textured_source(
-                                           shown, pack.textures[shown.texture], pack.box_size)),
+    Result<Truth> truth = Truth::build(std::make_shared<const SourceMesh>(std::move(surface)),
                                        glm::scale(glm::dmat4(1.0), glm::dvec3(metres_per_box)), Sides::Front);
     if (!truth) {
         return tl::unexpected<Error>(truth.error());
     }
-    drawn_.emplace(static_cast<int>(level), *std::move(truth));
-    return {};
+    drawn_.emplace(name, *std::move(truth));
+    return name;
 }
 
 Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<BenchPose>& poses,
@@ -29,9 +41,9 @@ Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<
     for (std::size_t pose = 0; pose < poses.size(); ++pose) {
         const TruthView view = view_of(stage_.settings, poses[pose]);
         const TruthPicture cast = truth.cast(stage_.prop, view, true);
-        std::map<int, Image8> of_levels;
-        for (const auto& [level, as_drawn] : drawn_) {
-            of_levels[level] = as_drawn.cast(stage_.prop, view, true).colour16;
+        std::map<std::string, Image8> surfaces;
+        for (const auto& [name, as_drawn] : drawn_) {
+            surfaces[name] = as_drawn.cast(stage_.prop, view, true).colour16;
         }
         for (std::size_t k = first; k < techniques_.size(); ++k) {
             if (results_[k].kind == TechniqueKind::Floor) {
@@ -42,7 +54,7 @@ Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<
                 return tl::unexpected<Error>(seen.error());
             }
             PictureError& error = results_[k].errors.emplace_back(measure(cast, *seen));
-            if (const auto own = of_levels.find(results_[k].level); own != of_levels.end()) {
+            if (const auto own = surfaces.find(results_[k].drawn_as); own != surfaces.end()) {
                 error.drawn_shift_px =
                     glm::length(picture_shift(own->second, seen->colour).value_or(glm::dvec2(0.0)));
             }

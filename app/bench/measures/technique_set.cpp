@@ -45,6 +45,12 @@ TechniqueResult described(TechniqueKind kind, int level, std::uint64_t triangles
     return result;
 }
 
+/// With its texture; without mip levels.
+std::uint64_t bytes_of(const PackLevel& level, const Pack& pack) {
+    return level.vertices.size() * sizeof(PackVertex) + level.indices.size() * sizeof(level.indices[0]) +
+           4 * pack.textures[level.texture].texels.size();
+}
+
 std::string level_name(const Pack& pack, std::uint32_t level) {
     return fmt::format("{} {}{}", pack.levels[level].technique == LevelTechnique::Relief ? "relief" : "mesh",
                        level, level == pack.default_level ? " (default)" : "");
@@ -122,13 +128,16 @@ Result<void> TechniqueSet::add_level(const Pack& pack, std::uint32_t level, cons
         options.samples =
             std::max(options.samples, finest_samples); // as `render --technique finest` draws it
     }
-    if (level == pack.default_level || level + 1 == pack.levels.size()) {
-        if (const Result<void> kept = keep_drawn(pack, level); !kept) {
-            return kept;
-        }
-    }
     TechniqueResult result =
         described(TechniqueKind::PackLevel, static_cast<int>(level), pack.levels[level].indices.size() / 3);
+    result.bytes = bytes_of(pack.levels[level], pack);
+    if (level == pack.default_level || level + 1 == pack.levels.size()) {
+        Result<std::string> kept = keep_drawn(pack, level);
+        if (!kept) {
+            return tl::unexpected<Error>(kept.error());
+        }
+        result.drawn_as = std::move(*kept);
+    }
     result.samples = options.samples;
     return add(make_pack_level(stage_, pack, level, options, level_name(pack, level)), std::move(result));
 }
@@ -153,13 +162,16 @@ Result<void> TechniqueSet::add_auto(const Pack& pack, const PictureOptions& opti
 }
 
 Result<void> TechniqueSet::add_auto_mesh(const Pack& pack, const Rung& rung, PictureOptions options) {
-    if (const Result<void> kept = keep_drawn(pack, rung.level); !kept) {
-        return kept;
+    Result<std::string> kept = keep_drawn(pack, rung.level);
+    if (!kept) {
+        return tl::unexpected<Error>(kept.error());
     }
     options.samples = rung.samples;
     TechniqueResult result = described(TechniqueKind::Auto, static_cast<int>(rung.level),
                                        pack.levels[rung.level].indices.size() / 3);
     result.samples = rung.samples;
+    result.drawn_as = std::move(*kept);
+    result.bytes = bytes_of(pack.levels[rung.level], pack);
     return add(make_pack_level(stage_, pack, rung.level, options,
                                fmt::format("auto ({})", level_name(pack, rung.level))),
                std::move(result));
@@ -244,6 +256,15 @@ Result<void> TechniqueSet::add_relief(const Pack& pack, TechniqueKind kind, Bloc
                                       const std::string& name) {
     TechniqueResult result = described(kind, -1, relief.blocks.size());
     result.samples = options.samples > 0 ? options.samples : pack.samples;
+    if (kind != TechniqueKind::ReliefCast) {
+        result.bytes = bytes_of(relief);
+        Result<std::string> kept =
+            keep_drawn(pack, relief, fmt::format("relief of texels {:.9g}", relief.texel_box));
+        if (!kept) {
+            return tl::unexpected<Error>(kept.error());
+        }
+        result.drawn_as = std::move(*kept);
+    }
     return add(make_pack_relief(stage_, pack, std::make_shared<const BlockRelief>(std::move(relief)), seen,
                                 options, name),
                std::move(result));

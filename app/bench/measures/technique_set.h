@@ -35,7 +35,7 @@ enum class TechniqueKind {
     Auto,       ///< the level that the exhibit's governor takes in this set-up while it is in time
     FullMesh,
     TwoPass,
-    RayCast, ///< the reference: reported, not judged
+    RayCast, ///< the method whose picture is the truth, as a peer
     Lod,
     TwoPassLod,
     Relief,     ///< relief images, marched or warped
@@ -47,10 +47,12 @@ enum class TechniqueKind {
 struct TechniqueResult {
     std::string name;
     TechniqueKind kind = TechniqueKind::PackLevel;
-    int level = -1;                                      ///< PackLevel, Auto
-    std::uint64_t triangles = 0;                         ///< of what is drawn
-    int samples = 1;                                     ///< a pixel
-    std::vector<PictureError> errors;                    ///< one for each pose; empty for the floor
+    int level = -1;       ///< PackLevel, Auto
+    std::string drawn_as; ///< the surface whose rays tell where drawing puts the picture; empty: nobody asked
+    std::uint64_t bytes = 0;          ///< of the pack's level or relief, in main memory; 0: not a pack's
+    std::uint64_t triangles = 0;      ///< of what is drawn
+    int samples = 1;                  ///< a pixel
+    std::vector<PictureError> errors; ///< one for each pose; empty for the floor
     std::vector<std::optional<ErrorEstimate>> estimates; ///< what the exhibit says of each; nothing for peers
     ErrorSummary error;
     Spread time_ms;
@@ -124,8 +126,12 @@ private:
                                           const std::optional<SeenLevel>& seen, const PictureOptions& options,
                                           const std::string& name);
     [[nodiscard]] Result<void> add(Result<std::unique_ptr<Technique>> technique, TechniqueResult result);
-    /// Its pictures are then held against rays at the level itself, too.
-    [[nodiscard]] Result<void> keep_drawn(const Pack& pack, std::uint32_t level);
+    /// Pictures of the level, or of the relief, are then held against rays at its own surface, too. Gives the surface's name.
+    [[nodiscard]] Result<std::string> keep_drawn(const Pack& pack, std::uint32_t level);
+    [[nodiscard]] Result<std::string> keep_drawn(const Pack& pack, const BlockRelief& relief,
+                                                 const std::string& name);
+    [[nodiscard]] Result<std::string> keep_surface(const Pack& pack, SourceMesh surface,
+                                                   const std::string& name);
     using MakePeer =
         std::function<Result<std::unique_ptr<Technique>>(const std::shared_ptr<const PeerSamples>&)>;
     [[nodiscard]] Result<void> add_sampled(const MakePeer& make, const TechniqueResult& result,
@@ -133,7 +139,7 @@ private:
 
     std::unique_ptr<Display> display_; ///< first: its context outlives everything below
     Stage stage_;
-    std::map<int, Truth> drawn_;                                     ///< by the level that they are of
+    std::map<std::string, Truth> drawn_;                             ///< by the surface's name
     std::map<int, std::shared_ptr<const PeerSamples>> peer_samples_; ///< by their number; none for one
     std::vector<std::unique_ptr<Technique>> techniques_;
     std::vector<TechniqueResult> results_; ///< one for each technique

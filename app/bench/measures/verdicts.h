@@ -7,6 +7,7 @@
 
 #include "app/bench/measures/error_time.h"
 
+#include <limits>
 #include <span>
 
 namespace frustumscreen {
@@ -18,14 +19,17 @@ struct Limits {
     double colour_rmse = 0.0; ///< against 16 rays
     double times_floor = 0.0; ///< 0: no limit
 };
-/// Of a level's picture, as it is shown, from where its mesh is: less than a person can see, and far less than half a pixel. From
-/// where the scan is it may lie as far as its outlines may.
+/// Of the picture of a level or a relief, as it is shown, from where its own surface is: less than a person can see, and far less than
+/// half a pixel. From where the scan is it may lie as far as its outlines may.
 inline constexpr double most_drawn_shift_px = 0.05;
 inline constexpr Limits default_level_limits{0.6, 0.3, 0.2, 14.0, 4.0};
 inline constexpr Limits finest_level_limits{0.15, 0.1, 0.05, 8.0, 0.0};
 /// Stricter limits: for the default level again, and for some fine level of the pack.
 inline constexpr Limits pushed_default_limits{0.35, 0.175, 0.16, 14.0, 0.0};
 inline constexpr Limits fine_level_limits{0.1, 0.067, 0.05, 14.0, 8.0};
+/// Of whichever level or relief of the pack keeps them most cheaply, whatever its colours. They are said and never end a run.
+inline constexpr Limits wished_cheap_limits{0.15, 0.1, 0.05, std::numeric_limits<double>::infinity(), 2.0};
+inline constexpr Limits wished_fine_limits{0.05, 0.05, 0.01, std::numeric_limits<double>::infinity(), 4.0};
 /// How many times faster than the two-pass method a level must draw at no larger errors, for a source of a
 /// million triangles and of four million; smaller ones (by more than 5 %) are not judged.
 inline constexpr std::uint64_t least_two_pass_triangles = 950'000;
@@ -35,9 +39,10 @@ struct Verdict {
     std::string what; ///< the limit, with its number
     std::string found;
     bool held = false;
+    bool wished = false; ///< no limit: nothing is wrong where it is not held
 };
 
-/// One line each: held or MISSED, the limit, what was found.
+/// One line each: held, MISSED or wished (a wish that is not held), the limit, what was found.
 [[nodiscard]] std::string lines_of(std::span<const Verdict> verdicts);
 
 [[nodiscard]] std::vector<Verdict> judge(const TechniqueResult& level, const Limits& limits);
@@ -48,10 +53,10 @@ struct Verdict {
                                                       const TechniqueResult& two_pass);
 
 /// Default level, finest level, the two-pass picture of a large enough source at its best eye image, a fine
-/// level, and whether a peer dominates a level.
+/// level or relief, the wishes, and whether a peer dominates a level.
 [[nodiscard]] std::vector<Verdict> judge(const SetUpResult& result);
 
-/// The error names how many verdicts are missed, and the first.
+/// Wishes apart. The error names how many verdicts are missed, and the first.
 [[nodiscard]] Result<void> require_limits(std::span<const SetUpResult> results);
 
 } // namespace frustumscreen

@@ -1,0 +1,114 @@
+#include "app/bench/techniques/relief_surface.h"
+
+#include "app/image/image.h"
+
+#include <bit>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr int cells_of_block = block_cells * block_cells;
+constexpr int parts = 8; ///< of a cut cell, along a side
+
+struct Corners {
+    std::array<glm::dvec3, 4> places; ///< (0, 0), (1, 0), (0, 1), (1, 1)
+    std::array<glm::vec4, 4> colours; ///< linear
+};
+
+Corners corners_of(const BlockRelief& relief, const ReliefGrid& grid, std::size_t block, int cell) {
+    const ReliefBlock& of = relief.blocks[block];
+    const std::uint32_t codes = relief.corner_codes[block * cells_of_block + static_cast<std::size_t>(cell)];
+    Corners corners{};
+    for (unsigned k = 0; k < 4; ++k) {
+        const double i = cell % block_cells + static_cast<int>(k & 1U);
+        const double j = cell / block_cells + static_cast<int>(k >> 1U);
+        const double w = of.w0 + of.w_u * i + of.w_v * j + of.residual_low +
+                         of.residual_step * static_cast<double>(codes >> 8U * k & 255U);
+        const glm::dvec3 texels(of.u0 + i, of.v0 + j, grid.sign * w);
+        for (int axis = 0; axis < 3; ++axis) {
+            const int box = grid.axis.at(static_cast<std::size_t>(axis));
+            corners.places.at(k)[box] =
+                grid.origin_box[box] + texels[axis] * static_cast<double>(relief.texel_box);
+        }
+        const std::size_t colour = block * block_corners * block_corners +
+                                   static_cast<std::size_t>(j) * block_corners + static_cast<std::size_t>(i);
+        const std::array<float, 256>& linear = linear_from_srgb8();
+        const glm::u8vec4 code = relief.colours[colour];
+        corners.colours.at(k) = {linear[code.r], linear[code.g], linear[code.b], 1.0F};
+    }
+    return corners;
+}
+
+class Surface {
+public:
+    Surface() { mesh_.materials.emplace_back(); }
+    /// The square from (u, v) on of side `side`, in shares of the cell. Its diagonal lies on the cell's own, or beside it.
+    void add(const Corners& cell, const glm::dvec3& outward, double u, double v, double side) {
+        const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
+        for (unsigned k = 0; k < 4; ++k) {
+            const double at_u = u + (k & 1U) * side;
+            const double at_v = v + (k >> 1U) * side;
+            mesh_.positions.push_back(on_triangles(cell.places, at_u, at_v));
+            mesh_.colours.push_back(on_triangles(cell.colours, at_u, at_v));
+        }
+        add_triangle({first, first + 1, first + 2}, outward);
+        add_triangle({first + 3, first + 2, first + 1}, outward);
+    }
+    [[nodiscard]] SourceMesh take() { return std::move(mesh_); }
+
+private:
+    /// Between the corners (0, 0), (1, 0), (0, 1) or the other three, as the cell is cast.
+    template <typename T> static T on_triangles(const std::array<T, 4>& corner, double u, double v) {
+        using Scalar = typename T::value_type;
+        const auto x = static_cast<Scalar>(u);
+        const auto y = static_cast<Scalar>(v);
+        return u + v <= 1.0
+                   ? corner[0] + x * (corner[1] - corner[0]) + y * (corner[2] - corner[0])
+                   : corner[3] + (1 - x) * (corner[2] - corner[3]) + (1 - y) * (corner[1] - corner[3]);
+    }
+    void add_triangle(std::array<std::uint32_t, 3> of, const glm::dvec3& outward) {
+        const auto& at = mesh_.positions;
+        if (glm::dot(glm::cross(at[of[1]] - at[of[0]], at[of[2]] - at[of[0]]), outward) < 0.0) {
+            std::swap(of[1], of[2]);
+        }
+        mesh_.triangles.push_back(of);
+        mesh_.triangle_materials.push_back(0);
+    }
+    SourceMesh mesh_;
+};
+
+} // namespace
+
+SourceMesh cut_surface_of(const BlockRelief& relief) {
+    Surface surface;
+    for (std::size_t k = 0; k < relief.grids.size(); ++k) {
+        const ReliefGrid& grid = relief.grids[k];
+        glm::dvec3 outward(0.0);
+        outward[grid.axis[2]] = grid.sign;
+        for (std::size_t block = relief.first_block[k]; block < relief.first_block[k + 1]; ++block) {
+            const ReliefBlock& of = relief.blocks[block];
+            std::size_t cover = of.first_cover;
+            for (int cell = 0; cell < cells_of_block; ++cell) {
+                const std::uint64_t bit = std::uint64_t{1} << static_cast<unsigned>(cell);
+                if ((of.mask & bit) == 0) {
+                    continue;
+                }
+                const Corners corners = corners_of(relief, grid, block, cell);
+                if ((of.cut & bit) == 0) {
+                    surface.add(corners, outward, 0.0, 0.0, 1.0);
+                    continue;
+                }
+                std::uint64_t left = relief.covers[cover++];
+                for (; left != 0; left &= left - 1) {
+                    const int part = std::countr_zero(left);
+                    surface.add(corners, outward, part % parts / double{parts}, part / parts / double{parts},
+                                1.0 / parts);
+                }
+            }
+        }
+    }
+    return surface.take();
+}
+
+} // namespace frustumscreen
