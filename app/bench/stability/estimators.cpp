@@ -6,11 +6,14 @@
 #include "app/tracking/motion_filter.h"
 #include "app/tracking/pose_estimator.h"
 #include "app/tracking/pose_math.h"
+#include "firmware_host/tracker/frame_intake.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -182,6 +185,73 @@ StabilityResult light_delay(const StabilityOptions&) {
     return {{{"flips that jump, steps 1 us to 10 s: off the exact response, s", 1e-9, off_s}}};
 }
 
+/// What becomes of a device's stream of frames: as counted, and each pose as it is asked for.
+struct Followed {
+    double refused = 0.0; ///< frames lost, doubled, late or strange, and restarts of the clock
+    std::vector<PoseSample> samples;
+    std::vector<RigidTransform> poses;
+};
+/// Twenty seconds of a slide at 240 Hz, under noise, that arrive up to some milliseconds late.
+Followed follow(std::uint32_t first_counter, std::uint32_t first_tick) {
+    constexpr int rate_hz = 240;
+    FrameIntake intake(1e9 / rate_hz);
+    PoseEstimator estimator = exhibit_estimator();
+    Noise noise;
+    std::mt19937_64 random(5);
+    std::exponential_distribution<double> late_s(1.0 / 0.0003);
+    Followed followed;
+    for (std::uint32_t k = 0; k < 20 * rate_hz; ++k) {
+        const double t = static_cast<double>(k) / rate_hz;
+        const RigidTransform pose = noise.on(sliding(t));
+        DeviceFrame frame;
+        frame.counter = first_counter + k;
+        frame.tick = first_tick + k;
+        frame.count = 1;
+        frame.sensors[0] = {prop_station, pose.translation, pose.rotation, 0, true, true};
+        const MonotonicTime arrival{seconds(1.0 + t + late_s(random))};
+        const std::size_t before = followed.samples.size();
+        intake.take(frame, arrival, followed.samples);
+        for (std::size_t j = before; j < followed.samples.size(); ++j) {
+            const PoseSample& sample = followed.samples[j];
+            estimator.take(sample.time, {sample.rotation, sample.position_m});
+        }
+        followed.poses.push_back(estimator.at(arrival + seconds(0.04)).pose);
+    }
+    const TrackerCounts counts = intake.counts();
+    followed.refused = static_cast<double>(counts.lost + counts.duplicated + counts.reordered +
+                                           counts.strange + counts.clock_restarts);
+    return followed;
+}
+
+/// Counters of 32 bits wrap after a year and more: at the wrap, and where their sign would change, nothing may differ.
+StabilityResult wrapping_counters(const StabilityOptions&) {
+    constexpr std::uint32_t before_wrap = 0xFFFFFF00U; // 256 frames
+    constexpr std::uint32_t before_sign = 0x7FFFFF00U;
+    const Followed plain = follow(0, 0);
+    double other = 0.0;
+    double refused = plain.refused;
+    for (const auto& [counter, tick] : {std::pair(before_wrap, before_wrap),
+                                        {before_wrap, 0U},
+                                        {0U, before_wrap},
+                                        {before_sign, before_sign}}) {
+        const Followed wraps = follow(counter, tick);
+        refused += wraps.refused;
+        other += wraps.samples.size() == plain.samples.size() ? 0.0 : 1.0;
+        for (std::size_t k = 0; k < std::min(wraps.samples.size(), plain.samples.size()); ++k) {
+            other += wraps.samples[k].time == plain.samples[k].time ? 0.0 : 1.0;
+        }
+        for (std::size_t k = 0; k < plain.poses.size(); ++k) {
+            other += wraps.poses[k].translation == plain.poses[k].translation &&
+                             wraps.poses[k].rotation == plain.poses[k].rotation
+                         ? 0.0
+                         : 1.0;
+        }
+    }
+    return {{{"counter, tick or both from 0xFFFFFF00 and 0x7FFFFF00: times and poses other than from 0", 0.0,
+              other},
+             {"frames refused, and restarts of the clock", 0.0, refused}}};
+}
+
 } // namespace
 
 std::vector<StabilityCase> estimator_cases() {
@@ -190,6 +260,7 @@ std::vector<StabilityCase> estimator_cases() {
             {theme, "rest under noise", FloatingPoint::Strict, rest_under_noise},
             {theme, "outliers", FloatingPoint::Strict, outliers},
             {theme, "months of uptime", FloatingPoint::Strict, uptime},
+            {theme, "counters that wrap", FloatingPoint::Strict, wrapping_counters},
             {theme, "slow trackers", FloatingPoint::Strict, slow_trackers},
             {"display's delay", "flips that jump", FloatingPoint::Strict, light_delay}};
 }

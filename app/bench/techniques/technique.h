@@ -1,7 +1,7 @@
 /// One way to make the projector's picture, as the bench draws and times it.
 ///
-/// Colour   drawn into the display's framebuffer, linear light in the shader; --unlit --no-light, so that it
-///          can be compared with the ray cast.
+/// Colour   drawn into the display's framebuffer, a texture's sRGB codes as they are passed on; --unlit --no-light,
+///          so that it can be compared with the ray cast.
 /// Threads  the one that owns the display's context.
 #pragma once
 
