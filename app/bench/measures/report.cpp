@@ -175,7 +175,7 @@ std::string verdicts_csv(std::span<const SetUpResult> results, std::span<const V
     const auto add = [&csv](const std::string& set_up, std::span<const Verdict> verdicts) {
         for (const Verdict& verdict : verdicts) {
             csv += fmt::format("{},{},{},{}\n", set_up, quoted(verdict.what), quoted(verdict.found),
-                               verdict.held ? "held" : (verdict.wished ? "wished" : "missed"));
+                               verdict.held ? "held" : (verdict.wished ? "unmet" : "missed"));
         }
     };
     add("pack", pack_figures);

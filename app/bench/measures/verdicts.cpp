@@ -55,7 +55,7 @@ Verdict judge_cheapest(const SetUpResult& result, const std::string& whose, cons
 std::string lines_of(std::span<const Verdict> verdicts) {
     std::string lines;
     for (const Verdict& verdict : verdicts) {
-        lines += fmt::format("{} {} ({})\n", verdict.held ? "held  " : (verdict.wished ? "wished" : "MISSED"),
+        lines += fmt::format("{} {} ({})\n", verdict.held ? "held  " : (verdict.wished ? "unmet " : "MISSED"),
                              verdict.what, verdict.found);
     }
     return lines;

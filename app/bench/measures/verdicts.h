@@ -42,7 +42,7 @@ struct Verdict {
     bool wished = false; ///< no limit: nothing is wrong where it is not held
 };
 
-/// One line each: held, MISSED or wished (a wish that is not held), the limit, what was found.
+/// One line each: held, MISSED or unmet (a wish that is not held), the limit, what was found.
 [[nodiscard]] std::string lines_of(std::span<const Verdict> verdicts);
 
 [[nodiscard]] std::vector<Verdict> judge(const TechniqueResult& level, const Limits& limits);
