@@ -64,6 +64,7 @@ void ButtonPanel::watch(const std::stop_token& stop) {
         heartbeat_.promise(monotonic_now() + longest_round);
         Result<std::unique_ptr<ButtonLines>> lines = open_();
         said_.set(lines ? serve(**lines, stop).message : lines.error().message);
+        held_until_.promise(MonotonicTime{});
         lines = {}; // the chip is closed before it is looked for again
         std::unique_lock lock(rest_mutex_);
         stopped_.wait_for(lock, stop, look_again, [] { return false; });
@@ -86,6 +87,7 @@ Error ButtonPanel::serve(ButtonLines& lines, const std::stop_token& stop) {
         const MonotonicTime now = monotonic_now();
         events.clear();
         buttons.sample(now, levels, events);
+        held_until_.promise(buttons.chord_held() ? now + held_for : MonotonicTime{});
         if (!events.empty()) {
             mailbox_.put(events);
             said_.set(state_of(buttons, well));

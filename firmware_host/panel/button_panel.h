@@ -26,12 +26,17 @@ public:
     /// Opening, or asking for all levels, takes no longer: a USB bridge that does not answer costs 5 s a
     /// transfer, until the kernel gives up, and each line takes several.
     static constexpr Nanoseconds longest_round = std::chrono::seconds(60);
+    /// The chord counts as let go if the levels were not read for so long.
+    static constexpr Nanoseconds held_for = std::chrono::milliseconds(500);
 
     ButtonPanel(OpenLines open, std::size_t buttons, const ButtonTimes& times);
 
     [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PanelEvent>& events) override;
     [[nodiscard]] std::string name() const override { return "buttons"; }
     [[nodiscard]] std::string_view state() const override { return state_.view(); }
+    [[nodiscard]] bool chord_held(MonotonicTime now) const override {
+        return now < held_until_.promised_until();
+    }
     void light(std::uint32_t buttons) override { wished_ = buttons; }
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override {
         return heartbeat_.promised_until();
@@ -50,6 +55,7 @@ private:
     Sentence state_;                       ///< the latest sentence that `poll` saw
     std::atomic<std::uint32_t> wished_{0}; ///< lamps
     Heartbeat heartbeat_{monotonic_now() + longest_round};
+    Heartbeat held_until_{MonotonicTime{}}; ///< the chord is held at least until then, unless it is let go
     std::mutex rest_mutex_;
     std::condition_variable_any stopped_;
     std::jthread thread_; ///< last: it uses all of the above

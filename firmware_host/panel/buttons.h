@@ -55,6 +55,10 @@ public:
     [[nodiscard]] bool ignored(std::size_t which) const {
         return buttons_[which].stuck || buttons_[which].chatters;
     }
+    /// The first and the last button are down, as the latest sample has them: both counted, and neither is let go.
+    [[nodiscard]] bool chord_held() const {
+        return chord_since() && buttons_.front().level && buttons_.back().level;
+    }
     [[nodiscard]] bool any_stuck() const;
     [[nodiscard]] bool any_chatters() const;
 

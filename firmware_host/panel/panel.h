@@ -33,6 +33,9 @@ public:
     /// Appends the events with time <= now that were not handed out before.
     [[nodiscard]] virtual Result<void> poll(MonotonicTime now, std::vector<PanelEvent>& events) = 0;
     [[nodiscard]] virtual std::string name() const = 0;
+    /// Whether the first and the last button are down now, as staff hold them for the chord: their presses were reported, and neither
+    /// is let go. False where nobody knows.
+    [[nodiscard]] virtual bool chord_held(MonotonicTime /*now*/) const { return false; }
     /// The state of the device, or of what replaces it, in one plain sentence that is valid until the next
     /// `poll`; empty: there is nothing to say.
     [[nodiscard]] virtual std::string_view state() const { return {}; }

@@ -96,6 +96,33 @@ TEST(ButtonPanel, APressComesThroughAndAnUnpluggedChipIsFoundAgain) {
     EXPECT_EQ(events[0].button, 2);
 }
 
+TEST(ButtonPanel, TheChordIsHeldUntilAButtonIsLetGoOrNobodyKnows) {
+    FakeChip chip;
+    ButtonTimes times;
+    times.debounce = milliseconds(5);
+    ButtonPanel panel(opener(chip), 3, times);
+    std::vector<PanelEvent> events;
+    const auto held = [&panel] { return panel.chord_held(monotonic_now()); };
+    const auto press_both = [&](bool down) {
+        chip.down[0] = down;
+        chip.down[2] = down;
+    };
+    ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
+    std::this_thread::sleep_for(milliseconds(20)); // levels are known before they change
+    EXPECT_FALSE(held());
+    press_both(true);
+    ASSERT_TRUE(until(panel, events, held));
+    EXPECT_FALSE(panel.chord_held(monotonic_now() + ButtonPanel::held_for + seconds(1)))
+        << "its thread was not heard of since";
+    chip.down[0] = false;
+    ASSERT_TRUE(until(panel, events, [&] { return !held(); }));
+    chip.down[0] = true;
+    ASSERT_TRUE(until(panel, events, held));
+    chip.plugged = false;
+    ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "not there"; }));
+    EXPECT_FALSE(held());
+}
+
 TEST(ButtonPanel, NobodyWhoPollsMakesItForgetTheNewest) {
     FakeChip chip;
     ButtonTimes times;

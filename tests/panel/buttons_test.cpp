@@ -33,6 +33,7 @@ public:
         run(milliseconds(100));
     }
     [[nodiscard]] MonotonicTime now() const { return now_; }
+    [[nodiscard]] bool chord_held() const { return buttons_.chord_held(); }
     [[nodiscard]] int count(PressKind kind) const {
         int found = 0;
         for (const PanelEvent& event : events) {
@@ -113,6 +114,40 @@ TEST(Buttons, FirstAndLastTogetherAreTheStaffsChordAndNoLongPress) {
     fingers.set(2, true);
     fingers.run(seconds(4));
     EXPECT_EQ(fingers.count(PressKind::Chord), 2);
+}
+
+/// It is no event: it says how the two buttons are now, and ends with the level, before any debouncing.
+TEST(Buttons, TheChordIsHeldFromItsLatestPressUntilOneOfThemIsLetGo) {
+    Fingers fingers;
+    fingers.set(0, true);
+    fingers.set(1, true);
+    fingers.run(seconds(1));
+    EXPECT_FALSE(fingers.chord_held());
+    fingers.set(2, true);
+    fingers.run(milliseconds(10));
+    EXPECT_FALSE(fingers.chord_held()) << "it may be a glitch";
+    fingers.run(milliseconds(40));
+    EXPECT_TRUE(fingers.chord_held());
+    fingers.run(seconds(20));
+    EXPECT_TRUE(fingers.chord_held());
+    fingers.set(1, false);
+    fingers.run(milliseconds(100));
+    EXPECT_TRUE(fingers.chord_held()) << "the others are none of it";
+    fingers.set(0, false);
+    fingers.run(milliseconds(1));
+    EXPECT_FALSE(fingers.chord_held());
+    fingers.run(seconds(1));
+    EXPECT_FALSE(fingers.chord_held());
+}
+
+TEST(Buttons, AButtonThatIsStuckHoldsNoChord) {
+    Fingers fingers;
+    fingers.set(0, true);
+    fingers.set(2, true);
+    fingers.run(ButtonTimes().stuck - milliseconds(100));
+    EXPECT_TRUE(fingers.chord_held());
+    fingers.run(milliseconds(200));
+    EXPECT_FALSE(fingers.chord_held());
 }
 
 /// By the millisecond: whatever the other buttons do, nobody waits for more than the debounce time.
