@@ -10,14 +10,18 @@ PictureUpload::PictureUpload(int width, int height)
     glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.get(), 0);
 }
 
-void PictureUpload::show(const Image8& picture, unsigned framebuffer) {
+void PictureUpload::put(const Image8& picture) {
     glBindTexture(GL_TEXTURE_2D, texture_.get());
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE,
                     picture.texels.data());
+}
+
+void PictureUpload::show_again(unsigned framebuffer, const glm::ivec2& place) {
     glDisable(GL_SCISSOR_TEST);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, source_.get());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBlitFramebuffer(0, 0, width_, height_, place.x, place.y, place.x + width_, place.y + height_,
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 } // namespace frustumscreen

@@ -13,7 +13,14 @@ class PictureUpload {
 public:
     PictureUpload(int width, int height);
     /// `picture` has the size given above; sRGB codes arrive unchanged, row 0 at the picture's top.
-    void show(const Image8& picture, unsigned framebuffer);
+    void show(const Image8& picture, unsigned framebuffer) {
+        put(picture);
+        show_again(framebuffer);
+    }
+    /// The same in two steps: the picture is kept, and shown as often as need be.
+    void put(const Image8& picture);
+    /// `place`: of its upper left corner in the framebuffer.
+    void show_again(unsigned framebuffer, const glm::ivec2& place = glm::ivec2(0));
 
 private:
     int width_;

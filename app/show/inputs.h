@@ -4,6 +4,7 @@
 #pragma once
 
 #include "app/drift/drift_watch.h"
+#include "app/show/viewfinder.h"
 #include "app/tags/tag_tracker.h"
 #include "app/tracking/registered_tracker.h"
 #include "app/visitor/visitor_tracker.h"
@@ -23,6 +24,7 @@ struct Inputs {
     std::unique_ptr<TagTracker> tags;           ///< none: the prop has no second tracker
     std::unique_ptr<VisitorTracker> visitor;    ///< none: nobody is seen who wears no sensor
     std::unique_ptr<DriftWatch> drift;          ///< none: nothing looks whether the picture moved
+    std::unique_ptr<Viewfinder> viewfinder;     ///< none: no camera is used, or nobody could hold buttons
     std::unique_ptr<Camera> camera; ///< whose frames they use; it ends before them, so it stands after them
     std::unique_ptr<Panel> panel;   ///< none: nothing is pressed
     std::unique_ptr<Sound> sound;   ///< none: there is nothing to say

@@ -179,6 +179,7 @@ void LiveExhibit::tell(const RunStatus& status) {
                 "To measure the table anew, hold the first and the last button again for three seconds.");
         }
         pattern_->set_lines(std::move(lines));
+        pattern_->tell(status);
     }
     speaker_.set_gain_db(gain_db_at(volume_, status.hour_of_day));
 }
@@ -189,6 +190,9 @@ DrawResult LiveExhibit::draw(MonotonicTime now, const Situation& on_table, const
     RenderTarget own = target;
     if (presents_ && target.buffer_age > *presents_) {
         own.buffer_age = 0;
+    }
+    if (pattern_) {
+        pattern_->set_viewfinder(viewfinder_);
     }
     const DrawResult drawn = pattern_ ? pattern_->draw(now, on_table, own, redraw)
                                       : stage_->draw(now, presentation_, on_table.eye_m, own, redraw);

@@ -47,6 +47,7 @@ public:
     [[nodiscard]] bool sleeps() const override { return true; }
     void set_light(double light) override { light_ = light; }
     void set_mark(const std::optional<ShownMark>& mark) override { mark_ = mark; }
+    void set_viewfinder(Viewfinder* viewfinder) override { viewfinder_ = viewfinder; }
 
 private:
     /// Those that a notice leaves to the exhibit.
@@ -65,6 +66,7 @@ private:
     Volume volume_;
     double light_ = 1.0;                   ///< 0: asleep
     std::optional<ShownMark> mark_;        ///< wanted in this step
+    Viewfinder* viewfinder_ = nullptr;     ///< none: nobody holds the staff's buttons
     std::unique_ptr<PatternShow> pattern_; ///< while it is on
     std::optional<int> presents_;          ///< since the other picture was last drawn; nothing = never
 };

@@ -1,5 +1,7 @@
 #include "app/show/pattern_show.h"
 
+#include <algorithm>
+
 namespace frustumscreen {
 
 PatternShow::PatternShow(PatternScene scene, Typesetter typesetter, PictureUpload upload)
@@ -16,8 +18,29 @@ Result<std::unique_ptr<PatternShow>> PatternShow::create(const Settings& setting
                        settings.projector.table_from_projector,
                        {settings.table.width_m, settings.table.depth_m},
                        make_prop(settings.prop)};
-    return std::unique_ptr<PatternShow>(new PatternShow(std::move(scene), std::move(*typesetter),
-                                                        PictureUpload(pinhole.width, pinhole.height)));
+    std::unique_ptr<PatternShow> show(new PatternShow(std::move(scene), std::move(*typesetter),
+                                                      PictureUpload(pinhole.width, pinhole.height)));
+    if (settings.camera.kind != CameraKind::None) {
+        show->panel_ = std::make_unique<ViewfinderPanel>(pinhole);
+    }
+    return show;
+}
+
+void PatternShow::tell(const RunStatus& status) {
+    if (panel_) {
+        panel_->set_line(viewfinder_line(status), typesetter_);
+    }
+}
+
+/// Whether the framebuffer has another picture of the camera than it is to have.
+bool PatternShow::follow_camera(int buffer_age) {
+    if (panel_ && viewfinder_ != nullptr) {
+        return panel_->follow(*viewfinder_) || without_camera_ > 0;
+    }
+    if (panel_) {
+        panel_->forget();
+    }
+    return buffer_age > without_camera_;
 }
 
 void PatternShow::set_lines(std::vector<std::string> lines) {
@@ -31,16 +54,25 @@ DrawResult PatternShow::draw(MonotonicTime, const Situation& situation, const Re
                              Redraw redraw) {
     const glm::dmat4 pose = situation.table_from_prop.matrix();
     const PixelRectangle whole{0, 0, scene_.projector.width, scene_.projector.height};
-    const bool unchanged = target.buffer_age > 0 && shown_ == pose;
+    const bool other_camera = follow_camera(target.buffer_age);
+    const bool unchanged = target.buffer_age > 0 && shown_ == pose && !other_camera;
     if (redraw == Redraw::Changes && unchanged) {
         return {};
     }
+    const bool with_camera = panel_ && viewfinder_ != nullptr;
+    without_camera_ = with_camera ? 0 : std::min(without_camera_ + 1, most_buffers);
     if (redraw == Redraw::Again && unchanged && target.buffer_age == 1) {
         return {true, {}, whole, 0};
     }
-    shown_ = pose;
-    const Image8 picture = with_prop(table_, scene_, situation.table_from_prop, typesetter_);
-    upload_.show(lines_.empty() ? picture : with_lines(picture, lines_, typesetter_), target.framebuffer);
+    if (shown_ != pose) {
+        const Image8 picture = with_prop(table_, scene_, situation.table_from_prop, typesetter_);
+        upload_.put(lines_.empty() ? picture : with_lines(picture, lines_, typesetter_));
+        shown_ = pose;
+    }
+    upload_.show_again(target.framebuffer);
+    if (with_camera) {
+        panel_->show(target.framebuffer);
+    }
     return {true, whole, whole, 1};
 }
 

@@ -8,6 +8,7 @@
 #include "app/render/picture_upload.h"
 #include "app/settings/settings.h"
 #include "app/show/show.h"
+#include "app/show/viewfinder_panel.h"
 
 #include <memory>
 #include <optional>
@@ -18,8 +19,13 @@ namespace frustumscreen {
 
 class PatternShow final : public Show {
 public:
+    static constexpr int most_buffers = 16; ///< no display has more
+
     [[nodiscard]] static Result<std::unique_ptr<PatternShow>> create(const Settings& settings);
 
+    /// What it says of the camera while the staff hold their buttons.
+    void tell(const RunStatus& status) override;
+    void set_viewfinder(Viewfinder* viewfinder) override { viewfinder_ = viewfinder; }
     /// Sets the lines that the pattern shows below its own text.
     void set_lines(std::vector<std::string> lines);
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
@@ -34,6 +40,7 @@ public:
 
 private:
     PatternShow(PatternScene scene, Typesetter typesetter, PictureUpload upload);
+    [[nodiscard]] bool follow_camera(int buffer_age);
 
     State state_ = State::Staff;
     PatternScene scene_;
@@ -41,7 +48,10 @@ private:
     PictureUpload upload_;
     Image8 table_;
     std::vector<std::string> lines_;
-    std::optional<glm::dmat4> shown_; ///< the prop's pose in the picture on show
+    std::optional<glm::dmat4> shown_;        ///< the prop's pose in the picture that was uploaded
+    std::unique_ptr<ViewfinderPanel> panel_; ///< none: the settings have no camera
+    Viewfinder* viewfinder_ = nullptr;
+    int without_camera_ = most_buffers; ///< pictures drawn since the last one with what the camera sees
 };
 
 } // namespace frustumscreen

@@ -89,7 +89,7 @@ public:
             now = next_display_time(now);
         }
         post_status(now);
-        if (stills_taken_ == 0 && options_.stills > 0 && result_.status.frames > 0) {
+        if (stills_taken_ == 0 && options_.stills > 0 && result_.status.frames > 0 && !shows_camera_) {
             keep_still(now); // a short run leaves its last picture
         }
         result_.stills.resize(stills_taken_);
@@ -102,6 +102,7 @@ private:
         watch_.enters("asks its devices");
         poll(now);
         follow_hours(now);
+        follow_viewfinder(now);
         watch_.enters("draws");
         situation_.tracker_is(tracker_health());
         Situation situation = situation_.at(now + light_delay_.from_now());
@@ -154,6 +155,7 @@ private:
         const ShowState state = show_.state();
         used_ = state.used;
         attracts_ = state.state == State::Attract;
+        staff_ = state.state == State::Staff;
         if (state.calibrate && options_.calibrate) {
             options_.calibrate();
         }
@@ -173,7 +175,7 @@ private:
         shown_ = situation;
         shown_.table_from_prop = state.stands.value_or(situation.table_from_prop);
         result_.status.presented.settled = state.settled;
-        if (options_.screenshot != nullptr) {
+        if (options_.screenshot != nullptr && !shows_camera_) { // a screenshot may become a file
             watch_.enters("reads its picture back for the staff");
             options_.screenshot->serve(display_);
         }
@@ -189,6 +191,17 @@ private:
         }
         const bool is_seen = !inputs_.camera || health_of(inputs_.camera->state()) == CameraHealth::Well;
         return inputs_.drift->step(now, attracts_ && !asleep_ && commands_.empty() && is_seen);
+    }
+
+    /// What the camera sees is for the staff alone, and only while they hold both of their buttons.
+    void follow_viewfinder(MonotonicTime now) {
+        if (!inputs_.viewfinder) {
+            return;
+        }
+        shows_camera_ = staff_ && !asleep_ && inputs_.panel && inputs_.panel->chord_held(now);
+        const bool sees = !inputs_.camera || shows_something(inputs_.camera->state());
+        inputs_.viewfinder->want(shows_camera_ && sees);
+        show_.set_viewfinder(shows_camera_ ? inputs_.viewfinder.get() : nullptr);
     }
 
     /// What is pressed while it sleeps wakes it and does nothing else.
@@ -283,7 +296,7 @@ private:
     /// Keeps the picture at the middle of each part of the run, or soon after it if a fade goes on at that
     /// time.
     void take_still(MonotonicTime now, const ShowState& state) {
-        if (stills_taken_ >= result_.stills.size() || !options_.length) {
+        if (stills_taken_ >= result_.stills.size() || !options_.length || shows_camera_) {
             return;
         }
         const auto part = *options_.length / (2 * static_cast<Nanoseconds::rep>(result_.stills.size()));
@@ -381,6 +394,11 @@ private:
     void renew_camera(RunStatus& status) {
         status.camera = Sentence(camera_state());
         status.camera_hz = inputs_.camera ? inputs_.camera->rate_hz() : 0.0;
+        if (inputs_.viewfinder && inputs_.camera) {
+            const std::optional<CameraSetUp> set_up = inputs_.camera->set_up();
+            status.camera_width = set_up ? set_up->mode.width : 0;
+            status.camera_height = set_up ? set_up->mode.height : 0;
+        }
         status.camera_for = {inputs_.tags != nullptr, inputs_.visitor != nullptr, inputs_.drift != nullptr};
         if (inputs_.drift) {
             const DriftVerdict& verdict = inputs_.drift->verdict();
@@ -421,7 +439,9 @@ private:
     RunWatch& watch_;
     RunHours* hours_; ///< none: it never sleeps
     bool asleep_ = false;
-    bool attracts_ = false; ///< in the frame before: nobody was there
+    bool attracts_ = false;     ///< in the frame before: nobody was there
+    bool staff_ = false;        ///< in the frame before: the alignment pattern was shown to the staff
+    bool shows_camera_ = false; ///< the staff hold their buttons and see what the camera sees
     MonotonicTime start_;
     Nanoseconds period_;
     bool head_is_followed_;

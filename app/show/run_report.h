@@ -145,9 +145,10 @@ struct RunStatus {
     Sentence settings; ///< why others than those of the file are used; empty: they are those of the file
     Sentence display;  ///< states of the devices; empty where there is nothing to say
     Sentence tracker;
-    bool tracker_hangs = false; ///< Tracker::hangs
-    Sentence camera;            ///< empty: there is none
-    double camera_hz = 0.0;     ///< frames that came of late
+    bool tracker_hangs = false;              ///< Tracker::hangs
+    Sentence camera;                         ///< empty: there is none
+    double camera_hz = 0.0;                  ///< frames that came of late
+    int camera_width = 0, camera_height = 0; ///< of its frames; 0: not known; for the staff's picture alone
     CameraUses camera_for;
     Sentence drift;                ///< whether the picture lies where it was calibrated; empty: nothing looks
     std::optional<double> drift_m; ///< how far beside it; nothing: not known

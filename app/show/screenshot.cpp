@@ -31,7 +31,9 @@ Result<const Image8*> Screenshot::take(const std::stop_token& stop) {
     }
     ask();
     if (!comes(monotonic_now() + patience, stop)) {
-        return fail(ErrorKind::Internal, "the exhibit presents no picture; it hangs, or is ending");
+        return fail(ErrorKind::Internal,
+                    "the exhibit hands out no picture; it hangs, is ending, or shows the "
+                    "staff what its camera sees");
     }
     earliest_ = monotonic_now() + between_pictures;
     turn_ = Turn::Nobody;

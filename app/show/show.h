@@ -10,6 +10,7 @@
 #include "app/show/prompt_reader.h"
 #include "app/show/run_levels.h"
 #include "app/show/run_report.h"
+#include "app/show/viewfinder.h"
 #include "app/tracking/situation.h"
 #include "firmware_host/base/time.h"
 #include "firmware_host/sound/sound.h"
@@ -53,6 +54,9 @@ public:
     virtual void set_light(double /*light*/) {}
     /// A mark of light that a camera looks for, from the next `step` on; nothing: none.
     virtual void set_mark(const std::optional<ShownMark>& /*mark*/) {}
+    /// What the camera sees, from the next `draw` on, where the alignment pattern is shown to the staff; none: they do not hold their
+    /// buttons, or no camera is used.
+    virtual void set_viewfinder(Viewfinder* /*viewfinder*/) {}
     /// What is to be heard.
     [[nodiscard]] virtual const SoundWish& wish() const {
         static const SoundWish silence;

@@ -91,6 +91,12 @@ enum class CameraHealth : std::uint8_t {
     }
 }
 
+/// Its frames show what is before it now, even if they come slowly or are too bright.
+[[nodiscard]] constexpr bool shows_something(CameraState state) {
+    return health_of(state) == CameraHealth::Well || state == CameraState::Slow ||
+           state == CameraState::Blinded;
+}
+
 [[nodiscard]] constexpr std::string_view name_of(CameraHealth health) {
     return health == CameraHealth::Well ? "well" : health == CameraHealth::Impaired ? "impaired" : "away";
 }

@@ -107,7 +107,9 @@ TEST_F(ScreenshotTest, NobodyWhoAsksGetsAnOldPictureOfAnExhibitThatHung) {
     screenshot.serve(*display); // nobody asked
     const Result<const Image8*> none = screenshot.take(std::stop_token());
     ASSERT_FALSE(none);
-    EXPECT_EQ(none.error().message, "the exhibit presents no picture; it hangs, or is ending");
+    EXPECT_EQ(
+        none.error().message,
+        "the exhibit hands out no picture; it hangs, is ending, or shows the staff what its camera sees");
     screenshot.serve(*display); // the question was taken back
     draw(false, true, false);
     const Result<Image8> later = asked();

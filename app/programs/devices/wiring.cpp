@@ -174,6 +174,11 @@ void add_camera(Inputs& inputs, const Settings& settings, const DevicePlan& plan
         inputs.drift = std::make_unique<DriftWatch>(drift_set_up(settings));
         uses.emplace_back([&drift = *inputs.drift](const CameraFrame& frame) { drift.use(frame); });
     }
+    if (!uses.empty() && plan.panel) {
+        inputs.viewfinder = std::make_unique<Viewfinder>(settings);
+        uses.emplace_back(
+            [&viewfinder = *inputs.viewfinder](const CameraFrame& frame) { viewfinder.use(frame); });
+    }
     if (!uses.empty()) {
         inputs.camera = make_camera(settings.camera, std::move(uses));
     }

@@ -1,0 +1,115 @@
+// Hands the frames of a minute or more to everything that the exhibit does with a camera's frames: the prop's tags, the visitor's eye, the
+// drift's marks, which are learned, and what the staff see; prints how many. keeps_nothing_test runs it under strace.
+//
+//   uses_in_memory FOLDER [FILE]     FOLDER: where drift.json comes to lie; FILE: what must not be done: one frame is written there
+#include "app/bench/tags/skirt.h"
+#include "app/bench/tags/tag_scene.h"
+#include "app/drift/drift_watch.h"
+#include "app/drift/mark_places.h"
+#include "app/settings/looking_at.h"
+#include "app/show/viewfinder.h"
+#include "app/tags/tag_tracker.h"
+#include "app/visitor/visitor_tracker.h"
+#include "tests/drift/table_scene.h"
+
+#include <cstdio>
+#include <filesystem>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr int width = 320, height = 180;
+
+std::vector<glm::dvec2> marks() {
+    Settings settings;
+    settings.projector.pinhole = SceneProjector().pinhole;
+    settings.projector.table_from_projector = SceneProjector().table_from_projector;
+    return mark_places(settings);
+}
+
+/// True: a pose was found.
+bool find_tags() {
+    SceneCamera camera;
+    camera.table_from_camera = *looking_at({0.1, -0.2, 1.25}, {0.0, 0.0, 0.0}, 0.0);
+    TagTracker tags({camera.pinhole, camera.table_from_camera, tags_of({})});
+    const TagScene scene(make_frustum(shipped_frustum), tags_of({}), camera, {});
+    const CameraFrame frame{MonotonicTime(milliseconds(1000)), 1, camera.pinhole.width, camera.pinhole.height,
+                            scene.picture(
+                                [](double) {
+                                    return RigidTransform{{1, 0, 0, 0}, {0.04, -0.03, 0.0}};
+                                },
+                                1)};
+    tags.use(frame);
+    std::vector<UncertainPose> poses;
+    tags.poll(MonotonicTime(std::chrono::hours(1)), poses);
+    return !poses.empty();
+}
+
+/// Frames of a table with nobody there, until the marks' places were learned.
+class Frames {
+public:
+    explicit Frames(const std::filesystem::path& folder)
+        : folder_(folder), drift_({marks_, {}, folder / "drift.json"}),
+          visitor_({{width, height, 300.0, 300.0, width / 2.0, height / 2.0},
+                    *looking_at({0.0, 0.4, 0.5}, {0.0, -0.4, 0.4}, 0.0),
+                    {}}) {}
+
+    unsigned long run() {
+        for (; count_ < 10'000 && !std::filesystem::exists(folder_ / "drift.json");
+             now_ += milliseconds(66)) {
+            const std::optional<ShownMark> mark = drift_.step(now_, true);
+            static_cast<void>(shadow_.step(now_, true));
+            if (!shadow_.began() ||
+                now_ - *shadow_.began() > MarkTimes::length(marks_.size()) + milliseconds(200)) {
+                continue; // nothing is looked for
+            }
+            std::optional<TableScene::Light> light;
+            if (mark) {
+                light = TableScene::Light{mark->place_m, mark->brightness};
+            }
+            frame = {now_ + milliseconds(40), ++count_, width, height, scene_.frame(0.0, light)};
+            drift_.use(frame);
+            visitor_.use(frame);
+            viewfinder_.want(count_ % 20 < 10);
+            viewfinder_.use(frame);
+            seen += viewfinder_.take(picture_) ? 1U : 0U;
+        }
+        visitor_.poll(now_, heads_);
+        return count_;
+    }
+    CameraFrame frame;
+    unsigned long seen = 0;
+
+private:
+    std::filesystem::path folder_;
+    std::vector<glm::dvec2> marks_ = marks();
+    MarkSchedule shadow_{marks_.size()}; ///< steps as the watch's own
+    DriftWatch drift_;
+    VisitorTracker visitor_;
+    Viewfinder viewfinder_{{320, 240}, 1};
+    Image8 picture_{320, 240};
+    std::vector<SeenHead> heads_;
+    TableScene scene_{width, height, {}};
+    MonotonicTime now_{std::chrono::seconds(100)};
+    unsigned long count_ = 0;
+};
+
+} // namespace
+} // namespace frustumscreen
+
+int main(int argc, char** argv) {
+    using namespace frustumscreen;
+    if (argc < 2 || !find_tags()) {
+        return 1;
+    }
+    Frames frames(argv[1]);
+    const unsigned long count = frames.run();
+    if (argc > 2) {
+        std::FILE* const file = std::fopen(argv[2], "wb");
+        std::fwrite(frames.frame.luma.data(), 1, frames.frame.luma.size(), file);
+        std::fclose(file);
+    }
+    std::printf("%s frames\n", count > 100 && frames.seen > 10 ? "enough" : "too few");
+}

@@ -1,0 +1,555 @@
+// What the camera sees reaches the staff's picture while they hold their buttons, and nothing of it is left before and after.
+
+#include "app/render/read_back.h"
+#include "app/show/live_exhibit.h"
+#include "app/show/run_loop.h"
+#include "app/show/viewfinder.h"
+#include "firmware_host/display/surfaceless_display.h"
+#include "tests/exhibit/exhibits.h"
+#include "tests/render/counted_new.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <fstream>
+#include <future>
+#include <numbers>
+#include <thread>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr int width = 640, height = 400;               // of the projector's picture
+constexpr glm::ivec2 room(width / 3, height * 3 / 10); // what a viewfinder may take of it
+
+/// No two rows or columns of it are alike, and none of its codes is 0.
+CameraFrame frame_of(int frame_width, int frame_height, std::uint32_t seed) {
+    CameraFrame frame{MonotonicTime{}, seed, frame_width, frame_height, {}};
+    frame.luma.resize(static_cast<std::size_t>(frame_width * frame_height));
+    std::uint32_t state = seed;
+    for (std::uint8_t& code : frame.luma) {
+        state = state * 1664525U + 1013904223U;
+        code = static_cast<std::uint8_t>(1 + (state >> 24U) % 255);
+    }
+    return frame;
+}
+
+using Grey = Image<std::uint8_t>;
+
+Grey turned_clockwise(const Grey& picture) {
+    Grey turned(picture.height, picture.width);
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = 0; x < picture.width; ++x) {
+            turned.at(picture.height - 1 - y, x) = picture.at(x, y);
+        }
+    }
+    return turned;
+}
+
+/// Each pixel's code differs by no more than rounding from the mean of its square of `turned`, around it all is black.
+void expect_mean_of(const Grey& turned, int by, const Image8& shown) {
+    const glm::ivec2 size(turned.width / by, turned.height / by);
+    const glm::ivec2 corner((shown.width - size.x) / 2, (shown.height - size.y) / 2);
+    for (int y = 0; y < shown.height; ++y) {
+        for (int x = 0; x < shown.width; ++x) {
+            const int u = x - corner.x;
+            const int v = y - corner.y;
+            const glm::u8vec4 code = shown.at(x, y);
+            if (u < 0 || v < 0 || u >= size.x || v >= size.y) {
+                ASSERT_EQ(code, glm::u8vec4(0, 0, 0, 255));
+                continue;
+            }
+            int sum = 0;
+            for (int j = 0; j < by; ++j) {
+                for (int i = 0; i < by; ++i) {
+                    sum += turned.at(by * u + i, by * v + j);
+                }
+            }
+            ASSERT_LE(2 * std::abs(by * by * code.r - sum), by * by) << x << ' ' << y;
+            ASSERT_EQ(code, glm::u8vec4(code.r, code.r, code.r, 255));
+        }
+    }
+}
+
+TEST(Viewfinder, ShowsTheMeanOfEachSquareOfTheTurnedFrame) {
+    struct Case {
+        glm::ivec2 frame, room;
+        int by;
+    };
+    for (const Case& at : {Case{{60, 40}, {80, 60}, 1}, Case{{161, 83}, {80, 60}, 3},
+                           Case{{640, 480}, {320, 240}, 2}, Case{{1280, 720}, {320, 240}, 4}}) {
+        const CameraFrame frame = frame_of(at.frame.x, at.frame.y, 7);
+        Viewfinder viewfinder(at.room, 0);
+        Image8 shown(at.room.x, at.room.y, glm::u8vec4(9));
+        viewfinder.want(true);
+        viewfinder.use(frame);
+        ASSERT_TRUE(viewfinder.take(shown));
+        Grey picture(at.frame.x, at.frame.y);
+        picture.texels = frame.luma;
+        expect_mean_of(picture, at.by, shown);
+        EXPECT_FALSE(viewfinder.take(shown)) << "each once";
+    }
+}
+
+TEST(Viewfinder, IsTurnedClockwiseByQuarters) {
+    const CameraFrame frame = frame_of(90, 50, 3);
+    Grey turned(90, 50);
+    turned.texels = frame.luma;
+    for (int turns = 0; turns < 4; ++turns) {
+        Viewfinder viewfinder({90, 90}, turns);
+        Image8 shown(90, 90);
+        viewfinder.want(true);
+        viewfinder.use(frame);
+        ASSERT_TRUE(viewfinder.take(shown));
+        expect_mean_of(turned, 1, shown);
+        turned = turned_clockwise(turned);
+    }
+}
+
+/// A camera and a projector above the table, each turned about the vertical by quarters; a lamp lies at its far side.
+TEST(Viewfinder, StandsUprightForWhoStandsAtTheFront) {
+    constexpr int side = 60;
+    for (int camera = 0; camera < 4; ++camera) {
+        for (int projector = 0; projector < 4; ++projector) {
+            const auto hung = [](int quarters) {
+                const double angle = 0.5 * std::numbers::pi * quarters + 0.1;
+                return RigidTransform{glm::angleAxis(angle, glm::dvec3(0, 0, 1)) * glm::dquat(0, 1, 0, 0),
+                                      {0.0, 0.0, 1.0}};
+            };
+            Settings settings;
+            settings.projector.pinhole = {width, height, 300.0, 300.0, width / 2.0, height / 2.0};
+            settings.projector.table_from_projector = hung(projector);
+            settings.camera.pinhole = {side, side, 60.0, 60.0, side / 2.0, side / 2.0};
+            settings.camera.table_from_camera = hung(camera);
+            // Where the far side lies in the two pictures, by hand: it is above where neither is turned.
+            const auto seen_at = [](int quarters) {
+                const double angle = 0.5 * std::numbers::pi * quarters + 0.1;
+                return glm::dvec2(std::sin(angle), -std::cos(angle));
+            };
+            CameraFrame frame{MonotonicTime{}, 1, side, side, std::vector<std::uint8_t>(side * side, 10)};
+            const glm::ivec2 lamp(glm::dvec2(side / 2.0) + 20.0 * seen_at(camera));
+            frame.luma[static_cast<std::size_t>(lamp.y * side + lamp.x)] = 250;
+            Viewfinder viewfinder(settings);
+            Image8 shown(room.x, room.y);
+            viewfinder.want(true);
+            viewfinder.use(frame);
+            ASSERT_TRUE(viewfinder.take(shown));
+            const auto brightest = std::max_element(shown.texels.begin(), shown.texels.end(),
+                                                    [](auto& a, auto& b) { return a.r < b.r; });
+            const auto index = static_cast<int>(brightest - shown.texels.begin());
+            const glm::dvec2 at = glm::dvec2(index % room.x, index / room.x) + 0.5 - glm::dvec2(room) / 2.0;
+            EXPECT_GT(glm::dot(glm::normalize(at), seen_at(projector)), 0.9) << camera << ' ' << projector;
+        }
+    }
+}
+
+/// The bytes of the object itself: its picture is a part of it.
+bool holds(const Viewfinder& viewfinder, const CameraFrame& frame) {
+    const auto* const begin = reinterpret_cast<const std::uint8_t*>(&viewfinder);
+    return std::search(begin, begin + sizeof(viewfinder), frame.luma.begin(), frame.luma.begin() + 8) !=
+           begin + sizeof(viewfinder);
+}
+
+TEST(Viewfinder, HoldsNothingOfAFrameButWhileItIsWanted) {
+    const CameraFrame frame = frame_of(40, 30, 5);
+    Viewfinder viewfinder(room, 0);
+    Image8 shown(room.x, room.y);
+    viewfinder.use(frame);
+    EXPECT_FALSE(holds(viewfinder, frame));
+    EXPECT_FALSE(viewfinder.take(shown));
+    viewfinder.want(false);
+    viewfinder.use(frame);
+    EXPECT_FALSE(holds(viewfinder, frame));
+    viewfinder.want(true);
+    viewfinder.use(frame);
+    EXPECT_TRUE(holds(viewfinder, frame));
+    ASSERT_TRUE(viewfinder.take(shown));
+    EXPECT_TRUE(holds(viewfinder, frame));
+    viewfinder.want(false);
+    EXPECT_FALSE(holds(viewfinder, frame));
+    viewfinder.use(frame);
+    EXPECT_FALSE(holds(viewfinder, frame));
+    ASSERT_TRUE(viewfinder.take(shown));
+    EXPECT_TRUE(std::all_of(shown.texels.begin(), shown.texels.end(),
+                            [](const glm::u8vec4& code) { return code == glm::u8vec4(0, 0, 0, 255); }));
+}
+
+TEST(Viewfinder, ACameraThatIsJustWritingLeavesNothingEither) {
+    const CameraFrame frame = frame_of(320, 240, 5);
+    Viewfinder viewfinder({320, 240}, 1);
+    Image8 shown(320, 240);
+    std::jthread camera([&](const std::stop_token& stop) {
+        while (!stop.stop_requested()) {
+            viewfinder.use(frame);
+        }
+    });
+    int taken = 0;
+    for (int k = 0; k < 20'000 && taken < 20; ++k) {
+        viewfinder.want(k % 4 != 3);
+        taken += viewfinder.take(shown) ? 1 : 0;
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    EXPECT_EQ(taken, 20);
+    // The call that says so comes while it writes: each later one tries again.
+    for (int k = 0; k < 1000; ++k) {
+        viewfinder.want(false);
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+    camera.request_stop();
+    camera.join();
+    const auto* const begin = reinterpret_cast<const std::uint8_t*>(&viewfinder);
+    EXPECT_LT(std::count_if(begin, begin + sizeof(viewfinder), [](std::uint8_t byte) { return byte != 0; }),
+              100)
+        << "of 76 800 bytes of a frame that has no zero";
+}
+
+/// Staff who press both buttons at the start, and let go.
+class HeldPanel final : public Panel {
+public:
+    HeldPanel(MonotonicTime start, Nanoseconds held) : start_(start), held_(held) {}
+    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PanelEvent>& events) override {
+        if (!said_ && now - start_ >= chord) {
+            events.push_back({now, 0, PressKind::Chord});
+            said_ = true;
+        }
+        return {};
+    }
+    [[nodiscard]] bool chord_held(MonotonicTime now) const override { return now - start_ < held_; }
+    [[nodiscard]] std::string name() const override { return "held"; }
+    static constexpr Nanoseconds chord = seconds(1);
+
+private:
+    MonotonicTime start_;
+    Nanoseconds held_;
+    bool said_ = false;
+};
+
+/// A camera that is in the state that a test says.
+class StatedCamera final : public Camera {
+public:
+    [[nodiscard]] bool poll(CameraFrame& /*frame*/) override { return false; }
+    [[nodiscard]] CameraState state() const override { return now; }
+    [[nodiscard]] double rate_hz() const override { return 30.0; }
+    [[nodiscard]] CameraCounts counts() const override { return {}; }
+    [[nodiscard]] std::optional<CameraSetUp> set_up() const override { return std::nullopt; }
+    CameraState now = CameraState::Running;
+};
+
+/// Hands everything on to a show, gives the viewfinder a frame before each picture, and looks at the picture.
+class LookedAt final : public Show {
+public:
+    LookedAt(Show& show, Viewfinder* viewfinder) : show_(show), viewfinder_(viewfinder) {}
+    void step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) override {
+        show_.step(now, commands, on_table);
+    }
+    void set_viewfinder(Viewfinder* viewfinder) override {
+        held = viewfinder != nullptr;
+        show_.set_viewfinder(viewfinder);
+    }
+    void tell(const RunStatus& status) override { show_.tell(status); }
+    [[nodiscard]] ShowState state() const override { return show_.state(); }
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
+                                  Redraw redraw) override {
+        if (viewfinder_ != nullptr) {
+            viewfinder_->use(frame);
+        }
+        const long before = synthetic::allocations_so_far();
+        const DrawResult drawn = show_.draw(now, on_table, target, redraw);
+        allocated = synthetic::allocations_so_far() - before;
+        after_draw(now, target.framebuffer);
+        return drawn;
+    }
+
+    CameraFrame frame = frame_of(2 * room.x, 2 * room.y, 11);
+    bool held = false;
+    long allocated = 0;
+    std::function<void(MonotonicTime, unsigned)> after_draw;
+
+private:
+    Show& show_;
+    Viewfinder* viewfinder_;
+};
+
+class ViewfinderRun : public testing::Test {
+protected:
+    void SetUp() override {
+        settings.projector.pinhole = {width, height, 960.0, 960.0, width / 2.0, height / 2.0};
+        settings.camera.kind = CameraKind::V4l2;
+        auto made = SurfacelessDisplay::create(width, height);
+        ASSERT_TRUE(made) << made.error().message;
+        display = std::move(*made);
+    }
+    void with_viewfinder() {
+        inputs.viewfinder = std::make_unique<Viewfinder>(room, 0);
+        inputs.panel = std::make_unique<HeldPanel>(start, seconds(3));
+    }
+    /// Of the same settings, or without a camera.
+    std::unique_ptr<PatternShow> pattern() {
+        auto made = PatternShow::create(settings);
+        EXPECT_TRUE(made);
+        return std::move(*made);
+    }
+    void run(LookedAt& show, Nanoseconds length) {
+        LoopOptions options;
+        options.length = length;
+        options.fast = true;
+        options.screenshot = screenshot;
+        StatusFile no_file{std::filesystem::path{}};
+        ServiceManager manager;
+        const Journal journal("test");
+        RunWatch watch(manager, journal);
+        const Result<LoopResult> result =
+            run_loop(settings, *display, inputs, show, options, no_file, watch, start);
+        EXPECT_TRUE(result) << result.error().message;
+    }
+    /// The camera's part of the picture: at the lower right, with the line below it.
+    static Image8 part_of(const Image8& picture) {
+        Image8 part(room.x, room.y);
+        for (int y = 0; y < room.y; ++y) {
+            for (int x = 0; x < room.x; ++x) {
+                part.at(x, y) = picture.at(width - 24 - room.x + x, height - 24 - 90 - room.y + y);
+            }
+        }
+        return part;
+    }
+    /// Without the watchdog's code.
+    static bool are_equal(const Image8& a, const Image8& b) {
+        return std::equal(a.texels.begin() + width, a.texels.end(), b.texels.begin() + width);
+    }
+
+    Settings settings;
+    std::unique_ptr<SurfacelessDisplay> display;
+    Inputs inputs;
+    MonotonicTime start = MonotonicTime(seconds(100));
+    Screenshot* screenshot = nullptr;
+};
+
+TEST_F(ViewfinderRun, TheStaffsPictureShowsTheCamerasWhileBothButtonsAreHeld) {
+    settings.camera.kind = CameraKind::None;
+    Image8 plain;
+    {
+        const std::unique_ptr<PatternShow> show = pattern();
+        LookedAt looked(*show, nullptr);
+        looked.after_draw = [&](MonotonicTime, unsigned fb) { plain = read_colour(fb, width, height); };
+        run(looked, milliseconds(100));
+    }
+    settings.camera.kind = CameraKind::V4l2;
+    with_viewfinder();
+    const std::unique_ptr<PatternShow> show = pattern();
+    LookedAt looked(*show, inputs.viewfinder.get());
+    int with = 0, without = 0;
+    long allocated = 0;
+    looked.after_draw = [&](MonotonicTime now, unsigned fb) {
+        const Image8 picture = read_colour(fb, width, height);
+        const bool is_held = now - start < seconds(3) && now > start; // the first frame tells the state
+        ASSERT_EQ(looked.held, is_held);
+        if (!is_held) {
+            ++without;
+            ASSERT_TRUE(are_equal(picture, plain)) << "as in an exhibit without a camera";
+            ASSERT_FALSE(holds(*inputs.viewfinder, looked.frame));
+            return;
+        }
+        Grey grey(looked.frame.width, looked.frame.height);
+        grey.texels = looked.frame.luma;
+        expect_mean_of(grey, 2, part_of(picture));
+        allocated += with > 2 ? looked.allocated : 0;
+        looked.frame = frame_of(2 * room.x, 2 * room.y, static_cast<std::uint32_t>(++with)); // and another
+    };
+    run(looked, seconds(6));
+    EXPECT_GT(with, 170);
+    EXPECT_GT(without, 170);
+    if (synthetic::allocations_are_counted) {
+        EXPECT_EQ(allocated, 0);
+    }
+}
+
+/// A visitor who holds two buttons sees nothing of it: the staff's picture comes with the chord.
+TEST_F(ViewfinderRun, NoFrameIsHeldBeforeTheStaffsPictureIsThere) {
+    settings.panel.kind = PanelKind::Gpio;
+    settings.panel.lines = {"4", "5", "6"};
+    class Nothing final : public Stage {
+    public:
+        [[nodiscard]] DrawResult draw(MonotonicTime, const Presentation&, const glm::dvec3&,
+                                      const RenderTarget&, Redraw) override {
+            return {true, {}, {}, 1};
+        }
+        [[nodiscard]] ShowState state(const Presentation& presentation) const override {
+            ShowState state;
+            state.state = presentation.state;
+            return state;
+        }
+    };
+    with_viewfinder();
+    LiveExhibit live(settings, std::make_unique<Nothing>(), sample::exhibit(3, {"en"}), "a driver");
+    LookedAt looked(live, inputs.viewfinder.get());
+    looked.frame = frame_of(room.x, room.y, 11); // not shrunk, so that it is found in the viewfinder
+    int with = 0;
+    looked.after_draw = [&](MonotonicTime now, unsigned fb) {
+        const bool is_held = now - start > HeldPanel::chord + milliseconds(20) && now - start < seconds(3);
+        const bool is_not = now - start < HeldPanel::chord || now - start >= seconds(3);
+        if (is_held) {
+            Grey grey(looked.frame.width, looked.frame.height);
+            grey.texels = looked.frame.luma;
+            expect_mean_of(grey, 1, part_of(read_colour(fb, width, height)));
+            ++with;
+        } else if (is_not) {
+            ASSERT_FALSE(holds(*inputs.viewfinder, looked.frame));
+            ASSERT_FALSE(looked.held);
+        }
+    };
+    run(looked, seconds(5));
+    EXPECT_GT(with, 100);
+}
+
+TEST_F(ViewfinderRun, ACameraThatIsLostOrCoveredHasALineInPlaceOfAPicture) {
+    with_viewfinder();
+    auto stated = std::make_unique<StatedCamera>();
+    StatedCamera& camera = *stated;
+    inputs.camera = std::move(stated);
+    const std::unique_ptr<PatternShow> show = pattern();
+    LookedAt looked(*show, inputs.viewfinder.get());
+    looked.frame = frame_of(room.x, room.y, 11);
+    Image8 running, covered;
+    looked.after_draw = [&](MonotonicTime now, unsigned fb) {
+        const Nanoseconds at = now - start;
+        camera.now = at < milliseconds(1500) ? CameraState::Running : CameraState::Dark;
+        if (at > milliseconds(1400) && at < milliseconds(1500)) {
+            running = read_colour(fb, width, height);
+            ASSERT_TRUE(holds(*inputs.viewfinder, looked.frame));
+        } else if (at > milliseconds(1550) && at < seconds(3)) {
+            covered = read_colour(fb, width, height);
+            ASSERT_FALSE(holds(*inputs.viewfinder, looked.frame));
+        }
+    };
+    run(looked, seconds(4));
+    const Image8 part = part_of(covered);
+    EXPECT_TRUE(std::all_of(part.texels.begin(), part.texels.end(),
+                            [](const glm::u8vec4& code) { return code == glm::u8vec4(0, 0, 0, 255); }));
+    const auto lit_below = [](const Image8& picture) {
+        int lit = 0;
+        for (int y = height - 24 - 90; y < height - 24; ++y) {
+            for (int x = width - 24 - room.x; x < width - 24; ++x) {
+                lit += picture.at(x, y).r > 100 ? 1 : 0;
+            }
+        }
+        return lit;
+    };
+    EXPECT_GT(lit_below(running), 50);
+    EXPECT_GT(lit_below(covered), 50);
+    EXPECT_NE(lit_below(running), lit_below(covered)) << "another sentence";
+}
+
+TEST_F(ViewfinderRun, NoScreenshotHasIt) {
+    with_viewfinder();
+    Screenshot asked(width, height);
+    screenshot = &asked;
+    const std::unique_ptr<PatternShow> show = pattern();
+    LookedAt looked(*show, inputs.viewfinder.get());
+    std::future<Image8> got;
+    bool shown_with = false;
+    looked.after_draw = [&](MonotonicTime, unsigned fb) {
+        if (!looked.held) {
+            return;
+        }
+        shown_with = shown_with || part_of(read_colour(fb, width, height)).at(room.x / 2, 3).r > 0;
+        if (!got.valid()) {
+            got = std::async(std::launch::async, [&] {
+                const Result<const Image8*> picture = asked.take(std::stop_token());
+                return picture ? **picture : Image8();
+            });
+            std::this_thread::sleep_for(milliseconds(50)); // it asks
+        }
+        ASSERT_NE(got.wait_for(milliseconds(0)), std::future_status::ready);
+    };
+    run(looked, seconds(5));
+    ASSERT_TRUE(shown_with);
+    const Image8 picture = got.get();
+    ASSERT_EQ(picture.width, width);
+    EXPECT_TRUE(are_equal(picture, read_colour(display->framebuffer(), width, height)))
+        << "that of after the buttons were let go";
+}
+
+/// How often the bytes occur in this process's own memory. `needle` is kept in disguise, so that it is not found itself.
+std::size_t occurrences(const std::vector<std::uint8_t>& needle) {
+    constexpr std::uint8_t disguise = 0x5A;
+    std::ifstream maps("/proc/self/maps");
+    const int memory = ::open("/proc/self/mem", O_RDONLY | O_CLOEXEC);
+    EXPECT_GE(memory, 0);
+    static std::vector<std::uint8_t> part(1U << 20U);
+    std::size_t found = 0;
+    for (std::string line; std::getline(maps, line);) {
+        unsigned long begin = 0, end = 0;
+        char readable = 0, writable = 0;
+        if (std::sscanf(line.c_str(), "%lx-%lx %c%c", &begin, &end, &readable, &writable) != 4 ||
+            readable != 'r' || writable != 'w') {
+            continue;
+        }
+        for (unsigned long at = begin; at < end; at += part.size() - needle.size()) {
+            const auto size = std::min<unsigned long>(part.size(), end - at);
+            const auto from = reinterpret_cast<unsigned long>(part.data());
+            if (at < from + part.size() && from < at + size) {
+                continue; // its own copies
+            }
+            const ssize_t read = ::pread(memory, part.data(), size, static_cast<off_t>(at));
+            const std::size_t got = read > 0 ? static_cast<std::size_t>(read) : 0;
+            for (std::size_t k = 0; k + needle.size() <= got; ++k) {
+                std::size_t same = 0;
+                while (same < needle.size() &&
+                       part[k + same] == static_cast<std::uint8_t>(needle[same] ^ disguise)) {
+                    ++same;
+                }
+                found += same == needle.size() ? 1 : 0;
+            }
+        }
+        std::fill(part.begin(), part.end(), std::uint8_t{0});
+    }
+    ::close(memory);
+    return found;
+}
+
+/// The whole process is looked through, with the driver that draws on the processor.
+TEST_F(ViewfinderRun, NothingOfAFrameIsLeftInTheProcess) {
+    if (!synthetic::allocations_are_counted) {
+        GTEST_SKIP() << "the sanitizers keep freed memory as it is";
+    }
+    with_viewfinder();
+    const std::unique_ptr<PatternShow> show = pattern();
+    LookedAt looked(*show, inputs.viewfinder.get());
+    looked.frame = frame_of(room.x, room.y, 99);
+    const auto disguised = [&](int channels) {
+        std::vector<std::uint8_t> needle;
+        for (std::size_t k = 0; k < 12; ++k) {
+            const std::uint8_t code = looked.frame.luma[static_cast<std::size_t>(20 * room.x + 10) + k];
+            for (int c = 0; c < channels; ++c) {
+                needle.push_back(static_cast<std::uint8_t>((c == 3 ? 255 : code) ^ 0x5A));
+            }
+        }
+        return needle;
+    };
+    const std::vector<std::uint8_t> grey = disguised(1), colour = disguised(4);
+    std::size_t while_held = 0, colour_while_held = 0;
+    looked.after_draw = [&](MonotonicTime now, unsigned) {
+        if (now - start > milliseconds(500) && while_held == 0) {
+            while_held = occurrences(grey);
+            colour_while_held = occurrences(colour);
+        }
+        if (now - start > seconds(3)) { // the test's own copy
+            std::fill(looked.frame.luma.begin(), looked.frame.luma.end(), std::uint8_t{1});
+        }
+    };
+    run(looked, milliseconds(3200));
+    EXPECT_GE(while_held, 2U) << "the camera's own, and the viewfinder's";
+    EXPECT_GE(colour_while_held, 3U) << "the panel's, the texture's and the framebuffer's";
+    EXPECT_EQ(occurrences(grey), 0U);
+    EXPECT_EQ(occurrences(colour), 0U);
+}
+
+} // namespace
+} // namespace frustumscreen
