@@ -111,7 +111,7 @@ bool Viewfinder::take(Image8& picture) {
         return false;
     }
     changed_ = false;
-    const glm::ivec2 corner = (room_ - size_) / 2;
+    const glm::ivec2 corner((room_.x - size_.x) / 2, room_.y - size_.y);
     for (int y = 0; y < room_.y; ++y) {
         for (int x = 0; x < room_.x; ++x) {
             const glm::ivec2 at = glm::ivec2(x, y) - corner;

@@ -36,8 +36,8 @@ public:
 
     /// Call in every frame.
     void want(bool wanted);
-    /// Draws what it has into the upper part of `picture`, which is as wide as the room and no lower: the frame in its middle, black
-    /// around it. False: nothing has changed since.
+    /// Draws what it has into the upper part of `picture`, which is as wide as the room and no lower: the frame in the middle of its
+    /// lower edge, black around it. False: nothing has changed since.
     [[nodiscard]] bool take(Image8& picture);
 
 private:

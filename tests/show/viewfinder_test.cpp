@@ -56,7 +56,7 @@ Grey turned_clockwise(const Grey& picture) {
 /// Each pixel's code differs by no more than rounding from the mean of its square of `turned`, around it all is black.
 void expect_mean_of(const Grey& turned, int by, const Image8& shown) {
     const glm::ivec2 size(turned.width / by, turned.height / by);
-    const glm::ivec2 corner((shown.width - size.x) / 2, (shown.height - size.y) / 2);
+    const glm::ivec2 corner((shown.width - size.x) / 2, shown.height - size.y);
     for (int y = 0; y < shown.height; ++y) {
         for (int x = 0; x < shown.width; ++x) {
             const int u = x - corner.x;
@@ -143,8 +143,9 @@ TEST(Viewfinder, StandsUprightForWhoStandsAtTheFront) {
             ASSERT_TRUE(viewfinder.take(shown));
             const auto brightest = std::max_element(shown.texels.begin(), shown.texels.end(),
                                                     [](auto& a, auto& b) { return a.r < b.r; });
+            const glm::dvec2 middle(room.x / 2.0, room.y - side / 2.0);
             const auto index = static_cast<int>(brightest - shown.texels.begin());
-            const glm::dvec2 at = glm::dvec2(index % room.x, index / room.x) + 0.5 - glm::dvec2(room) / 2.0;
+            const glm::dvec2 at = glm::dvec2(index % room.x, index / room.x) + 0.5 - middle;
             EXPECT_GT(glm::dot(glm::normalize(at), seen_at(projector)), 0.9) << camera << ' ' << projector;
         }
     }
