@@ -538,6 +538,7 @@ TEST_F(ViewfinderRun, NothingOfAFrameIsLeftInTheProcess) {
     std::size_t while_held = 0, colour_while_held = 0;
     looked.after_draw = [&](MonotonicTime now, unsigned) {
         if (now - start > milliseconds(500) && while_held == 0) {
+            wait_until_drawn(); // the driver draws on threads of its own
             while_held = occurrences(grey);
             colour_while_held = occurrences(colour);
         }
@@ -546,6 +547,7 @@ TEST_F(ViewfinderRun, NothingOfAFrameIsLeftInTheProcess) {
         }
     };
     run(looked, milliseconds(3200));
+    wait_until_drawn();
     EXPECT_GE(while_held, 2U) << "the camera's own, and the viewfinder's";
     EXPECT_GE(colour_while_held, 3U) << "the panel's, the texture's and the framebuffer's";
     EXPECT_EQ(occurrences(grey), 0U);
