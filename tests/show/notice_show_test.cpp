@@ -234,7 +234,8 @@ TEST_F(Notice, APressBetweenTwoTextsEndsTheSecondAndDoesNothingElse) {
     for (int k = 0; k < 100 && picture().texels != without.texels; ++k) {
         wait(milliseconds(20));
     }
-    ASSERT_EQ(lit(difference(without, picture())), 0) << "the first has gone, and the second is not there yet";
+    ASSERT_EQ(lit(difference(without, picture())), 0)
+        << "the first has gone, and the second is not there yet";
     wait(milliseconds(20), std::array{Command::NextArtifact});
     wait(seconds(2)); // what of it was there already fades
     EXPECT_EQ(lit(difference(without, picture())), 0);
