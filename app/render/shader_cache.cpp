@@ -1,6 +1,5 @@
 #include "app/render/shader_cache.h"
 
-#include "app/render/lens_light.h"
 #include "app/render/shader_source.h"
 #include "app/scene/lit_tiles.h"
 #include "firmware_host/gl/gl_program.h"
@@ -27,10 +26,6 @@ void set_lens(GLuint program, const Pinhole& pinhole) {
     const glm::vec3 distortion(pinhole.lens.k1, pinhole.lens.k2, pinhole.bends_to_r2());
     glUniform4fv(glGetUniformLocation(program, "lens_from_clip"), 1, &lens_from_clip.x);
     glUniform3fv(glGetUniformLocation(program, "distortion"), 1, &distortion.x);
-    const LensLight light = lens_light(pinhole);
-    glUniform1f(glGetUniformLocation(program, "lens_light_scale"), light.scale);
-    glUniform3fv(glGetUniformLocation(program, "lens_light"), static_cast<GLsizei>(light.terms.size()),
-                 &light.terms[0].x);
 }
 
 } // namespace

@@ -1,6 +1,5 @@
 #include "app/render/shader_source.h"
 
-#include "app/render/lens_light.h"
 #include "app/scene/lit_tiles.h"
 
 #include <fmt/format.h>
@@ -110,29 +109,31 @@ uniform vec4 ray_from_fragment; // scale, offset; z = 1
 uniform vec3 inverse_depth;     // of the face's plane, along a ray
 uniform vec4 face_gain;         // times d^3, most; both to the power of 1 / 2.4
 #ifdef BENT
-// As lens_light.h has them.
-uniform float lens_light_scale;
-uniform vec3 lens_light[LENS_LIGHT_TERMS];
-vec3 light_of_lens(vec2 real) {
-    float x = lens_light_scale * dot(real, real) - 1.0;
-    vec3 sum = lens_light[LENS_LIGHT_TERMS - 1];
-    for (int k = LENS_LIGHT_TERMS - 2; k >= 0; --k) {
-        sum = sum * x + lens_light[k];
+// Each step comes some ten times nearer, and the light of a place hardly changes over a pixel.
+vec2 unbent(vec2 real) {
+    vec2 x = real;
+    for (int k = 0; k < 4; ++k) {
+        float r2 = min(dot(x, x), distortion.z);
+        x = real / (1.0 + r2 * (distortion.x + distortion.y * r2));
     }
-    return sum;
+    return x;
 }
+// The lens packs pixels more densely by its area factor.
+vec2 share_of_pixel(vec2 x) {
+    float r2 = min(dot(x, x), distortion.z);
+    float area = (1.0 + r2 * (distortion.x + distortion.y * r2)) * (1.0 + r2 * (3.0 * distortion.x + 5.0 * distortion.y * r2));
+    return vec2(1.0 / area, pow(area, -1.0 / 2.4));
+}
+#else
+vec2 unbent(vec2 real) { return real; }
 #endif
 // As `brightness`. 3 / 2.4 is 1 + 1 / 4: a power of the distance takes roots alone.
 vec2 compensation() {
-    vec3 ray = vec3(gl_FragCoord.xy * ray_from_fragment.xy + ray_from_fragment.zw, 1.0);
-#ifdef BENT
-    vec3 lens = light_of_lens(ray.xy);
-    ray.xy *= lens.x;
-#endif
+    vec3 ray = vec3(unbent(gl_FragCoord.xy * ray_from_fragment.xy + ray_from_fragment.zw), 1.0);
     float d = sqrt(dot(ray, ray)) / dot(inverse_depth, ray);
     vec2 gain = face_gain.xz * d * vec2(d * d, sqrt(sqrt(d)));
 #ifdef BENT
-    gain *= lens.yz;
+    gain *= share_of_pixel(ray.xy);
 #endif
     return min(face_gain.yw, gain);
 }
@@ -266,10 +267,8 @@ std::string defines_of(const ShaderKey& key) {
 } // namespace
 
 ShaderSource source_of(const ShaderKey& key, bool bends) {
-    const std::string defines = (bends ? fmt::format("#define QUAD_CELLS {}\n#define LENS_LIGHT_TERMS {}{}",
-                                                     quad_cells, lens_light_terms, lens)
-                                       : std::string()) +
-                                defines_of(key);
+    const std::string defines =
+        (bends ? fmt::format("#define QUAD_CELLS {}{}", quad_cells, lens) : std::string()) + defines_of(key);
     const std::string tiles_defines =
         fmt::format("#define MOST_RECTANGLES {}\n{}", LitTiles::most_rectangles, defines_of(key));
     const auto quad = [](std::string_view vertex) {
