@@ -54,6 +54,7 @@ class Calibration(HilTest):
         self.press(FIRST)
         self.bench.status_says("display", "is lit", START_S)
         self.assertIn("calibration-0001.toml is used", self.bench.journal())
+        self.show(ARTIFACT)
         off_px = self.farthest_off(PLACES, tracker)
         print(f"  {off_px:.2f} pixels at most from the true table's pictures", flush=True)
         self.assertLess(off_px, PIXELS)
