@@ -18,10 +18,7 @@ class CubeProgram : public ProgramFolder {
 protected:
     void SetUp() override {
         ProgramFolder::SetUp();
-        ASSERT_TRUE(
-            write_file(folder / "star.obj",
-                       as_bytes("v 1 0 0\nv -0.7 0 0\nv 0 0.8 0\nv 0 -0.9 0\nv 0 0 1.1\nv 0 0 -1\n"
-                                "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n")));
+        write_star();
         ASSERT_EQ(run("frustumscreen-bake star.obj -o star.fspack --prop cube --up z --unlit --size 64"), 0)
             << text("err.txt");
     }

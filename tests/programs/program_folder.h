@@ -25,6 +25,13 @@ protected:
                             .c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
+    /// star.obj: eight unequal triangles.
+    void write_star() const {
+        ASSERT_TRUE(
+            write_file(folder / "star.obj",
+                       as_bytes("v 1 0 0\nv -0.7 0 0\nv 0 0.8 0\nv 0 -0.9 0\nv 0 0 1.1\nv 0 0 -1\n"
+                                "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n")));
+    }
     [[nodiscard]] std::string text(const std::string& file) const {
         const Result<Bytes> bytes = read_file(folder / file);
         return bytes ? std::string(as_text(*bytes)) : std::string();

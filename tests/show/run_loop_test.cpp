@@ -44,21 +44,26 @@ private:
     MonotonicTime now_;
 };
 
-Result<LoopResult> run_with(Nanoseconds from, Nanoseconds until) {
-    const MonotonicTime start = monotonic_now();
-    FaultyShow show;
-    show.fault_from = start + from;
-    show.fault_until = start + until;
+/// On a clock that steps by one frame.
+Result<LoopResult> run_fast(Show& show, Inputs& inputs, Nanoseconds length, MonotonicTime start) {
     LoopOptions options;
-    options.length = seconds(200);
+    options.length = length;
     options.fast = true;
     NoDisplay display;
-    Inputs inputs;
     StatusFile no_file{std::filesystem::path{}};
     ServiceManager manager;
     const Journal journal("test");
     RunWatch watch(manager, journal);
     return run_loop(Settings{}, display, inputs, show, options, no_file, watch, start);
+}
+
+Result<LoopResult> run_with(Nanoseconds from, Nanoseconds until) {
+    const MonotonicTime start = monotonic_now();
+    FaultyShow show;
+    show.fault_from = start + from;
+    show.fault_until = start + until;
+    Inputs inputs;
+    return run_fast(show, inputs, seconds(200), start);
 }
 
 /// Nobody is there until `comes`; notes the marks of light that it is told to show.
@@ -95,16 +100,7 @@ TEST(RunLoop, MarksOfLightAreShownWhileNobodyIsThere) {
     Inputs inputs;
     inputs.drift = std::make_unique<DriftWatch>(
         DriftSetUp{{{-0.3, 0.2}, {0.3, -0.2}, {0.3, 0.2}, {-0.3, -0.2}}, {}, {}});
-    LoopOptions options;
-    options.length = seconds(150);
-    options.fast = true;
-    NoDisplay display;
-    StatusFile no_file{std::filesystem::path{}};
-    ServiceManager manager;
-    const Journal journal("test");
-    RunWatch watch(manager, journal);
-    const Result<LoopResult> run =
-        run_loop(Settings{}, display, inputs, show, options, no_file, watch, start);
+    const Result<LoopResult> run = run_fast(show, inputs, seconds(150), start);
     ASSERT_TRUE(run) << run.error().message;
     EXPECT_NEAR(show.while_quiet, 4 * 30, 8) << "four marks, half a second each, at 60 pictures a second";
     EXPECT_EQ(show.while_used, 0) << "the next set had hardly begun";
@@ -144,16 +140,7 @@ TEST(RunLoop, TellsTheShowTheTimeOfEachFrameThatWasDrawn) {
     const MonotonicTime start = monotonic_now();
     TimedShow show;
     Inputs inputs;
-    LoopOptions options;
-    options.length = seconds(2);
-    options.fast = true;
-    NoDisplay display;
-    StatusFile no_file{std::filesystem::path{}};
-    ServiceManager manager;
-    const Journal journal("test");
-    RunWatch watch(manager, journal);
-    const Result<LoopResult> run =
-        run_loop(Settings{}, display, inputs, show, options, no_file, watch, start);
+    const Result<LoopResult> run = run_fast(show, inputs, seconds(2), start);
     ASSERT_TRUE(run) << run.error().message;
     EXPECT_GT(show.drawn.size(), 30U);
     EXPECT_EQ(show.timed, show.drawn);
