@@ -5,13 +5,18 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 
 namespace frustumscreen {
 
 namespace {
 
-/// Adds default level, finest level and two-pass of one size to the set and measures their errors.
+/// What is drawn of each size, in this order.
+constexpr std::array drawn = {&ScalingRow::default_level, &ScalingRow::finest_level, &ScalingRow::relief,
+                              &ScalingRow::two_pass};
+
+/// Adds what is drawn of one size to the set and measures its errors.
 Result<void> add_size(TechniqueSet& set, const ScalingSource& source, const std::vector<BenchPose>& poses,
                       const ScalingOptions& options, const Progress& progress) {
     const std::size_t first = set.results().size();
@@ -25,6 +30,9 @@ Result<void> add_size(TechniqueSet& set, const ScalingSource& source, const std:
         if (Result<void> added = set.add_level(source.pack, level, options.picture); !added) {
             return added;
         }
+    }
+    if (Result<void> added = set.add_finest_relief(source.pack, options.picture); !added) {
+        return added;
     }
     if (Result<void> added =
             set.add_peers(*source.mesh, prop_from_artifact, false, {options.two_pass_pixels});
@@ -54,6 +62,16 @@ Result<ScalingSource> bake_amphora(std::int64_t triangles, const ScalingOptions&
         return at(what + "bake", pack.error());
     }
     return ScalingSource{std::make_shared<const SourceMesh>(std::move(*made)), std::move(*pack), bake_s};
+}
+
+std::string growth_line(std::string_view name, TechniqueResult ScalingRow::*each, double most,
+                        std::span<const ScalingRow> rows) {
+    const TechniqueResult& small = rows.front().*each;
+    const TechniqueResult& large = rows.back().*each;
+    const double growth = large.times_floor / small.times_floor;
+    return fmt::format("{} {} at {} triangles <= {:g} x that at {} ({:.2f} x; by processor time {:.2f} x)\n",
+                       growth <= most ? "held  " : "MISSED", name, rows.back().source_triangles, most,
+                       rows.front().source_triangles, growth, large.cpu_times_floor / small.cpu_times_floor);
 }
 
 } // namespace
@@ -92,13 +110,13 @@ Result<std::vector<ScalingRow>> scaling(const SetUp& set_up, const std::vector<S
         if (!added) {
             return at(what, added.error());
         }
-        rows.push_back({source.mesh->triangles.size(), source.bake_s, {}, {}, {}});
+        rows.push_back({source.mesh->triangles.size(), source.bake_s, {}, {}, {}, {}});
     }
     set.measure_times(*poses, options.timing_rounds, [&](double done) { progress("times", done); });
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        rows[k].default_level = set.results()[first + 3 * k];
-        rows[k].finest_level = set.results()[first + 1 + 3 * k];
-        rows[k].two_pass = set.results()[first + 2 + 3 * k];
+        for (std::size_t i = 0; i < drawn.size(); ++i) {
+            rows[k].*drawn[i] = set.results()[first + drawn.size() * k + i];
+        }
     }
     return rows;
 }
@@ -109,14 +127,15 @@ std::string scaling_csv(std::span<const ScalingRow> rows) {
         "mean_silhouette_percent,worst_silhouette_percent,mean_geometric_mm,worst_geometric_mm,"
         "mean_rmse_16_rays,worst_rmse_16_rays\n";
     for (const ScalingRow& row : rows) {
-        for (const TechniqueResult* technique : {&row.default_level, &row.finest_level, &row.two_pass}) {
-            const PictureError& mean = technique->error.mean;
-            const PictureError& worst = technique->error.worst;
+        for (TechniqueResult ScalingRow::*const each : drawn) {
+            const TechniqueResult& technique = row.*each;
+            const PictureError& mean = technique.error.mean;
+            const PictureError& worst = technique.error.worst;
             csv += fmt::format("{},{:.2f},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.5f},{:.5f},{:.6f},{:."
                                "6f},{:.4f},{:.4f}\n",
-                               row.source_triangles, row.bake_s, technique->name, technique->triangles,
-                               technique->time_ms.median, technique->time_ms.p10, technique->time_ms.p90,
-                               technique->times_floor, technique->cpu_times_floor, mean.silhouette_percent,
+                               row.source_triangles, row.bake_s, technique.name, technique.triangles,
+                               technique.time_ms.median, technique.time_ms.p10, technique.time_ms.p90,
+                               technique.times_floor, technique.cpu_times_floor, mean.silhouette_percent,
                                worst.silhouette_percent, mean.geometric_mean_mm, worst.geometric_mean_mm,
                                mean.sixteen_rays.rmse, worst.sixteen_rays.rmse);
         }
@@ -125,20 +144,22 @@ std::string scaling_csv(std::span<const ScalingRow> rows) {
 }
 
 std::string scaling_table(std::span<const ScalingRow> rows) {
-    std::string table = fmt::format("{:>16}{:>9}{:>20}{:>20}{:>20}\n", "source triangles", "bake s",
-                                    "default x floor", "finest x floor", "two-pass x floor");
+    std::string table = fmt::format("{:>16}{:>9}", "source triangles", "bake s");
+    for (const char* name : {"default", "finest", "relief", "two-pass"}) {
+        table += fmt::format("{:>20}", fmt::format("{} x floor", name));
+    }
+    table += '\n';
     for (const ScalingRow& row : rows) {
-        table += fmt::format("{:>16}{:>9.1f}{:>20.2f}{:>20.2f}{:>20.2f}\n", row.source_triangles, row.bake_s,
-                             row.default_level.times_floor, row.finest_level.times_floor,
-                             row.two_pass.times_floor);
+        table += fmt::format("{:>16}{:>9.1f}", row.source_triangles, row.bake_s);
+        for (TechniqueResult ScalingRow::*const each : drawn) {
+            table += fmt::format("{:>20.2f}", (row.*each).times_floor);
+        }
+        table += '\n';
     }
-    if (rows.size() > 1) {
-        const double growth = rows.back().default_level.times_floor / rows.front().default_level.times_floor;
-        table += fmt::format("{} default level at {} triangles <= {:g} x that at {} ({:.2f} x)\n",
-                             growth <= most_growth ? "held  " : "MISSED", rows.back().source_triangles,
-                             most_growth, rows.front().source_triangles, growth);
-    }
-    return table;
+    return rows.size() > 1
+               ? table + growth_line("default level", &ScalingRow::default_level, most_growth, rows) +
+                     growth_line("finest relief", &ScalingRow::relief, most_relief_growth, rows)
+               : table;
 }
 
 } // namespace frustumscreen

@@ -33,10 +33,13 @@ struct ScalingRow {
     double bake_s = 0.0;
     TechniqueResult default_level;
     TechniqueResult finest_level;
+    TechniqueResult relief; ///< the pack's finest one
     TechniqueResult two_pass;
 };
 
-inline constexpr double most_growth = 1.25; ///< default level's cost, largest count over smallest
+/// Cost at the largest count of triangles over that at the smallest.
+inline constexpr double most_growth = 1.25;        ///< the default level's
+inline constexpr double most_relief_growth = 1.10; ///< the finest relief's
 
 [[nodiscard]] Result<std::vector<ScalingRow>> scaling(const SetUp& set_up,
                                                       const std::vector<ScalingSource>& sources,

@@ -297,6 +297,22 @@ Result<void> TechniqueSet::add_reliefs(const Pack& pack, const PictureOptions& o
     return add_pack_reliefs(pack, TechniqueKind::PackRelief, options, [](std::uint32_t) { return true; });
 }
 
+Result<void> TechniqueSet::add_finest_relief(const Pack& pack, const PictureOptions& options) {
+    const Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack);
+    if (!reliefs) {
+        return tl::unexpected<Error>(reliefs.error());
+    }
+    std::uint32_t most_texels = 0;
+    for (const ReliefOutline& each : *reliefs) {
+        most_texels = std::max(most_texels, each.texels);
+    }
+    if (most_texels == 0) {
+        return fail(ErrorKind::BadInput, "the pack has no relief");
+    }
+    return add_pack_reliefs(pack, TechniqueKind::PackRelief, options,
+                            [most_texels](std::uint32_t texels) { return texels == most_texels; });
+}
+
 Result<void> TechniqueSet::add_relief_casts(const Pack& pack, const std::vector<int>& texels,
                                             const PictureOptions& options) {
     for (const int size : texels) {

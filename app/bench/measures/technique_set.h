@@ -89,6 +89,8 @@ public:
 
     /// The pack's reliefs, one for each resolution that it has. The pack must outlive the set.
     [[nodiscard]] Result<void> add_reliefs(const Pack& pack, const PictureOptions& options);
+    /// The one of them with the most texels.
+    [[nodiscard]] Result<void> add_finest_relief(const Pack& pack, const PictureOptions& options);
     /// Reliefs of other resolutions, made from the pack's finest level. The pack must outlive the set.
     [[nodiscard]] Result<void> add_relief_casts(const Pack& pack, const std::vector<int>& texels,
                                                 const PictureOptions& options);

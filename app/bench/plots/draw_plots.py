@@ -190,7 +190,7 @@ def draw_overall(out, folders):
 
 def draw_scaling(path):
     rows = read_table(path)
-    names = ("default level", "finest level", "two-pass, full mesh")  # in this order for each count of triangles
+    names = ("default level", "finest level", "finest relief", "two-pass, full mesh")  # in this order for each count of triangles
     panels = []
     for title, unit, column, label in (
             ("Cost against the source's size: built-in amphora", "median frame time / floor", "times_floor",

@@ -183,16 +183,17 @@ class ErrorTime(Plots):
 
 
 class OtherTables(Plots):
-    def test_scaling_has_three_lines_over_the_sources_size(self):
+    def test_scaling_has_four_lines_over_the_sources_size(self):
         rows = [{"source_triangles": triangles, "times_floor": cost * k, "mean_geometric_mm": 0.01 * k}
-                for triangles, cost in ((10_000, 1.5), (1_000_000, 2.0)) for k in (1, 2, 3)]
+                for triangles, cost in ((10_000, 1.5), (1_000_000, 2.0)) for k in (1, 2, 3, 4)]
         write_table(self.folder / "scaling_near.csv", rows)
         main([str(self.folder / "scaling_near.csv")])
         svg = Svg(self.folder / "scaling_near.svg")
         self.assert_at(svg, 0, "default level", [(1e4, 1.5), (1e6, 2.0)])
-        self.assert_at(svg, 0, "two-pass, full mesh", [(1e4, 4.5), (1e6, 6.0)])
+        self.assert_at(svg, 0, "finest relief", [(1e4, 4.5), (1e6, 6.0)])
+        self.assert_at(svg, 0, "two-pass, full mesh", [(1e4, 6.0), (1e6, 8.0)])
         self.assert_at(svg, 1, "finest level", [(1e4, 0.02), (1e6, 0.02)])
-        for label in ("1.50 x", "2.00 x", "6.00 x"):
+        for label in ("1.50 x", "2.00 x", "8.00 x"):
             self.assertEqual(svg.texts().count(label), 1, label)
 
     def test_latency_has_a_plot_for_each_tracker_and_dashes_what_does_not_predict(self):
