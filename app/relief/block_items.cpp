@@ -264,17 +264,6 @@ FRUSTUMSCREEN_INLINE void list(BlockItems& items, const BlockRelief& relief, con
     }
 }
 
-#if defined(__x86_64__)
-[[gnu::target("avx2")]] void list_with_avx2(BlockItems& items, const BlockRelief& relief,
-                                            const CastView& view, std::size_t part) {
-    list(items, relief, view, part);
-}
-#endif
-
-void list_plainly(BlockItems& items, const BlockRelief& relief, const CastView& view, std::size_t part) {
-    list(items, relief, view, part);
-}
-
 } // namespace
 
 void begin_list(BlockItems& items, const BlockRelief& relief, const CastView& view) {
@@ -291,13 +280,7 @@ void begin_list(BlockItems& items, const BlockRelief& relief, const CastView& vi
 
 void list_part(BlockItems& items, const BlockRelief& relief, const CastView& view, std::size_t part,
                Instructions instructions) {
-#if defined(__x86_64__)
-    if (instructions == Instructions::Best && __builtin_cpu_supports("avx2")) {
-        list_with_avx2(items, relief, view, part);
-        return;
-    }
-#endif
-    list_plainly(items, relief, view, part);
+    run_with<list>(instructions, items, relief, view, part);
 }
 
 /// By bins; in a bin as the blocks are.

@@ -8,6 +8,7 @@
 
 #include "app/relief/block_relief.h"
 #include "app/relief/cast_view.h"
+#include "app/relief/instructions.h"
 #include "app/relief/pixel_lens.h"
 
 #include <array>
@@ -52,17 +53,14 @@ struct BlockItems {
     std::vector<std::uint32_t> first_of_band; ///< in `banded`; one more at the end
 };
 
-/// The widest that the processor has, or what any of our processors has.
-enum class Instructions : std::uint8_t { Best, Plain };
-
 /// A list in three steps, of which the middle one may be made for several parts at once: as many as `begin_list` leaves.
 void begin_list(BlockItems& items, const BlockRelief& relief, const CastView& view);
 void list_part(BlockItems& items, const BlockRelief& relief, const CastView& view, std::size_t part,
-               Instructions instructions = Instructions::Best);
+               Instructions instructions = best_instructions());
 void end_list(BlockItems& items);
 
 /// All three: of `relief` as `view` shows it.
 void list_blocks(BlockItems& items, const BlockRelief& relief, const CastView& view,
-                 Instructions instructions = Instructions::Best);
+                 Instructions instructions = best_instructions());
 
 } // namespace frustumscreen

@@ -270,18 +270,6 @@ FRUSTUMSCREEN_INLINE void cast_all(CastSamples& samples, const BlockRelief& reli
     }
 }
 
-#if defined(__x86_64__)
-[[gnu::target("avx2")]] void cast_with_avx2(CastSamples& samples, const BlockRelief& relief,
-                                            const CastView& view, const BlockItems& items) {
-    cast_all(samples, relief, view, items);
-}
-#endif
-
-void cast_plainly(CastSamples& samples, const BlockRelief& relief, const CastView& view,
-                  const BlockItems& items) {
-    cast_all(samples, relief, view, items);
-}
-
 /// Sample k of n: the k-th column and a row of its own in a grid of n x n, rows in the order of reversed bits (Hammersley 1960), so
 /// that every edge of whatever slope passes one after another.
 glm::vec2 sample_place(int k, int n) {
@@ -321,13 +309,7 @@ void CastSamples::begin(const PixelRectangle& pixels, int count) {
 
 void cast(CastSamples& samples, const BlockRelief& relief, const CastView& view, const BlockItems& items,
           Instructions instructions) {
-#if defined(__x86_64__)
-    if (instructions == Instructions::Best && __builtin_cpu_supports("avx2")) {
-        cast_with_avx2(samples, relief, view, items);
-        return;
-    }
-#endif
-    cast_plainly(samples, relief, view, items);
+    run_with<cast_all>(instructions, samples, relief, view, items);
 }
 
 namespace {

@@ -3,8 +3,8 @@
 /// Units    nearness: 1 / t of the pixel's ray (cast_view.h), 0 where nothing is met; place: 1 / 4096 of a cell, column in the
 ///          lower half, row in the upper.
 /// Threads  the samples of one call are its own: `cast` may be called for several rectangles at once.
-/// SIMD     eight lanes by the compiler's vectors; AVX2 where the processor has it, else what the compiler was told; the pictures
-///          are equal, since nothing is contracted, approximated or summed in another order.
+/// SIMD     eight lanes by the compiler's vectors, for each of instructions.h; the pictures are equal, since nothing is contracted,
+///          approximated or summed in another order.
 #pragma once
 
 #include "app/relief/block_items.h"
@@ -63,7 +63,7 @@ private:
 
 /// Adds what `items` show in the samples' pixels.
 void cast(CastSamples& samples, const BlockRelief& relief, const CastView& view, const BlockItems& items,
-          Instructions instructions = Instructions::Best);
+          Instructions instructions = best_instructions());
 
 /// sRGB codes at a hit, bilinear between the corners.
 [[nodiscard]] glm::u8vec4 colour_at(const BlockRelief& relief, std::uint32_t block, std::uint32_t place);

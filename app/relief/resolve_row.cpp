@@ -186,30 +186,11 @@ FRUSTUMSCREEN_INLINE void resolve(const CastSamples& samples, const BlockRelief&
     }
 }
 
-#if defined(__x86_64__)
-[[gnu::target("avx2")]] void resolve_with_avx2(const CastSamples& samples, const BlockRelief& relief,
-                                               const SampleLight& light, int y, int first,
-                                               std::span<glm::u8vec4> codes) {
-    resolve(samples, relief, light, y, first, codes);
-}
-#endif
-
-void resolve_plainly(const CastSamples& samples, const BlockRelief& relief, const SampleLight& light, int y,
-                     int first, std::span<glm::u8vec4> codes) {
-    resolve(samples, relief, light, y, first, codes);
-}
-
 } // namespace
 
 void resolve_row(const CastSamples& samples, const BlockRelief& relief, const SampleLight& light, int y,
                  int first, std::span<glm::u8vec4> codes, Instructions instructions) {
-#if defined(__x86_64__)
-    if (instructions == Instructions::Best && __builtin_cpu_supports("avx2")) {
-        resolve_with_avx2(samples, relief, light, y, first, codes);
-        return;
-    }
-#endif
-    resolve_plainly(samples, relief, light, y, first, codes);
+    run_with<resolve>(instructions, samples, relief, light, y, first, codes);
 }
 
 } // namespace frustumscreen

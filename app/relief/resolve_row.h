@@ -17,6 +17,6 @@ namespace frustumscreen {
 
 /// Of row `y`, from pixel `first` on; alpha 0 where nothing was met.
 void resolve_row(const CastSamples& samples, const BlockRelief& relief, const SampleLight& light, int y,
-                 int first, std::span<glm::u8vec4> codes, Instructions instructions = Instructions::Best);
+                 int first, std::span<glm::u8vec4> codes, Instructions instructions = best_instructions());
 
 } // namespace frustumscreen

@@ -137,13 +137,6 @@ FRUSTUMSCREEN_INLINE void light_row(const CastLight::Parts& parts, int y, int fi
     }
 }
 
-#if defined(__x86_64__)
-[[gnu::target("avx2")]] void light_with_avx2(const CastLight::Parts& parts, int y, int first,
-                                             std::span<glm::u8vec4> codes) {
-    light_row(parts, y, first, codes);
-}
-#endif
-
 CastLight::Gain gain_of(const FacePlan& face, const Pinhole& pinhole, bool even_light, float brightness) {
     CastLight::Gain gain;
     const glm::dvec2 per_pixel = 1.0 / glm::dvec2(pinhole.fx, pinhole.fy);
@@ -208,13 +201,7 @@ void CastLight::begin(const FramePlan& plan, std::size_t cast) {
 }
 
 void CastLight::light(int y, int first, std::span<glm::u8vec4> codes) const {
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) {
-        light_with_avx2(parts_, y, first, codes);
-        return;
-    }
-#endif
-    light_row(parts_, y, first, codes);
+    run_with<light_row>(instructions_, parts_, y, first, codes);
 }
 
 } // namespace frustumscreen

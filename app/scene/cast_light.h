@@ -8,6 +8,7 @@
 /// SIMD     as relief/cast_blocks.h.
 #pragma once
 
+#include "app/relief/instructions.h"
 #include "app/relief/pixel_lens.h"
 #include "app/relief/relief_painter.h"
 #include "app/scene/frame_plan.h"
@@ -20,6 +21,8 @@ namespace frustumscreen {
 
 class CastLight final : public RowLight {
 public:
+    explicit CastLight(Instructions instructions = best_instructions()) : instructions_(instructions) {}
+
     /// Of one of the plan's casts.
     void begin(const FramePlan& plan, std::size_t cast);
     void light(int y, int first, std::span<glm::u8vec4> codes) const override;
@@ -54,6 +57,7 @@ public:
     };
 
 private:
+    Instructions instructions_;
     Parts parts_;
 };
 

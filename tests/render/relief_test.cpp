@@ -195,6 +195,34 @@ TEST(Relief, HasTheLightThatAMeshHasAndItsSoftEdges) {
     }
 }
 
+/// Any codes, on and beside the faces, in light that is made even and with soft edges.
+TEST(Relief, IsLitAlikeByTheInstructionsOfEveryProcessor) {
+    for (const Lens& lens : lenses) {
+        ReliefRig rig(1, 256, rings(), lens);
+        const Stage stage = stage_of(lens);
+        plan_frame(rig.prop, rig.cast, stage.view(LightCompensation{1.5}), rig.plan);
+        std::mt19937 random(11);
+        std::vector<glm::u8vec4> codes(static_cast<std::size_t>(stage.projector.width));
+        for (glm::u8vec4& each : codes) {
+            each = glm::u8vec4(random() % 256, random() % 256, random() % 256, 255);
+        }
+        std::vector<std::vector<glm::u8vec4>> lit;
+        for (const Instructions each : {Instructions::Plain, Instructions::Sse41, Instructions::Avx2}) {
+            if (each <= best_instructions()) {
+                CastLight light(each);
+                light.begin(rig.plan, 0);
+                lit.emplace_back();
+                for (int y = 0; y < stage.projector.height; ++y) {
+                    std::vector<glm::u8vec4> row = codes;
+                    light.light(y, 0, row);
+                    lit.back().insert(lit.back().end(), row.begin(), row.end());
+                }
+                EXPECT_EQ(lit.back(), lit.front());
+            }
+        }
+    }
+}
+
 TEST(Relief, HidesWhatShinesOnThePropWhereItIsAndNowhereElse) {
     ReliefRig rig(1);
     const Stage stage(320, 200);
