@@ -1,5 +1,6 @@
 #include "app/bench/measures/scaling.h"
 
+#include "app/bench/measures/subdivide.h"
 #include "assets_baked/artifacts/builtin.h"
 #include "assets_baked/bake/bake.h"
 
@@ -42,10 +43,19 @@ Result<void> add_size(TechniqueSet& set, const ScalingSource& source, const std:
     return set.measure_errors(*truth, poses, first, progress);
 }
 
+Result<SourceMesh> make_amphora(std::int64_t triangles, const ScalingOptions& options) {
+    Result<SourceMesh> made =
+        make_builtin("amphora", options.same_surface ? options.triangles.front() : triangles);
+    while (made && options.same_surface && std::ssize(made->triangles) < triangles * 9 / 10) {
+        *made = subdivide(*made);
+    }
+    return made;
+}
+
 Result<ScalingSource> bake_amphora(std::int64_t triangles, const ScalingOptions& options,
                                    const StepProgress& progress) {
     const std::string what = fmt::format("{} triangles: ", triangles);
-    Result<SourceMesh> made = make_builtin("amphora", triangles);
+    Result<SourceMesh> made = make_amphora(triangles, options);
     if (!made) {
         return tl::unexpected<Error>(made.error());
     }

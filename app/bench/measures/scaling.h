@@ -1,5 +1,5 @@
-/// Cost against the source's size: the built-in amphora at several counts of triangles, each baked anew, all
-/// drawn in one interleaved run; and the two-pass method with the same full meshes.
+/// Cost against the source's size: the built-in amphora at several counts of triangles, with the carving that so many can show, or one and
+/// the same surface cut into as many; each baked anew, all drawn in one interleaved run; and the two-pass method with the same full meshes.
 ///
 /// Threads  the one whose context is current; bake and truth use every core.
 /// Errors   whatever generator, bake and techniques report.
@@ -11,6 +11,8 @@ namespace frustumscreen {
 
 struct ScalingOptions {
     std::vector<std::int64_t> triangles = {100'000, 1'000'000, 4'000'000};
+    bool same_surface =
+        false;      ///< the first amphora, each triangle cut into four until there are as many at least
     int size = 512; ///< the bake's texels along the longest edge of a face
     PictureOptions picture;
     int poses = 10;

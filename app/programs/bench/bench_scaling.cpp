@@ -96,6 +96,10 @@ BenchCommand scaling_command(CommandLine& app) {
     add_picture_options(command, arguments->options.picture);
     add_pose_options(command, arguments->options.poses, arguments->options.seed);
     command.add_flag("--no-peers", arguments->no_peers, "leave out the two-pass method");
+    command.add_flag(
+        "--same-surface", arguments->options.same_surface,
+        "the first count's amphora alone, its triangles cut into four until there are as many as "
+        "each count says: more triangles, no more detail");
     command
         .add_option("--size", arguments->options.size,
                     "of the bakes, texels along the longest edge of a face")

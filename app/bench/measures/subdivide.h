@@ -1,0 +1,11 @@
+/// A mesh with more triangles and the same surface.
+#pragma once
+
+#include "assets_baked/bake/source_mesh.h"
+
+namespace frustumscreen {
+
+/// Cuts each triangle into four at the middles of its edges; attributes at a middle are the mean of the edge's ends.
+[[nodiscard]] SourceMesh subdivide(const SourceMesh& mesh);
+
+} // namespace frustumscreen
