@@ -1,6 +1,7 @@
 /// The code of lanes.h, compiled once for each set of vector instructions that our processors have: which one runs is chosen at run time.
 ///
-/// Every set makes the same numbers: nothing is contracted or approximated in any of them.
+/// Both sets make the same numbers: nothing is contracted or approximated in either. SSE4.1 between the two would gain nothing: what GCC 12
+/// makes of eight lanes for it compares and chooses them one by one (docs/relief.md).
 /// Threads  any.
 #pragma once
 
@@ -8,17 +9,13 @@
 
 namespace frustumscreen {
 
-/// Each has what those before it have.
-enum class Instructions : std::uint8_t { Plain, Sse41, Avx2 };
+enum class Instructions : std::uint8_t { Plain, Avx2 };
 
-/// The widest that this processor has. Small processors of mini PCs have SSE4.1 alone.
+/// The widest that this processor has.
 [[nodiscard]] inline Instructions best_instructions() {
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx2")) {
         return Instructions::Avx2;
-    }
-    if (__builtin_cpu_supports("sse4.1")) {
-        return Instructions::Sse41;
     }
 #endif
     return Instructions::Plain;
@@ -26,9 +23,6 @@ enum class Instructions : std::uint8_t { Plain, Sse41, Avx2 };
 
 #if defined(__x86_64__)
 template <auto run, typename... Given> [[gnu::target("avx2")]] void run_with_avx2(Given&... given) {
-    run(given...);
-}
-template <auto run, typename... Given> [[gnu::target("sse4.1")]] void run_with_sse41(Given&... given) {
     run(given...);
 }
 #endif
@@ -39,9 +33,6 @@ void run_with([[maybe_unused]] Instructions instructions, Given&... given) {
 #if defined(__x86_64__)
     if (instructions == Instructions::Avx2) {
         return run_with_avx2<run>(given...);
-    }
-    if (instructions == Instructions::Sse41) {
-        return run_with_sse41<run>(given...);
     }
 #endif
     run(given...);

@@ -196,7 +196,7 @@ TEST(Relief, HasTheLightThatAMeshHasAndItsSoftEdges) {
 }
 
 /// Any codes, on and beside the faces, in light that is made even and with soft edges.
-TEST(Relief, IsLitAlikeByTheInstructionsOfEveryProcessor) {
+TEST(Relief, IsLitAlikeByTheInstructionsOfAnyProcessor) {
     for (const Lens& lens : lenses) {
         ReliefRig rig(1, 256, rings(), lens);
         const Stage stage = stage_of(lens);
@@ -206,20 +206,21 @@ TEST(Relief, IsLitAlikeByTheInstructionsOfEveryProcessor) {
         for (glm::u8vec4& each : codes) {
             each = glm::u8vec4(random() % 256, random() % 256, random() % 256, 255);
         }
-        std::vector<std::vector<glm::u8vec4>> lit;
-        for (const Instructions each : {Instructions::Plain, Instructions::Sse41, Instructions::Avx2}) {
-            if (each <= best_instructions()) {
-                CastLight light(each);
-                light.begin(rig.plan, 0);
-                lit.emplace_back();
-                for (int y = 0; y < stage.projector.height; ++y) {
-                    std::vector<glm::u8vec4> row = codes;
-                    light.light(y, 0, row);
-                    lit.back().insert(lit.back().end(), row.begin(), row.end());
-                }
-                EXPECT_EQ(lit.back(), lit.front());
-            }
+        CastLight best;
+        CastLight plain(Instructions::Plain);
+        best.begin(rig.plan, 0);
+        plain.begin(rig.plan, 0);
+        std::size_t shown = 0;
+        for (int y = 0; y < stage.projector.height; ++y) {
+            std::vector<glm::u8vec4> a = codes;
+            std::vector<glm::u8vec4> b = codes;
+            best.light(y, 0, a);
+            plain.light(y, 0, b);
+            ASSERT_EQ(a, b) << y;
+            shown += static_cast<std::size_t>(
+                std::count_if(a.begin(), a.end(), [](const glm::u8vec4& each) { return each.g > 0; }));
         }
+        EXPECT_GT(shown, 1000U);
     }
 }
 
