@@ -16,6 +16,7 @@ namespace {
 
 BakeOptions quick(bool unlit = true) {
     BakeOptions options;
+    options.relief = false;
     options.size = 64;
     options.unlit = unlit;
     return options;

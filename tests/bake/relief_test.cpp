@@ -90,6 +90,7 @@ TEST(Relief, ItsLevelsAreOnTheFrontWhereASourceCannotBeSimplified) {
         test::add_triangle(soup, first, first + 1, first + 2);
     }
     BakeOptions options;
+    options.relief = false; // none to be cast
     options.size = 128;
     options.unlit = true;
     options.up = "z";

@@ -12,6 +12,7 @@ namespace {
 
 Pack baked(SourceMesh mesh) {
     BakeOptions options;
+    options.relief = false;
     options.size = 32;
     options.up = "z";
     options.unlit = true;

@@ -102,6 +102,7 @@ double reach_of(const TriangleMesh& mesh, std::size_t blade, const glm::vec3& to
 TEST(ThinParts, NoBladeIsShorterThanAMillimetreOnTheDefaultLevel) {
     const SourceMesh mesh = body_with_blades(blade_end);
     BakeOptions options;
+    options.relief = false;
     options.size = 64;
     options.unlit = true;
     options.up = "z";

@@ -49,11 +49,12 @@ std::shared_ptr<SourceMesh> fence(bool with_wall) {
 
 class CutOut : public DrawnNear {
 protected:
-    void bake_fence(bool with_wall) {
+    void bake_fence(bool with_wall, bool relief = false) {
         mesh_ = fence(with_wall);
         BakeOptions options;
         options.size = 512;
         options.unlit = true;
+        options.relief = relief;
         Result<Pack> pack = bake(*mesh_, options);
         ASSERT_TRUE(pack) << pack.error().message;
         pack_ = std::move(*pack);
@@ -100,7 +101,7 @@ TEST_F(CutOut, WhatStandsBehindShowsThroughTheGapsWithoutAFringe) {
 /// Rays pass the holes when the relief is made; so do those that it is cast with.
 TEST_F(CutOut, AReliefHasTheGapsAndWhatShowsThroughThem) {
     for (const bool with_wall : {false, true}) {
-        ASSERT_NO_FATAL_FAILURE(bake_fence(with_wall));
+        ASSERT_NO_FATAL_FAILURE(bake_fence(with_wall, true));
         const Truth truth = Truth::build(mesh_, place(pack_, stage_.prop).prop_from_artifact).value();
         const std::vector<ReliefOutline> outlines = reliefs_of(pack_).value();
         ASSERT_FALSE(outlines.empty());
@@ -127,6 +128,7 @@ TEST_F(CutOut, AnArtifactWithoutMaskPaysNothing) {
     BakeOptions options;
     options.size = 128;
     options.unlit = true;
+    options.relief = false;
     const Result<Pack> pack = bake(*mesh_, options);
     ASSERT_TRUE(pack);
     for (const Image8& texture : pack->textures) {

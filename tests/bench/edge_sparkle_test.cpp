@@ -83,6 +83,7 @@ TEST(EdgeSparkle, FeatheringCalmsTheEdgesAndNothingElse) {
     white->textures[0].image = std::make_shared<Image8>(8, 8, glm::u8vec4(255));
     BakeOptions options;
     options.size = 64;
+    options.relief = false;
     options.unlit = true;
     const Result<Pack> pack = bake(*white, options);
     ASSERT_TRUE(pack) << pack.error().message;

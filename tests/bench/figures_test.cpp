@@ -16,6 +16,7 @@ TEST(PackFigures, FalseOnesAreCaughtByMeasuring) {
     const auto mesh = ring();
     BakeOptions options;
     options.size = 64;
+    options.relief = false;
     options.unlit = true;
     const Pack pack = bake(*mesh, options).value();
     ASSERT_GT(pack.levels.size(), 1U);
