@@ -137,6 +137,12 @@ std::optional<std::string> refusal_of(const Lines& lines) {
 
 } // namespace
 
+glm::dvec2 pixel_of(PictureCorner corner, int width, int height) {
+    const bool right = corner == PictureCorner::TopRight || corner == PictureCorner::BottomRight;
+    const bool bottom = corner == PictureCorner::BottomLeft || corner == PictureCorner::BottomRight;
+    return {right ? width : 0.0, bottom ? height : 0.0};
+}
+
 CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int width, int height) {
     Lines lines;
     for (const MeasuredCorner& corner : corners) {
@@ -186,14 +192,14 @@ CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int
                                                  (rays.along[1] + rays.along[2]).normalized());
     calibration.vertical_deg = degrees_between((rays.along[0] + rays.along[1]).normalized(),
                                                (rays.along[3] + rays.along[2]).normalized());
-    const std::array<glm::dvec2, 4> pixels{{{0.0, 0.0}, {width, 0.0}, {width, height}, {0.0, height}}};
     double count = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
         for (const Place& place : lines[k]) {
             const Place from = place - meeting.place;
             const double off = (from - from.dot(rays.along[k]) * rays.along[k]).norm();
             const auto pixel = model.pixel(glm_vector(place));
-            const double off_px = pixel ? glm::distance(*pixel, pixels[k]) : 1e3;
+            const glm::dvec2 corner = pixel_of(static_cast<PictureCorner>(k), width, height);
+            const double off_px = pixel ? glm::distance(*pixel, corner) : 1e3;
             calibration.mean_residual_m += off;
             calibration.worst_residual_m = std::fmax(calibration.worst_residual_m, off);
             calibration.mean_residual_px += off_px;

@@ -21,6 +21,8 @@ namespace frustumscreen {
 
 enum class PictureCorner { TopLeft, TopRight, BottomRight, BottomLeft };
 
+[[nodiscard]] glm::dvec2 pixel_of(PictureCorner corner, int width, int height);
+
 struct MeasuredCorner {
     int distance = 0; ///< which one it was measured at, from 1
     PictureCorner corner = PictureCorner::TopLeft;

@@ -184,6 +184,7 @@ TouchUp touch_up(const CalibratedTable& kept, std::span<const Touch> touches, co
     TouchUp result;
     result.table = kept;
     result.uncertainty = picture_uncertainty(places, best.covariance);
+    result.zone = by_place(places, result.uncertainty.each_m);
     result.hidden_error_m = hidden_error_m(best.rows, best.covariance, places);
     if (something) {
         result.moved = std::abs(tracker.chi2 - projector.chi2) < apart ? Moved::Either

@@ -20,8 +20,10 @@ struct TouchUp {
     std::optional<CalibratedTable> table; ///< the kept one, corrected by what moved; nothing if refused
     double off_m = 0.0;                   ///< how far the picture was off, on average over the zone
     std::vector<TouchResidual> residuals; ///< of each touch at that table
-    PictureUncertainty uncertainty; ///< of the correction, one standard deviation; zero if nothing moved
-    double hidden_error_m = 0.0;    ///< what one wrong touch could do to it and yet agree with the others
+    PictureUncertainty
+        uncertainty; ///< of the correction that the touches tell, one standard deviation, also where none is made
+    double hidden_error_m = 0.0;        ///< what one wrong touch could do to it and yet agree with the others
+    std::vector<PlaceUncertainty> zone; ///< zone_columns x zone_rows of each height, from the table up
 };
 
 [[nodiscard]] TouchUp touch_up(const CalibratedTable& kept, std::span<const Touch> touches,

@@ -5,6 +5,7 @@
 
 import json
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -213,9 +214,35 @@ def test_command_line(programs):
     run(programs, rows, "--picture", "0", "1200", status=2)
 
 
+def test_corners(programs):
+    """By a ruler that seems exact: the projector, what a millimetre does to its picture, and that as a picture of its own."""
+    truth = Truth()
+    truth.k1 = truth.k2 = 0.0
+    rows = [(distance, name, *truth.lit(pixel, height)) for distance, height in ((1, 0.0), (2, 0.4))
+            for name, pixel in (("top_left", (0, 0)), ("top_right", (WIDTH, 0)), ("bottom_right", (WIDTH, HEIGHT)), ("bottom_left", (0, HEIGHT)))]
+
+    def corners(rows, *options, status=0):
+        file.write_text("distance,corner,x_m,y_m,z_m\n" + "".join(",".join(map(str, row)) + "\n" for row in rows))
+        done = subprocess.run([programs / "frustumscreen-calibrate", "corners", "--from", file, "--picture", str(WIDTH), str(HEIGHT),
+                               "--map", picture, *options], capture_output=True, text=True, check=False)
+        assert done.returncode == status, (done.returncode, done.stdout, done.stderr)
+        return done.stdout
+
+    with tempfile.TemporaryDirectory() as folder:
+        file, picture = (pathlib.Path(folder) / name for name in ("corners.csv", "map.png"))
+        found = json.loads(corners(rows, "--json"))
+        assert abs(found["projector"]["fx"] / truth.fx - 1) < 1e-6, found
+        assert found["ruler_mm"] == 1.0 and 0.3 < found["uncertainty_mm"]["mean"] < found["uncertainty_mm"]["worst"] < 5.0, found
+        assert struct.unpack(">II", picture.read_bytes()[16:24]) == (1600, 900)
+        assert "measured to 1.0 mm" in corners(rows)
+        picture.unlink()
+        refused = json.loads(corners(rows[:4], "--json", status=1))
+        assert refused["uncertainty_mm"] is None and not picture.exists(), refused
+
+
 def main():
     programs = pathlib.Path(sys.argv[1])
-    for test in (test_exact, test_scipy, test_refused, test_command_line):
+    for test in (test_exact, test_scipy, test_refused, test_command_line, test_corners):
         test(programs)
         print(f"{test.__name__}: well")
 

@@ -1,10 +1,11 @@
 // By hand with a ruler: exact without error, and what 5 mm cost beside touches.
-#include "app/calibration/corners.h"
+#include "app/calibration/corner_uncertainty.h"
 #include "tests/calibration/simulated_touches.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace frustumscreen {
@@ -90,6 +91,61 @@ TEST(Corners, ByHandThePictureIsFiveTimesWorseThanByTouch) {
                 1e3 * by_hand / (seeds - refused), 1e3 * by_touch / (seeds - refused), refused, seeds);
     EXPECT_GE(by_hand, 5.0 * by_touch);
     EXPECT_LE(refused, seeds / 10);
+}
+
+/// What is said of the picture is what the ruler does to it, for a lens that does not distort; one that does is worse.
+TEST(Corners, TheirUncertaintyIsTheErrorThatTheRulerMakes) {
+    double said = 0.0;
+    double made = 0.0;
+    double distorted = 0.0;
+    double ruler_m = 0.0;
+    double places = 0.0;
+    constexpr int seeds = 200;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        for (const bool distorts : {false, true}) {
+            SimulatedTable table = some_table(seed);
+            table.truth.pinhole.lens = distorts ? table.truth.pinhole.lens : Lens{};
+            SeededNumbers numbers(4000 + seed);
+            const Pinhole& p = table.truth.pinhole;
+            const std::vector<MeasuredCorner> corners = measured(table, 0.4, 0.005, numbers);
+            const CornerCalibration found = calibrate_corners(corners, p.width, p.height);
+            ASSERT_TRUE(found.pinhole) << found.reason;
+            const CornerUncertainty uncertainty = uncertainty_of(found, corners, 0.12);
+            ASSERT_EQ(uncertainty.zone.size(), 3 * zone_columns * zone_rows);
+            ruler_m += distorts ? 0.0 : uncertainty.ruler_error_m / seeds;
+            CalibratedTable calibrated = table.truth;
+            calibrated.pinhole = *found.pinhole;
+            calibrated.table_from_projector = found.measured_from_projector;
+            for (const PlaceUncertainty& place : uncertainty.zone) {
+                const glm::dvec3 meant = true_light(calibrated, place.pixel, place.height_m);
+                const glm::dvec3 lit = true_light(table.truth, place.pixel, place.height_m);
+                const double square = std::pow(glm::distance(meant, lit), 2.0);
+                (distorts ? distorted : made) += square;
+                said += distorts ? 0.0 : place.rms_m * place.rms_m;
+                places += distorts ? 0.0 : 1.0;
+            }
+        }
+    }
+    std::printf("by hand the picture is off by %.2f mm root mean square, said are %.2f mm; with distortion "
+                "%.2f mm; the ruler "
+                "errs by %.2f mm\n",
+                1e3 * std::sqrt(made / places), 1e3 * std::sqrt(said / places),
+                1e3 * std::sqrt(distorted / places), 1e3 * ruler_m);
+    EXPECT_NEAR(std::sqrt(made / said), 1.0, 0.2);
+    EXPECT_NEAR(ruler_m, 0.005, 0.0005);
+}
+
+TEST(Corners, ARulerThatSeemsExactIsHeldForAMillimetre) {
+    SimulatedTable table = some_table(2);
+    table.truth.pinhole.lens = {};
+    SeededNumbers numbers(2);
+    const Pinhole& p = table.truth.pinhole;
+    const std::vector<MeasuredCorner> corners = measured(table, 0.4, 0.0, numbers);
+    const CornerUncertainty exact =
+        uncertainty_of(calibrate_corners(corners, p.width, p.height), corners, 0.12);
+    EXPECT_EQ(exact.ruler_error_m, least_ruler_error_m);
+    EXPECT_GT(exact.picture.mean_m, 0.2e-3);
+    EXPECT_LT(exact.picture.worst_m, 3e-3);
 }
 
 } // namespace

@@ -7,6 +7,7 @@ The truth's arithmetic is true_table.py's. The recording has no noise: afterward
 import json
 import math
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -167,8 +168,10 @@ class Table(unittest.TestCase):
         self.assertEqual((found["moved"], found["verdict"]), ("tracker", "good"))
         self.assertAlmostEqual(found["off_mm"], 15.5, delta=2.0)
         self.check_picture(tomllib.loads((kept / "calibration-0002.toml").read_text()), truth)
-        wrong = self.touch_up(truth, crosses, "--map", self.folder / "map.png")
-        self.assertEqual(wrong.returncode, 2)
+        drawn = self.touch_up(truth, crosses, "--map", self.folder / "map.png")  # of what counts now: nothing moved any more
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        self.assertIn("nothing moved", drawn.stdout)
+        self.assertEqual(struct.unpack(">II", (self.folder / "map.png").read_bytes()[16:24]), (1600, 900))
 
     def test_the_touch_up_is_offered_and_puts_the_picture_right(self):
         self.write([])

@@ -67,7 +67,8 @@ Bumped bumped(std::uint64_t seed, Moved what, double off_m, ChosenCrosses& cross
 
 struct Share {
     int named = 0, either = 0, misnamed = 0, nothing = 0, refused = 0, usable = 0, broken = 0;
-    double before_mm = 0.0, after_mm = 0.0, after_worst_mm = 0.0;
+    double before_mm = 0.0, after_mm = 0.0;
+    double said_mm = 0.0; ///< of those with a table
     std::vector<double> worst_mm;
 };
 
@@ -91,15 +92,17 @@ Share share_of(Moved what, double off_m, std::size_t count, std::uint64_t seeds,
         }
         share.before_mm += 1e3 * before.mean_m / static_cast<double>(seeds);
         share.after_mm += 1e3 * after.mean_m / static_cast<double>(seeds);
+        share.said_mm += 1e3 * found.uncertainty.mean_m / static_cast<double>(seeds);
         share.worst_mm.push_back(1e3 * after.worst_m);
+        EXPECT_EQ(found.zone.size(), found.table ? 3 * zone_columns * zone_rows : 0);
     }
     std::sort(share.worst_mm.begin(), share.worst_mm.end());
-    std::printf(
-        "%s, off by %2.0f mm, %d touches: mean %.2f -> %.2f mm, worst place in 9 of 10 %.2f; named %d, "
-        "either %d, wrongly %d, nothing %d, refused %d; good or usable %d, broken %d\n",
-        std::string(name_of(what)).c_str(), 1e3 * off_m, static_cast<int>(count), share.before_mm,
-        share.after_mm, share.worst_mm[share.worst_mm.size() * 9 / 10], share.named, share.either,
-        share.misnamed, share.nothing, share.refused, share.usable, share.broken);
+    std::printf("%s, off by %2.0f mm, %d touches: mean %.2f -> %.2f mm (said %.2f), worst place in 9 of 10 "
+                "%.2f; named %d, "
+                "either %d, wrongly %d, nothing %d, refused %d; good or usable %d, broken %d\n",
+                std::string(name_of(what)).c_str(), 1e3 * off_m, static_cast<int>(count), share.before_mm,
+                share.after_mm, share.said_mm, share.worst_mm[share.worst_mm.size() * 9 / 10], share.named,
+                share.either, share.misnamed, share.nothing, share.refused, share.usable, share.broken);
     return share;
 }
 
@@ -151,6 +154,7 @@ TEST(TouchUp, ThePictureComesBackToItsPlace) {
     for (const Moved what : {Moved::Projector, Moved::Tracker}) {
         const Share share = share_of(what, 10e-3, 7, 8, crosses);
         EXPECT_LT(share.after_mm, 1.0);
+        EXPECT_NEAR(share.said_mm / share.after_mm, 1.0, 0.35); // the map is honest
         EXPECT_GE(share.usable, 6);
         EXPECT_LE(share.misnamed, 1);
         EXPECT_EQ(share.broken, 0);

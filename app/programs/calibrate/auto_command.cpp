@@ -76,8 +76,8 @@ Result<int> calibrate(const CalibrateRequest& request) {
         fmt::print("{}", auto_text(calibration, *rests));
     }
     if (!request.map.empty()) {
-        if (const Result<void> drawn =
-                write_uncertainty(request.map, calibration.found, places_of(*rests), described->top_m);
+        if (const Result<void> drawn = write_uncertainty(request.map, map_of(calibration.found),
+                                                         places_of(*rests), described->top_m);
             !drawn) {
             return tl::unexpected<Error>(drawn.error());
         }

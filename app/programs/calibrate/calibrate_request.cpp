@@ -21,6 +21,13 @@ void add_common_options(CommandLine& command, CalibrateRequest& request) {
     command.add_flag("--json", request.json, "for programs");
 }
 
+void add_map_option(CommandLine& command, CalibrateRequest& request) {
+    command
+        .add_option("--map", request.map,
+                    "draws how uncertain the picture is, on the table and at the prop's top: PNG")
+        .needs("--from");
+}
+
 void add_touch_options(CommandLine& command, CalibrateRequest& request) {
     command
         .add_option("--sensor-height", request.sensor_height_m,
@@ -29,10 +36,7 @@ void add_touch_options(CommandLine& command, CalibrateRequest& request) {
     command
         .add_flag("--keep", request.keep, "keeps what is good or usable, in the settings' calibration.folder")
         .needs("--config");
-    command
-        .add_option("--map", request.map,
-                    "draws how uncertain the picture is, on the table and at the prop's top: PNG")
-        .needs("--from");
+    add_map_option(command, request);
 }
 
 void check_request(const CalibrateRequest& request) {

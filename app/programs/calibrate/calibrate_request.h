@@ -49,6 +49,7 @@ struct Described {
 };
 
 void add_common_options(CommandLine& command, CalibrateRequest& request);
+void add_map_option(CommandLine& command, CalibrateRequest& request);
 /// --sensor-height, --keep and --map.
 void add_touch_options(CommandLine& command, CalibrateRequest& request);
 /// Throws a WrongUse at what does not go.

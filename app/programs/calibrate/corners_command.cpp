@@ -1,8 +1,9 @@
 #include "app/programs/calibrate/corners_command.h"
 
-#include "app/calibration/corners.h"
+#include "app/calibration/corner_uncertainty.h"
 #include "app/calibration/point_files.h"
 #include "app/programs/calibrate/touch_command.h"
+#include "app/programs/calibrate/uncertainty_picture.h"
 #include "app/programs/common/command_line.h"
 
 #include <fmt/format.h>
@@ -14,11 +15,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The same shape as that of a calibration by touch, as far as it goes: there is no tracker in it.
-Json corners_json(const CornerCalibration& c) {
+Json corners_json(const CornerCalibration& c, const CornerUncertainty& uncertainty) {
     Json json{{"projector", nullptr},   {"table_from_tracker", nullptr}, {"sensor_offset_m", nullptr},
               {"residual_mm", nullptr}, {"residual_px", nullptr},        {"centre_m", nullptr},
-              {"angles_deg", nullptr},  {"condition", nullptr},          {"verdict", name_of(c.verdict)},
-              {"reason", c.reason},     {"repeat", Json::array()}};
+              {"angles_deg", nullptr},  {"condition", nullptr},          {"uncertainty_mm", nullptr},
+              {"ruler_mm", nullptr},    {"verdict", name_of(c.verdict)}, {"reason", c.reason},
+              {"repeat", Json::array()}};
     if (c.pinhole) {
         json["projector"] = projector_json(*c.pinhole, c.table_from_projector);
         json["residual_mm"] = mm_json(c.mean_residual_m, c.worst_residual_m);
@@ -26,17 +28,24 @@ Json corners_json(const CornerCalibration& c) {
         json["centre_m"] = {c.centre_m.x, c.centre_m.y, c.centre_m.z};
         json["angles_deg"] = {{"horizontal", c.horizontal_deg}, {"vertical", c.vertical_deg}};
         json["condition"] = c.condition;
+        json["uncertainty_mm"] = mm_json(uncertainty.picture.mean_m, uncertainty.picture.worst_m);
+        json["ruler_mm"] = 1e3 * uncertainty.ruler_error_m;
     }
     return json;
 }
 
-std::string corners_text(const CornerCalibration& c) {
+std::string corners_text(const CornerCalibration& c, const CornerUncertainty& uncertainty) {
     std::string text = fmt::format("{}: {}\n", name_of(c.verdict), c.reason);
     if (c.pinhole) {
         text += fmt::format(
             "The light comes from ({:.3f}, {:.3f}, {:.3f}) m, {:.1f} degrees wide and {:.1f} high.\n",
             c.centre_m.x, c.centre_m.y, c.centre_m.z, c.horizontal_deg, c.vertical_deg);
         text += fmt::format("Along its axis that is {:.0f} times as uncertain as across it.\n", c.condition);
+        text += fmt::format("A corner is measured to {:.1f} mm, and the light lies {:.1f} mm beside its "
+                            "place on average over "
+                            "the zone, {:.1f} mm at the worst place (one standard deviation).\n",
+                            1e3 * uncertainty.ruler_error_m, 1e3 * uncertainty.picture.mean_m,
+                            1e3 * uncertainty.picture.worst_m);
     }
     return text;
 }
@@ -51,10 +60,20 @@ Result<int> corners(const CalibrateRequest& request) {
         return tl::unexpected<Error>(measured.error());
     }
     const CornerCalibration calibration = calibrate_corners(*measured, described->width, described->height);
+    const CornerUncertainty uncertainty =
+        calibration.pinhole ? uncertainty_of(calibration, *measured, described->top_m) : CornerUncertainty{};
     if (request.json) {
-        fmt::print("{}\n", corners_json(calibration).dump(2));
+        fmt::print("{}\n", corners_json(calibration, uncertainty).dump(2));
     } else {
-        fmt::print("{}", corners_text(calibration));
+        fmt::print("{}", corners_text(calibration, uncertainty));
+    }
+    if (!request.map.empty()) {
+        const MeasuredPlaces places = places_of(*measured, described->width, described->height);
+        if (const Result<void> drawn =
+                write_uncertainty(request.map, map_of(calibration, uncertainty), places, described->top_m);
+            !drawn) {
+            return tl::unexpected<Error>(drawn.error());
+        }
     }
     return status_of(calibration.verdict, request, calibration.reason);
 }
@@ -65,6 +84,7 @@ void add_corners_command(CommandLine& app, CalibrateRequest& request, std::funct
     CommandLine command = app.add_subcommand(
         "corners", "from the picture's four corners, measured by hand at two distances: the projector");
     add_common_options(command, request);
+    add_map_option(command, request);
     command.callback([&] { chosen = [&] { return end_with(corners(request)); }; });
 }
 

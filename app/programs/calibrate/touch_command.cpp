@@ -51,7 +51,7 @@ Result<int> touch(const CalibrateRequest& request) {
     }
     if (!request.map.empty()) {
         if (const Result<void> drawn =
-                write_uncertainty(request.map, calibration, places_of(*touches), described->top_m);
+                write_uncertainty(request.map, map_of(calibration), places_of(*touches), described->top_m);
             !drawn) {
             return tl::unexpected<Error>(drawn.error());
         }
@@ -117,7 +117,6 @@ void add_touch_command(CommandLine& app, CalibrateRequest& request, std::functio
         .add_flag("--touch-up", request.touch_up,
                   "corrects the kept calibration by three touches or more: what moved since, and how far")
         .needs("--config")
-        .excludes("--map")
         .excludes("--sensor-height");
     command.callback([&] { chosen = [&] { return end_with(touch(request)); }; });
 }

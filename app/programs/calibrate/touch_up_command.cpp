@@ -4,6 +4,7 @@
 #include "app/drift/drift_reference.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/touch_command.h"
+#include "app/programs/calibrate/uncertainty_picture.h"
 
 #include <fmt/format.h>
 
@@ -92,6 +93,13 @@ Result<int> touch_up_kept(const CalibrateRequest& request, const Described& desc
         fmt::print("{}\n", touch_up_json(found).dump(2));
     } else {
         fmt::print("{}: {}\n", name_of(found.verdict), found.reason);
+    }
+    if (!request.map.empty()) {
+        if (const Result<void> drawn =
+                write_uncertainty(request.map, map_of(found), places_of(touches), described.top_m);
+            !drawn) {
+            return tl::unexpected<Error>(drawn.error());
+        }
     }
     const int status = status_of(found.verdict, request, found.reason);
     if (status == 0 && request.keep) {

@@ -46,9 +46,9 @@ double band_mm(double largest_mm) {
 /// One height of the zone, as the calibration has it: a grid over the projector's picture.
 class Level {
 public:
-    Level(const TouchCalibration& calibration, double height_m)
-        : table_(*calibration.table), height_m_(height_m), projector_(table_.table_from_projector.inverse()) {
-        for (const PlaceUncertainty& place : calibration.zone) {
+    Level(const UncertaintyMap& map, double height_m)
+        : pinhole_(map.pinhole), height_m_(height_m), projector_(map.table_from_projector.inverse()) {
+        for (const PlaceUncertainty& place : map.zone) {
             if (std::abs(place.height_m - height_m) < 1e-9) {
                 values_.push_back(place.rms_m);
             }
@@ -57,8 +57,8 @@ public:
 
     /// Metres; nothing where the picture does not reach.
     [[nodiscard]] std::optional<double> at(const glm::dvec2& place) const {
-        const auto pixel = table_.pinhole.pixel(projector_.point({place, height_m_}));
-        const glm::dvec2 size(table_.pinhole.width, table_.pinhole.height);
+        const auto pixel = pinhole_.pixel(projector_.point({place, height_m_}));
+        const glm::dvec2 size(pinhole_.width, pinhole_.height);
         if (!pixel || values_.size() != zone_columns * zone_rows ||
             glm::any(glm::lessThan(*pixel, glm::dvec2(0.0))) || glm::any(glm::greaterThan(*pixel, size))) {
             return std::nullopt;
@@ -74,16 +74,16 @@ public:
     [[nodiscard]] double height_m() const { return height_m_; }
 
 private:
-    const CalibratedTable& table_;
+    const Pinhole& pinhole_;
     double height_m_;
     RigidTransform projector_;
     std::vector<double> values_;
 };
 
 /// Where a pixel's light meets a height.
-glm::dvec2 light_of(const CalibratedTable& table, const glm::dvec2& pixel, double height_m) {
-    const RigidTransform& pose = table.table_from_projector;
-    const glm::dvec3 ray = pose.direction(table.pinhole.ray(pixel));
+glm::dvec2 light_of(const UncertaintyMap& map, const glm::dvec2& pixel, double height_m) {
+    const RigidTransform& pose = map.table_from_projector;
+    const glm::dvec3 ray = pose.direction(map.pinhole.ray(pixel));
     return glm::dvec2(pose.translation + ray * ((height_m - pose.translation.z) / ray.z));
 }
 
@@ -102,13 +102,12 @@ struct Field {
 };
 
 /// The picture's corners on the table, in the largest scale at which they fit.
-Field fitted(const CalibratedTable& table) {
+Field fitted(const UncertaintyMap& map) {
     glm::dvec2 low(1e9);
     glm::dvec2 high(-1e9);
     for (const glm::dvec2& corner :
          {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)}) {
-        const glm::dvec2 at =
-            light_of(table, corner * glm::dvec2(table.pinhole.width, table.pinhole.height), 0.0);
+        const glm::dvec2 at = light_of(map, corner * glm::dvec2(map.pinhole.width, map.pinhole.height), 0.0);
         low = glm::min(low, at);
         high = glm::max(high, at);
     }
@@ -147,13 +146,13 @@ void draw_cross(Canvas& canvas, const Typesetter& typesetter, const glm::dvec2& 
 }
 
 /// The picture's edge, straight enough between its corners and the middles of its sides.
-void draw_edge(Canvas& canvas, const CalibratedTable& table, const Field& field, double height_m) {
+void draw_edge(Canvas& canvas, const UncertaintyMap& map, const Field& field, double height_m) {
     std::vector<glm::dvec2> edge;
     for (const glm::dvec2& share :
          {glm::dvec2(0.0, 0.0), glm::dvec2(0.5, 0.0), glm::dvec2(1.0, 0.0), glm::dvec2(1.0, 0.5),
           glm::dvec2(1.0, 1.0), glm::dvec2(0.5, 1.0), glm::dvec2(0.0, 1.0), glm::dvec2(0.0, 0.5)}) {
-        const glm::dvec2 size(table.pinhole.width, table.pinhole.height);
-        edge.push_back(field.pixel(light_of(table, share * size, height_m)));
+        const glm::dvec2 size(map.pinhole.width, map.pinhole.height);
+        edge.push_back(field.pixel(light_of(map, share * size, height_m)));
     }
     canvas.outline(edge, 1.5, grey);
 }
@@ -214,50 +213,83 @@ MeasuredPlaces places_of(std::span<const Rest> rests) {
     return measured;
 }
 
-Image8 uncertainty_picture(const TouchCalibration& calibration, const MeasuredPlaces& measured, double top_m,
+MeasuredPlaces places_of(std::span<const MeasuredCorner> corners, int width, int height) {
+    MeasuredPlaces measured{"a measured corner", {}};
+    for (const MeasuredCorner& corner : corners) {
+        measured.places.push_back({pixel_of(corner.corner, width, height), corner.place_m.z,
+                                   static_cast<int>(measured.places.size()) + 1});
+    }
+    return measured;
+}
+
+std::optional<UncertaintyMap> map_of(const TouchCalibration& calibration) {
+    if (!calibration.table) {
+        return std::nullopt;
+    }
+    return UncertaintyMap{calibration.verdict, calibration.table->pinhole,
+                          calibration.table->table_from_projector, calibration.uncertainty, calibration.zone};
+}
+
+std::optional<UncertaintyMap> map_of(const TouchUp& touched_up) {
+    if (!touched_up.table) {
+        return std::nullopt;
+    }
+    return UncertaintyMap{touched_up.verdict, touched_up.table->pinhole,
+                          touched_up.table->table_from_projector, touched_up.uncertainty, touched_up.zone};
+}
+
+std::optional<UncertaintyMap> map_of(const CornerCalibration& calibration,
+                                     const CornerUncertainty& uncertainty) {
+    if (!calibration.pinhole) {
+        return std::nullopt;
+    }
+    return UncertaintyMap{calibration.verdict, *calibration.pinhole, calibration.table_from_projector,
+                          uncertainty.picture, uncertainty.zone};
+}
+
+Image8 uncertainty_picture(const UncertaintyMap& map, const MeasuredPlaces& measured, double top_m,
                            const Typesetter& typesetter) {
-    const CalibratedTable& table = *calibration.table;
-    const std::array<Level, 2> levels{Level(calibration, 0.0), Level(calibration, top_m)};
+    const std::array<Level, 2> levels{Level(map, 0.0), Level(map, top_m)};
     std::array<Field, 2> fields;
-    fields.fill(fitted(table));
+    fields.fill(fitted(map));
     fields[0].low_px = {margin_px, field_top_px};
     fields[1].low_px = {margin_px + field_px.x + between_px, field_top_px};
-    const double width_mm = band_mm(1e3 * calibration.uncertainty.worst_m);
+    const double width_mm = band_mm(1e3 * map.uncertainty.worst_m);
     Canvas canvas(coloured(levels, fields, 1e-3 * width_mm));
     canvas.text(typesetter, "How far the light may lie beside its place", {margin_px, 36.0}, 38.0, ink, {},
                 true);
     canvas.text(typesetter,
                 fmt::format("{}: {:.2f} mm on average over the zone, {:.2f} mm at the worst place",
-                            name_of(calibration.verdict), 1e3 * calibration.uncertainty.mean_m,
-                            1e3 * calibration.uncertainty.worst_m),
+                            name_of(map.verdict), 1e3 * map.uncertainty.mean_m,
+                            1e3 * map.uncertainty.worst_m),
                 {margin_px, 92.0}, 23.0, grey);
     for (std::size_t k = 0; k < levels.size(); ++k) {
         canvas.text(typesetter,
                     k == 0 ? std::string("On the table, seen from above")
                            : fmt::format("{:.0f} mm above it, at the prop's top", 1e3 * top_m),
                     fields[k].low_px - glm::dvec2(0.0, 44.0), 23.0, ink, {}, true);
-        draw_edge(canvas, table, fields[k], levels[k].height_m());
+        draw_edge(canvas, map, fields[k], levels[k].height_m());
         draw_scale(canvas, typesetter, fields[k]);
     }
     for (const MeasuredPlace& place : measured.places) {
         const std::size_t level = place.height_m > 0.5 * top_m ? 1 : 0;
-        const glm::dvec2 at = light_of(table, place.pixel, levels[level].height_m());
+        const glm::dvec2 at = light_of(map, place.pixel, levels[level].height_m());
         draw_cross(canvas, typesetter, fields[level].pixel(at), place.number);
     }
     draw_legend(canvas, typesetter, width_mm, measured.what);
     return canvas.take();
 }
 
-Result<void> write_uncertainty(const std::filesystem::path& file, const TouchCalibration& calibration,
+Result<void> write_uncertainty(const std::filesystem::path& file, const std::optional<UncertaintyMap>& map,
                                const MeasuredPlaces& measured, double top_m) {
-    if (!calibration.table) {
+    if (!map) {
         return {}; // nothing is known, and the reason is told
     }
     const Result<Typesetter> typesetter = Typesetter::open();
     if (!typesetter) {
         return tl::unexpected<Error>(typesetter.error());
     }
-    return write_file(file, encode_png(uncertainty_picture(calibration, measured, top_m, *typesetter)));
+    return write_file(file, encode_png(uncertainty_picture(*map, measured, top_m, *typesetter)));
 }
 
 } // namespace frustumscreen
