@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace frustumscreen {
@@ -107,6 +108,17 @@ HandMotion recorded(std::span<const RecordedPose> poses) {
         }
         const RecordedPose& before = *(after - 1);
         return between(before.pose, after->pose, (t_s - before.t_s) / (after->t_s - before.t_s));
+    };
+}
+
+HandMotion slid(HandMotion hand, double begin_s) {
+    const RigidTransform begin = hand(begin_s);
+    return [hand = std::move(hand), begin_s, begin](double t_s) {
+        const RigidTransform now = hand(begin_s + t_s);
+        const glm::dquat turn = now.rotation * glm::conjugate(begin.rotation);
+        const glm::dquat about_z = glm::normalize(glm::dquat(turn.w, 0.0, 0.0, turn.z));
+        const glm::dvec3 way = now.translation - begin.translation;
+        return RigidTransform{about_z, {way.x, way.y, 0.0}};
     };
 }
 

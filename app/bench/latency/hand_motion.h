@@ -33,4 +33,7 @@ struct RecordedPose {
 /// poses must outlive it.
 [[nodiscard]] HandMotion recorded(std::span<const RecordedPose> poses);
 
+/// What a hand does, from `begin_s` on, with a prop that it slides on the table: the way since then across Z, and the turn about Z.
+[[nodiscard]] HandMotion slid(HandMotion hand, double begin_s);
+
 } // namespace frustumscreen

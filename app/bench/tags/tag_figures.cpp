@@ -28,6 +28,13 @@ PropMotion any_motion(const TagCase& of, std::mt19937_64& random) {
     const double heading = glm::radians(180.0 * share(random));
     const glm::dvec3 velocity = of.speed_m_s * glm::dvec3(std::cos(heading), std::sin(heading), 0.0);
     const double turning = glm::radians(of.turn_deg_s);
+    if (of.motion) {
+        return [begin = RigidTransform{rotation_of({0.0, 0.0, yaw}), place},
+                motion = of.motion(random)](double t_s) {
+            const RigidTransform moved = motion(t_s);
+            return RigidTransform{moved.rotation * begin.rotation, begin.translation + moved.translation};
+        };
+    }
     return [=](double t_s) {
         return RigidTransform{rotation_of({0.0, 0.0, yaw + turning * t_s}), place + t_s * velocity};
     };

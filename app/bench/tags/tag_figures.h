@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct TagCase {
     SceneLight light{};
     double speed_m_s = 0.0;
     double turn_deg_s = 0.0;
+    /// Another motion for each picture, as displacement and turn on the table since its beginning; none: at the speeds above.
+    std::function<PropMotion(std::mt19937_64&)> motion{};
     double decimate = 1.0; ///< 2: searched at half size
 };
 

@@ -1,8 +1,8 @@
 #include "app/bench/latency/latency_report.h"
+#include "app/bench/latency/recorded_poses.h"
 #include "app/programs/bench/bench_command.h"
 #include "app/programs/common/command_line.h"
 #include "firmware_host/base/file.h"
-#include "firmware_host/tracker/convert_recording.h"
 
 #include <array>
 #include <memory>
@@ -34,23 +34,6 @@ constexpr std::array recording_files = {
     RecordingFile{"vicon_handheld_1.csv", false}, RecordingFile{"tum_fr1_xyz_groundtruth.txt", false},
     RecordingFile{"camera_target_handheld_1.csv", true}, RecordingFile{"tum_fr1_xyz_rgbdslam.txt", true}};
 
-Result<Recording> read_recording(const std::filesystem::path& path, const RecordingFile& file) {
-    const Result<Bytes> bytes = read_file(path);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    const Result<ConvertedRecording> converted = convert_recording(as_text(*bytes), path.string(), {});
-    if (!converted) {
-        return tl::unexpected<Error>(converted.error());
-    }
-    Recording recording{std::string(file.name), {}, file.noisy};
-    for (const PoseSample& sample : converted->samples) {
-        recording.poses.push_back(
-            {to_seconds(sample.time.time_since_epoch()), {sample.rotation, sample.position_m}});
-    }
-    return recording;
-}
-
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     const std::vector<TrackedBy> measured_trackers = trackers();
     std::vector<TrackerResult> results;
@@ -68,11 +51,12 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
             fmt::print(stderr, "frustumscreen-bench: {}: not there, left out\n", path.string());
             continue;
         }
-        const Result<Recording> recording = read_recording(path, file);
-        if (!recording) {
-            return tl::unexpected<Error>(recording.error());
+        Result<std::vector<RecordedPose>> poses = read_recorded_poses(path);
+        if (!poses) {
+            return tl::unexpected<Error>(poses.error());
         }
-        recordings.push_back(measure_recording(*recording, arguments.options));
+        recordings.push_back(
+            measure_recording({std::string(file.name), *std::move(poses), file.noisy}, arguments.options));
     }
     if (!recordings.empty()) {
         fmt::print("{}\n", recordings_table(recordings));

@@ -1,8 +1,11 @@
+#include "app/bench/latency/recorded_poses.h"
 #include "app/bench/tags/tag_figures.h"
 #include "app/programs/bench/bench_command.h"
 #include "app/programs/common/command_line.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
 
+#include <cmath>
 #include <memory>
 
 namespace frustumscreen {
@@ -11,13 +14,49 @@ namespace {
 
 struct Arguments {
     std::filesystem::path out;
+    std::filesystem::path recordings = "../shared/data/tracker";
     std::size_t pictures = 40;
     std::uint64_t seed = 1;
     bool half = false;
 };
 
+/// As the hand of a recording, from any moment of it on. What is up in the recording is up on the table.
+std::function<PropMotion(std::mt19937_64&)> slid_as(std::shared_ptr<const std::vector<RecordedPose>> poses) {
+    return [poses = std::move(poses)](std::mt19937_64& random) -> PropMotion {
+        std::uniform_real_distribution<double> any_s(poses->front().t_s, poses->back().t_s);
+        return [poses, motion = slid(recorded(*poses), any_s(random))](double t_s) { return motion(t_s); };
+    };
+}
+
+/// Recordings that are not there are left out, in a line.
+Result<void> add_recordings(const std::filesystem::path& folder, std::vector<TagCase>& cases) {
+    for (const char* name : {"vicon_handheld_1.csv", "tum_fr1_xyz_groundtruth.txt"}) {
+        if (!std::filesystem::exists(folder / name)) {
+            say_line("frustumscreen-bench", fmt::format("{}: not there, left out", (folder / name).string()));
+            continue;
+        }
+        Result<std::vector<RecordedPose>> poses = read_recorded_poses(folder / name);
+        if (!poses) {
+            return tl::unexpected<Error>(poses.error());
+        }
+        const auto motion = slid_as(std::make_shared<const std::vector<RecordedPose>>(*std::move(poses)));
+        for (const double rolling_ms : {0.0, 25.0}) {
+            TagCase one;
+            one.name =
+                fmt::format("slid as in {}, {} shutter", name, rolling_ms > 0.0 ? "rolling 25 ms" : "global");
+            one.motion = motion;
+            one.camera.rolling_ms = rolling_ms;
+            cases.push_back(std::move(one));
+        }
+    }
+    return {};
+}
+
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     std::vector<TagCase> cases = tag_cases();
+    if (Result<void> added = add_recordings(arguments.recordings, cases); !added) {
+        return added;
+    }
     for (TagCase& one : cases) {
         one.decimate = arguments.half ? 2.0 : 1.0;
     }
@@ -38,6 +77,10 @@ BenchCommand tags_command(CommandLine& app) {
         app.add_subcommand("tags", "the prop's pose by its tags, in rendered scenes: error, spread and time");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the table").required();
+    command
+        .add_option("--recordings", arguments->recordings,
+                    "folder of recordings of hands to slide the prop by as well")
+        .capture_default_str();
     command.add_option("--pictures", arguments->pictures, "of each scene")
         .within(1, 100000)
         .capture_default_str();

@@ -1,0 +1,24 @@
+#include "app/bench/latency/recorded_poses.h"
+
+#include "firmware_host/base/file.h"
+#include "firmware_host/tracker/convert_recording.h"
+
+namespace frustumscreen {
+
+Result<std::vector<RecordedPose>> read_recorded_poses(const std::filesystem::path& file) {
+    const Result<Bytes> bytes = read_file(file);
+    if (!bytes) {
+        return tl::unexpected<Error>(bytes.error());
+    }
+    const Result<ConvertedRecording> converted = convert_recording(as_text(*bytes), file.string(), {});
+    if (!converted) {
+        return tl::unexpected<Error>(converted.error());
+    }
+    std::vector<RecordedPose> poses;
+    for (const PoseSample& sample : converted->samples) {
+        poses.push_back({to_seconds(sample.time.time_since_epoch()), {sample.rotation, sample.position_m}});
+    }
+    return poses;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,18 @@
+/// The poses of a recording that the trackers' converter reads.
+///
+/// Threads  any.
+/// Errors   a file that cannot be read, or is no recording: a sentence with its place.
+#pragma once
+
+#include "app/bench/latency/hand_motion.h"
+#include "firmware_host/base/result.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace frustumscreen {
+
+/// In ascending time.
+[[nodiscard]] Result<std::vector<RecordedPose>> read_recorded_poses(const std::filesystem::path& file);
+
+} // namespace frustumscreen

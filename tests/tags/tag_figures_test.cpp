@@ -1,0 +1,32 @@
+#include "app/bench/tags/tag_figures.h"
+#include "app/tracking/pose_math.h"
+
+#include <gtest/gtest.h>
+
+namespace frustumscreen {
+namespace {
+
+/// The same places and noise at one speed to the right, said as a motion.
+TagCase slid_at(double speed_m_s) {
+    TagCase one;
+    one.camera.rolling_ms = 25.0;
+    one.motion = [speed_m_s](std::mt19937_64&) -> PropMotion {
+        return [speed_m_s](double t_s) {
+            return RigidTransform{rotation_of({0.0, 0.0, 0.0}), {speed_m_s * t_s, 0.0, 0.0}};
+        };
+    };
+    return one;
+}
+
+TEST(TagFigures, AMotionOfItsOwnMovesTheProp) {
+    constexpr std::size_t pictures = 2;
+    const TagFigures rest = measure(slid_at(0.0), pictures, 1);
+    const TagFigures slid = measure(slid_at(0.3), pictures, 1);
+    EXPECT_EQ(rest.trusted, 1.0);
+    EXPECT_EQ(slid.trusted, 1.0);
+    EXPECT_GT(slid.off_deg[0], 5.0 * rest.off_deg[0]); // the rows lie 25 ms apart
+    EXPECT_LT(slid.worst_mm, 1e3 * 0.3 * 0.025);
+}
+
+} // namespace
+} // namespace frustumscreen
