@@ -27,7 +27,7 @@ struct CameraFrame {
     std::vector<std::uint8_t> luma; ///< [height][width], row-major
 };
 
-/// What is done with each frame on the device's own thread, before it is handed on; it may take long, and then frames are overtaken.
+/// What is done with each frame on the device's own thread, before it is handed on; it may take long, and then frames are overtaken or passed over.
 using FrameUse = std::function<void(const CameraFrame& frame)>;
 
 /// Since the exhibit started.
@@ -35,8 +35,10 @@ struct CameraCounts {
     std::uint64_t connections = 0; ///< times that a camera was set up
     std::uint64_t frames = 0;      ///< handed on
     std::uint64_t overtaken = 0;   ///< whole, but a later one was there already
-    std::uint64_t lost = 0;        ///< numbers missing in the kernel's count of frames
-    std::uint64_t broken = 0;      ///< marked as broken by the kernel, too short, or not to be decoded
+    std::uint64_t passed_over =
+        0;                    ///< not even decoded, so that the camera's thread keeps its share of a core
+    std::uint64_t lost = 0;   ///< numbers missing in the kernel's count of frames
+    std::uint64_t broken = 0; ///< marked as broken by the kernel, too short, or not to be decoded
 };
 
 class Camera {

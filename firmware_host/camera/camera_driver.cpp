@@ -94,8 +94,10 @@ std::vector<FoundCamera> list_cameras(V4l2Devices& devices, const CameraWish& wi
     return found;
 }
 
-CameraDriver::CameraDriver(std::unique_ptr<V4l2Devices> devices, CameraWish wish, Clock clock)
-    : devices_(std::move(devices)), wish_(std::move(wish)), clock_(std::move(clock)) {}
+CameraDriver::CameraDriver(std::unique_ptr<V4l2Devices> devices, CameraWish wish, Clock clock, FrameUse use,
+                           FramePace share)
+    : devices_(std::move(devices)), wish_(std::move(wish)), clock_(std::move(clock)), use_(std::move(use)),
+      pace_(std::move(share)) {}
 
 double CameraDriver::rate_hz() {
     return judge_ ? judge_->rate_hz(clock_()) : 0.0;
@@ -184,17 +186,25 @@ CameraDriver::Step CameraDriver::step(CameraFrame& frame) {
         return {false, search()};
     }
     const std::uint64_t overtaken_before = counts_.overtaken;
-    const V4l2Stream::Taken taken = stream_->take(frame_timeout, clock_, frame, counts_);
+    const V4l2Stream::Taken taken = stream_->take(frame_timeout, clock_, pace_, frame, counts_);
     if (taken == V4l2Stream::Taken::Lost) {
         return {false, lose(CameraState::NotConnected)};
     }
     const MonotonicTime now = clock_();
+    const std::uint64_t overtaken = counts_.overtaken - overtaken_before;
     const bool fresh = taken == V4l2Stream::Taken::Frame;
     if (fresh) {
-        judge_->see(now, look_at(frame.luma), counts_.overtaken - overtaken_before);
+        judge_->see(now, look_at(frame.luma), overtaken);
         heard_ = now;
         has_sent_ = true;
         broken_before_ = counts_.broken;
+        if (use_) {
+            use_(frame);
+        }
+        static_cast<void>(pace_.end());
+    } else if (taken == V4l2Stream::Taken::PassedOver) {
+        judge_->hear(now, 1 + overtaken);
+        heard_ = now;
     }
     judge(now);
     if (health_of(state_) == CameraHealth::Away && now - heard_ >= most_silence) {

@@ -3,6 +3,7 @@
 ///
 /// Time     read from `clock`, because a wait takes time. A camera that is back is found within `between_searches`, and frames
 ///          follow after one set-up; it is called well once they have come for FrameJudge::dwell: together below 2 s.
+/// Share    frames are passed over, so that decoding, judging and using the others takes no more than `share` of one core (frame_pace.h).
 /// Threads  one caller; a step waits for one frame at most, and a set-up for some twenty control transfers.
 /// Errors   none; `state` says what is the matter.
 #pragma once
@@ -32,13 +33,14 @@ public:
     static constexpr Nanoseconds most_silence = std::chrono::seconds(3);
 
     using Clock = std::function<MonotonicTime()>;
-    CameraDriver(std::unique_ptr<V4l2Devices> devices, CameraWish wish, Clock clock);
+    CameraDriver(std::unique_ptr<V4l2Devices> devices, CameraWish wish, Clock clock, FrameUse use = {},
+                 FramePace share = FramePace(1.0));
 
     struct Step {
         bool fresh = false; ///< a frame was taken
         Nanoseconds rest{}; ///< before the next step
     };
-    /// One round.
+    /// One round; a frame that was taken has been used.
     [[nodiscard]] Step step(CameraFrame& frame);
     [[nodiscard]] CameraState state() const { return state_; }
     [[nodiscard]] bool is_open() const { return stream_ != nullptr; }
@@ -56,6 +58,8 @@ private:
     std::unique_ptr<V4l2Devices> devices_;
     CameraWish wish_;
     Clock clock_;
+    FrameUse use_; ///< may be none
+    FramePace pace_;
     std::unique_ptr<V4l2Stream> stream_;
     std::optional<FrameJudge> judge_; ///< of the open camera
     std::optional<CameraSetUp> set_up_;

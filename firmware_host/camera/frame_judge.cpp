@@ -76,17 +76,21 @@ FrameJudge::FrameJudge(double rate_hz, MonotonicTime start)
     assert(rate_hz > 0.0);
 }
 
-void FrameJudge::see(MonotonicTime now, const FrameLook& look, std::uint64_t overtaken) {
+void FrameJudge::hear(MonotonicTime now, std::uint64_t frames) {
     if (arrivals_.empty() || now >= silent_from_) {
         arrivals_.clear(); // a pause is no slow stream
         counted_since_ = now;
     }
-    arrivals_.insert(arrivals_.end(), 1 + overtaken, now);
+    arrivals_.insert(arrivals_.end(), frames, now);
     forget_before(now);
+    silent_from_ = now + silence_;
+}
+
+void FrameJudge::see(MonotonicTime now, const FrameLook& look, std::uint64_t overtaken) {
+    hear(now, 1 + overtaken);
     same_frames_ = look.bytes_hash == look_.bytes_hash ? same_frames_ + 1 : 0;
     same_since_ = same_frames_ == 0 ? now : same_since_;
     look_ = look;
-    silent_from_ = now + silence_;
 }
 
 void FrameJudge::forget_before(MonotonicTime now) {

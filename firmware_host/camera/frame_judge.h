@@ -44,6 +44,8 @@ public:
     /// `rate_hz`: as negotiated, above 0.
     FrameJudge(double rate_hz, MonotonicTime start);
 
+    /// Frames came that were not looked at.
+    void hear(MonotonicTime now, std::uint64_t frames);
     /// `overtaken`: frames that came with it and were not looked at, because this one was there already.
     void see(MonotonicTime now, const FrameLook& look, std::uint64_t overtaken = 0);
     /// To be asked now and then, also while no frame comes.

@@ -1,5 +1,6 @@
 #include "firmware_host/camera/frame_pace.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 
@@ -18,7 +19,7 @@ double thread_seconds() {
 }
 
 bool FramePace::begin(MonotonicTime frame) {
-    if (frame < next_ && next_ - frame < longest_pause) {
+    if (next_ && frame < *next_ && *next_ - frame < longest_pause) {
         return false;
     }
     frame_ = frame;
@@ -28,7 +29,9 @@ bool FramePace::begin(MonotonicTime frame) {
 
 double FramePace::end() {
     const double took_s = std::fmax(0.0, busy_() - began_s_);
-    next_ = frame_ + Nanoseconds(std::llround(1e9 * took_s / most_share_));
+    const MonotonicTime owed_from =
+        next_ && *next_ < frame_ ? std::max(*next_, frame_ - most_credit) : frame_;
+    next_ = owed_from + Nanoseconds(std::llround(1e9 * took_s / most_share_));
     return took_s;
 }
 

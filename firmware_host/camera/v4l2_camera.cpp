@@ -4,8 +4,8 @@
 
 namespace frustumscreen {
 
-V4l2Camera::V4l2Camera(std::unique_ptr<V4l2Devices> devices, CameraWish wish, FrameUse use)
-    : driver_(std::move(devices), std::move(wish), monotonic_now), use_(std::move(use)),
+V4l2Camera::V4l2Camera(std::unique_ptr<V4l2Devices> devices, CameraWish wish, FrameUse use, double most_share)
+    : driver_(std::move(devices), std::move(wish), monotonic_now, std::move(use), FramePace(most_share)),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 void V4l2Camera::run(const std::stop_token& stop) {
@@ -15,9 +15,6 @@ void V4l2Camera::run(const std::stop_token& stop) {
         heartbeat_.promise(monotonic_now() + (driver_.is_open() ? longest_round : longest_search));
         const auto [fresh, rest] = driver_.step(frame);
         if (fresh) {
-            if (use_) {
-                use_(frame);
-            }
             mailbox_.put(frame);
         }
         state_ = driver_.state();

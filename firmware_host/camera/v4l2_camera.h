@@ -25,7 +25,9 @@ public:
     /// A wait for a frame, its decoding, and the closing of a camera that is lost.
     static constexpr Nanoseconds longest_round = std::chrono::seconds(10);
 
-    V4l2Camera(std::unique_ptr<V4l2Devices> devices, CameraWish wish, FrameUse use = {});
+    /// `most_share`: of one core, that its thread takes at most.
+    V4l2Camera(std::unique_ptr<V4l2Devices> devices, CameraWish wish, FrameUse use = {},
+               double most_share = 1.0);
 
     [[nodiscard]] bool poll(CameraFrame& frame) override { return mailbox_.try_take(frame); }
     [[nodiscard]] CameraState state() const override { return state_; }
@@ -40,7 +42,6 @@ private:
     void run(const std::stop_token& stop);
 
     CameraDriver driver_; ///< the device's thread only
-    FrameUse use_;        ///< the same; may be none
     FrameMailbox mailbox_;
     std::atomic<CameraState> state_{CameraState::NotConnected};
     std::atomic<double> rate_hz_{0.0};

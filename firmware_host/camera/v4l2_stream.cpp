@@ -73,7 +73,7 @@ V4l2Stream::~V4l2Stream() {
 }
 
 V4l2Stream::Taken V4l2Stream::take(Nanoseconds timeout, const std::function<MonotonicTime()>& now,
-                                   CameraFrame& frame, CameraCounts& counts) {
+                                   FramePace& pace, CameraFrame& frame, CameraCounts& counts) {
     const int waited = device_->wait(timeout);
     if (waited == EAGAIN) {
         return Taken::Nothing;
@@ -111,6 +111,11 @@ V4l2Stream::Taken V4l2Stream::take(Nanoseconds timeout, const std::function<Mono
     if (!latest) {
         return Taken::Nothing;
     }
+    const MonotonicTime time = time_of(*latest, now());
+    if (!pace.begin(time)) {
+        ++counts.passed_over;
+        return device_->ask(VIDIOC_QBUF, *latest) == 0 ? Taken::PassedOver : Taken::Lost;
+    }
     const std::span<const std::byte> memory = buffers_[latest->index];
     const bool whole = reader_.read(
         format_, memory.first(std::min<std::size_t>(latest->bytesused, memory.size())), frame.luma);
@@ -118,10 +123,11 @@ V4l2Stream::Taken V4l2Stream::take(Nanoseconds timeout, const std::function<Mono
         return Taken::Lost;
     }
     if (!whole) {
+        static_cast<void>(pace.end());
         ++counts.broken;
         return Taken::Nothing;
     }
-    frame.time = time_of(*latest, now());
+    frame.time = time;
     frame.number = ++counts.frames;
     frame.width = format_.width;
     frame.height = format_.height;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "firmware_host/camera/camera.h"
+#include "firmware_host/camera/frame_pace.h"
 #include "firmware_host/camera/luma_reader.h"
 #include "firmware_host/camera/v4l2_mode.h"
 
@@ -24,9 +25,10 @@ public:
     V4l2Stream(const V4l2Stream&) = delete;
     V4l2Stream& operator=(const V4l2Stream&) = delete;
 
-    enum class Taken : std::uint8_t { Frame, Nothing, Lost };
-    /// The latest frame of those that wait; adds to `counts`. `now` is read after the wait.
-    [[nodiscard]] Taken take(Nanoseconds timeout, const std::function<MonotonicTime()>& now,
+    enum class Taken : std::uint8_t { Frame, PassedOver, Nothing, Lost };
+    /// The latest frame of those that wait; adds to `counts`. `now` is read after the wait. With a Frame the pace's look has begun; one that the
+    /// pace passes over is not even decoded.
+    [[nodiscard]] Taken take(Nanoseconds timeout, const std::function<MonotonicTime()>& now, FramePace& pace,
                              CameraFrame& frame, CameraCounts& counts);
 
 private:

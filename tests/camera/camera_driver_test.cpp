@@ -14,7 +14,8 @@ using std::chrono::seconds;
 
 /// A driver over fake cameras, by simulated time: the first camera's clock.
 struct Driven {
-    explicit Driven(CameraWish wish = {}, std::vector<FakeCamera*> more = {})
+    explicit Driven(CameraWish wish = {}, std::vector<FakeCamera*> more = {}, FrameUse use = {},
+                    FramePace share = FramePace(1.0))
         : driver(
               [&] {
                   make_usual(camera);
@@ -25,7 +26,7 @@ struct Driven {
                   all.insert(all.end(), more.begin(), more.end());
                   return std::make_unique<FakeDevices>(all);
               }(),
-              std::move(wish), [this] { return now(); }) {}
+              std::move(wish), [this] { return now(); }, std::move(use), std::move(share)) {}
 
     /// Steps for so long; returns how many frames came.
     int run(Nanoseconds time) {
@@ -70,6 +71,39 @@ TEST(CameraDriver, SetsACameraUpAndHandsItsFramesOn) {
     EXPECT_GE(frame.time, driven.now() - milliseconds(34));
     EXPECT_LE(frame.time, driven.now());
     EXPECT_NEAR(driven.driver.rate_hz(), 30.0, 1.0);
+}
+
+/// Each frame takes 20 ms of the processor, which is 80 ms at a quarter of a core: of 30 a second 12.5 are used, and the camera is well.
+TEST(CameraDriver, PassesFramesOverSoThatItsThreadKeepsItsShare) {
+    double busy_s = 0.0;
+    int used = 0;
+    std::uint64_t decoded = 0;
+    Driven driven(
+        {}, {},
+        [&](const CameraFrame&) {
+            ++used;
+            busy_s += 0.02;
+        },
+        FramePace(0.25, [&busy_s] { return busy_s; }));
+    driven.run(seconds(2));
+    decoded = driven.driver.counts().frames;
+    EXPECT_NEAR(used, 25, 2);
+    EXPECT_EQ(decoded, static_cast<std::uint64_t>(used));
+    EXPECT_NEAR(static_cast<double>(driven.driver.counts().passed_over), 60.0 - used, 2.0);
+    driven.run(seconds(3));
+    EXPECT_EQ(driven.driver.state(), CameraState::Running);
+    EXPECT_NEAR(driven.driver.rate_hz(), 30.0, 1.0); // what came, not what was used
+    EXPECT_NEAR(busy_s / 5.0, 0.25, 0.01);
+}
+
+/// Nine milliseconds are 27 per cent of a core at 30 Hz: that takes one frame of thirteen away, and not every other one.
+TEST(CameraDriver, AFrameThatCostsALittleTooMuchTakesFewAway) {
+    double busy_s = 0.0;
+    Driven driven(
+        {}, {}, [&busy_s](const CameraFrame&) { busy_s += 0.009; },
+        FramePace(0.25, [&busy_s] { return busy_s; }));
+    driven.run(seconds(10));
+    EXPECT_NEAR(static_cast<double>(driven.driver.counts().frames), 0.25 / 0.009 * 10.0, 3.0);
 }
 
 TEST(CameraDriver, IsBackWithinTwoSecondsOfBeingPluggedIn) {

@@ -244,13 +244,14 @@ CameraWish camera_wish(const CameraSettings& settings) {
 
 std::unique_ptr<Camera> make_camera(const CameraSettings& settings, std::vector<FrameUse> uses) {
     const rlimit none{0, 0};
-    static_cast<void>(::setrlimit(RLIMIT_CORE, &none)); // a frame would lie in it
-    return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_wish(settings),
-                                        [uses = std::move(uses)](const CameraFrame& frame) {
-                                            for (const FrameUse& use : uses) {
-                                                use(frame);
-                                            }
-                                        });
+    static_cast<void>(::setrlimit(RLIMIT_CORE, &none));               // a frame would lie in it
+    const double most_share = uses.empty() ? 1.0 : most_camera_share; // a calibration wants each frame
+    const auto use_all = [uses = std::move(uses)](const CameraFrame& frame) {
+        for (const FrameUse& use : uses) {
+            use(frame);
+        }
+    };
+    return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_wish(settings), use_all, most_share);
 }
 
 Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,

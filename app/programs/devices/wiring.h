@@ -35,8 +35,10 @@ namespace frustumscreen {
 [[nodiscard]] std::unique_ptr<Sound> make_sound(const SoundSettings& settings);
 
 [[nodiscard]] CameraWish camera_wish(const CameraSettings& settings);
-/// Starts its thread, which hands each frame to all uses, one after the other. The settings have one. The process dumps no core from
-/// then on.
+/// Of one core, that the camera's thread takes at most while the exhibit runs, decoding and all: frames are passed over.
+inline constexpr double most_camera_share = 0.25;
+/// Starts its thread, which hands each frame to all uses, one after the other, and keeps its share of a core where there are uses. The settings have
+/// one. The process dumps no core from then on.
 [[nodiscard]] std::unique_ptr<Camera> make_camera(const CameraSettings& settings,
                                                   std::vector<FrameUse> uses = {});
 

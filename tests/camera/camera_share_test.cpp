@@ -1,0 +1,249 @@
+// What the camera's thread takes of one core with everything on that the exhibit does with its frames: MJPEG of 1280 x 720 at 30 Hz, decoded, judged, and
+// handed to the prop's tags, the visitor's eye and the check for drift, by the exhibit's own code from the kernel's buffer on.
+//
+// No place of a camera suits all uses: tags and marks are looked for on a table seen from above, heads in a room seen from the table's far edge.
+// The figures of docs/measurements.md: `ctest -C long -R camera_share`.
+#include "app/bench/tags/skirt.h"
+#include "app/bench/visitor/visitor_scene.h"
+#include "app/drift/drift_watch.h"
+#include "app/drift/mark_places.h"
+#include "app/programs/devices/wiring.h"
+#include "app/tags/tag_reader.h"
+#include "app/visitor/visitor_reader.h"
+#include "firmware_host/camera/camera_driver.h"
+#include "tests/camera/fake_v4l2.h"
+#include "tests/drift/table_scene.h"
+
+#include <gtest/gtest.h>
+#include <linux/videodev2.h>
+#include <turbojpeg.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::seconds;
+
+constexpr int width = 1280, height = 720;
+constexpr double rate_hz = 30.0;
+
+/// As a webcam packs a picture: half the colour along rows.
+Picture jpeg_of(const Picture& grey) {
+    Picture colours;
+    for (const std::uint8_t code : grey) {
+        colours.insert(colours.end(), {code, static_cast<std::uint8_t>(code - code / 16), code});
+    }
+    tjhandle handle = ::tjInitCompress();
+    unsigned char* file = nullptr;
+    unsigned long size = 0;
+    ::tjCompress2(handle, colours.data(), width, 0, height, TJPF_RGB, &file, &size, TJSAMP_422, 85, 0);
+    Picture bytes(file, file + size);
+    ::tjFree(file);
+    ::tjDestroy(handle);
+    return bytes;
+}
+
+/// The tags around a prop, all turned alike.
+std::vector<PropTag> prop_tags() {
+    std::vector<PropTag> tags = tags_of({});
+    for (PropTag& tag : tags) {
+        tag.prop_from_tag.rotation = tags.front().prop_from_tag.rotation;
+    }
+    return tags;
+}
+
+/// They lie flat on the table's middle; noise alone differs from picture to picture.
+std::vector<Picture> table_pictures(std::size_t count) {
+    std::vector<SceneTag> tags;
+    for (const PropTag& tag : prop_tags()) {
+        tags.push_back({tag.id, glm::dvec2(tag.prop_from_tag.translation), tag.size_m});
+    }
+    TableScene scene(width, height, {}, tags);
+    std::vector<Picture> pictures;
+    for (std::size_t k = 0; k < count; ++k) {
+        pictures.push_back(jpeg_of(scene.frame(0.0, std::nullopt)));
+    }
+    return pictures;
+}
+
+WatchingCamera watching(int columns, int rows) {
+    WatchingCamera camera;
+    camera.pinhole = camera.pinhole.scaled_to(columns, rows);
+    return camera;
+}
+
+struct Room {
+    int columns, rows;
+    std::vector<Picture> pictures;
+};
+
+/// Two seconds without anybody; then somebody stands there and sways for two more.
+Room room_of(int columns, int rows) {
+    std::mt19937_64 random(1);
+    Person person = any_person(Build::Adult, random);
+    person.holds = true;
+    const glm::dvec2 table_size_m(0.8, 0.5);
+    const glm::dvec3 stands = any_eye(Build::Adult, 0.1, 0.12, table_size_m, random);
+    const VisitorScene scene(watching(columns, rows), {}, table_size_m, make_frustum(shipped_frustum),
+                             glm::dvec3(0.0));
+    const auto bodies = [&](double t_s) {
+        std::vector<std::vector<Ball>> all;
+        if (t_s > 2.0) {
+            all.push_back(body_of(person, stands + sway(person, t_s), {0.0, 0.0, 0.08}));
+        }
+        return all;
+    };
+    Room room{columns, rows, {}};
+    for (std::uint64_t k = 0; k < 120; ++k) {
+        room.pictures.push_back(scene.picture(
+            bodies, [](double) { return LightNow{}; }, static_cast<double>(k) / rate_hz, k));
+    }
+    return room;
+}
+
+/// As TableScene looks; where it stands makes no difference here.
+TagSetUp tag_set_up() {
+    const double focal = 1.3 * width / 0.95;
+    return {{width, height, focal, focal, 0.5 * width, 0.5 * height, {-0.08, 0.0}}, {}, prop_tags()};
+}
+
+std::vector<glm::dvec2> marks() {
+    Settings settings;
+    settings.projector.pinhole = SceneProjector().pinhole;
+    settings.projector.table_from_projector = SceneProjector().table_from_projector;
+    return mark_places(settings);
+}
+
+struct On {
+    bool tags = false, visitor = false, drift = false;
+};
+
+struct Spent {
+    double share = 0.0;    ///< of one core
+    double frame_ms = 0.0; ///< of the processor, for a frame that is used
+    double used_hz = 0.0;
+    double poses_hz = 0.0;
+    double heads_hz = 0.0;
+};
+
+using Busy = std::function<double()>;
+
+class Kiosk {
+public:
+    /// `busy`: seconds of the processor, of the thread; `each`: as each use, which has a share of its own, reads them.
+    Kiosk(const std::vector<Picture>& table, const Room& room, On on, double share,
+          const Busy& busy = thread_seconds, const Busy& each = thread_seconds)
+        : room_(room), on_(on), seen_{{}, 1, room.columns, room.rows, {}}, tags_(tag_set_up(), each),
+          visitor_({watching(room.columns, room.rows).pinhole,
+                    watching(room.columns, room.rows).table_from_camera(),
+                    {}},
+                   each),
+          driver_(
+              devices(table), {}, [this] { return *camera_.now; },
+              [this](const CameraFrame& frame) { use(frame); }, FramePace(share, busy)) {}
+
+    /// Ten seconds, of which the first four, until the room is known and somebody is there, do not count.
+    Spent run() {
+        CameraFrame frame;
+        const MonotonicTime begin = *camera_.now;
+        const MonotonicTime warm = begin + seconds(4);
+        const MonotonicTime end = begin + seconds(10);
+        std::optional<double> began_s;
+        while (*camera_.now < end) {
+            if (*camera_.now >= warm && !began_s) {
+                began_s = thread_seconds();
+                used_ = poses_ = heads_ = 0;
+            }
+            static_cast<void>(drift_.step(*camera_.now, on_.drift));
+            *camera_.now += driver_.step(frame).rest;
+        }
+        const double busy_s = thread_seconds() - *began_s;
+        const double measured_s = to_seconds(end - warm);
+        return {busy_s / measured_s, 1e3 * busy_s / used_, used_ / measured_s, poses_ / measured_s,
+                heads_ / measured_s};
+    }
+
+private:
+    std::unique_ptr<FakeDevices> devices(const std::vector<Picture>& table) {
+        make_usual(camera_);
+        camera_.formats = {{V4L2_PIX_FMT_MJPEG, {{width, height, {30}}}}};
+        camera_.picture = [&table](std::uint64_t number) { return table[number % table.size()]; };
+        return std::make_unique<FakeDevices>(std::vector{&camera_});
+    }
+    void use(const CameraFrame& frame) {
+        used_ += 1.0;
+        if (on_.tags) {
+            poses_ += tags_.read(frame) ? 1.0 : 0.0;
+        }
+        if (on_.visitor) { // its own picture; once all were seen, the last second again and again, there and back
+            const auto at = static_cast<std::size_t>(to_seconds(frame.time - begin_) * rate_hz);
+            const std::size_t last = room_.pictures.size() - 1;
+            const std::size_t back = at % 60 < 30 ? at % 60 : 59 - at % 60;
+            seen_.time = frame.time;
+            seen_.luma = room_.pictures[at <= last ? at : last - back];
+            heads_ += visitor_.read(seen_).empty() ? 0.0 : 1.0;
+        }
+        if (on_.drift) {
+            drift_.use(frame);
+        }
+    }
+
+    const Room& room_;
+    On on_;
+    FakeCamera camera_;
+    MonotonicTime begin_ = *camera_.now;
+    double used_ = 0.0, poses_ = 0.0, heads_ = 0.0;
+    CameraFrame seen_;
+    TagReader tags_;
+    VisitorReader visitor_;
+    DriftWatch drift_{{marks(), {}, std::filesystem::path(testing::TempDir()) / "share_drift.json"}};
+    CameraDriver driver_;
+};
+
+void print(const char* on, const Spent& spent) {
+    std::printf("| %s | %.1f | %.1f | %.1f %% | %.1f | %.1f |\n", on, spent.frame_ms, spent.used_hz,
+                100.0 * spent.share, spent.poses_hz, spent.heads_hz);
+}
+
+/// Each frame takes 16 ms, so that 15 or 16 of 30 are used: as many poses and heads come as frames.
+TEST(CameraShare, WhatIsPassedOverTakesNeitherTheTagsNorTheVisitorAway) {
+    double busy_s = 0.0;
+    const std::vector<Picture> table = table_pictures(10);
+    const Room room = room_of(640, 360);
+    Kiosk kiosk(
+        table, room, {true, true, true}, most_camera_share, [&busy_s] { return busy_s += 0.016; },
+        [] { return 0.0; });
+    const Spent spent = kiosk.run();
+    EXPECT_NEAR(spent.used_hz, most_camera_share / 0.016, 1.5);
+    EXPECT_EQ(spent.poses_hz, spent.used_hz);
+    EXPECT_GT(spent.heads_hz, 0.9 * spent.used_hz);
+}
+
+TEST(CameraShare, DISABLED_TheFigures) {
+    const std::vector<Picture> table = table_pictures(30);
+    const Room room = room_of(width, height);
+    std::printf("a frame has %.0f kB\n", 1e-3 * static_cast<double>(table.front().size()));
+    for (const double most_share : {1.0, most_camera_share}) {
+        std::printf("| on, of one core at most %.2f | ms a frame | frames used a second | of one core | "
+                    "poses a second | heads a "
+                    "second |\n|---|---|---|---|---|---|\n",
+                    most_share);
+        const auto spent = [&](On on) { return Kiosk(table, room, on, most_share).run(); };
+        print("nothing: decoded and judged", spent({}));
+        print("tags", spent({.tags = true}));
+        print("visitor", spent({.visitor = true}));
+        print("drift, during a look", spent({.drift = true}));
+        const Spent all = spent({true, true, true});
+        print("all three", all);
+        EXPECT_LT(all.share, most_share + 0.02);
+        EXPECT_GT(all.poses_hz, 5.0);
+        EXPECT_GT(all.heads_hz, 5.0);
+    }
+}
+
+} // namespace
+} // namespace frustumscreen
