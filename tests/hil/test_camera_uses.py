@@ -156,7 +156,7 @@ class Visitor(CameraUse):
     settings = USUAL + CAMERA + "visitor = true\n" + view.settings()
     eye_m = (0.33, -0.52, 0.48)
     looked_at_m = (0.0, 0.0, 0.07)
-    most_across_m = 0.05  # docs/visitor_eye.md: 36 mm at the 95th percentile
+    most_across_m = 0.05  # docs/visitor_eye.md: 30 mm at the 95th percentile
 
     @classmethod
     def at_first(cls):
