@@ -265,6 +265,11 @@ void check_camera(const Settings& settings, Fitness& fitness) {
         fmt::format("is {}; a frame at camera.rate_hz, {} hertz, takes {:.1f} milliseconds, allowed are 0 "
                     "and times up to that",
                     camera.exposure_ms, camera.rate_hz, frame_ms));
+    fitness.require(
+        camera.rolling_shutter_ms <= frame_ms, "camera.rolling_shutter_ms",
+        fmt::format("is {}; a frame at camera.rate_hz, {} hertz, takes {:.1f} milliseconds, allowed are 0 "
+                    "and times up to that",
+                    camera.rolling_shutter_ms, camera.rate_hz, frame_ms));
     constexpr int least_kelvin = 2000; // a candle's light
     fitness.require(camera.white_balance_k == 0 || camera.white_balance_k >= least_kelvin,
                     "camera.white_balance_k",

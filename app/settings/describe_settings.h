@@ -313,6 +313,10 @@ void camera_settings(auto& fields, auto& camera) {
         "0: the camera's own; locked in any case, so that the picture on the table does not change it");
     fields.integer("gain", camera.gain, -1, 65535, "in the camera's own steps; -1: the camera's own");
     fields.integer("white_balance_k", camera.white_balance_k, 0, 10000, "kelvin; 0: the camera's own");
+    fields.number("rolling_shutter_ms", camera.rolling_shutter_ms, {0.0, 1000.0, "milliseconds"},
+                  "from the first row that it reads to the last, of its data sheet; tags on a prop that "
+                  "moves are seen right "
+                  "by it. 0: it reads all at once (a global shutter)");
     fields.flag(
         "tags", camera.tags,
         "the prop's second tracker: tags on it, which take over while the tracker is lost or metal is near");

@@ -178,9 +178,10 @@ struct CameraSettings {
     double exposure_ms = 0.0;
     int gain = -1;
     int white_balance_k = 0;
-    bool tags = false;    ///< the prop's second tracker
-    bool visitor = false; ///< the visitor's eye, with nothing on the head
-    bool drift = false;   ///< looks whether the picture lies where it was calibrated
+    double rolling_shutter_ms = 0.0; ///< from the first row's exposure to the last one's; 0: all at once
+    bool tags = false;               ///< the prop's second tracker
+    bool visitor = false;            ///< the visitor's eye, with nothing on the head
+    bool drift = false;              ///< looks whether the picture lies where it was calibrated
     std::vector<TagSettings> tag;
     Pinhole pinhole{1280, 720, 0.0, 0.0, 640.0, 360.0}; ///< fx of 0: not measured
     RigidTransform table_from_camera;                   ///< at the table's centre: not measured

@@ -27,6 +27,7 @@ constexpr double least_px_off = 1.5;
 struct Corner {
     glm::dvec3 prop_m;
     glm::dvec2 px;
+    double later_s = 0.0; ///< its row's moment, after that of the pose
 };
 struct SeenTag {
     std::array<Corner, 4> corners;
@@ -41,20 +42,51 @@ struct Fit {
     Matrix normal = Matrix::Zero(); ///< of the equations at the pose, in pixels
 };
 
-double cost_of(const SeenTag& tag, const RigidTransform& pose, const Pinhole& camera) {
+/// The camera, and where the prop was before, if its rows are read one after the other.
+struct View {
+    const Pinhole& camera;
+    std::optional<RigidTransform> before;
+    double since_s = 1.0; ///< from `before` to the pose that is looked for
+};
+
+/// Where the corners are seen of a prop that has a pose at its moment, and goes on as it went since the one before.
+class SeenProp {
+public:
+    SeenProp(const RigidTransform& pose, const View& view) : pose_(pose), view_(view) {
+        if (view.before) {
+            step_ = step_between(*view.before, pose);
+        }
+    }
+    [[nodiscard]] std::optional<glm::dvec2> pixel(const Corner& corner) const {
+        if (!view_.before) {
+            return view_.camera.pixel(pose_.point(corner.prop_m));
+        }
+        const double times = corner.later_s / view_.since_s;
+        const RigidTransform then = moved(pose_, {times * step_.shift_m, times * step_.turn_rad});
+        return view_.camera.pixel(then.point(corner.prop_m));
+    }
+
+private:
+    RigidTransform pose_;
+    const View& view_;
+    PoseStep step_;
+};
+
+double cost_of(const SeenTag& tag, const SeenProp& prop) {
     double sum = 0.0;
     for (const Corner& corner : tag.corners) {
-        const std::optional<glm::dvec2> px = camera.pixel(pose.point(corner.prop_m));
+        const std::optional<glm::dvec2> px = prop.pixel(corner);
         const glm::dvec2 off = px ? *px - corner.px : glm::dvec2(infinite);
         sum += glm::dot(off, off);
     }
     return sum;
 }
 
-double cost_of(const SeenTags& tags, const RigidTransform& pose, const Pinhole& camera) {
+double cost_of(const SeenTags& tags, const RigidTransform& pose, const View& view) {
+    const SeenProp prop(pose, view);
     double sum = 0.0;
     for (const SeenTag& tag : tags) {
-        sum += cost_of(tag, pose, camera);
+        sum += cost_of(tag, prop);
     }
     return sum;
 }
@@ -63,38 +95,53 @@ PoseStep step_of(const Vector& v) {
     return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
-/// Adds a corner's share of the normal equations; its derivatives by central differences, which are good to nine digits here.
-void add_corner(const Corner& corner, const RigidTransform& pose, const Pinhole& camera, Matrix& normal,
-                Vector& gradient) {
-    constexpr double step = 1e-6; // metres and radians
+/// A pose and its neighbours to both sides along each unknown, for derivatives by central differences, which are good to nine digits here.
+struct Neighbours {
+    static constexpr double step = 1e-6; // metres and radians
+    SeenProp here;
+    std::vector<SeenProp> more, less;
+};
+
+Neighbours beside(const RigidTransform& pose, const View& view) {
+    Neighbours all{SeenProp(pose, view), {}, {}};
+    for (int k = 0; k < unknowns; ++k) {
+        const Vector ahead = Neighbours::step * Vector::Unit(k);
+        all.more.emplace_back(moved(pose, step_of(ahead)), view);
+        all.less.emplace_back(moved(pose, step_of(-ahead)), view);
+    }
+    return all;
+}
+
+/// Adds a corner's share of the normal equations.
+void add_corner(const Corner& corner, const Neighbours& props, Matrix& normal, Vector& gradient) {
     Eigen::Matrix<double, 2, unknowns> slope = Eigen::Matrix<double, 2, unknowns>::Zero();
     for (int k = 0; k < unknowns; ++k) {
-        const Vector ahead = step * Vector::Unit(k);
-        const auto more = camera.pixel(moved(pose, step_of(ahead)).point(corner.prop_m));
-        const auto less = camera.pixel(moved(pose, step_of(-ahead)).point(corner.prop_m));
+        const auto more = props.more[static_cast<std::size_t>(k)].pixel(corner);
+        const auto less = props.less[static_cast<std::size_t>(k)].pixel(corner);
         if (more && less) {
-            const glm::dvec2 by_step = (*more - *less) / (2.0 * step);
+            const glm::dvec2 by_step = (*more - *less) / (2.0 * Neighbours::step);
             slope.col(k) << by_step.x, by_step.y;
         }
     }
-    const glm::dvec2 off = corner.px - camera.pixel(pose.point(corner.prop_m)).value_or(corner.px);
+    const glm::dvec2 off = corner.px - props.here.pixel(corner).value_or(corner.px);
     gradient += slope.transpose() * Eigen::Vector2d(off.x, off.y);
     normal += slope.transpose() * slope;
 }
 
 /// From `start` downhill.
-Fit refined(const SeenTags& tags, const RigidTransform& start, const Pinhole& camera) {
+Fit refined(const SeenTags& tags, const RigidTransform& start, const View& view) {
     constexpr int most_rounds = 40;
     constexpr double least_gain = 1e-9; // of the cost: nothing is left to win
-    Fit fit{start, cost_of(tags, start, camera)};
+    Fit fit{start, cost_of(tags, start, view)};
     double damping = 1e-3;
     bool done = !std::isfinite(fit.cost);
     for (int round = 0; round < most_rounds && !done; ++round) {
         fit.normal.setZero();
         Vector gradient = Vector::Zero();
+        const Neighbours props = beside(fit.pose, view);
         for (const SeenTag& tag : tags) {
             for (const Corner& corner : tag.corners) {
-                add_corner(corner, fit.pose, camera, fit.normal, gradient);
+                add_corner(corner, props, fit.normal, gradient);
             }
         }
         done = true;
@@ -106,7 +153,7 @@ Fit refined(const SeenTags& tags, const RigidTransform& start, const Pinhole& ca
                 continue;
             }
             const RigidTransform next = moved(fit.pose, step_of(factor.solve(gradient)));
-            const double cost = cost_of(tags, next, camera);
+            const double cost = cost_of(tags, next, view);
             if (cost < fit.cost) {
                 done = fit.cost - cost <= least_gain * fit.cost;
                 fit.pose = next;
@@ -132,7 +179,7 @@ struct BestFits {
     Fit second; ///< another pose; its cost is infinite if there is none
 };
 
-BestFits fit_all(const SeenTags& tags, const Pinhole& camera, double variance) {
+BestFits fit_all(const SeenTags& tags, const View& view, double variance) {
     std::vector<Fit> fits;
     for (const SeenTag& seen : std::span(tags).first(std::min(tags.size(), most_starts))) {
         const auto start = tag_start(seen.directions, seen.tag->size_m);
@@ -141,10 +188,10 @@ BestFits fit_all(const SeenTags& tags, const Pinhole& camera, double variance) {
         }
         const RigidTransform& prop_from_tag = seen.tag->prop_from_tag;
         const RigidTransform tag_from_prop = prop_from_tag.inverse();
-        fits.push_back(refined(tags, *start * tag_from_prop, camera));
-        fits.push_back(refined(tags, mirrored(*start) * tag_from_prop, camera));
+        fits.push_back(refined(tags, *start * tag_from_prop, view));
+        fits.push_back(refined(tags, mirrored(*start) * tag_from_prop, view));
         // The mirror of what fits is nearer to the other pose than that of a start.
-        fits.push_back(refined(tags, mirrored(fits.front().pose * prop_from_tag) * tag_from_prop, camera));
+        fits.push_back(refined(tags, mirrored(fits.front().pose * prop_from_tag) * tag_from_prop, view));
     }
     std::sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
     BestFits found;
@@ -170,7 +217,7 @@ SeenTags seen_tags(std::span<const FoundTag> found, std::span<const PropTag> pro
         one.tag = &*known;
         const std::array<glm::dvec3, 4> corners = known->corners();
         for (std::size_t k = 0; k < corners.size(); ++k) {
-            one.corners[k] = {corners[k], tag.corners_px[k]};
+            one.corners[k] = {corners[k], tag.corners_px[k], 0.0};
             one.directions[k] = glm::dvec2(camera.ray(tag.corners_px[k]));
         }
         seen.push_back(one);
@@ -182,6 +229,23 @@ SeenTags seen_tags(std::span<const FoundTag> found, std::span<const PropTag> pro
     std::sort(seen.begin(), seen.end(),
               [&size](const SeenTag& a, const SeenTag& b) { return size(a) > size(b); });
     return seen;
+}
+
+/// Gives each corner its row's moment, and returns that of the row amid them, after the frame's first.
+double set_moments(SeenTags& tags, const Pinhole& camera, double readout_s) {
+    const double corners = 4.0 * static_cast<double>(tags.size());
+    double moment_s = 0.0;
+    for (const SeenTag& tag : tags) {
+        for (const Corner& corner : tag.corners) {
+            moment_s += readout_s * corner.px.y / camera.height / corners;
+        }
+    }
+    for (SeenTag& tag : tags) {
+        for (Corner& corner : tag.corners) {
+            corner.later_s = readout_s * corner.px.y / camera.height - moment_s;
+        }
+    }
+    return moment_s;
 }
 
 /// The spread of the best fit, with what a second one adds.
@@ -213,21 +277,30 @@ TagPose with_spread(const BestFits& fits, const SeenTags& tags, double variance)
 } // namespace
 
 std::optional<TagPose> pose_from_tags(std::span<const FoundTag> found, std::span<const PropTag> prop,
-                                      const Pinhole& camera, double corner_sd_px) {
+                                      const Pinhole& camera, double corner_sd_px,
+                                      const RollingShutter& shutter) {
     const double variance = corner_sd_px * corner_sd_px;
     const double most_cost = 4.0 * std::pow(std::fmax(most_sd_off * corner_sd_px, least_px_off), 2.0);
     SeenTags tags = seen_tags(found, prop, camera);
     while (!tags.empty()) {
-        const BestFits fits = fit_all(tags, camera, variance);
+        const double moment_s = set_moments(tags, camera, shutter.readout_s);
+        View view{camera, {}, moment_s - shutter.before_s};
+        if (shutter.readout_s > 0.0 && view.since_s > 0.0) {
+            view.before = shutter.before;
+        }
+        const BestFits fits = fit_all(tags, view, variance);
         if (!std::isfinite(fits.best.cost)) {
             return std::nullopt;
         }
+        const SeenProp best(fits.best.pose, view);
         const auto worst =
             std::max_element(tags.begin(), tags.end(), [&](const SeenTag& a, const SeenTag& b) {
-                return cost_of(a, fits.best.pose, camera) < cost_of(b, fits.best.pose, camera);
+                return cost_of(a, best) < cost_of(b, best);
             });
-        if (cost_of(*worst, fits.best.pose, camera) <= most_cost) {
-            return with_spread(fits, tags, variance);
+        if (cost_of(*worst, best) <= most_cost) {
+            TagPose pose = with_spread(fits, tags, variance);
+            pose.moment_s = moment_s;
+            return pose;
         }
         // Two that contradict each other: which of them is right, nothing says.
         if (tags.size() <= 2) {

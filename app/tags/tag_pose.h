@@ -4,6 +4,8 @@
 /// Method   from each tag's two starts (tag_starts.h) Levenberg and Marquardt's descent on the distances of all corners in the
 ///          frame; the best of what comes out. A tag that fits none of the others, because it is read wrong or has come off, is
 ///          left out and the rest fitted anew.
+/// Moving   a camera whose shutter reads row after row sees each corner in another moment. Where the pose before is known, the prop is taken to go on
+///          as it went from there to this pose, so that all corners count at their own moments.
 /// Doubt    the covariance follows from the noise of the corners, and is larger where they fit worse than that. Where a second pose
 ///          fits almost as well, the distance to it counts too, by how likely that one is: a single small tag has a pose with a
 ///          large spread, and no pose without one.
@@ -28,6 +30,15 @@ struct TagPose {
     double turn_sd_rad = 0.0; ///< RMS angle from the true turn
     double residual_px = 0.0; ///< RMS distance of the corners from where they should be
     std::size_t tags = 0;     ///< used
+    double moment_s =
+        0.0; ///< at which it is the prop's, after the frame's first row: that of the row amid the corners
+};
+
+/// How a camera's rows are read, and where the prop was before.
+struct RollingShutter {
+    double readout_s = 0.0;               ///< from the first row to the last; 0: all at once
+    std::optional<RigidTransform> before; ///< camera_from_prop; nothing: the prop is taken to rest
+    double before_s = 0.0;                ///< its moment, after this frame's first row: below 0
 };
 
 /// Of each coordinate of a corner, standard deviation: docs/tags.md has what rendered scenes give.
@@ -44,6 +55,6 @@ inline constexpr double usual_corner_sd_px = 0.2;
 /// passed over, and so is one that is found twice. `corner_sd_px`: of each coordinate.
 [[nodiscard]] std::optional<TagPose> pose_from_tags(std::span<const FoundTag> found,
                                                     std::span<const PropTag> prop, const Pinhole& camera,
-                                                    double corner_sd_px);
+                                                    double corner_sd_px, const RollingShutter& shutter = {});
 
 } // namespace frustumscreen

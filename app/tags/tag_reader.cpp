@@ -1,5 +1,6 @@
 #include "app/tags/tag_reader.h"
 
+#include <cmath>
 #include <utility>
 
 namespace frustumscreen {
@@ -9,6 +10,12 @@ namespace {
 /// A whole picture that takes longer does not keep the pace of 30 frames a second within the share.
 constexpr double longest_whole_s = TagReader::most_share / 30.0;
 constexpr int frames_at_once = 100; ///< at one size
+/// An older pose says nothing of how the prop moves now.
+constexpr Nanoseconds oldest_before = std::chrono::milliseconds(200);
+
+Nanoseconds nanoseconds_of(double seconds) {
+    return Nanoseconds(std::llround(1e9 * seconds));
+}
 
 } // namespace
 
@@ -53,11 +60,20 @@ std::optional<UncertainPose> TagReader::look(const CameraFrame& frame) {
     }
     const Pinhole camera = measured.scaled_to(frame.width, frame.height);
     (half_for_ > 0 ? half_ : whole_).find(frame.luma, frame.width, frame.height, found_);
-    const std::optional<TagPose> pose = pose_from_tags(found_, set_up_.tags, camera, usual_corner_sd_px);
+    const double readout_s = set_up_.readout_s;
+    const MonotonicTime first_row = frame.time - nanoseconds_of(0.5 * readout_s);
+    RollingShutter shutter{readout_s, {}, 0.0};
+    if (before_ && before_->time < first_row && first_row - before_->time < oldest_before) {
+        shutter.before = before_->camera_from_prop;
+        shutter.before_s = -to_seconds(first_row - before_->time);
+    }
+    const std::optional<TagPose> pose =
+        pose_from_tags(found_, set_up_.tags, camera, usual_corner_sd_px, shutter);
     if (!pose || !is_sure(*pose)) {
         return std::nullopt;
     }
-    return UncertainPose{frame.time, set_up_.table_from_camera * pose->camera_from_prop, pose->place_sd_m,
+    before_ = Before{pose->camera_from_prop, first_row + nanoseconds_of(pose->moment_s)};
+    return UncertainPose{before_->time, set_up_.table_from_camera * pose->camera_from_prop, pose->place_sd_m,
                          pose->turn_sd_rad};
 }
 

@@ -1,7 +1,8 @@
 /// A camera's frame into the prop's pose on the table: finds the tags, fits the pose, and keeps its hands off the processor.
 ///
 /// Frames   table T; a frame of another size than the pinhole's, but of its shape, is read as the same view.
-/// Time     a pose has its frame's time: when the kernel says that it was taken.
+/// Time     a pose has its frame's time: when the kernel says that it was taken. With a shutter that reads row after row that is the time of its middle
+///          row, and a pose that of the row amid its tags; poses in sequence tell how the prop moves meanwhile.
 /// Share    after a frame that took some time it passes over those that come within four times that: it never takes more than a
 ///          quarter of one core, however full of edges a picture is. Where the whole picture costs more than that at 30 frames a
 ///          second, the next hundred are searched at half size: that costs less than half, and finds fewer of the tags that are small,
@@ -25,6 +26,7 @@ struct TagSetUp {
     Pinhole camera;
     RigidTransform table_from_camera;
     std::vector<PropTag> tags;
+    double readout_s = 0.0; ///< of the camera's rows, from the first to the last; 0: all at once
 };
 
 /// What became of the frames, since the start.
@@ -58,6 +60,11 @@ private:
     int half_for_ = 0;         ///< frames to come are searched at half size
     int whole_for_ = 0;        ///< frames to come are searched whole, whatever they cost
     bool whole_posed_ = false; ///< the latest one that was searched whole gave a pose
+    struct Before {
+        RigidTransform camera_from_prop;
+        MonotonicTime time;
+    };
+    std::optional<Before> before_; ///< the latest pose that was handed on
     std::vector<FoundTag> found_;
     TagCounts counts_;
 };

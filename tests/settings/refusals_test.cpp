@@ -173,6 +173,8 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
         {"[panel]\nscript = [{at_s = 2}, {at_s = 1}]", {":2: panel.script goes back in time"}},
         {"[camera]\nexposure_ms = 40.0",
          {":2: camera.exposure_ms is 40", "at camera.rate_hz, 30 hertz, takes 33.3 milliseconds"}},
+        {"[camera]\nrolling_shutter_ms = 40.0",
+         {":2: camera.rolling_shutter_ms is 40", "at camera.rate_hz, 30 hertz, takes 33.3 milliseconds"}},
         {"[camera]\nwhite_balance_k = 500",
          {":2: camera.white_balance_k is 500", "0 (the camera's own) and 2000 to 10000 kelvin"}},
         {"[camera]\ndrift = true", {":2: camera.drift is true; it needs camera.kind = \"v4l2\""}},

@@ -144,5 +144,72 @@ TEST(TagPose, WhatIsNoPoseIsNone) {
     EXPECT_FALSE(pose_from_tags(found, tags, camera, corner_sd_px));
 }
 
+constexpr double readout_s = 0.025;
+constexpr double frame_s = 1.0 / 30.0;
+
+/// Slid at .36 m/s and turned by 90 degrees a second.
+RigidTransform slid(double t_s) {
+    return place(0.02 + 0.3 * t_s, -0.03 + 0.2 * t_s, 20.0 + 90.0 * t_s);
+}
+
+/// Each corner where it is when its own row is read; the first row at `first_s`.
+std::vector<FoundTag> rolled_corners(const std::vector<PropTag>& tags, double first_s) {
+    std::mt19937_64 random(1);
+    std::vector<FoundTag> found = corners_of(tags, slid(first_s), 0.0, random);
+    for (int round = 0; round < 20; ++round) { // until row and moment agree
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            for (std::size_t j = 0; j < 4; ++j) {
+                const double row_s = readout_s * found[k].corners_px[j].y / camera.height;
+                found[k].corners_px[j] =
+                    corners_of({tags[k]}, slid(first_s + row_s), 0.0, random).front().corners_px[j];
+            }
+        }
+    }
+    return found;
+}
+
+TEST(TagPose, ARollingShutterIsTakenOutByThePoseBefore) {
+    const std::vector<PropTag> tags = tags_of({});
+    const std::vector<FoundTag> found = rolled_corners(tags, 0.0);
+    const auto skewed = pose_from_tags(found, tags, camera, corner_sd_px, {readout_s, {}, 0.0});
+    ASSERT_TRUE(skewed);
+    EXPECT_GT(glm::length(off(*skewed, slid(skewed->moment_s)).turn_rad), 0.01);
+    const double before_s = 0.4 * readout_s - frame_s;
+    const RigidTransform before = above_the_table().inverse() * slid(before_s);
+    const auto pose = pose_from_tags(found, tags, camera, corner_sd_px, {readout_s, before, before_s});
+    ASSERT_TRUE(pose);
+    EXPECT_LT(glm::length(off(*pose, slid(pose->moment_s)).shift_m), 1e-6);
+    EXPECT_LT(glm::length(off(*pose, slid(pose->moment_s)).turn_rad), 1e-6);
+    EXPECT_LT(pose->residual_px, 1e-3);
+}
+
+/// The first pose is skewed, for nothing is known of the motion; each later one tells it better.
+TEST(TagPose, AfterAFewFramesNothingIsLeftOfTheRolling) {
+    const std::vector<PropTag> tags = tags_of({});
+    RollingShutter shutter{readout_s, {}, 0.0};
+    double off_m = 1.0;
+    for (int k = 0; k < 12; ++k) {
+        const auto found = rolled_corners(tags, k * frame_s);
+        const auto pose = pose_from_tags(found, tags, camera, corner_sd_px, shutter);
+        ASSERT_TRUE(pose);
+        off_m = glm::length(off(*pose, slid(k * frame_s + pose->moment_s)).shift_m);
+        shutter.before = pose->camera_from_prop;
+        shutter.before_s = pose->moment_s - frame_s;
+    }
+    EXPECT_LT(off_m, 1e-4);
+}
+
+/// With a global shutter the pose before counts for nothing.
+TEST(TagPose, AGlobalShutterNeedsNoPoseBefore) {
+    std::mt19937_64 random(4);
+    const std::vector<PropTag> tags = tags_of({});
+    const auto found = corners_of(tags, place(0.05, 0.02, 30.0), corner_sd_px, random);
+    const auto alone = pose_from_tags(found, tags, camera, corner_sd_px);
+    const auto after = pose_from_tags(found, tags, camera, corner_sd_px, {0.0, slid(0.0), -frame_s});
+    ASSERT_TRUE(alone && after);
+    EXPECT_EQ(alone->camera_from_prop.translation, after->camera_from_prop.translation);
+    EXPECT_EQ(after->moment_s, 0.0);
+}
+
 } // namespace
 } // namespace frustumscreen

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <thread>
@@ -42,6 +43,42 @@ TEST(TagReader, AFrameGivesThePoseOnTheTable) {
     EXPECT_EQ(pose->time, MonotonicTime(milliseconds(500)));
     EXPECT_LT(slip_m(step_between(standing, pose->table_from_prop), 0.0775), 0.001);
     EXPECT_EQ(reader.counts().posed, 1U);
+}
+
+/// Slid at .3 m/s before a shutter that takes 25 ms from the first row to the last: after four frames each pose is where the prop is at the pose's
+/// time, which is that of its tags' rows. The frame's time is its middle row's.
+TEST(TagReader, WhatARollingShutterSkewsIsTakenOut) {
+    const auto prop = [](double t_s) {
+        return RigidTransform{standing.rotation, standing.translation + glm::dvec3(0.3 * t_s, 0.0, 0.0)};
+    };
+    SceneCamera camera = above();
+    camera.rolling_ms = 25.0;
+    const TagScene scene(make_frustum(shipped_frustum), tags_of({}), camera, {});
+    TagSetUp known = set_up();
+    known.readout_s = 0.025;
+    const MonotonicTime begin(std::chrono::seconds(1));
+    TagReader reader(known, [] { return 0.0; });
+    TagReader unknowing(set_up(), [] { return 0.0; });
+    PoseStep off, skewed;
+    for (int k = 0; k < 4; ++k) {
+        const double first_row_s = k / 30.0;
+        const auto nanoseconds = [](double s) { return Nanoseconds(std::llround(1e9 * s)); };
+        const CameraFrame frame{begin + nanoseconds(first_row_s + 0.5 * known.readout_s), 1, 1280, 720,
+                                scene.picture([&](double t_s) { return prop(first_row_s + t_s); }, 1)};
+        const auto off_truth = [&](const std::optional<UncertainPose>& pose) {
+            const double exposed_s = to_seconds(pose->time - begin) + 0.5e-3 * camera.exposure_ms;
+            return step_between(prop(exposed_s), pose->table_from_prop);
+        };
+        const auto pose = reader.read(frame);
+        const auto without = unknowing.read(frame);
+        ASSERT_TRUE(pose && without);
+        EXPECT_NE(pose->time, frame.time);
+        off = off_truth(pose);
+        skewed = off_truth(without);
+    }
+    EXPECT_LT(glm::length(off.shift_m), 0.0012);
+    EXPECT_LT(glm::length(off.turn_rad), 0.2 * glm::length(skewed.turn_rad));
+    EXPECT_GT(glm::length(skewed.turn_rad), 0.02);
 }
 
 /// Each frame takes 20 ms of the processor: at 100 frames a second it looks at one of eight.

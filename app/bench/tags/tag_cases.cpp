@@ -80,9 +80,18 @@ void add_motion_cases(std::vector<TagCase>& cases) {
     add(0.3, 0.0, 5.0, 25.0);
     add(0.0, 90.0, 5.0, 25.0);
     add(0.3, 90.0, 15.0, 25.0);
+    for (std::size_t k = cases.size() - 4, end = cases.size(); k < end; ++k) {
+        cases.push_back(with_known_shutter(cases[k]));
+    }
 }
 
 } // namespace
+
+TagCase with_known_shutter(TagCase rolling) {
+    rolling.name += ", taken out";
+    rolling.is_shutter_known = true;
+    return rolling;
+}
 
 std::vector<TagCase> tag_cases() {
     std::vector<TagCase> cases{usual_but("as usual", [](TagCase&) {})};

@@ -40,6 +40,27 @@ PropMotion any_motion(const TagCase& of, std::mt19937_64& random) {
     };
 }
 
+/// What the exhibit knows of a shutter after three frames before the one at 0 s.
+RollingShutter known_shutter(const TagScene& scene, TagDetector& detector, const PropMotion& motion,
+                             std::mt19937_64& random) {
+    constexpr double frame_s = 1.0 / 30.0;
+    const Pinhole& pinhole = scene.camera().pinhole;
+    RollingShutter shutter{1e-3 * scene.camera().rolling_ms, {}, 0.0};
+    std::vector<FoundTag> found;
+    for (const int ago : {3, 2, 1}) {
+        const std::vector<std::uint8_t> picture =
+            scene.picture([&](double t_s) { return motion(t_s - ago * frame_s); }, random());
+        detector.find(picture, pinhole.width, pinhole.height, found);
+        const auto pose = pose_from_tags(found, scene.tags(), pinhole, usual_corner_sd_px, shutter);
+        shutter.before.reset();
+        if (pose && is_sure(*pose)) {
+            shutter.before = pose->camera_from_prop;
+            shutter.before_s = pose->moment_s - frame_s;
+        }
+    }
+    return shutter;
+}
+
 } // namespace
 
 TagFigures measure(const TagCase& of, std::size_t pictures, std::uint64_t seed) {
@@ -59,11 +80,13 @@ TagFigures measure(const TagCase& of, std::size_t pictures, std::uint64_t seed) 
     double squares = 0.0;
     for (std::size_t k = 0; k < pictures; ++k) {
         const PropMotion motion = any_motion(of, random);
+        const RollingShutter shutter =
+            of.is_shutter_known ? known_shutter(scene, detector, motion, random) : RollingShutter{};
         const std::vector<std::uint8_t> picture = scene.picture(motion, random());
         const double begin = 1e3 * thread_seconds();
         detector.find(picture, camera.pinhole.width, camera.pinhole.height, found);
         const double between = 1e3 * thread_seconds();
-        const auto pose = pose_from_tags(found, tags, camera.pinhole, usual_corner_sd_px);
+        const auto pose = pose_from_tags(found, tags, camera.pinhole, usual_corner_sd_px, shutter);
         lists.find_ms.push_back(between - begin);
         lists.fit_ms.push_back(1e3 * thread_seconds() - between);
         figures.tags += static_cast<double>(found.size()) / static_cast<double>(pictures);
@@ -71,8 +94,10 @@ TagFigures measure(const TagCase& of, std::size_t pictures, std::uint64_t seed) 
         if (!pose || !is_sure(*pose)) {
             continue;
         }
+        const double moment_s =
+            of.is_shutter_known ? pose->moment_s + 0.5e-3 * camera.exposure_ms : scene.moment_s(motion);
         const PoseStep off =
-            step_between(motion(scene.moment_s(motion)), camera.table_from_camera * pose->camera_from_prop);
+            step_between(motion(moment_s), camera.table_from_camera * pose->camera_from_prop);
         lists.off_mm.push_back(1e3 * glm::length(off.shift_m));
         lists.off_deg.push_back(glm::degrees(glm::length(off.turn_rad)));
         lists.said_mm.push_back(1e3 * pose->place_sd_m);

@@ -27,7 +27,8 @@ struct TagCase {
     double turn_deg_s = 0.0;
     /// Another motion for each picture, as displacement and turn on the table since its beginning; none: at the speeds above.
     std::function<PropMotion(std::mt19937_64&)> motion{};
-    double decimate = 1.0; ///< 2: searched at half size
+    double decimate = 1.0;         ///< 2: searched at half size
+    bool is_shutter_known = false; ///< the rolling is taken out, after three frames before at 30 a second
 };
 
 struct TagFigures {
@@ -45,6 +46,8 @@ struct TagFigures {
     double fit_ms = 0.0;     ///< median
 };
 
+/// The same, and what it rolls is in the settings.
+[[nodiscard]] TagCase with_known_shutter(TagCase rolling);
 [[nodiscard]] std::vector<TagCase> tag_cases();
 [[nodiscard]] TagFigures measure(const TagCase& of, std::size_t pictures, std::uint64_t seed);
 [[nodiscard]] std::string table_of(const std::vector<TagFigures>& figures);

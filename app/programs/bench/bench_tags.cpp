@@ -46,7 +46,10 @@ Result<void> add_recordings(const std::filesystem::path& folder, std::vector<Tag
                 fmt::format("slid as in {}, {} shutter", name, rolling_ms > 0.0 ? "rolling 25 ms" : "global");
             one.motion = motion;
             one.camera.rolling_ms = rolling_ms;
-            cases.push_back(std::move(one));
+            cases.push_back(one);
+            if (rolling_ms > 0.0) {
+                cases.push_back(with_known_shutter(one));
+            }
         }
     }
     return {};

@@ -138,7 +138,7 @@ Result<std::unique_ptr<Panel>> make_panel(const Settings& settings, std::optiona
 }
 
 TagSetUp tag_set_up(const CameraSettings& camera) {
-    TagSetUp set_up{camera.pinhole, camera.table_from_camera, {}};
+    TagSetUp set_up{camera.pinhole, camera.table_from_camera, {}, 1e-3 * camera.rolling_shutter_ms};
     for (const TagSettings& tag : camera.tag) {
         set_up.tags.push_back({tag.id, tag.size_m, prop_from_tag(tag)});
     }
