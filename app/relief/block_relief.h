@@ -54,6 +54,13 @@ struct BlockRelief {
     std::vector<glm::u8vec4> colours;
 };
 
+/// From places (u, v, w) of the grid, in texels, to the box.
+[[nodiscard]] glm::dmat4 box_from_grid(const ReliefGrid& grid, double texel_box);
+
+/// Where corner 0..3, in the order of `corner_codes`, of a block's cell 8 row + column lies in the box.
+[[nodiscard]] glm::dvec3 corner_in_box(const BlockRelief& relief, const ReliefGrid& grid, std::size_t block,
+                                       std::size_t cell, unsigned corner);
+
 /// Bytes of main memory.
 [[nodiscard]] inline std::uint64_t bytes_of(const BlockRelief& relief) {
     const auto bytes = [](const auto& values) { return values.size() * sizeof(values[0]); };

@@ -65,7 +65,7 @@ void CastPass::paint(const FramePlan& plan, const GpuStore& store) {
         picture.painted.clear();
         picture.copied = 0;
         const BlockRelief* const relief =
-            k < plan.cast_count ? store.find_relief(plan.casts[k].relief) : nullptr;
+            k < plan.cast_count && !plan.casts[k].on_gpu ? store.find_relief(plan.casts[k].relief) : nullptr;
         if (relief == nullptr) {
             continue;
         }

@@ -32,7 +32,7 @@ public:
     /// Has room for so many casts a plan, of the whole picture each.
     [[nodiscard]] Result<void> prepare(std::size_t casts, int width, int height);
 
-    /// Casts all of the plan's. Those whose relief is not in the store stay out.
+    /// Casts all of the plan's. Those whose relief is not in the store, and those that the GPU draws, stay out.
     void paint(const FramePlan& plan, const GpuStore& store);
     /// Shows what was painted for this plan in the framebuffer that is bound, whose colour is a texture; returns the number of draw
     /// calls.

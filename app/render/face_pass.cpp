@@ -61,7 +61,7 @@ bool FacePass::draws(const FramePlan& plan) {
 }
 
 int FacePass::draw(const FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
-                   const Raster& raster, Output output) const {
+                   const Raster& raster, Output output) {
     const Shader* const outline = shaders.find({ShaderKey::Pass::Outline});
     if (!draws(plan) || outline == nullptr) {
         return 0;
@@ -70,6 +70,7 @@ int FacePass::draw(const FramePlan& plan, const GpuStore& store, const ShaderCac
     glEnable(GL_SCISSOR_TEST);
     mark_faces(plan, *outline, raster);
     upload_indices(plan);
+    blocks_.list(plan, store);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     // A face is lit from the side that it is seen from, so nothing is mirrored but y (row 0 is the top).
@@ -84,11 +85,18 @@ int FacePass::draw(const FramePlan& plan, const GpuStore& store, const ShaderCac
         const Shader* const shader =
             shaders.find(output == Output::Places ? places_of(draw.shader) : draw.shader);
         const GpuStore::Mesh* const mesh = store.find(draw.drawable.mesh);
+        const GpuStore::Blocks* const blocks = store.find_blocks(draw.drawable.mesh);
         const GpuStore::Texture* const texture = store.find(draw.drawable.material.texture);
-        if (shader != nullptr && mesh != nullptr && texture != nullptr) {
-            draw_surface(plan, draw, *mesh, *texture, *shader, raster);
-            ++calls;
+        if (shader == nullptr || texture == nullptr || (mesh == nullptr && blocks == nullptr)) {
+            continue;
         }
+        begin_surface(plan, draw, *texture, *shader, raster);
+        if (mesh != nullptr) {
+            draw_mesh(draw, *mesh);
+        } else {
+            blocks_.draw(plan, draw, *blocks, *shader);
+        }
+        ++calls;
     }
     if (output == Output::Colours) {
         calls += soften_edges(plan, shaders, raster);
@@ -154,9 +162,8 @@ void FacePass::mark_faces(const FramePlan& plan, const Shader& outline, const Ra
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 }
 
-void FacePass::draw_surface(const FramePlan& plan, const Draw& draw, const GpuStore::Mesh& mesh,
-                            const GpuStore::Texture& texture, const Shader& shader,
-                            const Raster& raster) const {
+void FacePass::begin_surface(const FramePlan& plan, const Draw& draw, const GpuStore::Texture& texture,
+                             const Shader& shader, const Raster& raster) const {
     const auto face = static_cast<std::size_t>(draw.face);
     shader.use();
     set_view(shader, plan.projector, raster);
@@ -165,10 +172,13 @@ void FacePass::draw_surface(const FramePlan& plan, const Draw& draw, const GpuSt
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, texture.texels.get());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, mip_of(draw, texture, raster));
-    glBindVertexArray(mesh.vertex_array.get());
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
     glStencilFunc(GL_EQUAL, static_cast<GLint>(stencil_value(face)), 0xFF);
     set_scissor(draw.bounds, raster);
+}
+
+void FacePass::draw_mesh(const Draw& draw, const GpuStore::Mesh& mesh) const {
+    glBindVertexArray(mesh.vertex_array.get());
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.get());
     const std::uintptr_t offset = std::uintptr_t{draw.range.first} * sizeof(std::uint32_t);
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(draw.range.count), GL_UNSIGNED_INT,
                    // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)

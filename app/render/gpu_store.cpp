@@ -76,13 +76,30 @@ Result<Drawable> GpuStore::upload(const SceneLevel& level, const Image8& texture
 }
 
 Drawable GpuStore::keep(LevelUpload upload) {
-    if (upload.data_.relief) {
+    if (upload.data_.relief && !upload.blocks_) {
         return keep(std::move(upload.data_.relief));
     }
     const MeshId id{++last_};
+    if (upload.blocks_) {
+        BlockUpload::Textures blocks = upload.blocks_->take();
+        blocks_.emplace(
+            id, Blocks{std::move(upload.data_.relief), std::move(blocks.numbers), std::move(blocks.covers)});
+        return {id, {keep(std::move(blocks.colours), 0)}};
+    }
     meshes_.emplace(id, Mesh{std::move(upload.vertex_array_), std::move(upload.vertices_)});
     const LevelData& data = upload.data_;
     return {id, {keep(std::move(upload.texels_), data.finest_mip), data.texels_per_box, data.cut_out}};
+}
+
+Result<Drawable> GpuStore::upload(std::shared_ptr<const BlockRelief> relief) {
+    LevelData data;
+    data.relief = std::move(relief);
+    data.on_gpu = true;
+    LevelUpload whole(std::move(data));
+    if (Result<void> done = whole.go_on(); !done) {
+        return tl::unexpected<Error>(done.error());
+    }
+    return keep(std::move(whole));
 }
 
 Drawable GpuStore::keep(std::shared_ptr<const BlockRelief> relief) {
@@ -124,6 +141,7 @@ TextureId GpuStore::keep(GlTexture texels, int finest_mip) {
 void GpuStore::release(const Drawable& drawable) {
     meshes_.erase(drawable.mesh);
     reliefs_.erase(drawable.mesh);
+    blocks_.erase(drawable.mesh);
     release(drawable.material.texture);
 }
 
@@ -137,7 +155,12 @@ const GpuStore::Mesh* GpuStore::find(MeshId mesh) const {
 
 const BlockRelief* GpuStore::find_relief(MeshId relief) const {
     const auto place = reliefs_.find(relief);
-    return place != reliefs_.end() ? place->second.get() : nullptr;
+    const Blocks* const blocks = find_blocks(relief);
+    return place != reliefs_.end() ? place->second.get() : blocks != nullptr ? blocks->relief.get() : nullptr;
+}
+
+const GpuStore::Blocks* GpuStore::find_blocks(MeshId relief) const {
+    return found(blocks_, relief);
 }
 
 const GpuStore::Texture* GpuStore::find(TextureId texture) const {
@@ -149,6 +172,9 @@ std::uint64_t GpuStore::bytes() const {
     for (const auto& [id, mesh] : meshes_) {
         bytes += bytes_of_buffer(mesh.vertices);
     }
+    for (const auto& [id, blocks] : blocks_) {
+        bytes += bytes_of_texture(blocks.numbers) + bytes_of_texture(blocks.covers);
+    }
     for (const auto& [id, texture] : textures_) {
         bytes += bytes_of_texture(texture.texels);
     }
@@ -157,7 +183,10 @@ std::uint64_t GpuStore::bytes() const {
 
 std::uint64_t GpuStore::bytes(const Drawable& drawable) const {
     const Mesh* const mesh = find(drawable.mesh);
-    return (mesh != nullptr ? bytes_of_buffer(mesh->vertices) : 0) + bytes(drawable.material.texture);
+    const Blocks* const blocks = find_blocks(drawable.mesh);
+    return (mesh != nullptr ? bytes_of_buffer(mesh->vertices) : 0) +
+           (blocks != nullptr ? bytes_of_texture(blocks->numbers) + bytes_of_texture(blocks->covers) : 0) +
+           bytes(drawable.material.texture);
 }
 
 std::uint64_t GpuStore::bytes(TextureId texture) const {

@@ -1,4 +1,5 @@
-/// Meshes and pictures in the GPU's memory, and reliefs that are cast on the processor, by the numbers that plans name them with.
+/// Meshes, pictures and reliefs in the GPU's memory, and reliefs that are cast on the processor, by the numbers that plans name them
+/// with.
 ///
 /// Colour   an artifact's texture gives sRGB codes as they are stored (level_data.h). A caption is coverage
 ///          0..255, white light. A picture for the table gives its colours over black, as light.
@@ -25,10 +26,12 @@ class GpuStore {
 public:
     /// Uploads what a scene needs of a level; `texture` is the level's whole texture.
     [[nodiscard]] Result<Drawable> upload(const SceneLevel& level, const Image8& texture);
-    /// Takes a level that has been uploaded piece by piece, or a relief, of which nothing is; it must be done.
+    /// Takes a level or a relief that has been uploaded piece by piece; it must be done.
     [[nodiscard]] Drawable keep(LevelUpload upload);
-    /// Takes a relief, of which nothing is uploaded.
+    /// Takes a relief that is cast, of which nothing is uploaded.
     [[nodiscard]] Drawable keep(std::shared_ptr<const BlockRelief> relief);
+    /// Uploads a relief that the GPU draws.
+    [[nodiscard]] Result<Drawable> upload(std::shared_ptr<const BlockRelief> relief);
     /// Uploads all of a level.
     [[nodiscard]] Result<Drawable> upload(const Pack& pack, std::uint32_t level);
     /// Uploads a caption's coverage, row 0 at the text's top.
@@ -47,10 +50,17 @@ public:
         GlTexture texels;
         int finest_mip = 0; ///< the whole texture's mip level that is uploaded as level 0
     };
+    /// As block_upload.h; the colours are the drawable's texture.
+    struct Blocks {
+        std::shared_ptr<const BlockRelief> relief; ///< in main memory, where blocks are listed
+        GlTexture numbers, covers;
+    };
     /// Null if it was not uploaded, or released.
     [[nodiscard]] const Mesh* find(MeshId mesh) const;
-    /// The same for a relief, which lies in main memory.
+    /// The same for a relief as it lies in main memory, whatever draws it.
     [[nodiscard]] const BlockRelief* find_relief(MeshId relief) const;
+    /// The same for a relief that the GPU draws.
+    [[nodiscard]] const Blocks* find_blocks(MeshId relief) const;
     [[nodiscard]] const Texture* find(TextureId texture) const;
 
     /// Bytes of GPU memory, as the driver says.
@@ -62,7 +72,8 @@ private:
     [[nodiscard]] TextureId keep(GlTexture texels, int finest_mip);
 
     std::map<MeshId, Mesh> meshes_;
-    std::map<MeshId, std::shared_ptr<const BlockRelief>> reliefs_;
+    std::map<MeshId, std::shared_ptr<const BlockRelief>> reliefs_; ///< that are cast
+    std::map<MeshId, Blocks> blocks_;
     std::map<TextureId, Texture> textures_;
     std::uint32_t last_ = 0; ///< last number given out
 };

@@ -63,7 +63,7 @@ ImageFloat HitPointRenderer::draw(const FramePlan& plan, const GpuStore& store) 
 void HitPointRenderer::add_casts(const FramePlan& plan, const GpuStore& store, ImageFloat& points) {
     for (std::size_t cast = 0; cast < plan.cast_count; ++cast) {
         const CastPlan& planned = plan.casts[cast];
-        const BlockRelief* const relief = store.find_relief(planned.relief);
+        const BlockRelief* const relief = planned.on_gpu ? nullptr : store.find_relief(planned.relief);
         if (relief == nullptr) {
             continue;
         }

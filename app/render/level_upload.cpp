@@ -10,9 +10,17 @@
 namespace frustumscreen {
 
 Result<void> LevelUpload::go_on(std::uint64_t most_bytes) {
-    if (data_.relief) {
+    if (data_.relief && !data_.on_gpu) {
         done_ = true; // it is cast from main memory
         return {};
+    }
+    if (data_.relief) {
+        if (!blocks_) {
+            blocks_.emplace(data_.relief);
+        }
+        Result<void> sent = blocks_->go_on(most_bytes);
+        done_ = sent && blocks_->done();
+        return sent;
     }
     if (!begun_) {
         if (Result<void> begun = begin(); !begun) {

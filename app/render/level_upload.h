@@ -1,10 +1,11 @@
-/// A level on its way into the GPU's memory, in pieces: so that no frame waits for a whole artifact.
+/// A level, or a relief that the GPU draws, on its way into the GPU's memory, in pieces: so that no frame waits for a whole artifact.
 ///
 /// Main memory  a mip level is freed once it has been uploaded.
 /// Threads  the render thread, with the display's context current; also where it is destroyed.
 /// Errors   the driver has no memory, or the texture is larger than it allows.
 #pragma once
 
+#include "app/render/block_upload.h"
 #include "app/scene/level_data.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/gl/gl_handle.h"
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 namespace frustumscreen {
 
@@ -31,6 +33,7 @@ private:
     [[nodiscard]] std::uint64_t upload_texels(std::uint64_t most_bytes);
 
     LevelData data_;
+    std::optional<BlockUpload> blocks_; ///< of a relief that the GPU draws
     GlVertexArray vertex_array_;
     GlBuffer vertices_;
     GlTexture texels_;

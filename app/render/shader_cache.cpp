@@ -16,7 +16,10 @@ constexpr std::array<const char*, static_cast<std::size_t>(Uniform::Count)> unif
     "corners",   "clip_from_unit",      "prop_from_unit",    "brightness",
     "dither",    "pixel_from_fragment", "ray_from_fragment", "inverse_depth",
     "face_gain", "edge_share",          "rectangles",        "picture",
-    "raster"};
+    "raster",    "clip_from_grid",      "prop_from_grid",    "mirrored"};
+
+/// In the order of the texture units that they read (GpuStore::Texture, then GpuStore::Blocks).
+constexpr std::array<const char*, 3> sampler_names{"image", "blocks", "covers"};
 
 /// The lens never changes while a program lives, so its uniforms are set once.
 void set_lens(GLuint program, const Pinhole& pinhole) {
@@ -42,7 +45,9 @@ Result<Shader> Shader::compile(const ShaderKey& key, const std::optional<Pinhole
         made.locations_[k] = glGetUniformLocation(made.program_.get(), uniform_names[k]);
     }
     made.use();
-    glUniform1i(glGetUniformLocation(made.program_.get(), "image"), 0);
+    for (std::size_t unit = 0; unit < sampler_names.size(); ++unit) {
+        glUniform1i(glGetUniformLocation(made.program_.get(), sampler_names[unit]), static_cast<GLint>(unit));
+    }
     if (bent_by) {
         made.bends_ = true;
         set_lens(made.program_.get(), *bent_by);

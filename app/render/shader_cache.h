@@ -34,6 +34,9 @@ enum class Uniform : std::size_t {
     Rectangles,
     Picture,
     Raster,
+    ClipFromGrid,
+    PropFromGrid,
+    Mirrored,
     Count
 };
 

@@ -1,5 +1,6 @@
 #include "app/render/shader_source.h"
 
+#include "app/render/block_shader.h"
 #include "app/scene/lit_tiles.h"
 
 #include <fmt/format.h>
@@ -140,7 +141,7 @@ vec2 compensation() {
 #endif
 #endif
 void main() {
-    if (is_other_draws()) {
+    if (is_other_draws() || is_beside_cover()) {
         discard;
     }
 #if !defined(PLACES) || defined(CUT_OUT)
@@ -261,6 +262,7 @@ std::string defines_of(const ShaderKey& key) {
     define(key.cut_out, "CUT_OUT");
     define(key.dithered, "DITHERED");
     define(key.even_light, "EVEN_LIGHT");
+    define(key.blocks, "BLOCKS");
     return defines;
 }
 
@@ -280,7 +282,8 @@ ShaderSource source_of(const ShaderKey& key, bool bends) {
     case ShaderKey::Pass::Outline:
         return {defines, quad(outline_vertex), std::string(outline_fragment)};
     case ShaderKey::Pass::Surface:
-        return {defines, fmt::format("{}{}", bent_vertex, surface_vertex), fading(surface_fragment)};
+        return {defines, fmt::format("{}{}", bent_vertex, key.blocks ? block_vertex : surface_vertex),
+                fmt::format("{}{}{}", dither, block_cover, surface_fragment)};
     case ShaderKey::Pass::Cast:
         return {tiles_defines, tiles, fading(cast_fragment)};
     case ShaderKey::Pass::EdgeFeather:

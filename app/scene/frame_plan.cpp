@@ -122,7 +122,12 @@ std::optional<Draw> draw_part(const Part& part, const PropFace& face, const Face
     }
     Draw draw = draw_level(part, through, clip_from_box, shared);
     if (level.relief) {
-        draw.shader = cast_shader(part.dither.has_value());
+        if (level.on_gpu) {
+            draw.shader.blocks = true;
+            draw.clip_from_box = clip_from_box;
+        } else {
+            draw.shader = cast_shader(part.dither.has_value());
+        }
         draw.cast = plan.cast_count - 1;
         draw.bounds = through.bounds;
         plan.lit.light(draw.bounds);
@@ -143,6 +148,7 @@ bool plan_cast(const PlacedLevel& level, const Shared& shared, FramePlan& plan) 
     }
     CastPlan& cast = plan.casts[plan.cast_count++];
     cast.relief = level.drawable.mesh;
+    cast.on_gpu = level.on_gpu;
     cast.metres_per_box = level.metres_per_box;
     cast.samples = level.samples;
     cast.even_light = shared.view.light.has_value();
@@ -205,11 +211,11 @@ double pixel_density(const Shared& shared, const FramePlan& plan) {
     return density.share(glm::distance(middle, shared.projector_in_prop), shared.view.projector);
 }
 
-/// Those of the first; 1 where reliefs alone are drawn.
-int samples_of_meshes(std::span<const Part> parts) {
-    const auto mesh =
-        std::find_if(parts.begin(), parts.end(), [](const Part& part) { return !part.level.relief; });
-    return mesh != parts.end() ? mesh->level.samples : (parts.empty() ? 0 : 1);
+/// Those of the first part that the GPU draws; 1 where all is cast.
+int samples_on_gpu(std::span<const Part> parts) {
+    const auto drawn = std::find_if(parts.begin(), parts.end(),
+                                    [](const Part& part) { return !part.level.relief || part.level.on_gpu; });
+    return drawn != parts.end() ? drawn->level.samples : (parts.empty() ? 0 : 1);
 }
 
 /// A quadrilateral with a picture, or black.
@@ -345,7 +351,7 @@ void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanVi
     }
     plan.lit.finish();
     const double density = pixel_density(shared, plan);
-    plan.samples = samples_at(density, samples_of_meshes(parts));
+    plan.samples = samples_at(density, samples_on_gpu(parts));
     for (std::size_t k = 0; k < plan.cast_count; ++k) {
         plan.casts[k].samples = samples_at(density, std::max(plan.casts[k].samples, 1));
     }

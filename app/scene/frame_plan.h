@@ -43,7 +43,8 @@ struct PlacedLevel {
     Drawable drawable;
     int samples = 0; ///< Pack::samples, or what a governor allows; 0 = as many as the renderer takes
     std::uint32_t faces = ~std::uint32_t{0};     ///< of the prop, bits: those that it may show on
-    std::shared_ptr<const BlockRelief> relief{}; ///< is cast in the triangles' stead; `drawable` names it
+    std::shared_ptr<const BlockRelief> relief{}; ///< is drawn in the triangles' stead; `drawable` names it
+    bool on_gpu = false;                         ///< the GPU draws the relief; else it is cast
 
     [[nodiscard]] bool is_empty() const { return !triangles && !relief; }
 };
@@ -113,16 +114,17 @@ struct FacePlan {
     double pixels_per_m = 0.0;
 };
 
-/// A relief as the frame's eye sees it, to be cast into a picture of the processor's memory.
+/// A relief as the frame's eye sees it, to be cast into a picture of the processor's memory, or to be drawn by the GPU.
 struct CastPlan {
     MeshId relief = MeshId::None; ///< in the renderer's store
+    bool on_gpu = false;
     CastView view;
     double metres_per_box = 1.0;
     int samples = 1;         ///< a pixel
     bool even_light = false; ///< evens out the projector's light
 };
 
-/// A mesh seen through one face of the prop, what was cast of a relief there, or a quadrilateral beside the prop.
+/// A mesh or a relief seen through one face of the prop, what was cast of a relief there, or a quadrilateral beside the prop.
 struct Draw {
     static constexpr int on_table = -1;
 
@@ -132,18 +134,19 @@ struct Draw {
     /// PackVertex::position / 65535 -> clip. A quadrilateral's columns are its corners, depth 0: top left,
     /// top right, bottom right, bottom left of its picture.
     glm::mat4 clip_from_unit{1.0F};
+    glm::dmat4 clip_from_box{1.0};             ///< of a relief that the GPU draws, for its grids
     std::array<glm::vec3, 2> prop_from_unit{}; ///< metres: prop point = [0] * (position / 65535) + [1]
     IndexRange range;
     PixelRectangle bounds;       ///< holds every pixel that it can light
     double pixels_per_box = 0.0; ///< as FacePlan::pixels_per_m, in box units at the mesh's middle
     float brightness = 1.0F;     ///< linear light
     Dither dither;               ///< if the shader dithers
-    std::size_t cast = 0;        ///< index into FramePlan::casts, of a cast, which shows on the face
+    std::size_t cast = 0;        ///< index into FramePlan::casts, of a relief, which shows on the face
 };
 
 struct FramePlan {
     Pinhole projector;
-    /// Samples a pixel of the meshes in the prop, 1 without any; 0 = as many as the renderer takes. Where a face is seen or lit so
+    /// Samples a pixel of what the GPU draws in the prop, 1 without any; 0 = as many as the renderer takes. Where a face is seen or lit so
     /// slantingly that few pixels show much of the artifact, each pixel takes more samples than the level
     /// asked for, so that each place of the artifact keeps its samples.
     int samples = 0;
@@ -165,7 +168,7 @@ struct FramePlan {
 [[nodiscard]] FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t parts);
 [[nodiscard]] FramePlan make_plan(const PropShape& prop, const PlacedLevel& artifact);
 
-/// The first mesh among the parts says how many samples a pixel takes; a relief takes its own where it is cast. With one eye for
+/// The first part that the GPU draws says how many samples a pixel takes; a relief that is cast takes its own. With one eye for
 /// each face a relief shows where the first eye looks.
 void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanView& view, FramePlan& plan);
 /// The same for one part; without triangles the prop stays dark.

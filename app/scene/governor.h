@@ -60,10 +60,11 @@ struct Rung {
     std::uint32_t level = 0; ///< of Pack::levels; of a relief its texels (pack_relief.h)
     int samples = 1;         ///< a pixel
     bool enough = false;     ///< within the tolerance, with the samples that the artifact wants
-    bool relief = false;     ///< cast on the processor
+    bool relief = false;     ///< a relief, cast on the processor
+    bool on_gpu = false;     ///< the relief, but drawn by the GPU
 
     [[nodiscard]] bool shows_as(const Rung& other) const {
-        return level == other.level && relief == other.relief;
+        return level == other.level && relief == other.relief && on_gpu == other.on_gpu;
     }
 };
 

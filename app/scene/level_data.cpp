@@ -7,7 +7,7 @@
 namespace frustumscreen {
 
 LevelData level_data(const SceneLevel& level, const Image8& texture) {
-    LevelData data{level.mesh.vertices, {}, level.finest_mip, level.texels_per_box, level.cut_out, {}};
+    LevelData data{level.mesh.vertices, {}, level.finest_mip, level.texels_per_box, level.cut_out, {}, false};
     Image8 mip = level.finest_mip > 0 ? half_size(texture) : texture;
     for (int k = 1; k < level.finest_mip; ++k) {
         mip = half_size(mip);

@@ -25,6 +25,7 @@ struct LevelData {
     bool cut_out = false;
     /// In the stead of all that: it stays in main memory.
     std::shared_ptr<const BlockRelief> relief{};
+    bool on_gpu = false; ///< the relief, which goes into the GPU's memory too, for it to draw
 };
 /// `texture`: the level's whole texture.
 [[nodiscard]] LevelData level_data(const SceneLevel& level, const Image8& texture);

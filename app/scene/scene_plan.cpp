@@ -173,10 +173,10 @@ void choose_captions(const Settings& settings, const PackOutline& pack, const Sc
 
 void choose_shaders(const SceneRequest& request, bool signs, ScenePlan& plan) {
     const bool all = (plan.economies & UnusedShaders) == 0;
-    const bool fades = all || std::any_of(plan.rungs.begin(), plan.rungs.end(), [&](const Rung& rung) {
-                           return !rung.shows_as(plan.rungs.front());
-                       });
-    const bool casts = !plan.reliefs.empty();
+    const auto any = [&](const auto& is) { return std::any_of(plan.rungs.begin(), plan.rungs.end(), is); };
+    const bool fades = all || any([&](const Rung& rung) { return !rung.shows_as(plan.rungs.front()); });
+    const bool casts = any([](const Rung& rung) { return rung.relief && !rung.on_gpu; });
+    const bool blocks = any([](const Rung& rung) { return rung.on_gpu; });
     const bool plain = all || !request.light;
     const bool even = all || request.light;
     RenderNeeds& needs = plan.needs;
@@ -187,6 +187,10 @@ void choose_shaders(const SceneRequest& request, bool signs, ScenePlan& plan) {
                 key.dithered = dithered;
                 key.even_light = even_light;
                 if (!plan.levels.empty()) {
+                    needs.draws.insert(key);
+                }
+                if (blocks) {
+                    key.blocks = true;
                     needs.draws.insert(key);
                 }
                 if (casts) { // in any light, which the processor gives them
@@ -202,12 +206,12 @@ void choose_shaders(const SceneRequest& request, bool signs, ScenePlan& plan) {
         needs.draws.insert({ShaderKey::Pass::TablePicture});
     }
     for (const Rung& rung : plan.rungs) {
-        needs.samples = rung.relief ? needs.samples // it takes its samples where it is cast
+        needs.samples = rung.relief && !rung.on_gpu ? needs.samples // it takes its samples where it is cast
                         : request.live && request.room > 1
                             ? std::max(needs.samples, request.room)
                             : std::max({needs.samples, rung.samples, request.room});
     }
-    needs.casts = std::min<std::size_t>(plan.reliefs.size(), 2); // a fade shows two
+    needs.casts = casts ? std::min<std::size_t>(plan.reliefs.size(), 2) : 0; // a fade shows two
     if (!plain) {
         plan.left_out.push_back({UnusedShaders, "the shader without light compensation",
                                  "the projector's light is evened out in every picture"});
@@ -261,8 +265,15 @@ std::optional<std::uint32_t> number_behind(std::string_view prefix, std::string_
 
 constexpr std::string_view level_prefix = "level";
 constexpr std::string_view relief_prefix = "relief";
+constexpr std::string_view gpu_suffix = "-gpu";
 
-/// "auto, finest, level0 to level6, relief, relief96 and relief192"
+/// What a relief's name says without who draws it; other names stay as they are.
+std::string_view without_gpu(std::string_view name) {
+    const bool named = name.starts_with(relief_prefix) && name.ends_with(gpu_suffix);
+    return named ? name.substr(0, name.size() - gpu_suffix.size()) : name;
+}
+
+/// "auto, finest, level0 to level6, relief, relief96 and relief192, each relief also with -gpu"
 std::string techniques_of(const PackOutline& pack, const std::vector<ReliefOutline>& reliefs) {
     const std::size_t levels = pack.levels.size();
     std::vector<std::string> names{"finest",
@@ -273,7 +284,8 @@ std::string techniques_of(const PackOutline& pack, const std::vector<ReliefOutli
     for (const ReliefOutline& relief : reliefs) {
         names.push_back(fmt::format("{}{}", relief_prefix, relief.texels));
     }
-    return listed("auto", "auto,", names);
+    return listed("auto", "auto,", names) +
+           (reliefs.empty() ? "" : fmt::format(", each relief also with {}", gpu_suffix));
 }
 
 /// What the camera's reader does with each frame.
@@ -294,7 +306,8 @@ std::string camera_uses(const DevicePlan& plan) {
 } // namespace
 
 std::string name_of(const Rung& rung) {
-    return fmt::format("{}{}", rung.relief ? relief_prefix : level_prefix, rung.level);
+    return fmt::format("{}{}{}", rung.relief ? relief_prefix : level_prefix, rung.level,
+                       rung.on_gpu ? gpu_suffix : "");
 }
 
 Result<Rung> rung_of(const PackOutline& pack, std::string_view technique, double pixel_box) {
@@ -313,14 +326,15 @@ Result<Rung> rung_of(const PackOutline& pack, std::string_view technique, double
         level && *level < levels) {
         return Rung{*level};
     }
-    std::optional<std::uint32_t> texels = number_behind(relief_prefix, technique);
+    const std::string_view of = without_gpu(technique);
+    std::optional<std::uint32_t> texels = number_behind(relief_prefix, of);
     if (const std::optional<ReliefOutline> relief =
             relief_for(*reliefs, pixel_box, [](const ReliefOutline&) { return true; });
-        relief && technique == relief_prefix) {
+        relief && of == relief_prefix) {
         texels = relief->texels;
     }
     if (texels && relief_of(*reliefs, *texels)) {
-        return Rung{*texels, 1, false, true};
+        return Rung{*texels, 1, false, true, of != technique};
     }
     return bad_input(fmt::format(
         "technique '{}'; this pack has {}{}", technique, techniques_of(pack, *reliefs),
@@ -328,8 +342,9 @@ Result<Rung> rung_of(const PackOutline& pack, std::string_view technique, double
 }
 
 bool is_technique(std::string_view name) {
-    return name == "auto" || name == "finest" || name == relief_prefix || number_behind(level_prefix, name) ||
-           number_behind(relief_prefix, name);
+    const std::string_view of = without_gpu(name);
+    return name == "auto" || name == "finest" || of == relief_prefix || number_behind(level_prefix, of) ||
+           number_behind(relief_prefix, of);
 }
 
 std::string_view name_of(Economy economy) {

@@ -30,13 +30,14 @@
 
 namespace frustumscreen {
 
-/// The form of a technique's name: "auto", "finest", "relief", or "level" or "relief" and a number that some pack may have.
+/// The form of a technique's name: "auto", "finest", "relief", or "level" or "relief" and a number that some pack may have; behind the
+/// name of a relief may stand "-gpu".
 [[nodiscard]] bool is_technique(std::string_view name);
-/// "level0", "relief96".
+/// "level0", "relief96", "relief96-gpu".
 [[nodiscard]] std::string name_of(const Rung& rung);
 /// The way to draw that a technique's name means, without its samples: "auto" the pack's default level, "finest", "level0", "level1",
 /// ...; "relief96", "relief192", ... by texels; "relief" the coarsest whose texel is not clearly larger than a pixel of `pixel_box`
-/// on the prop, else the finest.
+/// on the prop, else the finest. A relief is cast on the processor; "relief-gpu", "relief96-gpu", ... are drawn by the GPU.
 [[nodiscard]] Result<Rung> rung_of(const PackOutline& pack, std::string_view technique, double pixel_box);
 
 /// A kind of things that a scene may do without; bits.

@@ -13,7 +13,7 @@ std::string_view name_of_light(const ShaderKey& key) {
 
 std::string name_of_surface(const ShaderKey& key) {
     std::string name = key.dithered ? "fading " : "";
-    name += key.cut_out ? "cut-out artifact" : "artifact";
+    name += key.blocks ? "relief" : key.cut_out ? "cut-out artifact" : "artifact";
     if (key.places) {
         return "places of the " + name;
     }
@@ -46,8 +46,8 @@ std::string name_of(const ShaderKey& key) {
 
 std::uint32_t bits_of(const ShaderKey& key) {
     const auto bit = [](bool set, unsigned place) { return static_cast<std::uint32_t>(set) << place; };
-    return static_cast<std::uint32_t>(key.pass) << 4U | bit(key.places, 3) | bit(key.cut_out, 2) |
-           bit(key.dithered, 1) | bit(key.even_light, 0);
+    return static_cast<std::uint32_t>(key.pass) << 5U | bit(key.blocks, 4) | bit(key.places, 3) |
+           bit(key.cut_out, 2) | bit(key.dithered, 1) | bit(key.even_light, 0);
 }
 
 ShaderKey places_of(ShaderKey key) {

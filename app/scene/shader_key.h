@@ -19,7 +19,7 @@ namespace frustumscreen {
 struct ShaderKey {
     enum class Pass : std::uint8_t {
         Outline,         ///< marks a face of the prop
-        Surface,         ///< draws a mesh
+        Surface,         ///< draws a mesh, or a relief's blocks
         Cast,            ///< shows what was cast into memory
         EdgeFeather,     ///< dims a strip of a face
         TablePicture,    ///< draws a flat picture beside the prop
@@ -33,6 +33,7 @@ struct ShaderKey {
     bool cut_out : 1 = false;    ///< leaves out texels whose alpha is below one half
     bool dithered : 1 = false;   ///< draws a share of the pixels
     bool even_light : 1 = false; ///< evens out the projector's light
+    bool blocks : 1 = false;     ///< draws a relief's blocks, which leave out no texels
 
     [[nodiscard]] auto operator<=>(const ShaderKey&) const = default;
 };

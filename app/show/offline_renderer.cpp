@@ -139,7 +139,14 @@ Result<void> OfflineRenderer::take_relief(const OfflineScene& scene) {
     }
     renderer_ = std::move(*renderer);
     seen_ = plan.seen_reliefs.front();
-    placed_ = placed(*pack, relief, plan.metres_per_box, renderer_->store().keep(relief));
+    const bool on_gpu = plan.rungs.front().on_gpu;
+    const Result<Drawable> drawable =
+        on_gpu ? renderer_->store().upload(relief) : renderer_->store().keep(relief);
+    if (!drawable) {
+        return tl::unexpected<Error>(drawable.error());
+    }
+    placed_ = placed(*pack, relief, plan.metres_per_box, *drawable);
+    placed_.on_gpu = on_gpu;
     return {};
 }
 

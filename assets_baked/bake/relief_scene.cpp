@@ -32,24 +32,6 @@ template <typename Visit> void for_each_cell(const BlockRelief& relief, Visit vi
     }
 }
 
-glm::vec3 corner_in_box(const BlockRelief& relief, const ReliefGrid& grid, const Cell& at,
-                        std::uint32_t corner) {
-    const ReliefBlock& block = relief.blocks[at.block];
-    const auto i = static_cast<float>(at.cell % block_cells + (corner & 1U));
-    const auto j = static_cast<float>(at.cell / block_cells + (corner >> 1U));
-    const std::uint32_t codes = relief.corner_codes[at.block * cells_of_block + at.cell];
-    const auto code = static_cast<float>(codes >> 8U * corner & 255U);
-    const float residual = block.residual_low + block.residual_step * code;
-    const glm::dvec3 place(block.u0 + i, block.v0 + j, block.w0 + block.w_u * i + block.w_v * j + residual);
-    glm::dvec3 point(0.0);
-    for (int k = 0; k < 3; ++k) {
-        const int axis = grid.axis.at(static_cast<std::size_t>(k));
-        point[axis] = grid.origin_box[axis] +
-                      (k == 2 ? grid.sign : 1.0) * place[k] * static_cast<double>(relief.texel_box);
-    }
-    return {point};
-}
-
 /// The place of a surface's hit in its block, as the cast tells it.
 std::uint32_t place_of(std::uint32_t cell, const SurfaceHit& hit) {
     constexpr auto unit = static_cast<float>(CastSamples::places_per_cell);
@@ -73,7 +55,7 @@ TriangleMesh surface_of(const BlockRelief& relief) {
     for_each_cell(relief, [&](const ReliefGrid& grid, const Cell& cell) {
         const auto first = static_cast<std::uint32_t>(surface.positions.size());
         for (std::uint32_t corner = 0; corner < 4; ++corner) {
-            surface.positions.push_back(corner_in_box(relief, grid, cell, corner));
+            surface.positions.emplace_back(corner_in_box(relief, grid, cell.block, cell.cell, corner));
         }
         for (const std::uint32_t corner : corners_of_cell) {
             surface.indices.push_back(first + corner);

@@ -17,22 +17,13 @@ struct Corners {
 };
 
 Corners corners_of(const BlockRelief& relief, const ReliefGrid& grid, std::size_t block, int cell) {
-    const ReliefBlock& of = relief.blocks[block];
-    const std::uint32_t codes = relief.corner_codes[block * cells_of_block + static_cast<std::size_t>(cell)];
+    const auto number = static_cast<std::size_t>(cell);
     Corners corners{};
     for (unsigned k = 0; k < 4; ++k) {
-        const double i = cell % block_cells + static_cast<int>(k & 1U);
-        const double j = cell / block_cells + static_cast<int>(k >> 1U);
-        const double w = of.w0 + of.w_u * i + of.w_v * j + of.residual_low +
-                         of.residual_step * static_cast<double>(codes >> 8U * k & 255U);
-        const glm::dvec3 texels(of.u0 + i, of.v0 + j, grid.sign * w);
-        for (int axis = 0; axis < 3; ++axis) {
-            const int box = grid.axis.at(static_cast<std::size_t>(axis));
-            corners.places.at(k)[box] =
-                grid.origin_box[box] + texels[axis] * static_cast<double>(relief.texel_box);
-        }
-        const std::size_t colour = block * block_corners * block_corners +
-                                   static_cast<std::size_t>(j) * block_corners + static_cast<std::size_t>(i);
+        corners.places.at(k) = corner_in_box(relief, grid, block, number, k);
+        const std::size_t colour =
+            (block * block_corners + number / block_cells + (k >> 1U)) * block_corners +
+            number % block_cells + (k & 1U);
         const std::array<float, 256>& linear = linear_from_srgb8();
         const glm::u8vec4 code = relief.colours[colour];
         corners.colours.at(k) = {linear[code.r], linear[code.g], linear[code.b], 1.0F};

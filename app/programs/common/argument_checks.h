@@ -19,7 +19,7 @@ namespace frustumscreen {
         return is_technique(text)
                    ? std::string()
                    : fmt::format("'{}' is no technique; allowed: auto, finest, level0, level1, ..., "
-                                 "relief, relief96, relief192, ...",
+                                 "relief, relief96, relief192, ..., relief-gpu, relief96-gpu, ...",
                                  text);
     };
     return {check, ""};

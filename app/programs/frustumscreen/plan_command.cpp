@@ -31,7 +31,7 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
     app.add_option("--pack", request.pack, "the artifact, *.fspack").required();
     app.add_option("--technique", request.technique,
-                   "auto, finest, level0, level1, ..., relief, relief96, ...")
+                   "auto, finest, level0, level1, ..., relief, relief96, ..., relief-gpu, relief96-gpu, ...")
         .check(is_technique_word())
         .capture_default_str();
     app.add_flag("--json", request.json, "report as JSON");

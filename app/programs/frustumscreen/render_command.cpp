@@ -44,7 +44,7 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     app.add_option("--poses", request.poses, "poses, CSV").required();
     app.add_option("--out", request.out, "folder for the pictures; made if missing").required();
     app.add_option("--technique", request.options.technique,
-                   "auto, finest, level0, level1, ..., relief, relief96, ...")
+                   "auto, finest, level0, level1, ..., relief, relief96, ..., relief-gpu, relief96-gpu, ...")
         .check(is_technique_word())
         .capture_default_str();
     const CommandOption width =

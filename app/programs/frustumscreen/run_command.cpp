@@ -89,7 +89,7 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
     app.add_option("--packs", request.show.packs, "artifacts to show instead of those in the settings");
     app.add_option("--technique", request.show.technique,
-                   "auto, finest, level0, level1, ..., relief, relief96, ...")
+                   "auto, finest, level0, level1, ..., relief, relief96, ..., relief-gpu, relief96-gpu, ...")
         .check(is_technique_word())
         .capture_default_str();
     app.add_flag("--fast", request.fast, "as fast as the machine can, on a clock that steps by one frame");

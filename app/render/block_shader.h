@@ -1,0 +1,101 @@
+/// The vertex stage of a relief that the GPU draws: its blocks' cells as micropolygons (Cook 1987), the triangles that the cast meets.
+///
+/// An instance is a block, four vertices are a cell's corners (block_instances.h); all else is fetched from block_upload.h's textures. What
+/// comes after it is a mesh's: a colour is fetched by `texel`, and a cell that is cut leaves out what lies beside its cover.
+///
+/// Threads  values; any.
+#pragma once
+
+#include <string_view>
+
+namespace frustumscreen {
+
+/// Behind `bent` of shader_source.cpp.
+inline constexpr std::string_view block_vertex = R"(
+layout(location = 0) in uvec2 block_and_direction; // of an instance
+uniform highp usampler2D blocks; // three texels a block
+uniform highp usampler2D covers;
+uniform sampler2D image;         // 9 x 9 texels a block, of its corners: colour, and the residual's code
+uniform mat4 clip_from_grid[6];
+uniform uint mirrored;           // bits: directions whose grid is left-handed
+#ifdef PLACES
+uniform mat4 prop_from_grid[6];  // metres
+out vec3 point;
+#else
+out vec2 texel;
+#endif
+flat out uvec2 cover; // of the cell
+out vec2 in_cell;     // 0..1 in it
+
+// Blocks are drawn wider by this, so that neighbours whose residuals have other steps leave no gap.
+const float seam = 0.04; // cells
+
+int count(uvec2 bits) {
+    bits -= bits >> 1 & 0x55555555u;
+    bits = (bits & 0x33333333u) + (bits >> 2 & 0x33333333u);
+    bits = (bits + (bits >> 4) & 0x0F0F0F0Fu) * 0x01010101u >> 24;
+    return int(bits.x + bits.y);
+}
+
+float code(ivec2 corner) { return 255.0 * texelFetch(image, corner, 0).a; }
+
+void main() {
+    int columns = textureSize(blocks, 0).x / 3;
+    int number = int(block_and_direction.x);
+    ivec2 block = ivec2(number % columns, number / columns);
+    uvec4 plane = texelFetch(blocks, ivec2(3 * block.x, block.y), 0);        // u0, v0, w0, w_u
+    uvec4 residual = texelFetch(blocks, ivec2(3 * block.x + 1, block.y), 0); // w_v, low, step; the first cover's place
+    uvec4 cells = texelFetch(blocks, ivec2(3 * block.x + 2, block.y), 0);    // those that are there, those that are cut
+    uint cell = uint(gl_VertexID) >> 2;
+    uvec2 bit = cell < 32u ? uvec2(1u << cell, 0u) : uvec2(0u, 1u << (cell - 32u));
+    uvec2 before = cell < 32u ? uvec2(bit.x - 1u, 0u) : uvec2(~0u, bit.y - 1u);
+    if ((cells.xy & bit) == uvec2(0u)) {
+        gl_Position = vec4(0.0, 0.0, 2.0, 1.0); // all of the cell's corners: behind the far plane
+        return;
+    }
+    cover = uvec2(~0u);
+    if ((cells.zw & bit) != uvec2(0u)) {
+        int place = int(residual.w) + count(cells.zw & before);
+        int wide = textureSize(covers, 0).x;
+        cover = texelFetch(covers, ivec2(place % wide, place / wide), 0).xy;
+    }
+    ivec2 first = ivec2(cell & 7u, cell >> 3);
+    ivec2 corner = ivec2(gl_VertexID & 1, gl_VertexID >> 1 & 1);
+    if ((mirrored >> block_and_direction.y & 1u) != 0u) {
+        corner = corner.yx;
+    }
+    ivec2 in_block = first + corner;
+    in_cell = vec2(corner) + seam * (vec2(equal(in_block, ivec2(8))) - vec2(equal(in_block, ivec2(0))));
+    ivec2 tile = 9 * block;
+    ivec2 at = tile + first;
+    float height = mix(mix(code(at), code(at + ivec2(1, 0)), in_cell.x),
+                       mix(code(at + ivec2(0, 1)), code(at + 1), in_cell.x), in_cell.y);
+    vec2 uv = vec2(first) + in_cell;
+    vec2 slope = vec2(uintBitsToFloat(plane.w), uintBitsToFloat(residual.x));
+    float w = uintBitsToFloat(plane.z) + dot(slope, uv) + uintBitsToFloat(residual.y) + uintBitsToFloat(residual.z) * height;
+    vec4 place = vec4(uintBitsToFloat(plane.xy) + uv, w, 1.0);
+    gl_Position = bent(clip_from_grid[block_and_direction.y] * place);
+#ifdef PLACES
+    point = (prop_from_grid[block_and_direction.y] * place).xyz;
+#else
+    texel = (vec2(tile + in_block) + 0.5) / vec2(textureSize(image, 0));
+#endif
+}
+)";
+
+/// In the fragment stage, before its `main`.
+inline constexpr std::string_view block_cover = R"(
+#ifdef BLOCKS
+flat in uvec2 cover;
+in vec2 in_cell;
+bool is_beside_cover() {
+    ivec2 part = clamp(ivec2(8.0 * in_cell), 0, 7);
+    uint bits = part.y < 4 ? cover.x : cover.y;
+    return (bits >> (part.y % 4 * 8 + part.x) & 1u) == 0u;
+}
+#else
+bool is_beside_cover() { return false; }
+#endif
+)";
+
+} // namespace frustumscreen

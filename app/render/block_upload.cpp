@@ -1,0 +1,163 @@
+#include "app/render/block_upload.h"
+
+#include <fmt/format.h>
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr int numbers_of_block = 3; ///< texels
+constexpr std::size_t corners = std::size_t{block_corners} * block_corners;
+constexpr std::size_t cells = std::size_t{block_cells} * block_cells;
+
+/// So many along the sides of the smallest square that holds `count`, one at least.
+int side_of(std::size_t count) {
+    return std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))));
+}
+
+int rows_of(std::size_t count, int columns) {
+    const auto along = static_cast<std::size_t>(columns);
+    return std::max(1, static_cast<int>((count + along - 1) / along));
+}
+
+std::uint32_t lower(std::uint64_t bits) {
+    return static_cast<std::uint32_t>(bits);
+}
+
+std::uint32_t upper(std::uint64_t bits) {
+    return static_cast<std::uint32_t>(bits >> 32U);
+}
+
+std::array<glm::uvec4, numbers_of_block> numbers_of(const ReliefBlock& block) {
+    const auto bits = [](float number) { return std::bit_cast<std::uint32_t>(number); };
+    return {
+        glm::uvec4(bits(block.u0), bits(block.v0), bits(block.w0), bits(block.w_u)),
+        glm::uvec4(bits(block.w_v), bits(block.residual_low), bits(block.residual_step), block.first_cover),
+        glm::uvec4(lower(block.mask), upper(block.mask), lower(block.cut), upper(block.cut))};
+}
+
+/// Neighbouring cells share corners, and the last column's and row's corners are the last cells'.
+std::uint8_t residual_code(const BlockRelief& relief, std::size_t block, std::size_t column,
+                           std::size_t row) {
+    const std::size_t x = std::min(column, std::size_t{block_cells} - 1);
+    const std::size_t y = std::min(row, std::size_t{block_cells} - 1);
+    const std::uint32_t codes = relief.corner_codes[block * cells + y * block_cells + x];
+    return static_cast<std::uint8_t>(codes >> 8U * (column - x + 2 * (row - y)));
+}
+
+GlTexture make_texture(GLenum format, int width, int height, GLint filter) {
+    GlTexture texture = GlTexture::generate();
+    glBindTexture(GL_TEXTURE_2D, texture.get());
+    glTexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return texture;
+}
+
+} // namespace
+
+BlockUpload::BlockUpload(std::shared_ptr<const BlockRelief> relief)
+    : relief_(std::move(relief)), columns_(side_of(relief_->blocks.size())),
+      rows_(rows_of(relief_->blocks.size(), columns_)) {}
+
+/// Makes the textures with room for everything, and uploads the covers, a tenth of it.
+Result<void> BlockUpload::begin() {
+    const int wide = side_of(relief_->covers.size());
+    GLint limit = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+    if (const int widest = std::max(block_corners * columns_, wide); widest > limit) {
+        return fail(
+            ErrorKind::BadConfiguration,
+            fmt::format("render: a relief of {} blocks needs textures of {} x {} texels; this driver "
+                        "allows {}: use a coarser relief, or the technique \"relief\" without the GPU",
+                        relief_->blocks.size(), widest, widest, limit));
+    }
+    textures_.colours = make_texture(GL_RGBA8, block_corners * columns_, block_corners * rows_, GL_LINEAR);
+    textures_.numbers = make_texture(GL_RGBA32UI, numbers_of_block * columns_, rows_, GL_NEAREST);
+    textures_.covers = make_texture(GL_RG32UI, wide, rows_of(relief_->covers.size(), wide), GL_NEAREST);
+    upload_covers();
+    return {};
+}
+
+void BlockUpload::upload_covers() {
+    const std::vector<std::uint64_t>& covers = relief_->covers;
+    const auto wide = static_cast<std::size_t>(side_of(covers.size()));
+    std::vector<glm::uvec2> row;
+    for (std::size_t first = 0; first < covers.size(); first += wide) {
+        row.clear();
+        for (std::size_t k = first; k < std::min(first + wide, covers.size()); ++k) {
+            row.emplace_back(lower(covers[k]), upper(covers[k]));
+        }
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, static_cast<GLint>(first / wide),
+                        static_cast<GLsizei>(row.size()), 1, GL_RG_INTEGER, GL_UNSIGNED_INT, row.data());
+    }
+}
+
+void BlockUpload::upload_row() {
+    const std::size_t first = static_cast<std::size_t>(row_) * static_cast<std::size_t>(columns_);
+    const std::size_t end = std::min(first + static_cast<std::size_t>(columns_), relief_->blocks.size());
+    const std::size_t wide = (end - first) * block_corners;
+    std::vector<glm::uvec4> numbers;
+    std::vector<glm::u8vec4> colours(wide * block_corners);
+    for (std::size_t block = first; block < end; ++block) {
+        const std::array<glm::uvec4, numbers_of_block> of = numbers_of(relief_->blocks[block]);
+        numbers.insert(numbers.end(), of.begin(), of.end());
+        for (std::size_t corner = 0; corner < corners; ++corner) {
+            const std::size_t column = corner % block_corners;
+            const std::size_t row = corner / block_corners;
+            glm::u8vec4& texel = colours[row * wide + (block - first) * block_corners + column];
+            texel = relief_->colours[block * corners + corner];
+            texel.a = residual_code(*relief_, block, column, row);
+        }
+    }
+    glBindTexture(GL_TEXTURE_2D, textures_.numbers.get());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, row_, static_cast<GLsizei>(numbers.size()), 1, GL_RGBA_INTEGER,
+                    GL_UNSIGNED_INT, numbers.data());
+    glBindTexture(GL_TEXTURE_2D, textures_.colours.get());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, block_corners * row_, static_cast<GLsizei>(wide), block_corners,
+                    GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
+    ++row_;
+}
+
+Result<void> BlockUpload::go_on(std::uint64_t most_bytes) {
+    glActiveTexture(GL_TEXTURE0);
+    if (!begun_) {
+        if (Result<void> begun = begin(); !begun) {
+            return begun;
+        }
+        begun_ = true;
+    }
+    const std::uint64_t bytes_a_row = static_cast<std::uint64_t>(columns_) *
+                                      (corners * sizeof(glm::u8vec4) + numbers_of_block * sizeof(glm::uvec4));
+    for (std::uint64_t sent = 0; sent < most_bytes && row_ < rows_; sent += bytes_a_row) {
+        upload_row();
+    }
+    if (glGetError() != GL_NO_ERROR) {
+        return fail(ErrorKind::BadConfiguration,
+                    "render: the driver has no memory for the relief; use a coarser relief, or the "
+                    "technique \"relief\" without the GPU");
+    }
+    return {};
+}
+
+std::uint64_t gpu_bytes(const BlockRelief& relief) {
+    const int columns = side_of(relief.blocks.size());
+    const int wide = side_of(relief.covers.size());
+    const auto texels = [](int width, int height) {
+        return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    };
+    return texels(columns, rows_of(relief.blocks.size(), columns)) *
+               (corners * sizeof(glm::u8vec4) + numbers_of_block * sizeof(glm::uvec4)) +
+           texels(wide, rows_of(relief.covers.size(), wide)) * sizeof(glm::uvec2);
+}
+
+} // namespace frustumscreen
