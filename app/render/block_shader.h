@@ -27,7 +27,7 @@ out vec2 texel;
 flat out uvec2 cover; // of the cell
 out vec2 in_cell;     // 0..1 in it
 
-// Blocks are drawn wider by this, so that neighbours whose residuals have other steps leave no gap.
+// Cells are drawn wider by this, as the cast draws them, so that blocks whose residuals have other steps leave no gap.
 const float seam = 0.04; // cells
 
 int count(uvec2 bits) {
@@ -65,7 +65,7 @@ void main() {
         corner = corner.yx;
     }
     ivec2 in_block = first + corner;
-    in_cell = vec2(corner) + seam * (vec2(equal(in_block, ivec2(8))) - vec2(equal(in_block, ivec2(0))));
+    in_cell = vec2(corner) * (1.0 + 2.0 * seam) - seam;
     ivec2 tile = 9 * block;
     ivec2 at = tile + first;
     float height = mix(mix(code(at), code(at + ivec2(1, 0)), in_cell.x),
