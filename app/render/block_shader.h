@@ -10,6 +10,14 @@
 
 namespace frustumscreen {
 
+/// Of 8 x 8 bits; in both stages.
+inline constexpr std::string_view block_bits = R"(
+bool has(uvec2 bits, ivec2 at) {
+    uint half_of_bits = at.y < 4 ? bits.x : bits.y;
+    return (at & 7) == at && (half_of_bits >> (at.y % 4 * 8 + at.x) & 1u) != 0u;
+}
+)";
+
 /// Behind `bent` of shader_source.cpp.
 inline constexpr std::string_view block_vertex = R"(
 layout(location = 0) in uvec2 block_and_direction; // of an instance
@@ -27,7 +35,7 @@ out vec2 texel;
 flat out uvec2 cover; // of the cell
 out vec2 in_cell;     // 0..1 in it
 
-// Cells are drawn wider by this, as the cast draws them, so that blocks whose residuals have other steps leave no gap.
+// Where a cell has no neighbour in its block it is drawn wider by this, so that blocks whose residuals have other steps leave no gap.
 const float seam = 0.04; // cells
 
 int count(uvec2 bits) {
@@ -47,25 +55,25 @@ void main() {
     uvec4 residual = texelFetch(blocks, ivec2(3 * block.x + 1, block.y), 0); // w_v, low, step; the first cover's place
     uvec4 cells = texelFetch(blocks, ivec2(3 * block.x + 2, block.y), 0);    // those that are there, those that are cut
     uint cell = uint(gl_VertexID) >> 2;
-    uvec2 bit = cell < 32u ? uvec2(1u << cell, 0u) : uvec2(0u, 1u << (cell - 32u));
-    uvec2 before = cell < 32u ? uvec2(bit.x - 1u, 0u) : uvec2(~0u, bit.y - 1u);
-    if ((cells.xy & bit) == uvec2(0u)) {
+    ivec2 first = ivec2(cell & 7u, cell >> 3);
+    if (!has(cells.xy, first)) {
         gl_Position = vec4(0.0, 0.0, 2.0, 1.0); // all of the cell's corners: behind the far plane
         return;
     }
     cover = uvec2(~0u);
-    if ((cells.zw & bit) != uvec2(0u)) {
+    if (has(cells.zw, first)) {
+        uvec2 before = cell < 32u ? uvec2((1u << cell) - 1u, 0u) : uvec2(~0u, (1u << (cell - 32u)) - 1u);
         int place = int(residual.w) + count(cells.zw & before);
         int wide = textureSize(covers, 0).x;
         cover = texelFetch(covers, ivec2(place % wide, place / wide), 0).xy;
     }
-    ivec2 first = ivec2(cell & 7u, cell >> 3);
     ivec2 corner = ivec2(gl_VertexID & 1, gl_VertexID >> 1 & 1);
     if ((mirrored >> block_and_direction.y & 1u) != 0u) {
         corner = corner.yx;
     }
-    ivec2 in_block = first + corner;
-    in_cell = vec2(corner) * (1.0 + 2.0 * seam) - seam;
+    ivec2 side = 2 * corner - 1;
+    bvec2 joined = bvec2(has(cells.xy, first + ivec2(side.x, 0)), has(cells.xy, first + ivec2(0, side.y)));
+    in_cell = vec2(corner) + seam * vec2(side) * vec2(not(joined));
     ivec2 tile = 9 * block;
     ivec2 at = tile + first;
     float height = mix(mix(code(at), code(at + ivec2(1, 0)), in_cell.x),
@@ -78,7 +86,7 @@ void main() {
 #ifdef PLACES
     point = (prop_from_grid[block_and_direction.y] * place).xyz;
 #else
-    texel = (vec2(tile + in_block) + 0.5) / vec2(textureSize(image, 0));
+    texel = (vec2(tile + first + corner) + 0.5) / vec2(textureSize(image, 0));
 #endif
 }
 )";
@@ -88,11 +96,7 @@ inline constexpr std::string_view block_cover = R"(
 #ifdef BLOCKS
 flat in uvec2 cover;
 in vec2 in_cell;
-bool is_beside_cover() {
-    ivec2 part = clamp(ivec2(8.0 * in_cell), 0, 7);
-    uint bits = part.y < 4 ? cover.x : cover.y;
-    return (bits >> (part.y % 4 * 8 + part.x) & 1u) == 0u;
-}
+bool is_beside_cover() { return !has(cover, clamp(ivec2(8.0 * in_cell), 0, 7)); }
 #else
 bool is_beside_cover() { return false; }
 #endif

@@ -7,7 +7,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <utility>
+#include <limits>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -16,6 +17,8 @@ namespace {
 constexpr int numbers_of_block = 3; ///< texels
 constexpr std::size_t corners = std::size_t{block_corners} * block_corners;
 constexpr std::size_t cells = std::size_t{block_cells} * block_cells;
+constexpr std::uint64_t bytes_of_block =
+    corners * sizeof(glm::u8vec4) + numbers_of_block * sizeof(glm::uvec4);
 
 /// So many along the sides of the smallest square that holds `count`, one at least.
 int side_of(std::size_t count) {
@@ -52,6 +55,13 @@ std::uint8_t residual_code(const BlockRelief& relief, std::size_t block, std::si
     return static_cast<std::uint8_t>(codes >> 8U * (column - x + 2 * (row - y)));
 }
 
+/// Along a texture's side, that the driver allows.
+int most_texels() {
+    GLint limit = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+    return limit;
+}
+
 GlTexture make_texture(GLenum format, int width, int height, GLint filter) {
     GlTexture texture = GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texture.get());
@@ -65,32 +75,57 @@ GlTexture make_texture(GLenum format, int width, int height, GLint filter) {
 
 } // namespace
 
-BlockUpload::BlockUpload(std::shared_ptr<const BlockRelief> relief)
-    : relief_(std::move(relief)), columns_(side_of(relief_->blocks.size())),
-      rows_(rows_of(relief_->blocks.size(), columns_)) {}
-
-/// Makes the textures with room for everything, and uploads the covers, a tenth of it.
-Result<void> BlockUpload::begin() {
-    const int wide = side_of(relief_->covers.size());
-    GLint limit = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
-    if (const int widest = std::max(block_corners * columns_, wide); widest > limit) {
+Result<BlockSheet> sheet_of(const BlockRelief& relief, int most_texels) {
+    BlockSheet sheet;
+    sheet.columns = side_of(relief.blocks.size());
+    sheet.rows = rows_of(relief.blocks.size(), sheet.columns);
+    sheet.cover_columns = side_of(relief.covers.size());
+    sheet.cover_rows = rows_of(relief.covers.size(), sheet.cover_columns);
+    if (const int widest = std::max(block_corners * sheet.columns, sheet.cover_columns);
+        widest > most_texels) {
         return fail(
             ErrorKind::BadConfiguration,
-            fmt::format("render: a relief of {} blocks needs textures of {} x {} texels; this driver "
-                        "allows {}: use a coarser relief, or the technique \"relief\" without the GPU",
-                        relief_->blocks.size(), widest, widest, limit));
+            fmt::format(
+                "render: a relief of {} blocks needs textures of {} texels a side; this driver allows "
+                "{}: take a coarser relief, or one that is cast, whose technique has no -gpu",
+                relief.blocks.size(), widest, most_texels));
     }
-    textures_.colours = make_texture(GL_RGBA8, block_corners * columns_, block_corners * rows_, GL_LINEAR);
-    textures_.numbers = make_texture(GL_RGBA32UI, numbers_of_block * columns_, rows_, GL_NEAREST);
-    textures_.covers = make_texture(GL_RG32UI, wide, rows_of(relief_->covers.size(), wide), GL_NEAREST);
+    return sheet;
+}
+
+std::uint64_t gpu_bytes(const BlockRelief& relief) {
+    const BlockSheet sheet = sheet_of(relief, std::numeric_limits<int>::max()).value();
+    const auto texels = [](int width, int height) {
+        return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    };
+    return texels(sheet.columns, sheet.rows) * bytes_of_block +
+           texels(sheet.cover_columns, sheet.cover_rows) * sizeof(glm::uvec2);
+}
+
+/// A block has at most 64 covers, so that their square is never the wider one.
+std::uint32_t most_blocks_on_gpu() {
+    const auto along = static_cast<std::uint32_t>(most_texels() / block_corners);
+    return along * along;
+}
+
+/// Makes the textures with room for everything, and uploads the covers, a small part of it.
+Result<void> BlockUpload::begin() {
+    const Result<BlockSheet> sheet = sheet_of(*relief_, most_texels());
+    if (!sheet) {
+        return tl::unexpected<Error>(sheet.error());
+    }
+    sheet_ = *sheet;
+    textures_.colours =
+        make_texture(GL_RGBA8, block_corners * sheet_.columns, block_corners * sheet_.rows, GL_LINEAR);
+    textures_.numbers = make_texture(GL_RGBA32UI, numbers_of_block * sheet_.columns, sheet_.rows, GL_NEAREST);
+    textures_.covers = make_texture(GL_RG32UI, sheet_.cover_columns, sheet_.cover_rows, GL_NEAREST);
     upload_covers();
     return {};
 }
 
 void BlockUpload::upload_covers() {
     const std::vector<std::uint64_t>& covers = relief_->covers;
-    const auto wide = static_cast<std::size_t>(side_of(covers.size()));
+    const auto wide = static_cast<std::size_t>(sheet_.cover_columns);
     std::vector<glm::uvec2> row;
     for (std::size_t first = 0; first < covers.size(); first += wide) {
         row.clear();
@@ -103,8 +138,9 @@ void BlockUpload::upload_covers() {
 }
 
 void BlockUpload::upload_row() {
-    const std::size_t first = static_cast<std::size_t>(row_) * static_cast<std::size_t>(columns_);
-    const std::size_t end = std::min(first + static_cast<std::size_t>(columns_), relief_->blocks.size());
+    const auto columns = static_cast<std::size_t>(sheet_.columns);
+    const std::size_t first = static_cast<std::size_t>(row_) * columns;
+    const std::size_t end = std::min(first + columns, relief_->blocks.size());
     const std::size_t wide = (end - first) * block_corners;
     std::vector<glm::uvec4> numbers;
     std::vector<glm::u8vec4> colours(wide * block_corners);
@@ -136,28 +172,17 @@ Result<void> BlockUpload::go_on(std::uint64_t most_bytes) {
         }
         begun_ = true;
     }
-    const std::uint64_t bytes_a_row = static_cast<std::uint64_t>(columns_) *
-                                      (corners * sizeof(glm::u8vec4) + numbers_of_block * sizeof(glm::uvec4));
-    for (std::uint64_t sent = 0; sent < most_bytes && row_ < rows_; sent += bytes_a_row) {
+    const std::uint64_t bytes_a_row = static_cast<std::uint64_t>(sheet_.columns) * bytes_of_block;
+    for (std::uint64_t sent = 0; sent < most_bytes && row_ < sheet_.rows; sent += bytes_a_row) {
         upload_row();
     }
     if (glGetError() != GL_NO_ERROR) {
-        return fail(ErrorKind::BadConfiguration,
-                    "render: the driver has no memory for the relief; use a coarser relief, or the "
-                    "technique \"relief\" without the GPU");
+        return fail(
+            ErrorKind::BadConfiguration,
+            "render: the driver has no memory for the relief; take a coarser one, or one that is cast, whose "
+            "technique has no -gpu");
     }
     return {};
-}
-
-std::uint64_t gpu_bytes(const BlockRelief& relief) {
-    const int columns = side_of(relief.blocks.size());
-    const int wide = side_of(relief.covers.size());
-    const auto texels = [](int width, int height) {
-        return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-    };
-    return texels(columns, rows_of(relief.blocks.size(), columns)) *
-               (corners * sizeof(glm::u8vec4) + numbers_of_block * sizeof(glm::uvec4)) +
-           texels(wide, rows_of(relief.covers.size(), wide)) * sizeof(glm::uvec2);
 }
 
 } // namespace frustumscreen

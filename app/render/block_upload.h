@@ -16,17 +16,31 @@
 
 #include <cstdint>
 #include <memory>
-#include <vector>
+#include <utility>
 
 namespace frustumscreen {
 
+/// How many blocks, and covers, lie side by side and one below the other.
+struct BlockSheet {
+    int columns = 1, rows = 1;
+    int cover_columns = 1, cover_rows = 1;
+};
+/// `most_texels`: along a texture's side, that the driver allows.
+[[nodiscard]] Result<BlockSheet> sheet_of(const BlockRelief& relief, int most_texels);
+
+/// Blocks of a relief that the driver's textures have room for.
+[[nodiscard]] std::uint32_t most_blocks_on_gpu();
+
+/// Bytes of GPU memory that a relief takes.
+[[nodiscard]] std::uint64_t gpu_bytes(const BlockRelief& relief);
+
 class BlockUpload {
 public:
-    explicit BlockUpload(std::shared_ptr<const BlockRelief> relief);
+    explicit BlockUpload(std::shared_ptr<const BlockRelief> relief) : relief_(std::move(relief)) {}
 
     /// Uploads `most_bytes` more, or the rest; a row of blocks is never cut, so it may be a little more.
     [[nodiscard]] Result<void> go_on(std::uint64_t most_bytes);
-    [[nodiscard]] bool done() const { return begun_ && row_ == rows_; }
+    [[nodiscard]] bool done() const { return begun_ && row_ == sheet_.rows; }
 
     struct Textures {
         GlTexture colours, numbers, covers;
@@ -41,12 +55,9 @@ private:
 
     std::shared_ptr<const BlockRelief> relief_;
     Textures textures_;
-    int columns_ = 0, rows_ = 0;
-    int row_ = 0; ///< the next one
+    BlockSheet sheet_;
+    int row_ = 0; ///< of blocks, the next one
     bool begun_ = false;
 };
-
-/// Bytes of GPU memory that a relief takes.
-[[nodiscard]] std::uint64_t gpu_bytes(const BlockRelief& relief);
 
 } // namespace frustumscreen

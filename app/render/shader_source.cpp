@@ -282,8 +282,10 @@ ShaderSource source_of(const ShaderKey& key, bool bends) {
     case ShaderKey::Pass::Outline:
         return {defines, quad(outline_vertex), std::string(outline_fragment)};
     case ShaderKey::Pass::Surface:
-        return {defines, fmt::format("{}{}", bent_vertex, key.blocks ? block_vertex : surface_vertex),
-                fmt::format("{}{}{}", dither, block_cover, surface_fragment)};
+        return {defines,
+                key.blocks ? fmt::format("{}{}{}", bent_vertex, block_bits, block_vertex)
+                           : fmt::format("{}{}", bent_vertex, surface_vertex),
+                fmt::format("{}{}{}{}", dither, block_bits, block_cover, surface_fragment)};
     case ShaderKey::Pass::Cast:
         return {tiles_defines, tiles, fading(cast_fragment)};
     case ShaderKey::Pass::EdgeFeather:

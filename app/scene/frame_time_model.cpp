@@ -50,21 +50,24 @@ double RungCost::ms(const FrameWork& work, int samples) const {
 
 namespace {
 
-/// Of reliefs alone or of meshes alone. A small ridge term helps where the rungs cannot separate the terms.
-RungCost cost_of(const std::vector<RungTime>& rungs, bool relief) {
+/// Of those alone that are drawn in this way. A small ridge term helps where the rungs cannot separate the terms.
+RungCost cost_of(const std::vector<RungTime>& rungs, bool relief, bool on_gpu) {
+    const auto is_alike = [=](const RungTime& rung) {
+        return rung.relief == relief && rung.on_gpu == on_gpu;
+    };
     glm::dvec3 most(1.0, 0.0, 0.0);
     const auto terms = [](const RungTime& start) {
         return glm::dvec3(1.0, std::fmax(start.work.triangles, 0.0),
                           std::fmax(start.work.pixels, 0.0) * start.samples);
     };
     for (const RungTime& rung : rungs) {
-        most = rung.relief == relief ? glm::max(most, terms(rung)) : most;
+        most = is_alike(rung) ? glm::max(most, terms(rung)) : most;
     }
     const glm::dvec3 scale(1.0, most.y > 0.0 ? 1.0 / most.y : 0.0, most.z > 0.0 ? 1.0 / most.z : 0.0);
     glm::dmat3 normal(0.0);
     glm::dvec3 right(0.0);
     for (const RungTime& rung : rungs) {
-        if (rung.relief == relief && FrameTimeModel::is_time(rung.ms)) {
+        if (is_alike(rung) && FrameTimeModel::is_time(rung.ms)) {
             const glm::dvec3 row = terms(rung) * scale / rung.ms;
             normal += glm::outerProduct(row, row);
             right += row;
@@ -82,11 +85,11 @@ RungCost cost_of(const std::vector<RungTime>& rungs, bool relief) {
 } // namespace
 
 FrameCost cost_of(const std::vector<RungTime>& rungs) {
-    return {cost_of(rungs, false), cost_of(rungs, true)};
+    return {cost_of(rungs, false, false), cost_of(rungs, true, false), cost_of(rungs, true, true)};
 }
 
 double FrameCost::ms(const RungTime& rung) const {
-    return (rung.relief ? relief : mesh).ms(rung.work, rung.samples);
+    return of(rung).ms(rung.work, rung.samples);
 }
 
 void FrameTimeModel::fit_shares() {
@@ -96,7 +99,7 @@ void FrameTimeModel::fit_shares() {
     }
     const FrameCost costs = cost_of(starts);
     for (Rung& rung : rungs_) {
-        const RungCost& cost = rung.start.relief ? costs.relief : costs.mesh;
+        const RungCost& cost = costs.of(rung.start);
         const double sum = costs.ms(rung.start);
         if (std::isfinite(sum) && sum > 0.0) {
             rung.triangle_share = cost.ms_per_triangle * std::fmax(rung.start.work.triangles, 0.0) / sum;

@@ -42,7 +42,8 @@ struct RungTime {
     int samples = 1; ///< a pixel
     FrameWork work;
     double ms = 0.0; ///< median of some frames; not a time = never measured: infinite until it is observed
-    bool relief = false; ///< cast on the processor
+    bool relief = false; ///< this and `on_gpu`: as Rung
+    bool on_gpu = false;
 };
 
 /// What frames cost on this GPU, from the rungs measured on one artifact; good for another one whose frames' work
@@ -53,9 +54,12 @@ struct RungCost {
     double ms_per_sample = 0.0; ///< of a pixel
     [[nodiscard]] double ms(const FrameWork& work, int samples) const;
 };
-/// Meshes and reliefs are drawn in different ways and cost apart.
+/// Meshes, reliefs that are cast and reliefs that the GPU draws are drawn in different ways and cost apart.
 struct FrameCost {
-    RungCost mesh, relief;
+    RungCost mesh, cast, on_gpu;
+    [[nodiscard]] const RungCost& of(const RungTime& rung) const {
+        return rung.on_gpu ? on_gpu : rung.relief ? cast : mesh;
+    }
     /// Of a rung's work and samples.
     [[nodiscard]] double ms(const RungTime& rung) const;
 };

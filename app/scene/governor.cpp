@@ -37,7 +37,7 @@ bool within_tolerance(const LevelError& error, const SeenError& worst, double mm
 }
 
 std::vector<Rung> ladder(std::span<const LevelOutline> levels, const std::vector<bool>& enough, int samples,
-                         const std::optional<ReliefOutline>& relief) {
+                         const std::optional<ReliefOutline>& relief, bool also_on_gpu) {
     std::size_t best = levels.size() - 1;
     for (std::size_t k = levels.size(); k-- > 0;) {
         if (enough[k] && (!enough[best] || levels[k].triangles <= levels[best].triangles)) {
@@ -61,15 +61,21 @@ std::vector<Rung> ladder(std::span<const LevelOutline> levels, const std::vector
     }
     if (relief) {
         const int full = std::max(samples, 1);
-        std::vector<Rung> cast{{relief->texels, full, true, true}};
-        if (full > 1) {
-            cast.push_back({relief->texels, 1, false, true});
+        std::vector<Rung> of_relief;
+        for (const bool on_gpu : {false, true}) {
+            if (on_gpu && !also_on_gpu) {
+                continue;
+            }
+            of_relief.push_back({relief->texels, full, true, true, on_gpu});
+            if (full > 1) {
+                of_relief.push_back({relief->texels, 1, false, true, on_gpu});
+            }
         }
         rungs.insert(std::find_if(rungs.begin(), rungs.end(),
                                   [&](const Rung& rung) {
                                       return levels[rung.level].error.p95_box > relief->error.p95_box;
                                   }),
-                     cast.begin(), cast.end());
+                     of_relief.begin(), of_relief.end());
     }
     return rungs;
 }

@@ -76,10 +76,10 @@ struct Rung {
 /// with fewest triangles (the finest if none is), coarser ones that save at least a quarter of
 /// the triangles each, and each of them with `samples`, half of it, ... 1 samples a pixel.
 /// `enough`: of each level, whether it is. `relief`, one that is good enough, stands before the levels that are less exact, with
-/// `samples` and with 1.
+/// `samples` and with 1: cast, and where `also_on_gpu`, drawn by the GPU.
 [[nodiscard]] std::vector<Rung> ladder(std::span<const LevelOutline> levels, const std::vector<bool>& enough,
-                                       int samples,
-                                       const std::optional<ReliefOutline>& relief = std::nullopt);
+                                       int samples, const std::optional<ReliefOutline>& relief = std::nullopt,
+                                       bool also_on_gpu = false);
 
 class Governor {
 public:

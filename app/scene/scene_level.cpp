@@ -188,7 +188,7 @@ RenderNeeds needs_of(const ScenePlan& plan, const SceneLevel& level) {
     needs.samples = level.samples > 0 ? std::min(level.samples, needs.samples) : needs.samples;
     if (level.cut_out) {
         for (ShaderKey key : plan.needs.draws) {
-            key.cut_out = key.pass == ShaderKey::Pass::Surface;
+            key.cut_out = key.pass == ShaderKey::Pass::Surface && !key.blocks;
             needs.draws.insert(key);
         }
     }

@@ -136,8 +136,9 @@ void choose_levels(const PackOutline& pack, const SceneRequest& request, double 
             return within_tolerance(relief.error, worst_of(reliefs.seen_of(relief)),
                                     1e3 * plan.metres_per_box, tolerance_mm);
         };
-        plan.rungs = ladder(pack.levels, good_levels(pack, plan, tolerance_mm), asked.samples,
-                            relief_for(reliefs.outlines, pixel_box, is_good));
+        const std::optional<ReliefOutline> relief = relief_for(reliefs.outlines, pixel_box, is_good);
+        plan.rungs = ladder(pack.levels, good_levels(pack, plan, tolerance_mm), asked.samples, relief,
+                            relief && relief->blocks <= request.most_blocks_on_gpu);
     }
     choose_what_is_read(reliefs, plan);
     plan.exposure_level = plan.levels.empty() ? pack.description.default_level : plan.levels.front();
@@ -265,12 +266,11 @@ std::optional<std::uint32_t> number_behind(std::string_view prefix, std::string_
 
 constexpr std::string_view level_prefix = "level";
 constexpr std::string_view relief_prefix = "relief";
-constexpr std::string_view gpu_suffix = "-gpu";
 
 /// What a relief's name says without who draws it; other names stay as they are.
 std::string_view without_gpu(std::string_view name) {
-    const bool named = name.starts_with(relief_prefix) && name.ends_with(gpu_suffix);
-    return named ? name.substr(0, name.size() - gpu_suffix.size()) : name;
+    const bool named = name.starts_with(relief_prefix) && name.ends_with(on_gpu_suffix);
+    return named ? name.substr(0, name.size() - on_gpu_suffix.size()) : name;
 }
 
 /// "auto, finest, level0 to level6, relief, relief96 and relief192, each relief also with -gpu"
@@ -285,7 +285,7 @@ std::string techniques_of(const PackOutline& pack, const std::vector<ReliefOutli
         names.push_back(fmt::format("{}{}", relief_prefix, relief.texels));
     }
     return listed("auto", "auto,", names) +
-           (reliefs.empty() ? "" : fmt::format(", each relief also with {}", gpu_suffix));
+           (reliefs.empty() ? "" : fmt::format(", each relief also with {}", on_gpu_suffix));
 }
 
 /// What the camera's reader does with each frame.
@@ -307,7 +307,7 @@ std::string camera_uses(const DevicePlan& plan) {
 
 std::string name_of(const Rung& rung) {
     return fmt::format("{}{}{}", rung.relief ? relief_prefix : level_prefix, rung.level,
-                       rung.on_gpu ? gpu_suffix : "");
+                       rung.on_gpu ? on_gpu_suffix : "");
 }
 
 Result<Rung> rung_of(const PackOutline& pack, std::string_view technique, double pixel_box) {

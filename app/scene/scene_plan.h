@@ -32,6 +32,7 @@ namespace frustumscreen {
 
 /// The form of a technique's name: "auto", "finest", "relief", or "level" or "relief" and a number that some pack may have; behind the
 /// name of a relief may stand "-gpu".
+inline constexpr std::string_view on_gpu_suffix = "-gpu";
 [[nodiscard]] bool is_technique(std::string_view name);
 /// "level0", "relief96", "relief96-gpu".
 [[nodiscard]] std::string name_of(const Rung& rung);
@@ -62,6 +63,9 @@ struct LeftOut {
 struct SceneRequest {
     std::string technique = "auto";
     bool live = true; ///< the governor may choose among levels; else a technique is one level
+    /// The governor may also let the GPU draw a relief of so many blocks. None where the driver draws on the processor: to cast them is
+    /// many times quicker there.
+    std::uint32_t most_blocks_on_gpu = 0;
     bool light = true;
     int samples = 0; ///< a pixel; 0 = what the pack asks for
     /// Samples a pixel that the renderer has room for wherever the prop stands; a smaller part of the picture may take more. Pictures

@@ -21,6 +21,7 @@ SceneRequest request_of(const Settings& settings, const OpenerOptions& options, 
     request.technique = options.technique;
     request.room = options.samples;
     request.economies = options.economies;
+    request.most_blocks_on_gpu = options.most_blocks_on_gpu;
     request.visibility = visibility_of(settings);
     request.table_pictures = options.table_pictures;
     std::vector<std::string> languages;
@@ -63,7 +64,7 @@ Result<KnownArtifact> open_pack(const Settings& settings, const OpenerOptions& o
 /// Whether some texture leaves out texels is known when it is read, and by then the shaders must be there.
 RenderNeeds with_cut_outs(RenderNeeds needs) {
     for (ShaderKey key : RenderNeeds(needs).draws) {
-        key.cut_out = key.pass == ShaderKey::Pass::Surface;
+        key.cut_out = key.pass == ShaderKey::Pass::Surface && !key.blocks;
         needs.draws.insert(key);
     }
     return needs;
@@ -158,7 +159,7 @@ Result<OpenedArtifacts> open_artifacts(const Settings& settings, std::span<const
     return all;
 }
 
-RenderNeeds needs_of_any_pack(const Settings& settings, int samples) {
+RenderNeeds needs_of_any_pack(const Settings& settings, int samples, bool reliefs_on_gpu) {
     RenderNeeds needs;
     needs.samples = samples;
     needs.outline = largest_outline(settings, settings.projector.pinhole, visibility_of(settings));
@@ -169,6 +170,10 @@ RenderNeeds needs_of_any_pack(const Settings& settings, int samples) {
         key.even_light = true; // as in every live picture
         needs.draws.insert(key);
         needs.draws.insert(cast_shader(dithered));
+        if (reliefs_on_gpu) {
+            key.blocks = true;
+            needs.draws.insert(key);
+        }
     }
     needs.casts = 2; // in a fade
     needs.draws.insert({ShaderKey::Pass::EdgeFeather});

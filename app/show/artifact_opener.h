@@ -30,7 +30,8 @@ struct OpenerOptions {
     unsigned economies = AllEconomies;
     bool other_languages = false; ///< a visitor can come to see them
     bool other_packs = false;     ///< the same of packs
-    bool table_pictures = false;  ///< as SceneRequest
+    bool table_pictures = false;  ///< this and `most_blocks_on_gpu`: as SceneRequest
+    std::uint32_t most_blocks_on_gpu = 0;
     double deadline_ms = 16.0;
     std::string_view program = "frustumscreen"; ///< this and `packs_key`: as ArtifactShowOptions
     std::string packs_key = {};
@@ -49,8 +50,9 @@ struct OpenedArtifacts {
 [[nodiscard]] Result<OpenedArtifacts> open_artifacts(const Settings& settings,
                                                      std::span<const std::filesystem::path> packs,
                                                      const OpenerOptions& options);
-/// What any pack that may come later needs of a renderer with room for so many samples a pixel.
-[[nodiscard]] RenderNeeds needs_of_any_pack(const Settings& settings, int samples);
+/// What any pack that may come later needs of a renderer with room for so many samples a pixel. `reliefs_on_gpu`: the GPU may come to draw
+/// reliefs.
+[[nodiscard]] RenderNeeds needs_of_any_pack(const Settings& settings, int samples, bool reliefs_on_gpu);
 
 /// How texts are set on the settings' table.
 [[nodiscard]] TextStyle text_style(const Settings& settings);

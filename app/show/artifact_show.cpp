@@ -1,10 +1,12 @@
 #include "app/show/artifact_show.h"
 
 #include "app/exhibit/languages.h"
+#include "app/render/block_upload.h"
 #include "app/render/read_back.h"
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
 #include "app/show/exhibit_place.h"
+#include "firmware_host/display/egl_context.h"
 
 #include <fmt/format.h>
 
@@ -32,8 +34,13 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
         return tl::unexpected<Error>(renderer.error());
     }
     std::unique_ptr<ArtifactShow> show(new ArtifactShow(settings, std::move(*renderer)));
-    show->set_options_ = {options.technique, options.samples, options.economies,
-                          options.program,   options.waits,   devices};
+    show->set_options_ = {options.technique,
+                          options.samples,
+                          options.economies,
+                          options.program,
+                          options.waits,
+                          devices,
+                          draws_on_processor(gl_driver_name()) ? 0 : most_blocks_on_gpu()};
     if (Result<void> stays = show->upload_what_stays(settings); !stays) {
         return tl::unexpected<Error>(stays.error());
     }
@@ -46,7 +53,9 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     show->set_ = std::move(*set);
     show->needs_ = show->set_->needs;
     if (options.other_sets) {
-        show->needs_ = united(show->needs_, needs_of_any_pack(settings, options.samples));
+        const bool blocks =
+            show->set_options_.most_blocks_on_gpu > 0 || options.technique.ends_with(on_gpu_suffix);
+        show->needs_ = united(show->needs_, needs_of_any_pack(settings, options.samples, blocks));
         show->may_speak_ = settings.sound.kind != SoundKind::None;
     }
     if (Result<void> ready = show->renderer_.prepare(show->needs_); !ready) {

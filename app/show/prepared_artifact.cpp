@@ -87,7 +87,12 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
         if (!relief) {
             return tl::unexpected<Error>(relief.error());
         }
-        levels.push_back(prepare_relief(known.outline.description, place, *std::move(relief), plan));
+        const auto shared = std::make_shared<const BlockRelief>(*std::move(relief));
+        for (const bool on_gpu : {false, true}) {
+            if (draws_relief(plan, place, on_gpu)) {
+                levels.push_back(prepare_relief(known.outline.description, place, shared, on_gpu, plan));
+            }
+        }
     }
     PreparedArtifact made{
         RunLevels(technique, plan, deadline_ms, levels), {}, exposure, std::move(triangles)};
@@ -111,9 +116,10 @@ std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_b
         const LevelOutline& level = known.outline.levels[number];
         bytes += level.vertices * per_vertex + level.triangles * per_triangle + texture_bytes;
     }
-    for (const ReliefOutline& relief : known.plan.reliefs) {
+    for (std::size_t place = 0; place < known.plan.reliefs.size(); ++place) {
+        const std::uint64_t relief = known.plan.reliefs[place].bytes;
         constexpr std::uint64_t more_in_memory = 2; // a cell's corners lie together there
-        bytes += more_in_memory * relief.bytes;
+        bytes += more_in_memory * relief + (draws_relief(known.plan, place, true) ? relief : 0);
     }
     if (!known.outline.description.hotspots.empty()) {
         bytes += TriangleTree::most_bytes(known.outline.levels[coarsest_of(known.plan)].triangles);

@@ -1,6 +1,7 @@
 #include "app/show/run_levels.h"
 
 #include "app/geometry/time_curves.h"
+#include "app/render/block_upload.h"
 #include "app/render/read_back.h"
 #include "firmware_host/base/quantile.h"
 
@@ -24,21 +25,26 @@ constexpr std::array<std::string_view, 32> level_names{
 /// Of one rung, each of the two times. A start waits for it, and where a frame takes long, few say enough: the governor goes on learning.
 constexpr double longest_measurement_ms = 50.0;
 
-/// The bake's resolutions; others have no number of their own here.
-constexpr std::array<std::pair<std::uint32_t, std::string_view>, 6> relief_names{{{96, "relief96"},
-                                                                                  {192, "relief192"},
-                                                                                  {384, "relief384"},
-                                                                                  {768, "relief768"},
-                                                                                  {1536, "relief1536"},
-                                                                                  {3072, "relief3072"}}};
+/// The bake's resolutions, cast and drawn by the GPU; others have no number of their own here.
+struct ReliefName {
+    std::uint32_t texels;
+    std::string_view cast, on_gpu;
+};
+constexpr std::array relief_names{
+    ReliefName{96, "relief96", "relief96-gpu"},       ReliefName{192, "relief192", "relief192-gpu"},
+    ReliefName{384, "relief384", "relief384-gpu"},    ReliefName{768, "relief768", "relief768-gpu"},
+    ReliefName{1536, "relief1536", "relief1536-gpu"}, ReliefName{3072, "relief3072", "relief3072-gpu"}};
 
 std::string_view literal_of(const Rung& rung) {
     if (!rung.relief) {
         return level_names.at(rung.level);
     }
-    const auto found = std::find_if(relief_names.begin(), relief_names.end(),
-                                    [&](const auto& name) { return name.first == rung.level; });
-    return found != relief_names.end() ? found->second : "relief";
+    const auto* const found = std::find_if(relief_names.begin(), relief_names.end(),
+                                           [&](const auto& name) { return name.texels == rung.level; });
+    if (found == relief_names.end()) {
+        return rung.on_gpu ? "relief-gpu" : "relief";
+    }
+    return rung.on_gpu ? found->on_gpu : found->cast;
 }
 
 } // namespace
@@ -65,16 +71,25 @@ PreparedLevel prepare_level(const Pack& pack, std::uint32_t level, const ScenePl
     return made;
 }
 
-PreparedLevel prepare_relief(const PackDescription& pack, std::size_t place, BlockRelief relief,
-                             const ScenePlan& plan) {
+bool draws_relief(const ScenePlan& plan, std::size_t place, bool on_gpu) {
+    const Rung shown{plan.reliefs[place].texels, 1, false, true, on_gpu};
+    return std::any_of(plan.rungs.begin(), plan.rungs.end(),
+                       [&](const Rung& rung) { return rung.shows_as(shown); });
+}
+
+PreparedLevel prepare_relief(const PackDescription& pack, std::size_t place,
+                             std::shared_ptr<const BlockRelief> relief, bool on_gpu, const ScenePlan& plan) {
     PreparedLevel made;
     made.use.level = plan.reliefs[place].texels;
-    made.use.blocks = relief.blocks.size();
+    made.use.blocks = relief->blocks.size();
+    made.use.on_gpu = on_gpu;
+    made.use.planned_gpu_bytes = on_gpu ? gpu_bytes(*relief) : 0;
     made.seen = plan.seen_reliefs[place];
     made.box_size = pack.box_size;
     made.samples = pack.samples;
     made.needs = plan.needs;
-    made.data.relief = std::make_shared<const BlockRelief>(std::move(relief));
+    made.data.relief = std::move(relief);
+    made.data.on_gpu = on_gpu;
     return made;
 }
 
@@ -88,14 +103,16 @@ RunLevels::RunLevels(std::string technique, const ScenePlan& plan, double deadli
         left_out_.insert(left_out_.end(), level.left_out.begin(), level.left_out.end());
         needs_ = united(needs_, level.needs);
         indices += level.triangles ? level.triangles->indices.size() : 0;
-        levels_.push_back({Rung{level.use.level, 1, false, level.data.relief != nullptr}, level.seen,
+        levels_.push_back({Rung{level.use.level, 1, false, level.data.relief != nullptr, level.data.on_gpu},
+                           level.seen,
                            PlacedLevel{level.triangles,
                                        level.box_size,
                                        plan.metres_per_box,
                                        {},
                                        level.samples,
                                        plan.faces,
-                                       level.data.relief}});
+                                       level.data.relief,
+                                       level.data.on_gpu}});
     }
     plan_ = make_plan(plan.prop, indices, 2);
 }
@@ -134,11 +151,13 @@ std::uint64_t RunLevels::bytes() const {
     std::uint64_t most_indices = 0;
     for (std::size_t place = 0; place < levels_.size(); ++place) {
         const PlacedLevel& placed = levels_[place].placed;
+        bytes += uses_[place].planned_gpu_bytes;
         if (placed.relief) {
-            bytes += bytes_of(*placed.relief);
+            const bool counted = place > 0 && levels_[place - 1].placed.relief == placed.relief;
+            bytes += counted ? 0 : bytes_of(*placed.relief); // the cast and the GPU's list share it
             continue;
         }
-        bytes += uses_[place].planned_gpu_bytes + bytes_of(*placed.triangles);
+        bytes += bytes_of(*placed.triangles);
         most_indices = std::max<std::uint64_t>(most_indices, placed.triangles->indices.size());
     }
     // The plan of a frame lists the triangles that look towards the eye, and those that a face shows.
@@ -163,8 +182,10 @@ FrameWork RunLevels::work(const Rung& rung) const {
     }; // a slanting view takes more
     if (rung.relief) {
         const BlockRelief& relief = *levels_[slot_of(rung)].placed.relief;
-        return {static_cast<double>(relief.blocks.size()),
-                plan_.cast_count > 0 ? more(plan_.casts[0].samples) : pixels};
+        return {static_cast<double>(relief.blocks.size()), rung.on_gpu ? more(plan_.samples)
+                                                           : plan_.cast_count > 0
+                                                               ? more(plan_.casts[0].samples)
+                                                               : pixels};
     }
     return {static_cast<double>(plan_.indices.size()) / 3.0, more(plan_.samples)};
 }
@@ -195,7 +216,7 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
     std::vector<RungTime> times(rungs_.size());
     for (std::size_t k = 0; k < rungs_.size(); ++k) {
         const double ms = median_ms(rungs_[k], prop, view, renderer, target);
-        times[k] = {rungs_[k].samples, work(rungs_[k]), ms, rungs_[k].relief};
+        times[k] = {rungs_[k].samples, work(rungs_[k]), ms, rungs_[k].relief, rungs_[k].on_gpu};
     }
     // Once more, the other way round: what else the machine did meanwhile slowed some rungs and not others. Where two frames take
     // long, a start waits for no more.
@@ -208,8 +229,9 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
     // artifact that leaves out texels.
     for (const ShaderKey& key : renderer.shaders()) {
         const bool casts = key.pass == ShaderKey::Pass::Cast;
-        const auto level = std::find_if(levels_.begin(), levels_.end(),
-                                        [&](const Level& one) { return one.shows.relief == casts; });
+        const auto level = std::find_if(levels_.begin(), levels_.end(), [&](const Level& one) {
+            return one.shows.relief == (casts || key.blocks) && one.shows.on_gpu == key.blocks;
+        });
         if ((casts || key.pass == ShaderKey::Pass::Surface) && !key.places &&
             (casts || key.even_light == view.light.has_value()) && level != levels_.end()) {
             PlacedLevel placed = level->placed;
@@ -232,7 +254,7 @@ void RunLevels::start(const FrameCost& cost, const PropShape& prop, const PlanVi
         PlacedLevel placed = levels_[slot_of(rung)].placed;
         placed.samples = rung.samples;
         plan_frame(prop, placed, view, plan_);
-        times.push_back({rung.samples, work(rung), 0.0, rung.relief});
+        times.push_back({rung.samples, work(rung), 0.0, rung.relief, rung.on_gpu});
         times.back().ms = cost.ms(times.back());
     }
     start(times);

@@ -41,13 +41,15 @@ struct LevelUse {
     int finest_mip = 0;
     std::uint64_t planned_gpu_bytes = 0;
     std::uint64_t gpu_bytes = 0; ///< as the driver says
-    std::size_t blocks = 0;      ///< of a relief, which has none of the above; else 0
+    std::size_t blocks = 0;      ///< of a relief, which has of the above GPU memory alone; else 0
+    bool on_gpu = false;         ///< the relief, drawn by the GPU
 };
 
 /// What is being drawn.
 struct LevelState {
     std::string_view technique; ///< as asked for
-    std::string_view level;     ///< "level0", "relief96", ...: during a fade the one that comes in; a literal
+    std::string_view
+        level; ///< "level0", "relief96", "relief96-gpu", ...: during a fade the one that comes in; a literal
     int samples = 0;
     /// Of the frame that was drawn last; during a fade the larger of the two levels'. Nothing: it shows nothing.
     std::optional<ErrorEstimate> error;
@@ -68,13 +70,16 @@ struct PreparedLevel {
 };
 /// `level`: one of the plan's. Pure; takes long.
 [[nodiscard]] PreparedLevel prepare_level(const Pack& pack, std::uint32_t level, const ScenePlan& plan);
-/// `place`: of one of the plan's reliefs; `relief`: what was read of it.
-[[nodiscard]] PreparedLevel prepare_relief(const PackDescription& pack, std::size_t place, BlockRelief relief,
+/// Whether a rung of the plan draws the relief at this place of them in this way.
+[[nodiscard]] bool draws_relief(const ScenePlan& plan, std::size_t place, bool on_gpu);
+/// `place`: of one of the plan's reliefs; `relief`: what was read of it; `on_gpu`: the GPU draws it.
+[[nodiscard]] PreparedLevel prepare_relief(const PackDescription& pack, std::size_t place,
+                                           std::shared_ptr<const BlockRelief> relief, bool on_gpu,
                                            const ScenePlan& plan);
 
 class RunLevels {
 public:
-    /// The plan's levels in its order, then its reliefs. Nothing can be drawn before each has its drawable. Needs no context.
+    /// The plan's levels in its order, then its reliefs, each in each way that a rung draws it. Nothing can be drawn before each has its drawable. Needs no context.
     RunLevels(std::string technique, const ScenePlan& plan, double deadline_ms,
               std::span<const PreparedLevel> levels);
     /// The level at this place of them is in the store.

@@ -76,8 +76,8 @@ Result<std::unique_ptr<ShownSet>> open_set(const Settings& settings, const SetOp
     Result<OpenedArtifacts> opened =
         open_artifacts(settings, request.packs,
                        {options.technique, options.samples, options.economies, options.devices.language,
-                        options.devices.other_packs, table, deadline_ms, options.program, request.packs_key,
-                        request.goes_on});
+                        options.devices.other_packs, table, options.most_blocks_on_gpu, deadline_ms,
+                        options.program, request.packs_key, request.goes_on});
     if (!opened) {
         return tl::unexpected<Error>(opened.error());
     }

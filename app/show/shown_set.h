@@ -43,6 +43,7 @@ struct SetOptions {
     std::string_view program = "frustumscreen";
     bool waits = false;
     DevicePlan devices;
+    std::uint32_t most_blocks_on_gpu = 0;  ///< as SceneRequest
     std::uint64_t gpu_bytes_that_stay = 0; ///< of the memory's budget, whatever set is shown
 };
 struct SetRequest {

@@ -75,6 +75,7 @@ TEST_F(RenderCommand, CastsTheReliefOfAPackThatHasOne) {
     ASSERT_TRUE(write_file(folder / "rings.fspack", write_pack(pack).value()));
     const std::string small = "--width 320 --height 200 ";
     ASSERT_EQ(run(usual("relief") + small + "--technique relief192 --aov"), 0) << text("err.txt");
+    ASSERT_EQ(run(usual("gpu") + small + "--technique relief192-gpu --aov"), 0) << text("err.txt");
     ASSERT_EQ(run(usual("coarse") + small + "--technique relief"), 0) << text("err.txt");
     ASSERT_EQ(run(usual("large") + "--technique relief"), 0) << text("err.txt");
     ASSERT_EQ(run(usual("mesh") + small + "--technique level0"), 0) << text("err.txt");
@@ -82,15 +83,18 @@ TEST_F(RenderCommand, CastsTheReliefOfAPackThatHasOne) {
     EXPECT_NE(text("coarse/frames.csv").find(",relief96,"), std::string::npos) << "a pixel is a texel";
     EXPECT_NE(text("large/frames.csv").find(",relief192,"), std::string::npos) << "of the 1280 in near.toml";
     EXPECT_TRUE(fs::exists(folder / "relief/frame_00001.pfm"));
-    const Image8 relief = picture("relief/frame_00000.png");
+    EXPECT_NE(text("gpu/frames.csv").find(",relief192-gpu,"), std::string::npos) << text("gpu/frames.csv");
     const Image8 mesh = picture("mesh/frame_00000.png");
-    std::size_t off = 0;
-    for (std::size_t k = 0; k < mesh.texels.size(); ++k) {
-        const glm::ivec3 difference = glm::abs(glm::ivec3(relief.texels[k]) - glm::ivec3(mesh.texels[k]));
-        off += std::max({difference.r, difference.g, difference.b}) > 32 ? 1U : 0U;
+    for (const char* way : {"relief", "gpu"}) {
+        const Image8 relief = picture(fmt::format("{}/frame_00000.png", way));
+        std::size_t off = 0;
+        for (std::size_t k = 0; k < mesh.texels.size(); ++k) {
+            const glm::ivec3 difference = glm::abs(glm::ivec3(relief.texels[k]) - glm::ivec3(mesh.texels[k]));
+            off += std::max({difference.r, difference.g, difference.b}) > 32 ? 1U : 0U;
+        }
+        EXPECT_GT(lit_pixels(relief), 1000U) << way;
+        EXPECT_LT(off, lit_pixels(mesh) / 10) << way << ": outlines and the texture's edges";
     }
-    EXPECT_GT(lit_pixels(relief), 1000U);
-    EXPECT_LT(off, lit_pixels(mesh) / 10) << "outlines and the texture's edges";
 }
 
 TEST_F(RenderCommand, SaysThatPosesAreOffTheTable) {
@@ -177,7 +181,7 @@ TEST_F(RenderCommand, WrongArgumentsAreToldApart) {
         EXPECT_EQ(refusal("run --pattern --config kiosk.toml --technique " + technique),
                   "frustumscreen run: --technique: '" + technique +
                       "' is no technique; allowed: auto, finest, level0, level1, ..., relief, "
-                      "relief96, relief192, ...; frustumscreen run "
+                      "relief96, relief192, ..., relief-gpu, relief96-gpu, ...; frustumscreen run "
                       "--help says more");
     }
     for (const std::string seconds : {"8s", "0,5", "0", "nan", "1e9"}) {

@@ -79,12 +79,41 @@ TEST(Ladder, HasAReliefWhereItsErrorPutsIt) {
     EXPECT_EQ(ladder(levels, {false, true}, 4).size(), 6U);
 }
 
+TEST(Ladder, HasAReliefInBothWaysWhereTheGpuMayDrawIt) {
+    const std::vector<LevelOutline> levels{level_of(2000)};
+    const ReliefOutline relief{384, 5000, 2'000'000, {}, "r"};
+    const std::vector<Rung> both = ladder(levels, {true}, 4, relief, true);
+    std::size_t on_gpu = 0;
+    for (const Rung& rung : both) {
+        on_gpu += rung.on_gpu ? 1U : 0U;
+        EXPECT_TRUE(rung.relief || !rung.on_gpu);
+        EXPECT_EQ(rung.enough, rung.samples == 4);
+    }
+    EXPECT_EQ(on_gpu, 2U);
+    EXPECT_EQ(both.size(), ladder(levels, {true}, 4, relief).size() + 2);
+    const Rung cast{384, 4, true, true};
+    const Rung drawn{384, 4, true, true, true};
+    EXPECT_FALSE(cast.shows_as(drawn));
+}
+
+TEST(Governor, TakesTheWayOfAReliefThatIsQuickerAtItsErrors) {
+    const std::vector<Rung> rungs{{384, 4, true, true}, {384, 4, true, true, true}, {3, 4, true}};
+    for (const std::size_t quickest : {0U, 1U, 2U}) {
+        std::vector<RungTime> times{
+            {4, {5000.0, 1e4}, 9.0, true}, {4, {5000.0, 1e4}, 9.0, true, true}, {4, {20000.0, 1e4}, 9.0}};
+        times[quickest].ms = 3.0;
+        EXPECT_EQ(Governor(rungs, times, 16.0).index(), quickest);
+    }
+}
+
 TEST(Cost, OfReliefsAndMeshesIsApart) {
-    // 1 ms and 1 us a triangle; 2 ms and half a us a block.
+    // 1 ms and 1 us a triangle; 2 ms and half a us a block; by the GPU 3 ms and 2 us a block.
     const std::vector<RungTime> times{{1, {1000.0, 0.0}, 2.0},
                                       {1, {3000.0, 0.0}, 4.0},
                                       {1, {1000.0, 0.0}, 2.5, true},
-                                      {1, {9000.0, 0.0}, 6.5, true}};
+                                      {1, {9000.0, 0.0}, 6.5, true},
+                                      {1, {1000.0, 0.0}, 5.0, true, true},
+                                      {1, {9000.0, 0.0}, 21.0, true, true}};
     const FrameCost cost = cost_of(times);
     for (const RungTime& rung : times) {
         EXPECT_NEAR(cost.ms(rung), rung.ms, 0.02 * rung.ms);

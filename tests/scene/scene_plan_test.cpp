@@ -136,6 +136,44 @@ TEST(ScenePlan, ReadsTheReliefOfATechniqueAlone) {
         << "the finest, where none is fine enough";
 }
 
+TEST(ScenePlan, AReliefThatTheGpuDrawsNeedsNoCastAndSamplesAsAMesh) {
+    const Settings settings = steep_table();
+    const PackOutline pack = outline_with_reliefs({96, 192}, 1e-4F);
+    SceneRequest asked = request(settings);
+    for (const std::string_view technique : {"relief-gpu", "relief192-gpu"}) {
+        asked.technique = technique;
+        const ScenePlan plan = plan_scene(settings, pack, asked).value();
+        ASSERT_EQ(plan.rungs.size(), 1U);
+        EXPECT_TRUE(plan.rungs.front().relief && plan.rungs.front().on_gpu);
+        EXPECT_TRUE(plan.rungs.front().level == 192 || technique == "relief-gpu");
+        EXPECT_EQ(name_of(plan.rungs.front()), fmt::format("relief{}-gpu", plan.reliefs.front().texels));
+        EXPECT_EQ(plan.needs.casts, 0U);
+        EXPECT_TRUE(std::none_of(plan.needs.draws.begin(), plan.needs.draws.end(), [](const ShaderKey& key) {
+            return key.pass == ShaderKey::Pass::Cast || (key.pass == ShaderKey::Pass::Surface && !key.blocks);
+        }));
+    }
+    for (const std::string_view wrong :
+         {"level0-gpu", "auto-gpu", "relief-gpu-gpu", "-gpu", "relief96-cpu"}) {
+        EXPECT_FALSE(is_technique(wrong)) << wrong;
+        asked.technique = wrong;
+        EXPECT_FALSE(plan_scene(settings, pack, asked)) << wrong;
+    }
+    asked = request(settings);
+    asked.live = true;
+    const auto ways_on_gpu = [&] {
+        const ScenePlan plan = plan_scene(settings, pack, asked).value();
+        EXPECT_EQ(plan.reliefs.size(), 1U) << "both ways read the same blocks";
+        return std::count_if(plan.rungs.begin(), plan.rungs.end(),
+                             [](const Rung& rung) { return rung.on_gpu; });
+    };
+    EXPECT_EQ(ways_on_gpu(), 0);
+    const std::uint32_t blocks = reliefs_of(pack.description).value().back().blocks;
+    asked.most_blocks_on_gpu = blocks;
+    EXPECT_GT(ways_on_gpu(), 0);
+    asked.most_blocks_on_gpu = blocks - 1;
+    EXPECT_EQ(ways_on_gpu(), 0) << "it has no room for it, and the other ways stay";
+}
+
 TEST(ScenePlan, TheGovernorMayPickTheReliefWhoseTexelIsAPixel) {
     const Settings settings = steep_table();
     const ScenePlan plan =
@@ -250,6 +288,10 @@ TEST(ShaderKey, HasANameAndANumberOfItsOwn) {
         key.cut_out = (bits & 4U) != 0;
         key.places = (bits & 8U) != 0;
         keys.insert(key.places ? places_of(key) : key);
+        if (!key.cut_out) {
+            key.blocks = true;
+            keys.insert(key.places ? places_of(key) : key);
+        }
         keys.insert(cast_shader(key.dithered));
     }
     for (const ShaderKey::Pass pass :
@@ -257,7 +299,7 @@ TEST(ShaderKey, HasANameAndANumberOfItsOwn) {
           ShaderKey::Pass::TileAverage, ShaderKey::Pass::TileAverageMany}) {
         keys.insert({pass});
     }
-    EXPECT_EQ(keys.size(), 19U); // places are the same in any light
+    EXPECT_EQ(keys.size(), 25U); // places are the same in any light
     std::set<std::string> names;
     std::set<std::uint32_t> numbers;
     for (const ShaderKey& key : keys) {

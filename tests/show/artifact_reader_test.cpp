@@ -2,6 +2,8 @@
 
 #include "app/pack/pack_relief.h"
 #include "app/show/artifact_reader.h"
+#include "app/show/loaded.h"
+#include "firmware_host/display/surfaceless_display.h"
 #include "tests/render/ring_relief.h"
 #include "tests/show/shown_packs.h"
 
@@ -146,6 +148,60 @@ TEST(ArtifactReader, AReliefIsExposedAsTheMeshesOfItsArtifact) {
     EXPECT_GT(of_mesh, 0.0);
     EXPECT_EQ(exposure("relief"), of_mesh);
     EXPECT_EQ(exposure("relief96"), of_mesh);
+}
+
+/// The governor measures what its rungs draw; the relief lies in the GPU's memory only where one of them draws it there.
+TEST(ArtifactReader, AReliefIsPreparedInEachWayThatARungDrawsItAndNoOther) {
+    const synthetic::ShownPacks packs(1);
+    KnownArtifact known = packs.known(0);
+    Pack pack = synthetic::numbered_pack(0);
+    put_reliefs(pack,
+                std::vector<MeasuredRelief>{{*synthetic::relief_of(pack, 96), {1e-6F, 1e-6F, 1e-6F, 0.0F}}});
+    ASSERT_TRUE(write_file(known.file, write_pack(pack).value()));
+    known.outline = outline_of(pack);
+    Settings settings = steep_table();
+    settings.render.error_tolerance_px = 100.0;
+    auto display = SurfacelessDisplay::create(320, 200).value();
+    Renderer renderer = Renderer::create(320, 200).value();
+    const synthetic::Stage stage(320, 200);
+    for (const std::uint32_t most_blocks : {0U, 1U << 20U}) {
+        SceneRequest request;
+        request.light = false;
+        request.most_blocks_on_gpu = most_blocks;
+        known.plan = plan_scene(settings, known.outline, request).value();
+        const std::uint64_t before = renderer.store().bytes();
+        LoadedLevels loaded(prepare_artifact(known, "auto", 1e9, [] { return false; }).value());
+        RunLevels& levels = loaded.artifact.levels;
+        ASSERT_TRUE(renderer.prepare(levels.needs()));
+        while (!loaded.ready()) {
+            ASSERT_TRUE(loaded.upload(renderer.store(), 10'000));
+        }
+        std::uint64_t planned = 0;
+        std::size_t on_gpu = 0;
+        for (const LevelUse& use : levels.uses()) {
+            planned += use.planned_gpu_bytes;
+            EXPECT_EQ(use.planned_gpu_bytes, use.gpu_bytes);
+            on_gpu += use.on_gpu ? 1U : 0U;
+        }
+        EXPECT_EQ(on_gpu, most_blocks > 0 ? 1U : 0U);
+        EXPECT_EQ(renderer.store().bytes() - before, planned);
+        levels.measure(stage.prop, stage.view(), renderer, {display->framebuffer(), 0});
+        for (const RungTime& time : levels.times()) {
+            EXPECT_GT(time.ms, 0.0);
+            EXPECT_LT(time.ms, 60e3) << "it was measured";
+        }
+        for (const char* way : {"relief96", "relief96-gpu"}) {
+            std::vector<RungTime> times = levels.times();
+            for (RungTime& time : times) {
+                time.ms = time.relief && time.on_gpu == (std::string_view(way) == "relief96-gpu") ? 2.0 : 9.0;
+            }
+            levels.start(times);
+            const bool is_there = most_blocks > 0 || std::string_view(way) == "relief96";
+            EXPECT_EQ(levels.state().level == way, is_there) << way << " " << levels.state().level;
+        }
+        levels.release(renderer.store());
+        EXPECT_EQ(renderer.store().bytes(), before);
+    }
 }
 
 } // namespace

@@ -100,7 +100,7 @@ Verdict judge_level(const SetUpResult& result, const TechniqueResult& level, Dom
 
 bool is_judged_peer(TechniqueKind kind) {
     return kind != TechniqueKind::Floor && !is_judged_level(kind) && kind != TechniqueKind::Auto &&
-           kind != TechniqueKind::ReliefCast;
+           kind != TechniqueKind::ReliefCast && kind != TechniqueKind::ReliefGpu;
 }
 
 bool is_judged_level(TechniqueKind kind) {

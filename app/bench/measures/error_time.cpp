@@ -60,6 +60,9 @@ Result<void> add_peers(TechniqueSet& set, const SourceMesh& mesh, const Truth& t
     if (added && choice.relief_cast) {
         added = set.add_relief_casts(pack, choice.cast_texels, picture);
     }
+    if (added && choice.relief_gpu) {
+        added = set.add_reliefs_on_gpu(pack, picture);
+    }
     return added;
 }
 
@@ -117,9 +120,10 @@ std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const So
     const auto details = static_cast<double>(peers.lod_triangles.size());
     const auto times = static_cast<double>(std::max<std::size_t>(peers.samples.size(), 2));
     const double full = times * ((peers.mesh ? 1.0 : 0.0) + (peers.two_pass ? eye_images : 0.0));
-    const double small = static_cast<double>(pack.levels.size() +
-                                             reliefs_of(pack).value_or(std::vector<ReliefOutline>{}).size()) +
-                         2.0 +
+    const auto reliefs = static_cast<double>(reliefs_of(pack).value_or(std::vector<ReliefOutline>{}).size());
+    constexpr double as_many_frames = 10.0; // where the driver draws on the processor
+    const double small = static_cast<double>(pack.levels.size()) +
+                         (peers.relief_gpu ? 1.0 + as_many_frames : 1.0) * reliefs + 2.0 +
                          times * ((peers.ray_cast ? 1.0 : 0.0) + (peers.lod ? details : 0.0) +
                                   (peers.two_pass_lod ? details * eye_images : 0.0));
     const auto triangles = static_cast<double>(mesh.triangles.size());

@@ -23,7 +23,7 @@ namespace frustumscreen {
 namespace {
 
 /// Every kind.
-constexpr std::array<std::pair<TechniqueKind, std::string_view>, 11> kind_names = {{
+constexpr std::array<std::pair<TechniqueKind, std::string_view>, 12> kind_names = {{
     {TechniqueKind::Floor, "floor"},
     {TechniqueKind::PackLevel, "pack level"},
     {TechniqueKind::PackRelief, "pack relief"},
@@ -35,6 +35,7 @@ constexpr std::array<std::pair<TechniqueKind, std::string_view>, 11> kind_names 
     {TechniqueKind::TwoPassLod, "two-pass LOD"},
     {TechniqueKind::Relief, "relief"},
     {TechniqueKind::ReliefCast, "relief cast"},
+    {TechniqueKind::ReliefGpu, "relief on GPU"},
 }};
 
 TechniqueResult described(TechniqueKind kind, int level, std::uint64_t triangles) {
@@ -266,7 +267,7 @@ Result<void> TechniqueSet::add_relief(const Pack& pack, TechniqueKind kind, Bloc
         result.drawn_as = std::move(*kept);
     }
     return add(make_pack_relief(stage_, pack, std::make_shared<const BlockRelief>(std::move(relief)), seen,
-                                options, name),
+                                options, name, kind == TechniqueKind::ReliefGpu),
                std::move(result));
 }
 
@@ -284,7 +285,8 @@ Result<void> TechniqueSet::add_pack_reliefs(const Pack& pack, TechniqueKind kind
         if (!wanted(outline.texels)) {
             continue;
         }
-        const std::string name = name_of(Rung{outline.texels, pack.samples, false, true});
+        const std::string name =
+            name_of(Rung{outline.texels, pack.samples, false, true, kind == TechniqueKind::ReliefGpu});
         added = relief_of(pack, outline).and_then([&](BlockRelief relief) {
             return add_relief(pack, kind, std::move(relief), seen->reliefs[k], options,
                               kind == TechniqueKind::Auto ? fmt::format("auto ({})", name) : name);
@@ -311,6 +313,10 @@ Result<void> TechniqueSet::add_finest_relief(const Pack& pack, const PictureOpti
     }
     return add_pack_reliefs(pack, TechniqueKind::PackRelief, options,
                             [most_texels](std::uint32_t texels) { return texels == most_texels; });
+}
+
+Result<void> TechniqueSet::add_reliefs_on_gpu(const Pack& pack, const PictureOptions& options) {
+    return add_pack_reliefs(pack, TechniqueKind::ReliefGpu, options, [](std::uint32_t) { return true; });
 }
 
 Result<void> TechniqueSet::add_relief_casts(const Pack& pack, const std::vector<int>& texels,

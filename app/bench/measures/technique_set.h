@@ -40,6 +40,7 @@ enum class TechniqueKind {
     TwoPassLod,
     Relief,     ///< relief images, marched or warped
     ReliefCast, ///< layered relief that the pack does not hold; its count is of blocks
+    ReliefGpu,  ///< the pack's layered relief, drawn by the GPU; its count is of blocks
 };
 /// The name in tables and files.
 [[nodiscard]] std::string_view name_of(TechniqueKind kind);
@@ -91,6 +92,8 @@ public:
     [[nodiscard]] Result<void> add_reliefs(const Pack& pack, const PictureOptions& options);
     /// The one of them with the most texels.
     [[nodiscard]] Result<void> add_finest_relief(const Pack& pack, const PictureOptions& options);
+    /// The same, drawn by the GPU.
+    [[nodiscard]] Result<void> add_reliefs_on_gpu(const Pack& pack, const PictureOptions& options);
     /// Reliefs of other resolutions, made from the pack's finest level. The pack must outlive the set.
     [[nodiscard]] Result<void> add_relief_casts(const Pack& pack, const std::vector<int>& texels,
                                                 const PictureOptions& options);

@@ -34,6 +34,7 @@ class Family:
 FAMILIES = {  # by the tables' column `kind`
     "pack level": Family("pack's levels", 0, "o", 2.5),
     "pack relief": Family("pack's reliefs", 6, "o", 2.5),
+    "relief on GPU": Family("pack's reliefs on the GPU", 6, "^"),
     "two-pass": Family("two-pass, full mesh", 1, "s"),
     "two-pass LOD": Family("two-pass, LODs", 3, "s"),
     "full mesh": Family("one pass, full mesh", 5, "D"),

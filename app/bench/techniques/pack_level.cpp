@@ -39,6 +39,21 @@ Lights lights_of(const Stage& stage, const PictureOptions& options, const Pack& 
     return {options.lit ? light : Light{}, light};
 }
 
+int samples_of(const PictureOptions& options, const Pack& pack) {
+    return options.samples > 0 ? options.samples : pack.samples;
+}
+
+/// Of what the GPU draws, in any light that is asked for.
+RenderNeeds needs_of(const Stage& stage, const PictureOptions& options, int samples, ShaderKey shader) {
+    RenderNeeds needs{std::max(samples, default_samples), {{ShaderKey::Pass::EdgeFeather}}};
+    for (const bool lit : {options.lit, options.lit || options.timed_lit}) {
+        shader.even_light = lit;
+        needs.draws.insert(shader);
+    }
+    needs.bent_by = if_it_bends(stage.settings.projector.pinhole);
+    return needs;
+}
+
 class PackLevelTechnique final : public Technique {
 public:
     PackLevelTechnique(const Stage& stage, const PlacedLevel& placed_level, std::optional<SeenLevel> seen,
@@ -98,16 +113,10 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
         return tl::unexpected<Error>(seen.error());
     }
     const SceneLevel whole = whole_level(pack, level);
-    const int samples = options.samples > 0 ? options.samples : pack.samples;
-    RenderNeeds needs{std::max(samples, default_samples), {{ShaderKey::Pass::EdgeFeather}}};
-    for (const bool lit : {options.lit, options.lit || options.timed_lit}) {
-        ShaderKey shader;
-        shader.cut_out = whole.cut_out;
-        shader.even_light = lit;
-        needs.draws.insert(shader);
-    }
-    needs.bent_by = if_it_bends(stage.settings.projector.pinhole);
-    Result<Renderer> renderer = Renderer::create(stage.width(), stage.height(), needs);
+    ShaderKey shader;
+    shader.cut_out = whole.cut_out;
+    Result<Renderer> renderer = Renderer::create(stage.width(), stage.height(),
+                                                 needs_of(stage, options, samples_of(options, pack), shader));
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
@@ -120,7 +129,7 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
         return tl::unexpected<Error>(hit_points.error());
     }
     PlacedLevel shown = placed(pack, level, place(pack, stage.prop).metres_per_box, *drawable);
-    shown.samples = samples;
+    shown.samples = samples_of(options, pack);
     return std::make_unique<PackLevelTechnique>(stage, shown, seen->levels[level],
                                                 lights_of(stage, options, pack, level), std::move(name),
                                                 Parts{std::move(*renderer), std::move(*hit_points)});
@@ -129,10 +138,17 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
 Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const Pack& pack,
                                                     std::shared_ptr<const BlockRelief> relief,
                                                     std::optional<SeenLevel> seen,
-                                                    const PictureOptions& options, std::string name) {
+                                                    const PictureOptions& options, std::string name,
+                                                    bool on_gpu) {
     RenderNeeds needs;
-    needs.draws = {cast_shader(false)};
-    needs.casts = 1;
+    if (on_gpu) {
+        ShaderKey shader;
+        shader.blocks = true;
+        needs = needs_of(stage, options, samples_of(options, pack), shader);
+    } else {
+        needs.draws = {cast_shader(false)};
+        needs.casts = 1;
+    }
     Result<Renderer> renderer = Renderer::create(stage.width(), stage.height(), needs);
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
@@ -142,9 +158,14 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const Pa
         return tl::unexpected<Error>(hit_points.error());
     }
     const Lights lights = lights_of(stage, options, pack, pack.default_level); // as the exhibit
-    const Drawable drawable = renderer->store().keep(relief);
-    PlacedLevel shown = placed(pack, std::move(relief), place(pack, stage.prop).metres_per_box, drawable);
-    shown.samples = options.samples > 0 ? options.samples : pack.samples;
+    const Result<Drawable> drawable =
+        on_gpu ? renderer->store().upload(relief) : renderer->store().keep(relief);
+    if (!drawable) {
+        return tl::unexpected<Error>(drawable.error());
+    }
+    PlacedLevel shown = placed(pack, std::move(relief), place(pack, stage.prop).metres_per_box, *drawable);
+    shown.samples = samples_of(options, pack);
+    shown.on_gpu = on_gpu;
     return std::make_unique<PackLevelTechnique>(stage, shown, std::move(seen), lights, std::move(name),
                                                 Parts{std::move(*renderer), std::move(*hit_points)});
 }

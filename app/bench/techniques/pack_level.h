@@ -26,9 +26,12 @@ struct PictureOptions {
                                                                  const PictureOptions& options,
                                                                  std::string name);
 
-/// A relief in the pack's box, cast as the exhibit casts it. `seen`: what the pack says of its errors; nothing: it says nothing.
-[[nodiscard]] Result<std::unique_ptr<Technique>>
-make_pack_relief(const Stage& stage, const Pack& pack, std::shared_ptr<const BlockRelief> relief,
-                 std::optional<SeenLevel> seen, const PictureOptions& options, std::string name);
+/// A relief in the pack's box, cast as the exhibit casts it, or `on_gpu` as it has the GPU draw it. `seen`: what the pack says of its errors;
+/// nothing: it says nothing.
+[[nodiscard]] Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const Pack& pack,
+                                                                  std::shared_ptr<const BlockRelief> relief,
+                                                                  std::optional<SeenLevel> seen,
+                                                                  const PictureOptions& options,
+                                                                  std::string name, bool on_gpu = false);
 
 } // namespace frustumscreen

@@ -19,7 +19,8 @@ constexpr std::array names = {Named{"mesh", &PeerChoice::mesh},
                               Named{"lod", &PeerChoice::lod},
                               Named{"two-pass-lod", &PeerChoice::two_pass_lod},
                               Named{"relief", &PeerChoice::relief},
-                              Named{"relief-cast", &PeerChoice::relief_cast}};
+                              Named{"relief-cast", &PeerChoice::relief_cast},
+                              Named{"relief-gpu", &PeerChoice::relief_gpu}};
 
 } // namespace
 
@@ -40,10 +41,10 @@ Result<PeerChoice> parse_peers(std::string_view words) {
         const auto* const found =
             std::find_if(names.begin(), names.end(), [word](const Named& each) { return each.name == word; });
         if (found == names.end()) {
-            return bad_input(
-                fmt::format("there is no peer '{}'; say none, all, or some of mesh, two-pass, "
-                            "ray-cast, lod, two-pass-lod, relief, relief-cast with commas between them",
-                            word));
+            return bad_input(fmt::format(
+                "there is no peer '{}'; say none, all, or some of mesh, two-pass, "
+                "ray-cast, lod, two-pass-lod, relief, relief-cast, relief-gpu with commas between them",
+                word));
         }
         choice.*found->chosen = true;
         at = comma + 1;

@@ -7,6 +7,7 @@
 /// two-pass-lod  simplified meshes by the two-pass method
 /// relief        relief images: linear, cone-stepping and quadtree marches, and the warp
 /// relief-cast   layered relief as the pack holds it, at sizes that it does not hold
+/// relief-gpu    the pack's layered reliefs, drawn by the GPU and not cast
 ///
 /// Threads  values; any.
 /// Errors   a name that is none of these.
@@ -28,6 +29,7 @@ struct PeerChoice {
     bool two_pass_lod = true;
     bool relief = true;
     bool relief_cast = true;
+    bool relief_gpu = true;
     /// A pixel; each peer but the relief's is there once with each. None: one, and what the pack asks for.
     std::vector<int> samples;
     std::vector<int> eye_pixels = {640, 1024, 1600}; ///< of the two-pass methods

@@ -124,7 +124,7 @@ BenchCommand error_time_command(CommandLine& app) {
     command
         .add_option("--peers", arguments->peers,
                     "none, all, or some of mesh, two-pass, ray-cast, lod, two-pass-lod, relief, "
-                    "relief-cast, with commas between")
+                    "relief-cast, relief-gpu, with commas between")
         .check({[](const std::string& words) {
                     const Result<PeerChoice> choice = parse_peers(words);
                     return choice ? std::string() : choice.error().message;

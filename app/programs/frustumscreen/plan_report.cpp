@@ -74,7 +74,8 @@ std::string needs_text(const PlanReport& report) {
     const auto out = std::back_inserter(text);
     for (const LevelUse& level : report.measured.show->levels(0).uses()) {
         if (level.blocks > 0) {
-            fmt::format_to(out, "  relief of {} texels: {} blocks\n", level.level, level.blocks);
+            fmt::format_to(out, "  relief of {} texels: {} blocks{}\n", level.level, level.blocks,
+                           level.on_gpu ? ", drawn by the GPU" : "");
             continue;
         }
         fmt::format_to(out, "  level {}: {} triangles, a texture of {} x {} texels\n", level.level,

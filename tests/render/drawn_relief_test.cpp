@@ -1,0 +1,189 @@
+// A relief that the GPU draws: against rays that meet its own cells and their covers, and against the cast of the same blocks.
+
+#include "app/render/block_upload.h"
+#include "assets_baked/bake/relief_scene.h"
+#include "tests/render/relief_rig.h"
+
+#include <cmath>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+/// What a pixel's ray meets of a relief, in the prop's frame; NaN: nothing.
+glm::dvec3 met_by_ray(const ReliefScene& scene, const Stage& stage, double metres_per_box,
+                      const glm::dvec2& pixel) {
+    const RigidTransform prop_from_projector = stage.table_from_prop.inverse() * stage.table_from_projector;
+    const glm::dvec3 ray = prop_from_projector.direction(stage.projector.ray(pixel));
+    const glm::dvec3 eye = stage.table_from_prop.inverse().point(stage.eye_m);
+    PropHit lit;
+    if (!intersect(stage.prop, prop_from_projector.translation, ray, lit) ||
+        !(stage.prop.faces[static_cast<std::size_t>(lit.face)].plane.distance(eye) > 0.0)) {
+        return glm::dvec3(NAN);
+    }
+    const glm::dvec3 direction = glm::normalize(prop_from_projector.translation + lit.t * ray - eye);
+    const SurfaceHit met = scene.trace(glm::vec3(eye / metres_per_box), glm::vec3(direction));
+    return met.hit ? eye + metres_per_box * static_cast<double>(met.distance) * direction : glm::dvec3(NAN);
+}
+
+BlockRelief without_cuts(BlockRelief relief) {
+    for (ReliefBlock& block : relief.blocks) {
+        block.cut = 0;
+    }
+    relief.covers.clear();
+    return relief;
+}
+
+TEST(DrawnRelief, ShowsTheCellsThatRaysMeetAndTheCutOnesWhereTheyAreCovered) {
+    std::mt19937 random(13);
+    for (const Lens& lens : lenses) {
+        ReliefRig rig(1, 40, rings(), lens);
+        const BlockRelief whole = without_cuts(*rig.relief);
+        const ReliefScene scene(*rig.relief);
+        const ReliefScene whole_scene(whole);
+        Stage stage = stage_of(lens);
+        std::size_t both = 0;
+        std::size_t one = 0;
+        std::size_t beside_covers = 0;
+        std::size_t far = 0;
+        for (int pose = 0; pose < 3; ++pose) {
+            stage.shuffle(random);
+            rig.one(stage, rig.drawn);
+            const ImageFloat places = rig.places();
+            for (int y = 0; y < places.height; ++y) {
+                for (int x = 0; x < places.width; ++x) {
+                    const auto ray = [&](const ReliefScene& of) {
+                        return met_by_ray(of, stage, rig.drawn.metres_per_box, {x + 0.5, y + 0.5});
+                    };
+                    const glm::dvec3 truth = ray(scene);
+                    const bool is_there = !std::isnan(places.at(x, y).x);
+                    one += is_there != !std::isnan(truth.x) ? 1U : 0U;
+                    beside_covers += std::isnan(truth.x) && !std::isnan(ray(whole_scene).x) ? 1U : 0U;
+                    if (is_there && !std::isnan(truth.x)) {
+                        both += 1;
+                        far += glm::distance(glm::dvec3(places.at(x, y)), truth) > 0.1e-3 ? 1U : 0U;
+                    }
+                }
+            }
+        }
+        std::printf("%zu pixels, %zu in one alone, %zu beside covers, %zu off by more than .1 mm\n", both,
+                    one, beside_covers, far);
+        ASSERT_GT(both, 1500U);
+        EXPECT_LT(one, both / 100);
+        EXPECT_GT(beside_covers, 25U);
+        EXPECT_LT(one, beside_covers / 2) << "cut cells show where they are not covered";
+        EXPECT_LT(far, both / 25) << "what is drawn wider lies over its neighbour, .12 mm wide here";
+    }
+}
+
+TEST(DrawnRelief, IsThePictureThatTheCastMakes) {
+    std::mt19937 random(14);
+    for (const Lens& lens : lenses) {
+        for (const int samples : {1, 16}) {
+            ReliefRig rig(samples, 192, rings(), lens);
+            Stage stage = stage_of(lens);
+            std::size_t lit = 0;
+            std::size_t alone = 0;
+            std::size_t off = 0;
+            std::size_t far = 0;
+            for (int pose = 0; pose < 4; ++pose) {
+                stage.shuffle(random);
+                const Image8 cast = rig.one(stage, rig.cast, LightCompensation{});
+                const ImageFloat met = rig.places();
+                const Image8 drawn = rig.one(stage, rig.drawn, LightCompensation{});
+                const ImageFloat places = rig.places();
+                for (std::size_t k = 0; k < cast.texels.size(); ++k) {
+                    const bool in_cast = !std::isnan(met.texels[k].x);
+                    const bool in_drawn = !std::isnan(places.texels[k].x);
+                    alone += in_cast != in_drawn ? 1U : 0U;
+                    off += farthest_channel(cast.texels[k], drawn.texels[k]) > 16 ? 1U : 0U;
+                    if (in_cast && in_drawn) {
+                        lit += 1;
+                        far += glm::distance(met.texels[k], places.texels[k]) > 0.02e-3F ? 1U : 0U;
+                    }
+                }
+            }
+            std::printf(
+                "%d samples: %zu pixels, %zu in one alone, %zu off by more than 16 codes, %zu by .02 mm\n",
+                samples, lit, alone, off, far);
+            ASSERT_GT(lit, 2000U);
+            EXPECT_LE(alone, lit / 200);
+            EXPECT_LE(off,
+                      samples == 1 ? lit / 100 : lit / 15); // the cast's samples lie elsewhere in a pixel
+            EXPECT_LE(far, lit / 50);
+        }
+    }
+}
+
+TEST(DrawnRelief, AndItsCastFadeIntoEachOther) {
+    ReliefRig rig(1);
+    Stage stage(320, 200);
+    std::mt19937 random(15);
+    stage.shuffle(random);
+    const Image8 cast = rig.one(stage, rig.cast, LightCompensation{});
+    const Image8 drawn = rig.one(stage, rig.drawn, LightCompensation{});
+    const Image8 middle = rig.fading(stage, rig.cast, rig.drawn, 0.5);
+    std::size_t differing = 0;
+    for (std::size_t k = 0; k < middle.texels.size(); ++k) {
+        ASSERT_TRUE(farthest_channel(middle.texels[k], cast.texels[k]) <= 1 ||
+                    farthest_channel(middle.texels[k], drawn.texels[k]) <= 1)
+            << k;
+        differing += cast.texels[k] != drawn.texels[k] ? 1U : 0U;
+    }
+    EXPECT_GT(lit_pixels(middle), 1000U);
+    EXPECT_GT(differing, 0U) << "the two do the same work";
+}
+
+TEST(DrawnRelief, TakesTheMemoryThatIsPlannedAndGivesItBack) {
+    ReliefRig rig(1);
+    GpuStore& store = rig.renderer->store();
+    const std::uint64_t before = store.bytes();
+    EXPECT_EQ(store.bytes(rig.cast.drawable), 0U);
+    const Drawable drawable = store.upload(rig.relief).value();
+    EXPECT_EQ(store.bytes(drawable), gpu_bytes(*rig.relief));
+    EXPECT_GE(store.bytes(drawable), rig.relief->blocks.size() * 372 + rig.relief->covers.size() * 8);
+    EXPECT_EQ(store.bytes(), before + store.bytes(drawable));
+    const GLuint numbers = store.find_blocks(drawable.mesh)->numbers.get();
+    store.release(drawable);
+    EXPECT_EQ(store.bytes(), before);
+    EXPECT_EQ(store.find_relief(drawable.mesh), nullptr);
+    EXPECT_FALSE(glIsTexture(numbers) == GL_TRUE);
+}
+
+TEST(DrawnRelief, UploadedInPiecesIsTheSame) {
+    ReliefRig rig(1);
+    const Stage stage(320, 200);
+    const Image8 whole = rig.one(stage, rig.drawn);
+    LevelData data;
+    data.relief = rig.relief;
+    data.on_gpu = true;
+    LevelUpload upload(std::move(data));
+    int pieces = 0;
+    while (!upload.done()) {
+        ASSERT_TRUE(upload.go_on(1000));
+        pieces += 1;
+    }
+    EXPECT_GT(pieces, 5);
+    PlacedLevel other = rig.drawn;
+    other.drawable = rig.renderer->store().keep(std::move(upload));
+    EXPECT_EQ(rig.one(stage, other).texels, whole.texels);
+}
+
+TEST(DrawnRelief, ThatTheDriverCannotHoldIsOneLineAndTheCastStays) {
+    ReliefRig rig(1);
+    const Result<BlockSheet> sheet = sheet_of(*rig.relief, 64);
+    ASSERT_FALSE(sheet);
+    EXPECT_NE(sheet.error().message.find("this driver allows 64"), std::string::npos)
+        << sheet.error().message;
+    EXPECT_EQ(sheet.error().message.find('\n'), std::string::npos);
+    const std::uint64_t before = rig.renderer->store().bytes();
+    glEnable(GL_TEXTURE_2D); // ES has no such state: the error stands for one of memory
+    const Result<Drawable> refused = rig.renderer->store().upload(rig.relief);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("no memory for the relief"), std::string::npos);
+    EXPECT_EQ(rig.renderer->store().bytes(), before);
+    EXPECT_GT(lit_pixels(rig.one(Stage(320, 200), rig.cast)), 1000U);
+    EXPECT_GT(lit_pixels(rig.one(Stage(320, 200), rig.drawn)), 1000U);
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic

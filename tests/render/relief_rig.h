@@ -1,0 +1,74 @@
+/// A pack with its relief, cast and drawn by the GPU, under projectors with and without a lens that distorts.
+#pragma once
+
+#include "tests/render/rig.h"
+#include "tests/render/ring_relief.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+namespace frustumscreen::synthetic {
+
+inline constexpr std::array<Lens, 4> lenses{Lens{}, Lens{0.1, 0.0}, Lens{-0.12, 0.04}, Lens{0.3, -0.2}};
+
+/// Where its lens distorts, it is a wide one: 0.3 and -0.2 move the picture's corner by 3 pixels.
+inline Stage stage_of(const Lens& lens) {
+    Stage stage(320, 200);
+    if (!lens.is_plain()) {
+        stage.projector.fx = stage.projector.fy = 450.0;
+        stage.projector.lens = lens;
+    }
+    return stage;
+}
+
+inline RenderNeeds needs_with_reliefs(int samples, const Pinhole& projector) {
+    RenderNeeds all = needs(samples, true);
+    all.bent_by = if_it_bends(projector);
+    all.draws.insert({cast_shader(false), cast_shader(true)});
+    all.casts = 2;
+    for (ShaderKey key : needs(samples, true).draws) {
+        key.blocks = key.pass == ShaderKey::Pass::Surface;
+        all.draws.insert(key);
+    }
+    return all;
+}
+
+struct ReliefRig : Rig {
+    std::shared_ptr<const BlockRelief> relief;
+    PlacedLevel cast, drawn; ///< the same relief: on the processor, by the GPU
+
+    explicit ReliefRig(int samples, int texels = 256, const Pack& shown = rings(), const Lens& lens = {})
+        : Rig(320, 200, samples, shown, if_it_bends(stage_of(lens).projector)) {
+        EXPECT_TRUE(renderer->prepare(needs_with_reliefs(samples, stage_of(lens).projector)));
+        hit_points = HitPointRenderer::create(*renderer).value();
+        relief = relief_of(pack, texels);
+        cast = placed(pack, relief, level.metres_per_box, renderer->store().keep(relief));
+        drawn = placed(pack, relief, level.metres_per_box, renderer->store().upload(relief).value());
+        drawn.on_gpu = true;
+        level.samples = cast.samples = drawn.samples = samples;
+        plan = make_plan(prop, 2 * level.triangles->indices.size(), 2);
+    }
+    Image8 one(const Stage& stage, const PlacedLevel& which, std::optional<LightCompensation> light = {}) {
+        plan_frame(prop, which, stage.view(light), plan);
+        draw(Redraw::Everything);
+        return picture();
+    }
+    Image8 fading(const Stage& stage, const PlacedLevel& from, const PlacedLevel& to, double share) {
+        plan_frame(prop, fade(from, to, share), stage.view(LightCompensation{}), plan);
+        EXPECT_TRUE(draw(Redraw::Everything).drawn);
+        return picture();
+    }
+};
+
+inline Pack white(Pack pack) {
+    std::fill(pack.textures[0].texels.begin(), pack.textures[0].texels.end(), glm::u8vec4(255));
+    return pack;
+}
+
+inline int farthest_channel(const glm::u8vec4& a, const glm::u8vec4& b) {
+    const glm::ivec3 difference = glm::abs(glm::ivec3(a) - glm::ivec3(b));
+    return std::max({difference.r, difference.g, difference.b});
+}
+
+} // namespace frustumscreen::synthetic
