@@ -35,14 +35,20 @@ TEST_F(PackRelief, ThereIsARowForEachByTheNameThatDrawsIt) {
     Result<Comparison> opened = open_comparison({"near", stage_.settings}, pack_, {}, mesh_, {{}, 4, 3});
     ASSERT_TRUE(opened) << opened.error().message;
     ASSERT_TRUE(opened->set->add_reliefs(pack_, {}));
+    ASSERT_TRUE(opened->set->add_reliefs_on_gpu(pack_, {}));
     ASSERT_TRUE(opened->set->measure_errors(opened->truth, opened->poses, 0, [](double) {}));
     std::vector<TechniqueResult> reliefs;
+    std::vector<TechniqueResult> on_gpu;
     for (const TechniqueResult& result : opened->set->results()) {
         if (result.kind == TechniqueKind::PackRelief) {
             reliefs.push_back(result);
         }
+        if (result.kind == TechniqueKind::ReliefGpu) {
+            on_gpu.push_back(result);
+        }
     }
     ASSERT_EQ(reliefs.size(), 2U);
+    ASSERT_EQ(on_gpu.size(), 2U);
     EXPECT_EQ(reliefs[0].name, "relief96");
     EXPECT_EQ(reliefs[1].name, "relief192");
     const std::vector<ReliefOutline> outlines = reliefs_of(pack_).value();
@@ -55,6 +61,11 @@ TEST_F(PackRelief, ThereIsARowForEachByTheNameThatDrawsIt) {
         EXPECT_LT(reliefs[k].error.mean.geometric_mean_mm, 0.5 * texel_mm);
         EXPECT_LT(reliefs[k].error.worst.outline_shift_px, 1.0);
         EXPECT_FALSE(reliefs[k].drawn_as.empty());
+        EXPECT_EQ(on_gpu[k].name, reliefs[k].name + "-gpu");
+        EXPECT_EQ(on_gpu[k].triangles, reliefs[k].triangles);
+        EXPECT_NEAR(on_gpu[k].error.mean.geometric_mean_mm, reliefs[k].error.mean.geometric_mean_mm,
+                    0.1 * texel_mm);
+        EXPECT_LT(on_gpu[k].error.worst.drawn_shift_px, 0.1);
         EXPECT_EQ(reliefs[k].bytes, bytes_of(relief_of(pack_, outlines[k]).value()));
         for (const std::optional<ErrorEstimate>& estimate : reliefs[k].estimates) {
             EXPECT_TRUE(estimate.has_value());
