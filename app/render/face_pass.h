@@ -41,7 +41,6 @@ private:
     void draw_mesh(const Draw& draw, const GpuStore::Mesh& mesh) const;
 
     BlockInstances blocks_;
-
     GlVertexArray no_attributes_ = GlVertexArray::generate();
     GlBuffer indices_ = GlBuffer::generate(); ///< the plan's, renewed with each picture
 };
