@@ -3,6 +3,11 @@
 #include "firmware_host/base/json.h"
 #include "tests/programs/program_folder.h"
 
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
 namespace frustumscreen {
 namespace {
 
@@ -50,6 +55,42 @@ TEST_F(BenchCounts, AFrameThatTakesMoreEndsWithOne) {
         [](nlohmann::json& counts) { counts[0]["triangles"] = 0.9 * counts[0]["triangles"].get<double>(); });
     EXPECT_EQ(count("--reference reference.json"), 1);
     EXPECT_NE(text("err.txt").find("takes over 5 % more"), std::string::npos) << text("err.txt");
+}
+
+/// Blocks and triangles of the table's rows, by technique, in the order of the counts.
+std::map<std::string, std::vector<double>> drawn_by(const std::string& csv) {
+    std::map<std::string, std::vector<double>> drawn;
+    std::istringstream lines(csv);
+    std::string line;
+    std::getline(lines, line); // the columns' names
+    while (std::getline(lines, line)) {
+        std::istringstream cells(line);
+        std::string cell;
+        std::vector<std::string> row;
+        while (std::getline(cells, cell, ',')) {
+            row.push_back(cell);
+        }
+        drawn[row.at(2)].push_back(std::stod(row.at(3)));
+    }
+    return drawn;
+}
+
+class BenchScaling : public ProgramFolder {};
+
+TEST_F(BenchScaling, OneSurfaceInFourTimesTheTrianglesHasAReliefOfAsManyBlocks) {
+    ASSERT_EQ(run("frustumscreen-bench scaling --same-surface --triangles 4000 16000 --size 48 --poses 1 "
+                  "--no-peers "
+                  "--config '" FRUSTUMSCREEN_SOURCE_DIR "/config/near.toml' --out out"),
+              0)
+        << text("err.txt");
+    const std::map<std::string, std::vector<double>> drawn = drawn_by(text("out/scaling_near.csv"));
+    const std::vector<double>& source = drawn.at("two-pass 1024");
+    ASSERT_EQ(source.size(), 2U);
+    EXPECT_EQ(source[1], 4.0 * source[0]);
+    const std::vector<double>& blocks = drawn.at("relief48");
+    ASSERT_EQ(blocks.size(), 2U);
+    EXPECT_LT(blocks[1], 1.1 * blocks[0]);
+    EXPECT_NE(text("out.txt").find("finest relief"), std::string::npos) << text("out.txt");
 }
 
 } // namespace
