@@ -24,7 +24,7 @@ FIRST, NEXT, LAST = 0, 1, 2
 CALIBRATION = "frustumscreen-calibrate.service"
 FOLDER = "/var/lib/frustumscreen/calibration"
 SENSOR_M = 0.085
-HELD_S = 3.5  # longer than the staff's chord takes
+RELEASED_S = 1.0  # long enough to be seen
 ARTIFACT = "amphora"
 IDENTITY = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]
 UNCALIBRATED = {"table_from_tracker": IDENTITY, "sensor_from_prop": IDENTITY}
@@ -61,6 +61,7 @@ class Calibration(HilTest):
 
     @long
     def test_whatever_its_end_the_exhibit_comes_back(self):
+        self.bench.machine.check(f"rm -rf {FOLDER}/*")  # what another test kept: a touch-up would be offered first
         for end in (lambda: self.press(FIRST), lambda: self.bench.machine.check(f"systemctl kill -s KILL {CALIBRATION}")):
             self.begin()
             self.assertEqual(self.bench.main_process(), 0)
@@ -73,17 +74,23 @@ class Calibration(HilTest):
     # The technician.
 
     def begin(self):
-        self.hold_chord()
-        self.bench.status_says("state", "staff")
-        self.hold_chord()
+        self.hold_chord(lambda: self.bench.status_says("state", "staff"))
+        self.hold_chord(lambda: eventually(self.has_begun, 20.0, "nothing begins while both buttons are held"))
         self.hears("Staff: measure the table anew", 3 * START_S)  # crosses are chosen first
 
-    def hold_chord(self):
+    def hold_chord(self, until):
+        """As a person does: until the table answers. A slow machine sees the buttons late."""
         for button in (FIRST, LAST):
             self.bench.buttons.tell("hold", button)
-        time.sleep(HELD_S)
-        for button in (FIRST, LAST):
-            self.bench.buttons.tell("release", button)
+        try:
+            until()
+        finally:
+            for button in (FIRST, LAST):
+                self.bench.buttons.tell("release", button)
+        time.sleep(RELEASED_S)
+
+    def has_begun(self):
+        return self.bench.machine.run(f"systemctl is-active {CALIBRATION}").output.strip() in ("activating", "active")
 
     def press(self, button):
         self.bench.buttons.tell("press", button, "300ms")
