@@ -46,21 +46,13 @@ glm::u8vec4 codes_of(const glm::vec4& linear) {
             srgb8_from_linear(static_cast<double>(linear.b)), 255};
 }
 
-glm::dvec3 box_from_grid(const ReliefGrid& grid, const glm::dvec3& at, double texel_box) {
-    glm::dvec3 point(grid.origin_box);
-    point[grid.axis[0]] += at.x * texel_box;
-    point[grid.axis[1]] += at.y * texel_box;
-    point[grid.axis[2]] += grid.sign * at.z * texel_box;
-    return point;
-}
-
 /// Follows the line at (u, v) from the range's highest place to its lowest, and says what it crosses from the front: the hit, its
 /// height and the cosine between its normal and the line.
 template <typename Visit>
 void follow_line(const BlockInput& input, const ReliefGrid& grid, const glm::dvec2& at,
                  const glm::dvec2& range, const Visit& visit) {
     const double texel_box = 1.0 / input.texels;
-    const glm::vec3 origin(box_from_grid(grid, {at, range.y}, texel_box));
+    const glm::vec3 origin(box_from_grid(grid, texel_box) * glm::dvec4(at, range.y, 1.0));
     glm::vec3 outward(0.0F);
     outward[grid.axis[2]] = static_cast<float>(grid.sign);
     const auto end = static_cast<float>((range.y - range.x) * texel_box);
