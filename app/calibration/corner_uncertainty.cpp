@@ -1,5 +1,7 @@
 #include "app/calibration/corner_uncertainty.h"
 
+#include "app/geometry/table_plane.h"
+
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -14,9 +16,9 @@ std::optional<glm::dvec2> light_of(const CornerCalibration& calibration, const g
     if (!calibration.pinhole) {
         return std::nullopt;
     }
-    const glm::dvec3& from = calibration.measured_from_projector.translation;
-    const glm::dvec3 ray = calibration.measured_from_projector.direction(calibration.pinhole->ray(pixel));
-    return ray.z < 0.0 ? std::optional(glm::dvec2(from + ray * ((height_m - from.z) / ray.z))) : std::nullopt;
+    RigidTransform level_from_projector = calibration.measured_from_projector;
+    level_from_projector.translation.z -= height_m;
+    return lights_table(*calibration.pinhole, level_from_projector, pixel);
 }
 
 /// Standard deviation of each coordinate: how far the corners lie beside the four lines from the centre of projection to their middles.
