@@ -91,6 +91,34 @@ PictureError measure(const TruthPicture& truth, const Drawn& drawn) {
     return error;
 }
 
+ShownError measure_shown(const TruthPicture& truth, const ShownPictures& shown) {
+    const std::array<float, 256>& linear = linear_from_srgb8();
+    ShownError error;
+    ColourSum colour;
+    std::int64_t outline_pixels = 0;
+    for (int y = 0; y < truth.hit.height; ++y) {
+        for (int x = 0; x < truth.hit.width; ++x) {
+            const double cover = truth.met_by_16.at(x, y) / 16.0;
+            const double off = static_cast<double>(linear[shown.white.at(x, y).g]) - cover;
+            error.cover_px += std::abs(off);
+            error.cover_bias_px += off;
+            error.cover_of_samples_px +=
+                std::abs(static_cast<double>(shown.cover_of_samples.at(x, y)) - cover);
+            if (truth.hit.at(x, y) != 0) {
+                outline_pixels += on_outline(truth.hit, x, y) ? 1 : 0;
+                colour.add(shown.colour.at(x, y), truth.shown16.at(x, y));
+            }
+        }
+    }
+    const double share = 1.0 / static_cast<double>(std::max<std::int64_t>(outline_pixels, 1));
+    error.cover_px *= share;
+    error.cover_of_samples_px *= share;
+    error.cover_bias_px = share * std::abs(error.cover_bias_px);
+    error.colour = colour.error();
+    error.shift_px = glm::length(picture_shift(truth.shown16, shown.colour).value_or(glm::dvec2(0.0)));
+    return error;
+}
+
 ErrorSummary summarise(std::span<const PictureError> errors) {
     constexpr std::array figures = {&PictureError::geometric_mean_mm,  &PictureError::geometric_p95_mm,
                                     &PictureError::silhouette_percent, &PictureError::outline_shift_px,
@@ -98,11 +126,17 @@ ErrorSummary summarise(std::span<const PictureError> errors) {
     constexpr std::array counts = {&PictureError::truth_pixels, &PictureError::outline_pixels,
                                    &PictureError::mismatched_pixels};
     constexpr std::array colours = {&PictureError::one_ray, &PictureError::sixteen_rays};
+    constexpr std::array shown_figures = {&ShownError::cover_px, &ShownError::cover_of_samples_px,
+                                          &ShownError::cover_bias_px, &ShownError::shift_px};
     ErrorSummary summary;
     const double share = errors.empty() ? 0.0 : 1.0 / static_cast<double>(errors.size());
     const auto add = [share](double& mean, double& worst, double value) {
         mean += share * value;
         worst = std::max(worst, value);
+    };
+    const auto add_colour = [&add](ColourError& mean, ColourError& worst, const ColourError& one) {
+        add(mean.rmse, worst.rmse, one.rmse);
+        add(mean.bad_percent, worst.bad_percent, one.bad_percent);
     };
     for (std::size_t k = 0; k < errors.size(); ++k) {
         const PictureError& error = errors[k];
@@ -113,9 +147,16 @@ ErrorSummary summarise(std::span<const PictureError> errors) {
             add(summary.mean.*figure, summary.worst.*figure, error.*figure);
         }
         for (const auto colour : colours) {
-            add((summary.mean.*colour).rmse, (summary.worst.*colour).rmse, (error.*colour).rmse);
-            add((summary.mean.*colour).bad_percent, (summary.worst.*colour).bad_percent,
-                (error.*colour).bad_percent);
+            add_colour(summary.mean.*colour, summary.worst.*colour, error.*colour);
+        }
+        if (error.shown) {
+            for (PictureError* const of : {&summary.mean, &summary.worst}) {
+                of->shown = of->shown.value_or(ShownError{});
+            }
+            for (const auto figure : shown_figures) {
+                add(*summary.mean.shown.*figure, *summary.worst.shown.*figure, *error.shown.*figure);
+            }
+            add_colour(summary.mean.shown->colour, summary.worst.shown->colour, error.shown->colour);
         }
         for (const auto count : counts) {
             summary.mean.*count += error.*count;

@@ -6,6 +6,7 @@
 
 #include "app/bench/truth/truth.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,19 @@ struct Drawn {
 struct ColourError {
     double rmse = 0.0;        ///< over the three channels of all pixels hit in both
     double bad_percent = 0.0; ///< pixels off by more than 16 codes in any channel
+};
+
+/// Of the picture that the kiosk shows, lit and with all its samples.
+struct ShownError {
+    /// How much of the truth's 16 rays' cover of the pixels is missing or too much, over outline pixels: where n samples show exact
+    /// outlines it is some 1 / (4 n), for they know n + 1 covers.
+    double cover_px = 0.0;
+    double cover_of_samples_px = 0.0; ///< the same of the truth's own rays at so many places of each pixel
+    /// The whole picture's cover beside the truth's, over outline pixels: how far the artifact is too fat or too thin. However few
+    /// samples there are, they are right on average.
+    double cover_bias_px = 0.0;
+    ColourError colour; ///< against 16 rays in the same light
+    double shift_px = 0.0;
 };
 
 struct PictureError {
@@ -37,12 +51,22 @@ struct PictureError {
     /// where nobody asked.
     double drawn_shift_px = 0.0;
     ColourError one_ray;
-    ColourError sixteen_rays; ///< zero where the truth has none
+    ColourError sixteen_rays;        ///< zero where the truth has none
+    std::optional<ShownError> shown; ///< nothing: the kiosk shows no such picture, or nobody asked
 };
 
 /// A truth without artifact pixels gives zero errors if nothing was drawn. Otherwise the errors are those of
 /// a truth with one artifact pixel.
 [[nodiscard]] PictureError measure(const TruthPicture& truth, const Drawn& drawn);
+
+/// Linear light as cover.
+struct ShownPictures {
+    Image8 colour;                 ///< as `ShownPicture` draws it
+    Image8 white;                  ///< the same
+    Image<float> cover_of_samples; ///< by Truth::cover
+};
+/// The truth has `shown16`.
+[[nodiscard]] ShownError measure_shown(const TruthPicture& truth, const ShownPictures& shown);
 
 /// Mean and worst of each figure over many pictures.
 struct ErrorSummary {

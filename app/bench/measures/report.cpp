@@ -7,10 +7,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
 namespace frustumscreen {
 
 namespace {
+
+constexpr double not_shown = std::numeric_limits<double>::quiet_NaN();
+double of_shown(const PictureError& error, double ShownError::*figure) {
+    return error.shown ? *error.shown.*figure : not_shown;
+}
 
 /// The figures of one picture, or of many summed up, in the order of the columns.
 struct Figure {
@@ -28,7 +36,21 @@ constexpr std::array figures = {
     Figure{"bad_1_ray_percent", [](const PictureError& e) { return e.one_ray.bad_percent; }},
     Figure{"rmse_16_rays", [](const PictureError& e) { return e.sixteen_rays.rmse; }},
     Figure{"bad_16_rays_percent", [](const PictureError& e) { return e.sixteen_rays.bad_percent; }},
+    Figure{"shown_cover_px", [](const PictureError& e) { return of_shown(e, &ShownError::cover_px); }},
+    Figure{"shown_cover_of_samples_px",
+           [](const PictureError& e) { return of_shown(e, &ShownError::cover_of_samples_px); }},
+    Figure{"shown_cover_bias_px",
+           [](const PictureError& e) { return of_shown(e, &ShownError::cover_bias_px); }},
+    Figure{"shown_shift_px", [](const PictureError& e) { return of_shown(e, &ShownError::shift_px); }},
+    Figure{"shown_rmse", [](const PictureError& e) { return e.shown ? e.shown->colour.rmse : not_shown; }},
+    Figure{"shown_bad_percent",
+           [](const PictureError& e) { return e.shown ? e.shown->colour.bad_percent : not_shown; }},
 };
+
+/// Where the kiosk shows no such picture the field is empty.
+std::string field(double figure) {
+    return std::isnan(figure) ? std::string() : fmt::format("{:.6f}", figure);
+}
 
 nlohmann::json json_of(const PictureError& error) {
     nlohmann::json json;
@@ -99,8 +121,7 @@ std::string summary_csv(std::span<const SetUpResult> results) {
                                technique.cpu_times_floor);
             for (const PictureError* error : {&technique.error.mean, &technique.error.worst}) {
                 for (const Figure& figure : figures) {
-                    csv += technique.errors.empty() ? std::string(",")
-                                                    : fmt::format(",{:.6f}", figure.of(*error));
+                    csv += "," + (technique.errors.empty() ? std::string() : field(figure.of(*error)));
                 }
             }
             csv +=
@@ -142,7 +163,7 @@ std::string poses_csv(std::span<const SetUpResult> results) {
                                    field(technique.name), technique.errors[k].truth_pixels,
                                    technique.errors[k].outline_pixels);
                 for (const Figure& figure : figures) {
-                    csv += fmt::format(",{:.6f}", figure.of(technique.errors[k]));
+                    csv += "," + field(figure.of(technique.errors[k]));
                 }
                 csv += "\n";
             }

@@ -2,6 +2,7 @@
 #include "app/bench/measures/technique_set.h"
 #include "app/bench/techniques/relief_surface.h"
 #include "app/pack/pack_file.h"
+#include "app/render/read_back.h"
 #include "app/render/sample_grid.h"
 #include "assets_baked/bake/level.h"
 
@@ -36,11 +37,32 @@ Result<std::string> TechniqueSet::keep_surface(const Pack& pack, SourceMesh surf
     return name;
 }
 
+std::optional<ShownLight> TechniqueSet::shown_light(const BenchPose& pose) const {
+    for (const std::unique_ptr<Technique>& technique : techniques_) {
+        if (const ShownPicture* const shown = technique->as_shown()) {
+            return shown->light(pose);
+        }
+    }
+    return std::nullopt;
+}
+
+ShownPictures
+TechniqueSet::shown_pictures(ShownPicture& shown, const BenchPose& pose,
+                             const std::function<const Image<float>&(int samples)>& cover_of) const {
+    const auto read = [this] { return read_colour(stage_.framebuffer, stage_.width(), stage_.height()); };
+    shown.draw_shown(pose);
+    Image8 colour = read();
+    const int samples = shown.draw_white(pose);
+    return {std::move(colour), read(), cover_of(samples)};
+}
+
 Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<BenchPose>& poses,
                                           std::size_t first, const Progress& progress) {
     for (std::size_t pose = 0; pose < poses.size(); ++pose) {
         const TruthView view = view_of(stage_.settings, poses[pose]);
-        const TruthPicture cast = truth.cast(stage_.prop, view, true);
+        const std::optional<ShownLight> light = shown_light(poses[pose]);
+        const TruthPicture cast = truth.cast(stage_.prop, view, true, light ? &*light : nullptr);
+        std::map<int, Image<float>> covers; // by samples a pixel
         std::map<std::string, Image8> surfaces;
         for (const auto& [name, as_drawn] : drawn_) {
             surfaces[name] = as_drawn.cast(stage_.prop, view, true).colour16;
@@ -57,6 +79,16 @@ Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<
             if (const auto own = surfaces.find(results_[k].drawn_as); own != surfaces.end()) {
                 error.drawn_shift_px =
                     glm::length(picture_shift(own->second, seen->colour).value_or(glm::dvec2(0.0)));
+            }
+            if (ShownPicture* const shown = techniques_[k]->as_shown()) {
+                const auto cover_of = [&](int samples) -> const Image<float>& {
+                    Image<float>& cover = covers[samples];
+                    if (cover.width == 0) {
+                        cover = truth.cover(stage_.prop, view, cast, SampleGrid::of(samples));
+                    }
+                    return cover;
+                };
+                error.shown = measure_shown(cast, shown_pictures(*shown, poses[pose], cover_of));
             }
             results_[k].estimates.push_back(techniques_[k]->estimate(poses[pose]));
         }

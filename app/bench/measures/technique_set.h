@@ -125,6 +125,12 @@ private:
                                                 const std::function<bool(std::uint32_t)>& wanted);
     /// Without colour.
     [[nodiscard]] Result<Drawn> places(std::size_t k, const BenchPose& pose);
+    /// The light that the exhibit shows the pack in; nothing where no technique is the exhibit's.
+    [[nodiscard]] std::optional<ShownLight> shown_light(const BenchPose& pose) const;
+    /// `cover_of`: the truth's, by so many rays a pixel.
+    [[nodiscard]] ShownPictures
+    shown_pictures(ShownPicture& shown, const BenchPose& pose,
+                   const std::function<const Image<float>&(int samples)>& cover_of) const;
     /// Of each technique; the floor's mean nothing.
     [[nodiscard]] Result<std::vector<PictureError>> shape_errors(const Truth& truth, const BenchPose& pose);
     [[nodiscard]] Result<void> add_relief(const Pack& pack, TechniqueKind kind, BlockRelief relief,

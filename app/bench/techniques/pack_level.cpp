@@ -6,6 +6,7 @@
 #include "app/scene/frame_plan.h"
 
 #include <algorithm>
+#include <array>
 
 namespace frustumscreen {
 
@@ -23,20 +24,17 @@ struct Light {
     bool feathered = true;
 };
 struct Lights {
-    Light shown, timed;
+    Light measured, timed, shown;
 };
 
-/// `level`: of the pack, whose brightest places say how bright the artifact is shown.
-Lights lights_of(const Stage& stage, const PictureOptions& options, const Pack& pack, std::size_t level) {
-    if (!options.lit && !options.timed_lit) {
-        return {};
-    }
-    const PackLevel& shown = pack.levels[level];
-    const Light light{
+/// The pack's default level, whose brightest places say how bright the artifact is shown.
+Lights lights_of(const Stage& stage, const PictureOptions& options, const Pack& pack) {
+    const PackLevel& level = pack.levels[pack.default_level];
+    const Light shown{
         light_compensation(stage.settings),
-        exposure_of(shown, pack.box_size, pack.textures[shown.texture], stage.settings.render.highlight_code),
+        exposure_of(level, pack.box_size, pack.textures[level.texture], stage.settings.render.highlight_code),
         options.feathered};
-    return {options.lit ? light : Light{}, light};
+    return {options.lit ? shown : Light{}, options.lit || options.timed_lit ? shown : Light{}, shown};
 }
 
 int samples_of(const PictureOptions& options, const Pack& pack) {
@@ -44,9 +42,9 @@ int samples_of(const PictureOptions& options, const Pack& pack) {
 }
 
 /// Of what the GPU draws, in any light that is asked for.
-RenderNeeds needs_of(const Stage& stage, const PictureOptions& options, int samples, ShaderKey shader) {
+RenderNeeds needs_of(const Stage& stage, int samples, ShaderKey shader) {
     RenderNeeds needs{std::max(samples, default_samples), {{ShaderKey::Pass::EdgeFeather}}};
-    for (const bool lit : {options.lit, options.lit || options.timed_lit}) {
+    for (const bool lit : {false, true}) {
         shader.even_light = lit;
         needs.draws.insert(shader);
     }
@@ -54,18 +52,31 @@ RenderNeeds needs_of(const Stage& stage, const PictureOptions& options, int samp
     return needs;
 }
 
-class PackLevelTechnique final : public Technique {
+/// Keeps what a texture cuts out.
+Image8 white(Image8 texture) {
+    for (glm::u8vec4& texel : texture.texels) {
+        texel = glm::u8vec4(255, 255, 255, texel.a);
+    }
+    return texture;
+}
+
+/// What is drawn, in its colours and white.
+struct Placed {
+    PlacedLevel coloured, white;
+};
+
+class PackLevelTechnique final : public Technique, public ShownPicture {
 public:
-    PackLevelTechnique(const Stage& stage, const PlacedLevel& placed_level, std::optional<SeenLevel> seen,
+    PackLevelTechnique(const Stage& stage, const Placed& placed, std::optional<SeenLevel> seen,
                        const Lights& lights, std::string name, Parts parts)
-        : stage_(stage), placed_(placed_level), seen_(std::move(seen)), lights_(lights),
-          name_(std::move(name)), parts_(std::move(parts)), plan_(make_plan(stage.prop, placed_)) {}
+        : stage_(stage), placed_(placed), seen_(std::move(seen)), lights_(lights), name_(std::move(name)),
+          parts_(std::move(parts)), plan_(make_plan(stage.prop, placed.coloured)) {}
 
     [[nodiscard]] std::string name() const override { return name_; }
-    void draw(const BenchPose& pose) override { draw(pose, lights_.shown); }
-    void draw_timed(const BenchPose& pose) override { draw(pose, lights_.timed); }
+    void draw(const BenchPose& pose) override { draw(placed_.coloured, pose, lights_.measured); }
+    void draw_timed(const BenchPose& pose) override { draw(placed_.coloured, pose, lights_.timed); }
     [[nodiscard]] Result<ImageFloat> hit_points(const BenchPose& pose) override {
-        plan(pose, lights_.shown);
+        plan(placed_.coloured, pose, lights_.measured);
         return parts_.hit_points.draw(plan_, parts_.renderer.store());
     }
 
@@ -73,8 +84,34 @@ public:
         if (!seen_) {
             return std::nullopt;
         }
-        plan(pose, lights_.shown);
-        return estimate_error(*seen_, stage_.prop, placed_, view_of(pose, lights_.shown), plan_);
+        plan(placed_.coloured, pose, lights_.measured);
+        return estimate_error(*seen_, stage_.prop, placed_.coloured, view_of(pose, lights_.measured), plan_);
+    }
+
+    [[nodiscard]] ShownPicture* as_shown() override { return this; }
+    void draw_shown(const BenchPose& pose) override { draw(placed_.coloured, pose, lights_.shown); }
+    [[nodiscard]] int draw_white(const BenchPose& pose) override {
+        draw(placed_.white, pose, {});
+        return plan_.cast_count > 0 ? plan_.casts.front().samples : plan_.samples;
+    }
+    [[nodiscard]] ShownLight light(const BenchPose& pose) const override {
+        const RigidTransform prop_from_table = pose.table_from_prop.inverse();
+        const RigidTransform prop_from_projector =
+            prop_from_table * stage_.settings.projector.table_from_projector;
+        std::vector<SeenFace> faces;
+        for (const PropFace& face : stage_.prop.faces) {
+            faces.push_back({&face, prop_from_table.point(pose.eye_m)});
+        }
+        ShownLight light{
+            reference_light(faces, prop_from_projector.translation, lights_.shown.compensation.value()),
+            lights_.shown.exposure,
+            {}};
+        for (const PropFace& face : stage_.prop.faces) {
+            const FaceLight on_face =
+                face_light(face, prop_from_projector.inverse().matrix(), light.reference);
+            light.most.push_back(static_cast<double>(on_face.most));
+        }
+        return light;
     }
 
 private:
@@ -84,19 +121,19 @@ private:
                 pose.table_from_prop, {&pose.eye_m, 1},
                 light.compensation,   light.exposure};
     }
-    void plan(const BenchPose& pose, const Light& light) {
-        plan_frame(stage_.prop, placed_, view_of(pose, light), plan_);
+    void plan(const PlacedLevel& placed, const BenchPose& pose, const Light& light) {
+        plan_frame(stage_.prop, placed, view_of(pose, light), plan_);
         if (!light.feathered) {
             plan_.feathers.clear();
         }
     }
-    void draw(const BenchPose& pose, const Light& light) {
-        plan(pose, light);
+    void draw(const PlacedLevel& placed, const BenchPose& pose, const Light& light) {
+        plan(placed, pose, light);
         parts_.renderer.draw(plan_, {stage_.framebuffer, 0}, Redraw::Everything);
     }
 
     const Stage& stage_;
-    PlacedLevel placed_;
+    Placed placed_;
     std::optional<SeenLevel> seen_;
     Lights lights_;
     std::string name_;
@@ -115,23 +152,30 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
     const SceneLevel whole = whole_level(pack, level);
     ShaderKey shader;
     shader.cut_out = whole.cut_out;
-    Result<Renderer> renderer = Renderer::create(stage.width(), stage.height(),
-                                                 needs_of(stage, options, samples_of(options, pack), shader));
+    Result<Renderer> renderer =
+        Renderer::create(stage.width(), stage.height(), needs_of(stage, samples_of(options, pack), shader));
     if (!renderer) {
         return tl::unexpected<Error>(renderer.error());
     }
-    const Result<Drawable> drawable = renderer->store().upload(whole, pack.textures[whole.mesh.texture]);
-    if (!drawable) {
-        return tl::unexpected<Error>(drawable.error());
+    const Image8& texture = pack.textures[whole.mesh.texture];
+    std::array<Result<Drawable>, 2> drawables{renderer->store().upload(whole, texture),
+                                              renderer->store().upload(whole, white(texture))};
+    for (const Result<Drawable>& drawable : drawables) {
+        if (!drawable) {
+            return tl::unexpected<Error>(drawable.error());
+        }
     }
     Result<HitPointRenderer> hit_points = HitPointRenderer::create(*renderer);
     if (!hit_points) {
         return tl::unexpected<Error>(hit_points.error());
     }
-    PlacedLevel shown = placed(pack, level, place(pack, stage.prop).metres_per_box, *drawable);
-    shown.samples = samples_of(options, pack);
-    return std::make_unique<PackLevelTechnique>(stage, shown, seen->levels[level],
-                                                lights_of(stage, options, pack, level), std::move(name),
+    Placed both;
+    both.coloured = placed(pack, level, place(pack, stage.prop).metres_per_box, *drawables[0]);
+    both.coloured.samples = samples_of(options, pack);
+    both.white = both.coloured;
+    both.white.drawable = *drawables[1];
+    return std::make_unique<PackLevelTechnique>(stage, both, seen->levels[level],
+                                                lights_of(stage, options, pack), std::move(name),
                                                 Parts{std::move(*renderer), std::move(*hit_points)});
 }
 
@@ -144,7 +188,7 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const Pa
     if (on_gpu) {
         ShaderKey shader;
         shader.blocks = true;
-        needs = needs_of(stage, options, samples_of(options, pack), shader);
+        needs = needs_of(stage, samples_of(options, pack), shader);
     } else {
         needs.draws = {cast_shader(false)};
         needs.casts = 1;
@@ -157,16 +201,23 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const Pa
     if (!hit_points) {
         return tl::unexpected<Error>(hit_points.error());
     }
-    const Lights lights = lights_of(stage, options, pack, pack.default_level); // as the exhibit
-    const Result<Drawable> drawable =
-        on_gpu ? renderer->store().upload(relief) : renderer->store().keep(relief);
-    if (!drawable) {
-        return tl::unexpected<Error>(drawable.error());
+    auto white = std::make_shared<BlockRelief>(*relief);
+    std::fill(white->colours.begin(), white->colours.end(), glm::u8vec4(255));
+    Placed both;
+    for (const auto& [placed_as, shows] :
+         {std::pair(&both.coloured, std::move(relief)),
+          std::pair(&both.white, std::shared_ptr<const BlockRelief>(std::move(white)))}) {
+        const Result<Drawable> drawable =
+            on_gpu ? renderer->store().upload(shows) : renderer->store().keep(shows);
+        if (!drawable) {
+            return tl::unexpected<Error>(drawable.error());
+        }
+        *placed_as = placed(pack, shows, place(pack, stage.prop).metres_per_box, *drawable);
+        placed_as->samples = samples_of(options, pack);
+        placed_as->on_gpu = on_gpu;
     }
-    PlacedLevel shown = placed(pack, std::move(relief), place(pack, stage.prop).metres_per_box, *drawable);
-    shown.samples = samples_of(options, pack);
-    shown.on_gpu = on_gpu;
-    return std::make_unique<PackLevelTechnique>(stage, shown, std::move(seen), lights, std::move(name),
+    return std::make_unique<PackLevelTechnique>(stage, both, std::move(seen), lights_of(stage, options, pack),
+                                                std::move(name),
                                                 Parts{std::move(*renderer), std::move(*hit_points)});
 }
 

@@ -23,6 +23,17 @@ struct Stage {
     [[nodiscard]] int height() const { return settings.projector.pinhole.height; }
 };
 
+/// What the kiosk makes of a technique of its own: even light, the artifact's exposure, soft edges between faces.
+class ShownPicture {
+public:
+    virtual ~ShownPicture() = default;
+    virtual void draw_shown(const BenchPose& pose) = 0;
+    [[nodiscard]] virtual ShownLight light(const BenchPose& pose) const = 0;
+    /// The artifact white all over and in no light, so that a pixel's linear light is the share of it that the artifact covers.
+    /// Returns the samples a pixel.
+    [[nodiscard]] virtual int draw_white(const BenchPose& pose) = 0;
+};
+
 class Technique {
 public:
     virtual ~Technique() = default;
@@ -37,6 +48,8 @@ public:
     [[nodiscard]] virtual std::optional<ErrorEstimate> estimate(const BenchPose& /*pose*/) {
         return std::nullopt;
     }
+    /// Null: the kiosk shows no such picture.
+    [[nodiscard]] virtual ShownPicture* as_shown() { return nullptr; }
 };
 
 } // namespace frustumscreen

@@ -155,7 +155,63 @@ bool Truth::first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit
     return true;
 }
 
-TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixteen_rays) const {
+/// Follows the projector's rays to the prop and the eye's from there.
+class Truth::Looker {
+public:
+    Looker(const Truth& truth, const PropShape& prop, const TruthView& view)
+        : truth_(truth), prop_(prop), view_(view) {}
+
+    enum class Seen { Nothing, Prop, Artifact };
+    struct Sight {
+        Hit hit;
+        glm::dvec3 direction{0.0}; ///< from the eye
+        LitPlace lit;
+    };
+    /// What the ray through `pixel` must show; Nothing if it does not light the prop.
+    [[nodiscard]] Seen look(const glm::dvec2& pixel, Sight& sight) const {
+        const glm::dvec3 projector = view_.prop_from_projector.translation;
+        const glm::dvec3 ray = view_.prop_from_projector.direction(view_.projector.ray(pixel));
+        PropHit on_prop;
+        if (!intersect(prop_, projector, ray, on_prop)) {
+            return Seen::Nothing;
+        }
+        const Plane& face = prop_.faces[static_cast<std::size_t>(on_prop.face)].plane;
+        if (!(face.distance(view_.eye_m) > 0.0)) {
+            return Seen::Prop;
+        }
+        sight.lit = {on_prop.face, projector + on_prop.t * ray, pixel};
+        sight.direction = sight.lit.point_m - view_.eye_m;
+        return truth_.first_hit(view_.eye_m, sight.direction, sight.hit) ? Seen::Artifact : Seen::Prop;
+    }
+    /// Of each pixel's own grid of rays, those that meet the artifact.
+    template <typename Met>
+    void look_through(int x, int y, const glm::ivec2& rays, Sight& sight, const Met& met) const {
+        for (int ray = 0; ray < rays.x * rays.y; ++ray) {
+            const glm::dvec2 place((ray % rays.x + 0.5) / rays.x, (ray / rays.x + 0.5) / rays.y);
+            if (look(glm::dvec2(x, y) + place, sight) == Seen::Artifact) {
+                met(sight);
+            }
+        }
+    }
+    /// `pixel(x, y)` of all pixels that the prop may be in, on every core.
+    template <typename Pixel> void for_each_pixel(const Pixel& pixel) const {
+        const PixelArea area = pixels_of_prop(prop_, view_);
+        parallel_for(static_cast<std::size_t>(std::max(area.bottom - area.top, 0)), 1,
+                     [&](std::size_t begin, std::size_t) {
+                         for (int x = area.left; x < area.right; ++x) {
+                             pixel(x, area.top + static_cast<int>(begin));
+                         }
+                     });
+    }
+
+private:
+    const Truth& truth_;
+    const PropShape& prop_;
+    const TruthView& view_;
+};
+
+TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixteen_rays,
+                         const ShownLight* shown) const {
     const int width = view.projector.width;
     const int height = view.projector.height;
     const glm::u8vec4 black(0, 0, 0, 255);
@@ -164,68 +220,68 @@ TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixt
                          {width, height, glm::vec3(std::numeric_limits<float>::quiet_NaN())},
                          {width, height, black},
                          {}};
-    /// What the projector's ray through (u, v) must show: false if it does not light the prop.
-    enum class Seen { Nothing, Prop, Artifact };
-    const glm::dvec3 projector = view.prop_from_projector.translation;
+    const Looker looker(*this, prop, view);
     const LitSource* const lit = sixteen_rays ? lit_.get() : nullptr;
-    const auto look = [&](double u, double v, PixelLight& light, Hit& hit) {
-        const glm::dvec3 ray = view.prop_from_projector.direction(view.projector.ray({u, v}));
-        PropHit on_prop;
-        if (!intersect(prop, projector, ray, on_prop)) {
-            return Seen::Nothing;
-        }
-        const Plane& face = prop.faces[static_cast<std::size_t>(on_prop.face)].plane;
-        if (!(face.distance(view.eye_m) > 0.0)) {
-            return Seen::Prop;
-        }
-        const glm::dvec3 direction = projector + on_prop.t * ray - view.eye_m;
-        if (!first_hit(view.eye_m, direction, hit)) {
-            return Seen::Prop;
-        }
-        light.apply(direction, hit);
-        return Seen::Artifact;
-    };
-    const PixelArea area = pixels_of_prop(prop, view);
-    const auto for_each_row = [&area](const auto& row) {
-        parallel_for(static_cast<std::size_t>(std::max(area.bottom - area.top, 0)), 1,
-                     [&](std::size_t begin, std::size_t) { row(area.top + static_cast<int>(begin)); });
-    };
-    for_each_row([&](int y) {
-        Hit hit;
-        for (int x = area.left; x < area.right; ++x) {
-            PixelLight light(lit);
-            const Seen seen = look(x + 0.5, y + 0.5, light, hit);
-            picture.prop.at(x, y) = seen != Seen::Nothing ? 1 : 0;
-            if (seen == Seen::Artifact) {
-                picture.hit.at(x, y) = 1;
-                picture.point_m.at(x, y) = glm::vec3(hit.point_m);
-                picture.colour.at(x, y) = code_of(hit.colour.linear);
-            }
+    looker.for_each_pixel([&](int x, int y) {
+        Looker::Sight sight;
+        const Looker::Seen seen = looker.look({x + 0.5, y + 0.5}, sight);
+        picture.prop.at(x, y) = seen != Looker::Seen::Nothing ? 1 : 0;
+        if (seen == Looker::Seen::Artifact) {
+            PixelLight(lit).apply(sight.direction, sight.hit);
+            picture.hit.at(x, y) = 1;
+            picture.point_m.at(x, y) = glm::vec3(sight.hit.point_m);
+            picture.colour.at(x, y) = code_of(sight.hit.colour.linear);
         }
     });
     if (!sixteen_rays) {
         return picture;
     }
     picture.colour16 = Image8(width, height, black);
-    for_each_row([&](int y) {
-        Hit hit;
-        for (int x = area.left; x < area.right; ++x) {
-            if (!hit_around(picture.hit, x, y)) {
-                continue;
+    picture.shown16 = shown != nullptr ? Image8(width, height, black) : Image8();
+    picture.met_by_16 = Image<std::uint8_t>(width, height);
+    looker.for_each_pixel([&](int x, int y) {
+        if (!hit_around(picture.hit, x, y)) {
+            return;
+        }
+        PixelLight light(lit);
+        glm::vec3 sum(0.0F);
+        glm::vec3 shown_sum(0.0F);
+        Looker::Sight sight;
+        looker.look_through(x, y, {4, 4}, sight, [&](Looker::Sight& met) {
+            light.apply(met.direction, met.hit);
+            const glm::vec3 colour = glm::clamp(met.hit.colour.linear, 0.0F, 1.0F);
+            sum += colour;
+            if (shown != nullptr) {
+                const double gain =
+                    shown_gain(*shown, prop, view.prop_from_projector.translation, view.projector, met.lit);
+                shown_sum += glm::min(static_cast<float>(gain) * colour, 1.0F);
             }
-            glm::vec3 sum(0.0F);
-            PixelLight light(lit);
-            for (int sub = 0; sub < 16; ++sub) {
-                const int column = sub % 4;
-                const int row = sub / 4;
-                if (look(x + (column + 0.5) / 4.0, y + (row + 0.5) / 4.0, light, hit) == Seen::Artifact) {
-                    sum += glm::clamp(hit.colour.linear, 0.0F, 1.0F);
-                }
-            }
-            picture.colour16.at(x, y) = code_of(sum / 16.0F);
+            ++picture.met_by_16.at(x, y);
+        });
+        picture.colour16.at(x, y) = code_of(sum / 16.0F);
+        if (shown != nullptr) {
+            picture.shown16.at(x, y) = code_of(shown_sum / 16.0F);
         }
     });
     return picture;
+}
+
+Image<float> Truth::cover(const PropShape& prop, const TruthView& view, const TruthPicture& picture,
+                          const glm::ivec2& rays) const {
+    Image<float> cover(view.projector.width, view.projector.height);
+    const Looker looker(*this, prop, view);
+    looker.for_each_pixel([&](int x, int y) {
+        const int met = picture.met_by_16.at(x, y);
+        float& share = cover.at(x, y);
+        if (met == 0 || met == 16) {
+            share = met == 0 ? 0.0F : 1.0F;
+            return;
+        }
+        Looker::Sight sight;
+        looker.look_through(x, y, rays, sight, [&](const Looker::Sight&) { share += 1.0F; });
+        share /= static_cast<float>(rays.x * rays.y);
+    });
+    return cover;
 }
 
 } // namespace frustumscreen

@@ -11,6 +11,7 @@
 /// Threads  `cast` uses every core inside; make one call at a time.
 #pragma once
 
+#include "app/bench/truth/shown_light.h"
 #include "app/bench/truth/surface_colour.h"
 #include "app/geometry/pinhole.h"
 #include "app/geometry/prop_shape.h"
@@ -44,6 +45,8 @@ struct TruthPicture {
     Image8 colour;            ///< one ray through the centre; sRGB codes
     /// 16 rays, 4 x 4 stratified, misses black, averaged in linear light; where `hit` and at the eight pixels around
     Image8 colour16;
+    Image8 shown16{}; ///< the same as an exhibit shows it; empty unless a light for it was given
+    Image<std::uint8_t> met_by_16{}; ///< how many of these rays meet the artifact
 };
 
 class Truth {
@@ -60,8 +63,13 @@ public:
     /// First hit of origin + t direction, t > 0 (prop frame).
     [[nodiscard]] bool first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit& hit) const;
 
-    /// The whole picture; `sixteen_rays` false leaves `colour16` empty.
-    [[nodiscard]] TruthPicture cast(const PropShape& prop, const TruthView& view, bool sixteen_rays) const;
+    /// The whole picture; `sixteen_rays` false leaves what they find empty. `shown`: the light of `shown16`.
+    [[nodiscard]] TruthPicture cast(const PropShape& prop, const TruthView& view, bool sixteen_rays,
+                                    const ShownLight* shown = nullptr) const;
+    /// The share of each pixel that the artifact covers, by a grid of that many rays, columns and rows, where the sixteen of `picture`
+    /// tell that an outline crosses it.
+    [[nodiscard]] Image<float> cover(const PropShape& prop, const TruthView& view,
+                                     const TruthPicture& picture, const glm::ivec2& rays) const;
 
     /// From now on `cast` multiplies colours by the museum's light on the same source, where it takes sixteen rays: for packs that
     /// were baked with light.
@@ -71,6 +79,7 @@ public:
     [[nodiscard]] const std::shared_ptr<const TracedMesh>& traced() const { return traced_; }
 
 private:
+    class Looker;
     explicit Truth(std::shared_ptr<const TracedMesh> traced) : traced_(std::move(traced)) {}
     std::shared_ptr<const TracedMesh> traced_;
     std::shared_ptr<const LitSource> lit_; ///< null: colours are the source's own
