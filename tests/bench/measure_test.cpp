@@ -88,6 +88,32 @@ TEST(Measure, PixelsAtThePicturesEdgeAreOutline) {
     EXPECT_EQ(error.outline_pixels, 20);
 }
 
+TEST(Measure, TheShownPicturesLightIsTheShareThatIsCovered) {
+    TruthPicture truth = truth_of(square);
+    truth.shown16 = truth.colour;
+    truth.met_by_16 = Image<std::uint8_t>(6, 6);
+    ShownPictures shown{truth.colour, {6, 6, glm::u8vec4(0, 0, 0, 255)}, {6, 6}};
+    for (int y = 1; y < 5; ++y) {
+        for (int x = 1; x < 5; ++x) {
+            truth.met_by_16.at(x, y) = 16;
+            shown.white.at(x, y) = glm::u8vec4(255);
+            shown.cover_of_samples.at(x, y) = 1.0F;
+        }
+    }
+    truth.met_by_16.at(5, 1) = 4;                                   // a quarter that is not shown,
+    shown.white.at(0, 0) = {srgb8_from_linear(0.5), 188, 188, 255}; // half a pixel too much
+    shown.cover_of_samples.at(5, 1) = 0.5F; // exact rays would show a quarter too much
+    shown.colour.at(2, 2).g = 112;          // 12 codes in one of 45 channels,
+    shown.colour.at(1, 1) = {0, 0, 0, 255}; // and what is not hit in both does not count
+    ImageFloat points = truth.point_m;
+    points.at(1, 1) = glm::vec3(nan_f);
+    const ShownError error = measure_shown(truth, shown, points);
+    EXPECT_NEAR(error.cover_px, (0.25 + 0.5) / 12.0, 1e-3);
+    EXPECT_NEAR(error.cover_bias_px, (0.5 - 0.25) / 12.0, 1e-3);
+    EXPECT_NEAR(error.cover_of_samples_px, 0.25 / 12.0, 1e-9);
+    EXPECT_NEAR(error.colour.rmse, std::sqrt(144.0 / 45.0), 1e-12);
+}
+
 TEST(Measure, ASummaryHasTheMeanAndEachFiguresWorst) {
     PictureError a;
     a.silhouette_percent = 1.0;
@@ -97,6 +123,11 @@ TEST(Measure, ASummaryHasTheMeanAndEachFiguresWorst) {
     b.silhouette_percent = 3.0;
     b.geometric_mean_mm = 0.2;
     b.truth_pixels = 300;
+    a.shown = ShownError{};
+    a.shown->cover_px = 0.1;
+    b.shown = ShownError{};
+    b.shown->cover_px = 0.3;
+    b.shown->colour.rmse = 5.0;
     const std::array errors = {a, b};
     const ErrorSummary summary = summarise(errors);
     EXPECT_DOUBLE_EQ(summary.mean.silhouette_percent, 2.0);
@@ -104,6 +135,10 @@ TEST(Measure, ASummaryHasTheMeanAndEachFiguresWorst) {
     EXPECT_DOUBLE_EQ(summary.worst.geometric_mean_mm, 0.4);
     EXPECT_EQ(summary.mean.truth_pixels, 200);
     EXPECT_EQ(summary.worst_pose, 1);
+    EXPECT_DOUBLE_EQ(summary.mean.shown->cover_px, 0.2);
+    EXPECT_DOUBLE_EQ(summary.worst.shown->cover_px, 0.3);
+    EXPECT_DOUBLE_EQ(summary.mean.shown->colour.rmse, 2.5);
+    EXPECT_FALSE(summarise(std::array{PictureError{}}).mean.shown.has_value());
 }
 
 } // namespace

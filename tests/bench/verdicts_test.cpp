@@ -111,6 +111,24 @@ TEST(Verdicts, APictureLiesWhereItsMeshDoesAndMayLieBesideTheScanAsItsOutlineMay
     EXPECT_EQ(missed_at(0.5, 0.5), 2U); // half a pixel beside its place
 }
 
+TEST(Verdicts, ThePictureThatIsShownIsUnderTheSameLimits) {
+    PictureError error = picture_error(0, 0, 0.01, 1.0);
+    error.shown = ShownError{};
+    error.shown->cover_px = 0.42;
+    error.shown->cover_of_samples_px = 0.125; // with two samples: what they cost is no fault of the outlines
+    const auto missed_by = [&](double ShownError::*figure, double value) {
+        PictureError one = error;
+        *one.shown.*figure = value;
+        return missed(judge(technique("t", TechniqueKind::PackLevel, 0, 1.0, {one}), default_level_limits));
+    };
+    EXPECT_EQ(missed_by(&ShownError::shift_px, 0.29), 0U);
+    EXPECT_EQ(missed_by(&ShownError::shift_px, 0.31), 1U);
+    EXPECT_EQ(missed_by(&ShownError::cover_bias_px, 0.31), 1U);
+    EXPECT_EQ(missed_by(&ShownError::cover_px, 0.43), 1U);
+    error.shown->colour.rmse = 14.1;
+    EXPECT_EQ(missed_by(&ShownError::shift_px, 0.0), 1U);
+}
+
 TEST(Verdicts, TheTwoPassMethodIsComparedWithTheCheapestLevelThatIsAsGood) {
     const SetUpResult result = example();
     const TechniqueResult* level = cheapest_as_good(result, result.techniques[3]);

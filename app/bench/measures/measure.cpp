@@ -91,7 +91,7 @@ PictureError measure(const TruthPicture& truth, const Drawn& drawn) {
     return error;
 }
 
-ShownError measure_shown(const TruthPicture& truth, const ShownPictures& shown) {
+ShownError measure_shown(const TruthPicture& truth, const ShownPictures& shown, const ImageFloat& points_m) {
     const std::array<float, 256>& linear = linear_from_srgb8();
     ShownError error;
     ColourSum colour;
@@ -104,8 +104,11 @@ ShownError measure_shown(const TruthPicture& truth, const ShownPictures& shown) 
             error.cover_bias_px += off;
             error.cover_of_samples_px +=
                 std::abs(static_cast<double>(shown.cover_of_samples.at(x, y)) - cover);
-            if (truth.hit.at(x, y) != 0) {
-                outline_pixels += on_outline(truth.hit, x, y) ? 1 : 0;
+            if (truth.hit.at(x, y) == 0) {
+                continue;
+            }
+            outline_pixels += on_outline(truth.hit, x, y) ? 1 : 0;
+            if (is_hit(points_m, x, y)) {
                 colour.add(shown.colour.at(x, y), truth.shown16.at(x, y));
             }
         }

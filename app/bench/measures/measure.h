@@ -32,7 +32,7 @@ struct ShownError {
     /// The whole picture's cover beside the truth's, over outline pixels: how far the artifact is too fat or too thin. However few
     /// samples there are, they are right on average.
     double cover_bias_px = 0.0;
-    ColourError colour; ///< against 16 rays in the same light
+    ColourError colour; ///< against 16 rays in the same light; over pixels hit in both
     double shift_px = 0.0;
 };
 
@@ -59,14 +59,15 @@ struct PictureError {
 /// a truth with one artifact pixel.
 [[nodiscard]] PictureError measure(const TruthPicture& truth, const Drawn& drawn);
 
-/// Linear light as cover.
+/// As `ShownPicture` draws them.
 struct ShownPictures {
-    Image8 colour;                 ///< as `ShownPicture` draws it
-    Image8 white;                  ///< the same
-    Image<float> cover_of_samples; ///< by Truth::cover
+    Image8 colour;
+    Image8 white;
+    Image<float> cover_of_samples; ///< by Truth::cover, with as many rays as `white` has samples
 };
-/// The truth has `shown16`.
-[[nodiscard]] ShownError measure_shown(const TruthPicture& truth, const ShownPictures& shown);
+/// The truth has `shown16`. `points_m` as in `Drawn`.
+[[nodiscard]] ShownError measure_shown(const TruthPicture& truth, const ShownPictures& shown,
+                                       const ImageFloat& points_m);
 
 /// Mean and worst of each figure over many pictures.
 struct ErrorSummary {

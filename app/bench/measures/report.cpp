@@ -207,11 +207,11 @@ std::string verdicts_csv(std::span<const SetUpResult> results, std::span<const V
 }
 
 std::string console_table(const SetUpResult& result) {
-    std::string table =
-        fmt::format("{} set-up, {} poses; mean / worst pose\n{:<32}{:>10}{:>9}{:>15}{:>9}{:>10}  "
-                    "{:<17}{:<17}{:<18}{:<15}\n",
-                    result.name, result.poses.size(), "technique", "triangles", "ms", "p10..p90", "x floor",
-                    "CPU x fl.", "silhouette %", "outline px", "geometric mm", "RMSE 16 rays");
+    std::string table = fmt::format(
+        "{} set-up, {} poses; mean / worst pose\n{:<32}{:>10}{:>9}{:>15}{:>9}{:>10}  "
+        "{:<17}{:<17}{:<18}{:<15}{:<15}{:<15}\n",
+        result.name, result.poses.size(), "technique", "triangles", "ms", "p10..p90", "x floor", "CPU x fl.",
+        "silhouette %", "outline px", "geometric mm", "RMSE 16 rays", "RMSE lit", "cover px");
     for (const TechniqueResult& technique : result.techniques) {
         table += fmt::format("{:<32}{:>10}{:>9.2f}{:>15}{:>9.2f}{:>10.2f}", technique.name,
                              technique.triangles, technique.time_ms.median,
@@ -226,6 +226,12 @@ std::string console_table(const SetUpResult& result) {
                             fmt::format("{:.3f} / {:.3f}", mean.outline_shift_px, worst.outline_shift_px),
                             fmt::format("{:.4f} / {:.4f}", mean.geometric_mean_mm, worst.geometric_mean_mm),
                             fmt::format("{:.2f} / {:.2f}", mean.sixteen_rays.rmse, worst.sixteen_rays.rmse));
+            if (mean.shown) {
+                table += fmt::format(
+                    "{:<15}{:<15}",
+                    fmt::format("{:.2f} / {:.2f}", mean.shown->colour.rmse, worst.shown->colour.rmse),
+                    fmt::format("{:.3f} / {:.3f}", mean.shown->cover_px, worst.shown->cover_px));
+            }
         }
         table += "\n";
     }

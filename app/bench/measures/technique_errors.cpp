@@ -37,7 +37,7 @@ Result<std::string> TechniqueSet::keep_surface(const Pack& pack, SourceMesh surf
     return name;
 }
 
-std::optional<ShownLight> TechniqueSet::shown_light(const BenchPose& pose) const {
+std::optional<LightAim> TechniqueSet::shown_light(const BenchPose& pose) const {
     for (const std::unique_ptr<Technique>& technique : techniques_) {
         if (const ShownPicture* const shown = technique->as_shown()) {
             return shown->light(pose);
@@ -60,7 +60,7 @@ Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<
                                           std::size_t first, const Progress& progress) {
     for (std::size_t pose = 0; pose < poses.size(); ++pose) {
         const TruthView view = view_of(stage_.settings, poses[pose]);
-        const std::optional<ShownLight> light = shown_light(poses[pose]);
+        const std::optional<LightAim> light = shown_light(poses[pose]);
         const TruthPicture cast = truth.cast(stage_.prop, view, true, light ? &*light : nullptr);
         std::map<int, Image<float>> covers; // by samples a pixel
         std::map<std::string, Image8> surfaces;
@@ -88,7 +88,8 @@ Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<
                     }
                     return cover;
                 };
-                error.shown = measure_shown(cast, shown_pictures(*shown, poses[pose], cover_of));
+                error.shown =
+                    measure_shown(cast, shown_pictures(*shown, poses[pose], cover_of), seen->point_m);
             }
             results_[k].estimates.push_back(techniques_[k]->estimate(poses[pose]));
         }

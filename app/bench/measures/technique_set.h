@@ -126,7 +126,7 @@ private:
     /// Without colour.
     [[nodiscard]] Result<Drawn> places(std::size_t k, const BenchPose& pose);
     /// The light that the exhibit shows the pack in; nothing where no technique is the exhibit's.
-    [[nodiscard]] std::optional<ShownLight> shown_light(const BenchPose& pose) const;
+    [[nodiscard]] std::optional<LightAim> shown_light(const BenchPose& pose) const;
     /// `cover_of`: the truth's, by so many rays a pixel.
     [[nodiscard]] ShownPictures
     shown_pictures(ShownPicture& shown, const BenchPose& pose,

@@ -50,6 +50,28 @@ Verdict judge_cheapest(const SetUpResult& result, const std::string& whose, cons
             fine != nullptr && fine->times_floor <= limits.times_floor};
 }
 
+/// Of the picture that the kiosk shows, lit and with all its samples.
+std::vector<Verdict> judge_shown(const TechniqueResult& level, const Limits& limits) {
+    if (!level.error.worst.shown) {
+        return {};
+    }
+    const ShownError& worst = *level.error.worst.shown;
+    double beside_samples_px = 0.0;
+    for (const PictureError& error : level.errors) {
+        beside_samples_px =
+            std::max(beside_samples_px, error.shown->cover_px - error.shown->cover_of_samples_px);
+    }
+    const double px = limits.outline_shift_px;
+    return {{fmt::format("lit as shown: colour RMSE <= {:g}", limits.colour_rmse),
+             fmt::format("worst pose {:.2f}", worst.colour.rmse), worst.colour.rmse <= limits.colour_rmse},
+            {fmt::format("lit as shown: within {:g} px of its place", px),
+             fmt::format("worst pose {:.3f} px", worst.shift_px), worst.shift_px <= px},
+            {fmt::format("pixels are covered as by exact outlines, <= {:g} px besides", px),
+             fmt::format("worst pose {:.3f} px", beside_samples_px), beside_samples_px <= px},
+            {fmt::format("neither fatter nor thinner than {:g} px", px),
+             fmt::format("worst pose {:.3f} px", worst.cover_bias_px), worst.cover_bias_px <= px}};
+}
+
 } // namespace
 
 std::string lines_of(std::span<const Verdict> verdicts) {
@@ -79,6 +101,8 @@ std::vector<Verdict> judge(const TechniqueResult& level, const Limits& limits) {
                             fmt::format("worst pose {:.3f} px", worst.drawn_shift_px),
                             worst.drawn_shift_px <= most_drawn_shift_px});
     }
+    const std::vector<Verdict> shown = judge_shown(level, limits);
+    verdicts.insert(verdicts.end(), shown.begin(), shown.end());
     if (limits.times_floor > 0.0) {
         verdicts.push_back({fmt::format("median cost <= {:g} x floor", limits.times_floor),
                             fmt::format("{:.2f} x", level.times_floor),

@@ -94,7 +94,7 @@ public:
         draw(placed_.white, pose, {});
         return plan_.cast_count > 0 ? plan_.casts.front().samples : plan_.samples;
     }
-    [[nodiscard]] ShownLight light(const BenchPose& pose) const override {
+    [[nodiscard]] LightAim light(const BenchPose& pose) const override {
         const RigidTransform prop_from_table = pose.table_from_prop.inverse();
         const RigidTransform prop_from_projector =
             prop_from_table * stage_.settings.projector.table_from_projector;
@@ -102,10 +102,11 @@ public:
         for (const PropFace& face : stage_.prop.faces) {
             faces.push_back({&face, prop_from_table.point(pose.eye_m)});
         }
-        ShownLight light{
+        LightAim light{
             reference_light(faces, prop_from_projector.translation, lights_.shown.compensation.value()),
             lights_.shown.exposure,
-            {}};
+            {},
+            lights_.shown.feathered};
         for (const PropFace& face : stage_.prop.faces) {
             const FaceLight on_face =
                 face_light(face, prop_from_projector.inverse().matrix(), light.reference);

@@ -28,7 +28,7 @@ class ShownPicture {
 public:
     virtual ~ShownPicture() = default;
     virtual void draw_shown(const BenchPose& pose) = 0;
-    [[nodiscard]] virtual ShownLight light(const BenchPose& pose) const = 0;
+    [[nodiscard]] virtual LightAim light(const BenchPose& pose) const = 0;
     /// The artifact white all over and in no light, so that a pixel's linear light is the share of it that the artifact covers.
     /// Returns the samples a pixel.
     [[nodiscard]] virtual int draw_white(const BenchPose& pose) = 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -11,6 +12,9 @@ namespace {
 
 /// How many pixels a real lens has there for one of the ideal one's; by differences of its rays.
 double pixel_density(const Pinhole& pinhole, const glm::dvec2& pixel) {
+    if (pinhole.lens.is_plain()) {
+        return 1.0;
+    }
     constexpr double step_px = 0.01;
     const glm::dvec2 right(step_px, 0.0);
     const glm::dvec2 down(0.0, step_px);
@@ -20,14 +24,97 @@ double pixel_density(const Pinhole& pinhole, const glm::dvec2& pixel) {
     return 4.0 * step_px * step_px / ideal_px;
 }
 
+/// The face that has both corners, too.
+std::optional<int> neighbour_at(const PropShape& prop, int face, const glm::dvec3& a, const glm::dvec3& b) {
+    const auto has = [](const PropFace& one, const glm::dvec3& corner) {
+        return std::find(one.corners.begin(), one.corners.end(), corner) != one.corners.end();
+    };
+    for (int other = 0; other < static_cast<int>(prop.faces.size()); ++other) {
+        const PropFace& one = prop.faces[static_cast<std::size_t>(other)];
+        if (other != face && has(one, a) && has(one, b)) {
+            return other;
+        }
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
-double shown_gain(const ShownLight& light, const PropShape& prop, const glm::dvec3& projector_m,
-                  const Pinhole& pinhole, const LitPlace& place) {
+ShownLight::ShownLight(LightAim aim, const PropShape& prop, const TruthView& view)
+    : aim_(std::move(aim)), prop_(prop), view_(view), ideal_(view.projector.ideal()) {
+    edges_.resize(prop.faces.size());
+    for (int face = 0; aim_.soft_edges && face < static_cast<int>(prop.faces.size()); ++face) {
+        for (std::size_t corner = 0; corner < 4; ++corner) {
+            if (const std::optional<SoftEdge> edge = soft_edge(face, corner)) {
+                edges_[static_cast<std::size_t>(face)].push_back(*edge);
+            }
+        }
+    }
+}
+
+double ShownLight::even(const LitPlace& place) const {
     const auto face = static_cast<std::size_t>(place.face);
-    const double received = received_light(prop.faces[face].plane, place.point_m, projector_m);
-    const double full = light.reference / (received * pixel_density(pinhole, place.pixel));
-    return light.exposure * light.most[face] * std::min(1.0, full);
+    const double received =
+        received_light(prop_.faces[face].plane, place.point_m, view_.prop_from_projector.translation);
+    const double full = aim_.reference / (received * pixel_density(view_.projector, place.pixel));
+    return aim_.most[face] * std::min(1.0, full);
+}
+
+std::optional<ShownLight::SoftEdge> ShownLight::soft_edge(int face, std::size_t corner) const {
+    const std::array<glm::dvec3, 4>& corners = prop_.faces[static_cast<std::size_t>(face)].corners;
+    const std::array<glm::dvec3, 2> ends{corners.at(corner), corners.at((corner + 1) % 4)};
+    const RigidTransform projector_from_prop = view_.prop_from_projector.inverse();
+    const auto pixel = [&](const glm::dvec3& point, const Pinhole& pinhole) {
+        return pinhole.pixel(projector_from_prop.point(point));
+    };
+    const std::optional<glm::dvec2> a = pixel(ends[0], ideal_);
+    const std::optional<glm::dvec2> b = pixel(ends[1], ideal_);
+    const std::optional<glm::dvec2> inside = pixel(corners.at((corner + 2) % 4), ideal_);
+    if (!a || !b || !inside) {
+        return std::nullopt;
+    }
+    SoftEdge edge{*a, glm::normalize(*b - *a), {}, glm::distance(*a, *b), {}};
+    edge.inward = {-edge.along.y, edge.along.x};
+    if (glm::dot(edge.inward, *inside - *a) < 0.0) {
+        edge.inward = -edge.inward;
+    }
+    const std::optional<int> neighbour = neighbour_at(prop_, face, ends[0], ends[1]);
+    const auto sees = [&](const glm::dvec3& from) {
+        return prop_.faces[static_cast<std::size_t>(*neighbour)].plane.distance(from) > 0.0;
+    };
+    if (!neighbour || !sees(view_.prop_from_projector.translation)) {
+        return edge;
+    }
+    if (!sees(view_.eye_m)) {
+        return std::nullopt;
+    }
+    edge.shares.emplace();
+    for (std::size_t end = 0; end < 2; ++end) {
+        const glm::dvec2 at = pixel(ends.at(end), view_.projector).value_or(glm::dvec2(0.0));
+        edge.shares->at(end) =
+            std::min(1.0, even({*neighbour, ends.at(end), at}) / even({face, ends.at(end), at}));
+    }
+    return edge;
+}
+
+double ShownLight::softened(const LitPlace& place) const {
+    const glm::dvec2 pixel = ideal_.pixel(view_.projector.ray(place.pixel)).value_or(place.pixel);
+    double share = 1.0;
+    for (const SoftEdge& edge : edges_[static_cast<std::size_t>(place.face)]) {
+        const double within_px = glm::dot(edge.inward, pixel - edge.from_px);
+        if (!edge.shares) { // dark for half a pixel, then bright over one
+            share *= std::clamp(within_px - 0.5, 0.0, 1.0);
+        } else if (within_px < 1.0) {
+            const double along =
+                std::clamp(glm::dot(edge.along, pixel - edge.from_px) / edge.length_px, 0.0, 1.0);
+            share *= std::lerp(std::lerp((*edge.shares)[0], (*edge.shares)[1], along), 1.0, within_px);
+        }
+    }
+    return share;
+}
+
+double ShownLight::gain(const LitPlace& place) const {
+    return aim_.exposure * even(place) * softened(place);
 }
 
 } // namespace frustumscreen

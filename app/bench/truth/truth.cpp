@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -211,7 +212,7 @@ private:
 };
 
 TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixteen_rays,
-                         const ShownLight* shown) const {
+                         const LightAim* aim) const {
     const int width = view.projector.width;
     const int height = view.projector.height;
     const glm::u8vec4 black(0, 0, 0, 255);
@@ -237,7 +238,9 @@ TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixt
         return picture;
     }
     picture.colour16 = Image8(width, height, black);
-    picture.shown16 = shown != nullptr ? Image8(width, height, black) : Image8();
+    const std::optional<ShownLight> shown =
+        aim != nullptr ? std::optional<ShownLight>(std::in_place, *aim, prop, view) : std::nullopt;
+    picture.shown16 = shown ? Image8(width, height, black) : Image8();
     picture.met_by_16 = Image<std::uint8_t>(width, height);
     looker.for_each_pixel([&](int x, int y) {
         if (!hit_around(picture.hit, x, y)) {
@@ -251,15 +254,13 @@ TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixt
             light.apply(met.direction, met.hit);
             const glm::vec3 colour = glm::clamp(met.hit.colour.linear, 0.0F, 1.0F);
             sum += colour;
-            if (shown != nullptr) {
-                const double gain =
-                    shown_gain(*shown, prop, view.prop_from_projector.translation, view.projector, met.lit);
-                shown_sum += glm::min(static_cast<float>(gain) * colour, 1.0F);
+            if (shown) {
+                shown_sum += glm::min(static_cast<float>(shown->gain(met.lit)) * colour, 1.0F);
             }
             ++picture.met_by_16.at(x, y);
         });
         picture.colour16.at(x, y) = code_of(sum / 16.0F);
-        if (shown != nullptr) {
+        if (shown) {
             picture.shown16.at(x, y) = code_of(shown_sum / 16.0F);
         }
     });

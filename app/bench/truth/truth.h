@@ -13,9 +13,6 @@
 
 #include "app/bench/truth/shown_light.h"
 #include "app/bench/truth/surface_colour.h"
-#include "app/geometry/pinhole.h"
-#include "app/geometry/prop_shape.h"
-#include "app/geometry/transform.h"
 #include "app/image/image.h"
 #include "assets_baked/bake/source_scene.h"
 #include "firmware_host/base/result.h"
@@ -29,13 +26,6 @@ namespace frustumscreen {
 
 class LitSource;
 class TracedMesh;
-
-/// Who looks and who projects, seen from the prop.
-struct TruthView {
-    Pinhole projector;
-    RigidTransform prop_from_projector;
-    glm::dvec3 eye_m{0.0}; ///< prop frame
-};
 
 /// Shape  every image is [projector.height][projector.width].
 struct TruthPicture {
@@ -63,9 +53,9 @@ public:
     /// First hit of origin + t direction, t > 0 (prop frame).
     [[nodiscard]] bool first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit& hit) const;
 
-    /// The whole picture; `sixteen_rays` false leaves what they find empty. `shown`: the light of `shown16`.
+    /// The whole picture; `sixteen_rays` false leaves what they find empty. `aim`: of the light of `shown16`.
     [[nodiscard]] TruthPicture cast(const PropShape& prop, const TruthView& view, bool sixteen_rays,
-                                    const ShownLight* shown = nullptr) const;
+                                    const LightAim* aim = nullptr) const;
     /// The share of each pixel that the artifact covers, by a grid of that many rays, columns and rows, where the sixteen of `picture`
     /// tell that an outline crosses it.
     [[nodiscard]] Image<float> cover(const PropShape& prop, const TruthView& view,

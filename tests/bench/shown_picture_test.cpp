@@ -1,0 +1,119 @@
+// The picture as the kiosk shows it, lit and with its samples: against the truth's rays, whose light is worked out at each ray's point.
+
+#include "app/bench/measures/technique_set.h"
+#include "app/render/read_back.h"
+#include "app/render/sample_grid.h"
+#include "assets_baked/bake/bake.h"
+#include "tests/bench/drawn_near.h"
+#include "tests/bench/ring.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+namespace frustumscreen {
+namespace {
+
+class ShownPictureTest : public DrawnNear {
+protected:
+    void SetUp() override {
+        BakeOptions options;
+        options.size = 192;
+        options.unlit = true;
+        mesh_->default_up = 'z';
+        Result<Pack> pack = bake(*mesh_, options);
+        ASSERT_TRUE(pack) << pack.error().message;
+        pack_ = std::move(*pack);
+    }
+
+    /// Of the pack's level and its finest relief; the worst of some poses.
+    struct Errors {
+        ShownError level, relief;
+    };
+    [[nodiscard]] Errors errors_of(std::uint32_t level, int samples) const {
+        PictureOptions options;
+        options.samples = samples;
+        Result<Comparison> opened =
+            open_comparison({"near", stage_.settings}, pack_, std::vector{level}, mesh_, {options, 4, 3});
+        EXPECT_TRUE(opened && opened->set->add_finest_relief(pack_, options) &&
+                    opened->set->measure_errors(opened->truth, opened->poses, 0, [](double) {}));
+        Errors errors;
+        for (const TechniqueResult& result : opened->set->results()) {
+            EXPECT_EQ(result.error.worst.shown.has_value(), result.kind != TechniqueKind::Floor);
+            if (result.kind == TechniqueKind::Floor) {
+                continue;
+            }
+            const ShownError& worst = *result.error.worst.shown;
+            std::printf(
+                "%s, %d samples: cover %.4f px, of its samples %.4f, bias %.4f, shift %.4f px, RMSE %.3f\n",
+                result.name.c_str(), result.samples, worst.cover_px, worst.cover_of_samples_px,
+                worst.cover_bias_px, worst.shift_px, worst.colour.rmse);
+            (result.kind == TechniqueKind::PackLevel ? errors.level : errors.relief) = worst;
+        }
+        return errors;
+    }
+    [[nodiscard]] std::uint32_t finest() const { return static_cast<std::uint32_t>(pack_.levels.size() - 1); }
+
+    std::shared_ptr<SourceMesh> mesh_ = ring();
+    Pack pack_;
+};
+
+TEST_F(ShownPictureTest, LightSoftEdgesAndCoverAreTheTruths) {
+    for (const double k1 : {0.0, 0.1}) {
+        stage_.settings.projector.pinhole.lens = {k1, 0.0};
+        const Errors errors = errors_of(finest(), 16);
+        EXPECT_LT(errors.level.colour.rmse, 1.0);
+        EXPECT_LT(errors.level.shift_px, 0.05);
+        EXPECT_LT(errors.level.cover_px, 0.01);
+        EXPECT_LT(errors.level.cover_bias_px, 0.005);
+        EXPECT_EQ(errors.level.cover_of_samples_px, 0.0); // the truth's own sixteen
+        EXPECT_LT(errors.relief.colour.rmse, 1.5);
+        EXPECT_LT(errors.relief.shift_px, 0.05);
+        EXPECT_LT(errors.relief.cover_px, 0.1);
+    }
+}
+
+TEST_F(ShownPictureTest, FewSamplesCostWhatExactRaysAtTheirPlacesDo) {
+    const Errors errors = errors_of(pack_.default_level, 2);
+    for (const ShownError& error : {errors.level, errors.relief}) {
+        EXPECT_NEAR(error.cover_of_samples_px, 0.15, 0.05); // 1 / 8 of a straight outline's, and corners
+        EXPECT_NEAR(error.cover_px, error.cover_of_samples_px, 0.05);
+        EXPECT_LT(error.cover_bias_px, 0.05);
+    }
+}
+
+/// Light that is not aimed at, and edges that are soft where they should not be, are found.
+TEST_F(ShownPictureTest, AnotherLightIsAnError) {
+    const Result<Comparison> opened =
+        open_comparison({"near", stage_.settings}, pack_, {}, mesh_, {{}, 1, 3});
+    const BenchPose& pose = opened->poses.front();
+    const Stage& stage = opened->set->stage();
+    PictureOptions options;
+    options.samples = 16;
+    const auto level = make_pack_level(stage, pack_, finest(), options, "finest").value();
+    ShownPicture& shown = *level->as_shown();
+    shown.draw_shown(pose);
+    const auto read = [&] { return read_colour(stage.framebuffer, stage.width(), stage.height()); };
+    ShownPictures pictures{read(), {}, {}};
+    ASSERT_EQ(shown.draw_white(pose), 16);
+    pictures.white = read();
+    const ImageFloat points = level->hit_points(pose).value();
+    const TruthView view = view_of(stage.settings, pose);
+    const auto error_in = [&](const LightAim& aim) {
+        const TruthPicture truth = opened->truth.cast(stage.prop, view, true, &aim);
+        pictures.cover_of_samples = opened->truth.cover(stage.prop, view, truth, SampleGrid::of(16));
+        return measure_shown(truth, pictures, points);
+    };
+    const LightAim aim = shown.light(pose);
+    EXPECT_LT(error_in(aim).colour.rmse, 1.0);
+    LightAim brighter = aim;
+    brighter.exposure *= 1.1; // some 4 % of a code
+    EXPECT_GT(error_in(brighter).colour.rmse, 3.0);
+    LightAim sharp = aim;
+    sharp.soft_edges = false;
+    EXPECT_GT(error_in(sharp).colour.rmse, 1.0);
+    EXPECT_GT(error_in(sharp).shift_px, 0.05);
+}
+
+} // namespace
+} // namespace frustumscreen
