@@ -160,8 +160,11 @@ void main() {
 #ifdef EVEN_LIGHT
     gain *= compensation();
 #endif
-    // The code of `gain` times the light of a code, by sRGB's own power law; its straight piece near black exactly.
-    result = vec4(max(gain.x * code, (code + 0.055) * gain.y - 0.055), 1.0);
+    // The code of `gain` times the light of a code, by sRGB's own power law or by its straight piece near black. Where only one of both
+    // codes is on that piece it is off by two codes, by four at a gain of 8, whose codes lie 8 apart.
+    vec3 straight = gain.x * code;
+    vec3 power = (code + 0.055) * gain.y - 0.055;
+    result = vec4(gain.x > 1.0 ? min(straight, power) : max(straight, power), 1.0);
 #endif
 }
 )";

@@ -55,7 +55,9 @@ FRUSTUMSCREEN_INLINE Ints lit(const CastLight::Gain& gain, const PixelLanes& at,
                                                               root_of(root_of(distance)));
     const auto channel = [&](int shift) FRUSTUMSCREEN_INLINED {
         const Floats code = __builtin_convertvector(texels >> shift & 255, Floats);
-        const Floats shown = most(linear * code, (code + code_offset) * power - code_offset);
+        const Floats straight = linear * code;
+        const Floats by_power = (code + code_offset) * power - code_offset;
+        const Floats shown = linear > 1.0F ? least(straight, by_power) : most(straight, by_power);
         return __builtin_convertvector(least(shown, all(255.0F)) + 0.5F, Ints) << shift;
     };
     constexpr auto alpha = static_cast<std::int32_t>(0xFF000000U);

@@ -1,7 +1,7 @@
 /// The projector's light on a relief that is cast: the codes that the shaders give a mesh (app/render/shader_source.cpp), made a row
 /// at a time while the painter has it at hand. Feathered edges are in them.
 ///
-/// Colour   sRGB codes in and out; linear light is multiplied, by sRGB's power law, exactly near black.
+/// Colour   sRGB codes in and out; linear light is multiplied, by sRGB's power law, as the shaders do.
 /// Pixels   one belongs to the face of the prop that its middle lies on, and goes dark if the plan shows the cast on none there. Lines are
 ///          straight in those of the ideal pinhole: a lens that distorts is taken back for each pixel.
 /// Threads  `begin`, which allocates nothing for a plan as large as one before: one; then `light`: any, several at once.

@@ -69,6 +69,21 @@ TriangleMesh weld(const SourceMesh& mesh, std::span<const glm::dvec3> box_points
     return result;
 }
 
+std::vector<glm::vec3> smooth_normals(const TriangleMesh& mesh) {
+    std::vector<glm::vec3> normals(mesh.positions.size(), glm::vec3(0.0F));
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        const glm::vec3 n = mesh.area_normal(t);
+        for (int k = 0; k < 3; ++k) {
+            normals[mesh.indices[3 * t + static_cast<std::size_t>(k)]] += n;
+        }
+    }
+    for (glm::vec3& n : normals) {
+        const float length = glm::length(n);
+        n = length > 0.0F ? n / length : glm::vec3(0.0F, 0.0F, 1.0F);
+    }
+    return normals;
+}
+
 SourceMesh as_source(const TriangleMesh& mesh) {
     SourceMesh source;
     source.positions.assign(mesh.positions.begin(), mesh.positions.end());

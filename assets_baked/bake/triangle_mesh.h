@@ -39,6 +39,9 @@ void drop_repetitions(std::vector<std::uint32_t>& indices);
 /// Drops vertices that no triangle uses.
 void compact(TriangleMesh& mesh);
 
+/// Of each position: the mean of its triangles' normals, by area; unit, +Z where there is none.
+[[nodiscard]] std::vector<glm::vec3> smooth_normals(const TriangleMesh& mesh);
+
 /// The same triangles as a SourceMesh without materials, for ray casts.
 [[nodiscard]] SourceMesh as_source(const TriangleMesh& mesh);
 

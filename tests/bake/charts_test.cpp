@@ -44,6 +44,16 @@ TEST(Charts, EveryTriangleIsKeptAndEveryMapIsFreeOfFoldsAndNearlyTrueToScale) {
     }
 }
 
+/// Six charts, as a cube has sides, are the fewest that a sphere can have at these slopes; the places along their borders are there twice.
+TEST(Charts, FewPlacesAreSplit) {
+    const TriangleMesh mesh = sphere_mesh();
+    const ChartedMesh charted = chart(mesh, 1.0F / 256.0F);
+    const double split =
+        static_cast<double>(charted.positions.size()) / static_cast<double>(mesh.positions.size());
+    EXPECT_LE(charted.chart_count, 8U);
+    EXPECT_LT(split, 1.18);
+}
+
 TEST(Charts, NoTexelIsInsideTwoTriangles) {
     const ChartedMesh charted = chart(sphere_mesh(), 1.0F / 128.0F);
     std::map<std::pair<int, int>, int> owners;

@@ -149,5 +149,32 @@ TEST_F(Light, EveryPixelHasTheCodeOfTheExactGain) {
     EXPECT_LT(gains.worst_code, 0.5 + 0.002);
 }
 
+/// Dim artifacts are shown brighter than their codes, up to eight times.
+TEST_F(Light, EveryCodeHasTheCodeOfItsShownLight) {
+    stage.eye_m = {0.0, -0.45, 0.5};
+    for (const int code : {1, 3, 6, 10, 12, 40, 120, 250}) {
+        rig.pack.textures[0] = Image8(8, 8, glm::u8vec4(glm::u8vec3(static_cast<std::uint8_t>(code)), 255));
+        rig.upload_again();
+        for (const double brightness : {0.05, 0.5, 0.999, 1.001, 1.5, 4.0, 8.0}) {
+            PlanView view = stage.view();
+            view.brightness = brightness;
+            plan_frame(stage.prop, rig.level, view, rig.plan);
+            rig.draw(Redraw::Everything);
+            const Image8 picture = rig.picture();
+            const double shown = 255.0 * srgb_from_linear(std::min(1.0, brightness * linear(code)));
+            std::size_t lit = 0;
+            double off = 0.0;
+            for (const glm::u8vec4& texel : picture.texels) {
+                lit += texel.g != 0 ? 1U : 0U;
+                off = std::max(off, texel.g != 0 ? std::abs(texel.g - shown) : 0.0);
+            }
+            // The rest is rounding; where only one of both codes is on the curve's straight piece, the shader is off by that.
+            const double crossing = (code <= 10) == (shown <= 10.5) ? 0.1 : (brightness > 4.0 ? 3.9 : 1.9);
+            EXPECT_LE(off, 0.51 + crossing) << code << " x " << brightness;
+            EXPECT_TRUE(lit > 1000 || shown < 0.6) << code << " x " << brightness;
+        }
+    }
+}
+
 } // namespace
 } // namespace frustumscreen::synthetic
