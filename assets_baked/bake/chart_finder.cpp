@@ -13,9 +13,8 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr float least_facing = 0.5F; // a chart's texels stretch at most twice
-constexpr float least_facing_later =
-    0.35F; // small triangles of a finer mesh may be steeper
+constexpr float least_facing = 0.5F;        // a chart's texels stretch at most twice
+constexpr float least_facing_later = 0.35F; // small triangles of a finer mesh may be steeper
 
 /// For each triangle's edge k (corner k to k + 1) the triangle on its other side, where exactly two meet
 /// there.
