@@ -24,7 +24,7 @@ protected:
     void bake_in(float share) {
         mesh_->materials[0].base_colour = glm::vec4(glm::vec3(share), 1.0F);
         BakeOptions options;
-        options.size = 192;
+        options.size = 96;
         options.unlit = true;
         Result<Pack> pack = bake(*mesh_, options);
         ASSERT_TRUE(pack) << pack.error().message;
@@ -39,7 +39,7 @@ protected:
         PictureOptions options;
         options.samples = samples;
         Result<Comparison> opened =
-            open_comparison({"near", stage_.settings}, pack_, std::vector{level}, mesh_, {options, 4, 3});
+            open_comparison({"near", stage_.settings}, pack_, std::vector{level}, mesh_, {options, 3, 3});
         EXPECT_TRUE(opened && opened->set->add_finest_relief(pack_, options) &&
                     opened->set->measure_errors(opened->truth, opened->poses, 0, [](double) {}));
         Errors errors;

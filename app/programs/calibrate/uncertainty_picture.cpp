@@ -1,6 +1,7 @@
 #include "app/programs/calibrate/uncertainty_picture.h"
 
 #include "app/exhibit/canvas.h"
+#include "app/geometry/table_plane.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
@@ -80,11 +81,11 @@ private:
     std::vector<double> values_;
 };
 
-/// Where a pixel's light meets a height.
+/// Where a pixel's light meets that height above the table. A calibrated projector lights it with every pixel.
 glm::dvec2 light_of(const UncertaintyMap& map, const glm::dvec2& pixel, double height_m) {
-    const RigidTransform& pose = map.table_from_projector;
-    const glm::dvec3 ray = pose.direction(map.pinhole.ray(pixel));
-    return glm::dvec2(pose.translation + ray * ((height_m - pose.translation.z) / ray.z));
+    RigidTransform pose = map.table_from_projector;
+    pose.translation.z -= height_m;
+    return lights_table(map.pinhole, pose, pixel).value_or(glm::dvec2(pose.translation));
 }
 
 struct Field {
