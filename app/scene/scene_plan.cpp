@@ -2,11 +2,9 @@
 
 #include "app/pack/pack_file.h"
 #include "app/scene/prop_outline.h"
-#include "app/settings/command.h"
 #include "app/settings/guided.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -288,21 +286,6 @@ std::string techniques_of(const PackOutline& pack, const std::vector<ReliefOutli
            (reliefs.empty() ? "" : fmt::format(", each relief also with {}", on_gpu_suffix));
 }
 
-/// What the camera's reader does with each frame.
-std::string camera_uses(const DevicePlan& plan) {
-    std::vector<std::string_view> uses;
-    if (plan.tags) {
-        uses.emplace_back("finds the prop's tags");
-    }
-    if (plan.visitor) {
-        uses.emplace_back("sees who stands at the table");
-    }
-    if (plan.drift) {
-        uses.emplace_back("finds the marks");
-    }
-    return fmt::format("{}", fmt::join(uses, " and "));
-}
-
 } // namespace
 
 std::string name_of(const Rung& rung) {
@@ -391,64 +374,6 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
     choose_faces(plan);
     plan.needs.outline = largest_outline(settings, plan.projector, plan.visibility);
     plan.needs.bent_by = if_it_bends(plan.projector);
-    return plan;
-}
-
-DevicePlan plan_devices(const Settings& settings, bool pressed, bool status_file) {
-    const std::vector<ScriptedPress>& script = settings.panel.script;
-    const bool real = settings.panel.kind != PanelKind::Scripted;
-    const auto asks = [&](Command command) {
-        const int button = button_of(command);
-        if (real) {
-            return static_cast<std::size_t>(button) < settings.panel.buttons();
-        }
-        return std::any_of(script.begin(), script.end(),
-                           [button](const ScriptedPress& press) { return press.button == button; });
-    };
-    DevicePlan plan;
-    plan.tracker = settings.tracker.kind;
-    plan.head = settings.eye.tracked && plan.tracker != TrackerKind::None;
-    plan.tags = settings.camera.tags;
-    plan.visitor = settings.camera.visitor;
-    plan.drift = settings.camera.drift && settings.calibration.used;
-    plan.panel = pressed || real || !script.empty();
-    plan.other_packs = pressed || asks(Command::PreviousArtifact) || asks(Command::NextArtifact) ||
-                       chooses_on_table(settings);
-    plan.language = !pressed && asks(Command::NextLanguage);
-    plan.threads = {"the exhibit"};
-    if (plan.tracker == TrackerKind::Usb || plan.tracker == TrackerKind::SpaceMouse) {
-        plan.threads.emplace_back("the tracker's reader");
-    }
-    if (const std::string uses = camera_uses(plan); !uses.empty()) {
-        plan.threads.push_back("the camera's reader, which " + uses);
-    }
-    if (real && !pressed) {
-        plan.threads.emplace_back("the buttons' watcher");
-    }
-    if (tells_of_sticks(settings)) {
-        plan.threads.emplace_back("the reader of what the importer says");
-    }
-    if (status_file) {
-        plan.threads.emplace_back("the status file's writer");
-    }
-    if (plan.tracker == TrackerKind::None) {
-        plan.left_out.emplace_back(plan.tags
-                                       ? "No tracker is opened: the prop is followed by its tags alone."
-                                       : "No tracker is opened: the prop stands at the table's centre.");
-    }
-    if (!settings.eye.tracked) {
-        plan.left_out.emplace_back("No head is followed: the viewer is fixed.");
-    }
-    if (!plan.panel) {
-        plan.left_out.emplace_back("No button panel is opened: no button is configured.");
-    }
-    if (!plan.other_packs && settings.exhibit.packs.size() > 1) {
-        plan.left_out.emplace_back(
-            "Only the first pack is loaded: no button and no picture on the table leads to another.");
-    }
-    if (!status_file) {
-        plan.left_out.emplace_back("No thread writes a status: no status file is asked for.");
-    }
     return plan;
 }
 

@@ -8,6 +8,7 @@
 
 #include "app/exhibit/exhibit.h"
 #include "app/render/renderer.h"
+#include "app/scene/device_plan.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/shader_key.h"
 #include "app/settings/settings.h"

@@ -12,6 +12,7 @@
 
 #include "app/exhibit/exhibit.h"
 #include "app/render/gpu_store.h"
+#include "app/scene/device_plan.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/frame_time_model.h"
 #include "app/scene/scene_plan.h"

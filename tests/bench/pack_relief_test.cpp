@@ -1,6 +1,6 @@
 // A pack's own reliefs as the bench draws them: against the ray cast of what was baked.
 
-#include "app/bench/measures/technique_set.h"
+#include "app/bench/measures/comparison.h"
 #include "app/bench/techniques/relief_cast.h"
 #include "app/pack/pack_relief.h"
 #include "assets_baked/bake/bake.h"

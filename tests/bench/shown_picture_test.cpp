@@ -1,6 +1,6 @@
 // The picture as the kiosk shows it, lit and with its samples: against the truth's rays, whose light is worked out at each ray's point.
 
-#include "app/bench/measures/technique_set.h"
+#include "app/bench/measures/comparison.h"
 #include "app/render/read_back.h"
 #include "app/render/sample_grid.h"
 #include "assets_baked/bake/bake.h"

@@ -3,6 +3,7 @@
 // that leaves nothing out.
 
 #include "app/render/read_back.h"
+#include "app/scene/device_plan.h"
 #include "app/show/artifact_show.h"
 #include "firmware_host/display/surfaceless_display.h"
 #include "tests/render/synthetic_pack.h"

@@ -1,5 +1,6 @@
 // What a scene is said to need, against what its settings and its pack hold.
 
+#include "app/scene/device_plan.h"
 #include "app/scene/scene_plan.h"
 #include "tests/settings/steep_table.h"
 

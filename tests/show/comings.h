@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/render/read_back.h"
+#include "app/scene/device_plan.h"
 #include "app/show/artifact_show.h"
 #include "firmware_host/display/surfaceless_display.h"
 #include "tests/show/shown_packs.h"

@@ -1,6 +1,7 @@
 // What is done with a stick, as the importer's report says it: on the table in pixels, aloud in samples, in the journal and the status.
 #include "app/pack/pack_file.h"
 #include "app/render/read_back.h"
+#include "app/scene/device_plan.h"
 #include "app/show/artifact_show.h"
 #include "app/show/import_journal.h"
 #include "app/show/live_exhibit.h"

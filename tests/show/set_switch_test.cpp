@@ -3,6 +3,7 @@
 #include "app/library/set_file.h"
 #include "app/pack/sha256.h"
 #include "app/render/read_back.h"
+#include "app/scene/device_plan.h"
 #include "app/show/installed_show.h"
 #include "app/show/set_switch.h"
 #include "firmware_host/display/surfaceless_display.h"

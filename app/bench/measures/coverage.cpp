@@ -1,5 +1,6 @@
 #include "app/bench/measures/coverage.h"
 
+#include "app/bench/measures/comparison.h"
 #include "app/bench/truth/csv_fields.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 #include "app/bench/measures/error_time.h"
 
+#include "app/bench/measures/comparison.h"
 #include "app/bench/measures/side_by_side.h"
 #include "app/pack/pack_relief.h"
 

@@ -1,5 +1,6 @@
 #include "app/bench/measures/projection.h"
 
+#include "app/bench/measures/comparison.h"
 #include "app/bench/measures/side_by_side.h"
 #include "firmware_host/base/parallel.h"
 

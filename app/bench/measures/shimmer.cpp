@@ -1,5 +1,7 @@
 #include "app/bench/measures/shimmer.h"
 
+#include "app/bench/measures/comparison.h"
+
 namespace frustumscreen {
 
 namespace {

@@ -156,25 +156,7 @@ private:
     std::vector<TechniqueResult> results_; ///< one for each technique
 };
 
-/// What a measurement of one pack starts from. The pack must outlive it.
-struct Comparison {
-    std::unique_ptr<TechniqueSet> set; ///< the floor and levels of the pack
-    std::vector<BenchPose> poses;
-    Truth truth;
-    glm::dmat4 prop_from_artifact{1.0};
-};
-struct ComparisonOptions {
-    PictureOptions picture;
-    int poses = 50;
-    std::uint64_t seed = 1;
-};
-[[nodiscard]] Result<Comparison> open_comparison(const SetUp& set_up, const Pack& pack,
-                                                 std::span<const std::uint32_t> levels,
-                                                 const std::shared_ptr<const SourceMesh>& mesh,
-                                                 const ComparisonOptions& options);
 /// Sets what is measured in the floor's time; the faster of its filters is the unit. One floor at least.
 void in_units_of_floor(std::span<TechniqueResult> results);
-/// The default level and, where it is another, the finest.
-[[nodiscard]] std::vector<std::uint32_t> default_and_finest(const Pack& pack);
 
 } // namespace frustumscreen

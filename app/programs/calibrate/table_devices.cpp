@@ -1,6 +1,7 @@
 #include "app/programs/calibrate/table_devices.h"
 
 #include "app/programs/devices/wiring.h"
+#include "app/scene/device_plan.h"
 #include "app/show/house_words.h"
 #include "firmware_host/base/standard_error.h"
 

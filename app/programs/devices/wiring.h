@@ -5,7 +5,7 @@
 ///          OpenGL ES, a display that this build does not have.
 #pragma once
 
-#include "app/scene/scene_plan.h"
+#include "app/scene/device_plan.h"
 #include "app/settings/settings.h"
 #include "app/show/inputs.h"
 #include "firmware_host/base/result.h"

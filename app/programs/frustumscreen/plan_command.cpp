@@ -5,6 +5,7 @@
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/devices/wiring.h"
 #include "app/programs/frustumscreen/plan_report.h"
+#include "app/scene/device_plan.h"
 #include "app/settings/settings.h"
 
 #include <fmt/format.h>

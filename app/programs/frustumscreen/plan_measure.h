@@ -8,6 +8,7 @@
 /// Errors   as ArtifactShow.
 #pragma once
 
+#include "app/scene/device_plan.h"
 #include "app/settings/settings.h"
 #include "app/show/artifact_show.h"
 #include "firmware_host/base/result.h"

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "app/programs/frustumscreen/plan_measure.h"
+#include "app/scene/device_plan.h"
 
 #include <string>
 

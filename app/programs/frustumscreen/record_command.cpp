@@ -5,6 +5,7 @@
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
 #include "app/programs/devices/wiring.h"
+#include "app/scene/device_plan.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/output_file.h"

@@ -6,6 +6,7 @@
 #include "app/programs/devices/wiring.h"
 #include "app/programs/frustumscreen/run_mode.h"
 #include "app/programs/frustumscreen/staff_service.h"
+#include "app/scene/device_plan.h"
 #include "app/settings/settings.h"
 #include "app/show/artifact_show.h"
 #include "app/show/installed_show.h"

@@ -5,6 +5,7 @@
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/window/help_picture.h"
 #include "app/programs/window/visitor_half.h"
+#include "app/scene/device_plan.h"
 #include "app/scene/scene_plan.h"
 #include "app/settings/settings.h"
 #include "app/show/artifact_show.h"

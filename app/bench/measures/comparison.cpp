@@ -1,0 +1,41 @@
+#include "app/bench/measures/comparison.h"
+
+#include "app/bench/truth/lit_source.h"
+
+namespace frustumscreen {
+
+Result<Comparison> open_comparison(const SetUp& set_up, const Pack& pack,
+                                   std::span<const std::uint32_t> levels,
+                                   const std::shared_ptr<const SourceMesh>& mesh,
+                                   const ComparisonOptions& options) {
+    Result<std::unique_ptr<TechniqueSet>> set = TechniqueSet::open(set_up);
+    if (!set) {
+        return tl::unexpected<Error>(set.error());
+    }
+    const PropShape& prop = (*set)->stage().prop;
+    Result<std::vector<BenchPose>> poses = draw_poses(set_up.settings, prop, options.poses, options.seed);
+    if (!poses) {
+        return tl::unexpected<Error>(poses.error());
+    }
+    const glm::dmat4 prop_from_artifact = place(pack, prop).prop_from_artifact;
+    Result<Truth> truth = Truth::build(mesh, prop_from_artifact);
+    if (!truth) {
+        return tl::unexpected<Error>(truth.error());
+    }
+    if (!pack.unlit) {
+        truth->light_by(std::make_shared<const LitSource>(mesh, pack.box_from_file));
+    }
+    for (const std::uint32_t level : levels) {
+        if (const Result<void> added = (*set)->add_level(pack, level, options.picture); !added) {
+            return tl::unexpected<Error>(added.error());
+        }
+    }
+    return Comparison{std::move(*set), std::move(*poses), std::move(*truth), prop_from_artifact};
+}
+
+std::vector<std::uint32_t> default_and_finest(const Pack& pack) {
+    const auto finest = static_cast<std::uint32_t>(pack.levels.size() - 1);
+    return pack.default_level == finest ? std::vector{finest} : std::vector{pack.default_level, finest};
+}
+
+} // namespace frustumscreen

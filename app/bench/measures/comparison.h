@@ -1,0 +1,30 @@
+/// What a measurement of one pack starts from: its levels on a stage, poses and the truth.
+///
+/// Threads  as TechniqueSet.
+/// Errors   no display; no poses; whatever making a technique reports.
+#pragma once
+
+#include "app/bench/measures/technique_set.h"
+
+namespace frustumscreen {
+
+/// The pack must outlive it.
+struct Comparison {
+    std::unique_ptr<TechniqueSet> set; ///< the floor and levels of the pack
+    std::vector<BenchPose> poses;
+    Truth truth;
+    glm::dmat4 prop_from_artifact{1.0};
+};
+struct ComparisonOptions {
+    PictureOptions picture;
+    int poses = 50;
+    std::uint64_t seed = 1;
+};
+[[nodiscard]] Result<Comparison> open_comparison(const SetUp& set_up, const Pack& pack,
+                                                 std::span<const std::uint32_t> levels,
+                                                 const std::shared_ptr<const SourceMesh>& mesh,
+                                                 const ComparisonOptions& options);
+/// The default level and, where it is another, the finest.
+[[nodiscard]] std::vector<std::uint32_t> default_and_finest(const Pack& pack);
+
+} // namespace frustumscreen
