@@ -160,8 +160,9 @@ void main() {
 #ifdef EVEN_LIGHT
     gain *= compensation();
 #endif
-    // The code of `gain` times the light of a code, by sRGB's own power law or by its straight piece near black. Where only one of both
-    // codes is on that piece it is off by two codes, by four at a gain of 8, whose codes lie 8 apart.
+    // The code of `gain` times the light of a code. sRGB is straight near black and a power law above: up to a gain of 1 the larger of both
+    // is right, above 1 the smaller. Where one of the two codes lies on the straight piece and the other does not, the result is up to two
+    // codes off; at a gain of 8, where codes lie 8 apart, up to four.
     vec3 straight = gain.x * code;
     vec3 power = (code + 0.055) * gain.y - 0.055;
     result = vec4(gain.x > 1.0 ? min(straight, power) : max(straight, power), 1.0);

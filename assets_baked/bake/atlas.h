@@ -17,7 +17,7 @@ struct AtlasLayout {
     std::vector<glm::ivec2> corners; ///< top-left of each rectangle, in the order given
 };
 
-/// About square; `sizes` are all at least 1 x 1.
+/// About square. A size is at least 1 x 1, or 0 x 0 for what needs no place.
 [[nodiscard]] AtlasLayout pack_rectangles(const std::vector<glm::ivec2>& sizes);
 
 } // namespace frustumscreen

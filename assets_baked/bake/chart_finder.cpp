@@ -36,6 +36,7 @@ std::vector<std::uint32_t> neighbours(const TriangleMesh& mesh) {
     return across;
 }
 
+/// Largest first.
 std::vector<std::uint32_t> in_order_of(const std::vector<float>& sizes) {
     std::vector<std::uint32_t> order(sizes.size());
     std::iota(order.begin(), order.end(), 0U);

@@ -1,8 +1,9 @@
 /// Which chart each triangle of a mesh goes to: borders are short, because each place at one is a vertex more in every frame.
 ///
-/// Method   charts grow from large triangles over neighbours that face the same way, those of the first mesh once more from where
-///          they grew, along the mean of what they took (Lloyd's algorithm, as variational shape approximation has it:
-///          Cohen-Steiner, Alliez & Desbrun 2004). Then triangles that stick out into another chart go there.
+/// Method   charts grow from large triangles over neighbours that face the same way. Those of the first mesh then grow anew, some
+///          times, each from the triangle where it began and along the mean of what it had taken (Lloyd's algorithm, as variational
+///          shape approximation has it: Cohen-Steiner, Alliez & Desbrun 2004). Then triangles that stick out into another chart go
+///          there.
 /// Frames   box.
 /// Threads  one caller; uses all cores. Deterministic.
 #pragma once

@@ -33,9 +33,12 @@ struct Rectangle {
 
 Rectangle smallest_around(const std::vector<glm::vec2>& points) {
     constexpr int turns = 36; // of a quarter
-    Rectangle smallest{{1.0F, 0.0F}, glm::vec2(0.0F), glm::vec2(-1.0F)};
+    if (points.empty()) {
+        return {{1.0F, 0.0F}, glm::vec2(0.0F), glm::vec2(-1.0F)};
+    }
+    Rectangle smallest;
     double smallest_area = 1e300;
-    for (int k = 0; !points.empty() && k < turns; ++k) {
+    for (int k = 0; k < turns; ++k) {
         const double angle = 0.5 * std::numbers::pi * k / turns;
         Rectangle around{glm::vec2(std::cos(angle), std::sin(angle)), glm::vec2(1e30F), glm::vec2(-1e30F)};
         for (const glm::vec2& p : points) {

@@ -24,7 +24,7 @@ struct ChartedMesh {
     std::vector<glm::vec3> normals;   ///< unit, smooth across chart borders, one each position
     std::vector<glm::vec2> uv_texels;
     std::vector<std::uint32_t> indices;
-    std::size_t chart_count = 0; ///< of the whole atlas
+    std::size_t chart_count = 0; ///< of the whole atlas; some may hold no triangle any more
 };
 
 /// Texels of padding on every side of a chart.

@@ -16,6 +16,8 @@ TEST(Atlas, PackedRectanglesNeitherOverlapNorLeaveThePicture) {
             sizes.emplace_back(1 + static_cast<int>(random() % 60U), 1 + static_cast<int>(random() % 60U));
             area += static_cast<long>(sizes.back().x) * sizes.back().y;
         }
+        sizes.emplace_back(0, 0);
+        sizes.emplace_back(0, 0);
         const AtlasLayout layout = pack_rectangles(sizes);
         std::vector<int> owner(
             static_cast<std::size_t>(layout.width) * static_cast<std::size_t>(layout.height), -1);

@@ -92,22 +92,23 @@ TEST(Measure, TheShownPicturesLightIsTheShareThatIsCovered) {
     TruthPicture truth = truth_of(square);
     truth.shown16 = truth.colour;
     truth.met_by_16 = Image<std::uint8_t>(6, 6);
-    ShownPictures shown{truth.colour, {6, 6, glm::u8vec4(0, 0, 0, 255)}, {6, 6}};
+    ShownImages shown{truth.colour, {6, 6, glm::u8vec4(0, 0, 0, 255)}, 2};
+    Image<float> of_samples(6, 6);
     for (int y = 1; y < 5; ++y) {
         for (int x = 1; x < 5; ++x) {
             truth.met_by_16.at(x, y) = 16;
             shown.white.at(x, y) = glm::u8vec4(255);
-            shown.cover_of_samples.at(x, y) = 1.0F;
+            of_samples.at(x, y) = 1.0F;
         }
     }
     truth.met_by_16.at(5, 1) = 4;                                   // a quarter that is not shown,
     shown.white.at(0, 0) = {srgb8_from_linear(0.5), 188, 188, 255}; // half a pixel too much
-    shown.cover_of_samples.at(5, 1) = 0.5F; // exact rays would show a quarter too much
+    of_samples.at(5, 1) = 0.5F;             // exact rays would show a quarter too much
     shown.colour.at(2, 2).g = 112;          // 12 codes in one of 45 channels,
     shown.colour.at(1, 1) = {0, 0, 0, 255}; // and what is not hit in both does not count
     ImageFloat points = truth.point_m;
     points.at(1, 1) = glm::vec3(nan_f);
-    const ShownError error = measure_shown(truth, shown, points);
+    const ShownError error = measure_shown(truth, shown, of_samples, points);
     EXPECT_NEAR(error.cover_px, (0.25 + 0.5) / 12.0, 1e-3);
     EXPECT_NEAR(error.cover_bias_px, (0.5 - 0.25) / 12.0, 1e-3);
     EXPECT_NEAR(error.cover_of_samples_px, 0.25 / 12.0, 1e-9);

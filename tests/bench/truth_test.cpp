@@ -242,6 +242,42 @@ TEST(Truth, SixteenRaysAreTheMeanOfAGridInLinearLight) {
     EXPECT_GT(judged, 60);
 }
 
+TEST(Truth, AGridOfRaysCoversWhatTheCentresOfSmallerPixelsMeet) {
+    const PropShape prop = make_frustum({});
+    const auto truth = Truth::build(random_mesh(11), into_prop());
+    ASSERT_TRUE(truth);
+    const TruthView view = view_from(eyes[0]);
+    const TruthPicture picture = truth->cast(prop, view, true);
+    const auto met_of_split = [&](int split) {
+        TruthView fine = view;
+        fine.projector = view.projector.scaled_to(64 * split, 48 * split);
+        return truth->cast(prop, fine, false).hit;
+    };
+    const Image<std::uint8_t> quarters = met_of_split(4);
+    const Image<std::uint8_t> halves = met_of_split(2);
+    const Image<float> by_four = truth->cover(prop, view, picture, {2, 2});
+    int in_part = 0;
+    for (int y = 0; y < 48; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            if (picture.hit.at(x, y) == 0) {
+                continue;
+            }
+            int met = 0;
+            for (int sub = 0; sub < 16; ++sub) {
+                met += quarters.at(4 * x + sub % 4, 4 * y + sub / 4);
+            }
+            EXPECT_EQ(picture.met_by_16.at(x, y), met);
+            float share = 0.0F;
+            for (int sub = 0; sub < 4; ++sub) {
+                share += 0.25F * static_cast<float>(halves.at(2 * x + sub % 2, 2 * y + sub / 2));
+            }
+            EXPECT_TRUE(by_four.at(x, y) == share || met == 16) << x << " " << y;
+            in_part += met < 16 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(in_part, 30);
+}
+
 TEST(Truth, TheRayGoesOnBehindTheProp) {
     // A wall far behind the prop, seen through it as through a window.
     auto mesh = std::make_shared<SourceMesh>();

@@ -1,5 +1,6 @@
 #include "app/bench/measures/report.h"
 #include "app/bench/measures/verdicts.h"
+#include "firmware_host/base/json.h"
 
 #include <gtest/gtest.h>
 
@@ -127,6 +128,15 @@ TEST(Verdicts, ThePictureThatIsShownIsUnderTheSameLimits) {
     EXPECT_EQ(missed_by(&ShownError::cover_px, 0.43), 1U);
     error.shown->colour.rmse = 14.1;
     EXPECT_EQ(missed_by(&ShownError::shift_px, 0.0), 1U);
+    // Of each pose its own samples: another pose whose samples cost more excuses nothing.
+    PictureError other = error;
+    error.shown->colour.rmse = other.shown->colour.rmse = 1.0;
+    other.shown->cover_px = 0.5;
+    other.shown->cover_of_samples_px = 0.45;
+    error.shown->cover_px = 0.43;
+    EXPECT_EQ(
+        missed(judge(technique("t", TechniqueKind::PackLevel, 0, 1.0, {error, other}), default_level_limits)),
+        1U);
 }
 
 TEST(Verdicts, TheTwoPassMethodIsComparedWithTheCheapestLevelThatIsAsGood) {
@@ -249,6 +259,20 @@ TEST(Report, EveryRowHasAsManyFieldsAsTheHeader) {
         }
         EXPECT_GE(rows, 4U);
     }
+}
+
+TEST(Report, WhatTheKioskDoesNotShowIsEmpty) {
+    SetUpResult result = example();
+    result.techniques[1].errors[0].shown = ShownError{0.125, 0.0, 0.0, {}, 0.0};
+    result.techniques[1].error = summarise(result.techniques[1].errors);
+    const auto json = nlohmann::json::parse(report_json({&result, 1}, "t", {}));
+    const auto& techniques = json["set_ups"][0]["techniques"];
+    EXPECT_EQ(techniques[1]["worst"]["shown_cover_px"], 0.125);
+    EXPECT_TRUE(techniques[2]["worst"]["shown_cover_px"].is_null());
+    result.poses = {BenchPose{}};
+    const std::string csv = poses_csv({&result, 1});
+    EXPECT_NE(csv.find(",0.125000,0.000000,0.000000,0.000000,0.000000,0.000000\n"), std::string::npos) << csv;
+    EXPECT_NE(csv.find(",,,,,,\n"), std::string::npos) << csv;
 }
 
 } // namespace

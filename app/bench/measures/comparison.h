@@ -5,6 +5,12 @@
 #pragma once
 
 #include "app/bench/measures/technique_set.h"
+#include "app/bench/truth/poses.h"
+#include "app/bench/truth/truth.h"
+
+#include <memory>
+#include <span>
+#include <vector>
 
 namespace frustumscreen {
 

@@ -131,7 +131,7 @@ std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const So
     const double frames_s = 0.012 * (small + full) + 1.5e-7 * triangles * full; // one of each
     return {
         {set_up.name + ": meshes", "meshes", 0.5 + 4e-6 * triangles},
-        {set_up.name + ": errors", "errors", options.poses * (0.3 + 0.04 * (small + full) + 2.0 * frames_s)},
+        {set_up.name + ": errors", "errors", options.poses * (0.3 + 0.04 * (small + full) + 4.0 * frames_s)},
         {set_up.name + ": times", "times", options.poses * rounds_of(options) * frames_s}};
 }
 

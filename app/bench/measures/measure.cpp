@@ -91,7 +91,8 @@ PictureError measure(const TruthPicture& truth, const Drawn& drawn) {
     return error;
 }
 
-ShownError measure_shown(const TruthPicture& truth, const ShownPictures& shown, const ImageFloat& points_m) {
+ShownError measure_shown(const TruthPicture& truth, const ShownImages& shown,
+                         const Image<float>& cover_of_samples, const ImageFloat& points_m) {
     const std::array<float, 256>& linear = linear_from_srgb8();
     ShownError error;
     ColourSum colour;
@@ -102,8 +103,7 @@ ShownError measure_shown(const TruthPicture& truth, const ShownPictures& shown, 
             const double off = static_cast<double>(linear[shown.white.at(x, y).g]) - cover;
             error.cover_px += std::abs(off);
             error.cover_bias_px += off;
-            error.cover_of_samples_px +=
-                std::abs(static_cast<double>(shown.cover_of_samples.at(x, y)) - cover);
+            error.cover_of_samples_px += std::abs(static_cast<double>(cover_of_samples.at(x, y)) - cover);
             if (truth.hit.at(x, y) == 0) {
                 continue;
             }
@@ -153,8 +153,9 @@ ErrorSummary summarise(std::span<const PictureError> errors) {
             add_colour(summary.mean.*colour, summary.worst.*colour, error.*colour);
         }
         if (error.shown) {
-            for (PictureError* const of : {&summary.mean, &summary.worst}) {
-                of->shown = of->shown.value_or(ShownError{});
+            if (!summary.mean.shown) {
+                summary.mean.shown.emplace();
+                summary.worst.shown.emplace();
             }
             for (const auto figure : shown_figures) {
                 add(*summary.mean.shown.*figure, *summary.worst.shown.*figure, *error.shown.*figure);

@@ -25,10 +25,10 @@ struct ColourError {
 
 /// Of the picture that the kiosk shows, lit and with all its samples.
 struct ShownError {
-    /// How much of the truth's 16 rays' cover of the pixels is missing or too much, over outline pixels: where n samples show exact
-    /// outlines it is some 1 / (4 n), for they know n + 1 covers.
+    /// How far the share of a pixel that is covered lies from that of the truth's 16 rays: summed over the picture, over the outline's
+    /// pixels. With exact outlines n samples leave some 1 / (4 n), since they know n + 1 covers.
     double cover_px = 0.0;
-    double cover_of_samples_px = 0.0; ///< the same of the truth's own rays at so many places of each pixel
+    double cover_of_samples_px = 0.0; ///< the same of as many rays at the truth, on a regular grid
     /// The whole picture's cover beside the truth's, over outline pixels: how far the artifact is too fat or too thin. However few
     /// samples there are, they are right on average.
     double cover_bias_px = 0.0;
@@ -60,14 +60,14 @@ struct PictureError {
 [[nodiscard]] PictureError measure(const TruthPicture& truth, const Drawn& drawn);
 
 /// As `ShownPicture` draws them.
-struct ShownPictures {
+struct ShownImages {
     Image8 colour;
     Image8 white;
-    Image<float> cover_of_samples; ///< by Truth::cover, with as many rays as `white` has samples
+    int samples = 1; ///< a pixel of `white`
 };
-/// The truth has `shown16`. `points_m` as in `Drawn`.
-[[nodiscard]] ShownError measure_shown(const TruthPicture& truth, const ShownPictures& shown,
-                                       const ImageFloat& points_m);
+/// The truth has `shown16`. `cover_of_samples`: by Truth::cover, with as many rays as samples. `points_m` as in `Drawn`.
+[[nodiscard]] ShownError measure_shown(const TruthPicture& truth, const ShownImages& shown,
+                                       const Image<float>& cover_of_samples, const ImageFloat& points_m);
 
 /// Mean and worst of each figure over many pictures.
 struct ErrorSummary {

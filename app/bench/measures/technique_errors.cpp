@@ -46,14 +46,12 @@ std::optional<LightAim> TechniqueSet::shown_light(const BenchPose& pose) const {
     return std::nullopt;
 }
 
-ShownPictures
-TechniqueSet::shown_pictures(ShownPicture& shown, const BenchPose& pose,
-                             const std::function<const Image<float>&(int samples)>& cover_of) const {
+ShownImages TechniqueSet::shown_images(ShownPicture& shown, const BenchPose& pose) const {
     const auto read = [this] { return read_colour(stage_.framebuffer, stage_.width(), stage_.height()); };
     shown.draw_shown(pose);
     Image8 colour = read();
     const int samples = shown.draw_white(pose);
-    return {std::move(colour), read(), cover_of(samples)};
+    return {std::move(colour), read(), samples};
 }
 
 Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<BenchPose>& poses,
@@ -81,15 +79,12 @@ Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<
                     glm::length(picture_shift(own->second, seen->colour).value_or(glm::dvec2(0.0)));
             }
             if (ShownPicture* const shown = techniques_[k]->as_shown()) {
-                const auto cover_of = [&](int samples) -> const Image<float>& {
-                    Image<float>& cover = covers[samples];
-                    if (cover.width == 0) {
-                        cover = truth.cover(stage_.prop, view, cast, SampleGrid::of(samples));
-                    }
-                    return cover;
-                };
-                error.shown =
-                    measure_shown(cast, shown_pictures(*shown, poses[pose], cover_of), seen->point_m);
+                const ShownImages images = shown_images(*shown, poses[pose]);
+                const auto cover = covers.try_emplace(images.samples).first;
+                if (cover->second.width == 0) {
+                    cover->second = truth.cover(stage_.prop, view, cast, SampleGrid::of(images.samples));
+                }
+                error.shown = measure_shown(cast, images, cover->second, seen->point_m);
             }
             results_[k].estimates.push_back(techniques_[k]->estimate(poses[pose]));
         }

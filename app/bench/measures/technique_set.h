@@ -127,10 +127,7 @@ private:
     [[nodiscard]] Result<Drawn> places(std::size_t k, const BenchPose& pose);
     /// The light that the exhibit shows the pack in; nothing where no technique is the exhibit's.
     [[nodiscard]] std::optional<LightAim> shown_light(const BenchPose& pose) const;
-    /// `cover_of`: the truth's, by so many rays a pixel.
-    [[nodiscard]] ShownPictures
-    shown_pictures(ShownPicture& shown, const BenchPose& pose,
-                   const std::function<const Image<float>&(int samples)>& cover_of) const;
+    [[nodiscard]] ShownImages shown_images(ShownPicture& shown, const BenchPose& pose) const;
     /// Of each technique; the floor's mean nothing.
     [[nodiscard]] Result<std::vector<PictureError>> shape_errors(const Truth& truth, const BenchPose& pose);
     [[nodiscard]] Result<void> add_relief(const Pack& pack, TechniqueKind kind, BlockRelief relief,

@@ -62,13 +62,13 @@ std::vector<Verdict> judge_shown(const TechniqueResult& level, const Limits& lim
             std::max(beside_samples_px, error.shown->cover_px - error.shown->cover_of_samples_px);
     }
     const double px = limits.outline_shift_px;
-    return {{fmt::format("lit as shown: colour RMSE <= {:g}", limits.colour_rmse),
+    return {{fmt::format("as shown: colour RMSE <= {:g}", limits.colour_rmse),
              fmt::format("worst pose {:.2f}", worst.colour.rmse), worst.colour.rmse <= limits.colour_rmse},
-            {fmt::format("lit as shown: within {:g} px of its place", px),
+            {fmt::format("as shown: within {:g} px of its place", px),
              fmt::format("worst pose {:.3f} px", worst.shift_px), worst.shift_px <= px},
-            {fmt::format("pixels are covered as by exact outlines, <= {:g} px besides", px),
+            {fmt::format("as shown: pixels are covered at most {:g} px worse than by exact outlines", px),
              fmt::format("worst pose {:.3f} px", beside_samples_px), beside_samples_px <= px},
-            {fmt::format("neither fatter nor thinner than {:g} px", px),
+            {fmt::format("as shown: neither fatter nor thinner by more than {:g} px", px),
              fmt::format("worst pose {:.3f} px", worst.cover_bias_px), worst.cover_bias_px <= px}};
 }
 

@@ -14,9 +14,10 @@ namespace frustumscreen {
 
 struct Limits {
     double silhouette_percent = 0.0;
-    double outline_shift_px = 0.0;
+    double outline_shift_px =
+        0.0; ///< also of the picture as shown: its shift, its cover beside exact outlines, its cover's bias
     double geometric_mean_mm = 0.0;
-    double colour_rmse = 0.0; ///< against 16 rays
+    double colour_rmse = 0.0; ///< against 16 rays, and as shown
     double times_floor = 0.0; ///< 0: no limit
 };
 /// Of the picture of a level or a relief, as it is shown, from where its own surface is: less than a person can see, and far less than

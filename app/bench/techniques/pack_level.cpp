@@ -4,9 +4,12 @@
 #include "app/scene/error_estimate.h"
 #include "app/scene/exposure.h"
 #include "app/scene/frame_plan.h"
+#include "app/scene/light.h"
+#include "app/scene/scene_level.h"
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -27,7 +30,7 @@ struct Lights {
     Light measured, timed, shown;
 };
 
-/// The pack's default level, whose brightest places say how bright the artifact is shown.
+/// By the pack's default level, whatever is drawn, so that one truth serves all. (The exhibit takes the first level of its plan.)
 Lights lights_of(const Stage& stage, const PictureOptions& options, const Pack& pack) {
     const PackLevel& level = pack.levels[pack.default_level];
     const Light shown{
@@ -41,7 +44,7 @@ int samples_of(const PictureOptions& options, const Pack& pack) {
     return options.samples > 0 ? options.samples : pack.samples;
 }
 
-/// Of what the GPU draws, in any light that is asked for.
+/// Of what the GPU draws, with light and without: pictures as shown are lit whatever the options say.
 RenderNeeds needs_of(const Stage& stage, int samples, ShaderKey shader) {
     RenderNeeds needs{std::max(samples, default_samples), {{ShaderKey::Pass::EdgeFeather}}};
     for (const bool lit : {false, true}) {
@@ -52,12 +55,17 @@ RenderNeeds needs_of(const Stage& stage, int samples, ShaderKey shader) {
     return needs;
 }
 
-/// Keeps what a texture cuts out.
-Image8 white(Image8 texture) {
-    for (glm::u8vec4& texel : texture.texels) {
+/// Keeps what a texture cuts out; else as small as its mip levels allow.
+Image8 white(const Image8& texture, bool cut_out) {
+    if (!cut_out) {
+        constexpr int side = 1 << coarsest_mip_level;
+        return {side, side, glm::u8vec4(255)};
+    }
+    Image8 all = texture;
+    for (glm::u8vec4& texel : all.texels) {
         texel = glm::u8vec4(255, 255, 255, texel.a);
     }
-    return texture;
+    return all;
 }
 
 /// What is drawn, in its colours and white.
@@ -108,9 +116,10 @@ public:
             {},
             lights_.shown.feathered};
         for (const PropFace& face : stage_.prop.faces) {
-            const FaceLight on_face =
-                face_light(face, prop_from_projector.inverse().matrix(), light.reference);
-            light.most.push_back(static_cast<double>(on_face.most));
+            const bool lit = face.plane.distance(prop_from_projector.translation) > 0.0;
+            const glm::dmat4 projector_from_prop = prop_from_projector.inverse().matrix();
+            light.most.push_back(
+                lit ? static_cast<double>(face_light(face, projector_from_prop, light.reference).most) : 0.0);
         }
         return light;
     }
@@ -160,7 +169,7 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
     }
     const Image8& texture = pack.textures[whole.mesh.texture];
     std::array<Result<Drawable>, 2> drawables{renderer->store().upload(whole, texture),
-                                              renderer->store().upload(whole, white(texture))};
+                                              renderer->store().upload(whole, white(texture, whole.cut_out))};
     for (const Result<Drawable>& drawable : drawables) {
         if (!drawable) {
             return tl::unexpected<Error>(drawable.error());

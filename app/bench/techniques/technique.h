@@ -6,6 +6,7 @@
 #pragma once
 
 #include "app/bench/truth/poses.h"
+#include "app/bench/truth/shown_light.h"
 #include "app/scene/error_estimate.h"
 
 #include <optional>
@@ -30,7 +31,7 @@ public:
     virtual void draw_shown(const BenchPose& pose) = 0;
     [[nodiscard]] virtual LightAim light(const BenchPose& pose) const = 0;
     /// The artifact white all over and in no light, so that a pixel's linear light is the share of it that the artifact covers.
-    /// Returns the samples a pixel.
+    /// Returns the samples a pixel that are asked for; where there is no room for them, fewer are drawn.
     [[nodiscard]] virtual int draw_white(const BenchPose& pose) = 0;
 };
 

@@ -7,9 +7,8 @@
 /// Threads  `gain`: any, several at once.
 #pragma once
 
-#include "app/geometry/pinhole.h"
+#include "app/bench/truth/truth_view.h"
 #include "app/geometry/prop_shape.h"
-#include "app/geometry/transform.h"
 
 #include <array>
 #include <optional>
@@ -17,13 +16,7 @@
 
 namespace frustumscreen {
 
-/// Who looks and who projects, seen from the prop.
-struct TruthView {
-    Pinhole projector;
-    RigidTransform prop_from_projector;
-    glm::dvec3 eye_m{0.0}; ///< prop frame
-};
-
+/// The exhibit's own numbers. Errors in them are found by tests of app/scene and app/render, and not here.
 struct LightAim {
     double reference = 0.0; ///< every place is dimmed to it
     double exposure = 1.0;  ///< of the artifact

@@ -184,9 +184,9 @@ public:
         sight.direction = sight.lit.point_m - view_.eye_m;
         return truth_.first_hit(view_.eye_m, sight.direction, sight.hit) ? Seen::Artifact : Seen::Prop;
     }
-    /// Of each pixel's own grid of rays, those that meet the artifact.
-    template <typename Met>
-    void look_through(int x, int y, const glm::ivec2& rays, Sight& sight, const Met& met) const {
+    /// Calls `met(sight)` for each ray of the pixel's grid that meets the artifact.
+    template <typename Met> void look_through(int x, int y, const glm::ivec2& rays, const Met& met) const {
+        Sight sight;
         for (int ray = 0; ray < rays.x * rays.y; ++ray) {
             const glm::dvec2 place((ray % rays.x + 0.5) / rays.x, (ray / rays.x + 0.5) / rays.y);
             if (look(glm::dvec2(x, y) + place, sight) == Seen::Artifact) {
@@ -249,8 +249,7 @@ TruthPicture Truth::cast(const PropShape& prop, const TruthView& view, bool sixt
         PixelLight light(lit);
         glm::vec3 sum(0.0F);
         glm::vec3 shown_sum(0.0F);
-        Looker::Sight sight;
-        looker.look_through(x, y, {4, 4}, sight, [&](Looker::Sight& met) {
+        looker.look_through(x, y, {4, 4}, [&](Looker::Sight& met) {
             light.apply(met.direction, met.hit);
             const glm::vec3 colour = glm::clamp(met.hit.colour.linear, 0.0F, 1.0F);
             sum += colour;
@@ -278,8 +277,7 @@ Image<float> Truth::cover(const PropShape& prop, const TruthView& view, const Tr
             share = met == 0 ? 0.0F : 1.0F;
             return;
         }
-        Looker::Sight sight;
-        looker.look_through(x, y, rays, sight, [&](const Looker::Sight&) { share += 1.0F; });
+        looker.look_through(x, y, rays, [&](const Looker::Sight&) { share += 1.0F; });
         share /= static_cast<float>(rays.x * rays.y);
     });
     return cover;

@@ -8,11 +8,12 @@
 ///
 /// Frames   points and the eye in the prop's frame, metres; pixels as `Pinhole` has them.
 /// Set-up   vertices are placed and hits refined in 64-bit; Embree (float, robust) only finds the triangle.
-/// Threads  `cast` uses every core inside; make one call at a time.
+/// Threads  `cast` and `cover` use every core inside; make one call at a time.
 #pragma once
 
 #include "app/bench/truth/shown_light.h"
 #include "app/bench/truth/surface_colour.h"
+#include "app/bench/truth/truth_view.h"
 #include "app/image/image.h"
 #include "assets_baked/bake/source_scene.h"
 #include "firmware_host/base/result.h"
@@ -53,11 +54,12 @@ public:
     /// First hit of origin + t direction, t > 0 (prop frame).
     [[nodiscard]] bool first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit& hit) const;
 
-    /// The whole picture; `sixteen_rays` false leaves what they find empty. `aim`: of the light of `shown16`.
+    /// The whole picture; `sixteen_rays` false leaves what they find empty. `aim`: the light that `shown16` is shown in; null: it
+    /// stays empty.
     [[nodiscard]] TruthPicture cast(const PropShape& prop, const TruthView& view, bool sixteen_rays,
                                     const LightAim* aim = nullptr) const;
-    /// The share of each pixel that the artifact covers, by a grid of that many rays, columns and rows, where the sixteen of `picture`
-    /// tell that an outline crosses it.
+    /// The share of each pixel that the artifact covers, by a grid of so many rays, columns and rows. Only pixels that an outline
+    /// crosses, as the 16 rays of `picture` tell, are cast again; the others are 0 or 1.
     [[nodiscard]] Image<float> cover(const PropShape& prop, const TruthView& view,
                                      const TruthPicture& picture, const glm::ivec2& rays) const;
 

@@ -118,9 +118,9 @@ BenchCommand error_time_command(CommandLine& app) {
     add_artifact_options(command, arguments->artifact);
     add_picture_options(command, arguments->options.picture);
     add_pose_options(command, arguments->options.poses, arguments->options.seed);
-    command.add_flag("--timed-lit", arguments->options.picture.timed_lit,
-                     "time levels and reliefs in the projector's light, as visitors see them; errors are of "
-                     "pictures without, and so are peers");
+    command.add_flag(
+        "--timed-lit", arguments->options.picture.timed_lit,
+        "time levels and reliefs in the projector's light, as visitors see them; peers have none");
     command
         .add_option("--peers", arguments->peers,
                     "none, all, or some of mesh, two-pass, ray-cast, lod, two-pass-lod, relief, "

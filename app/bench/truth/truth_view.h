@@ -1,0 +1,18 @@
+/// Who looks and who projects, seen from the prop.
+///
+/// Frames   prop P, metres.
+/// Threads  values; any.
+#pragma once
+
+#include "app/geometry/pinhole.h"
+#include "app/geometry/transform.h"
+
+namespace frustumscreen {
+
+struct TruthView {
+    Pinhole projector;
+    RigidTransform prop_from_projector;
+    glm::dvec3 eye_m{0.0};
+};
+
+} // namespace frustumscreen
