@@ -95,6 +95,14 @@ TEST_F(RenderCommand, CastsTheReliefOfAPackThatHasOne) {
         EXPECT_GT(lit_pixels(relief), 1000U) << way;
         EXPECT_LT(off, lit_pixels(mesh) / 10) << way << ": outlines and the texture's edges";
     }
+    // And live, beside the caption.
+    ASSERT_EQ(run("run --config kiosk.toml --headless --fast --seconds 2 --technique relief192 --out live "
+                  "--stills 1 "
+                  "--status-file status.json"),
+              0)
+        << text("err.txt");
+    EXPECT_NE(text("status.json").find("\"level\": \"relief192\""), std::string::npos) << text("status.json");
+    EXPECT_GT(lit_pixels(picture("live/frame_00000.png")), 1000U);
 }
 
 TEST_F(RenderCommand, SaysThatPosesAreOffTheTable) {
