@@ -82,6 +82,19 @@ std::vector<TouchResidual> residuals_at(const TouchModel& model, std::span<const
     return residuals;
 }
 
+/// What the other touches say of each, by the same explanation.
+std::vector<TouchResidual> left_out(std::span<const Touch> touches, const FitSetup& noise,
+                                    const TouchModel& kept, Moved which) {
+    std::vector<TouchResidual> residuals;
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+        std::vector<Touch> others(touches.begin(), touches.end());
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+        residuals.push_back(
+            residuals_at(explained(others, noise, kept, which).model, touches.subspan(k, 1)).front());
+    }
+    return residuals;
+}
+
 /// Where the kept table put the light of the zone's places, beside where they are.
 double off_by(const TouchModel& kept, const TouchModel& now, std::span<const ZonePlace> places) {
     double sum = 0.0;
@@ -193,7 +206,9 @@ TouchUp touch_up(const CalibratedTable& kept, std::span<const Touch> touches, co
         result.table = corrected(kept, best, by_tracker);
         result.off_m = off_by(before, best.model, places);
     }
-    result.residuals = residuals_at(something ? best.model : before, touches);
+    result.residuals = something
+                           ? left_out(touches, noise, before, by_tracker ? Moved::Tracker : Moved::Projector)
+                           : residuals_at(before, touches); // which knows none of them
     judge(result);
     return result;
 }

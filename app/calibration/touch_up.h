@@ -19,7 +19,7 @@ struct TouchUp {
     Moved moved = Moved::Nothing;
     std::optional<CalibratedTable> table; ///< the kept one, corrected by what moved; nothing if refused
     double off_m = 0.0;                   ///< how far the picture was off, on average over the zone
-    std::vector<TouchResidual> residuals; ///< of each touch at that table
+    std::vector<TouchResidual> residuals; ///< of each touch, left out; at the kept table where nothing moved
     PictureUncertainty
         uncertainty; ///< of the correction that the touches tell, one standard deviation, also where none is made
     double hidden_error_m = 0.0;        ///< what one wrong touch could do to it and yet agree with the others

@@ -65,6 +65,16 @@ Bumped bumped(std::uint64_t seed, Moved what, double off_m, ChosenCrosses& cross
     return out;
 }
 
+/// How far the light of the pixel, at the height that was touched, lies from the touched place; millimetres.
+double beside_mm(const CalibratedTable& table, const Touch& touch) {
+    const glm::dvec3 touched =
+        table.table_from_tracker.point(touch.tracker_from_sensor.point(table.sensor_offset_m));
+    const glm::dvec3 lens = table.table_from_projector.translation;
+    const glm::dvec3 ray = table.table_from_projector.direction(table.pinhole.ray(touch.pixel));
+    const glm::dvec3 lit = lens + ray * ((touch.block_m - lens.z) / ray.z);
+    return 1e3 * glm::distance(lit, touched);
+}
+
 struct Share {
     int named = 0, either = 0, misnamed = 0, nothing = 0, refused = 0, usable = 0, broken = 0;
     double before_mm = 0.0, after_mm = 0.0;
@@ -147,6 +157,31 @@ Faulty with_one_wrong(Moved what, std::size_t count, std::uint64_t seeds, Chosen
                 std::string(name_of(what)).c_str(), static_cast<int>(count), out.sets, out.refused,
                 out.repeat, out.judged, out.broken);
     return out;
+}
+
+TEST(TouchUp, EachResidualIsWhatTheOtherTouchesSayOfIt) {
+    ChosenCrosses crosses;
+    int compared = 0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        const Bumped one = bumped(seed, Moved::Tracker, 0.02, crosses);
+        SeededNumbers numbers(9000 + seed);
+        const Touches touches = touches_of(one.table, few_crosses(one.table, 7), {}, numbers);
+        const TouchSetup setup = setup_for(one.table);
+        const TouchUp found = touch_up(one.kept, touches, setup);
+        for (std::size_t k = 0; found.moved == Moved::Tracker && k < touches.size(); ++k) {
+            Touches others = touches;
+            others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+            const TouchUp without = touch_up(one.kept, others, setup);
+            if (without.moved != Moved::Tracker) {
+                continue; // what moved it is not sure of
+            }
+            ++compared;
+            const double said_mm = 1e3 * found.residuals[k].on_table_m;
+            EXPECT_NEAR(said_mm, beside_mm(*without.table, touches[k]), 0.02);
+            EXPECT_GT(std::abs(said_mm - beside_mm(*found.table, touches[k])), 0.02) << "by its own table";
+        }
+    }
+    EXPECT_GE(compared, 7);
 }
 
 TEST(TouchUp, ThePictureComesBackToItsPlace) {
