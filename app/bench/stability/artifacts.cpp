@@ -148,7 +148,8 @@ StabilityResult baked(const StabilityOptions&) {
         result.rows.push_back({where + "finest level off the sphere, box units", 6e-5 + 1.0 / 65535.0 + input,
                                off_sphere(*pack, pack->levels.back())});
     }
-    result.rows.push_back({"scale into the prop, between all of them, relative", 0x1p-50, most / least - 1.0});
+    result.rows.push_back(
+        {"scale into the prop, between all of them, relative", 0x1p-50, most / least - 1.0});
     return result;
 }
 
