@@ -103,21 +103,19 @@ public:
         return plan_.cast_count > 0 ? plan_.casts.front().samples : plan_.samples;
     }
     [[nodiscard]] LightAim light(const BenchPose& pose) const override {
-        const RigidTransform prop_from_table = pose.table_from_prop.inverse();
-        const RigidTransform prop_from_projector =
-            prop_from_table * stage_.settings.projector.table_from_projector;
+        const TruthView view = frustumscreen::view_of(stage_.settings, pose);
         std::vector<SeenFace> faces;
         for (const PropFace& face : stage_.prop.faces) {
-            faces.push_back({&face, prop_from_table.point(pose.eye_m)});
+            faces.push_back({&face, view.eye_m});
         }
-        LightAim light{
-            reference_light(faces, prop_from_projector.translation, lights_.shown.compensation.value()),
-            lights_.shown.exposure,
-            {},
-            lights_.shown.feathered};
+        const glm::dvec3& projector = view.prop_from_projector.translation;
+        const glm::dmat4 projector_from_prop = view.prop_from_projector.inverse().matrix();
+        LightAim light{reference_light(faces, projector, lights_.shown.compensation.value()),
+                       lights_.shown.exposure,
+                       {},
+                       lights_.shown.feathered};
         for (const PropFace& face : stage_.prop.faces) {
-            const bool lit = face.plane.distance(prop_from_projector.translation) > 0.0;
-            const glm::dmat4 projector_from_prop = prop_from_projector.inverse().matrix();
+            const bool lit = face.plane.distance(projector) > 0.0;
             light.most.push_back(
                 lit ? static_cast<double>(face_light(face, projector_from_prop, light.reference).most) : 0.0);
         }
