@@ -1,5 +1,6 @@
 #include "app/scene/edge_feather.h"
 
+#include "app/geometry/prop_edges.h"
 #include "app/scene/frame_plan.h"
 
 #include <algorithm>
@@ -53,22 +54,6 @@ bool touches(const PictureEdge& edge, const PixelRectangle& bounds, double width
     const glm::dvec2 high = low + glm::dvec2(bounds.width, bounds.height);
     const glm::dvec2 nearest(edge.inward.x > 0.0 ? low.x : high.x, edge.inward.y > 0.0 ? low.y : high.y);
     return glm::dot(edge.inward, nearest - edge.ends_px[0]) < width_px;
-}
-
-/// Both were computed from the same numbers, so that a shared corner is equal.
-bool has_corner(const PropFace& face, const glm::dvec3& corner) {
-    return std::find(face.corners.begin(), face.corners.end(), corner) != face.corners.end();
-}
-
-/// The face behind edge `k`; null if it is never lit.
-const PropFace* neighbour_of(const PropShape& prop, const PropFace& face, std::size_t k) {
-    for (const PropFace& other : prop.faces) {
-        if (&other != &face && has_corner(other, face.corners.at(k)) &&
-            has_corner(other, face.corners.at((k + 1) % 4))) {
-            return &other;
-        }
-    }
-    return nullptr;
 }
 
 const FacePlan* plan_of(const PropShape& prop, const PropFace& face, const FramePlan& plan) {

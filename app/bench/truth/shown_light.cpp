@@ -1,5 +1,6 @@
 #include "app/bench/truth/shown_light.h"
 
+#include "app/geometry/prop_edges.h"
 #include "app/settings/light_range.h"
 
 #include <algorithm>
@@ -22,20 +23,6 @@ double pixel_density(const Pinhole& pinhole, const glm::dvec2& pixel) {
     const glm::dvec3 v = pinhole.ray(pixel + down) - pinhole.ray(pixel - down);
     const double ideal_px = pinhole.fx * pinhole.fy * (u.x * v.y - u.y * v.x);
     return 4.0 * step_px * step_px / ideal_px;
-}
-
-/// The face that has both corners, too.
-std::optional<int> neighbour_at(const PropShape& prop, int face, const glm::dvec3& a, const glm::dvec3& b) {
-    const auto has = [](const PropFace& one, const glm::dvec3& corner) {
-        return std::find(one.corners.begin(), one.corners.end(), corner) != one.corners.end();
-    };
-    for (int other = 0; other < static_cast<int>(prop.faces.size()); ++other) {
-        const PropFace& one = prop.faces[static_cast<std::size_t>(other)];
-        if (other != face && has(one, a) && has(one, b)) {
-            return other;
-        }
-    }
-    return std::nullopt;
 }
 
 } // namespace
@@ -61,7 +48,8 @@ double ShownLight::even(const LitPlace& place) const {
 }
 
 std::optional<ShownLight::SoftEdge> ShownLight::soft_edge(int face, std::size_t corner) const {
-    const std::array<glm::dvec3, 4>& corners = prop_.faces[static_cast<std::size_t>(face)].corners;
+    const PropFace& own = prop_.faces[static_cast<std::size_t>(face)];
+    const std::array<glm::dvec3, 4>& corners = own.corners;
     const std::array<glm::dvec3, 2> ends{corners.at(corner), corners.at((corner + 1) % 4)};
     const RigidTransform projector_from_prop = view_.prop_from_projector.inverse();
     const auto pixel = [&](const glm::dvec3& point, const Pinhole& pinhole) {
@@ -78,21 +66,19 @@ std::optional<ShownLight::SoftEdge> ShownLight::soft_edge(int face, std::size_t 
     if (glm::dot(edge.inward, *inside - *a) < 0.0) {
         edge.inward = -edge.inward;
     }
-    const std::optional<int> neighbour = neighbour_at(prop_, face, ends[0], ends[1]);
-    const auto sees = [&](const glm::dvec3& from) {
-        return prop_.faces[static_cast<std::size_t>(*neighbour)].plane.distance(from) > 0.0;
-    };
-    if (!neighbour || !sees(view_.prop_from_projector.translation)) {
+    const PropFace* const neighbour = neighbour_of(prop_, own, corner);
+    if (neighbour == nullptr || !(neighbour->plane.distance(view_.prop_from_projector.translation) > 0.0)) {
         return edge;
     }
-    if (!sees(view_.eye_m)) {
+    if (!(neighbour->plane.distance(view_.eye_m) > 0.0)) {
         return std::nullopt;
     }
+    const auto behind = static_cast<int>(neighbour - prop_.faces.data());
     edge.shares.emplace();
     for (std::size_t end = 0; end < 2; ++end) {
         const glm::dvec2 at = pixel(ends.at(end), view_.projector).value_or(glm::dvec2(0.0));
         edge.shares->at(end) =
-            std::min(1.0, even({*neighbour, ends.at(end), at}) / even({face, ends.at(end), at}));
+            std::min(1.0, even({behind, ends.at(end), at}) / even({face, ends.at(end), at}));
     }
     return edge;
 }

@@ -1,0 +1,13 @@
+/// Which faces of the prop meet at an edge.
+///
+/// Threads  pure; any.
+#pragma once
+
+#include "app/geometry/prop_shape.h"
+
+namespace frustumscreen {
+
+/// The face behind the edge from corner `k` of `face`, one of the prop's, to the next corner; null if it is never lit.
+[[nodiscard]] const PropFace* neighbour_of(const PropShape& prop, const PropFace& face, std::size_t k);
+
+} // namespace frustumscreen
