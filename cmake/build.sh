@@ -50,7 +50,15 @@ quietly() {
     return "$status"
 }
 
+# Where ccache is installed, it finds what another clone on this machine has compiled. Nothing depends on it.
+launcher=$(command -v ccache || true)
+export CMAKE_C_COMPILER_LAUNCHER=$launcher CMAKE_CXX_COMPILER_LAUNCHER=$launcher # for a new build folder
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
+
 options=()
+if [[ -z $launcher ]] && grep -qs '^CMAKE_CXX_COMPILER_LAUNCHER:.*=.' "$folder/CMakeCache.txt"; then
+    options+=(-DCMAKE_C_COMPILER_LAUNCHER= -DCMAKE_CXX_COMPILER_LAUNCHER=)
+fi
 for option in "${!wanted[@]}"; do
     if [[ ! -f $folder/build.ninja || ! -f $folder/CMakeCache.txt ]]; then
         options+=("-D$option=${wanted[$option]}")

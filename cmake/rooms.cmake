@@ -68,6 +68,18 @@ add_custom_target(outside)
 # Those of them that share memory between threads: under the thread sanitizer.
 add_custom_target(threads)
 
+# The folders that the tests look into. These paths are on no command line but this library's, so that ccache finds in one clone
+# what another compiled.
+if(BUILD_TESTING)
+    add_library(test_folders STATIC ${CMAKE_SOURCE_DIR}/tests/folders.cpp)
+    target_link_libraries(test_folders PRIVATE frustumscreen_options)
+    target_compile_definitions(test_folders PRIVATE
+        FRUSTUMSCREEN_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+        FRUSTUMSCREEN_BUILD_DIR="${CMAKE_BINARY_DIR}"
+        FRUSTUMSCREEN_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}"
+        FRUSTUMSCREEN_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
+endif()
+
 # A GoogleTest program of one room; working directory is its own build folder. OUTSIDE, THREADS: it belongs to the above.
 function(frustumscreen_test name)
     cmake_parse_arguments(TEST "OUTSIDE;THREADS" "" "SOURCES;USES;LABELS" ${ARGN})
@@ -80,13 +92,9 @@ function(frustumscreen_test name)
         add_dependencies(threads ${name})
     endif()
     add_executable(${name} ${TEST_SOURCES})
-    target_link_libraries(${name} PRIVATE frustumscreen_options ${TEST_USES} GTest::gtest_main)
+    target_link_libraries(${name} PRIVATE frustumscreen_options ${TEST_USES} test_folders GTest::gtest_main)
     target_compile_options(${name} PRIVATE ${test_options})
     frustumscreen_use_precompiled(${name} tests)
-    target_compile_definitions(${name} PRIVATE
-        FRUSTUMSCREEN_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
-        FRUSTUMSCREEN_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}"
-        FRUSTUMSCREEN_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
     add_test(NAME ${name} COMMAND ${name})
     # Of the five slots that ./test has on two cores: a test without this, which mostly waits for another program, runs beside two with it.

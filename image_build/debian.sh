@@ -2,13 +2,11 @@
 # Makes the Debian that the image is cut from: one tar with all files of the packages, dpkg's data bases and the licences among
 # them, and the packages' list beside it.
 #
-#   debian.sh [--record | --newer] [--mirror URL] [--firmware amd] FOLDER
+#   debian.sh [--locked LIST] [--mirror URL] [--firmware amd] FOLDER
 #
 # FOLDER/debian.tar             the packages' files; kernel, boot loader and busybox below /unpacked
-# FOLDER/newer                  only where newer ones were taken
 # FOLDER/packages.txt           name, version, architecture and source of each
-# With --record, packages.list is written anew; else it says which versions are taken, and any other is an error; with --newer
-# a newer one is taken where the mirror has no other.
+# LIST has a line with name and version for each package; what is taken must be these. Without it, what Debian has today is taken.
 # Works as root, and without by the kernel's user namespaces (mmdebstrap's mode "unshare").
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
@@ -17,11 +15,10 @@ say_and_fail() {
     exit 1
 }
 
-record=false newer=false mirror='' firmware=''
+locked='' mirror='' firmware=''
 while [[ $1 == --* ]]; do
     case $1 in
-        --record) record=true ;;
-        --newer) newer=true ;;
+        --locked) locked=$2 && shift ;;
         --mirror) mirror=$2 && shift ;;
         --firmware) firmware=$2 && shift ;;
     esac
@@ -30,8 +27,6 @@ done
 folder=$1
 mkdir -p "$folder"
 folder=$(readlink -f "$folder")
-list=$here/packages.list
-[[ -z $firmware ]] || list=$here/packages.$firmware.list
 
 of_kind() { sed -n "s/^$1 \+\([^ ]*\).*/\1/p" "$here/packages.conf" ${firmware:+"$here/packages.$firmware.conf"}; }
 mapfile -t install < <(of_kind install)
@@ -42,12 +37,11 @@ trap 'rm -rf "$work"' EXIT
 chmod 777 "$work" # without root, mmdebstrap works as another user
 touch "$work/preferences"
 cp "$here/contents/unpack_deb.sh" "$work/" # that user need not see this folder
-if ! $record; then
-    [[ -f $list ]] || say_and_fail "$list is missing; --record makes it"
+if [[ -n $locked ]]; then
     # Above 1000 apt takes a version even where a newer one is there.
-    grep -v '^#' "$list" | while read -r name version; do
+    while read -r name version; do
         printf 'Package: %s\nPin: version %s\nPin-Priority: 1001\n\n' "$name" "$version"
-    done >"$work/preferences"
+    done <"$locked" >"$work/preferences"
 fi
 
 # Runs inside mmdebstrap with the new root as $1.
@@ -92,16 +86,13 @@ if ((status != 0)); then
 fi
 
 LC_ALL=C sort -u "$work/installed.txt" "$work/unpacked.txt" >"$work/packages.txt"
-cut -d ' ' -f 1,2 "$work/packages.txt" >"$work/taken"
-if $record; then
-    {
-        echo "# The Debian packages of the image, each with its version. ./image_build/build --record writes this file anew."
-        cat "$work/taken"
-    } >"$list"
-elif ! diff <(grep -v '^#' "$list") "$work/taken" >"$work/differences"; then
-    sed 's/^</recorded:/; s/^>/Debian has:/' "$work/differences" | grep ':' >&2
-    $newer || say_and_fail "Debian no longer has the versions above as ${list##*/} records them. --record takes what there is now;" \
-        "--mirror https://snapshot.debian.org/archive/debian/DATE/ finds the old ones"
-    touch "$folder/newer"
+if [[ -n $locked ]]; then
+    # Each side's own lines; the order of the lists does not matter.
+    comm -3 <(LC_ALL=C sort -u "$locked") <(cut -d ' ' -f 1,2 "$work/packages.txt" | LC_ALL=C sort -u) >"$work/differences"
+    if [[ -s $work/differences ]]; then
+        sed 's/^\t/Debian has:  /; t; s/^/--locked has: /' "$work/differences" >&2
+        say_and_fail "Debian does not give the versions that --locked lists; the lines above say which." \
+            "--mirror https://snapshot.debian.org/archive/debian/DATE/ has old ones; without --locked those of today are taken"
+    fi
 fi
 mv "$work/packages.txt" "$work/debian.tar" "$folder/"

@@ -10,17 +10,15 @@ fail() {
 parse_arguments() {
     local usage=$1
     shift
-    test_image=false level=19 keys='' packages='' firmware='' data_size=160M out='' record=false newer=() mirror='' update_ca=''
+    test_image=false level=19 keys='' packages='' firmware='' data_size=160M out='' locked='' mirror='' update_ca=''
     version=$(sed -n 's/^project(.* VERSION \([^ ]*\).*/\1/p' CMakeLists.txt)
     while (($# > 0)); do
         case $1 in
-            --keys | --packages | --firmware | --version | --data | --out | --mirror | --update-ca)
+            --keys | --packages | --firmware | --version | --data | --out | --mirror | --update-ca | --locked)
                 (($# > 1)) || { echo "build: $1 needs a value; --help says which" >&2; exit 2; }
                 ;;&
             --test) test_image=true ;;
             --quick) level=1 ;;
-            --record) record=true ;;
-            --newer) newer=(--newer) ;;
             --keys) keys=$(readlink -f "$2") && shift ;;
             --packages) packages=$(readlink -f "$2") && shift ;;
             --update-ca) update_ca=$(readlink -f "$2") && shift ;;
@@ -29,6 +27,7 @@ parse_arguments() {
             --data) data_size=$2 && shift ;;
             --out) out=$2 && shift ;;
             --mirror) mirror=$2 && shift ;;
+            --locked) locked=$(readlink -f "$2") && shift ;;
             --help | -h) echo "$usage"; exit 0 ;;
             *) echo "build: there is no option '$1'; --help lists them" >&2; exit 2 ;;
         esac
@@ -43,6 +42,7 @@ parse_arguments() {
     fi
     [[ -z $keys || ( -r $keys/db.key && -r $keys/db.crt ) ]] || fail "--keys: $keys has not both db.key and db.crt"
     [[ -z $update_ca ]] || openssl x509 -noout -in "$update_ca" 2>/dev/null || fail "--update-ca: $update_ca has no certificate (PEM)"
+    [[ -z $locked || -r $locked ]] || fail "--locked: there is no file $locked; a build leaves packages.txt beside its image"
     [[ -z $packages || -d $packages ]] || fail "--packages: there is no folder $packages"
     : "${SOURCE_DATE_EPOCH:=$(git log -1 --format=%ct 2>/dev/null || echo 1)}"
     export SOURCE_DATE_EPOCH LC_ALL=C TZ=UTC
@@ -63,24 +63,36 @@ step() { # WORDS FUNCTION
 # Fixed names for what must be the same in two builds: a UUID from words.
 uuid_of() { uuidgen --sha1 --namespace @dns --name "frustumscreen.invalid/$1"; }
 
-# Kept until the lists change; an image for tests and one for kiosks have the same.
+# Kept for the day, or with --locked for as long as the list is the same; an image for tests and one for kiosks have the same.
 fetch_debian() {
-    local key files=(image_build/debian.sh image_build/packages.conf image_build/packages.list)
-    [[ -z $firmware ]] || files+=("image_build/packages.$firmware.conf" "image_build/packages.$firmware.list")
-    if $record; then
-        image_build/debian.sh --record ${firmware:+--firmware "$firmware"} ${mirror:+--mirror "$mirror"} "$work/debian"
+    local wanted today key
+    wanted=$({ cat image_build/debian.sh image_build/packages.conf ${firmware:+"image_build/packages.$firmware.conf"}; echo "$mirror"; } |
+        sha256sum | cut -c 1-8)
+    today=$cache/today-$wanted # one line: the day, and the name of the folder with its packages
+    if [[ -n $locked ]]; then
+        key=debian-$wanted-$(versions_in "$locked" | sha256sum | cut -c 1-8)
+    elif [[ $(cut -d ' ' -f 1 "$today" 2>/dev/null) == $(date +%F) ]]; then
+        key=$(cut -d ' ' -f 2 "$today")
     fi
-    key=$(cat "${files[@]}" 2>/dev/null | sha256sum | cut -c 1-16)
-    debian=$cache/debian-$key
-    [[ -d $debian/tree || ${#newer[@]} == 0 || ! -d $debian-newer/tree ]] || debian+=-newer
-    [[ ! -d $debian/tree ]] || { rm -rf "$work/debian"; return 0; }
-    $record || image_build/debian.sh "${newer[@]}" ${firmware:+--firmware "$firmware"} ${mirror:+--mirror "$mirror"} "$work/debian"
+    debian=$cache/${key:-none}
+    [[ ! -d $debian/tree ]] || return 0
+    [[ -z $locked ]] || versions_in "$locked" >"$work/locked"
+    image_build/debian.sh ${locked:+--locked "$work/locked"} ${firmware:+--firmware "$firmware"} ${mirror:+--mirror "$mirror"} "$work/debian"
     mkdir "$work/debian/tree"
     tar -C "$work/debian/tree" -xf "$work/debian/debian.tar" --no-same-owner --no-same-permissions --exclude=./dev --exclude=./proc --exclude=./sys
     rm "$work/debian/debian.tar"
-    [[ ! -e $work/debian/newer ]] || debian+=-newer # which does not pass for what is listed
+    key=debian-$wanted-$(versions_in "$work/debian/packages.txt" | sha256sum | cut -c 1-8)
+    debian=$cache/$key
+    if [[ -z $locked ]]; then
+        rm -rf "$cache/debian-$wanted"-*
+        echo "$(date +%F) $key" >"$today"
+    fi
+    rm -rf "$debian"
     mv "$work/debian" "$debian"
 }
+
+# Name and version of each package in a packages.txt, sorted.
+versions_in() { sed '/^#/d; /^$/d' "$1" | cut -d ' ' -f 1,2 | sort -u; }
 
 unpack_ours() {
     local name deb
@@ -110,7 +122,7 @@ check_needs() {
         done
         missing+=("$need")
     done < <(dpkg-deb -f "$1" Depends | tr ',' '\n')
-    ((${#missing[@]} == 0)) || fail "${1##*/} needs${missing[*]}, which packages.conf does not bring: add it there, and build with --record"
+    ((${#missing[@]} == 0)) || fail "${1##*/} needs${missing[*]}, which packages.conf does not bring: add it there"
 }
 
 # The exhibit's own words, in all languages, spoken; one language in a try. Kept until the bake changes.
@@ -228,10 +240,6 @@ make_kernel_image() {
     local initrd=$work/initrd unpacked=$debian/tree/unpacked kernel
     kernel=$(ls "$unpacked/lib/modules")
     image_build/initrd.sh "$debian/tree" "$work/root" "$level" "$initrd"
-    if $test_image; then
-        image_build/test_agent.sh "$debian/tree" "$work/root" "$work/extra.cpio"
-        cat "$work/extra.cpio" >>"$initrd"
-    fi
     # watchdog.stop_on_reboot=0: drivers stop the hardware's watchdog when the kernel is to restart the machine, and then nobody
     # watches whether it does.
     {
@@ -240,14 +248,22 @@ make_kernel_image() {
         printf 'frustumscreen.root_hash=%s frustumscreen.root_blocks=%d frustumscreen.hash_blocks=%d frustumscreen.salt=%s' \
             "$root_hash" "$root_blocks" "$hash_blocks" "$salt"
     } >"$work/cmdline"
+    put_together "$initrd" "$work/kernel.efi"
+    if $test_image; then
+        image_build/test_agent.sh "$debian/tree" "$work/root" "$work/extra.cpio"
+        cat "$initrd" "$work/extra.cpio" >"$work/agent_initrd"
+        put_together "$work/agent_initrd" "$work/agent.efi"
+    fi
+    cp "$unpacked/usr/lib/systemd/boot/efi/systemd-bootx64.efi" "$work/boot.efi"
+    [[ -z $keys ]] || sign "$work/boot.efi"
+}
+
+# Of one initrd; the rest is the same. Reads make_kernel_image's variables.
+put_together() { # INITRD OUT
     image_build/kernel_image.py --stub "$unpacked/usr/lib/systemd/boot/efi/linuxx64.efi.stub" \
         --os-release "$work/root/usr/lib/os-release" --command-line "$work/cmdline" \
-        --linux "$unpacked/boot/vmlinuz-$kernel" --initrd "$initrd" "$work/kernel.efi"
-    cp "$unpacked/usr/lib/systemd/boot/efi/systemd-bootx64.efi" "$work/boot.efi"
-    if [[ -n $keys ]]; then
-        sign "$work/kernel.efi"
-        sign "$work/boot.efi"
-    fi
+        --linux "$unpacked/boot/vmlinuz-$kernel" --initrd "$1" "$2"
+    [[ -z $keys ]] || sign "$2"
 }
 
 sign() { # FILE: with the time of the commit, so that the bytes are always the same
@@ -259,6 +275,12 @@ sign() { # FILE: with the time of the commit, so that the bytes are always the s
 
 make_disk() {
     image_build/disk.sh --version "$version" --data "$data_size" "$work/boot.efi" "$work/kernel.efi" "$work/slot" "$work/disk"
+    if $test_image; then
+        mkdir -p "$out/as_shipped"
+        mv "$work/disk" "$out/as_shipped/frustumscreen.raw"
+        mv "$work/agent.efi" "$work/kernel.efi"
+        image_build/disk.sh --version "$version" --data "$data_size" "$work/boot.efi" "$work/kernel.efi" "$work/slot" "$work/disk"
+    fi
     rm -f "$out"/frustumscreen_*.{slot,efi} # of another version
     mv "$work/disk" "$out/frustumscreen.raw"
     cp "$work/kiosk.toml" "$out/" # for a technician to begin with

@@ -18,10 +18,6 @@ cp "$debian"/unpacked/lib/modules/*/kernel/drivers/char/virtio_console.ko "$tree
     [[ ! -e $root/$file ]] || rm "$over/$file"
 done
 cp -R "$here/test_agent/over/." "$over/"
-# The exhibit's settings of the other tests in an emulated machine: a small picture
-mkdir -p "$over/usr/share/frustumscreen"
-sed 's|^packs = .*|packs = ["/usr/share/frustumscreen/built_in.fspack"]|' "$here/../tests/hil/guest/etc/frustumscreen/kiosk.toml" \
-    >"$over/usr/share/frustumscreen/kiosk.toml"
 install -m 644 "$here/test_agent/lay_over.sh" "$tree/extra/"
 find "$tree" -exec touch --no-dereference --date="@$SOURCE_DATE_EPOCH" {} +
 (cd "$tree" && find . -print0 | LC_ALL=C sort -z | cpio --quiet --reproducible --null --owner=0:0 -o -H newc) |

@@ -71,6 +71,10 @@ Result<void> SampleGrid::make_target() {
                     fmt::format("render: the driver cannot hold {} x {} samples; use 1 sample a pixel",
                                 room_.x, room_.y));
     }
+    // Averaging reads some samples beside the tiles that a frame clears: none that was never written.
+    glDisable(GL_SCISSOR_TEST);
+    glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
+    glClear(GL_COLOR_BUFFER_BIT);
     return {};
 }
 

@@ -332,7 +332,7 @@ void StatusFile::work() {
         pending_ = false;
         lock.unlock();
         stamp(status);
-        renew_surroundings(surroundings, file_, usual_watchdog_file, usual_boot_folder, status_clock());
+        renew_surroundings(surroundings, {.status_file = file_}, status_clock());
         status.surroundings = std::make_shared<const Surroundings>(surroundings);
         const Result<void> written = renew_file(file_, as_bytes(status_json(status)));
         if (!written && !complained) {

@@ -20,6 +20,8 @@ constexpr std::uintmax_t most_status_bytes = 1U << 20;
 constexpr std::uintmax_t most_ends_bytes = 16U << 20;
 constexpr std::size_t most_depth = 16;
 
+} // namespace
+
 std::string system_name() {
     std::string name;
     std::ifstream release("/etc/os-release");
@@ -35,8 +37,6 @@ std::string system_name() {
     }
     return name;
 }
-
-} // namespace
 
 StatusClock status_clock() {
     return {monotonic_now(), boot_id()};
@@ -78,16 +78,15 @@ StatusDocument read_status(const std::filesystem::path& file, const StatusClock&
     return document;
 }
 
-void renew_surroundings(Surroundings& known, const std::filesystem::path& status_file,
-                        const std::filesystem::path& watchdog_file, const std::filesystem::path& boot_folder,
-                        const StatusClock& clock) {
-    known.image = read_system_image(boot_folder);
-    known.watchdog = read_status(watchdog_file, clock);
+void renew_surroundings(Surroundings& known, const StatusPlaces& places, const StatusClock& clock) {
+    known.image = read_system_image(places.boot_folder);
+    known.watchdog = read_status(places.watchdog_file, clock);
     known.monotonic_s = to_seconds(clock.now.time_since_epoch());
     if (known.system.empty()) {
         known.system = system_name();
+        known.crashes = read_crashes(places.crash_folder); // a later one ends the process that would read it
     }
-    const std::filesystem::path file = status_file.parent_path() / "ends";
+    const std::filesystem::path file = places.status_file.parent_path() / "ends";
     std::error_code missing;
     const std::uintmax_t bytes =
         std::filesystem::exists(file, missing) ? std::filesystem::file_size(file, missing) : 0;
@@ -105,11 +104,9 @@ void renew_surroundings(Surroundings& known, const std::filesystem::path& status
     }
 }
 
-KnownExhibit read_known_exhibit(const std::filesystem::path& status_file,
-                                const std::filesystem::path& watchdog_file,
-                                const std::filesystem::path& boot_folder, const StatusClock& clock) {
-    KnownExhibit known{read_status(status_file, clock), {}};
-    renew_surroundings(known.surroundings, status_file, watchdog_file, boot_folder, clock);
+KnownExhibit read_known_exhibit(const StatusPlaces& places, const StatusClock& clock) {
+    KnownExhibit known{read_status(places.status_file, clock), {}};
+    renew_surroundings(known.surroundings, places, clock);
     return known;
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "app/status/system_image.h"
+#include "app/watch/crash.h"
 #include "app/watch/outcome.h"
 #include "app/watch/service_ends.h"
 #include "firmware_host/base/json.h"
@@ -50,20 +51,24 @@ struct Surroundings {
     double monotonic_s = 0.0;      ///< when it was read
     std::string system;            ///< name and version of the operating system and of the kernel
     SystemImage image;             ///< of an appliance
+    std::vector<Crash> crashes;    ///< the last ones, the latest first
 };
 using SharedSurroundings = std::shared_ptr<const Surroundings>;
-/// Brings `known` up to now; what cannot have changed is not read again. The ends' file lies beside the status file.
-void renew_surroundings(Surroundings& known, const std::filesystem::path& status_file,
-                        const std::filesystem::path& watchdog_file, const std::filesystem::path& boot_folder,
-                        const StatusClock& clock);
+struct StatusPlaces {
+    std::filesystem::path status_file = usual_status_file; ///< the ends' file lies beside it
+    std::filesystem::path watchdog_file = usual_watchdog_file;
+    std::filesystem::path boot_folder = usual_boot_folder;
+    std::filesystem::path crash_folder = usual_crash_folder;
+};
+/// Brings `known` up to now; what cannot have changed is not read again.
+void renew_surroundings(Surroundings& known, const StatusPlaces& places, const StatusClock& clock);
+/// Name and version of the operating system and of the kernel.
+[[nodiscard]] std::string system_name();
 
 struct KnownExhibit {
     StatusDocument status;
     Surroundings surroundings;
 };
-[[nodiscard]] KnownExhibit read_known_exhibit(const std::filesystem::path& status_file,
-                                              const std::filesystem::path& watchdog_file,
-                                              const std::filesystem::path& boot_folder,
-                                              const StatusClock& clock);
+[[nodiscard]] KnownExhibit read_known_exhibit(const StatusPlaces& places, const StatusClock& clock);
 
 } // namespace frustumscreen

@@ -32,6 +32,23 @@ Json json_of(const Surroundings& surroundings) {
     return {{"count", ends.count()}, {"last", last}, {"why_unknown", surroundings.ends_trouble}};
 }
 
+Json json_of(const std::vector<Crash>& crashes) {
+    Json all = Json::array();
+    for (const Crash& crash : crashes) {
+        all.push_back({{"unix_s", crash.unix_s},
+                       {"sentence", sentence_of(crash)},
+                       {"signal", crash.signal},
+                       {"thread", crash.thread},
+                       {"program", crash.program},
+                       {"system", crash.system},
+                       {"driver", crash.driver},
+                       {"frames", crash.frames},
+                       {"guesses", crash.guesses},
+                       {"whole", crash.whole}});
+    }
+    return all;
+}
+
 Json json_of(const SystemImage& image) {
     return image.there() ? Json{{"version", image.version}, {"slot", image.slot}, {"notes", image.notes}}
                          : Json(nullptr);
@@ -48,6 +65,7 @@ std::string status_document(const KnownExhibit& known) {
                            {"exhibit", json_of(known.status)},
                            {"watchdog", json_of(known.surroundings.watchdog)},
                            {"ends", json_of(known.surroundings)},
+                           {"crashes", json_of(known.surroundings.crashes)},
                            {"system", json_of(known.surroundings.image)}};
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

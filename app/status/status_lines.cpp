@@ -282,6 +282,17 @@ void add_faults(Lines& lines, const StatusDocument& watchdog) {
     }
 }
 
+void add_crashes(Lines& lines, const std::vector<Crash>& crashes) {
+    const char* name = "last crashes";
+    for (const Crash& crash : crashes) {
+        const std::string driver = crash.driver.empty() ? std::string() : ", " + crash.driver;
+        lines.add(name, fmt::format("{:%Y-%m-%dT%H:%M:%SZ} {} (FrustumScreen {}{})",
+                                    fmt::gmtime(static_cast<std::time_t>(crash.unix_s)), sentence_of(crash),
+                                    crash.program, driver));
+        name = "";
+    }
+}
+
 std::string versions_line(const JsonFields& status, const std::string& system) {
     const JsonFields versions = status.at("versions");
     return versions.there()
@@ -325,6 +336,7 @@ std::vector<StatusLine> status_lines(const nlohmann::json& status, std::optional
         lines.add("machine", notes_line(surroundings->watchdog));
         lines.add("system", image_line(surroundings->image));
         add_faults(lines, surroundings->watchdog);
+        add_crashes(lines, surroundings->crashes);
     }
     if (const std::optional<double> memory_mib = fields.number("resident_mib")) {
         lines.add("memory", fmt::format("{:.0f} MiB", *memory_mib), false);

@@ -10,12 +10,13 @@ namespace {
 using std::chrono::seconds;
 
 // Why this order: systemd has started an exhibit that ends anew already, so a restart is no step for it; a hung device ends it
-// again and again, and switching its port takes a second. A set that cannot be shown is not mended by a restart.
+// again and again, and switching its port takes a second. A set that cannot be shown is not mended by a restart. A graphics driver
+// that crashes at each start does so with any set: drawn plainly, the museum's own set is on the table.
 constexpr std::array safe_picture_fails{Step::Reboot};
-constexpr std::array keeps_ending{Step::ResetDevice, Step::LastGoodSet, Step::BuiltIn, Step::SafePicture,
-                                  Step::Reboot};
-constexpr std::array no_picture{Step::RestartExhibit, Step::LastGoodSet, Step::BuiltIn, Step::SafePicture,
-                                Step::Reboot};
+constexpr std::array keeps_ending{Step::ResetDevice, Step::LastGoodSet, Step::DrawPlainly,
+                                  Step::BuiltIn,     Step::SafePicture, Step::Reboot};
+constexpr std::array no_picture{Step::RestartExhibit, Step::LastGoodSet, Step::DrawPlainly,
+                                Step::BuiltIn,        Step::SafePicture, Step::Reboot};
 constexpr std::array nothing_to_show{Step::LastGoodSet, Step::RestartExhibit, Step::BuiltIn,
                                      Step::SafePicture, Step::Reboot};
 constexpr std::array memory_short{Step::RestartExhibit, Step::BuiltIn, Step::Reboot};
@@ -25,7 +26,7 @@ constexpr std::array<std::span<const Step>, cause_count> table{
     safe_picture_fails, keeps_ending, no_picture, nothing_to_show, memory_short, device_silent};
 
 constexpr std::array<Awake, step_count> settling_times{seconds(10), seconds(10), seconds(10), seconds(10),
-                                                       seconds(10), seconds(60), seconds(10)};
+                                                       seconds(10), seconds(10), seconds(60), seconds(10)};
 
 template <typename Enum> constexpr std::uint8_t bit(Enum value) {
     return static_cast<std::uint8_t>(1U << static_cast<unsigned>(value));
@@ -128,8 +129,10 @@ bool Ladder::is_possible(Step step, Cause cause, const Means& means) const {
         return means.device;
     case Step::LastGoodSet:
         return means.last_good_set && memory_.mode == Mode::Normal;
-    case Step::BuiltIn:
+    case Step::DrawPlainly:
         return memory_.mode == Mode::Normal || memory_.mode == Mode::LastGoodSet;
+    case Step::BuiltIn:
+        return memory_.mode != Mode::BuiltIn && memory_.mode != Mode::Safe;
     case Step::SafePicture:
         return memory_.mode != Mode::Safe && is_dark(cause);
     case Step::Reboot:
@@ -218,6 +221,9 @@ Act Ladder::take(Step step, std::optional<Cause> cause) {
     switch (step) {
     case Step::LastGoodSet:
         memory_.mode = Mode::LastGoodSet;
+        break;
+    case Step::DrawPlainly:
+        memory_.mode = Mode::Plain;
         break;
     case Step::BuiltIn:
         memory_.mode = Mode::BuiltIn;

@@ -10,7 +10,7 @@
 ///          ten minutes.
 /// Safe     words for the staff stay until the pause is over; then comes what was not tried yet, at last a reboot. After a reboot
 ///          the exhibit's own set is tried. Where no reboot is allowed, they stay.
-/// Down     from the last good set and the built-in artifact the ladder leads back after ten good minutes; after twenty the next
+/// Down     from the last good set, plain drawing and the built-in artifact the ladder leads back after ten good minutes; after twenty the next
 ///          time, and so on, up to a day.
 /// Time     `awake`: how long the kiosk has been on in all, over all boots. It never jumps, whatever the clock on the wall says,
 ///          and never runs faster than time does: so a day's limits hold for real days, too.

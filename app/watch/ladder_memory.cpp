@@ -13,7 +13,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::string_view name = "frustumscreen-ladder-1";
+constexpr std::string_view name = "frustumscreen-ladder-2";
 constexpr std::int64_t nothing = -1;
 constexpr std::int64_t no_limit = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t most_milliseconds = 31'557'600'000'000; // a thousand years

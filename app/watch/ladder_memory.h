@@ -1,6 +1,6 @@
 /// The ladder's memory as a file keeps it, so that a power cut at any moment leaves the former one or the new one.
 ///
-/// File     two slots of `slot_bytes` in turn, each a line of text that is filled up with blanks: `frustumscreen-ladder-1`, a
+/// File     two slots of `slot_bytes` in turn, each a line of text that is filled up with blanks: `frustumscreen-ladder-2`, a
 ///          checksum (FNV-1a, 64 bits) of what follows, and whole numbers, -1 for nothing. A slot is written as a whole, over the
 ///          older one, into a file of fixed size: a full disk does not hinder it.
 /// Threads  pure; any.

@@ -22,6 +22,7 @@ constexpr std::array<Words, step_count> steps{{
     {"restart_exhibit", "the exhibit is started again"},
     {"reset_device", "the tracker's USB port is switched off and on"},
     {"last_good_set", "the exhibit goes back to the set of objects that was good"},
+    {"draw_plainly", "the exhibit draws in the plainest way, without the graphics card's help"},
     {"built_in", "the exhibit shows the object that is built in"},
     {"safe_picture", "words for the staff are shown in place of the exhibit"},
     {"reboot", "the computer is started again"},
@@ -30,6 +31,7 @@ constexpr std::array<Words, step_count> steps{{
 constexpr std::array<Words, mode_count> modes{{
     {"normal", "lets the exhibit show what it wants"},
     {"last_good_set", "lets the exhibit show the last set of packs that was good"},
+    {"plain", "lets the exhibit draw in the plainest way"},
     {"built_in", "lets the exhibit show a built-in artifact"},
     {"safe", "shows the safe picture, with words for the staff"},
 }};

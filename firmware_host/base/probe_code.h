@@ -19,15 +19,18 @@ namespace frustumscreen {
 
 inline constexpr int probe_pixels = 8;
 inline constexpr std::size_t probe_bytes = 4 * std::size_t{probe_pixels}; ///< of RGBA
-inline constexpr std::array<std::uint8_t, 2> probe_greys{1, 2};           ///< sRGB codes of a 0 and a 1
+/// sRGB codes of a 0 and a 1, of the exhibit's picture and of the safe one: who looks at the screen tells them apart.
+inline constexpr std::array<std::uint8_t, 2> probe_greys{1, 2};
+inline constexpr std::array<std::uint8_t, 2> safe_probe_greys{3, 4};
 
 /// Bit `pixel` of the code.
 [[nodiscard]] constexpr bool probe_bit(std::uint8_t code, int pixel) {
     return ((code >> static_cast<unsigned>(pixel)) & 1U) != 0;
 }
 /// The grey of the corner's `pixel`.
-[[nodiscard]] constexpr std::uint8_t probe_grey(std::uint8_t code, int pixel) {
-    return probe_greys[probe_bit(code, pixel) ? 1 : 0];
+[[nodiscard]] constexpr std::uint8_t probe_grey(std::uint8_t code, int pixel,
+                                                const std::array<std::uint8_t, 2>& greys = probe_greys) {
+    return greys[probe_bit(code, pixel) ? 1 : 0];
 }
 
 /// The code in the corner's pixels, RGBA codes; nothing if there is none. Alpha does not matter.

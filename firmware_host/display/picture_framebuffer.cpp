@@ -27,6 +27,10 @@ Result<PictureFramebuffer> PictureFramebuffer::create(int width, int height) {
                 height));
     }
     glBindTexture(GL_TEXTURE_2D, 0);
+    // A display may copy the picture before the renderer has drawn it: no memory is read that was never written.
+    glDisable(GL_SCISSOR_TEST);
+    glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+    glClear(GL_COLOR_BUFFER_BIT);
     return picture;
 }
 

@@ -1,7 +1,7 @@
 /// The framebuffer object that the renderer draws the exhibit's picture into, the same for every display.
 ///
 /// Colour   a texture, SRGB8_ALPHA8: shaders write linear light, a read-back gives sRGB codes; depth 24,
-///          stencil 8. Row 0 is the picture's top row.
+///          stencil 8. Row 0 is the picture's top row. It begins black.
 /// Threads  the context that made it is current.
 /// Errors   a picture larger than the driver allows.
 #pragma once

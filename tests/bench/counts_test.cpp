@@ -2,6 +2,7 @@
 #include "assets_baked/artifacts/builtin.h"
 #include "assets_baked/bake/bake.h"
 #include "firmware_host/base/file.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +12,8 @@ namespace frustumscreen {
 namespace {
 
 SetUp set_up_of(const char* name) {
-    const Result<CheckedSettings> settings = load_settings(std::filesystem::path(FRUSTUMSCREEN_SOURCE_DIR) /
-                                                           "config" / (std::string(name) + ".toml"));
+    const Result<CheckedSettings> settings =
+        load_settings(std::filesystem::path(source_dir()) / "config" / (std::string(name) + ".toml"));
     EXPECT_TRUE(settings) << settings.error().message;
     return {name, **settings};
 }
@@ -33,7 +34,7 @@ const Pack& small_amphora() {
 
 std::vector<CountedPack> reference() {
     const Result<Bytes> bytes =
-        read_file(std::filesystem::path(FRUSTUMSCREEN_SOURCE_DIR) / "docs" / "reference_counts.json");
+        read_file(std::filesystem::path(source_dir()) / "docs" / "reference_counts.json");
     EXPECT_TRUE(bytes) << bytes.error().message;
     Result<std::vector<CountedPack>> counts = read_counts(as_text(*bytes));
     EXPECT_TRUE(counts) << counts.error().message;

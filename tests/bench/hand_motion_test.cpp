@@ -2,6 +2,7 @@
 #include "app/bench/latency/recorded_poses.h"
 #include "app/tracking/pose_math.h"
 #include "firmware_host/base/quantile.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -48,7 +49,7 @@ TEST(HandMotion, ARecordingGoesStraightFromPoseToPose) {
 
 /// At the speeds that the recordings have (docs/tags.md).
 TEST(HandMotion, RecordedHandsAreSlidAtTheirSpeed) {
-    const std::filesystem::path folder = FRUSTUMSCREEN_SHARED_DIR "/data/tracker";
+    const std::filesystem::path folder = shared_dir() + "/data/tracker";
     if (!std::filesystem::exists(folder)) {
         GTEST_SKIP() << folder << " is not there";
     }

@@ -4,6 +4,7 @@
 #include "app/calibration/auto_procedure.h"
 #include "app/programs/calibrate/auto_picture.h"
 #include "app/programs/calibrate/calibration_way.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -468,7 +469,7 @@ TEST(AutoProcedure, GoesOnFromACameraThatLooksElsewhere) {
 }
 
 TEST(AutoProcedure, EverythingThatIsSaidHasItsWord) {
-    std::ifstream file(FRUSTUMSCREEN_SOURCE_DIR "/assets_baked/texts/words/en.toml");
+    std::ifstream file(source_dir() + "/assets_baked/texts/words/en.toml");
     std::stringstream text;
     text << file.rdbuf();
     const std::string words = text.str().substr(text.str().find("[calibration]"));

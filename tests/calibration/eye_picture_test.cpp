@@ -1,5 +1,6 @@
 // What a person sees and hears while the eyes are measured: every sentence has its word, and no words lie on the cross or beside the picture.
 #include "app/programs/calibrate/eye_picture.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -71,7 +72,7 @@ glm::dvec3 line_of(const ReportedSight& sight) {
 }
 
 TEST(EyePicture, EverythingThatIsSaidHasItsWord) {
-    std::ifstream file(FRUSTUMSCREEN_SOURCE_DIR "/assets_baked/texts/words/en.toml");
+    std::ifstream file(source_dir() + "/assets_baked/texts/words/en.toml");
     std::stringstream text;
     text << file.rdbuf();
     const std::string words = text.str();

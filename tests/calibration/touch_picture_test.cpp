@@ -1,6 +1,7 @@
 // What a technician sees and hears during a calibration by touch.
 #include "app/programs/calibrate/judged_words.h"
 #include "app/programs/calibrate/touch_picture.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -43,7 +44,7 @@ void walk(TouchProcedure procedure, TouchJudgement judged, const auto& look) {
 }
 
 TEST(TouchPicture, EverythingThatIsSaidHasItsWord) {
-    std::ifstream file(FRUSTUMSCREEN_SOURCE_DIR "/assets_baked/texts/words/en.toml");
+    std::ifstream file(source_dir() + "/assets_baked/texts/words/en.toml");
     std::stringstream text;
     text << file.rdbuf();
     const std::string words = text.str().substr(text.str().find("[calibration]"));

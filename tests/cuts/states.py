@@ -312,7 +312,7 @@ def _has_memory(data):
     """Two slots in turn, each a line with a checksum (app/watch/ladder_memory.h): one is whole, or none ever was. The first write
     goes to the second slot, and until that is on the disk the first one is blank."""
     def is_whole(slot):
-        found = re.fullmatch(rb"frustumscreen-ladder-1 ([0-9a-f]{16}) ((?:-?\d+ )+) *\n", slot)
+        found = re.fullmatch(rb"frustumscreen-ladder-2 ([0-9a-f]{16}) ((?:-?\d+ )+) *\n", slot)
         checksum = 0xCBF29CE484222325  # FNV-1a
         for byte in found[2] if found else b"":
             checksum = (checksum ^ byte) * 0x100000001B3 % (1 << 64)

@@ -215,7 +215,7 @@ class States(unittest.TestCase):
 
     def test_watchdog(self):
         """With a line that frustumscreen-watchdog has written."""
-        slot = (b"frustumscreen-ladder-1 a860832fbef0bb75 2 2089103435194244904 236287 236187 0 1 0 1 0 2 0 236187" + b" -1" * 12 +
+        slot = (b"frustumscreen-ladder-2 a860832fbef0bb75 2 2089103435194244904 236287 236187 0 1 0 1 0 2 0 236187" + b" -1" * 12 +
                 b" ").ljust(4095) + b"\n"
         blank = b" " * 4096
         torn, first = slot.replace(b" 2 ", b" 3 ", 1), slot[:512] + blank[512:]

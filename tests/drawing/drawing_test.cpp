@@ -4,6 +4,7 @@
 #include "app/drawing/drawing.h"
 #include "firmware_host/base/json.h"
 #include "tests/drawing/svg_text.h"
+#include "tests/folders.h"
 #include "tests/programs/program_folder.h"
 
 #include <algorithm>
@@ -254,11 +255,10 @@ TEST_F(Drawing, TheGuideHasTheDrawingsOfTheShippedSettings) {
     for (const char* sheet : {"table", "prop"}) {
         ASSERT_EQ(
             run(fmt::format("frustumscreen drawing --config '{}/config/kiosk.toml' -o drawing.svg --sheet {}",
-                            FRUSTUMSCREEN_SOURCE_DIR, sheet)),
+                            source_dir(), sheet)),
             0)
             << text("err.txt");
-        const Result<Bytes> committed =
-            read_file(fmt::format("{}/docs/guide/{}.svg", FRUSTUMSCREEN_SOURCE_DIR, sheet));
+        const Result<Bytes> committed = read_file(fmt::format("{}/docs/guide/{}.svg", source_dir(), sheet));
         ASSERT_TRUE(committed);
         EXPECT_EQ(text("drawing.svg"), as_text(*committed)) << "draw it again: docs/draw_guide.sh";
     }

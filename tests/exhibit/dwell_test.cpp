@@ -2,6 +2,7 @@
 #include "app/exhibit/table_layout.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/tracker/convert_recording.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -311,8 +312,7 @@ TEST(Dwell, RecordedHandsThatGoOverTheTableChooseNothingByAccident) {
     double minutes = 0.0;
     for (const std::string name : {"vicon_handheld_1.csv", "camera_target_handheld_1.csv",
                                    "tum_fr1_xyz_groundtruth.txt", "tum_fr1_xyz_rgbdslam.txt"}) {
-        const Result<Bytes> bytes =
-            read_file(std::filesystem::path(FRUSTUMSCREEN_SHARED_DIR "/data/tracker") / name);
+        const Result<Bytes> bytes = read_file(std::filesystem::path(shared_dir() + "/data/tracker") / name);
         if (!bytes) {
             GTEST_SKIP() << "the recordings are missing: " << bytes.error().message;
         }

@@ -2,6 +2,7 @@
 
 #include "app/exhibit/hours.h"
 #include "firmware_host/base/local_time.h"
+#include "tests/folders.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ using std::chrono::seconds;
 using std::chrono::sys_days;
 using std::chrono::sys_seconds;
 
-constexpr const char* script = FRUSTUMSCREEN_SOURCE_DIR "/tests/exhibit/opening_times.py";
+const std::string script = source_dir() + "/tests/exhibit/opening_times.py";
 
 struct Opened {
     std::int64_t from = 0, to = 0;

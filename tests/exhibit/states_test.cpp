@@ -2,6 +2,7 @@
 
 #include "app/exhibit/states.h"
 #include "app/exhibit/states_page.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -118,14 +119,14 @@ TEST(States, OnlyAFaultAndTheStaffsPatternAreWithoutAnArtifact) {
 }
 
 TEST(StatesPage, IsTheOneInTheDocuments) {
-    std::ifstream file(FRUSTUMSCREEN_SOURCE_DIR "/docs/states.md", std::ios::binary);
+    std::ifstream file(source_dir() + "/docs/states.md", std::ios::binary);
     const std::string committed{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     EXPECT_EQ(states_page(), committed) << "write it again: frustumscreen states > docs/states.md";
 }
 
 /// The picture's edges are those of the graph that it was drawn from.
 TEST(StatesPage, ThePictureHasEveryEdgeOfTheGraph) {
-    std::ifstream file(FRUSTUMSCREEN_SOURCE_DIR "/docs/states.svg", std::ios::binary);
+    std::ifstream file(source_dir() + "/docs/states.svg", std::ios::binary);
     const std::string svg{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     std::istringstream graph(states_graph());
     std::size_t edges = 0;

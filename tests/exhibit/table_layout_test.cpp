@@ -2,6 +2,7 @@
 #include "app/exhibit/visitor_side.h"
 #include "app/settings/lit_zone.h"
 #include "tests/exhibit/some_tables.h"
+#include "tests/folders.h"
 #include "tests/render/counted_new.h"
 
 #include <gtest/gtest.h>
@@ -159,8 +160,8 @@ TEST(TableLayout, ReadersOnOppositeSidesSeeTheSame) {
 }
 
 TableSetUp shipped_table(const char* name, std::size_t artifacts) {
-    const Result<CheckedSettings> settings = load_settings(
-        std::filesystem::path(FRUSTUMSCREEN_SOURCE_DIR "/config") / (std::string(name) + ".toml"));
+    const Result<CheckedSettings> settings =
+        load_settings(std::filesystem::path(source_dir() + "/config") / (std::string(name) + ".toml"));
     TableSetUp set_up;
     if (!settings) {
         ADD_FAILURE() << settings.error().message;

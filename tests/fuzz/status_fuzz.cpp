@@ -26,8 +26,11 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string text(fuzz::text_of(data, size));
     const StatusClock clock{MonotonicTime(std::chrono::seconds(1000)), "boot"};
     const StatusDocument document = parse_status(text, clock);
-    const KnownExhibit known{document,
-                             {document, parse_service_ends(text), text.size(), {}, 1000.0, "system", {}}};
+    KnownExhibit known{document,
+                       {document, parse_service_ends(text), text.size(), {}, 1000.0, "system", {}, {}}};
+    if (std::optional<Crash> crash = parse_crash(text)) {
+        known.surroundings.crashes.push_back(*std::move(crash));
+    }
     fuzz::require(document.fields.is_null() != document.why.empty(), "something is known, or why not");
     fuzz::require(verdict_of(known).runs || !verdict_of(known).well, "what does not run is not well");
     require_printable_lines(status_text(known, 1'800'000'000));

@@ -6,6 +6,7 @@
 #include "assets_baked/artifacts/builtin.h"
 #include "assets_baked/folder/new_folder.h"
 #include "firmware_host/tracker/packet_file.h"
+#include "tests/folders.h"
 #include "tests/fuzz/words_file.h"
 #include "tests/loaders/sample_models.h"
 #include "tests/loaders/sample_pictures.h"
@@ -38,7 +39,7 @@ private:
 };
 
 std::string file_text(const std::string& path) {
-    std::ifstream file(std::filesystem::path(FRUSTUMSCREEN_SOURCE_DIR) / path, std::ios::binary);
+    std::ifstream file(std::filesystem::path(source_dir()) / path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
 }
 

@@ -1,6 +1,7 @@
 // The staff's guide names every sentence that the table, the safe picture and the staff's picture can show: read from where
 // the programs have them, so that a new one without its row fails here.
 
+#include "tests/folders.h"
 #include "tests/guide/string_literals.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path root = FRUSTUMSCREEN_SOURCE_DIR;
+const fs::path root = frustumscreen::source_dir();
 
 /// Whose sentences reach the staff.
 constexpr const char* sources[] = {"app/drift",
@@ -74,7 +75,7 @@ constexpr LeftOut left_out[] = {
     {"firmware_host/camera/camera_set_up.h", "frustumscreen camera"},
     {"firmware_host/display/shader_cache.cpp", "the journal"},
     {"firmware_host/service/ask_staff_socket.cpp", "frustumscreen status --screenshot"},
-    {"firmware_host/service/crash_line.cpp", "the journal"},
+    {"firmware_host/service/crash_record.cpp", "the journal"},
     {"firmware_host/service/staff_socket.cpp", "frustumscreen status --screenshot"},
     {"firmware_host/service/stop_signals.cpp", "the journal"},
     {"firmware_host/sound/opus_reader.cpp", "packs, when they are baked"},

@@ -1,5 +1,7 @@
 #include "tests/hil/mock_process.h"
 
+#include "tests/folders.h"
+
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <spawn.h>
@@ -129,7 +131,7 @@ ScratchFolder::~ScratchFolder() {
 
 MockProcess::MockProcess(std::vector<std::string> arguments, std::string control)
     : control_(std::move(control)) {
-    arguments.insert(arguments.begin(), FRUSTUMSCREEN_SOURCE_DIR "/tests/hil/mock_tracker");
+    arguments.insert(arguments.begin(), source_dir() + "/tests/hil/mock_tracker");
     arguments.insert(arguments.end(), {"--control", control_});
     std::vector<char*> pointers;
     pointers.reserve(arguments.size() + 1);

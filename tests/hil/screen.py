@@ -11,7 +11,7 @@ import struct
 import zlib
 from dataclasses import dataclass
 
-LIT = 12  # sRGB codes above this are lit: more than the probe's greys (app/render/probe.h) and rounding
+LIT = 12  # sRGB codes above this are lit: more than the codes' greys (base/probe_code.h) and rounding
 PROBE_PIXELS = 8
 CODES = 1 << PROBE_PIXELS
 
@@ -182,12 +182,21 @@ def share_outside(rows, allowed):
     return count([row & ~other for row, other in zip(rows, allowed)]) / total if total else 0.0
 
 
-def probe(picture):
-    """The presented picture's reserved code (app/render/probe.h); None: there is none."""
+def _code(picture, zero, one):
     code = 0
     for k in range(PROBE_PIXELS):
         red, green, blue = picture.pixel(k, 0)
-        if red != green or green != blue or red not in (1, 2):
+        if red != green or green != blue or red not in (zero, one):
             return None
-        code |= (red == 2) << k
+        code |= (red == one) << k
     return code
+
+
+def probe(picture):
+    """The code in the corner of a picture that the exhibit drew (base/probe_code.h); None: the exhibit did not draw it."""
+    return _code(picture, 1, 2)
+
+
+def safe_probe(picture):
+    """The same of the safe picture."""
+    return _code(picture, 3, 4)

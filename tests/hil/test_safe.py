@@ -50,9 +50,9 @@ class Safe(HilTest):
             return (picture.width, picture.height) == (width, height) and picture.rgb[begin : begin + len(meant)] == meant
 
         eventually(shown, within_s, "its words are not on the screen as the program draws them")
-        first = eventually(lambda: (self.bench.probe(),), SHOWN_S, "no code")[0]
-        self.assertIsNotNone(first, "the corner has no code")
-        eventually(lambda: self.bench.probe() not in (None, first), SHOWN_S, "its code stands")
+        first = screen.safe_probe(self.bench.screendump())
+        self.assertIsNotNone(first, "the corner has not the safe picture's code")
+        eventually(lambda: screen.safe_probe(self.bench.screendump()) not in (None, first), SHOWN_S, "its code stands")
 
     def alive(self):
         """How many pictures it says that it has shown."""

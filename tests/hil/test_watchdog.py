@@ -12,6 +12,8 @@ from hil_test import START_S, HilTest, long
 WATCHDOG = "frustumscreen-watchdog.service"
 STATUS = "/run/frustumscreen-watchdog/status.json"
 LAST_GOOD = "/var/cache/frustumscreen/settings_last_good.toml"
+CRASHES = "/var/cache/frustumscreen/crashes"
+REASON = "/run/frustumscreen-watchdog/reason"
 GROUP = "/sys/fs/cgroup/system.slice/frustumscreen.service"
 PACKS = "/var/lib/frustumscreen/packs"
 SPOILT = "[projector]\nwidth = \n"
@@ -106,7 +108,7 @@ class Watchdog(HilTest):
         machine.write(SETTINGS, SPOILT)
         self.broken()
         machine.check(f"kill -KILL {self.process}")
-        self.took("built_in", "keeps_ending", 2 * BACK_S)
+        self.took("built_in", "keeps_ending", 3 * BACK_S)
         self.bench.status_says("mode", "^built_in$", START_S)
         status = self.bench.status_says("artifact", "^Amphora$", START_S)
         self.assertIn(f"the last good settings, {LAST_GOOD}, are used in their place: {SETTINGS}:2", status["settings"])
@@ -125,6 +127,28 @@ class Watchdog(HilTest):
         self.assert_at((0.05, 0.0, 0.0))
         self.assert_lives()
         self.assertEqual(self.bench.main_process(), self.process, "the exhibit was started again")
+
+    def test_driver_that_crashes_at_each_start(self):
+        """Drawn plainly the museum's own set is on the table, and where it crashed is told and kept."""
+        machine = self.bench.machine
+        # The mode goes with the watchdog's folder.
+        self.addCleanup(machine.run, f"{END}; rm -f /run/hil/crash-driver; rm -rf {CRASHES}; systemctl restart --no-block {UNIT}")
+        machine.check("touch /run/hil/crash-driver")
+        self.broken()
+        machine.check(f"kill -KILL {self.process}")
+        self.took("draw_plainly", "keeps_ending", 2 * BACK_S)
+        self.assertIn("the exhibit's program ends again and again: SIGSEGV in hang.so+0x", machine.read(REASON))
+        self.assertIn("thread llvmpipe-", machine.read(REASON))
+        self.bench.status_says("mode", "^plain$", START_S)
+        self.bench.status_says("tracker", "is running", START_S)
+        self.assert_at((0.0, 0.0, 0.0))
+        self.assert_lives()
+        crashes = json.loads(machine.run("frustumscreen status --json").output)["crashes"]
+        self.assertLessEqual(len(crashes), 3)
+        self.assertEqual(crashes[0]["signal"], "SIGSEGV")
+        self.assertRegex(crashes[0]["frames"][0], r"^hang\.so\+0x[0-9a-f]+$")
+        self.assertIn("swrast_dri.so", " ".join(crashes[0]["frames"]))
+        self.assertTrue(all(crash["whole"] for crash in crashes))
 
     def test_clock_leaps(self):
         machine = self.bench.machine

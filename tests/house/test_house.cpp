@@ -1,4 +1,6 @@
 // What holds for every file of the house.
+#include "tests/folders.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -17,7 +19,7 @@ constexpr int most_lines = 600;
 
 /// The house's own files with one of these endings, relative to the root.
 std::vector<fs::path> files_ending(const std::vector<std::string>& endings) {
-    const fs::path root = FRUSTUMSCREEN_SOURCE_DIR;
+    const fs::path root = frustumscreen::source_dir();
     std::vector<fs::path> files;
     for (const char* folder : {"app", "firmware_host", "assets_baked", "tests", "cmake", "config"}) {
         if (!fs::exists(root / folder)) {
@@ -37,7 +39,7 @@ std::vector<fs::path> files_ending(const std::vector<std::string>& endings) {
 
 /// Every page, relative to the root; not those of builds.
 std::vector<fs::path> pages() {
-    const fs::path root = FRUSTUMSCREEN_SOURCE_DIR;
+    const fs::path root = frustumscreen::source_dir();
     std::vector<fs::path> pages;
     for (auto entry = fs::recursive_directory_iterator(root); entry != fs::end(entry); ++entry) {
         const fs::path path = fs::relative(entry->path(), root);
@@ -51,7 +53,7 @@ std::vector<fs::path> pages() {
 }
 
 std::vector<std::string> lines_of(const fs::path& file) {
-    std::ifstream stream(fs::path(FRUSTUMSCREEN_SOURCE_DIR) / file);
+    std::ifstream stream(fs::path(frustumscreen::source_dir()) / file);
     std::vector<std::string> lines;
     for (std::string line; std::getline(stream, line);) {
         lines.push_back(line);
@@ -122,7 +124,7 @@ TEST(House, EveryFileIsFormatted) {
         GTEST_SKIP() << "clang-format is not installed";
     }
     std::string command =
-        "cd '" FRUSTUMSCREEN_SOURCE_DIR "' && clang-format --dry-run -Werror --ferror-limit=1";
+        "cd '" + frustumscreen::source_dir() + "' && clang-format --dry-run -Werror --ferror-limit=1";
     for (const fs::path& file : files_ending({".h", ".cpp"})) {
         command += " '" + file.string() + "'";
     }
@@ -140,7 +142,7 @@ TEST(House, WhatWasSkippedIsListedWithItsReason) {
            "[ RUN      ] B.Silent\n/x/b_test.cpp:3: Skipped\n\n\n[  SKIPPED ] B.Silent (0 ms)\n"
            "[  PASSED  ] 1 test.\n[  SKIPPED ] 2 tests, listed below:\n[  SKIPPED ] A.Traces\n"
            "[  SKIPPED ] B.Silent\n";
-    const std::string script = "'" FRUSTUMSCREEN_SOURCE_DIR "/tests/house/list_skipped.sh' '";
+    const std::string script = "'" + frustumscreen::source_dir() + "/tests/house/list_skipped.sh' '";
     ASSERT_EQ(std::system((script + log + "' >'" + listed + "'").c_str()), 0);
     std::ifstream file(listed);
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}),
@@ -153,7 +155,7 @@ TEST(House, EveryLinkLeadsToAFile) {
     for (const fs::path& page : pages()) {
         for (const fs::path& target : linked_from(page)) {
             ++links;
-            EXPECT_TRUE(fs::exists(fs::path(FRUSTUMSCREEN_SOURCE_DIR) / target)) << page << ": " << target;
+            EXPECT_TRUE(fs::exists(fs::path(frustumscreen::source_dir()) / target)) << page << ": " << target;
         }
     }
     EXPECT_GT(links, 0U);

@@ -1,12 +1,15 @@
 """The image in an emulated PC with UEFI: QEMU and OVMF, the disk that ./image_build/build --test made, and a tracker's mock.
 
 Frame    one machine for each start; the disk is a file of its own, over the image that was built, and stays between starts.
+Settings those of a museum with a small projector, on the disk's data partition. The image as shipped, with its own settings and without an
+         agent, is Shipped (shipped.py).
 Time     as in tests/hil/machine.py.
 Threads  one caller.
 Errors   MachineError.
 """
 
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -18,7 +21,7 @@ sys.path.insert(0, str(HIL))
 import image as parts  # noqa: E402
 import screen  # noqa: E402
 from bench import Mock, eventually  # noqa: E402
-from machine import Machine  # noqa: E402
+from machine import PROCESSOR, Machine  # noqa: E402
 
 FIRMWARE = pathlib.Path("/usr/share/OVMF")
 WIDTH, HEIGHT = 640, 400
@@ -39,13 +42,21 @@ class Appliance(Machine):
         # A copy that takes no space where the file has holes; a test may write into it.
         subprocess.run(["cp", "--sparse=always", "--reflink=auto", image, self.disk], check=True)
         subprocess.run(["truncate", "-s", "2G", self.disk], check=True)
+        self.give_settings()
         shutil.copy(FIRMWARE / ("OVMF_VARS_4M.snakeoil.fd" if secure else "OVMF_VARS_4M.fd"), folder / "variables.fd")
+
+    def give_settings(self):
+        """A small picture, because the emulated processor is slow; the artifact is the image's own."""
+        settings = self.logs / "kiosk.toml"
+        settings.write_text(re.sub(r"(?m)^packs = .*", 'packs = ["/usr/share/frustumscreen/built_in.fspack"]',
+                                   parts.SETTINGS.read_text(encoding="utf-8")), encoding="utf-8")
+        parts.write_data(self.disk, {"settings/kiosk.toml": settings})
 
     def _command(self):
         code = "OVMF_CODE_4M.secboot.fd" if self._secure else "OVMF_CODE_4M.fd"
         command = [
             "qemu-system-x86_64", "-name", "frustumscreen-image", "-machine", f"q35,smm={'on' if self._secure else 'off'}",
-            "-accel", "tcg,thread=multi,tb-size=512", "-cpu", "max", "-smp", str(self.processors),
+            "-accel", "tcg,thread=multi,tb-size=512", "-cpu", PROCESSOR, "-smp", str(self.processors),
             "-m", f"{self.memory_mib}M", "-display", "none", "-no-user-config", "-nodefaults",
             "-global", f"driver=cfi.pflash01,property=secure,value={'on' if self._secure else 'off'}",
             "-drive", f"if=pflash,format=raw,unit=0,readonly=on,file={FIRMWARE / code}",
@@ -101,6 +112,7 @@ class Appliance(Machine):
         self.monitor("block_set_io_throttle", device="disk", **{**limits, "bps": int(hangs)})
 
     def lit_picture(self):
+        """What the screen shows, if the exhibit drew it (screen.probe) and it lights something; else None."""
         path = self.sockets / "screen.ppm"
         self.screendump(path)
         picture = screen.read_ppm(path)

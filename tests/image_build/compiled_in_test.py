@@ -51,6 +51,12 @@ def sources_of(packages):
     return {line.split()[1]: line.split()[2] for line in asked.splitlines() if line.startswith("installed ")}
 
 
+def shared_libraries():
+    """What the programs load at their start, which the image therefore has; patterns, since a library may lie in /lib or /usr/lib."""
+    listed = lines_of("ldd", *(f"bin/{program}" for program in PROGRAMS))
+    return {f"*/{line.split()[0]}" for line in listed if "=> /" in line}
+
+
 def main():
     inputs = set()
     for program in PROGRAMS:
@@ -65,8 +71,7 @@ def main():
     if len(headers) < 100:
         sys.exit(f"only {len(headers)} headers of Debian's were read for {', '.join(PROGRAMS)}: ninja does not know them all")
     read = packages_of(headers | archives) - INTERFACE
-    recorded = [line.split()[0] for line in (SOURCE / "image_build/packages.list").read_text().splitlines() if not line.startswith("#")]
-    with_library = set(sources_of(recorded).values())
+    with_library = set(sources_of(packages_of(shared_libraries())).values())
     sources = sources_of(read)
     alone = {package for package in read if sources[package] not in with_library}
     listed = {line.split()[0] for line in (SOURCE / "image_build/contents/compiled_in.list").read_text().splitlines()

@@ -17,6 +17,6 @@ made_of=$(find image_build tests/hil/guest/etc/frustumscreen build/image/package
 image=out/image/test
 if [[ $(cat $image/made_of 2>/dev/null) != "$made_of" ]]; then
     rm -rf $image
-    image_build/build --test --quick --newer --packages build/image/packages --update-ca $keys/update.crt
+    image_build/build --test --quick --packages build/image/packages --update-ca $keys/update.crt
     echo "$made_of" >$image/made_of
 fi

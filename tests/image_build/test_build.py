@@ -16,9 +16,10 @@ TEST_KEY = pathlib.Path("/usr/share/ovmf/PkKek-1-snakeoil.key")  # whose passwor
 
 
 def build(*options):
-    """As make_image.sh."""
-    return subprocess.run([BUILD, "--quick", "--newer", "--test", "--packages", os.environ["FRUSTUMSCREEN_IMAGE_PACKAGES"],
-                           "--update-ca", UPDATE_CA, *options], capture_output=True, text=True, check=False)
+    """As make_image.sh, with the same versions of Debian's packages."""
+    return subprocess.run([BUILD, "--quick", "--locked", IMAGE.with_name("packages.txt"), "--packages",
+                           os.environ["FRUSTUMSCREEN_IMAGE_PACKAGES"], "--update-ca", UPDATE_CA, *options],
+                          capture_output=True, text=True, check=False)
 
 
 def keys_in(folder):
@@ -38,12 +39,24 @@ class Build(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def test_two_builds_are_the_same(self):
+        """What the tests start is what a build without --test ships, to the byte."""
         done = build("--out", self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
-        again = self.folder / "test" / IMAGE.name
-        self.assertTrue(filecmp.cmp(IMAGE, again, shallow=False), f"{IMAGE} and a second build of it differ")
-        for name in ("sbom.json", "licences.tar", "why.txt"):
-            self.assertTrue(filecmp.cmp(IMAGE.with_name(name), again.with_name(name), shallow=False), name)
+        as_shipped = IMAGE.parent / "as_shipped" / IMAGE.name
+        self.assertTrue(filecmp.cmp(as_shipped, self.folder / IMAGE.name, shallow=False), f"{as_shipped} and a second build of it differ")
+        self.assertTrue(filecmp.cmp(IMAGE.with_name("packages.txt"), self.folder / "packages.txt", shallow=False))
+
+    def test_versions_that_debian_does_not_have(self):
+        """Named, each with what Debian has; the order of the list does not matter."""
+        lines = IMAGE.with_name("packages.txt").read_text(encoding="utf-8").splitlines()
+        listed = [" ".join(line.split()[:2]) for line in reversed(lines) if not line.startswith("zlib1g ")] + ["zlib1g 0.0"]
+        (self.folder / "list").write_text("\n".join(listed) + "\n", encoding="utf-8")
+        done = subprocess.run([CHECKOUT / "image_build/debian.sh", "--locked", self.folder / "list", self.folder / "debian"],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 1)
+        (here,) = [line.split()[1] for line in lines if line.startswith("zlib1g ")]
+        self.assertEqual(done.stderr.splitlines()[:2], ["locked has: zlib1g 0.0", f"Debian has:  zlib1g {here}"], done.stderr)
+        self.assertIn("--mirror", done.stderr)
 
     @long
     def test_two_signed_builds_are_the_same(self):
@@ -52,8 +65,10 @@ class Build(unittest.TestCase):
         for name in ("a", "b"):
             done = build("--keys", keys, "--out", self.folder / name)
             self.assertEqual(done.returncode, 0, done.stderr)
-            disks.append(self.folder / name / "test" / IMAGE.name)
+            disks.append(self.folder / name / IMAGE.name)
         self.assertTrue(filecmp.cmp(*disks, shallow=False))
+        for name in ("sbom.json", "licences.tar", "why.txt"):
+            self.assertTrue(filecmp.cmp(*(disk.with_name(name) for disk in disks), shallow=False), name)
         kernel = next(disks[0].parent.glob("*.efi"))
         subprocess.run(["sbverify", "--cert", keys / "db.crt", kernel], check=True, capture_output=True)
 

@@ -57,6 +57,21 @@ class Start(ImageTest):
         self.pc.wait_until_lit()
 
     @long
+    def test_nothing_of_the_system_lies_on_the_table(self):
+        """From the order to restart until the reset, each picture is the exhibit's, or dark."""
+        self.start()
+        self.pc.may_start_anew()
+        self.pc.spawn("systemctl reboot --force")
+        path, looks = self.sockets / "screen.ppm", 0
+        while not self.pc.resets_within(0.0):
+            self.pc.screendump(path)
+            picture, looks = screen.read_ppm(path), looks + 1
+            if screen.probe(picture) is None and screen.count(screen.lit(picture)) > 0:
+                screen.write_png(self.pc.logs / "words.png", picture)
+                self.fail(f"something that the exhibit did not draw lies on the table: {self.pc.logs}/words.png")
+        self.assertGreater(looks, 5)
+
+    @long
     def test_two_kiosks_are_not_the_same(self):
         """What a kiosk has of its own it makes at its first start; the image brings no key that two of them would share."""
         own = ("cat /etc/machine-id", "cat /proc/sys/kernel/hostname", "sha256sum /var/lib/systemd/random-seed")

@@ -1,4 +1,6 @@
 // Holds every #include of the house against the table of rooms in cmake/rooms.cmake's terms.
+#include "tests/folders.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,7 +60,7 @@ void close(std::map<std::string, Rooms>& uses) {
 
 Table read_table() {
     Table table;
-    std::ifstream file(FRUSTUMSCREEN_LAYERS_FILE);
+    std::ifstream file(frustumscreen::build_dir() + "/tests/layers/layers.txt");
     for (std::string line; std::getline(file, line);) {
         std::istringstream words(line);
         std::string kind;
@@ -79,7 +81,7 @@ Table read_table() {
 }
 
 std::vector<Include> includes_below(const std::string& folder) {
-    const fs::path root = FRUSTUMSCREEN_SOURCE_DIR;
+    const fs::path root = frustumscreen::source_dir();
     std::vector<Include> includes;
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
         const std::string extension = entry.path().extension();
@@ -190,7 +192,7 @@ TEST(Layers, EveryIncludeIsAllowedByTheTable) {
 TEST(Layers, QuotedIncludesAreNamedFromTheRoot) {
     for (const Include& include : includes_of_the_house()) {
         if (include.quoted) {
-            EXPECT_TRUE(fs::exists(fs::path(FRUSTUMSCREEN_SOURCE_DIR) / include.header))
+            EXPECT_TRUE(fs::exists(fs::path(frustumscreen::source_dir()) / include.header))
                 << include.file << ":" << include.line << ": " << include.header;
         }
     }
@@ -218,7 +220,7 @@ TEST(Layers, NothingOfTheKioskUsesTheBake) {
 }
 
 TEST(Layers, TheKiosksProgramLinksNothingOfTheBake) {
-    std::ifstream file(std::string(FRUSTUMSCREEN_BIN_DIR) + "/frustumscreen", std::ios::binary);
+    std::ifstream file(frustumscreen::bin_dir() + "/frustumscreen", std::ios::binary);
     if (!file) {
         GTEST_SKIP() << "the program frustumscreen is not built";
     }
@@ -236,7 +238,7 @@ TEST(Layers, TheKiosksProgramLinksNothingOfTheBake) {
 TEST(Layers, NoProgramOfTheKioskHoldsSecretKeys) {
     int looked_at = 0;
     for (const std::string program : {"frustumscreen", "frustumscreen-import", "frustumscreen-pack"}) {
-        std::ifstream file(std::string(FRUSTUMSCREEN_BIN_DIR) + "/" + program, std::ios::binary);
+        std::ifstream file(frustumscreen::bin_dir() + "/" + program, std::ios::binary);
         std::ostringstream copy;
         copy << file.rdbuf();
         const bool holds = copy.str().find("crypto_pwhash_scryptsalsa208sha256") != std::string::npos;

@@ -1,6 +1,7 @@
 // frustumscreen-import on real folders: what it says, what it leaves, and that it may be killed.
 #include "app/pack/signature.h"
 #include "firmware_host/base/json.h"
+#include "tests/folders.h"
 #include "tests/library/museum.h"
 #include "tests/programs/program_folder.h"
 
@@ -223,13 +224,13 @@ TEST_F(ImportProgram, WaitsForAnotherImportAndTwoSticksAreBothTaken) {
     EXPECT_EQ(std::system(
                   fmt::format("cd '{}' && timeout 0.5 '{}'/frustumscreen-import --from stick --into library "
                               "--keys keys >out.txt 2>err.txt",
-                              folder.string(), FRUSTUMSCREEN_BIN_DIR)
+                              folder.string(), bin_dir())
                       .c_str()) >>
                   8,
               124);
     EXPECT_EQ(text("out.txt"), "");
     ::close(lock);
-    const std::string program = FRUSTUMSCREEN_BIN_DIR "/frustumscreen-import";
+    const std::string program = bin_dir() + "/frustumscreen-import";
     EXPECT_EQ(
         std::system(fmt::format("cd '{0}' && '{1}' --from stick --into library --keys keys >/dev/null & "
                                 "cd '{0}' && '{1}' --from second --into library --keys keys >/dev/null; "
@@ -262,7 +263,7 @@ TEST_F(ImportProgram, NeedsLittleMemoryForALargePart) {
     EXPECT_EQ(
         std::system(fmt::format("cd '{}' && ulimit -d 49152 && '{}'/frustumscreen-import --from stick --into "
                                 "library --keys keys >out.txt 2>err.txt",
-                                folder.string(), FRUSTUMSCREEN_BIN_DIR)
+                                folder.string(), bin_dir())
                         .c_str()),
         0)
         << text("err.txt");
@@ -284,6 +285,7 @@ TEST_F(ImportProgram, MayBeKilledAtAnyMoment) {
     const std::vector<std::string> old_titles{"a 1"};
     const std::vector<std::string> new_titles{"a 2", "b 2", "c 2"};
     ASSERT_EQ(titles(), new_titles);
+    const std::string program = bin_dir() + "/frustumscreen-import";
     std::mt19937 random(7);
     for (int k = 0; k < kills; ++k) {
         std::filesystem::remove_all(folder / "library");
@@ -291,8 +293,8 @@ TEST_F(ImportProgram, MayBeKilledAtAnyMoment) {
         const pid_t process = ::fork();
         if (process == 0) {
             if (::chdir(folder.c_str()) == 0 && ::freopen("out.txt", "w", stdout) != nullptr) {
-                ::execl(FRUSTUMSCREEN_BIN_DIR "/frustumscreen-import", "frustumscreen-import", "--from",
-                        "stick", "--into", "library", "--keys", "keys", nullptr);
+                ::execl(program.c_str(), "frustumscreen-import", "--from", "stick", "--into", "library",
+                        "--keys", "keys", nullptr);
             }
             ::_exit(127);
         }

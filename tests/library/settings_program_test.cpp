@@ -1,4 +1,5 @@
 // frustumscreen-import --settings on real folders: which settings of a stick it takes, and that the kiosk's own survive the others.
+#include "tests/folders.h"
 #include "tests/library/museum.h"
 #include "tests/programs/program_folder.h"
 
@@ -161,7 +162,7 @@ TEST_F(SettingsProgram, NothingIsLostWhereTheyCannotBeWritten) {
     static_cast<void>(std::system(
         fmt::format("cd '{}' && unshare --mount --map-root-user sh -c 'mount --bind settings settings && "
                     "mount -o remount,bind,ro settings && {}/{}' >out.txt 2>err.txt",
-                    folder.string(), FRUSTUMSCREEN_BIN_DIR, command())
+                    folder.string(), bin_dir(), command())
             .c_str()));
     const Result<ImportReport> report = parse_import_report(text("report/report.json"));
     ASSERT_TRUE(report && report->packs.size() == 1) << text("err.txt");

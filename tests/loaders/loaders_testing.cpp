@@ -1,6 +1,7 @@
 #include "tests/loaders/loaders_testing.h"
 
 #include "assets_baked/bake/loaders/load_bytes.h"
+#include "tests/folders.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -129,7 +130,7 @@ void expect_sound(const SourceMesh& mesh) {
 }
 
 std::filesystem::path shared_data() {
-    return std::filesystem::path(FRUSTUMSCREEN_SHARED_DIR) / "data";
+    return std::filesystem::path(shared_dir()) / "data";
 }
 
 bool has_shared_data() {

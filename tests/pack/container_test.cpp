@@ -1,5 +1,6 @@
 // The container is an ordinary ZIP, and FORMAT.md's dump is a real one.
 #include "app/pack/binary_parts.h"
+#include "tests/folders.h"
 #include "tests/pack/samples.h"
 
 #include <cstdlib>
@@ -13,7 +14,7 @@ namespace {
 /// The bytes of the dump between the fence lines that follow `heading` in FORMAT.md: an offset, then
 /// hexadecimal pairs.
 Bytes dump_in_format_page(const std::string& heading) {
-    std::ifstream page(std::string(FRUSTUMSCREEN_SOURCE_DIR) + "/app/pack/FORMAT.md");
+    std::ifstream page(source_dir() + "/app/pack/FORMAT.md");
     std::string line;
     while (std::getline(page, line) && line.find(heading) == std::string::npos) {
     }

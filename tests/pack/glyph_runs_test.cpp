@@ -1,6 +1,7 @@
 // Glyph runs: the bytes of FORMAT.md, and what a reader refuses.
 #include "app/pack/glyph_runs.h"
 #include "firmware_host/base/byte_reader.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ GlyphRuns one_text() {
 
 /// The bytes of FORMAT.md's example, which a person typed.
 Bytes example_bytes() {
-    std::ifstream page(FRUSTUMSCREEN_SOURCE_DIR "/app/pack/FORMAT.md");
+    std::ifstream page(source_dir() + "/app/pack/FORMAT.md");
     std::stringstream text;
     text << page.rdbuf();
     std::string part = text.str();

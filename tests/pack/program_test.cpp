@@ -1,4 +1,5 @@
 // frustumscreen-pack from outside: what it prints and how it ends.
+#include "tests/folders.h"
 #include "tests/pack/samples.h"
 
 #include <sys/wait.h>
@@ -26,8 +27,8 @@ struct Outcome {
 };
 
 Outcome pack_program(const std::string& arguments) {
-    const std::string command = std::string(FRUSTUMSCREEN_BIN_DIR) + "/frustumscreen-pack " + arguments +
-                                " > program_out.txt 2> program_error.txt";
+    const std::string command =
+        bin_dir() + "/frustumscreen-pack " + arguments + " > program_out.txt 2> program_error.txt";
     const int ended = std::system(command.c_str());
     return {WIFEXITED(ended) ? WEXITSTATUS(ended) : -1, text_of("program_out.txt"),
             text_of("program_error.txt")};

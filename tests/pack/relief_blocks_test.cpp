@@ -1,6 +1,7 @@
 // The section relief_blocks: what was written is read, and what a reader refuses.
 #include "app/pack/block_part.h"
 #include "app/pack/pack_relief.h"
+#include "tests/folders.h"
 #include "tests/pack/samples.h"
 
 #include <gtest/gtest.h>
@@ -87,7 +88,7 @@ TEST(ReliefBlocks, the_bytes_lie_where_the_format_page_says) {
     EXPECT_EQ(read_at<std::uint8_t>(bytes, reds + 1), 255U) << "one less than on the left";
     EXPECT_EQ(read_at<std::uint64_t>(bytes, covers + 8), relief.covers[1]);
     // The same by a program that knows the format page alone.
-    EXPECT_EQ(bytes, read_file(FRUSTUMSCREEN_SOURCE_DIR "/tests/fuzz/corpus/relief_blocks/hill").value());
+    EXPECT_EQ(bytes, read_file(source_dir() + "/tests/fuzz/corpus/relief_blocks/hill").value());
 }
 
 TEST(ReliefBlocks, a_part_written_and_read_is_equal) {

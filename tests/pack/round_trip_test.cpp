@@ -1,5 +1,6 @@
 #include "app/pack/pack_contents.h"
 #include "app/pack/relief_texel.h"
+#include "tests/folders.h"
 #include "tests/pack/samples.h"
 
 #include <filesystem>
@@ -135,7 +136,7 @@ TEST(RoundTrip, a_texture_is_stored_as_webp_where_that_is_smaller) {
 
 /// The file is the same pack, written by the last program that wrote version 1.
 TEST(RoundTrip, a_pack_of_version_1_is_read) {
-    const Result<Bytes> file = read_file(FRUSTUMSCREEN_PACK_FIXTURES "/version1.fspack");
+    const Result<Bytes> file = read_file(source_dir() + "/tests/pack/fixtures/version1.fspack");
     ASSERT_TRUE(file) << file.error().message;
     EXPECT_EQ(samples::take_apart(*file).manifest["version"], 1);
     const Result<VerifiedPack> back = verify_pack(*file);

@@ -1,5 +1,6 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/panel/cp2112.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +18,7 @@ struct Known {
 
 /// From the file that the mock is tested with, too.
 std::vector<Known> known_configurations() {
-    const auto file =
-        read_file(std::string(FRUSTUMSCREEN_SOURCE_DIR "/tests/hil/mock_tests/cp2112_reports.txt"));
+    const auto file = read_file(source_dir() + "/tests/hil/mock_tests/cp2112_reports.txt");
     std::istringstream lines(file ? std::string(as_text(*file)) : std::string());
     std::vector<Known> found;
     for (std::string line; std::getline(lines, line);) {

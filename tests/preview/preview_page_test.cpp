@@ -1,6 +1,7 @@
 // The page beside a pack: Python's own parser, hashes and base64 look at it, with texts that need every escape.
 #include "app/programs/preview/html_parts.h"
 #include "app/programs/preview/preview_page.h"
+#include "tests/folders.h"
 #include "tests/programs/program_folder.h"
 
 #include <webp/decode.h>
@@ -50,8 +51,8 @@ protected:
     }
     [[nodiscard]] int check(const std::string& page, const std::string& options) const {
         EXPECT_TRUE(write_file(folder / "page.html", as_bytes(page)));
-        return std::system(fmt::format("'{}/tests/preview/check_page.py' '{}/page.html' {}",
-                                       FRUSTUMSCREEN_SOURCE_DIR, folder.string(), options)
+        return std::system(fmt::format("'{}/tests/preview/check_page.py' '{}/page.html' {}", source_dir(),
+                                       folder.string(), options)
                                .c_str());
     }
 

@@ -1,4 +1,5 @@
 // `frustumscreen-bake --batch`: a run that was killed goes on and ends with the packs of one that was not; so do shards.
+#include "tests/folders.h"
 #include "tests/programs/curator_folder.h"
 
 namespace frustumscreen {
@@ -99,13 +100,13 @@ TEST_F(BakeBatch, SlurmBakesTheSharesAsAJobArray) {
                     "'{}/assets_baked/batch/slurm_array.sh' objects packs --size 16 --speech 'sh voice.sh'\n"
                     "sbatch --wait --array=2-3 --cpus-per-task=1 --mem=600M --output=refused.%a.log "
                     "'{}/assets_baked/batch/slurm_array.sh' objects packs\n",
-                    FRUSTUMSCREEN_BIN_DIR, FRUSTUMSCREEN_SOURCE_DIR, FRUSTUMSCREEN_SOURCE_DIR));
+                    bin_dir(), source_dir(), source_dir()));
     fs::create_directory(folder / "cluster");
     (void)std::system(
         fmt::format(
             "cd '{}' && PATH=$PATH:/usr/sbin timeout -s KILL 120 '{}/tests/programs/slurm_cluster.sh' "
             "cluster sh submit.sh >slurm.txt 2>&1",
-            folder.string(), FRUSTUMSCREEN_SOURCE_DIR)
+            folder.string(), source_dir())
             .c_str());
     EXPECT_EQ(count("task.1.log", "2 objects: 2 baked"), 1U) << text("slurm.txt") << text("task.1.log");
     EXPECT_EQ(count("task.2.log", "2 objects: 1 baked, 1 failed"), 1U)

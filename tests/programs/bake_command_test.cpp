@@ -4,6 +4,7 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_texts.h"
 #include "firmware_host/base/json.h"
+#include "tests/folders.h"
 #include "tests/programs/program_folder.h"
 #include "tests/texts/wav_bytes.h"
 
@@ -370,7 +371,7 @@ TEST_F(BakeCommand, ThePictureForTheTableIsCutOut) {
 /// A file system of one megabyte, where the test may make one.
 TEST_F(BakeCommand, LooksForRoomBeforeTheWork) {
     fs::create_directory(folder / "small");
-    const std::string program = fmt::format("'{}'/frustumscreen-bake", FRUSTUMSCREEN_BIN_DIR);
+    const std::string program = fmt::format("'{}'/frustumscreen-bake", bin_dir());
     const int status = std::system(
         fmt::format(
             "cd '{}' && ASAN_OPTIONS=detect_leaks=0 unshare --map-root-user --mount sh -c 'mount -t tmpfs -o "

@@ -1,4 +1,5 @@
 // `frustumscreen-bake --preview` and `--watch`: the page that a curator opens, in a browser without a network too.
+#include "tests/folders.h"
 #include "tests/programs/curator_folder.h"
 
 #include <algorithm>
@@ -39,8 +40,8 @@ protected:
         put_recording("jug/jug.wav");
     }
     [[nodiscard]] int check(const std::string& options) const {
-        return std::system(fmt::format("'{}/tests/preview/check_page.py' '{}/jug.html' {}",
-                                       FRUSTUMSCREEN_SOURCE_DIR, folder.string(), options)
+        return std::system(fmt::format("'{}/tests/preview/check_page.py' '{}/jug.html' {}", source_dir(),
+                                       folder.string(), options)
                                .c_str());
     }
 };
@@ -84,7 +85,7 @@ TEST_F(BakePreview, WithoutOpenGlOneSentenceSaysSo) {
         std::system(
             fmt::format("cd '{}' && __EGL_VENDOR_LIBRARY_FILENAMES=/nowhere.json '{}'/frustumscreen-bake jug "
                         "-o jug.fspack --preview jug.html --speech none 2>err.txt",
-                        folder.string(), FRUSTUMSCREEN_BIN_DIR)
+                        folder.string(), bin_dir())
                 .c_str()),
         256)
         << text("err.txt");

@@ -1,6 +1,7 @@
 // What the bench's program ends with, seen from outside.
 
 #include "firmware_host/base/json.h"
+#include "tests/folders.h"
 #include "tests/programs/program_folder.h"
 
 #include <map>
@@ -20,10 +21,8 @@ protected:
             << text("err.txt");
     }
     [[nodiscard]] int count(const std::string& more) const {
-        return run(
-            "frustumscreen-bench counts --pack star.fspack --poses 2 --config '" FRUSTUMSCREEN_SOURCE_DIR
-            "/config/near.toml' --out out " +
-            more);
+        return run("frustumscreen-bench counts --pack star.fspack --poses 2 --config '" + source_dir() +
+                   "/config/near.toml' --out out " + more);
     }
     /// Writes the counts in `out`, changed by `change`, as reference.json.
     template <class Change> void write_reference(Change change) const {
@@ -80,7 +79,8 @@ class BenchScaling : public ProgramFolder {};
 TEST_F(BenchScaling, OneSurfaceInFourTimesTheTrianglesHasAReliefOfAsManyBlocks) {
     ASSERT_EQ(run("frustumscreen-bench scaling --same-surface --triangles 4000 16000 --size 48 --poses 1 "
                   "--no-peers "
-                  "--config '" FRUSTUMSCREEN_SOURCE_DIR "/config/near.toml' --out out"),
+                  "--config '" +
+                  source_dir() + "/config/near.toml' --out out"),
               0)
         << text("err.txt");
     const std::map<std::string, std::vector<double>> drawn = drawn_by(text("out/scaling_near.csv"));

@@ -2,6 +2,7 @@
 
 #include "app/pack/pack_file.h"
 #include "firmware_host/base/json.h"
+#include "tests/folders.h"
 #include "tests/programs/program_folder.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ protected:
         ASSERT_EQ(run("frustumscreen-bake star.obj -o star.fspack --prop cube --up z --unlit --size 64"), 0)
             << text("err.txt");
     }
-    [[nodiscard]] static std::string settings() { return FRUSTUMSCREEN_SOURCE_DIR "/config/cube.toml"; }
+    [[nodiscard]] static std::string settings() { return source_dir() + "/config/cube.toml"; }
 };
 
 TEST_F(CubeProgram, ItsPackIsSoundAndMeasuredOnACube) {

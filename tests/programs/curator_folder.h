@@ -1,6 +1,7 @@
 // Folders of artifacts for tests of the curators' commands: a tetrahedron with a spoken text.
 #pragma once
 
+#include "tests/folders.h"
 #include "tests/programs/program_folder.h"
 #include "tests/texts/wav_bytes.h"
 
@@ -43,7 +44,7 @@ protected:
     [[nodiscard]] pid_t start(const std::string& command) const {
         const int status =
             std::system(fmt::format("cd '{}' && {{ '{}'/{} >log.txt 2>&1 & echo $! >pid.txt; }}",
-                                    folder.string(), FRUSTUMSCREEN_BIN_DIR, command)
+                                    folder.string(), bin_dir(), command)
                             .c_str());
         return status == 0 ? static_cast<pid_t>(std::stol(text("pid.txt"))) : 0;
     }

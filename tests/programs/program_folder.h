@@ -3,6 +3,7 @@
 
 #include "firmware_host/base/file.h"
 #include "tests/base/temporary_folder.h"
+#include "tests/folders.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -21,7 +22,7 @@ protected:
     [[nodiscard]] int run(const std::string& command) const {
         const int status =
             std::system(fmt::format("cd '{}' && ASAN_OPTIONS=detect_leaks=0 '{}'/{} >out.txt 2>err.txt",
-                                    folder.string(), FRUSTUMSCREEN_BIN_DIR, command)
+                                    folder.string(), bin_dir(), command)
                             .c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }

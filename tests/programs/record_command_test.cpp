@@ -3,6 +3,7 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/tracker/packet_replay.h"
 #include "firmware_host/tracker/pose_file.h"
+#include "tests/folders.h"
 #include "tests/programs/hung_thread.h"
 #include "tests/programs/program_folder.h"
 #include "tests/tracker/wire_bytes.h"
@@ -54,6 +55,7 @@ protected:
     }
     /// Records until it is told to stop, while the tracker's thread hangs; nothing: that cannot be done here.
     [[nodiscard]] std::optional<int> stopped_while_the_device_hangs(std::vector<const char*> more) const {
+        const std::string program = bin_dir() + "/frustumscreen";
         const pid_t process = ::fork();
         if (process == 0) {
             fs::current_path(folder);
@@ -63,7 +65,7 @@ protected:
             std::vector<const char*> all{"frustumscreen", "record", "--config", "kiosk.toml"};
             all.insert(all.end(), more.begin(), more.end());
             all.push_back(nullptr);
-            ::execv(FRUSTUMSCREEN_BIN_DIR "/frustumscreen", const_cast<char**>(all.data()));
+            ::execv(program.c_str(), const_cast<char**>(all.data()));
             ::_exit(127);
         }
         const std::optional<pid_t> tracker = thread_named(process, "tracker");

@@ -2,6 +2,7 @@
 
 #include "app/render/probe.h"
 #include "firmware_host/base/json.h"
+#include "tests/folders.h"
 #include "tests/programs/kiosk_folder.h"
 
 #include <fmt/format.h>
@@ -18,7 +19,7 @@ protected:
     int exit_status(const std::string& more) const {
         const std::string command = fmt::format("cd '{}' && '{}/frustumscreen' run --config kiosk.toml "
                                                 "--headless --fast --json {} >out.json 2>err.txt",
-                                                folder.string(), FRUSTUMSCREEN_BIN_DIR, more);
+                                                folder.string(), bin_dir(), more);
         const int status = std::system(command.c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
@@ -32,7 +33,7 @@ TEST_F(RunCommand, PlanSaysWhatIsInWhatIsOutAndWhatThatSaves) {
     const auto say = [&](const std::string& more) {
         return std::system(fmt::format("cd '{}' && '{}/frustumscreen' plan --config kiosk.toml --pack "
                                        "rings.fspack {} >plan.txt 2>err.txt",
-                                       folder.string(), FRUSTUMSCREEN_BIN_DIR, more)
+                                       folder.string(), bin_dir(), more)
                                .c_str());
     };
     ASSERT_EQ(say("--json"), 0) << as_text(*read_file(folder / "err.txt"));
@@ -125,7 +126,7 @@ TEST_F(RunCommand, SaysWhyNoPackCanBeShown) {
         const std::string command =
             fmt::format("cd '{}' && '{}/frustumscreen' run --config kiosk.toml --headless --seconds 1 "
                         "--packs {} >out.txt 2>err.txt",
-                        folder.string(), FRUSTUMSCREEN_BIN_DIR, packs);
+                        folder.string(), bin_dir(), packs);
         EXPECT_NE(std::system(command.c_str()), 0);
         return std::string(as_text(*read_file(folder / "err.txt")));
     };
@@ -153,7 +154,7 @@ TEST_F(RunCommand, SaysWhichSettingNamesAMissingPoseFile) {
     std::filesystem::remove(folder / "poses.csv");
     const std::string command = fmt::format(
         "cd '{}' && '{}/frustumscreen' run --config kiosk.toml --headless --seconds 1 >out.txt 2>err.txt",
-        folder.string(), FRUSTUMSCREEN_BIN_DIR);
+        folder.string(), bin_dir());
     EXPECT_NE(std::system(command.c_str()), 0);
     EXPECT_EQ(as_text(*read_file(folder / "err.txt")),
               "frustumscreen: kiosk.toml:7: tracker.poses: poses.csv: there is no such file\n");

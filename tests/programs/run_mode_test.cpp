@@ -1,6 +1,7 @@
 // `frustumscreen run --mode-file`: what the watchdog wants to be shown, and with which settings.
 
 #include "firmware_host/base/json.h"
+#include "tests/folders.h"
 #include "tests/programs/kiosk_folder.h"
 
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ protected:
             std::system(fmt::format("cd '{}' && '{}/frustumscreen' run --config kiosk.toml --mode-file mode "
                                     "--shipped shipped --cache cache --headless --fast --json --seconds 1 "
                                     ">out.json 2>err.txt",
-                                    folder.string(), FRUSTUMSCREEN_BIN_DIR)
+                                    folder.string(), bin_dir())
                             .c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
@@ -42,7 +43,7 @@ TEST_F(RunMode, WithoutAFileOrWithAnUnknownWordItIsNormal) {
     EXPECT_EQ(text("err.txt").find("mode"), std::string::npos) << text("err.txt");
     write("mode", "sideways\n");
     EXPECT_EQ(status().at("mode"), "normal");
-    EXPECT_NE(text("err.txt").find("'sideways' is no mode; normal, last_good_set and built_in are"),
+    EXPECT_NE(text("err.txt").find("'sideways' is no mode; normal, last_good_set, plain and built_in are"),
               std::string::npos);
     write("mode", "normal\n");
     EXPECT_EQ(status().at("mode"), "normal");
@@ -58,6 +59,14 @@ TEST_F(RunMode, TheBuiltInArtifactNeedsNoPackOfTheSettings) {
     EXPECT_EQ(said.at("artifact"), "Rings");
     EXPECT_EQ(said.at("settings"), "");
     EXPECT_EQ(said.at("set"), nullptr);
+}
+
+TEST_F(RunMode, PlainDrawingShowsThePacksOfTheSettings) {
+    write("mode", "plain\n");
+    const nlohmann::json said = status();
+    EXPECT_EQ(said.at("mode"), "plain");
+    EXPECT_EQ(said.at("artifact"), "Rings");
+    EXPECT_FALSE(std::filesystem::exists(folder / "cache/mesa_shader_cache")) << "no compiled shader is taken or kept";
 }
 
 TEST_F(RunMode, WrongSettingsEndTheProgramInTheNormalModeAlone) {

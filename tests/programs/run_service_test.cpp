@@ -1,5 +1,6 @@
 // `frustumscreen run` as a service manager sees it: ready, fed, starved, stopped.
 
+#include "tests/folders.h"
 #include "tests/programs/hung_thread.h"
 #include "tests/programs/kiosk_folder.h"
 #include "tests/service/notify_socket.h"
@@ -45,6 +46,7 @@ protected:
             arguments.push_back(option.data());
         }
         arguments.push_back(nullptr);
+        const std::string program = bin_dir() + "/frustumscreen";
         process = ::fork();
         ASSERT_GE(process, 0);
         if (process == 0) {
@@ -58,7 +60,7 @@ protected:
             if (user) {
                 static_cast<void>(::setgid(*user) + ::setuid(*user));
             }
-            ::execv(FRUSTUMSCREEN_BIN_DIR "/frustumscreen", arguments.data());
+            ::execv(program.c_str(), arguments.data());
             ::_exit(127);
         }
     }
@@ -230,7 +232,7 @@ TEST_F(RunService, ARenderThreadThatHangsIsToldByAnother) {
 TEST_F(RunService, TheStaffSeeThePictureThatIsProjectedAndWhatTheStatusSays) {
     const auto run = [this](const std::string& arguments) {
         const int status = std::system(fmt::format("cd '{}' && '{}/frustumscreen' {} 2>>program.txt",
-                                                   folder.string(), FRUSTUMSCREEN_BIN_DIR, arguments)
+                                                   folder.string(), bin_dir(), arguments)
                                            .c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     };

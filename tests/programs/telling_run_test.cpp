@@ -3,6 +3,7 @@
 #include "app/image/image.h"
 #include "app/pack/pack_texts.h"
 #include "firmware_host/sound/opus_reader.h"
+#include "tests/folders.h"
 #include "tests/programs/kiosk_folder.h"
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ class TellingRun : public KioskFolder {
 protected:
     void SetUp() override {
         KioskFolder::SetUp();
-        opus_ = read_file(std::string(FRUSTUMSCREEN_SOUND_FIXTURES "/speech.opus")).value_or(Bytes());
+        opus_ = read_file(source_dir() + "/tests/sound/fixtures/speech.opus").value_or(Bytes());
         std::string poses = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
         for (int k = 0; k < 20 * seconds_run; ++k) {
             poses +=
@@ -56,7 +57,7 @@ protected:
         const std::string command =
             fmt::format("cd '{}' && '{}/frustumscreen' run --config kiosk.toml --headless --fast "
                         "--seconds {} --stills {} --out pictures >out.txt 2>err.txt",
-                        folder.string(), FRUSTUMSCREEN_BIN_DIR, seconds_run, seconds_run);
+                        folder.string(), bin_dir(), seconds_run, seconds_run);
         const int status = std::system(command.c_str());
         ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << error();
     }

@@ -1,6 +1,7 @@
 // `frustumscreen render` end to end, on a pack made in memory.
 
 #include "app/pack/pack_relief.h"
+#include "tests/folders.h"
 #include "tests/programs/kiosk_folder.h"
 #include "tests/render/rig.h"
 #include "tests/render/ring_relief.h"
@@ -29,7 +30,7 @@ protected:
     }
     int run(const std::string& arguments) const {
         const std::string command = fmt::format("cd '{}' && '{}/frustumscreen' {} >out.txt 2>err.txt",
-                                                folder.string(), FRUSTUMSCREEN_BIN_DIR, arguments);
+                                                folder.string(), bin_dir(), arguments);
         const int status = std::system(command.c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
@@ -43,7 +44,7 @@ protected:
     std::string usual(const std::string& out) const {
         return fmt::format(
             "render --config '{}/config/near.toml' --pack rings.fspack --poses poses.csv --out {} ",
-            FRUSTUMSCREEN_SOURCE_DIR, out);
+            source_dir(), out);
     }
 };
 
@@ -135,7 +136,7 @@ TEST_F(RenderCommand, ASheetIsMadeOfTheProjectorsPicturesAlone) {
         const std::string command =
             fmt::format("cd '{}' && '{}/frustumscreen-sheet' --config '{}/config/near.toml' {} -o sheet.png "
                         ">out.txt 2>err.txt",
-                        folder.string(), FRUSTUMSCREEN_BIN_DIR, FRUSTUMSCREEN_SOURCE_DIR, arguments);
+                        folder.string(), bin_dir(), source_dir(), arguments);
         return std::system(command.c_str()) == 0 ? std::string() : text("err.txt");
     };
     EXPECT_EQ(sheet("--frames nowhere"), "frustumscreen-sheet: nowhere: there is no such folder\n");

@@ -1,6 +1,7 @@
 // `frustumscreen-safe` from outside: what it is linked with, its pictures, what it tells a service manager.
 #include "app/image/image.h"
 #include "firmware_host/base/run_program.h"
+#include "tests/folders.h"
 #include "tests/service/notify_socket.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string program = FRUSTUMSCREEN_BIN_DIR "/frustumscreen-safe";
+const std::string program = bin_dir() + "/frustumscreen-safe";
 
 std::string text_of(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
@@ -72,7 +73,7 @@ TEST_F(SafeCommand, IsLinkedWithNothingThatMayBeWhatFailed) {
 
 /// The names of functions are in a program that was not stripped, the exhibit's as well as this one.
 TEST_F(SafeCommand, HasNoReaderOfPacksOrSettings) {
-    const std::string exhibit = text_of(FRUSTUMSCREEN_BIN_DIR "/frustumscreen");
+    const std::string exhibit = text_of(bin_dir() + "/frustumscreen");
     const std::string safe = text_of(program);
     ASSERT_GT(safe.size(), 1000U);
     EXPECT_NE(safe.find("lay_out_safe_page"), std::string::npos);

@@ -3,6 +3,7 @@
 #include "app/safe/draw_safe_page.h"
 #include "assets_baked/texts/builtin_words.h"
 #include "assets_baked/texts/fonts.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 #include <pango/pangoft2.h>
@@ -133,7 +134,7 @@ TEST(SafeWords, HaveTheLanguagesThatTheExhibitHas) {
 }
 
 TEST(SafeWords, AreInThePictureAsPangoDrawsThem) {
-    const toml::table words = toml::parse_file(FRUSTUMSCREEN_SOURCE_DIR "/assets_baked/safe/words.toml");
+    const toml::table words = toml::parse_file(source_dir() + "/assets_baked/safe/words.toml");
     const Result<Fonts> fonts = Fonts::open();
     ASSERT_TRUE(fonts) << fonts.error().message;
     int languages = 0;

@@ -4,6 +4,7 @@
 #include "app/scene/scene_level.h"
 #include "app/scene/shader_key.h"
 #include "app/settings/settings.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@ namespace frustumscreen {
 namespace {
 
 Settings settings_of(const char* file) {
-    return **load_settings(std::filesystem::path(FRUSTUMSCREEN_SOURCE_DIR) / "config" / file);
+    return **load_settings(std::filesystem::path(source_dir()) / "config" / file);
 }
 
 /// Upright, somewhere on the table.

@@ -1,5 +1,4 @@
 #include "firmware_host/base/device_thread.h"
-#include "firmware_host/service/crash_line.h"
 #include "firmware_host/service/stop_signals.h"
 
 #include <gtest/gtest.h>
@@ -103,23 +102,6 @@ TEST(StopSignals, AThreadThatHangsDoesNotHoldTheEnd) {
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 7);
 }
-
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-TEST(CrashLine, IsTheLastOneAndTheCrashTakesItsCourse) {
-    for (const int signal : {SIGSEGV, SIGBUS, SIGABRT}) {
-        ::testing::internal::CaptureStderr();
-        const int status = ending_of([signal] {
-            leave_a_line_at_a_crash();
-            ::raise(signal);
-        });
-        const std::string said = ::testing::internal::GetCapturedStderr();
-        ASSERT_TRUE(WIFSIGNALED(status));
-        EXPECT_EQ(WTERMSIG(status), signal);
-        EXPECT_EQ(said.rfind("frustumscreen: crashed: ", 0), 0U) << said;
-        EXPECT_EQ(said.back(), '\n');
-    }
-}
-#endif
 
 } // namespace
 } // namespace frustumscreen

@@ -1,4 +1,5 @@
 #include "app/settings/lit_zone.h"
+#include "tests/folders.h"
 #include "tests/settings/steep_table.h"
 
 #include <gtest/gtest.h>
@@ -203,7 +204,7 @@ TEST(LitZone, ForTheDefaultEyeItsInsideIsLitAndHoldsTheZoneForAnyEye) {
 
 TEST(LitZone, TheRectangleFitsAndIsUsefulInBothSetUps) {
     for (const std::string name : {"kiosk", "near"}) {
-        const auto settings = load_settings(FRUSTUMSCREEN_SOURCE_DIR "/config/" + name + ".toml");
+        const auto settings = load_settings(source_dir() + "/config/" + name + ".toml");
         ASSERT_TRUE(settings) << settings.error().message;
         const LitZone zone = lit_zone(**settings);
         const Rectangle& r = zone.any_eye_rectangle;

@@ -1,3 +1,4 @@
+#include "tests/folders.h"
 #include "tests/settings/settings_text.h"
 
 #include <filesystem>
@@ -91,7 +92,7 @@ TEST(Settings, TheShippedPictureExactlyCoversTheTableWithTheFarSideOnTop) {
 }
 
 TEST(Settings, TheNearPropCoversAQuarterOfThePicture) {
-    const auto loaded = load_settings(FRUSTUMSCREEN_SOURCE_DIR "/config/near.toml");
+    const auto loaded = load_settings(source_dir() + "/config/near.toml");
     ASSERT_TRUE(loaded) << loaded.error().message;
     const Settings& near = **loaded;
     const double half = near.prop.base_m / 2;

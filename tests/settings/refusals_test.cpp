@@ -1,6 +1,7 @@
 #include "app/settings/language_tag.h"
 #include "app/settings/missing_files.h"
 #include "firmware_host/base/json.h"
+#include "tests/folders.h"
 #include "tests/settings/settings_text.h"
 
 #include <set>
@@ -249,9 +250,9 @@ TEST(Refusals, OfNoLanguageOfIso639) {
 TEST(MissingFiles, AreSaidWithThePlaceThatNamesThem) {
     const auto settings = parse_settings("[tracker]\nkind = \"replay\"\nposes = \"visit.csv\"\n[exhibit]\n"
                                          "packs = [\n\"cat.fspack\", \"README.md\", \"docs\"]\n",
-                                         FRUSTUMSCREEN_SOURCE_DIR "/kiosk.toml");
+                                         source_dir() + "/kiosk.toml");
     ASSERT_TRUE(settings) << settings.error().message;
-    const std::string folder = FRUSTUMSCREEN_SOURCE_DIR;
+    const std::string folder = source_dir();
     EXPECT_EQ(
         missing_files(**settings),
         (std::vector<std::string>{

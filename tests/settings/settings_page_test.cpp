@@ -1,4 +1,5 @@
 #include "app/settings/settings_page.h"
+#include "tests/folders.h"
 #include "tests/settings/settings_text.h"
 
 #include <regex>
@@ -7,7 +8,7 @@ namespace frustumscreen {
 namespace {
 
 std::string committed_page() {
-    std::ifstream file(FRUSTUMSCREEN_SOURCE_DIR "/docs/settings.md", std::ios::binary);
+    std::ifstream file(source_dir() + "/docs/settings.md", std::ios::binary);
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 

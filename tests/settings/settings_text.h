@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/settings/settings.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@
 namespace frustumscreen {
 
 inline std::string shipped_text() {
-    std::ifstream file(FRUSTUMSCREEN_SOURCE_DIR "/config/kiosk.toml", std::ios::binary);
+    std::ifstream file(source_dir() + "/config/kiosk.toml", std::ios::binary);
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 

@@ -10,6 +10,7 @@
 #include "firmware_host/sound/mixer.h"
 #include "firmware_host/sound/opus_reader.h"
 #include "tests/exhibit/block_words.h"
+#include "tests/folders.h"
 #include "tests/render/counted_new.h"
 #include "tests/show/shown_packs.h"
 
@@ -65,7 +66,7 @@ protected:
         start(true);
     }
     void TearDown() override { fs::remove_all(folder); }
-    static Bytes tone() { return *read_file(FRUSTUMSCREEN_SOUND_FIXTURES "/tone.opus"); }
+    static Bytes tone() { return *read_file(source_dir() + "/tests/sound/fixtures/tone.opus"); }
 
     void start(bool with_words) {
         settings = **parse_settings(

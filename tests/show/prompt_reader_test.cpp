@@ -3,6 +3,7 @@
 #include "app/pack/pack_texts.h"
 #include "app/show/prompt_reader.h"
 #include "firmware_host/sound/opus_reader.h"
+#include "tests/folders.h"
 #include "tests/pack/samples.h"
 #include "tests/render/counted_new.h"
 
@@ -17,7 +18,7 @@ using std::chrono::seconds;
 namespace {
 
 Bytes fixture(const std::string& name) {
-    return read_file(std::string(FRUSTUMSCREEN_SOUND_FIXTURES "/") + name).value_or(Bytes());
+    return read_file(source_dir() + "/tests/sound/fixtures/" + name).value_or(Bytes());
 }
 
 SharedRecording in_memory(const std::string& name, Bytes opus) {

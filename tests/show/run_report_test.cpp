@@ -1,6 +1,7 @@
 #include "app/show/run_report.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/json.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -105,7 +106,7 @@ TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {
 }
 
 TEST(RunReport, EveryFieldOfTheStatusHasItsRowInThePage) {
-    const Result<Bytes> page = read_file(FRUSTUMSCREEN_SOURCE_DIR "/docs/status.md");
+    const Result<Bytes> page = read_file(source_dir() + "/docs/status.md");
     ASSERT_TRUE(page);
     RunStatus status;
     stamp(status);

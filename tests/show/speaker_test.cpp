@@ -2,6 +2,7 @@
 #include "app/show/speaker.h"
 #include "firmware_host/sound/mixer.h"
 #include "firmware_host/sound/opus_reader.h"
+#include "tests/folders.h"
 #include "tests/render/counted_new.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ using std::chrono::seconds;
 namespace {
 
 Bytes fixture(const std::string& name) {
-    return read_file(std::string(FRUSTUMSCREEN_SOUND_FIXTURES "/") + name).value_or(Bytes());
+    return read_file(source_dir() + "/tests/sound/fixtures/" + name).value_or(Bytes());
 }
 
 SharedRecording recording_of(const std::string& name) {

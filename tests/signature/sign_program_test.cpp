@@ -1,4 +1,5 @@
 // frustumscreen-pack keygen, sign and verify from outside, beside Debian's minisign: what one writes the other takes.
+#include "tests/folders.h"
 #include "tests/signature/signature_testing.h"
 
 #include <pty.h>
@@ -50,7 +51,7 @@ protected:
                 text_of(folder_ / "error.txt")};
     }
     [[nodiscard]] Outcome pack(const std::string& arguments, const std::string& before = {}) const {
-        return run(before + FRUSTUMSCREEN_BIN_DIR "/frustumscreen-pack " + arguments);
+        return run(before + bin_dir() + "/frustumscreen-pack " + arguments);
     }
     void expect_done(const Outcome& outcome) const {
         EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.error;
@@ -71,12 +72,12 @@ protected:
     }
     /// On a terminal of its own, with these lines typed. Gives what the terminal showed.
     std::pair<int, std::string> on_terminal(const std::string& arguments, const std::string& typed) const {
+        const std::string command =
+            fmt::format("cd '{}' && exec {}/frustumscreen-pack {}", folder_.string(), bin_dir(), arguments);
         int terminal = -1;
         const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
         if (child == 0) {
             ::alarm(100); // a question that nobody answers ends the test
-            const std::string command = fmt::format("cd '{}' && exec {}/frustumscreen-pack {}",
-                                                    folder_.string(), FRUSTUMSCREEN_BIN_DIR, arguments);
             ::execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
             ::_exit(127);
         }

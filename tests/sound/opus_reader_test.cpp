@@ -1,5 +1,6 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/sound/opus_reader.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@ namespace {
 
 /// Recordings that libsndfile wrote.
 Bytes fixture(const std::string& name) {
-    const Result<Bytes> bytes = read_file(std::string(FRUSTUMSCREEN_SOUND_FIXTURES "/") + name);
+    const Result<Bytes> bytes = read_file(source_dir() + "/tests/sound/fixtures/" + name);
     EXPECT_TRUE(bytes);
     return bytes.value_or(Bytes());
 }

@@ -1,6 +1,7 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/sound/opus_reader.h"
 #include "firmware_host/sound/pauses.h"
+#include "tests/folders.h"
 #include "tests/sound/sound_samples.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +57,7 @@ TEST(Pauses, SilenceIsOnePauseAndNothingHasNone) {
 
 /// 'Spostatelo un poco a sinistra. Nella bottega c'era un gatto matto.', with three long closures inside words.
 TEST(Pauses, AreThoseBetweenSentencesNotTheLongConsonantsOfItalian) {
-    const Result<Bytes> bytes = read_file(FRUSTUMSCREEN_SOUND_FIXTURES "/speech.opus");
+    const Result<Bytes> bytes = read_file(source_dir() + "/tests/sound/fixtures/speech.opus");
     ASSERT_TRUE(bytes);
     const Result<Prompt> speech = read_opus(*bytes);
     ASSERT_TRUE(speech) << speech.error().message;

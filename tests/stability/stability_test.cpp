@@ -3,6 +3,7 @@
 
 #include "app/bench/stability/report.h"
 #include "app/bench/stability/stability.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -38,7 +39,7 @@ class Stability : public ::testing::TestWithParam<StabilityCase> {};
 
 TEST_P(Stability, HoldsItsBounds) {
     StabilityOptions options;
-    options.recordings = FRUSTUMSCREEN_SHARED_DIR "/data/tracker";
+    options.recordings = shared_dir() + "/data/tracker";
     StabilityResult result;
     {
         const Traps traps(GetParam().arithmetic == FloatingPoint::Strict);

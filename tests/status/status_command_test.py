@@ -75,10 +75,17 @@ class Status(unittest.TestCase):
         for name, lines in (("version", [version]), ("slot", [slot]), ("notes", notes)):
             self.write(f"boot/{name}", "".join(f"{line}\n" for line in lines).encode())
 
+    def crash(self, number, unix_s, thread, frame, *more):
+        (self.folder / "crashes").mkdir(exist_ok=True)
+        lines = ["frustumscreen-crash-1", f"unix_s {unix_s}", "monotonic_ms 5000", "boot b1", "signal SIGSEGV", f"thread {thread}",
+                 "program 0.1.0", "system Debian", "driver llvmpipe", f"frame {frame}", *more, "end"]
+        self.write(f"crashes/crash_{number}", "".join(f"{line}\n" for line in lines).encode())
+
     def run_status(self, *options):
         return subprocess.run(
             [PROGRAM, "status", "--status-file", self.folder / "status.json", "--watchdog-file", self.folder / "dog.json",
-             "--staff-socket", self.folder / "staff.sock", "--boot-folder", self.folder / "boot", *options],
+             "--staff-socket", self.folder / "staff.sock", "--boot-folder", self.folder / "boot",
+             "--crash-folder", self.folder / "crashes", *options],
             capture_output=True, timeout=60, check=False, env={**os.environ, "TZ": "UTC", "LC_ALL": "C.UTF-8"})
 
     def text(self, expected_status):
@@ -121,6 +128,21 @@ class Text(Status):
         self.assertIn("2026-05-01T09:00:00Z the tracker is silent: its port is reset, which helped", text)
         self.assertEqual(self.line(text, "machine"), "the disk is 95 % full; it is hot?")
         self.assertEqual(self.line(text, "versions"), "FrustumScreen 1.2.3, packs of format 2, Debian GNU/Linux 12, Linux 6.1")
+
+    def test_the_last_crashes(self):
+        self.write("status.json", exhibit())
+        self.assertNotIn("last crashes", self.text(0))
+        self.crash(1, 1767225600, "llvmpipe-0", "compiled+0x7f0012", "guess swrast_dri.so+0x1f3a0")
+        self.crash(2, 1767225660, "frustumscreen", "frustumscreen+0x1234")
+        (self.folder / "crashes/crash_3").write_bytes(b"\x00" * 100)
+        text = self.text(0)
+        self.assertEqual(self.line(text, "last crashes"),
+                         "2026-01-01T00:01:00Z SIGSEGV in frustumscreen+0x1234, thread frustumscreen (FrustumScreen 0.1.0, llvmpipe)")
+        self.assertIn("2026-01-01T00:00:00Z SIGSEGV in code that the graphics driver compiled, called from swrast_dri.so+0x1f3a0, "
+                      "thread llvmpipe-0 (FrustumScreen 0.1.0, llvmpipe)", text)
+        crashes = json.loads(self.run_status("--json").stdout)["crashes"]
+        self.assertEqual([(crash["unix_s"], crash["frames"], crash["whole"]) for crash in crashes],
+                         [(1767225660, ["frustumscreen+0x1234"], True), (1767225600, ["compiled+0x7f0012"], True)])
 
     def test_the_time_of_day_since_when_it_is_shown(self):
         self.write("status.json", exhibit(shown_for_s=3 * 86400.0))

@@ -4,6 +4,7 @@
 #include "app/settings/settings.h"
 #include "app/tags/tag_tracker.h"
 #include "app/tracking/pose_math.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -175,7 +176,7 @@ TEST(TagSettings, PlaceATagAsASkirtDoes) {
 
 /// What the page tells a technician to write is taken, and is the skirt that was measured.
 TEST(TagSettings, ThePagesExampleIsTheSkirt) {
-    std::ifstream file(FRUSTUMSCREEN_SOURCE_DIR "/docs/tags.md");
+    std::ifstream file(source_dir() + "/docs/tags.md");
     const std::string page{std::istreambuf_iterator<char>(file), {}};
     const std::size_t begin = page.find("```toml\n") + 8;
     const Result<CheckedSettings> settings =

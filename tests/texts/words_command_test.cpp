@@ -2,6 +2,7 @@
 #include "app/pack/words_file.h"
 #include "assets_baked/texts/fonts.h"
 #include "assets_baked/texts/words.h"
+#include "tests/folders.h"
 #include "tests/programs/program_folder.h"
 #include "tests/texts/wav_bytes.h"
 
@@ -159,7 +160,7 @@ TEST_F(WordsCommand, a_voice_and_what_it_started_end_with_the_command) {
             "voice.sh' "
             "2>err.txt & baker=$!; until test -s voices.txt; do kill -0 $baker || exit 5; sleep 0.02; done; "
             "kill -{} $baker; wait $baker 2>wait.txt; true",
-            folder.string(), FRUSTUMSCREEN_BIN_DIR, signal);
+            folder.string(), bin_dir(), signal);
         ASSERT_EQ(std::system(commands.c_str()), 0) << text("err.txt");
         std::istringstream voices(text("voices.txt"));
         for (int process = 0; voices >> process;) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "firmware_host/base/file.h"
+#include "tests/folders.h"
 #include "tests/tracker/wire_bytes.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@ namespace frustumscreen::wire {
 /// The bytes in the block of docs/`document` that begins with `start`, without the text that follows them in
 /// a line.
 inline Wire bytes_in_document(const std::string& document, const std::string& start) {
-    const Result<Bytes> file = read_file(std::string(FRUSTUMSCREEN_SOURCE_DIR "/docs/") + document);
+    const Result<Bytes> file = read_file(source_dir() + "/docs/" + document);
     const std::string text = file ? std::string(as_text(*file)) : std::string();
     const std::size_t begin = text.find("```\n" + start);
     const std::size_t end = text.find("```", begin + 3);

@@ -1,4 +1,5 @@
 #include "firmware_host/tracker/convert_recording.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -103,7 +104,7 @@ TEST(ConvertRecording, IsNoLongerThanAPoseFileMayBe) {
 }
 
 TEST(ConvertRecording, TheRecordingsInTheSharedFolderBecomePoses) {
-    const std::filesystem::path folder = FRUSTUMSCREEN_SHARED_DIR "/data/tracker";
+    const std::filesystem::path folder = shared_dir() + "/data/tracker";
     if (!std::filesystem::exists(folder)) {
         GTEST_SKIP() << "the shared folder with the recordings is not there";
     }

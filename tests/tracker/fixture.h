@@ -3,6 +3,7 @@
 #pragma once
 
 #include "firmware_host/base/file.h"
+#include "tests/folders.h"
 #include "tests/tracker/wire_bytes.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ namespace frustumscreen::wire {
 class Fixture {
 public:
     explicit Fixture(const std::string& file) {
-        const Result<Bytes> bytes = read_file(FRUSTUMSCREEN_SOURCE_DIR "/tests/tracker/fixtures/" + file);
+        const Result<Bytes> bytes = read_file(source_dir() + "/tests/tracker/fixtures/" + file);
         std::istringstream lines(bytes ? std::string(as_text(*bytes)) : std::string());
         std::string name;
         for (std::string line; std::getline(lines, line);) {

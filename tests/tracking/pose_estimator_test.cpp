@@ -3,6 +3,7 @@
 #include "app/tracking/pose_math.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/tracker/text_rows.h"
+#include "tests/folders.h"
 #include "tests/render/counted_new.h"
 #include "tests/tracking/exact_pose.h"
 
@@ -351,7 +352,7 @@ std::vector<Row> rows_of(const std::filesystem::path& file) {
 }
 
 TEST(PoseEstimator, FollowsEveryRecordingAlsoShuffled) {
-    const std::filesystem::path folder = std::filesystem::path(FRUSTUMSCREEN_SHARED_DIR) / "data/tracker";
+    const std::filesystem::path folder = std::filesystem::path(shared_dir()) / "data/tracker";
     if (!std::filesystem::exists(folder)) {
         GTEST_SKIP() << "no recordings in " << folder;
     }

@@ -1,6 +1,7 @@
 #include "app/bench/visitor/visitor_run.h"
 #include "app/settings/settings.h"
 #include "app/visitor/visitor_tracker.h"
+#include "tests/folders.h"
 
 #include <gtest/gtest.h>
 
@@ -148,7 +149,7 @@ TEST(VisitorRun, ThePictureTurnsToWhoeverComesAndStandsStill) {
 
 /// What the page tells a technician to write is taken, and is the camera that was measured.
 TEST(VisitorSettings, ThePagesExampleIsTheCamera) {
-    std::ifstream file(FRUSTUMSCREEN_SOURCE_DIR "/docs/visitor_eye.md");
+    std::ifstream file(source_dir() + "/docs/visitor_eye.md");
     const std::string page{std::istreambuf_iterator<char>(file), {}};
     const std::size_t begin = page.find("```toml\n") + 8;
     const Result<CheckedSettings> settings =

@@ -80,7 +80,7 @@ std::string signed_by_hand(const std::string& body) {
     }
     std::array<char, 17> digits{};
     std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(hash));
-    std::string slot = std::string("frustumscreen-ladder-1 ") + digits.data() + " " + body;
+    std::string slot = std::string("frustumscreen-ladder-2 ") + digits.data() + " " + body;
     slot.resize(slot_bytes, ' ');
     slot.back() = '\n';
     return slot;

@@ -47,7 +47,7 @@ void for_all_states(const std::function<void(const LadderMemory&)>& visit) {
     const std::array<Awake, 4> ages{Awake(0), seconds(10), seconds(1290), hours(6)};
     for (unsigned mode = 0; mode < mode_count; ++mode) {
         for (std::uint8_t climb = 0; climb <= Ladder::highest_climb; ++climb) {
-            for (unsigned tried = 0; tried < 64; ++tried) {
+            for (unsigned tried = 0; tried < 128; ++tried) {
                 for (const unsigned given_up : {0U, 48U}) {
                     for (const Awake age : ages) {
                         for (unsigned helped = 0; helped < step_count; ++helped) { // `Return` never helps

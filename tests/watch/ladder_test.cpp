@@ -58,12 +58,13 @@ TEST(Ladder, NeverActsOnAHealthyExhibit) {
 
 TEST(Ladder, ClimbsWithGrowingPausesToTheSafePictureAndReboots) {
     Kiosk kiosk;
-    EXPECT_EQ(kiosk.bad(Cause::NoPicture, minutes(2)), (Steps{{Step::RestartExhibit, 0},
+    EXPECT_EQ(kiosk.bad(Cause::NoPicture, minutes(4)), (Steps{{Step::RestartExhibit, 0},
                                                               {Step::LastGoodSet, 20},
-                                                              {Step::BuiltIn, 50},
-                                                              {Step::SafePicture, 100}}));
+                                                              {Step::DrawPlainly, 50},
+                                                              {Step::BuiltIn, 100},
+                                                              {Step::SafePicture, 110}}));
     // The safe picture is no trouble; it is left by a reboot.
-    EXPECT_EQ(kiosk.see({}, minutes(3)), (Steps{{Step::Reboot, 70}})); // 10 + 80 - 20 seconds
+    EXPECT_EQ(kiosk.see({}, minutes(3)), (Steps{{Step::Reboot, 40}})); // 10 + 160 - 130 seconds
     EXPECT_EQ(kiosk.ladder.memory().mode, Mode::Normal);
     EXPECT_EQ(kiosk.ladder.reboots_within_day(), 1U);
 }
@@ -93,13 +94,13 @@ TEST(Ladder, RebootsSixTimesADayAndStaysWithTheSafePicture) {
 TEST(Ladder, TriesFirstWhatHelpedForTheSameCause) {
     Kiosk kiosk;
     EXPECT_EQ(kiosk.bad(Cause::NoPicture, seconds(60)),
-              (Steps{{Step::RestartExhibit, 0}, {Step::LastGoodSet, 20}, {Step::BuiltIn, 50}}));
+              (Steps{{Step::RestartExhibit, 0}, {Step::LastGoodSet, 20}, {Step::DrawPlainly, 50}}));
     kiosk.starts();
     // Ten good minutes, and back to the exhibit's own set.
     EXPECT_EQ(kiosk.good(minutes(11)), (Steps{{Step::Return, 600}}));
     kiosk.starts();
     EXPECT_TRUE(kiosk.good(minutes(30)).empty());
-    EXPECT_EQ(kiosk.bad(Cause::NoPicture, seconds(5)), (Steps{{Step::BuiltIn, 0}}));
+    EXPECT_EQ(kiosk.bad(Cause::NoPicture, seconds(5)), (Steps{{Step::DrawPlainly, 0}}));
 }
 
 TEST(Ladder, ReturnsLaterAndLaterToASetThatFails) {
@@ -145,8 +146,10 @@ TEST(Ladder, ADeviceThatWasGivenUpDoesNotKeepTheExhibitInABadMode) {
 TEST(Ladder, LeavesOutWhatCannotBeDone) {
     Kiosk kiosk;
     kiosk.means = {};
-    EXPECT_EQ(kiosk.bad(Cause::NoPicture, minutes(2)),
-              (Steps{{Step::RestartExhibit, 0}, {Step::BuiltIn, 20}, {Step::SafePicture, 50}}));
+    EXPECT_EQ(kiosk.bad(Cause::NoPicture, minutes(2)), (Steps{{Step::RestartExhibit, 0},
+                                                              {Step::DrawPlainly, 20},
+                                                              {Step::BuiltIn, 50},
+                                                              {Step::SafePicture, 100}}));
     EXPECT_TRUE(kiosk.see({}, hours(10)).empty()) << "a reboot that cannot be written down";
 }
 

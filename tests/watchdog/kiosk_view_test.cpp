@@ -143,5 +143,24 @@ TEST_F(KioskOfFiles, NotesAreForStaff) {
     EXPECT_EQ(notes_of(outcome).size(), 5U);
 }
 
+TEST_F(KioskOfFiles, SaysWhyTheExhibitEnded) {
+    KioskView view(places_, "b1");
+    EXPECT_EQ(view.why_it_ended(), "");
+    write("run/frustumscreen/ends", "57.90 exit-code exited 1\n");
+    static_cast<void>(view.look(MonotonicTime(seconds(100)), {}));
+    EXPECT_EQ(view.why_it_ended(), "it ended with an error (exited 1)");
+    const std::string crash =
+        "frustumscreen-crash-1\nunix_s 1\nmonotonic_ms 90000\nboot b1\nsignal SIGSEGV\nthread "
+        "llvmpipe-0\nframe swrast_dri.so+0x12\nend\n";
+    write("var/cache/frustumscreen/crashes/crash_2", crash);
+    EXPECT_EQ(view.why_it_ended(), "it ended with an error (exited 1)") << "that crash came later";
+    write("run/frustumscreen/ends", "57.90 exit-code exited 1\n90.40 core-dump dumped SEGV\n");
+    static_cast<void>(view.look(MonotonicTime(seconds(101)), {}));
+    EXPECT_EQ(view.why_it_ended(), "SIGSEGV in swrast_dri.so+0x12, thread llvmpipe-0");
+    write("var/cache/frustumscreen/crashes/crash_2",
+          "frustumscreen-crash-1\nmonotonic_ms 90000\nboot b0\nsignal SIGBUS\n");
+    EXPECT_EQ(view.why_it_ended(), "it crashed (dumped SEGV)") << "of another boot";
+}
+
 } // namespace
 } // namespace frustumscreen

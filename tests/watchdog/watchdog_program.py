@@ -47,8 +47,9 @@ def main():
             while not (folder / "run/steps/restart-exhibit").exists():
                 assert time.monotonic() < deadline, "no step is ordered"
                 time.sleep(0.1)
-            assert (folder / "run/mode").read_text(encoding="utf-8") == "built_in\n"  # there is no other set, nor a device
-            status = json.loads((folder / "run/status.json").read_text(encoding="utf-8"))
+            assert (folder / "run/mode").read_text(encoding="utf-8") == "plain\n"  # there is no other set, nor a device
+            reason = (folder / "run/reason").read_text(encoding="utf-8")
+            assert reason.startswith("the exhibit's program ends again and again: it ended with an error (exited 1); "), reason
             size = resident_kib(process.pid)
             print(f"{size['VmRSS']} KiB resident, {size['VmLck']} KiB may be locked")
             assert size["VmRSS"] <= MOST_RESIDENT_KIB and size["Threads"] == 1, size
@@ -57,11 +58,11 @@ def main():
             assert process.wait(10.0) == 0
         time.sleep(0.1)
         status = json.loads((folder / "run/status.json").read_text(encoding="utf-8"))
-        assert status["mode"] == "built_in" and status["step"]["name"] == "built_in", status
+        assert status["mode"] == "plain" and status["step"]["name"] == "draw_plainly", status
         assert status["step"]["cause"] == "keeps_ending" and status["reboots_today"] == 0, status
         fault = status["faults"][0]
         assert fault["cause"] == "keeps_ending" and fault["detail"] == "exit-code exited 1" and fault["helped"] is None, fault
-        assert b"keeps_ending -> built_in" in (folder / "state/faults").read_bytes()
+        assert b"keeps_ending -> draw_plainly" in (folder / "state/faults").read_bytes()
     wrong = subprocess.run([PROGRAM, "--start-patience", "x"], capture_output=True, text=True, check=False)
     assert wrong.returncode == 2 and wrong.stderr, wrong
 

@@ -23,7 +23,8 @@ enum class Ailment : std::uint8_t {
     DeviceThread, ///< a device makes it hang a few seconds after each start, until its port is reset
     TrackerHung,  ///< the tracker says nothing until its port is reset
     TrackerDead,  ///< it says nothing until a technician replaces it
-    GpuWedged,    ///< the driver gives no picture until the machine is started again; a plain screen works
+    DriverCrash, ///< the graphics driver ends it at each start, until an update mends it; drawn plainly it runs
+    GpuWedged,   ///< the driver gives no picture until the machine is started again; a plain screen works
     BadSet, ///< a set from a stick ends the exhibit seconds after its start, until a curator brings another one
     BadSettings,   ///< the settings were damaged: it ends at once, until a technician mends them
     Leak,          ///< its memory is full two hours after each start, until an update mends it
@@ -31,7 +32,7 @@ enum class Ailment : std::uint8_t {
     MachineBroken, ///< no exhibit is to be had until a technician comes; a plain screen works
     PowerCut,
 };
-inline constexpr std::size_t ailment_count = 13;
+inline constexpr std::size_t ailment_count = 14;
 
 /// What ends an ailment, bits.
 enum Remedy : unsigned {
@@ -40,6 +41,7 @@ enum Remedy : unsigned {
     ByReboot = 4,
     ByLastGoodSet = 8, ///< not ended, but without effect in that mode
     ByBuiltIn = 16,    ///< as above
+    ByPlain = 32,      ///< as above
 };
 
 struct AilmentKind {

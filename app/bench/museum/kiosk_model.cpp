@@ -79,7 +79,7 @@ bool KioskModel::ends_soon_after_start() const {
 }
 
 bool KioskModel::gives_no_picture() const {
-    return has(Ailment::GpuWedged) || has(Ailment::MachineBroken);
+    return (has(Ailment::GpuWedged) && mode_ != Mode::Plain) || has(Ailment::MachineBroken);
 }
 
 /// The exhibit's process, a second on.
@@ -87,6 +87,9 @@ void KioskModel::live(MuseumTime now) {
     const MuseumTime age = now - *began_;
     memory_ += has(Ailment::Leak) ? 0.8 / static_cast<double>(leak_s) : 0.0;
     if (has(Ailment::BadSettings) && mode_ != Mode::BuiltIn) {
+        return end_process(now, true);
+    }
+    if (has(Ailment::DriverCrash) && mode_ != Mode::Plain) {
         return end_process(now, true);
     }
     if (memory_ >= 1.0) {

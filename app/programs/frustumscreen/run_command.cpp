@@ -17,12 +17,13 @@
 #include "app/show/run_report.h"
 #include "app/show/set_arrival.h"
 #include "app/simulation/visitor_view.h"
+#include "app/status/known_exhibit.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/format_sentence.h"
 #include "firmware_host/base/local_time.h"
 #include "firmware_host/base/standard_error.h"
 #include "firmware_host/display/hotplug.h"
-#include "firmware_host/service/crash_line.h"
+#include "firmware_host/service/crash_record.h"
 #include "firmware_host/sound/silent_sound.h"
 #include "firmware_host/sound/wav_sound.h"
 #include "firmware_host/tracker/pose_file.h"
@@ -80,11 +81,12 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
                    "made when the staff ask for the table's calibration with the buttons; who looks at it "
                    "ends the exhibit and starts frustumscreen-calibrate table");
     app.add_option("--mode-file", request.places.mode_file,
-                   "what is to be shown: normal, last_good_set or built_in; the watchdog's");
+                   "what is to be shown: normal, last_good_set, plain or built_in; the watchdog's");
     app.add_option("--shipped", request.places.shipped,
                    "folder of the built-in artifact and of the settings as shipped")
         .capture_default_str();
-    app.add_option("--cache", request.places.cache, "folder for a copy of the last good settings");
+    app.add_option("--cache", request.places.cache,
+                   "folder for a copy of the last good settings, compiled shaders and the last crashes");
     app.add_option("--record", request.record,
                    "keep the tracker's packets in a new file; frustumscreen-poses convert makes poses of it");
     app.add_flag("--pattern", request.pattern, "the alignment test picture instead of artifacts");
@@ -308,9 +310,17 @@ int end_with(const Error& why) {
     return status;
 }
 
+void record_crashes_of(const RunPlaces& places) {
+    const SystemImage image = read_system_image(usual_boot_folder);
+    const std::string system =
+        image.there() ? fmt::format("{}, image {}", system_name(), image.version) : system_name();
+    record_crashes({places.cache.empty() ? std::filesystem::path() : places.cache / "crashes",
+                    FRUSTUMSCREEN_VERSION, system});
+}
+
 /// The exit status, or an error that is still to be said.
 Result<int> run(Request& request) {
-    leave_a_line_at_a_crash();
+    record_crashes_of(request.places);
     const StopSignals stop_signals;
     const Journal journal("frustumscreen");
     ServiceManager manager;
@@ -336,12 +346,13 @@ Result<int> run(Request& request) {
         !folder.empty() && !std::filesystem::is_directory(folder)) {
         return bad_input(fmt::format("{}: the folder of --status-file is not there", folder.string()));
     }
-    keep_shaders(request.places, mode->mode, journal);
+    prepare_driver(request.places, mode->mode, journal);
     const Result<std::unique_ptr<Display>> display =
         wait_for_display(request, **settings, stop_signals, manager, journal);
     if (!display) {
         return tl::unexpected<Error>(display.error());
     }
+    note_driver_for_crashes((*display)->name());
     // Simulated time starts at zero, real time when everything is loaded.
     const auto now = [&request] { return request.fast ? MonotonicTime{} : monotonic_now(); };
     const DevicePlan devices = plan_devices(**settings, request.changes > 0, !request.status_file.empty());

@@ -2,6 +2,7 @@
 
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/standard_error.h"
+#include "firmware_host/display/plain_drawing.h"
 #include "firmware_host/display/shader_cache.h"
 
 #include <fmt/format.h>
@@ -45,10 +46,10 @@ Mode read_run_mode(const std::filesystem::path& file) {
     word = word.substr(0, word.find_first_of(" \r\n"));
     const std::optional<Mode> mode = mode_named(word);
     if (!mode) {
-        say_line(
-            "frustumscreen",
-            fmt::format("{}: '{}' is no mode; normal, last_good_set and built_in are; the mode is normal",
-                        file.string(), word));
+        say_line("frustumscreen",
+                 fmt::format(
+                     "{}: '{}' is no mode; normal, last_good_set, plain and built_in are; the mode is normal",
+                     file.string(), word));
     }
     // A person who starts the exhibit while the safe picture is wanted wants to see it.
     return mode && *mode != Mode::Safe ? *mode : Mode::Normal;
@@ -76,8 +77,10 @@ Result<RunMode> choose_run_mode(const RunPlaces& places, const Journal& journal)
     return RunMode{mode, std::move(*used), std::move(packs)};
 }
 
-void keep_shaders(const RunPlaces& places, Mode mode, const Journal& journal) {
-    if (mode == Mode::BuiltIn) {
+void prepare_driver(const RunPlaces& places, Mode mode, const Journal& journal) {
+    if (mode == Mode::Plain) {
+        draw_plainly();
+    } else if (mode == Mode::BuiltIn) {
         keep_no_shaders();
     } else if (!places.cache.empty()) {
         if (const Result<void> kept = keep_shaders_in(places.cache); !kept) {

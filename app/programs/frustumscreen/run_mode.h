@@ -30,8 +30,9 @@ struct RunMode {
 /// Normal where there is no file; what is none of the exhibit's modes is said in one line.
 [[nodiscard]] Mode read_run_mode(const std::filesystem::path& file);
 [[nodiscard]] Result<RunMode> choose_run_mode(const RunPlaces& places, const Journal& journal);
-/// Call before the first display. The built-in artifact relies on no disk; where shaders cannot be kept, that is said in one line.
-void keep_shaders(const RunPlaces& places, Mode mode, const Journal& journal);
+/// Tells the graphics driver how to draw and where to keep compiled shaders. Call before the first display. Plain drawing and the
+/// built-in artifact keep none; where shaders cannot be kept, one line says so.
+void prepare_driver(const RunPlaces& places, Mode mode, const Journal& journal);
 /// Keeps a copy of settings that showed an artifact well; none where the built-in one is shown, of which they say little.
 [[nodiscard]] std::function<void(const RunStatus&)> keeper_of(const RunPlaces& places, const RunMode& mode);
 

@@ -22,9 +22,7 @@ namespace frustumscreen {
 namespace {
 
 struct Request {
-    std::filesystem::path status_file = usual_status_file;
-    std::filesystem::path watchdog_file = usual_watchdog_file;
-    std::filesystem::path boot_folder = usual_boot_folder;
+    StatusPlaces places;
     std::filesystem::path staff_socket = usual_staff_socket;
     std::filesystem::path screenshot;
     bool json = false;
@@ -39,9 +37,11 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     const CommandOption json = app.add_flag("--json", request.json, "all that is known, as JSON");
     app.add_flag("--prometheus", request.prometheus, "numbers in Prometheus' text format").excludes(json);
     app.add_option("--screenshot", request.screenshot, "write the picture that is projected now, as PNG");
-    app.add_option("--status-file", request.status_file, "the exhibit's status").capture_default_str();
-    app.add_option("--watchdog-file", request.watchdog_file, "its watchdog's status").capture_default_str();
-    app.add_option("--boot-folder", request.boot_folder, "what the start of an appliance has left")
+    app.add_option("--status-file", request.places.status_file, "the exhibit's status").capture_default_str();
+    app.add_option("--watchdog-file", request.places.watchdog_file, "its watchdog's status").capture_default_str();
+    app.add_option("--boot-folder", request.places.boot_folder, "what the start of an appliance has left")
+        .capture_default_str();
+    app.add_option("--crash-folder", request.places.crash_folder, "what the last crashes have left")
         .capture_default_str();
     app.add_option("--staff-socket", request.staff_socket, "where the exhibit gives its picture")
         .capture_default_str();
@@ -60,8 +60,7 @@ int status_command(int argc, char** argv) {
     if (const std::optional<int> status = read_arguments(argc, argv, request)) {
         return *status;
     }
-    const KnownExhibit known =
-        read_known_exhibit(request.status_file, request.watchdog_file, request.boot_folder, status_clock());
+    const KnownExhibit known = read_known_exhibit(request.places, status_clock());
     const std::string text = request.json         ? status_document(known)
                              : request.prometheus ? prometheus_text(known)
                                                   : status_text(known, std::time(nullptr));

@@ -52,7 +52,7 @@ FramebufferId SafeScanout::fill(int which, const PixelRectangle& /*part*/) {
     if (buffer.map()) {
         std::array<std::uint8_t, probe_pixels> corner{};
         for (int k = 0; k < probe_pixels; ++k) {
-            corner.at(static_cast<std::size_t>(k)) = probe_grey(picture_.code, k);
+            corner.at(static_cast<std::size_t>(k)) = probe_grey(picture_.code, k, safe_probe_greys);
         }
         std::vector<std::uint32_t> row;
         write_row(buffer, 0, corner, row);

@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t most_status_bytes = 1 << 20;
 constexpr std::streamsize most_ends_bytes = 1 << 16; ///< at a look; more comes at the next one
+constexpr double longest_end_s = 10.0; ///< from a crash until systemd has written down that the process ended
 constexpr double full_disk = 0.03;
 constexpr double worn_disk = 0.8;
 constexpr double hot_c = 90.0;
@@ -160,8 +161,23 @@ void KioskView::count_ends() {
             ++failures_;
             last_end_ =
                 fmt::format("{} {} {}", service_results.at(end->result).word, end->code, end->exit_status);
+            last_failure_ = end;
         }
     }
+}
+
+std::string KioskView::why_it_ended() const {
+    if (!last_failure_) {
+        return {};
+    }
+    for (const Crash& crash : read_crashes(places_.root / places_.crashes)) {
+        const double before_s = last_failure_->monotonic_s - crash.monotonic_s;
+        if (crash.boot == boot_id_ && before_s > -longest_end_s && before_s < longest_end_s) {
+            return sentence_of(crash);
+        }
+    }
+    return fmt::format("{} ({} {})", service_results.at(last_failure_->result).sentence, last_failure_->code,
+                       last_failure_->exit_status);
 }
 
 Outcome KioskView::look(MonotonicTime now, std::chrono::system_clock::time_point wall_clock) {

@@ -6,8 +6,10 @@
 /// Errors   none: what cannot be read is seen as well, or as not there, as its field says (app/watch/outcome.h).
 #pragma once
 
+#include "app/watch/crash.h"
 #include "app/watch/ladder.h"
 #include "app/watch/outcome.h"
+#include "app/watch/service_ends.h"
 #include "firmware_host/base/time.h"
 
 #include <cstdint>
@@ -24,6 +26,7 @@ struct KioskPlaces {
     std::filesystem::path safe_alive = "run/frustumscreen-safe/alive";
     std::filesystem::path group = "sys/fs/cgroup/system.slice/frustumscreen.service";
     std::filesystem::path device = "dev/frustumscreen/tracker"; ///< made by udev while one is plugged in
+    std::filesystem::path crashes = "var/cache/frustumscreen/crashes";
     std::filesystem::path last_good = "var/lib/frustumscreen/library/set.txt";
     std::filesystem::path data =
         "var/lib/frustumscreen-watchdog"; ///< on the disk of all data; the one folder there that its sandbox lets it write
@@ -38,6 +41,8 @@ public:
     [[nodiscard]] Means means();
     /// How the exhibit's process ended at last: `watchdog killed KILL`; empty: it did not.
     [[nodiscard]] const std::string& last_end() const { return last_end_; }
+    /// The same as a clause for the staff, with the place of a crash; empty: it did not end.
+    [[nodiscard]] std::string why_it_ended() const;
 
 private:
     [[nodiscard]] std::optional<ExhibitSays> exhibit(MonotonicTime now) const;
@@ -48,6 +53,7 @@ private:
     std::uint64_t ends_read_ = 0; ///< bytes of the file of ends
     std::uint32_t failures_ = 0;
     std::string last_end_;
+    std::optional<ServiceEnd> last_failure_;
     std::filesystem::file_time_type
         set_changed_; ///< this and the next: the library's set, as it was looked at last
     std::uintmax_t set_bytes_ = 0;

@@ -16,6 +16,7 @@ std::string_view Orders::order_for(Step step) {
         return "reboot";
     case Step::RestartExhibit:
     case Step::LastGoodSet:
+    case Step::DrawPlainly:
     case Step::BuiltIn:
     case Step::Return:
         break;

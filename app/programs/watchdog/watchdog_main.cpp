@@ -83,7 +83,9 @@ private:
                        act.step,
                        view_.last_end(),
                        {}});
-        const std::string reason = fmt::format("{}; {}", cause, sentence_of(act.step));
+        const std::string why = act.cause == Cause::KeepsEnding ? view_.why_it_ended() : std::string();
+        const std::string reason =
+            fmt::format("{}{}{}; {}", cause, why.empty() ? "" : ": ", why, sentence_of(act.step));
         journal_.note(act.cause ? LogPriority::Warning : LogPriority::Notice, reason,
                       {{"STEP", word_of(act.step)}, {"CAUSE", act.cause ? word_of(*act.cause) : ""}});
         if (act.step == Step::Reboot) {

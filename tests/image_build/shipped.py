@@ -1,0 +1,74 @@
+"""The image as it is shipped, in an emulated PC with UEFI: nothing is added to it, so it is known by its screen alone.
+
+Frame    the disk that ./image_build/build makes, with its own settings; a screen of any size; no tracker, no buttons, no agent.
+Time     as in tests/hil/machine.py.
+Threads  one caller.
+Errors   MachineError.
+"""
+
+import time
+from dataclasses import dataclass
+
+from appliance import Appliance, screen
+from bench import Patience
+
+LIVES_S = 240.0  # from power on; 60 s on two idle cores
+
+
+@dataclass
+class Seen:
+    """What the screen showed since power on."""
+
+    codes: set  # of pictures that the exhibit drew
+    lit: set  # of those that light something: a picture's contents, hashed
+    safe: object = None  # the safe picture, if it was seen
+    picture: object = None  # of the exhibit, the latest that lights something
+
+
+class Shipped(Appliance):
+    """`width`, `height`: what the screen prefers (EDID)."""
+
+    def __init__(self, image, folder, sockets, width, height, card="bochs-display"):
+        self._size = (width, height)
+        super().__init__(image, folder, sockets, {}, card=card)
+        if card == "bochs-display":
+            self._screen = f"{card},id=screen,edid=on,xres={width},yres={height},vgamem=128M"
+        self.memory_mib = 2048
+
+    def give_settings(self):
+        """None but its own."""
+
+    def start(self):
+        self.power_on()
+        self.connect_monitor()
+        Patience.clock = self.granted_s
+
+    def look(self, seen):
+        path = self.sockets / "screen.ppm"
+        self.screendump(path)
+        try:
+            picture = screen.read_ppm(path)
+        except ValueError:  # the screen changes its size
+            return
+        if screen.safe_probe(picture) is not None:
+            seen.safe = picture
+        code = screen.probe(picture)
+        if code is None:
+            return
+        seen.codes.add(code)
+        if screen.count(screen.lit(picture)) > 0:
+            rows = picture.rgb[3 * picture.width:]  # the first row has the code
+            seen.lit.add(hash(rows))
+            seen.picture = picture
+
+    def lives_within(self, timeout_s=LIVES_S):
+        """Waits until the exhibit has drawn two pictures that differ in more than their code, or the safe picture comes."""
+        seen = Seen(set(), set())
+        deadline = self.granted_s() + timeout_s
+        while self.granted_s() < deadline and len(seen.lit) < 2 and seen.safe is None:
+            self.look(seen)
+            time.sleep(0.2)
+        for name, picture in (("lit.png", seen.picture), ("safe.png", seen.safe)):
+            if picture:
+                screen.write_png(self.logs / name, picture)
+        return seen
