@@ -18,6 +18,7 @@ namespace {
 constexpr std::uintmax_t max_bytes = 16384;
 constexpr std::size_t max_value = 256;
 constexpr std::size_t max_places = 64;
+constexpr std::int64_t latest_unix_s = 253'402'300'799; ///< the year 9999
 constexpr std::string_view compiled = "compiled+";
 
 std::int64_t whole_number(std::string_view text) {
@@ -39,7 +40,7 @@ void take(Crash& crash, std::string_view key, std::string_view value) {
         }
     }
     if (key == "unix_s") {
-        crash.unix_s = whole_number(value);
+        crash.unix_s = std::min(whole_number(value), latest_unix_s);
     } else if (key == "monotonic_ms") {
         crash.monotonic_s = 1e-3 * static_cast<double>(whole_number(value));
     } else if (key == "frame" && crash.frames.size() < max_places) {

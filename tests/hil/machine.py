@@ -110,6 +110,7 @@ class Machine:
     width: int
     height: int
     usb: dict = field(default_factory=dict)
+    processor: str = PROCESSOR
     processors: int = 2
     memory_mib: int = 1536
     _sticks: dict = field(default_factory=dict)
@@ -153,7 +154,7 @@ class Machine:
     def _command(self):
         command = [
             "qemu-system-x86_64", "-name", "frustumscreen-hil", "-machine", "q35",
-            "-accel", "tcg,thread=multi,tb-size=512", "-cpu", PROCESSOR, "-smp", str(self.processors),
+            "-accel", "tcg,thread=multi,tb-size=512", "-cpu", self.processor, "-smp", str(self.processors),
             "-m", f"{self.memory_mib}M", "-display", "none", "-no-user-config", "-nodefaults", "-no-reboot",
             "-kernel", self.files / "linux", "-initrd", self.files / "initrd",
             "-append", (self.files / "cmdline").read_text(encoding="utf-8"),

@@ -21,7 +21,7 @@ sys.path.insert(0, str(HIL))
 import image as parts  # noqa: E402
 import screen  # noqa: E402
 from bench import Mock, eventually  # noqa: E402
-from machine import PROCESSOR, Machine  # noqa: E402
+from machine import Machine  # noqa: E402
 
 FIRMWARE = pathlib.Path("/usr/share/OVMF")
 WIDTH, HEIGHT = 640, 400
@@ -56,7 +56,7 @@ class Appliance(Machine):
         code = "OVMF_CODE_4M.secboot.fd" if self._secure else "OVMF_CODE_4M.fd"
         command = [
             "qemu-system-x86_64", "-name", "frustumscreen-image", "-machine", f"q35,smm={'on' if self._secure else 'off'}",
-            "-accel", "tcg,thread=multi,tb-size=512", "-cpu", PROCESSOR, "-smp", str(self.processors),
+            "-accel", "tcg,thread=multi,tb-size=512", "-cpu", self.processor, "-smp", str(self.processors),
             "-m", f"{self.memory_mib}M", "-display", "none", "-no-user-config", "-nodefaults",
             "-global", f"driver=cfi.pflash01,property=secure,value={'on' if self._secure else 'off'}",
             "-drive", f"if=pflash,format=raw,unit=0,readonly=on,file={FIRMWARE / code}",

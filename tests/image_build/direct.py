@@ -8,7 +8,6 @@ Source   sections .linux, .initrd, .cmdline: systemd-stub(7).
 
 from appliance import Appliance
 import image as parts  # from tests/hil, by appliance
-from machine import PROCESSOR
 
 
 class Direct(Appliance):
@@ -28,7 +27,7 @@ class Direct(Appliance):
     def _command(self):
         return [str(word) for word in (
             "qemu-system-x86_64", "-name", "frustumscreen-image", "-machine", "q35", "-accel", "tcg,thread=multi,tb-size=512",
-            "-cpu", PROCESSOR, "-smp", self.processors, "-m", f"{self.memory_mib}M", "-display", "none", "-no-user-config", "-nodefaults",
+            "-cpu", self.processor, "-smp", self.processors, "-m", f"{self.memory_mib}M", "-display", "none", "-no-user-config", "-nodefaults",
             "-kernel", self.logs / "linux", "-initrd", self.logs / "initrd", "-append", f"{self.command_line} {self.more_words}".strip(),
             "-drive", f"if=none,id=disk,format=raw,file={self.disk},readonly={'on' if self.read_only else 'off'}",
             "-device", "virtio-blk-pci,drive=disk,serial=disk",

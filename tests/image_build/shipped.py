@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from appliance import Appliance, screen
 from bench import Patience
+from machine import PROCESSOR
 
 LIVES_S = 240.0  # from power on; 60 s on two idle cores
 
@@ -26,14 +27,12 @@ class Seen:
 
 
 class Shipped(Appliance):
-    """`width`, `height`: what the screen prefers (EDID)."""
+    """`width`, `height`: what the screen prefers (EDID). The card holds two pictures of 3840 x 2160."""
 
-    def __init__(self, image, folder, sockets, width, height, card="bochs-display"):
-        self._size = (width, height)
-        super().__init__(image, folder, sockets, {}, card=card)
-        if card == "bochs-display":
-            self._screen = f"{card},id=screen,edid=on,xres={width},yres={height},vgamem=128M"
-        self.memory_mib = 2048
+    def __init__(self, image, folder, sockets, width, height, processor=PROCESSOR):
+        super().__init__(image, folder, sockets, {})
+        self._screen = f"bochs-display,id=screen,edid=on,xres={width},yres={height},vgamem=128M"
+        self.memory_mib, self.processor = 2048, processor
 
     def give_settings(self):
         """None but its own."""
