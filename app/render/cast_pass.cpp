@@ -50,7 +50,8 @@ Result<void> CastPass::prepare(std::size_t casts, int width, int height) {
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
         // The driver's pages are touched here, and not when a shader first reads them.
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, memory_.texels.data());
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        memory_.texels.data());
         if (glGetError() != GL_NO_ERROR) {
             return fail(
                 ErrorKind::BadConfiguration,

@@ -34,8 +34,12 @@ TEST(Museum, EachAilmentMeetsTheShortestLadder) {
     EXPECT_EQ(steps_against(Ailment::DeviceThread), Steps{Step::ResetDevice});
     EXPECT_EQ(steps_against(Ailment::BadSet, 1800),
               (Steps{Step::ResetDevice, Step::LastGoodSet, Step::Return, Step::LastGoodSet, Step::Return}));
-    EXPECT_EQ(steps_against(Ailment::GpuWedged),
-              (Steps{Step::ResetDevice, Step::LastGoodSet, Step::BuiltIn, Step::SafePicture, Step::Reboot}));
+    for (const Ailment ailment : {Ailment::DriverCrash, Ailment::GpuWedged}) {
+        EXPECT_EQ(steps_against(ailment, 1800),
+                  (Steps{Step::ResetDevice, Step::LastGoodSet, Step::DrawPlainly, Step::Return,
+                         Step::DrawPlainly, Step::Return}))
+            << kind_of(ailment).name;
+    }
 }
 
 TEST(Museum, ADeadTrackerIsGivenUp) {

@@ -66,7 +66,8 @@ TEST_F(RunMode, PlainDrawingShowsThePacksOfTheSettings) {
     const nlohmann::json said = status();
     EXPECT_EQ(said.at("mode"), "plain");
     EXPECT_EQ(said.at("artifact"), "Rings");
-    EXPECT_FALSE(std::filesystem::exists(folder / "cache/mesa_shader_cache")) << "no compiled shader is taken or kept";
+    EXPECT_FALSE(std::filesystem::exists(folder / "cache/mesa_shader_cache"))
+        << "no compiled shader is taken or kept";
 }
 
 TEST_F(RunMode, WrongSettingsEndTheProgramInTheNormalModeAlone) {

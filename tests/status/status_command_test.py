@@ -268,7 +268,7 @@ class Json(Status):
         done = self.run_status("--json")
         self.assertEqual((done.returncode, done.stderr), (0, b""))
         known = json.loads(done.stdout)
-        self.assertEqual(list(known), ["well", "runs", "sentence", "age_s", "exhibit", "watchdog", "ends", "system"])
+        self.assertEqual(list(known), ["well", "runs", "sentence", "age_s", "exhibit", "watchdog", "ends", "crashes", "system"])
         self.assertEqual(known["system"], {"version": "1.4.0", "slot": "a", "notes": ["it did not start"]})
         self.assertTrue(known["well"] and known["runs"])
         self.assertTrue(0 <= known["age_s"] < 5)
@@ -282,7 +282,7 @@ class Json(Status):
         done = self.run_status("--json")
         self.assertEqual(done.returncode, 1)
         known = json.loads(done.stdout)
-        self.assertEqual(list(known), ["well", "runs", "sentence", "age_s", "exhibit", "watchdog", "ends", "system"])
+        self.assertEqual(list(known), ["well", "runs", "sentence", "age_s", "exhibit", "watchdog", "ends", "crashes", "system"])
         self.assertEqual((known["age_s"], known["exhibit"]["status"], known["ends"]["last"], known["system"]), (None,) * 4)
         self.assertIn("there is no such file", known["exhibit"]["why_unknown"])
 

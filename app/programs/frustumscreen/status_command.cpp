@@ -38,7 +38,8 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     app.add_flag("--prometheus", request.prometheus, "numbers in Prometheus' text format").excludes(json);
     app.add_option("--screenshot", request.screenshot, "write the picture that is projected now, as PNG");
     app.add_option("--status-file", request.places.status_file, "the exhibit's status").capture_default_str();
-    app.add_option("--watchdog-file", request.places.watchdog_file, "its watchdog's status").capture_default_str();
+    app.add_option("--watchdog-file", request.places.watchdog_file, "its watchdog's status")
+        .capture_default_str();
     app.add_option("--boot-folder", request.places.boot_folder, "what the start of an appliance has left")
         .capture_default_str();
     app.add_option("--crash-folder", request.places.crash_folder, "what the last crashes have left")
