@@ -75,6 +75,7 @@ Result<void> SampleGrid::make_target() {
     glDisable(GL_SCISSOR_TEST);
     glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
     glClear(GL_COLOR_BUFFER_BIT);
+    glFinish();
     return {};
 }
 

@@ -31,6 +31,7 @@ Result<PictureFramebuffer> PictureFramebuffer::create(int width, int height) {
     glDisable(GL_SCISSOR_TEST);
     glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
     glClear(GL_COLOR_BUFFER_BIT);
+    glFinish(); // a display copies from another context
     return picture;
 }
 

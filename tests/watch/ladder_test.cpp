@@ -166,7 +166,7 @@ TEST(Ladder, AStartOfThisProgramAloneChangesNothing) {
 TEST(Ladder, SafePictureThatFailsLeadsToAReboot) {
     Kiosk kiosk;
     (void)kiosk.bad(Cause::NoPicture, minutes(2));
-    const std::vector<Taken> taken = kiosk.see({Cause::SafePictureFails, false}, seconds(100));
+    const std::vector<Taken> taken = kiosk.see({Cause::SafePictureFails, false}, seconds(200));
     ASSERT_EQ(taken.size(), 1U);
     EXPECT_EQ(taken.front().step, Step::Reboot);
 }
