@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 from appliance import Appliance, screen
 from bench import Patience
-from machine import PROCESSOR
 
 LIVES_S = 240.0  # from power on; 60 s on two idle cores
 
@@ -27,11 +26,11 @@ class Seen:
 
 
 class Shipped(Appliance):
-    """`width`, `height`: what the screen prefers (EDID). The card holds two pictures of 3840 x 2160."""
+    """`screen_size`: what the screen prefers (EDID); `card_memory`: QEMU's word for it."""
 
-    def __init__(self, image, folder, sockets, width, height, processor=PROCESSOR):
+    def __init__(self, image, folder, sockets, screen_size, card_memory, processor):
         super().__init__(image, folder, sockets, {})
-        self._screen = f"bochs-display,id=screen,edid=on,xres={width},yres={height},vgamem=128M"
+        self._screen = f"bochs-display,id=screen,edid=on,xres={screen_size[0]},yres={screen_size[1]},vgamem={card_memory}"
         self.memory_mib, self.processor = 2048, processor
 
     def give_settings(self):

@@ -3,6 +3,7 @@
 import filecmp
 import os
 import pathlib
+import struct
 import subprocess
 import tempfile
 import unittest
@@ -16,10 +17,12 @@ TEST_KEY = pathlib.Path("/usr/share/ovmf/PkKek-1-snakeoil.key")  # whose passwor
 
 
 def build(*options):
-    """As make_image.sh, with the same versions of Debian's packages."""
+    """As make_image.sh, with the same versions of Debian's packages, at the same time: the commit may be another by now."""
+    (slot,) = IMAGE.parent.glob("frustumscreen_*.slot")
+    (time_s,) = struct.unpack_from("<I", slot.read_bytes()[:12], 8)  # squashfs' superblock: mkfs_time
     return subprocess.run([BUILD, "--quick", "--locked", IMAGE.with_name("packages.txt"), "--packages",
                            os.environ["FRUSTUMSCREEN_IMAGE_PACKAGES"], "--update-ca", UPDATE_CA, *options],
-                          capture_output=True, text=True, check=False)
+                          capture_output=True, text=True, check=False, env={**os.environ, "SOURCE_DATE_EPOCH": str(time_s)})
 
 
 def keys_in(folder):
@@ -55,7 +58,7 @@ class Build(unittest.TestCase):
                               capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 1)
         (here,) = [line.split()[1] for line in lines if line.startswith("zlib1g ")]
-        self.assertEqual(done.stderr.splitlines()[:2], ["locked has: zlib1g 0.0", f"Debian has:  zlib1g {here}"], done.stderr)
+        self.assertEqual(done.stderr.splitlines()[:2], ["--locked has: zlib1g 0.0", f"Debian has:  zlib1g {here}"], done.stderr)
         self.assertIn("--mirror", done.stderr)
 
     @long
