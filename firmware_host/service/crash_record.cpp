@@ -106,21 +106,16 @@ void add_line(std::string_view key, const char* value) {
     }
 }
 
-std::uintptr_t crash_address(const void* context) {
+struct Registers {
+    std::uintptr_t code = 0, stack = 0; ///< addresses
+};
+Registers registers_of(const void* context) {
     const auto& machine = static_cast<const ucontext_t*>(context)->uc_mcontext;
 #if defined(__x86_64__)
-    return static_cast<std::uintptr_t>(machine.gregs[REG_RIP]);
+    return {static_cast<std::uintptr_t>(machine.gregs[REG_RIP]),
+            static_cast<std::uintptr_t>(machine.gregs[REG_RSP])};
 #else
-    return static_cast<std::uintptr_t>(machine.pc);
-#endif
-}
-
-std::uintptr_t stack_address(const void* context) {
-    const auto& machine = static_cast<const ucontext_t*>(context)->uc_mcontext;
-#if defined(__x86_64__)
-    return static_cast<std::uintptr_t>(machine.gregs[REG_RSP]);
-#else
-    return static_cast<std::uintptr_t>(machine.sp);
+    return {static_cast<std::uintptr_t>(machine.pc), static_cast<std::uintptr_t>(machine.sp)};
 #endif
 }
 
@@ -237,12 +232,12 @@ void add_place(std::string_view key, const Place& place) {
 }
 
 void add_places(const void* context) {
-    const std::uintptr_t stack = stack_address(context);
-    unwind(crash_address(context));
+    const auto [code, stack] = registers_of(context);
+    unwind(code);
     state.count = state.unwound;
     if (state.unwound < min_unwound) {
         std::uintptr_t end = 0;
-        for_each_mapping([&](const Mapping& mapping) {
+        for_each_mapping([&end, stack = stack](const Mapping& mapping) {
             end = stack >= mapping.begin && stack < mapping.end ? mapping.end : end;
         });
         take_stack(stack, end);

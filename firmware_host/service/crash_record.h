@@ -1,5 +1,5 @@
-/// What stays of a crash: a last line on standard error, and a small file that says where it was. Then the crash goes on, and the
-/// service manager starts the exhibit again.
+/// Records a crash: writes a last line to standard error, and a small file that says where it happened. The process then ends by
+/// the same signal, and the service manager starts the exhibit again.
 ///
 /// File     `crash_1` to `crash_3` in a folder (base/crash_file.h); the oldest is written over, so the last three stay. Text, a line for each fact:
 ///            frustumscreen-crash-1

@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 
 # An emulated processor without AVX. QEMU 7.2's gather of AVX2 (vpgatherdd) reads 2 GiB beside its base where a page comes in while it
 # works, and llvmpipe ends with SIGSEGV (README.md); without AVX, llvmpipe also takes the vectors that the emulator is quick at.
-# What AVX2 does is tested on the host.
+# Tests on the host cover AVX2.
 PROCESSOR = "max,avx=off,avx2=off,fma=off,f16c=off,vaes=off,vpclmulqdq=off"
 SECOND_SLOT = 0x10  # of the second graphics card, on the PCI bus
 START_S = 180.0  # until the agent answers; 13 to 30 s on two cores

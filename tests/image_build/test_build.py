@@ -42,7 +42,15 @@ class Build(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def test_two_builds_are_the_same(self):
-        """What the tests start is what a build without --test ships, to the byte."""
+        done = build("--test", "--out", self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        again = self.folder / "test" / IMAGE.name
+        self.assertTrue(filecmp.cmp(IMAGE, again, shallow=False), f"{IMAGE} and a second build of it differ")
+        for name in ("sbom.json", "licences.tar", "why.txt"):
+            self.assertTrue(filecmp.cmp(IMAGE.with_name(name), again.with_name(name), shallow=False), name)
+
+    def test_what_is_shipped_is_what_is_started(self):
+        """A build without --test, to the byte."""
         done = build("--out", self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         as_shipped = IMAGE.parent / "as_shipped" / IMAGE.name

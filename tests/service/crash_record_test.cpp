@@ -1,4 +1,4 @@
-// What a crash leaves, held against addr2line's reading of this program.
+// Compares crash records with addr2line's reading of this program.
 #include "firmware_host/base/crash_file.h"
 #include "firmware_host/base/this_boot.h"
 #include "firmware_host/service/crash_record.h"
