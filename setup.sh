@@ -37,7 +37,7 @@ for part; do
         kiosk) packages+=(fonts-noto-cjk) ;; # the safe picture's words, in all languages
         tests)
             packages+=(
-                ccache libgtest-dev umockdev libumockdev-dev python3
+                ccache mold libgtest-dev umockdev libumockdev-dev python3
                 python3-scipy                     # another solver for the calibration
                 systemd                           # its tools check the units
                 libharfbuzz-dev fonts-noto-cjk    # texts in all languages

@@ -52,13 +52,15 @@ quietly() {
 
 # Where ccache is installed, it finds what another clone on this machine has compiled. Nothing depends on it.
 launcher=$(command -v ccache || true)
-export CMAKE_C_COMPILER_LAUNCHER=$launcher CMAKE_CXX_COMPILER_LAUNCHER=$launcher # for a new build folder
+timed="$PWD/cmake/timed"
+export CMAKE_{C,CXX}_COMPILER_LAUNCHER="$timed;compile${launcher:+;$launcher}" # for a new build folder
+export CMAKE_{C,CXX}_LINKER_LAUNCHER="$timed;link"
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 export CCACHE_INODECACHE=1 # else every hit reads the precompiled headers, 110 MB, to hash them
 
 options=()
-if [[ -z $launcher ]] && grep -qs '^CMAKE_CXX_COMPILER_LAUNCHER:.*=.' "$folder/CMakeCache.txt"; then
-    options+=(-DCMAKE_C_COMPILER_LAUNCHER= -DCMAKE_CXX_COMPILER_LAUNCHER=)
+if [[ -z $launcher ]] && grep -qs '^CMAKE_CXX_COMPILER_LAUNCHER:.*ccache' "$folder/CMakeCache.txt"; then
+    options+=(-DCMAKE_{C,CXX}_COMPILER_LAUNCHER="$CMAKE_CXX_COMPILER_LAUNCHER")
 fi
 for option in "${!wanted[@]}"; do
     if [[ ! -f $folder/build.ninja || ! -f $folder/CMakeCache.txt ]]; then
