@@ -73,7 +73,7 @@ set(timed_test ${CMAKE_SOURCE_DIR}/cmake/timed test)
 
 # mold links a test in a third of the time; what ships is linked by the system's own linker.
 find_program(MOLD mold)
-set(test_linker $<$<BOOL:${MOLD}>:-fuse-ld=mold>)
+set(test_linker $<$<BOOL:${MOLD}>:-fuse-ld=mold;-Wl,--no-fork>)
 
 # The folders that the tests look into. These paths are on no command line but this library's, so that ccache finds in one clone
 # what another compiled.
