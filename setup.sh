@@ -2,10 +2,10 @@
 # Installs what is missing of the Debian 12 packages that a command needs, and says which. ./run and ./test call it; with
 # everything there it takes a fraction of a second.
 #
-#   ./setup.sh [window|kiosk|tests|fuzz|hil|bundle|packages|image]...
+#   ./setup.sh [window|kiosk|tests|tidy|coverage|fuzz|hil|bundle|packages|image]...
 #
 # No part: what ./run builds and runs. Each part comes on top of that: window: frustumscreen-window; kiosk: frustumscreen-safe;
-# tests: ./test, with both; fuzz: ./test fuzz; hil: ./test hil, with kiosk; packages: image_build/packages, with window and kiosk;
+# tests: ./test, with both; tidy, coverage: ./test tidy and ./test coverage, with these three; fuzz: ./test fuzz; hil: ./test hil, with kiosk; packages: image_build/packages, with window and kiosk;
 # bundle: image_build/bundle; image: image_build/build, with these
 set -euo pipefail
 
@@ -65,6 +65,8 @@ for part; do
                 rauc openssl                                                         # updates
             )
             ;;
+        tidy) packages+=(clang-tidy-16 python3) ;;
+        coverage) packages+=(gcovr) ;;
         fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;
         bundle) packages+=(rauc openssl squashfs-tools) ;; # image_build/bundle
         packages) packages+=(dpkg-dev file python3) ;; # file: CPack finds programs by it; python3: pages of the manual
@@ -75,7 +77,7 @@ for part; do
             )
             ;;
         *)
-            echo "usage: ./setup.sh [window|kiosk|tests|fuzz|hil|bundle|packages|image]..." >&2
+            echo "usage: ./setup.sh [window|kiosk|tests|tidy|coverage|fuzz|hil|bundle|packages|image]..." >&2
             exit 2
             ;;
     esac
