@@ -169,6 +169,38 @@ TEST_P(SearchOf, TheEasiestOfTheShortestSequencesIsFound) {
     EXPECT_GT(several, 3);
 }
 
+TEST_P(SearchOf, AVisitorWhoHasASequenceKeepsItsBeginning) {
+    int several = 0;
+    for (int k = 0; k < 400 && several < 4; ++k) {
+        const GuidedSituation situation = seeded_situation(reader.setup(), seeded);
+        const std::optional<Advice> advice = searched(reader, situation);
+        if (advice && advice->steps > 1) {
+            ++several;
+            const std::optional<Advice> again =
+                searched(reader, situation, Standing{advice->move, situation});
+            ASSERT_TRUE(again);
+            EXPECT_TRUE(alike(again->move, advice->move)) << k;
+        }
+    }
+    EXPECT_GT(several, 0);
+}
+
+/// A prop that stands beside a projector which lights nothing: no move helps, and the visitor has to wait.
+TEST_P(SearchOf, WhereNoSequenceHelpsTheVisitorWaits) {
+    GuidanceSetup dark = GetParam()();
+    dark.projector.width = 1; // nothing is in its picture
+    dark.projector.height = 1;
+    const FaceReader nothing_lit(dark);
+    GuidedSituation situation = seeded_situation(reader.setup(), seeded);
+    while (nothing_lit.read(situation).seen == 0) {
+        situation = seeded_situation(reader.setup(), seeded);
+    }
+    const std::optional<Advice> advice = searched(nothing_lit, situation);
+    ASSERT_TRUE(advice);
+    EXPECT_EQ(advice->move.action, Action::Wait);
+    EXPECT_EQ(advice->steps, 1);
+}
+
 /// Three and four moves: there is no sequence of two, even with the last move all over the table.
 TEST_P(SearchOf, NoLongerSequenceIsAdvisedWhereAShorterOneIs) {
     int longer = 0;
