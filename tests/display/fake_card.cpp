@@ -93,10 +93,10 @@ void FakeCard::add_property(std::uint32_t object, const FakeProperty& property, 
 }
 
 void FakeCard::take_property(std::uint32_t object, const std::string& name) {
-    state_.at(object).erase(property_id(object, name));
+    state_.at(object).erase(id_of(object, name));
 }
 
-std::uint32_t FakeCard::property_id(std::uint32_t object, const std::string& name) const {
+std::uint32_t FakeCard::id_of(std::uint32_t object, const std::string& name) const {
     for (const auto& [id, value] : state_.at(object)) {
         if (properties_.at(id).name == name) {
             return id;
@@ -107,12 +107,12 @@ std::uint32_t FakeCard::property_id(std::uint32_t object, const std::string& nam
 
 std::uint64_t FakeCard::get(const State& state, std::uint32_t object, const std::string& name) const {
     const Values& values = state.at(object);
-    const auto found = values.find(property_id(object, name));
+    const auto found = values.find(id_of(object, name));
     return found != values.end() ? found->second : 0;
 }
 
 void FakeCard::put(State& state, std::uint32_t object, const std::string& name, std::uint64_t value) const {
-    if (const std::uint32_t id = property_id(object, name); id != 0) {
+    if (const std::uint32_t id = id_of(object, name); id != 0) {
         state.at(object)[id] = value;
     }
 }

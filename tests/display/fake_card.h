@@ -129,6 +129,8 @@ public:
     [[nodiscard]] std::optional<Shown> shown(std::uint32_t connector) const;
     [[nodiscard]] std::uint64_t value(std::uint32_t object, const std::string& property) const;
     void set(std::uint32_t object, const std::string& property, std::uint64_t value);
+    /// A property's number; 0: the object has none of this name.
+    [[nodiscard]] std::uint32_t id_of(std::uint32_t object, const std::string& property) const;
     [[nodiscard]] FakeConnector& connector(std::uint32_t id);
     /// So many times a framebuffer was removed while it was shown.
     [[nodiscard]] int removed_while_shown() const { return removed_while_shown_; }
@@ -181,7 +183,6 @@ private:
         std::uint64_t given_back = 0;
     };
     std::uint32_t add_object(std::uint32_t kind);
-    std::uint32_t property_id(std::uint32_t object, const std::string& name) const;
     [[nodiscard]] std::uint64_t get(const State& state, std::uint32_t object, const std::string& name) const;
     void put(State& state, std::uint32_t object, const std::string& name, std::uint64_t value) const;
     [[nodiscard]] bool takes(const FakeProperty& property, std::uint64_t value) const;

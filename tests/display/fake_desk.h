@@ -24,7 +24,7 @@ inline drmModeModeInfo kernel_mode(int width, int height, double hz, bool prefer
 }
 
 inline std::vector<drmModeModeInfo> projector_modes() {
-    return {kernel_mode(1280, 800, 60.0, true), kernel_mode(1024, 768, 60.0), kernel_mode(640, 480, 60.0)};
+    return {kernel_mode(320, 200, 60.0, true), kernel_mode(256, 192, 60.0), kernel_mode(160, 120, 60.0)};
 }
 
 /// Two CRTCs with a primary plane each, an overlay, HDMI and DisplayPort; an earlier program has left its state on them.
