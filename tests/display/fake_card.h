@@ -114,6 +114,8 @@ public:
     /// Pulls or plugs a cable: a probe sees it.
     void plug(std::uint32_t connector, std::vector<drmModeModeInfo> edid);
     void unplug(std::uint32_t connector);
+    /// Another program becomes the master and lets go again.
+    void drop_master() { master_ = nullptr; }
     /// What was committed reaches the screen, and its events the files.
     void refresh();
 

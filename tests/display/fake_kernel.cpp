@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cerrno>
+#include <utility>
 
 extern "C" int __real_close(int file);
 
@@ -24,12 +24,11 @@ struct Errors {
 } // namespace
 
 FakeKernel::FakeKernel() {
-    assert(current == nullptr);
-    current = this;
+    before_ = std::exchange(current, this);
 }
 
 FakeKernel::~FakeKernel() {
-    current = nullptr;
+    current = before_;
 }
 
 FakeKernel& FakeKernel::instance() {
@@ -60,12 +59,13 @@ std::vector<int> FakeKernel::errors_of(std::string_view call) {
         {"drmModeAddFB", {EINVAL, ENODEV, ENOENT, ENOMEM}},
         {"drmModeAddFB2", {EINVAL, ENODEV, ENOENT, ENOMEM}},
         {"drmModeCreateDumbBuffer", {EINVAL, ENODEV, ENOMEM, ENOSPC, ENOSYS}},
+        {"drmModeGetProperty", {ENOMEM}},
         {"drmCrtcGetSequence", {EINVAL, ENODEV, EOPNOTSUPP}},
         {"drmGetCap", {EINVAL, ENODEV}},
     };
     const auto found =
         std::find_if(known.begin(), known.end(), [call](const Errors& one) { return one.call == call; });
-    return found != known.end() ? found->errors : std::vector<int>{ENODEV, ENOENT, ENOMEM};
+    return found != known.end() ? found->errors : std::vector<int>{ENODEV, ENOMEM};
 }
 
 int FakeKernel::enter(std::string_view call) {

@@ -1,5 +1,5 @@
 /// The kernel below a test's program, as far as graphics cards go: their files, the calls of libdrm and libgbm, memory that is mapped.
-/// While one of these lives, the functions of libdrm and libgbm, and `open`, `close`, `mmap` and `munmap`, that the tested code calls
+/// While one of these lives (of several, the last), the functions of libdrm and libgbm, and `open`, `close`, `mmap` and `munmap`, that the tested code calls
 /// are those of fake_libdrm.cpp, fake_libgbm.cpp and fake_files.cpp.
 ///
 /// It counts all that it hands out, and each call may be told to fail. An error that a signal causes (EINTR, EAGAIN) does not
@@ -60,6 +60,7 @@ private:
         std::string kind;
         std::shared_ptr<void> memory;
     };
+    FakeKernel* before_;
     std::map<std::string, std::unique_ptr<FakeCard>, std::less<>> cards_;
     std::vector<std::pair<std::string, FakeCard*>> gpus_;
     std::map<int, FakeFile> files_;
