@@ -47,6 +47,7 @@ struct FakeFile {
     bool universal_planes = false;
     bool atomic = false;
     bool was_master = false;
+    std::string renderer; ///< of a render node: what OpenGL says of its GPU; empty: the processor draws
     std::set<std::uint32_t> framebuffers, blobs, handles;
 };
 
@@ -98,6 +99,8 @@ public:
     bool monotonic = true;    ///< its events' times
     std::uint32_t most_khz = 300'000;
     std::set<std::string> fixed; ///< properties that no commit may set to another value
+    bool has_gbm = true;
+    std::string renderer; ///< what OpenGL says of its own GPU; empty: it has none, and the processor draws
     // What happens to it.
     bool gone = false;
     bool flips_at_once = true; ///< as an emulated card; else when `refresh` is called

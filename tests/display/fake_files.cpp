@@ -27,14 +27,15 @@ int __wrap_open(const char* path, int flags, ...) {
     }
     FakeKernel& kernel = FakeKernel::instance();
     frustumscreen::FakeCard* const card = kernel.card_at(path);
-    if (card == nullptr && !kernel.has_gpu(path)) {
+    const frustumscreen::FakeGpu* const gpu = kernel.gpu_at(path);
+    if (card == nullptr && gpu == nullptr) {
         return __real_open(path, flags, mode);
     }
     errno = kernel.enter("open");
     if (errno == 0 && card != nullptr && card->gone) {
         errno = ENODEV;
     }
-    return errno == 0 ? kernel.open_file(card, flags) : -1;
+    return errno == 0 ? kernel.open_file(card, gpu, flags) : -1;
 }
 
 int __wrap_close(int file) {

@@ -87,11 +87,13 @@ FakeCard* FakeKernel::card_at(std::string_view path) {
     return found != cards_.end() ? found->second.get() : nullptr;
 }
 
-bool FakeKernel::has_gpu(std::string_view path) const {
-    return std::any_of(gpus_.begin(), gpus_.end(), [path](const auto& gpu) { return gpu.first == path; });
+const FakeGpu* FakeKernel::gpu_at(std::string_view path) const {
+    const auto found =
+        std::find_if(gpus_.begin(), gpus_.end(), [path](const FakeGpu& gpu) { return gpu.path == path; });
+    return found != gpus_.end() ? &*found : nullptr;
 }
 
-int FakeKernel::open_file(FakeCard* card, int flags) {
+int FakeKernel::open_file(FakeCard* card, const FakeGpu* gpu, int flags) {
     std::array<int, 2> ends{};
     const bool blocks = (flags & O_NONBLOCK) == 0;
     const int type = SOCK_SEQPACKET | SOCK_CLOEXEC | (blocks ? 0 : SOCK_NONBLOCK); // it keeps events whole
@@ -104,6 +106,7 @@ int FakeKernel::open_file(FakeCard* card, int flags) {
     if (card != nullptr) {
         card->opened(opened);
     }
+    opened.renderer = gpu != nullptr ? gpu->renderer : "";
     return ends[0];
 }
 

@@ -16,6 +16,13 @@
 
 namespace frustumscreen {
 
+/// Something that draws.
+struct FakeGpu {
+    std::string path;       ///< of its render node; empty: it has none
+    std::string renderer;   ///< what OpenGL says of it; empty: the processor draws
+    FakeCard* of = nullptr; ///< the card that it is part of
+};
+
 class FakeKernel {
 public:
     FakeKernel();
@@ -26,8 +33,7 @@ public:
     static bool is_there();
 
     FakeCard& add_card(const std::string& path);
-    /// A GPU that draws; `path`: its render node.
-    void add_gpu(const std::string& path, FakeCard* of = nullptr) { gpus_.emplace_back(path, of); }
+    void add_gpu(FakeGpu gpu) { gpus_.push_back(std::move(gpu)); }
 
     /// The calls so far, by name; the one of this number fails with this error number.
     [[nodiscard]] const std::vector<std::string>& calls() const { return calls_; }
@@ -47,9 +53,10 @@ public:
     [[nodiscard]] int enter(std::string_view call);
     [[nodiscard]] FakeFile* file(int number);
     [[nodiscard]] FakeCard* card_at(std::string_view path);
-    [[nodiscard]] bool has_gpu(std::string_view path) const;
-    [[nodiscard]] const std::vector<std::pair<std::string, FakeCard*>>& gpus() const { return gpus_; }
-    int open_file(FakeCard* card, int flags);
+    [[nodiscard]] const FakeGpu* gpu_at(std::string_view path) const;
+    [[nodiscard]] const std::vector<FakeGpu>& gpus() const { return gpus_; }
+    /// Of a card, or else of a GPU.
+    int open_file(FakeCard* card, const FakeGpu* gpu, int flags);
     void close_file(int number);
     void hand_out(const void* what, std::string kind, std::shared_ptr<void> memory = nullptr);
     void give_back(const void* what, std::string_view kind);
@@ -62,7 +69,7 @@ private:
     };
     FakeKernel* before_;
     std::map<std::string, std::unique_ptr<FakeCard>, std::less<>> cards_;
-    std::vector<std::pair<std::string, FakeCard*>> gpus_;
+    std::vector<FakeGpu> gpus_;
     std::map<int, FakeFile> files_;
     std::map<const void*, HandedOut> handed_out_;
     std::vector<std::string> calls_;
