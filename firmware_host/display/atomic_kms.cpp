@@ -35,15 +35,22 @@ public:
         }
     }
     void set(std::uint32_t object, std::uint32_t property, std::uint64_t value) {
-        drmModeAtomicAddProperty(request_.get(), object, property, value);
+        if (count_ >= 0) {
+            count_ = drmModeAtomicAddProperty(request_.get(), object, property, value);
+        }
     }
+    /// What is not whole is not sent; libdrm would call an empty request done.
     [[nodiscard]] KmsAnswer send(std::uint32_t flags, std::uint64_t ticket) const {
+        if (count_ <= 0) {
+            return answer_to_a_lack(file_);
+        }
         return kms_answer(drmModeAtomicCommit(file_, request_.get(), flags | DRM_MODE_ATOMIC_NONBLOCK,
                                               bits_given_back(ticket)));
     }
 
 private:
     int file_;
+    int count_ = 0; ///< of properties; negative: one could not be added
     std::unique_ptr<drmModeAtomicReq, decltype(&drmModeAtomicFree)> request_;
 };
 
@@ -134,7 +141,7 @@ KmsAnswer AtomicKms::light(std::uint32_t connector, const ModeTiming& mode, cons
     const drmModeModeInfo info = mode_info(mode);
     std::uint32_t blob = 0;
     if (!route || drmModeCreatePropertyBlob(file_, &info, sizeof info, &blob) != 0) {
-        return resources_of(file_) ? KmsAnswer::Refused : kms_answer(-errno);
+        return answer_to_a_lack(file_);
     }
     forget_mode(); // the kernel keeps the mode that is set
     mode_blob_ = blob;
