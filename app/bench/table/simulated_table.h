@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -61,5 +62,9 @@ struct PictureError {
 using Reported = std::function<RigidTransform(const RigidTransform&)>;
 [[nodiscard]] PictureError picture_error(const SimulatedTable& table, const CalibratedTable& calibrated,
                                          double top_m, const Reported& reported = {});
+/// The same at each place: from what should be lit to the light.
+[[nodiscard]] std::vector<glm::dvec3> picture_offsets(const SimulatedTable& table,
+                                                      const CalibratedTable& calibrated, double top_m,
+                                                      const Reported& reported = {});
 
 } // namespace frustumscreen
