@@ -1,14 +1,25 @@
 #!/usr/bin/env bash
-# Configures a preset where needed, and builds it or some of its targets. On a terminal ninja says how far it is;
+# Configures a preset where needed, and builds it or some of its targets; usage below. On a terminal ninja says how far it is;
 # elsewhere one line does every 20 s, and the whole log only if something fails.
-#
-#   build.sh release|debug|asan|tsan|fuzz [--without tests|window|bench]... [TARGET...]
 #
 # A new build folder leaves out a part that is not wanted, and needs none of its packages. A folder that has the part keeps
 # it, and one that lacks a wanted part gets it; neither builds anything twice.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-preset=$1
+usage="usage: cmake/build.sh release|debug|asan|tsan|fuzz [--without tests|window|bench]... [TARGET...]
+
+Configures build/PRESET where needed, and builds it or some of its targets."
+case "${1-}" in
+    release | debug | asan | tsan | fuzz) preset=$1 ;;
+    -h | --help)
+        echo "$usage"
+        exit 0
+        ;;
+    *)
+        echo "$usage" >&2
+        exit 2
+        ;;
+esac
 shift
 declare -A wanted=([BUILD_TESTING]=ON [FRUSTUMSCREEN_WINDOW]=ON [FRUSTUMSCREEN_BENCH]=ON)
 while [[ ${1-} == --without ]]; do
