@@ -47,7 +47,7 @@ double cost_of_end(const FaceReader& reader, const GuidedSituation& end) {
 
 /// Single moves that help everybody: their effort, what their end costs, and three for those whom no way leads to a whole picture.
 Found single_moves(const FaceReader& reader, const GuidedSituation& situation,
-                   const std::optional<Standing>& standing) {
+                   const std::optional<GivenAdvice>& standing) {
     Found found;
     for (const Candidate& each : candidates(reader.setup(), situation, MoveSet::Only).all()) {
         const double end = cost_of_end(reader, after(each.move, reader.setup(), situation));
@@ -88,7 +88,7 @@ Found sequences(const FaceReader& reader, const GuidedSituation& situation, int 
 }
 
 std::optional<Advice> searched(const FaceReader& reader, const GuidedSituation& situation,
-                               const std::optional<Standing>& standing = {}) {
+                               const std::optional<GivenAdvice>& standing = {}) {
     AdviceSearch search;
     search.begin(reader, situation, standing);
     EXPECT_TRUE(search.advance(reader, AdviceSearch::unlimited));
@@ -134,7 +134,7 @@ TEST_P(SearchOf, WhatStandsCountsForItselfAndMustBeClearlyBeaten) {
         }
         GuidedSituation nearby = situation; // the visitor has hardly begun to follow
         nearby.table_from_prop.translation += glm::dvec3(seeded.between(-0.004, 0.004), 0.0, 0.0);
-        const Standing standing{before->move, situation};
+        const GivenAdvice standing{before->move, situation};
         const std::optional<Advice> now = searched(reader, nearby, standing);
         const Found all = single_moves(reader, nearby, standing);
         if (now && now->steps == 1 && all.least() < never) {
@@ -177,7 +177,7 @@ TEST_P(SearchOf, AVisitorWhoHasASequenceKeepsItsBeginning) {
         if (advice && advice->steps > 1) {
             ++several;
             const std::optional<Advice> again =
-                searched(reader, situation, Standing{advice->move, situation});
+                searched(reader, situation, GivenAdvice{advice->move, situation});
             ASSERT_TRUE(again);
             EXPECT_TRUE(alike(again->move, advice->move)) << k;
         }
