@@ -15,8 +15,8 @@
 
 #include "app/calibration/board_view.h"
 #include "app/calibration/calibrate_auto.h"
+#include "app/calibration/capture_delay.h"
 #include "app/calibration/last_press.h"
-#include "app/calibration/light_delay.h"
 #include "app/calibration/rest_wish.h"
 #include "app/calibration/still_reports.h"
 #include "app/calibration/stripe_capture.h"
@@ -170,7 +170,7 @@ private:
     LastPress last_press_; ///< or rest
     std::optional<MonotonicTime>
         camera_well_; ///< at the beginning: so long it could be used, or nothing was to be seen yet
-    std::optional<LightDelay> light_;
+    std::optional<CaptureDelay> light_;
     std::optional<Nanoseconds> delay_;
     StillReports still_{3};
     std::optional<MonotonicTime> seen_;       ///< the tracker's latest report

@@ -15,7 +15,7 @@ namespace frustumscreen {
 
 struct CaptureSetup {
     StripeSetup stripes;
-    Nanoseconds delay{}; ///< LightDelay
+    Nanoseconds delay{}; ///< CaptureDelay
     int frames = 2;      ///< of each picture
 };
 

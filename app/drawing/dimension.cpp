@@ -56,7 +56,7 @@ void draw_dimension(SvgSheet& sheet, const glm::dvec2& from, const glm::dvec2& t
     const double radians = glm::radians(turned_deg);
     const glm::dvec2 above(std::sin(radians), -std::cos(radians));
     const glm::dvec2 at = fits ? 0.5 * (begin + end) : end + (0.5 * (outside + tail)) * along;
-    sheet.text(at + 0.8 * above, words, {letters_mm, Anchor::Middle, turned_deg});
+    sheet.text(at + 0.8 * above, words, {letters_mm, TextAnchor::Middle, turned_deg});
 }
 
 void draw_angle(SvgSheet& sheet, const glm::dvec2& vertex, const glm::dvec2& from, const glm::dvec2& to,
@@ -74,7 +74,7 @@ void draw_angle(SvgSheet& sheet, const glm::dvec2& vertex, const glm::dvec2& fro
     }
     const std::string words = fmt::format("{:.1f}\u00b0", glm::degrees(std::abs(turn)));
     const double reach = radius_mm + 1.0 + 0.5 * length_mm(words, letters_mm);
-    sheet.text(at(0.5, reach) + glm::dvec2(0.0, 0.35 * letters_mm), words, {letters_mm, Anchor::Middle});
+    sheet.text(at(0.5, reach) + glm::dvec2(0.0, 0.35 * letters_mm), words, {letters_mm, TextAnchor::Middle});
 }
 
 } // namespace frustumscreen

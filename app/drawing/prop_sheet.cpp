@@ -90,7 +90,7 @@ void draw_net(SvgSheet& sheet, const PropNet& net, const View& view) {
         sheet.polygon(view(face.corners), cut, face.name);
         const glm::dvec2 middle =
             0.25 * (face.corners[0] + face.corners[1] + face.corners[2] + face.corners[3]);
-        sheet.text(view(middle), words_of(face.name), {lettering_mm(net, view), Anchor::Middle});
+        sheet.text(view(middle), words_of(face.name), {lettering_mm(net, view), TextAnchor::Middle});
     }
     for (const NetFold& each : net.folds) {
         sheet.line(view(each.from), view(each.to), {"#ffffff", 0.5});

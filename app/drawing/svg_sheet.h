@@ -21,10 +21,10 @@ struct Pen {
 };
 
 /// The part of the text that its place is.
-enum class Anchor { Start, Middle, End };
+enum class TextAnchor { Start, Middle, End };
 struct Lettering {
     double height_mm = 2.8; ///< of the type; capitals are 0.73 of it
-    Anchor anchor = Anchor::Start;
+    TextAnchor anchor = TextAnchor::Start;
     double turned_deg = 0.0; ///< clockwise, about its place
     bool bold = false;
 };

@@ -187,7 +187,7 @@ private:
         const double left_m = std::fmin(-half_depth(), eye.y);
         constexpr double leftmost_mm = 44.0; // where these words end at the frame
         sheet_.text({std::fmax(leftmost_mm, view({left_m, 0.0}).x - 3.0), table_y + 4.0}, "visitor's side",
-                    {2.8, Anchor::End});
+                    {2.8, TextAnchor::End});
     }
 
     [[nodiscard]] Extent top_extent() const {

@@ -45,16 +45,16 @@ ReadersTable::ReadersTable(const TableSetUp& set_up, int quarter_turns)
     }
 }
 
-/// By a separating axis: the directions are the normals of all edges, the box's too, which mostly decide and come first.
-bool ReadersTable::is_clear_of_home(const Box& box, double margin) const {
-    if (glm::distance(box.centre, home) < hidden_around_home + margin) {
+/// By a separating axis: the directions are the normals of all edges, the area's too, which mostly decide and come first.
+bool ReadersTable::is_clear_of_home(const TableArea& area, double margin) const {
+    if (glm::distance(area.centre, home) < hidden_around_home + margin) {
         return false;
     }
     constexpr std::size_t quarter = direction_count / 4;
     for (std::size_t step = 0; step < direction_count; ++step) {
         const std::size_t k = step % 4 * quarter + step / 4;
         const double nearest =
-            glm::dot(directions[k], box.centre) - glm::dot(glm::abs(directions[k]), box.half);
+            glm::dot(directions[k], area.centre) - glm::dot(glm::abs(directions[k]), area.half);
         if (nearest >= reach[k] + margin) {
             return true;
         }

@@ -16,11 +16,11 @@
 
 namespace frustumscreen {
 
-/// Along the axes.
-struct Box {
+/// A rectangle on the table, along its axes.
+struct TableArea {
     glm::dvec2 centre{0.0};
     glm::dvec2 half{0.0};
-    [[nodiscard]] bool overlaps(const Box& other, double margin) const {
+    [[nodiscard]] bool overlaps(const TableArea& other, double margin) const {
         const glm::dvec2 apart = glm::abs(centre - other.centre) - half - other.half;
         return std::max(apart.x, apart.y) < margin;
     }
@@ -32,12 +32,12 @@ struct ReadersTable {
     static constexpr std::size_t direction_count = 32;
 
     ReadersTable(const TableSetUp& set_up, int quarter_turns);
-    [[nodiscard]] bool is_clear_of_home(const Box& box, double margin) const;
+    [[nodiscard]] bool is_clear_of_home(const TableArea& area, double margin) const;
     [[nodiscard]] bool is_behind_prop(const glm::dvec2& at) const {
         return at.y > home.y && std::abs(at.x - home.x) < home_radius;
     }
 
-    Box room; ///< the picture's edge is `border_m` away
+    TableArea room; ///< the picture's edge is `border_m` away
     glm::dvec2 home{0.0};
     double home_radius = 0.0;
     double hidden_around_home = 0.0; ///< in every direction

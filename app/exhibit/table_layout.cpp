@@ -21,8 +21,8 @@ constexpr double size_for_better_anchor = 0.003;
 constexpr double size_for_better_shape = 0.015;
 
 /// Where a caption may be while the prop is at home, the best first: at the reader's edge, then at the sides.
-std::vector<Box> caption_areas(const ReadersTable& table, const glm::dvec2& caption) {
-    std::vector<Box> areas;
+std::vector<TableArea> caption_areas(const ReadersTable& table, const glm::dvec2& caption) {
+    std::vector<TableArea> areas;
     const glm::dvec2 half = 0.5 * (caption + caption_slack_m);
     const glm::dvec2 way = table.room.half - half;
     if (way.x < 0.0 || way.y < 0.0) {
@@ -31,7 +31,7 @@ std::vector<Box> caption_areas(const ReadersTable& table, const glm::dvec2& capt
     for (const glm::dvec2& anchor :
          {glm::dvec2(0, -1), glm::dvec2(1, -1), glm::dvec2(-1, -1), glm::dvec2(1, 0), glm::dvec2(-1, 0),
           glm::dvec2(1, 1), glm::dvec2(-1, 1), glm::dvec2(0, 1)}) {
-        const Box area{table.room.centre + anchor * way, half};
+        const TableArea area{table.room.centre + anchor * way, half};
         if (table.is_clear_of_home(area, caption_margin_m)) {
             areas.push_back(area);
         }
@@ -53,7 +53,7 @@ struct Candidate {
     std::size_t shown = 0; ///< artifacts on a page
     double score = 0.0;
     FoundPlaces found;
-    std::optional<Box> caption;
+    std::optional<TableArea> caption;
 };
 
 Candidate candidate_for(const PictureRoom& room, const TableSetUp& set_up, double penalty,
@@ -81,7 +81,7 @@ Candidate best_candidate(const ReadersTable& table, const TableSetUp& set_up, bo
     const std::size_t wanted = std::min(set_up.artifacts, most_table_places);
     Candidate best;
     for (std::size_t shape = 0; shape < set_up.captions_m.size(); ++shape) {
-        const std::vector<Box> areas = caption_areas(table, set_up.captions_m[shape]);
+        const std::vector<TableArea> areas = caption_areas(table, set_up.captions_m[shape]);
         for (std::size_t anchor = 0; anchor < areas.size(); ++anchor) {
             const double penalty = size_for_better_shape * static_cast<double>(shape) +
                                    size_for_better_anchor * static_cast<double>(anchor);

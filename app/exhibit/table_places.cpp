@@ -144,7 +144,7 @@ void keep_better(FoundByCount& found, const Lattice& lattice) {
 /// Between what the rows are spread: the table's edges, or the caption and an edge.
 std::vector<Span> row_spans(const PictureRoom& room) {
     const ReadersTable& table = room.table;
-    const std::optional<Box>& caption = room.caption;
+    const std::optional<TableArea>& caption = room.caption;
     const Span whole{table.room.centre.y - table.room.half.y, table.room.centre.y + table.room.half.y};
     std::vector<Span> spans{whole};
     if (caption) {
@@ -190,9 +190,9 @@ void fill(Lattice& lattice, const PictureRoom& room, const Lines& rows, const Li
 
 } // namespace
 
-bool PictureRoom::holds(const Box& box) const {
-    return !(caption && box.overlaps(*caption, table_gap_m - rounding_m)) &&
-           table.is_clear_of_home(box, home_margin_m);
+bool PictureRoom::holds(const TableArea& area) const {
+    return !(caption && area.overlaps(*caption, table_gap_m - rounding_m)) &&
+           table.is_clear_of_home(area, home_margin_m);
 }
 
 glm::dvec2 size_of_place(double picture, const glm::dvec2& title) {

@@ -23,9 +23,9 @@ inline constexpr double table_title_gap_m = 0.004; ///< between a picture and it
 /// Where pictures may lie: clear of the prop's home and of the caption.
 struct PictureRoom {
     const ReadersTable& table;
-    std::optional<Box> caption;
+    std::optional<TableArea> caption;
     bool symmetric = true; ///< else every place that has room may be taken alone
-    [[nodiscard]] bool holds(const Box& box) const;
+    [[nodiscard]] bool holds(const TableArea& area) const;
 };
 
 /// The places found for a number of pictures.

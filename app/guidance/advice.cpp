@@ -119,7 +119,7 @@ Help help_of(const FaceReader& reader, const GuidedSituation& situation, const M
     return help;
 }
 
-bool Standing::holds(const GuidedSituation& situation) const {
+bool GivenAdvice::holds(const GuidedSituation& situation) const {
     constexpr double begun_m = 0.03;
     constexpr double begun_rad = 10.0 * degree;
     constexpr double walked_m = 0.1;

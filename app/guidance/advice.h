@@ -18,7 +18,7 @@ struct Advice {
 };
 
 /// The advice that a visitor has, and the situation that it was given in.
-struct Standing {
+struct GivenAdvice {
     Move move;
     GuidedSituation given;
     /// Whether the visitor has hardly begun to follow it.

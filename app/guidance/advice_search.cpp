@@ -37,7 +37,7 @@ std::optional<Move> settling(const GuidanceSetup& setup, const GuidedSituation& 
 } // namespace
 
 void AdviceSearch::begin(const FaceReader& reader, const GuidedSituation& situation,
-                         const std::optional<Standing>& standing) {
+                         const std::optional<GivenAdvice>& standing) {
     situation_ = situation;
     standing_ = standing;
     found_.reset();

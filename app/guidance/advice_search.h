@@ -25,7 +25,7 @@ public:
 
     /// `standing`: the advice that the visitor has already.
     void begin(const FaceReader& reader, const GuidedSituation& situation,
-               const std::optional<Standing>& standing);
+               const std::optional<GivenAdvice>& standing);
     /// Goes on by about `looks` situations. True: it is over.
     [[nodiscard]] bool advance(const FaceReader& reader, int looks);
     /// That of the latest `begin`.
@@ -63,7 +63,7 @@ private:
     void end(const Move& move, int steps);
 
     GuidedSituation situation_;
-    std::optional<Standing> standing_;
+    std::optional<GivenAdvice> standing_;
     std::optional<Advice> found_;
     bool over_ = true;
     int looks_left_ = 0;

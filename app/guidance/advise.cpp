@@ -3,7 +3,7 @@
 namespace frustumscreen {
 
 std::optional<Advice> advise(const FaceReader& reader, const GuidedSituation& situation,
-                             const std::optional<Standing>& standing) {
+                             const std::optional<GivenAdvice>& standing) {
     AdviceSearch search;
     search.begin(reader, situation, standing);
     static_cast<void>(search.advance(reader, AdviceSearch::unlimited));
@@ -23,7 +23,7 @@ bool Advisor::advance(int looks) {
         standing_.reset();
     } else if (!standing_ || !alike(standing_->move, advice->move) ||
                !standing_->holds(search_.situation())) {
-        standing_ = Standing{advice->move, search_.situation()};
+        standing_ = GivenAdvice{advice->move, search_.situation()};
     }
     return true;
 }

@@ -24,7 +24,7 @@ namespace frustumscreen {
 
 /// Nothing if the situation is valid. Wait: no sequence of up to four moves was found.
 [[nodiscard]] std::optional<Advice> advise(const FaceReader& reader, const GuidedSituation& situation,
-                                           const std::optional<Standing>& standing = std::nullopt);
+                                           const std::optional<GivenAdvice>& standing = std::nullopt);
 
 /// Advises one visitor from situation to situation.
 class Advisor {
@@ -41,7 +41,7 @@ public:
 
 private:
     FaceReader reader_;
-    std::optional<Standing> standing_;
+    std::optional<GivenAdvice> standing_;
     AdviceSearch search_;
 };
 

@@ -273,8 +273,8 @@ Outcome Import::forget_older_sets() {
     SetFile next = known_;
     next.choice.last_good.reset();
     next.before.reset();
-    return next == known_ || !is_judged(known_, verdict_, Verdict::Good) ? Outcome()
-                                                                         : rewrite(std::move(next));
+    return next == known_ || !is_judged(known_, verdict_, TrialState::Good) ? Outcome()
+                                                                            : rewrite(std::move(next));
 }
 
 Outcome Import::rewrite(SetFile next) {

@@ -44,10 +44,10 @@ struct InstalledSet {
     [[nodiscard]] bool operator==(const InstalledSet&) const = default;
 };
 
-enum class Verdict : std::uint8_t { Trying, Good, Bad };
+enum class TrialState : std::uint8_t { Trying, Good, Bad };
 struct SetVerdict {
     std::uint64_t number = 0; ///< of the set
-    Verdict verdict = Verdict::Trying;
+    TrialState state = TrialState::Trying;
     int starts = 0;     ///< of the exhibit with this set, while it is on trial
     std::string reason; ///< of a bad one, a sentence
     [[nodiscard]] bool operator==(const SetVerdict&) const = default;

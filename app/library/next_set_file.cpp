@@ -35,23 +35,23 @@ void remember(SetFile& known, const std::vector<StickPack>& packs,
 
 InstalledSet set_to_go_back_to(const SetChoice& choice, const std::optional<SetVerdict>& verdict) {
     const bool is_judged = verdict && verdict->number == choice.set.number;
-    if (is_judged && verdict->verdict == Verdict::Good) {
+    if (is_judged && verdict->state == TrialState::Good) {
         return choice.set;
     }
     if (choice.last_good) {
         return *choice.last_good;
     }
-    return is_judged && verdict->verdict == Verdict::Bad ? InstalledSet() : choice.set;
+    return is_judged && verdict->state == TrialState::Bad ? InstalledSet() : choice.set;
 }
 
-bool is_judged(const SetFile& known, const std::optional<SetVerdict>& verdict, Verdict as) {
-    return verdict && verdict->number == known.choice.set.number && verdict->verdict == as;
+bool is_judged(const SetFile& known, const std::optional<SetVerdict>& verdict, TrialState as) {
+    return verdict && verdict->number == known.choice.set.number && verdict->state == as;
 }
 
 void replace_set(SetFile& known, InstalledSet set, const std::optional<SetVerdict>& verdict) {
     // A bad one is not shown any more; one that is on its last trial still is.
     InstalledSet before =
-        is_judged(known, verdict, Verdict::Bad) ? set_to_show(known.choice, verdict) : known.choice.set;
+        is_judged(known, verdict, TrialState::Bad) ? set_to_show(known.choice, verdict) : known.choice.set;
     set.number = std::max(known.choice.set.number, verdict ? verdict->number : 0) + 1;
     known.choice.last_good = set_to_go_back_to(known.choice, verdict);
     known.before = std::move(before);

@@ -22,7 +22,7 @@ void remember(SetFile& known, const std::vector<StickPack>& packs,
                                              const std::optional<SetVerdict>& verdict);
 
 /// Whether the exhibit has come to this verdict on what is installed.
-[[nodiscard]] bool is_judged(const SetFile& known, const std::optional<SetVerdict>& verdict, Verdict as);
+[[nodiscard]] bool is_judged(const SetFile& known, const std::optional<SetVerdict>& verdict, TrialState as);
 
 /// Puts `set` in the place of what `known` has; its number is higher than any that the exhibit has judged, though set.txt may have
 /// been removed.

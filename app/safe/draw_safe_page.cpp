@@ -20,7 +20,7 @@ struct Area {
     const BakedBox* box = nullptr;
 };
 
-Area area_of(const PlacedLetter& letter, const BakedWords& words) {
+Area area_of(const PlacedLetter& letter, const SafeWords& words) {
     const BakedBox& box = words.boxes[letter.box];
     const float scale = letter.em_px / static_cast<float>(words.texels_per_em);
     return {letter.x + static_cast<float>(box.left) * scale, letter.y - static_cast<float>(box.top) * scale,
@@ -28,7 +28,7 @@ Area area_of(const PlacedLetter& letter, const BakedWords& words) {
 }
 
 /// The distance at (u, v) in the box, in texels from its top left; between the texels' centres linear.
-float distance_at(const BakedWords& words, const BakedBox& box, float u, float v) {
+float distance_at(const SafeWords& words, const BakedBox& box, float u, float v) {
     u = std::clamp(u - 0.5F, 0.0F, static_cast<float>(box.width - 1));
     v = std::clamp(v - 0.5F, 0.0F, static_cast<float>(box.height - 1));
     const int left = static_cast<int>(u);
@@ -47,7 +47,7 @@ float distance_at(const BakedWords& words, const BakedBox& box, float u, float v
 }
 
 /// The share of the pixel that the letter covers.
-float cover(const BakedWords& words, const Area& area, int x, int y) {
+float cover(const SafeWords& words, const Area& area, int x, int y) {
     // How far a sample's cover changes with one code of distance.
     const float of_code =
         area.px_of_texel * samples * static_cast<float>(words.spread_texels) / baked_outline_code;
@@ -76,7 +76,7 @@ std::array<std::uint8_t, 256> shares_of(std::uint8_t grey) {
 
 void draw_safe_rows(const SafePage& page, int first_row, std::span<std::uint8_t> greys) {
     assert(page.width > 0 && greys.size() % static_cast<std::size_t>(page.width) == 0);
-    const BakedWords& words = baked_words();
+    const SafeWords& words = safe_words();
     const int end_row = first_row + static_cast<int>(greys.size() / static_cast<std::size_t>(page.width));
     std::fill(greys.begin(), greys.end(), std::uint8_t{0});
     std::array<std::uint8_t, 256> codes{};

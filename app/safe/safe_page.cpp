@@ -28,7 +28,7 @@ constexpr double longest_line_em = 56.0;       ///< for the staff: longer ones a
 constexpr double shrink = 0.94;                ///< from one try to the next
 
 const BakedLetter* letter_of(char32_t character) {
-    const std::span<const BakedLetter> letters = baked_words().letters;
+    const std::span<const BakedLetter> letters = safe_words().letters;
     const auto found = std::lower_bound(
         letters.begin(), letters.end(), character,
         [](const BakedLetter& letter, char32_t wanted) { return letter.character < wanted; });
@@ -107,7 +107,7 @@ public:
     /// A single line, whose script's own height does not matter.
     void add_row(const BakedSetting& line, double em_px, std::uint8_t grey) {
         const double top_px = y_px_;
-        y_px_ += (baked_words().ascent - line.baseline) * em_px / baked_em_units;
+        y_px_ += (safe_words().ascent - line.baseline) * em_px / baked_em_units;
         add(line, em_px, grey);
         y_px_ = top_px + visitors_pitch_em * em_px;
     }
@@ -116,11 +116,11 @@ public:
         double x = (page_.width - width_of(line) * scale) / 2.0;
         for (const char32_t character : line) {
             if (const BakedLetter* letter = letter_of(character); letter != nullptr) {
-                place(letter->box, x, y_px_ + baked_words().ascent * scale, em_px, grey);
+                place(letter->box, x, y_px_ + safe_words().ascent * scale, em_px, grey);
                 x += letter->advance * scale;
             }
         }
-        y_px_ += baked_words().pitch * scale;
+        y_px_ += safe_words().pitch * scale;
     }
     void leave(double px) { y_px_ += px; }
     [[nodiscard]] double y_px() const { return y_px_; }
@@ -195,7 +195,7 @@ double set_page(SafePage& page, double top_px, const Sizes& sizes, const SafeTex
 
 std::vector<std::string_view> safe_languages() {
     std::vector<std::string_view> names;
-    for (const BakedLanguage& language : baked_words().languages) {
+    for (const BakedLanguage& language : safe_words().languages) {
         names.push_back(language.language);
     }
     return names;
@@ -205,7 +205,7 @@ SafePage lay_out_safe_page(int width, int height, const SafeText& text,
                            const std::vector<std::string_view>& names) {
     Languages languages;
     for (const std::string_view name : names) {
-        for (const BakedLanguage& language : baked_words().languages) {
+        for (const BakedLanguage& language : safe_words().languages) {
             if (language.language == name) {
                 languages.push_back(&language);
             }

@@ -6,7 +6,7 @@
 /// Threads  pure; any.
 #pragma once
 
-#include "app/safe/baked_words.h"
+#include "app/safe/safe_words.h"
 
 #include <chrono>
 #include <cstdint>

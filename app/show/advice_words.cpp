@@ -44,7 +44,7 @@ SharedRecording recording_of(const LanguageWords& words, const std::string& key)
     if (sound == words.sounds.end()) {
         return nullptr;
     }
-    return std::make_shared<const Recording>(Recording{
+    return std::make_shared<const PromptRecording>(PromptRecording{
         fmt::format("{} in '{}'", key, words.language), sound->second, {}, words.language, key, {}});
 }
 

@@ -56,7 +56,7 @@ struct ShowUse {
     int samples = 1;                  ///< a pixel, that there is room for
 };
 
-class ArtifactShow final : public Stage {
+class ArtifactShow final : public ExhibitStage {
 public:
     /// Loads the first artifact and measures its levels on this GPU by drawing into `target`, which holds nothing useful afterwards.
     [[nodiscard]] static Result<std::unique_ptr<ArtifactShow>> create(const Settings& settings,

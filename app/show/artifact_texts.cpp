@@ -56,9 +56,9 @@ SharedRecording recording_of(const TextSource& source, std::span<const SpokenTex
     if (portions.empty() || std::find(sounds.begin(), sounds.end(), wanted) == sounds.end()) {
         return nullptr;
     }
-    return std::make_shared<const Recording>(
-        Recording{fmt::format("{}: the description in '{}'", source.file.string(), language), Bytes(),
-                  source.file, language, std::string(description_key), portions});
+    return std::make_shared<const PromptRecording>(
+        PromptRecording{fmt::format("{}: the description in '{}'", source.file.string(), language), Bytes(),
+                        source.file, language, std::string(description_key), portions});
 }
 
 Result<void> add_language(const TextSource& source, const PackCaption& caption,

@@ -77,7 +77,7 @@ Volume volume_of(const SoundSettings& settings) {
     return volume;
 }
 
-LiveExhibit::LiveExhibit(const Settings& settings, std::unique_ptr<Stage> stage, Exhibit exhibit,
+LiveExhibit::LiveExhibit(const Settings& settings, std::unique_ptr<ExhibitStage> stage, Exhibit exhibit,
                          std::string driver, PromptReader::Answer answer)
     : settings_(settings), stage_(std::move(stage)), driver_(std::move(driver)), exhibit_(std::move(exhibit)),
       notice_(settings, answer == PromptReader::Answer::Always ? ImportWatch::Answer::Always

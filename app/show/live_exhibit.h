@@ -29,8 +29,8 @@ class LiveExhibit final : public Show {
 public:
     /// `driver`: the display's name for itself.
     /// `answer`: of a clock that is not the wall's, always.
-    LiveExhibit(const Settings& settings, std::unique_ptr<Stage> stage, Exhibit exhibit, std::string driver,
-                PromptReader::Answer answer = PromptReader::Answer::WhenReady);
+    LiveExhibit(const Settings& settings, std::unique_ptr<ExhibitStage> stage, Exhibit exhibit,
+                std::string driver, PromptReader::Answer answer = PromptReader::Answer::WhenReady);
 
     /// Other sets may come from here on; `artifacts` is the stage.
     void watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> library);
@@ -56,7 +56,7 @@ private:
     void follow_staff_mode();
 
     const Settings& settings_;
-    std::unique_ptr<Stage> stage_;
+    std::unique_ptr<ExhibitStage> stage_;
     std::string driver_;
     std::unique_ptr<SetSwitch> set_switch_; ///< none: this set is shown for good
     Exhibit exhibit_;

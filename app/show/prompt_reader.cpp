@@ -17,7 +17,7 @@ namespace frustumscreen {
 
 namespace {
 
-Result<Prompt> decode(const Recording& recording) {
+Result<Prompt> decode(const PromptRecording& recording) {
     if (!recording.opus.empty()) {
         return read_opus(recording.opus);
     }
@@ -102,7 +102,7 @@ void PromptReader::keep(const SharedRecording& recording, SharedReading reading)
     changed_.notify_all();
 }
 
-SharedReading PromptReader::read(const Recording& recording) {
+SharedReading PromptReader::read(const PromptRecording& recording) {
     auto reading = std::make_shared<Reading>();
     Result<Prompt> prompt = decode(recording);
     if (!prompt) {

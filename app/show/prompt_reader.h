@@ -27,7 +27,7 @@
 namespace frustumscreen {
 
 /// Something that can be spoken: Ogg Opus in memory, or in a pack's file. A recording is itself by its address.
-struct Recording {
+struct PromptRecording {
     std::string name; ///< for the line that says why it is silent
     Bytes opus;       ///< none: it is in `pack`
     std::filesystem::path pack;
@@ -36,7 +36,7 @@ struct Recording {
     std::vector<Nanoseconds> portions; ///< how long each of its text takes to read; none: it is one
     double gain_db = 0.0;              ///< 0 or less: softer than it was recorded
 };
-using SharedRecording = std::shared_ptr<const Recording>;
+using SharedRecording = std::shared_ptr<const PromptRecording>;
 
 /// A recording that was read.
 struct Reading {
@@ -72,7 +72,7 @@ private:
     [[nodiscard]] SharedRecording next() const;
     [[nodiscard]] Kept* place_of(const SharedRecording& recording);
     void keep(const SharedRecording& recording, SharedReading reading);
-    [[nodiscard]] SharedReading read(const Recording& recording);
+    [[nodiscard]] SharedReading read(const PromptRecording& recording);
 
     Answer answer_;
     std::mutex mutex_; ///< for all below; nothing is read or decoded under it

@@ -449,7 +449,7 @@ private:
     LightDelay light_delay_;
     LiveSituation situation_;
     Situation shown_; ///< of the latest frame, as it was drawn
-    FrameTimes times_;
+    RecentFrameTimes times_;
     std::vector<PoseSample> samples_;
     std::vector<UncertainPose> tag_poses_;
     std::vector<SeenHead> heads_;

@@ -103,7 +103,7 @@ nlohmann::ordered_json json_of(const TrackerCounts& counts) {
             {"clock_drift_ppm", rounded(1e6 * counts.clock_drift)}};
 }
 
-/// In the order of Verdict.
+/// In the order of TrialState.
 constexpr std::array<std::string_view, 3> verdict_words{"trying", "good", "bad"};
 
 nlohmann::ordered_json json_of(const SharedSetStatus& status, bool library_hangs) {
@@ -120,7 +120,7 @@ nlohmann::ordered_json json_of(const SharedSetStatus& status, bool library_hangs
             {"packs", packs},
             {"newest",
              {{"number", newest.number},
-              {"verdict", verdict_words.at(static_cast<std::size_t>(newest.verdict))},
+              {"verdict", verdict_words.at(static_cast<std::size_t>(newest.state))},
               {"on_trial", status->on_trial},
               {"starts", newest.starts},
               {"reason", newest.reason}}},
@@ -168,13 +168,13 @@ std::string frames_csv(const std::vector<FrameRow>& rows) {
     return csv;
 }
 
-FrameTimes::FrameTimes(std::size_t window) : window_(window), sorted_(window) {}
+RecentFrameTimes::RecentFrameTimes(std::size_t window) : window_(window), sorted_(window) {}
 
-void FrameTimes::add(double ms) {
+void RecentFrameTimes::add(double ms) {
     window_[count_++ % window_.size()] = static_cast<float>(ms);
 }
 
-double FrameTimes::quantile(double share) {
+double RecentFrameTimes::quantile(double share) {
     const std::size_t count = std::min(count_, window_.size());
     std::copy_n(window_.begin(), count, sorted_.begin());
     return quantile_in(std::span(sorted_).first(count), share);

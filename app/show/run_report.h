@@ -57,9 +57,9 @@ struct FrameRow {
 [[nodiscard]] std::string frames_csv(const std::vector<FrameRow>& rows);
 
 /// The latest frames' times, in memory taken at the start.
-class FrameTimes {
+class RecentFrameTimes {
 public:
-    explicit FrameTimes(std::size_t window);
+    explicit RecentFrameTimes(std::size_t window);
     void add(double ms);
     /// The value below which `share` of the window's frames lie; 0 if there are no frames.
     [[nodiscard]] double quantile(double share);

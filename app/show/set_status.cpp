@@ -10,13 +10,13 @@ namespace {
 
 std::string verdict_of(const SetStatus& status) {
     const SetVerdict& newest = status.newest;
-    if (newest.verdict == Verdict::Bad) {
+    if (newest.state == TrialState::Bad) {
         return fmt::format("; set {} is bad: {}", newest.number, newest.reason);
     }
     if (newest.number != status.shown) {
         return fmt::format("; set {} comes", newest.number);
     }
-    return newest.verdict == Verdict::Good ? ", good" : status.on_trial ? ", on trial" : "";
+    return newest.state == TrialState::Good ? ", good" : status.on_trial ? ", on trial" : "";
 }
 
 } // namespace

@@ -23,14 +23,14 @@ void SetTrial::take(SetChoice choice) {
     choice_ = std::move(choice);
     if (other) {
         trust_ = Trust::Newest;
-        verdict_ = {choice_.set.number, Verdict::Trying, 0, {}};
+        verdict_ = {choice_.set.number, TrialState::Trying, 0, {}};
         since_.reset();
         begin();
     }
 }
 
 void SetTrial::begin() {
-    if (verdict_.verdict != Verdict::Trying || trust_ == Trust::Before) {
+    if (verdict_.state != TrialState::Trying || trust_ == Trust::Before) {
         return; // it is not begun with
     }
     if (choice_.last_good && verdict_.starts >= most_starts) {
@@ -43,10 +43,10 @@ void SetTrial::begin() {
 }
 
 SetVerdict SetTrial::told() const {
-    if (trust_ == Trust::Newest || verdict_.verdict == Verdict::Bad) {
+    if (trust_ == Trust::Newest || verdict_.state == TrialState::Bad) {
         return verdict_;
     }
-    return {verdict_.number, Verdict::Bad, verdict_.starts,
+    return {verdict_.number, TrialState::Bad, verdict_.starts,
             "the watchdog went back to the set before, and tries this one again after ten good minutes"};
 }
 
@@ -63,14 +63,14 @@ void SetTrial::shown(MonotonicTime now, std::uint64_t number, const std::string&
         since_ = now;
     }
     latest_ = now;
-    if (verdict_.verdict == Verdict::Trying && now - *since_ >= long_enough) {
-        verdict_.verdict = Verdict::Good;
+    if (verdict_.state == TrialState::Trying && now - *since_ >= long_enough) {
+        verdict_.state = TrialState::Good;
     }
 }
 
 void SetTrial::refuse(std::uint64_t number, const std::string& reason) {
-    if (number == verdict_.number && verdict_.verdict == Verdict::Trying) {
-        verdict_.verdict = Verdict::Bad;
+    if (number == verdict_.number && verdict_.state == TrialState::Trying) {
+        verdict_.state = TrialState::Bad;
         verdict_.reason = reason;
         since_.reset();
     }

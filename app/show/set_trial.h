@@ -36,7 +36,7 @@ public:
     /// To show now. This start is counted already, so that `set_to_show` of the verdict is about the next one.
     [[nodiscard]] const InstalledSet& target() const {
         const bool other =
-            trust_ == Trust::Before || verdict_.verdict == Verdict::Bad || (on_trial() && !is_kept_);
+            trust_ == Trust::Before || verdict_.state == TrialState::Bad || (on_trial() && !is_kept_);
         return other && choice_.last_good ? *choice_.last_good : choice_.set;
     }
     /// Whether the verdict could be written. A set on trial whose starts cannot be counted is not begun with: it might end the
@@ -49,7 +49,7 @@ public:
     [[nodiscard]] const SetChoice& choice() const { return choice_; }
     /// There is another set to go back to, and no verdict.
     [[nodiscard]] bool on_trial() const {
-        return choice_.last_good.has_value() && verdict_.verdict == Verdict::Trying &&
+        return choice_.last_good.has_value() && verdict_.state == TrialState::Trying &&
                trust_ == Trust::Newest;
     }
 

@@ -79,9 +79,9 @@ public:
 };
 
 /// Draws what a Presentation says.
-class Stage {
+class ExhibitStage {
 public:
-    virtual ~Stage() = default;
+    virtual ~ExhibitStage() = default;
     /// `eye_m`: in table coordinates. Allocates nothing after the start.
     [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const Presentation& presentation,
                                           const glm::dvec3& eye_m, const RenderTarget& target,

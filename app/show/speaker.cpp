@@ -5,7 +5,7 @@
 
 namespace frustumscreen {
 
-bool Speaker::step(const Presentation& presentation, const Stage& stage,
+bool Speaker::step(const Presentation& presentation, const ExhibitStage& stage,
                    const SharedRecording& announcement) {
     if (!reader_) {
         return false;
@@ -47,7 +47,7 @@ void Speaker::end_description(bool at_pause) {
     }
 }
 
-void Speaker::tell(const Presentation& presentation, const Stage& stage) {
+void Speaker::tell(const Presentation& presentation, const ExhibitStage& stage) {
     if (told_ != presentation.tells) {
         end_description(!presentation.tells && presentation.leaves);
         told_ = presentation.tells;
@@ -80,7 +80,7 @@ void Speaker::tell(const Presentation& presentation, const Stage& stage) {
     }
 }
 
-void Speaker::advise(const Presentation& presentation, const Stage& stage) {
+void Speaker::advise(const Presentation& presentation, const ExhibitStage& stage) {
     if (presentation.falls_silent) {
         word_.reset();
         if (is_alive(advice_) && advice_ > description_) {

@@ -25,7 +25,7 @@ public:
     /// There is something to say: without it nothing is heard, and there is no thread that reads.
     void begin(PromptReader::Answer answer) { reader_.emplace(answer); }
     /// `announcement`: what is to be said when nothing else is heard, or about to be; none: nothing. Returns whether it begins now.
-    bool step(const Presentation& presentation, const Stage& stage,
+    bool step(const Presentation& presentation, const ExhibitStage& stage,
               const SharedRecording& announcement = nullptr);
     void hear(const SoundReport& report);
     /// Another set is shown: what was decided of the one before names nothing of this one, and what is heard of it ends.
@@ -42,8 +42,8 @@ public:
 
 private:
     void end_description(bool at_pause);
-    void tell(const Presentation& presentation, const Stage& stage);
-    void advise(const Presentation& presentation, const Stage& stage);
+    void tell(const Presentation& presentation, const ExhibitStage& stage);
+    void advise(const Presentation& presentation, const ExhibitStage& stage);
     [[nodiscard]] bool announce(const SharedRecording& announcement);
     [[nodiscard]] bool is_alive(std::uint64_t number) const { return number > report_.over; }
 

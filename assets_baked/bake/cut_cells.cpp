@@ -20,7 +20,7 @@ constexpr std::size_t line_at(int i, int j) {
 class Sheet {
 public:
     Sheet(const BlockInput& input, const GridCrossings& grid, int column, int row,
-          const CellCorners& corners) {
+          const CornerHeights& corners) {
         constexpr double beyond = 3.0; // texels above and below the corners: the surface may bend
         const auto [low, high] = std::minmax_element(corners.w.begin(), corners.w.end());
         const glm::dvec2 range(static_cast<double>(*low) - beyond, static_cast<double>(*high) + beyond);
@@ -124,7 +124,7 @@ glm::dvec4 corner_weights(int i, int j) {
 }
 
 /// Least squares over the sheet, with the guesses as heights of a small weight and the known corners as ones of a large.
-void fit_corners(const Sheet& sheet, CellCorners& corners) {
+void fit_corners(const Sheet& sheet, CornerHeights& corners) {
     constexpr double guess_weight = 0.3;
     constexpr double known_weight = 1e6;
     glm::dmat4 normal(0.0);
@@ -155,7 +155,7 @@ void fit_corners(const Sheet& sheet, CellCorners& corners) {
 
 } // namespace
 
-float height_over(const CellCorners& corners, const SheetEnd& end) {
+float height_over(const CornerHeights& corners, const SheetEnd& end) {
     const float u = end.u - std::floor(end.u);
     const float v = end.v - std::floor(end.v);
     return end.w -
@@ -163,7 +163,7 @@ float height_over(const CellCorners& corners, const SheetEnd& end) {
 }
 
 std::uint64_t cut_cell(const BlockInput& input, const GridCrossings& grid, int column, int row,
-                       CellCorners& corners) {
+                       CornerHeights& corners) {
     const Sheet sheet(input, grid, column, row, corners);
     fit_corners(sheet, corners);
     std::uint64_t cover = sheet.end_parts();

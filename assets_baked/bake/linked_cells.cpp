@@ -117,7 +117,7 @@ private:
 
     /// A surface that no corner's line meets.
     [[nodiscard]] LinkedCell cell_at(const SheetEnd& end) const {
-        CellCorners corners;
+        CornerHeights corners;
         for (unsigned k = 0; k < 4; ++k) {
             corners.w[k] = end.w +
                            end.slope_u * (static_cast<float>(column_) + static_cast<float>(k & 1U) - end.u) +
@@ -133,7 +133,7 @@ private:
 
     /// Gives every corner its height, and cuts the cell where it lacks corners, if it is to be kept.
     void complete(LinkedCell& cell) const {
-        CellCorners corners;
+        CornerHeights corners;
         for (unsigned k = 0; k < 4; ++k) {
             corners.known[k] = cell.crossing[k] != no_crossing;
             corners.w[k] = corners.known[k]

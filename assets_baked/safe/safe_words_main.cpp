@@ -1,4 +1,4 @@
-/// frustumscreen-safe-words: bakes the safe picture's words into a C++ file (app/safe/baked_words.h). The build runs it.
+/// frustumscreen-safe-words: bakes the safe picture's words into a C++ file (app/safe/safe_words.h). The build runs it.
 ///
 /// Errors   one line: what a person must mend in words.toml, or which typeface is missing.
 #include "app/pack/glyph_runs.h"
@@ -198,7 +198,7 @@ Result<std::string> WordsBaker::as_cpp(const std::vector<LanguageToBake>& langua
     }
     const GlyphRuns& runs = sheet->runs;
     std::string cpp = "// Made by frustumscreen-safe-words of assets_baked/safe/words.toml.\n"
-                      "#include \"app/safe/baked_words.h\"\n\nnamespace frustumscreen {\nnamespace {\n";
+                      "#include \"app/safe/safe_words.h\"\n\nnamespace frustumscreen {\nnamespace {\n";
     write_atlas(cpp, sheet->atlas);
     cpp += "constexpr BakedBox boxes[]{\n";
     for (const GlyphBox& box : runs.boxes) {
@@ -231,9 +231,9 @@ Result<std::string> WordsBaker::as_cpp(const std::vector<LanguageToBake>& langua
     fmt::format_to(
         Out(cpp),
         "constexpr BakedLanguage languages[]{{\n{}}};\n"
-        "constexpr BakedWords words{{{}, {}, {}, {}, {}, {}, {{atlas, sizeof atlas - 1}}, boxes, languages, "
+        "constexpr SafeWords words{{{}, {}, {}, {}, {}, {}, {{atlas, sizeof atlas - 1}}, boxes, languages, "
         "letters}};\n}} // namespace\n\n"
-        "const BakedWords& baked_words() {{\n    return words;\n}}\n\n}} // namespace frustumscreen\n",
+        "const SafeWords& safe_words() {{\n    return words;\n}}\n\n}} // namespace frustumscreen\n",
         list, runs.texels_per_em, runs.spread_texels, runs.atlas_width, runs.atlas_height, ascent_, pitch_);
     return cpp;
 }

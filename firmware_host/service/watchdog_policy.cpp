@@ -40,7 +40,7 @@ WatchdogPolicy::WatchdogPolicy(Nanoseconds interval, MonotonicTime start)
     : feed_every_(std::min<Nanoseconds>(interval / 3, std::chrono::seconds(1))), presented_(start),
       changed_(start) {}
 
-void WatchdogPolicy::read_back(MonotonicTime now, const ReadBack& read) {
+void WatchdogPolicy::read_back(MonotonicTime now, const ProbeReading& read) {
     const bool another = read.code && read.code != code_;
     if (read.code) {
         code_ = read.code;

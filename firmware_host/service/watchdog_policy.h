@@ -30,7 +30,7 @@ enum class Health : std::uint8_t {
 [[nodiscard]] std::string_view word_of(Health health);
 
 /// What was read back from a picture that was presented.
-struct ReadBack {
+struct ProbeReading {
     bool covered = false;             ///< the picture lights the corner: there is no code
     std::optional<std::uint8_t> code; ///< nothing = the corner holds something else
 };
@@ -49,7 +49,7 @@ public:
     void asleep(MonotonicTime now) { presented_ = changed_ = now; }
     /// Whether the next picture's code is worth reading back: not in every frame.
     [[nodiscard]] bool wants_code(MonotonicTime now) const { return now - changed_ >= feed_every_ / 2; }
-    void read_back(MonotonicTime now, const ReadBack& read);
+    void read_back(MonotonicTime now, const ProbeReading& read);
 
     /// `promises`: until when each device thread has promised to be heard from again.
     [[nodiscard]] Health health(MonotonicTime now, std::span<const MonotonicTime> promises) const;

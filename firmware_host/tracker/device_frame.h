@@ -34,7 +34,7 @@ struct DeviceFrame {
 };
 
 /// Why bytes were thrown away.
-enum class Refusal {
+enum class DiscardReason {
     Garbage,  ///< no frame begins here
     Length,   ///< a header with an impossible size
     Checksum, ///< a whole frame whose CRC is wrong

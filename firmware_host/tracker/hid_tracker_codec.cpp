@@ -45,7 +45,7 @@ HidTrackerMessage parse_pose(ByteReader reader) {
     pose.rotation = glm::dquat(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
     if (pose.sensor < 1 || pose.sensor > static_cast<int>(DeviceFrame::most_sensors) ||
         (status & ~known_flags) != 0) {
-        return Refusal::Content;
+        return DiscardReason::Content;
     }
     message.starting = (status & device_starting) != 0;
     frame.fault = (status & device_fault) != 0;
@@ -69,13 +69,13 @@ HidTrackerMessage parse_hid_tracker(std::span<const std::byte> report) {
     ByteReader reader(report);
     const auto id = reader.read<std::uint8_t>();
     if (!reader.ok() || (id != pose_report && id != hid_tracker_info_report)) {
-        return Refusal::Garbage;
+        return DiscardReason::Garbage;
     }
     if (report.size() != (id == pose_report ? pose_bytes : info_bytes)) {
-        return Refusal::Length;
+        return DiscardReason::Length;
     }
     if (!has_good_crc(report)) {
-        return Refusal::Checksum;
+        return DiscardReason::Checksum;
     }
     return id == pose_report ? parse_pose(reader) : parse_info(reader);
 }

@@ -31,7 +31,7 @@ struct HidTrackerPose {
     DeviceFrame frame;
     bool starting = false;
 };
-using HidTrackerMessage = std::variant<Refusal, HidTrackerInfo, HidTrackerPose>;
+using HidTrackerMessage = std::variant<DiscardReason, HidTrackerInfo, HidTrackerPose>;
 
 /// `report` is one report, its id in front. One of another version still gives a HidTrackerInfo, whatever
 /// else it says.

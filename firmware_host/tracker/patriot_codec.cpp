@@ -26,7 +26,7 @@ bool may_be_header(std::span<const std::byte> stream) {
            (stream.size() < 7 || at(6) == payload_bytes) && (stream.size() < 8 || at(7) == 0);
 }
 
-PatriotStep refuse(std::span<const std::byte> stream, Refusal refusal) {
+PatriotStep refuse(std::span<const std::byte> stream, DiscardReason refusal) {
     std::size_t next = 1;
     while (next < stream.size() && !may_be_header(stream.subspan(next))) {
         ++next;
@@ -41,7 +41,7 @@ PatriotStep parse_patriot(std::span<const std::byte> stream) {
         return {};
     }
     if (!may_be_header(stream)) {
-        return refuse(stream, Refusal::Garbage);
+        return refuse(stream, DiscardReason::Garbage);
     }
     if (stream.size() < whole_bytes) {
         return {};
@@ -64,7 +64,7 @@ PatriotStep parse_patriot(std::span<const std::byte> stream) {
     const bool good = stream[4] == std::byte{' '};
     pose.usable = good && is_pose(pose.position_m, pose.rotation);
     if (good && !pose.usable) { // a good frame never has such a pose: bytes were lost or changed
-        return refuse(stream, Refusal::Content);
+        return refuse(stream, DiscardReason::Content);
     }
     return {whole_bytes, frame};
 }

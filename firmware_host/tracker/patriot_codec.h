@@ -18,7 +18,7 @@
 
 namespace frustumscreen {
 
-using PatriotMessage = std::variant<NeedMore, Refusal, DeviceFrame>;
+using PatriotMessage = std::variant<NeedMore, DiscardReason, DeviceFrame>;
 struct PatriotStep {
     std::size_t consumed = 0; ///< 0 only with NeedMore
     PatriotMessage message;

@@ -24,7 +24,7 @@ SpaceMouseMessage parse_space_mouse(std::span<const std::byte> report) {
     ByteReader reader(report);
     const auto id = reader.read<std::uint8_t>();
     if (!reader.ok()) {
-        return Refusal::Length;
+        return DiscardReason::Length;
     }
     SpaceMouseMotion motion;
     if (id == push_report && report.size() == six_axes_bytes) {
@@ -35,7 +35,7 @@ SpaceMouseMessage parse_space_mouse(std::span<const std::byte> report) {
     } else if (id == turn_report && report.size() == three_axes_bytes) {
         motion.turn = read_axes(reader);
     } else if (id == push_report || id == turn_report) {
-        return Refusal::Length;
+        return DiscardReason::Length;
     } else {
         return SpaceMouseOther{};
     }

@@ -24,7 +24,7 @@ struct SpaceMouseMotion {
 };
 /// Buttons, battery: not used here.
 struct SpaceMouseOther {};
-using SpaceMouseMessage = std::variant<Refusal, SpaceMouseOther, SpaceMouseMotion>;
+using SpaceMouseMessage = std::variant<DiscardReason, SpaceMouseOther, SpaceMouseMotion>;
 
 /// `report` is one report, its id in front.
 [[nodiscard]] SpaceMouseMessage parse_space_mouse(std::span<const std::byte> report);

@@ -66,7 +66,7 @@ void SpaceMouseSession::receive(std::span<const std::byte> report, MonotonicTime
         if (motion->turn) {
             turn_ = {full_turn_rad_per_s * deflection(*motion->turn), arrival + report_holds};
         }
-    } else if (std::holds_alternative<Refusal>(message)) {
+    } else if (std::holds_alternative<DiscardReason>(message)) {
         intake_.count_refusal();
     }
 }

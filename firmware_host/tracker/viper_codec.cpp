@@ -41,7 +41,7 @@ std::size_t bytes_to_next_preamble(std::span<const std::byte> stream) {
     return stream.size();
 }
 
-ViperStep refuse(std::span<const std::byte> stream, Refusal refusal) {
+ViperStep refuse(std::span<const std::byte> stream, DiscardReason refusal) {
     return {bytes_to_next_preamble(stream), refusal};
 }
 
@@ -91,25 +91,25 @@ ViperStep parse_viper(std::span<const std::byte> stream) {
         const std::size_t known = std::min<std::size_t>(stream.size(), 4);
         const bool may_be = std::memcmp(stream.data(), &pose_preamble, known) == 0 ||
                             std::memcmp(stream.data(), &command_preamble, known) == 0;
-        return may_be ? ViperStep{} : refuse(stream, Refusal::Garbage);
+        return may_be ? ViperStep{} : refuse(stream, DiscardReason::Garbage);
     }
     const std::uint32_t preamble = u32_at(stream, 0);
     if (!is_preamble(preamble)) {
-        return refuse(stream, Refusal::Garbage);
+        return refuse(stream, DiscardReason::Garbage);
     }
     const bool poses = preamble == pose_preamble;
     const std::size_t size = u32_at(stream, 4);
     const std::size_t head = poses ? pose_head_bytes : command_head_bytes;
     const std::size_t most = poses ? DeviceFrame::most_sensors * sensor_bytes : most_reply_payload;
     if (size < head + crc_bytes || size > head + most + crc_bytes) {
-        return refuse(stream, Refusal::Length);
+        return refuse(stream, DiscardReason::Length);
     }
     // The sensor count gives the size again, so a wrong size is found before the parser waits for the frame's
     // end.
     if (poses && stream.size() >= header_bytes + pose_head_bytes) {
         const std::size_t count = u32_at(stream, header_bytes + 12);
         if (count > DeviceFrame::most_sensors || size != head + count * sensor_bytes + crc_bytes) {
-            return refuse(stream, Refusal::Length);
+            return refuse(stream, DiscardReason::Length);
         }
     }
     const std::size_t whole = header_bytes + size;
@@ -117,7 +117,7 @@ ViperStep parse_viper(std::span<const std::byte> stream) {
         return {};
     }
     if (u32_at(stream, whole - crc_bytes) != crc16_arc(stream.first(whole - crc_bytes))) {
-        return refuse(stream, Refusal::Checksum);
+        return refuse(stream, DiscardReason::Checksum);
     }
     const std::span<const std::byte> body = stream.subspan(header_bytes, size - crc_bytes);
     if (poses) {

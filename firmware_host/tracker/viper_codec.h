@@ -50,7 +50,7 @@ struct ViperReply {
     std::span<const std::byte> payload; ///< into the stream that was parsed
 };
 struct NeedMore {};
-using ViperMessage = std::variant<NeedMore, Refusal, DeviceFrame, ViperReply>;
+using ViperMessage = std::variant<NeedMore, DiscardReason, DeviceFrame, ViperReply>;
 /// What the stream begins with, and how many of its bytes that used up.
 struct ViperStep {
     std::size_t consumed = 0; ///< 0 only with NeedMore

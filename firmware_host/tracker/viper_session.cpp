@@ -196,7 +196,7 @@ void ViperSession::receive(std::span<const std::byte> bytes, MonotonicTime arriv
             }
             if (const auto* reply = std::get_if<ViperReply>(&step.message)) {
                 answer(*reply, arrival);
-            } else if (std::holds_alternative<Refusal>(step.message)) {
+            } else if (std::holds_alternative<DiscardReason>(step.message)) {
                 intake_.count_refusal();
             } else if (const auto* frame = std::get_if<DeviceFrame>(&step.message);
                        frame && progress_.streaming()) {

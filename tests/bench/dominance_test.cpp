@@ -44,8 +44,8 @@ SetUpResult with(std::vector<TechniqueResult> peers) {
 }
 
 /// By shape, then by colour.
-std::vector<Verdict> verdicts_beside(const TechniqueResult& peer) {
-    std::vector<Verdict> verdicts = judge_dominance(with({peer}));
+std::vector<LimitVerdict> verdicts_beside(const TechniqueResult& peer) {
+    std::vector<LimitVerdict> verdicts = judge_dominance(with({peer}));
     EXPECT_EQ(verdicts.size(), 2U);
     return verdicts;
 }
@@ -53,14 +53,14 @@ std::vector<Verdict> verdicts_beside(const TechniqueResult& peer) {
 TEST(Dominance, ByColourNobodyIsJudgedWhoLacksThePacksLight) {
     SetUpResult result = with({technique("LOD 10k", TechniqueKind::Lod, 3.0, middling)});
     result.baked_light = true;
-    const std::vector<Verdict> verdicts = judge_dominance(result);
+    const std::vector<LimitVerdict> verdicts = judge_dominance(result);
     ASSERT_EQ(verdicts.size(), 1U);
     EXPECT_NE(verdicts.front().what.find("shape"), std::string::npos);
 }
 
 TEST(Dominance, APeerThatIsCheaperAndNowhereWorseDominatesInBoth) {
     const TechniqueResult peer = technique("LOD 10k", TechniqueKind::Lod, 3.0, middling);
-    for (const Verdict& verdict : verdicts_beside(peer)) {
+    for (const LimitVerdict& verdict : verdicts_beside(peer)) {
         EXPECT_FALSE(verdict.held);
         EXPECT_NE(verdict.what.find("mesh 0"), std::string::npos);
         EXPECT_NE(verdict.found.find("LOD 10k"), std::string::npos);
@@ -72,16 +72,17 @@ TEST(Dominance, APeerThatIsCheaperAndNowhereWorseDominatesInBoth) {
 
 TEST(Dominance, ShapeAndColourAreJudgedApart) {
     for (const Errors& errors : {Errors{0.21, 0.01, 1.0}, Errors{0.01, 0.11, 1.0}}) {
-        const std::vector<Verdict> verdicts =
+        const std::vector<LimitVerdict> verdicts =
             verdicts_beside(technique("LOD", TechniqueKind::Lod, 1.5, errors));
         EXPECT_TRUE(verdicts[0].held);
         EXPECT_FALSE(verdicts[1].held);
     }
-    const std::vector<Verdict> verdicts =
+    const std::vector<LimitVerdict> verdicts =
         verdicts_beside(technique("LOD", TechniqueKind::Lod, 1.5, {0.01, 0.01, 8.1}));
     EXPECT_FALSE(verdicts[0].held);
     EXPECT_TRUE(verdicts[1].held);
-    for (const Verdict& dear : verdicts_beside(technique("LOD", TechniqueKind::Lod, 5.0, {0.0, 0.0, 0.0}))) {
+    for (const LimitVerdict& dear :
+         verdicts_beside(technique("LOD", TechniqueKind::Lod, 5.0, {0.0, 0.0, 0.0}))) {
         EXPECT_TRUE(dear.held);
     }
 }
@@ -89,7 +90,7 @@ TEST(Dominance, ShapeAndColourAreJudgedApart) {
 TEST(Dominance, ShapeIsJudgedAmongPicturesOfAsManySamples) {
     TechniqueResult peer = technique("LOD", TechniqueKind::Lod, 1.5, {0.0, 0.0, 0.0});
     peer.samples = 4;
-    const std::vector<Verdict> verdicts = judge_dominance(with({peer}));
+    const std::vector<LimitVerdict> verdicts = judge_dominance(with({peer}));
     ASSERT_EQ(verdicts.size(), 1U); // none has one sample, as the level
     EXPECT_NE(verdicts[0].what.find("colour"), std::string::npos);
     EXPECT_FALSE(verdicts[0].held);
@@ -102,7 +103,7 @@ TEST(Dominance, ThePacksReliefsAreJudgedAndNoPeersOfItsLevels) {
     EXPECT_TRUE(judge_dominance(with({relief})).empty()); // cheaper than the level, and no worse
     const TechniqueResult peer = technique("LOD", TechniqueKind::Lod, 3.0, {0.2, 0.1, 9.0});
     const SetUpResult result = with({relief, peer});
-    const std::vector<Verdict> verdicts = judge_dominance(result);
+    const std::vector<LimitVerdict> verdicts = judge_dominance(result);
     ASSERT_EQ(verdicts.size(), 4U);
     EXPECT_NE(verdicts[2].what.find("relief96"), std::string::npos);
     EXPECT_FALSE(verdicts[2].held);
@@ -113,7 +114,7 @@ TEST(Dominance, ThePacksReliefsAreJudgedAndNoPeersOfItsLevels) {
 
 TEST(Dominance, TimesWithinTheToleranceAreATieThatIsNamed) {
     for (const double cost : {3.85, 4.0, 4.15}) {
-        for (const Verdict& verdict :
+        for (const LimitVerdict& verdict :
              verdicts_beside(technique("LOD 10k", TechniqueKind::Lod, cost, middling))) {
             EXPECT_TRUE(verdict.held) << cost;
             EXPECT_NE(verdict.found.find("LOD 10k"), std::string::npos) << cost;
@@ -123,7 +124,7 @@ TEST(Dominance, TimesWithinTheToleranceAreATieThatIsNamed) {
 }
 
 TEST(Dominance, TheRayCastIsJudgedAndTheFloorIsNot) {
-    for (const Verdict& verdict :
+    for (const LimitVerdict& verdict :
          verdicts_beside(technique("ray cast", TechniqueKind::RayCast, 2.0, {0, 0, 0}))) {
         EXPECT_FALSE(verdict.held);
         EXPECT_EQ(verdict.found.find("floor"), std::string::npos);
@@ -151,7 +152,7 @@ TEST(Dominance, TheBestEyeImageIsTheCheapestThatNoOtherBettersAtItsCost) {
 
 TEST(Verdicts, TheTableOfVerdictsHasFourFieldsARow) {
     const SetUpResult result = with({technique("a \"quoted\", name", TechniqueKind::Lod, 3.0, middling)});
-    const std::vector<Verdict> figures = {{"level 0: said, and", "found", false}};
+    const std::vector<LimitVerdict> figures = {{"level 0: said, and", "found", false}};
     const std::string csv = verdicts_csv({&result, 1}, figures);
     EXPECT_EQ(csv.find("set_up,what,found,verdict\n"), 0U);
     EXPECT_NE(csv.find("pack,\"level 0: said, and\",\"found\",missed\n"), std::string::npos);

@@ -23,7 +23,7 @@ TEST(PackFigures, FalseOnesAreCaughtByMeasuring) {
     std::vector<LevelFigures> figures = measure_figures(pack, *mesh);
     ASSERT_EQ(figures.size(), pack.levels.size());
     constexpr double mm_per_box = 80.0;
-    for (const Verdict& verdict : judge(figures, mm_per_box)) {
+    for (const LimitVerdict& verdict : judge(figures, mm_per_box)) {
         EXPECT_TRUE(verdict.held) << verdict.what << "; " << verdict.found;
     }
     EXPECT_TRUE(require_true(judge(figures, mm_per_box), "cat.fspack"));
@@ -31,10 +31,10 @@ TEST(PackFigures, FalseOnesAreCaughtByMeasuring) {
     ASSERT_GT(true_p95, 5e-4F); // of the coarsest, far above the slack
     for (const float lie : {0.0F, 0.3F * true_p95, 3.0F * true_p95, std::nanf("")}) {
         figures[0].said.p95_box = lie;
-        const std::vector<Verdict> verdicts = judge(figures, mm_per_box);
+        const std::vector<LimitVerdict> verdicts = judge(figures, mm_per_box);
         EXPECT_FALSE(verdicts[0].held) << lie;
         EXPECT_TRUE(
-            std::all_of(verdicts.begin() + 1, verdicts.end(), [](const Verdict& v) { return v.held; }));
+            std::all_of(verdicts.begin() + 1, verdicts.end(), [](const LimitVerdict& v) { return v.held; }));
         const Result<void> required = require_true(verdicts, "cat.fspack");
         ASSERT_FALSE(required);
         EXPECT_EQ(required.error().message.find("cat.fspack: "), 0U);

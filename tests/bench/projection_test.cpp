@@ -87,7 +87,7 @@ TEST(Projection, RightPixelsAreCountedOnThePropAndOnTheArtifact) {
     view.at(0, 0) = {116, 100, 84, 255};  // 16 codes off: right
     view.at(1, 0) = {100, 117, 100, 255}; // 17: wrong
     view.at(3, 0) = {255, 255, 255, 255}; // beside the prop
-    const Agreement found = agreement(view, truth);
+    const PixelAccuracy found = pixel_accuracy(view, truth);
     EXPECT_EQ(found.prop_pixels, 3);
     EXPECT_EQ(found.prop_right, 2);
     EXPECT_EQ(found.artifact_pixels, 2);
@@ -129,8 +129,8 @@ protected:
         VisitorViewOptions sixteen = exact_check();
         sixteen.rays_per_side = 4;
         const auto truth = Truth::build(mesh, glm::dmat4(1.0));
-        return agreement(visitor_view(scene, picture, camera, sixteen),
-                         cast_visitor(*truth, scene, camera, 4))
+        return pixel_accuracy(visitor_view(scene, picture, camera, sixteen),
+                              cast_visitor(*truth, scene, camera, 4))
             .prop_percent();
     }
 };

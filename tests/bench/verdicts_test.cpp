@@ -46,10 +46,10 @@ SetUpResult example() {
     return result;
 }
 
-std::size_t missed(const std::vector<Verdict>& verdicts) {
+std::size_t missed(const std::vector<LimitVerdict>& verdicts) {
     return static_cast<std::size_t>(
         std::count_if(verdicts.begin(), verdicts.end(),
-                      [](const Verdict& verdict) { return !verdict.held && !verdict.wished; }));
+                      [](const LimitVerdict& verdict) { return !verdict.held && !verdict.wished; }));
 }
 
 TEST(Verdicts, ASilhouetteHoldsInAPoseByItsShareOrByItsShift) {
@@ -67,8 +67,9 @@ TEST(Verdicts, WhatAutoDrawsIsUnderTheDefaultLevelsLimits) {
     SetUpResult result = example();
     result.techniques.push_back(
         technique("auto (mesh 0)", TechniqueKind::Auto, 0, 3.0, {picture_error(1.79, 0.9, 0.229, 10.0)}));
-    std::vector<Verdict> verdicts = judge(result);
-    std::erase_if(verdicts, [](const Verdict& verdict) { return verdict.what.find("auto (mesh 0): ") != 0; });
+    std::vector<LimitVerdict> verdicts = judge(result);
+    std::erase_if(verdicts,
+                  [](const LimitVerdict& verdict) { return verdict.what.find("auto (mesh 0): ") != 0; });
     // Where nobody asked where it is drawn, nothing is said of it.
     EXPECT_EQ(verdicts.size() + 1, judge(result.techniques[1], default_level_limits).size());
     EXPECT_EQ(missed(verdicts), 2U); // silhouette and geometry
@@ -84,7 +85,7 @@ TEST(Verdicts, OfWhatAutoMayDrawTheQuickerOneIsJudged) {
             technique("auto (relief96)", TechniqueKind::Auto, -1, 2.5, {picture_error(0.1, 0.1, 0.1, 1.0)}));
         std::size_t of_mesh = 0;
         std::size_t of_relief = 0;
-        for (const Verdict& verdict : judge(result)) {
+        for (const LimitVerdict& verdict : judge(result)) {
             of_mesh += verdict.what.starts_with("auto (mesh 0): ") ? 1 : 0;
             of_relief += verdict.what.starts_with("auto (relief96): ") ? 1 : 0;
         }
@@ -216,8 +217,8 @@ TEST(Verdicts, AReliefMayBeTheFineOne) {
 TEST(Verdicts, WishesAreSaidOfThePacksCheapestRowAndEndNoRun) {
     SetUpResult result = example();
     const auto wishes = [&result] {
-        std::vector<Verdict> verdicts = judge(result);
-        std::erase_if(verdicts, [](const Verdict& verdict) { return !verdict.wished; });
+        std::vector<LimitVerdict> verdicts = judge(result);
+        std::erase_if(verdicts, [](const LimitVerdict& verdict) { return !verdict.wished; });
         return verdicts;
     };
     ASSERT_EQ(wishes().size(), 2U);

@@ -204,7 +204,7 @@ private:
 };
 
 /// The picture's error after the whole way.
-PictureError whole_way(const LiveSetup& setup) {
+RegistrationError whole_way(const LiveSetup& setup) {
     Live live(setup);
     live.begin();
     live.take_all();
@@ -219,7 +219,7 @@ PictureError whole_way(const LiveSetup& setup) {
         ADD_FAILURE() << got.found.reason;
         return {1.0, 1.0};
     }
-    const PictureError error = picture_error(live.table, *got.found.table, prop.height_m);
+    const RegistrationError error = registration_error(live.table, *got.found.table, prop.height_m);
     std::printf("table %d, %d rests, projector %d px, camera %d px, delay %.0f ms, %.0f s: mean %.3f mm, "
                 "worst place %.3f mm; "
                 "%s; pixels within %.2f, print %.4f\n",
@@ -234,7 +234,7 @@ PictureError whole_way(const LiveSetup& setup) {
 }
 
 TEST(AutoProcedure, CalibratesTheTable) {
-    const PictureError error = whole_way({});
+    const RegistrationError error = whole_way({});
     EXPECT_LT(error.mean_m, 1.0e-3);
     EXPECT_LT(error.worst_m, 3.0e-3);
 }
@@ -243,7 +243,7 @@ TEST(AutoProcedure, DISABLED_CalibratesTheTableAsItPromises) {
     double mean_m = 0.0;
     constexpr int tables = 3;
     for (std::uint64_t seed = 1; seed <= tables; ++seed) {
-        const PictureError error = whole_way({seed, 16, 1280, 0, 2, std::chrono::milliseconds(50)});
+        const RegistrationError error = whole_way({seed, 16, 1280, 0, 2, std::chrono::milliseconds(50)});
         mean_m += error.mean_m / tables;
         EXPECT_LT(error.worst_m, 1.5e-3);
     }

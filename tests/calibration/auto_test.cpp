@@ -30,7 +30,7 @@ TEST(Auto, WithoutNoiseTheTruthIsFound) {
         const AutoCalibration got =
             calibrate_auto(simulated_rests(table, sheet_with_prop(), {}, no_noise, numbers), setup);
         ASSERT_TRUE(got.found.table) << seed << ": " << got.found.reason;
-        EXPECT_LT(picture_error(table, *got.found.table, 0.12).worst_m, 2e-5) << seed;
+        EXPECT_LT(registration_error(table, *got.found.table, 0.12).worst_m, 2e-5) << seed;
         EXPECT_LT(prop_error(table, *got.found.table, got.sensor_from_prop, 0.12).worst_m, 2e-5) << seed;
         EXPECT_LT(got.found.worst_residual_m, 1e-5) << seed;
         EXPECT_NEAR(got.found.table->pinhole.fx / table.truth.pinhole.fx, 1.0, 1e-4) << seed;
@@ -76,8 +76,8 @@ Figures figures_of(const RestPlan& plan, const TagCorners& corners, const RestNo
             prop_worst.push_back(1e3);
             continue;
         }
-        const PictureError error = picture_error(table, *got.found.table, 0.12);
-        const PictureError prop = prop_error(table, *got.found.table, got.sensor_from_prop, 0.12);
+        const RegistrationError error = registration_error(table, *got.found.table, 0.12);
+        const RegistrationError prop = prop_error(table, *got.found.table, got.sensor_from_prop, 0.12);
         figures.mean_mm += 1e3 * share * error.mean_m;
         figures.prop_mean_mm += 1e3 * share * prop.mean_m;
         worst.push_back(1e3 * error.worst_m);
@@ -261,7 +261,7 @@ void run_faults(std::uint64_t seeds) {
             repeat += verdict == Verdict::Repeat ? 1 : 0;
             if (verdict == Verdict::Good || verdict == Verdict::Usable) {
                 ++promised;
-                const double worst_m = picture_error(table, *got.found.table, 0.12).worst_m;
+                const double worst_m = registration_error(table, *got.found.table, 0.12).worst_m;
                 wrong += worst_m < 2e-3 ? 0 : 1;
             }
             if (fault.refused_for != nullptr) {
@@ -294,7 +294,7 @@ TEST(AutoFaults, WhatRestsLeaveOpenIsSaid) {
     setup.sensor_height_m = table.sensor_height_m;
     const AutoCalibration found = calibrate_auto(upright, setup);
     ASSERT_TRUE(found.found.table) << found.found.reason;
-    EXPECT_LT(picture_error(table, *found.found.table, 0.12).mean_m, 5e-4);
+    EXPECT_LT(registration_error(table, *found.found.table, 0.12).mean_m, 5e-4);
 }
 
 TEST(AutoFaults, TheRestThatMovedIsNamed) {

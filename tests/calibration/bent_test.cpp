@@ -36,7 +36,7 @@ TEST(BentField, NoVerdictPromisesWhatDoesNotHold) {
             if (found.verdict == Verdict::Good || found.verdict == Verdict::Usable) {
                 ++judged;
                 const auto reported = [&](const RigidTransform& pose) { return bent.metal.reported(pose); };
-                EXPECT_LE(picture_error(bent.table, *found.table, 0.12, reported).worst_m,
+                EXPECT_LE(registration_error(bent.table, *found.table, 0.12, reported).worst_m,
                           found.verdict == Verdict::Good ? 5e-3 : 8e-3) // as faults_test.cpp has it
                     << "bent by " << bend_m << ", seed " << seed;
             }

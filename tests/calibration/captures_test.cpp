@@ -113,7 +113,7 @@ TEST(Captures, DISABLED_UnderEachFault) {
 }
 
 /// The error of the picture after so many rests, captured; the mean over its zone and the worst place.
-PictureError calibrated_error(std::uint64_t seed, int rests, DecodeErrors& errors) {
+RegistrationError calibrated_error(std::uint64_t seed, int rests, DecodeErrors& errors) {
     const SimulatedTable table = some_table(seed);
     SeededNumbers numbers(5000 + seed);
     Rests given;
@@ -128,7 +128,7 @@ PictureError calibrated_error(std::uint64_t seed, int rests, DecodeErrors& error
         ADD_FAILURE() << seed << ": " << got.found.reason;
         return {1.0, 1.0};
     }
-    const PictureError error = picture_error(table, *got.found.table, 0.12);
+    const RegistrationError error = registration_error(table, *got.found.table, 0.12);
     std::printf("seed %d, %d rests captured: mean %.3f mm, worst place %.3f mm; %s; pixels within %.2f\n",
                 static_cast<int>(seed), rests, 1e3 * error.mean_m, 1e3 * error.worst_m,
                 got.found.reason.c_str(), got.pixel_noise);

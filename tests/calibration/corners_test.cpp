@@ -84,8 +84,8 @@ TEST(Corners, ByHandThePictureIsFiveTimesWorseThanByTouch) {
         calibrated.pinhole = *hand.pinhole;
         calibrated.pinhole.lens = {};
         calibrated.table_from_projector = hand.measured_from_projector;
-        by_hand += picture_error(table, calibrated, 0.12).mean_m;
-        by_touch += picture_error(table, *touch.table, 0.12).mean_m;
+        by_hand += registration_error(table, calibrated, 0.12).mean_m;
+        by_touch += registration_error(table, *touch.table, 0.12).mean_m;
     }
     std::printf("by hand %.2f mm, by touch %.2f mm on average; %d of %d refused\n",
                 1e3 * by_hand / (seeds - refused), 1e3 * by_touch / (seeds - refused), refused, seeds);

@@ -141,7 +141,7 @@ Count count_of(const Fault& fault, std::uint64_t seeds, ChosenCrosses& crosses) 
         const TouchCalibration found = calibrate_touch(set.touches, setup_for(table));
         ++count.sets;
         if (found.verdict == Verdict::Good || found.verdict == Verdict::Usable) {
-            const double worst_m = picture_error(table, *found.table, 0.12).worst_m;
+            const double worst_m = registration_error(table, *found.table, 0.12).worst_m;
             if (!(worst_m <= (found.verdict == Verdict::Good ? good_within_m : usable_within_m))) {
                 ++count.wrong;
                 std::printf("  %s, seed %d: %s, and off by %.1f mm\n", fault.name.c_str(),

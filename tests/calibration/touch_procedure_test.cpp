@@ -290,7 +290,7 @@ TEST(ProcedureOnATable, EndsWithACalibrationThatIsRight) {
     procedure.judge({judged.verdict, {}, judged.repeat, judged.residuals, false});
     procedure.step({now, std::nullopt, true, false});
     EXPECT_EQ(procedure.stage(), TouchStage::Done) << judged.reason;
-    EXPECT_LT(picture_error(table, *judged.table, 0.12).mean_m, 1e-3);
+    EXPECT_LT(registration_error(table, *judged.table, 0.12).mean_m, 1e-3);
 }
 
 } // namespace

@@ -19,7 +19,7 @@ TEST(Touch, WithoutNoiseTheTruthIsFound) {
         const TouchCalibration found =
             calibrate_touch(touches_of(table, crosses.of(table, 15), no_noise, numbers), setup);
         ASSERT_TRUE(found.table) << seed << ": " << found.reason;
-        const PictureError error = picture_error(table, *found.table, setup.top_m);
+        const RegistrationError error = registration_error(table, *found.table, setup.top_m);
         EXPECT_LT(error.worst_m, 2e-5) << seed;
         EXPECT_LT(found.worst_residual_m, 1e-5) << seed;
         EXPECT_NEAR(found.table->pinhole.fx / table.truth.pinhole.fx, 1.0, 1e-4) << seed;
@@ -61,7 +61,7 @@ Figures figures_of(int count, std::uint64_t seeds) {
             ADD_FAILURE() << seed << ": " << found.reason;
             continue;
         }
-        const PictureError error = picture_error(table, *found.table, 0.12);
+        const RegistrationError error = registration_error(table, *found.table, 0.12);
         figures.mean_mm += 1e3 * error.mean_m / static_cast<double>(seeds);
         worst.push_back(1e3 * error.worst_m);
         figures.judged += found.verdict == Verdict::Good || found.verdict == Verdict::Usable
@@ -102,7 +102,8 @@ TEST(Touch, TheUncertaintyIsThatOfTheErrors) {
             calibrate_touch(touches_of(table, crosses.of(table, 15), {}, numbers), setup_for(table));
         ASSERT_TRUE(found.table);
         square +=
-            std::pow(picture_error(table, *found.table, 0.12).mean_m / found.uncertainty.mean_m, 2.0) / seeds;
+            std::pow(registration_error(table, *found.table, 0.12).mean_m / found.uncertainty.mean_m, 2.0) /
+            seeds;
     }
     // A mean distance over the zone against a root mean square: somewhat below 1.
     EXPECT_GT(std::sqrt(square), 0.6);
@@ -125,7 +126,7 @@ TEST(Touch, LaidOnASideThreeTimesItNeedsNoSensorsHeight) {
     const TouchCalibration found = calibrate_touch(touches, setup);
     ASSERT_TRUE(found.table) << found.reason;
     EXPECT_LT(glm::distance(found.table->sensor_offset_m, table.truth.sensor_offset_m), 2e-3);
-    EXPECT_LT(picture_error(table, *found.table, 0.12).mean_m, 1e-3);
+    EXPECT_LT(registration_error(table, *found.table, 0.12).mean_m, 1e-3);
 }
 
 } // namespace

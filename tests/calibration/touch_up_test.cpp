@@ -60,7 +60,7 @@ Bumped bumped(std::uint64_t seed, Moved what, double off_m, ChosenCrosses& cross
     double size = off_m;
     for (int k = 0; k < 8; ++k) {
         out.table = moved_by(out.before, what, size * turn, size * shift);
-        size *= off_m / picture_error(out.table, out.before.truth, top_m).mean_m;
+        size *= off_m / registration_error(out.table, out.before.truth, top_m).mean_m;
     }
     return out;
 }
@@ -94,8 +94,9 @@ Share share_of(Moved what, double off_m, std::size_t count, std::uint64_t seeds,
         share.nothing += found.table && found.moved == Moved::Nothing ? 1 : 0;
         share.misnamed += found.table && found.moved != what && found.moved != Moved::Either ? 1 : 0;
         share.refused += found.table ? 0 : 1;
-        const PictureError before = picture_error(one.table, one.kept, top_m);
-        const PictureError after = found.table ? picture_error(one.table, *found.table, top_m) : before;
+        const RegistrationError before = registration_error(one.table, one.kept, top_m);
+        const RegistrationError after =
+            found.table ? registration_error(one.table, *found.table, top_m) : before;
         if (found.verdict == Verdict::Good || found.verdict == Verdict::Usable) {
             ++share.usable;
             share.broken += after.worst_m > (found.verdict == Verdict::Good ? 5e-3 : 8e-3) ? 1 : 0;
@@ -143,7 +144,7 @@ Faulty with_one_wrong(Moved what, std::size_t count, std::uint64_t seeds, Chosen
         out.repeat += found.verdict == Verdict::Repeat ? 1 : 0;
         if (found.verdict == Verdict::Good || found.verdict == Verdict::Usable) {
             ++out.judged;
-            const double worst_m = picture_error(one.table, *found.table, top_m).worst_m;
+            const double worst_m = registration_error(one.table, *found.table, top_m).worst_m;
             out.broken += worst_m > (found.verdict == Verdict::Good ? 5e-3 : 8e-3) ? 1 : 0;
             if (worst_m > 5e-3) {
                 std::printf("  seed %d %s: %s, off by %.1f\n", static_cast<int>(seed),
@@ -270,8 +271,8 @@ ByButtons by_buttons(int few, int more, std::uint64_t seeds, ChosenCrosses& cros
             found = touch_up(one.kept, all, setup_for(one.table));
         }
         const bool is_kept = found.verdict == Verdict::Good || found.verdict == Verdict::Usable;
-        const PictureError before = picture_error(one.table, one.kept, top_m);
-        const PictureError after = is_kept ? picture_error(one.table, *found.table, top_m) : before;
+        const RegistrationError before = registration_error(one.table, one.kept, top_m);
+        const RegistrationError after = is_kept ? registration_error(one.table, *found.table, top_m) : before;
         out.refused += found.verdict == Verdict::Refused ? 1 : 0;
         out.after_all += is_kept ? 1 : 0;
         out.broken += is_kept && after.worst_m > (found.verdict == Verdict::Good ? 5e-3 : 8e-3) ? 1 : 0;

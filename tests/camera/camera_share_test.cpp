@@ -4,7 +4,7 @@
 // No place of a camera suits all uses: tags and marks are looked for on a table seen from above, heads in a room seen from the table's far edge.
 // The figures of docs/measurements.md: `ctest -C long -R camera_share`.
 #include "app/bench/tags/skirt.h"
-#include "app/bench/visitor/visitor_scene.h"
+#include "app/bench/visitor/room_scene.h"
 #include "app/drift/drift_watch.h"
 #include "app/drift/mark_places.h"
 #include "app/programs/devices/wiring.h"
@@ -88,8 +88,8 @@ Room room_of(int columns, int rows) {
     person.holds = true;
     const glm::dvec2 table_size_m(0.8, 0.5);
     const glm::dvec3 stands = any_eye(Build::Adult, 0.1, 0.12, table_size_m, random);
-    const VisitorScene scene(watching(columns, rows), {}, table_size_m, make_frustum(shipped_frustum),
-                             glm::dvec3(0.0));
+    const RoomScene scene(watching(columns, rows), {}, table_size_m, make_frustum(shipped_frustum),
+                          glm::dvec3(0.0));
     const auto bodies = [&](double t_s) {
         std::vector<std::vector<Ball>> all;
         if (t_s > 2.0) {

@@ -18,9 +18,9 @@ inline OutputRequest wish_for_the_preferred() {
     return request;
 }
 
-class Exhibit {
+class PresentedExhibit {
 public:
-    explicit Exhibit(const OutputRequest& request = wish_for_the_preferred())
+    explicit PresentedExhibit(const OutputRequest& request = wish_for_the_preferred())
         : presenter(kms, memory.maker(), request) {}
 
     /// One frame of 60 Hz: 5 ms of drawing, then the picture is presented.

@@ -9,7 +9,7 @@ namespace frustumscreen {
 namespace {
 
 TEST(Presenter, WaitsForAFlipThatNeverComesOnlyOnceAndLightsAnewLater) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frames(5);
     exhibit.kms.hangs = true;
@@ -29,7 +29,7 @@ TEST(Presenter, WaitsForAFlipThatNeverComesOnlyOnceAndLightsAnewLater) {
 }
 
 TEST(Presenter, GoesOnWithALateFlipThatComesAfterAll) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frames(5);
     exhibit.kms.hangs = true;
@@ -41,7 +41,7 @@ TEST(Presenter, GoesOnWithALateFlipThatComesAfterAll) {
 }
 
 TEST(Presenter, LeavesOutAPictureWhileTheCardIsBusy) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frames(5);
     exhibit.kms.busy = 2;
@@ -52,7 +52,7 @@ TEST(Presenter, LeavesOutAPictureWhileTheCardIsBusy) {
 }
 
 TEST(Presenter, WaitsForAnotherProgramToLetGoOfTheScreen) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frames(5);
     exhibit.kms.master = false;
@@ -67,7 +67,7 @@ TEST(Presenter, WaitsForAnotherProgramToLetGoOfTheScreen) {
 }
 
 TEST(Presenter, LivesOnWithoutTheCardAndAsksForANewStartWhenItIsBack) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frames(5);
     exhibit.kms.gone = true;
@@ -83,7 +83,7 @@ TEST(Presenter, LivesOnWithoutTheCardAndAsksForANewStartWhenItIsBack) {
 }
 
 TEST(Presenter, SetsTheModeAnewWhereTheKernelSaysThatTheLinkIsBad) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frames(5);
     ConnectorSeen bad = a_projector();
@@ -95,7 +95,7 @@ TEST(Presenter, SetsTheModeAnewWhereTheKernelSaysThatTheLinkIsBad) {
 }
 
 /// How long it bears with the card before it asks for a new start; nothing: for a minute.
-std::optional<Nanoseconds> patience(Exhibit& exhibit) {
+std::optional<Nanoseconds> patience(PresentedExhibit& exhibit) {
     const MonotonicTime begin = exhibit.kms.time;
     while (exhibit.kms.time - begin < std::chrono::minutes(1)) {
         exhibit.kms.time += std::chrono::milliseconds(16);
@@ -109,7 +109,7 @@ std::optional<Nanoseconds> patience(Exhibit& exhibit) {
 TEST(Presenter, AsksForANewStartWhereTheCardTakesNoPictureAnyMore) {
     for (const bool flips_stop : {false, true}) {
         for (const int width : {1280, 1920}) { // as it is, and scaled
-            Exhibit exhibit;
+            PresentedExhibit exhibit;
             ConnectorSeen projector = a_projector();
             projector.modes = {a_mode(width, 800, 60.0, true)};
             exhibit.presenter.connected(a_card({projector}));
@@ -125,7 +125,7 @@ TEST(Presenter, AsksForANewStartWhereTheCardTakesNoPictureAnyMore) {
 }
 
 TEST(Presenter, BearsWithACardThatIsBusyNowAndThenOrHasNothingToLight) {
-    Exhibit busy;
+    PresentedExhibit busy;
     busy.presenter.connected(a_card({a_projector()}));
     busy.frames(5);
     for (int k = 0; k < 20; ++k) {
@@ -133,7 +133,7 @@ TEST(Presenter, BearsWithACardThatIsBusyNowAndThenOrHasNothingToLight) {
         busy.frames(110);
     }
     EXPECT_TRUE(busy.says("is lit"));
-    Exhibit dark;
+    PresentedExhibit dark;
     dark.presenter.connected(a_card({a_projector()}));
     dark.frames(5);
     dark.kms.hangs = true;
@@ -148,7 +148,7 @@ TEST(Presenter, EndsLitAfterAnyHistoryThatEndsWell) {
         const auto one_of = [&random](int count) {
             return static_cast<int>(random() % static_cast<unsigned>(count));
         };
-        Exhibit exhibit;
+        PresentedExhibit exhibit;
         for (int step = 0; step < 60; ++step) {
             ConnectorSeen projector = a_projector();
             projector.plugged = one_of(3) == 0   ? Plugged::No

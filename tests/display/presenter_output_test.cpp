@@ -5,7 +5,7 @@ namespace frustumscreen {
 namespace {
 
 TEST(PresenterOutput, LeavesTheScalingToACardThatCan) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.kms.scales = true;
     ConnectorSeen projector = a_projector();
     projector.modes = {a_mode(1920, 1080, 60.0, true)};
@@ -26,7 +26,7 @@ TEST(PresenterOutput, LeavesTheScalingToACardThatCan) {
 }
 
 TEST(PresenterOutput, ScalesByItselfWhereTheCardRefusesToAndAsksItOnce) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     ConnectorSeen projector = a_projector();
     for (const int width : {1920, 1600, 1920}) {
         projector.modes = {a_mode(width, 1080, 60.0, true)};
@@ -41,7 +41,7 @@ TEST(PresenterOutput, ScalesByItselfWhereTheCardRefusesToAndAsksItOnce) {
 }
 
 TEST(PresenterOutput, ScalesByItselfWhereTheCardTakesOnlyOnePictureToScale) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.kms.scales = true;
     ConnectorSeen projector = a_projector();
     projector.modes = {a_mode(1920, 1080, 60.0, true)};
@@ -72,7 +72,7 @@ ConnectorSeen unseen_projector() {
 }
 
 TEST(PresenterOutput, LightsTheConnectorNamedByForceThoughItSaysThatNothingIsConnected) {
-    Exhibit exhibit(forced_on_hdmi());
+    PresentedExhibit exhibit(forced_on_hdmi());
     exhibit.presenter.connected(a_card({unseen_projector()}));
     exhibit.frames(5);
     ASSERT_TRUE(exhibit.kms.screen);
@@ -93,7 +93,7 @@ TEST(PresenterOutput, LightsTheConnectorNamedByForceThoughItSaysThatNothingIsCon
 }
 
 TEST(PresenterOutput, SaysWhichKernelArgumentForcesAConnectorThatTheCardDoesNotLight) {
-    Exhibit exhibit(forced_on_hdmi());
+    PresentedExhibit exhibit(forced_on_hdmi());
     exhibit.kms.refused = {make_mode(1280, 800, 60.0)};
     exhibit.presenter.connected(a_card({unseen_projector()}));
     exhibit.frames(5);
@@ -104,7 +104,7 @@ TEST(PresenterOutput, SaysWhichKernelArgumentForcesAConnectorThatTheCardDoesNotL
 }
 
 TEST(PresenterOutput, TellsWhyFramebuffersCannotBeMade) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.memory.none_left = true;
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frames(5);
@@ -118,7 +118,7 @@ TEST(PresenterOutput, TellsWhyFramebuffersCannotBeMade) {
 }
 
 TEST(PresenterOutput, TellsWhatOfTheConnectorCannotBeSetFromHere) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.kms.lacks = "its range is unknown";
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frames(5);
@@ -127,7 +127,7 @@ TEST(PresenterOutput, TellsWhatOfTheConnectorCannotBeSetFromHere) {
 }
 
 TEST(PresenterOutput, AsksForANewStartWhereAnotherCardHasTheProjector) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({unseen_projector()}));
     exhibit.frames(5);
     CardSeen seen = a_card({unseen_projector()});
@@ -141,7 +141,7 @@ TEST(PresenterOutput, AsksForANewStartWhereAnotherCardHasTheProjector) {
 }
 
 TEST(PresenterOutput, LeavesAModeForWhichTheCardHasMemoryForOnePictureOnly) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     ConnectorSeen projector = a_projector();
     projector.modes = {a_mode(1920, 1080, 60.0, true), a_mode(1280, 720, 60.0)};
     exhibit.kms.no_flips = {projector.modes[0]};
@@ -156,7 +156,7 @@ TEST(PresenterOutput, LeavesAModeForWhichTheCardHasMemoryForOnePictureOnly) {
 TEST(PresenterOutput, SaysWhatThePersonBesideItCanDo) {
     OutputRequest request = wish_for_the_preferred();
     request.connector = "DP-3";
-    Exhibit exhibit(request);
+    PresentedExhibit exhibit(request);
     exhibit.presenter.connected(a_card({a_projector(), a_projector(2, "VGA-1")}));
     EXPECT_TRUE(exhibit.says("no connector DP-3; it has HDMI-A-1, VGA-1")) << exhibit.presenter.state();
     ConnectorSeen mute = a_projector(3, "DP-3");
@@ -167,7 +167,7 @@ TEST(PresenterOutput, SaysWhatThePersonBesideItCanDo) {
     request = wish_for_the_preferred();
     request.width = 1024;
     request.height = 768;
-    Exhibit other(request);
+    PresentedExhibit other(request);
     other.presenter.connected(a_card({a_projector()}));
     other.frames(2);
     EXPECT_TRUE(other.says("because it cannot do the mode in the settings")) << other.presenter.state();

@@ -15,7 +15,7 @@ ConnectorSeen unplugged() {
 }
 
 /// An exhibit whose projector was lit; frames of sleep are frames of 60 Hz.
-class SleepingExhibit : public Exhibit {
+class SleepingExhibit : public PresentedExhibit {
 public:
     SleepingExhibit() {
         presenter.connected(a_card({a_projector()}));
@@ -76,7 +76,7 @@ TEST(PresenterSleep, WakesWithoutAProjectorAndLightsItWhenItComes) {
 }
 
 TEST(PresenterSleep, FallsAsleepWithoutAProjector) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({unplugged()}));
     exhibit.frames(10);
     EXPECT_TRUE(exhibit.presenter.stay_dark(true));

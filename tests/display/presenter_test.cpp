@@ -8,7 +8,7 @@ namespace frustumscreen {
 namespace {
 
 TEST(Presenter, LivesInTheDarkAndLightsTheProjectorWhenItComes) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.frames(100);
     EXPECT_FALSE(exhibit.kms.screen);
     EXPECT_TRUE(exhibit.says("looked for"));
@@ -27,7 +27,7 @@ TEST(Presenter, LivesInTheDarkAndLightsTheProjectorWhenItComes) {
 }
 
 TEST(Presenter, ShowsEveryPictureOnceAndNeverDrawsIntoTheOneOnShow) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frame();
     FramebufferId before = 0;
@@ -45,7 +45,7 @@ TEST(Presenter, ShowsEveryPictureOnceAndNeverDrawsIntoTheOneOnShow) {
 }
 
 TEST(Presenter, CopiesWhatChangedSinceTheFramebufferWasShown) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     const PixelRectangle whole{0, 0, 1280, 800};
     exhibit.frame({5, 5, 1, 1}); // in the dark
     exhibit.presenter.connected(a_card({a_projector()}));
@@ -69,7 +69,7 @@ TEST(Presenter, CopiesWhatChangedSinceTheFramebufferWasShown) {
 }
 
 TEST(Presenter, ReadsTheFramebufferThatTheProjectorShows) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     std::array<std::byte, 4> pixel{};
     exhibit.frame();
     EXPECT_FALSE(exhibit.presenter.read_shown(pixel)) << "nothing is shown";
@@ -97,7 +97,7 @@ TEST(Presenter, ReadsTheFramebufferThatTheProjectorShows) {
 }
 
 TEST(Presenter, TellsTheTimeOfTheRefreshThatShowsThePicture) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frames(3);
     for (int k = 0; k < 200; ++k) {
@@ -109,7 +109,7 @@ TEST(Presenter, TellsTheTimeOfTheRefreshThatShowsThePicture) {
 
 TEST(Presenter, AsksWhetherFlipsKeepTimeOnceAModeIsSetAndAgainAfterTheNext) {
     // Frames begin on refreshes only where it was asked at a time at which the kernel could say.
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     for (const double hz : {60.0, 59.94}) {
         ConnectorSeen projector = a_projector();
         projector.modes = {a_mode(1280, 800, hz, true)};
@@ -124,7 +124,7 @@ TEST(Presenter, AsksWhetherFlipsKeepTimeOnceAModeIsSetAndAgainAfterTheNext) {
 }
 
 TEST(Presenter, PacesByItselfWhereFlipsComeAtOnce) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.kms.keeps_time = false;
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frame();
@@ -136,7 +136,7 @@ TEST(Presenter, PacesByItselfWhereFlipsComeAtOnce) {
 }
 
 TEST(Presenter, GoesDarkWhenTheProjectorGoesAndSetsItsModeAnewWhenItIsBack) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frames(10);
     ConnectorSeen off = a_projector();
@@ -157,7 +157,7 @@ TEST(Presenter, SurvivesUnplugAndReplugAtEveryStep) {
     // The projector goes before step k of a life and comes back m steps later.
     for (int gone_at = 0; gone_at < 12; ++gone_at) {
         for (int back_after = 0; back_after < 6; ++back_after) {
-            Exhibit exhibit;
+            PresentedExhibit exhibit;
             exhibit.kms.busy = gone_at % 3;
             ConnectorSeen off = a_projector();
             off.plugged = Plugged::No;
@@ -177,7 +177,7 @@ TEST(Presenter, SurvivesUnplugAndReplugAtEveryStep) {
 }
 
 TEST(Presenter, TakesAnotherModeWithoutTheRendererKnowing) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frames(5);
     ConnectorSeen other = a_projector();
@@ -191,7 +191,7 @@ TEST(Presenter, TakesAnotherModeWithoutTheRendererKnowing) {
 }
 
 TEST(Presenter, KeepsWhatIsLitWhenSomethingElseIsPlugged) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector(2, "HDMI-A-2")}));
     exhibit.frames(5);
     exhibit.presenter.connected(a_card({a_projector(1, "DP-1"), a_projector(2, "HDMI-A-2")}));
@@ -201,7 +201,7 @@ TEST(Presenter, KeepsWhatIsLitWhenSomethingElseIsPlugged) {
 }
 
 TEST(Presenter, TriesTheNextModeWhereTheCardRefusesOne) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     ConnectorSeen projector = a_projector();
     projector.modes = {a_mode(3840, 2160, 60.0, true), a_mode(1920, 1200, 60.0), a_mode(1280, 800, 60.0)};
     exhibit.kms.refused = {projector.modes[0], projector.modes[2]};
@@ -211,7 +211,7 @@ TEST(Presenter, TriesTheNextModeWhereTheCardRefusesOne) {
     EXPECT_EQ(exhibit.kms.screen->mode.width, 1920);
     EXPECT_EQ(exhibit.memory.alive, 1);
     exhibit.kms.refused = projector.modes;
-    Exhibit none;
+    PresentedExhibit none;
     none.kms.refused = projector.modes;
     none.presenter.connected(a_card({projector}));
     none.frames(200);
@@ -220,7 +220,7 @@ TEST(Presenter, TriesTheNextModeWhereTheCardRefusesOne) {
 }
 
 TEST(Presenter, SetsNoModeWhileTheCardIsBeingAsked) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
     ASSERT_TRUE(exhibit.presenter.present({}, false));
     EXPECT_EQ(exhibit.kms.lights, 0);
@@ -229,7 +229,7 @@ TEST(Presenter, SetsNoModeWhileTheCardIsBeingAsked) {
 }
 
 TEST(Presenter, IsSettledWhenTheFirstPictureIsShownOrNothingCanShowIt) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     exhibit.frame();
     EXPECT_FALSE(exhibit.presenter.settled()) << "what is connected is not known yet";
     exhibit.presenter.connected(a_card({a_projector()}));
@@ -238,10 +238,10 @@ TEST(Presenter, IsSettledWhenTheFirstPictureIsShownOrNothingCanShowIt) {
     EXPECT_EQ(exhibit.presenter.settled(), exhibit.says("is lit")) << "its flip is on the way";
     exhibit.frame();
     EXPECT_TRUE(exhibit.presenter.settled());
-    Exhibit dark;
+    PresentedExhibit dark;
     dark.presenter.connected(a_card({}));
     EXPECT_TRUE(dark.presenter.settled());
-    Exhibit refused;
+    PresentedExhibit refused;
     refused.kms.refused = a_projector().modes;
     refused.presenter.connected(a_card({a_projector()}));
     refused.frame();
@@ -249,7 +249,7 @@ TEST(Presenter, IsSettledWhenTheFirstPictureIsShownOrNothingCanShowIt) {
 }
 
 TEST(Presenter, APictureWithoutASizeIsDrawnInThePreferredModesSize) {
-    Exhibit exhibit{OutputRequest{}};
+    PresentedExhibit exhibit{OutputRequest{}};
     exhibit.kms.scales = true; // it would scale one that has a size
     ConnectorSeen projector = a_projector();
     projector.modes = {a_mode(640, 480, 60.0), a_mode(1920, 1080, 60.0, true)};
@@ -265,7 +265,7 @@ TEST(Presenter, APictureWithoutASizeIsDrawnInThePreferredModesSize) {
 }
 
 TEST(Presenter, WhoPresentsRarelyWaitsForTheFlip) {
-    Exhibit exhibit;
+    PresentedExhibit exhibit;
     EXPECT_FALSE(exhibit.presenter.wait_until_shown()) << "there is no projector";
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frame();

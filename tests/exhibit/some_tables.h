@@ -8,9 +8,7 @@
 
 namespace frustumscreen {
 
-using Random = std::mt19937_64;
-
-inline double between(Random& random, double low, double high) {
+inline double between(std::mt19937_64& random, double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
 }
 
@@ -19,7 +17,7 @@ inline RigidTransform standing(const glm::dvec2& place, double yaw) {
 }
 
 /// Any table, prop and projector; the picture a little turned and narrower at one end, as measured ones are.
-inline TableSetUp some_set_up(Random& random) {
+inline TableSetUp some_set_up(std::mt19937_64& random) {
     TableSetUp set_up;
     set_up.artifacts = random() % 31;
     const glm::dvec2 half(between(random, 0.15, 0.7), between(random, 0.12, 0.5));

@@ -10,7 +10,7 @@ namespace {
 
 /// The area that is left for the caption is where it finds room.
 TEST(TableInUse, ACaptionIsAlwaysShownBesideThePicturesWhileThePropIsAtHome) {
-    Random random(17);
+    std::mt19937_64 random(17);
     int tried = 0;
     for (int k = 0; k < 400; ++k) {
         const TableSetUp set_up = some_set_up(random);
@@ -51,7 +51,7 @@ TEST(TableInUse, APictureDimsSoftlyWhileThePropComesAndOthersStay) {
     set_up.lens_m = {0.0, 0.0, 1.5};
     const TableLayout layout = lay_out_table(set_up, 0);
     ASSERT_EQ(layout.places.size(), 12U);
-    Random random(16);
+    std::mt19937_64 random(16);
     for (int stroke = 0; stroke < 40; ++stroke) {
         const TablePlace& goal = layout.places[random() % layout.places.size()];
         const double yaw = between(random, -3.2, 3.2);

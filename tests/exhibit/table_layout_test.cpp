@@ -46,7 +46,7 @@ void expect_apart_and_inside(const TableSetUp& set_up, const TableLayout& layout
     }
 }
 
-void expect_clear_of_home(const TableSetUp& set_up, const TableLayout& layout, Random& random) {
+void expect_clear_of_home(const TableSetUp& set_up, const TableLayout& layout, std::mt19937_64& random) {
     for (int k = 0; k < 12; ++k) {
         const RigidTransform home = standing(set_up.home_m, between(random, -3.2, 3.2));
         const std::optional<TablePolygon> shadow = hidden_by_prop(set_up.prop, home, set_up.lens_m);
@@ -82,7 +82,7 @@ void expect_every_artifact_once(const TableLayout& layout) {
 }
 
 TEST(TableLayout, NothingOverlapsOrLiesUnderThePropAtHomeOnAnyTable) {
-    Random random(14);
+    std::mt19937_64 random(14);
     std::map<std::size_t, int> by_places;
     int with_caption = 0;
     const int tables =
@@ -126,7 +126,7 @@ bool equal(const TableRectangle& a, const TableRectangle& b) {
 }
 
 TEST(TableLayout, IsTheSameWheneverItIsMade) {
-    Random random(15);
+    std::mt19937_64 random(15);
     for (int k = 0; k < 200; ++k) {
         const TableSetUp set_up = some_set_up(random);
         const TableLayout once = lay_out_table(set_up, k % 4);
@@ -200,7 +200,7 @@ TEST(TableLayout, IsSymmetricAboutTheReadersViewOfTheProp) {
             }
         }
     }
-    Random random(18);
+    std::mt19937_64 random(18);
     int laid_out = 0;
     int symmetric = 0;
     for (int k = 0; k < 200; ++k) {
@@ -255,7 +255,7 @@ TEST(TableLayout, SaysHowManyFitOnTheTablesThatAreShipped) {
           Expected{"kiosk", 50, 10, 0.07}, Expected{"cube", 3, 3, 0.085}, Expected{"cube", 12, 12, 0.06},
           Expected{"near", 4, 4, 0.05}, Expected{"near", 12, 3, 0.05}}) {
         const TableSetUp set_up = shipped_table(expected.settings, expected.artifacts);
-        Random random(1);
+        std::mt19937_64 random(1);
         for (int side = 0; side < 4; ++side) {
             const TableLayout layout = lay_out_table(set_up, side);
             ASSERT_FALSE(layout.places.empty());

@@ -41,7 +41,7 @@ TEST_P(AdviceOf, HelpsHoweverItIsFollowed) {
 TEST_P(AdviceOf, IsTheSameInPieces) {
     const FaceReader reader(GetParam()());
     Seeded seeded(17);
-    std::optional<Standing> standing;
+    std::optional<GivenAdvice> standing;
     int most_pieces = 0;
     for (int k = 0; k < 100; ++k) {
         const GuidedSituation situation = seeded_situation(reader.setup(), seeded);
@@ -59,7 +59,7 @@ TEST_P(AdviceOf, IsTheSameInPieces) {
             EXPECT_EQ(search.found()->move.by_m, whole->move.by_m);
             EXPECT_EQ(search.found()->move.turn_rad, whole->move.turn_rad);
             EXPECT_EQ(search.found()->steps, whole->steps);
-            standing = Standing{whole->move, situation};
+            standing = GivenAdvice{whole->move, situation};
         }
     }
     EXPECT_GT(most_pieces, 2); // some are long

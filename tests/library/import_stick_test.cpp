@@ -197,27 +197,27 @@ TEST_F(ImportStick, KeepsTheLastGoodSetWhileANewOneIsOnTrial) {
         import();
     };
     put(1);
-    judge(kiosk, Verdict::Good);
+    judge(kiosk, TrialState::Good);
     put(2);
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 2"});
     EXPECT_EQ(pack_files(), 2U);
-    judge(kiosk, Verdict::Bad);
+    judge(kiosk, TrialState::Bad);
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 1"}) << "comes back";
     put(2); // once more, by hand
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 2"});
-    judge(kiosk, Verdict::Trying, most_starts - 1);
+    judge(kiosk, TrialState::Trying, most_starts - 1);
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 2"});
-    judge(kiosk, Verdict::Trying, most_starts);
+    judge(kiosk, TrialState::Trying, most_starts);
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 1"}) << "the exhibit does not come up with it";
     put(3);
-    judge(kiosk, Verdict::Trying, 1);
+    judge(kiosk, TrialState::Trying, 1);
     put(4); // while 3 is on trial
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 4"});
     EXPECT_EQ(pack_files(), 3U) << "1 is the last good one, 3 may still be shown";
-    judge(kiosk, Verdict::Bad);
+    judge(kiosk, TrialState::Bad);
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 1"});
     put(5);
-    judge(kiosk, Verdict::Good);
+    judge(kiosk, TrialState::Good);
     put(6);
     EXPECT_EQ(pack_files(), 2U);
 }

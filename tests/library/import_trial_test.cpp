@@ -29,14 +29,14 @@ protected:
 
 TEST_F(ImportTrial, ASetThatIsFoundBadWhileAStickIsCopiedDoesNotComeBackWithIt) {
     put(1);
-    judge(kiosk, Verdict::Good);
+    judge(kiosk, TrialState::Good);
     put(2);
     stick.take_away("a.fspack");
     stick.put("b.fspack", museum.pack("b", 1));
     ImportSurroundings outside = quiet_surroundings();
     outside.tell = [&](const ImportReport& report) {
         if (report.stage == ImportStage::Copying) {
-            judge(kiosk, Verdict::Bad);
+            judge(kiosk, TrialState::Bad);
         }
     };
     const ImportReport report = import(outside);
@@ -48,13 +48,13 @@ TEST_F(ImportTrial, ASetThatIsFoundBadWhileAStickIsCopiedDoesNotComeBackWithIt) 
 
 TEST_F(ImportTrial, ASetThatIsFoundGoodWhileAStickIsCopiedIsTheOneToGoBackTo) {
     put(1);
-    judge(kiosk, Verdict::Good);
+    judge(kiosk, TrialState::Good);
     put(2);
     stick.put("a.fspack", museum.pack("a", 3));
     ImportSurroundings outside = quiet_surroundings();
     outside.tell = [&](const ImportReport& report) {
         if (report.stage == ImportStage::Copying) {
-            judge(kiosk, Verdict::Good);
+            judge(kiosk, TrialState::Good);
         }
     };
     EXPECT_EQ(import(outside).stage, ImportStage::Done);
@@ -66,12 +66,12 @@ TEST_F(ImportTrial, BeforeTheFirstSetAreThePacksOfTheSettings) {
     const SetFile first = set_file();
     ASSERT_TRUE(first.choice.last_good);
     EXPECT_EQ(*first.choice.last_good, InstalledSet());
-    judge(kiosk, Verdict::Bad);
+    judge(kiosk, TrialState::Bad);
     EXPECT_EQ(installed(kiosk), InstalledSet());
     put(2);
     EXPECT_EQ(installed(kiosk).number, 2U);
     EXPECT_EQ(set_file().choice.last_good, InstalledSet());
-    judge(kiosk, Verdict::Good);
+    judge(kiosk, TrialState::Good);
     put(3);
     EXPECT_EQ(set_file().choice.last_good->number, 2U);
 }
@@ -79,7 +79,7 @@ TEST_F(ImportTrial, BeforeTheFirstSetAreThePacksOfTheSettings) {
 TEST_F(ImportTrial, NumbersGoOnWhereTheSetWasRemovedByHand) {
     put(1);
     put(2);
-    judge(kiosk, Verdict::Bad);
+    judge(kiosk, TrialState::Bad);
     kiosk.take_away("set.txt");
     put(3);
     EXPECT_EQ(set_file().choice.set.number, 3U);
@@ -88,13 +88,13 @@ TEST_F(ImportTrial, NumbersGoOnWhereTheSetWasRemovedByHand) {
 
 TEST_F(ImportTrial, LeavesTheFilesOfASetThatIsShownOnItsLastTrial) {
     put(1);
-    judge(kiosk, Verdict::Good);
+    judge(kiosk, TrialState::Good);
     put(2);
     const InstalledSet shown = installed(kiosk);
-    judge(kiosk, Verdict::Trying, most_starts);
+    judge(kiosk, TrialState::Trying, most_starts);
     put(3);
     EXPECT_TRUE(has_file(shown));
-    judge(kiosk, Verdict::Bad);
+    judge(kiosk, TrialState::Bad);
     put(4);
     EXPECT_FALSE(has_file(shown));
     EXPECT_EQ(set_file().choice.last_good->number, 1U);
@@ -103,14 +103,14 @@ TEST_F(ImportTrial, LeavesTheFilesOfASetThatIsShownOnItsLastTrial) {
 TEST_F(ImportTrial, OlderSetsMakeRoomOnceTheSetIsGood) {
     put(1);
     const InstalledSet oldest = installed(kiosk);
-    judge(kiosk, Verdict::Good);
+    judge(kiosk, TrialState::Good);
     put(2);
     stick.put("a.fspack", museum.pack("a", 3));
     const std::uint64_t needed = (*stick.content("a.fspack"))->size() + request.limits.margin_bytes;
     kiosk.before_operation = [&](int) { kiosk.free = needed - (has_file(oldest) ? 1 : 0); };
     EXPECT_EQ(import().refusal, ImportRefusal::NoRoom) << "it is on trial";
     EXPECT_TRUE(has_file(oldest));
-    judge(kiosk, Verdict::Good);
+    judge(kiosk, TrialState::Good);
     EXPECT_EQ(import().stage, ImportStage::Done);
     EXPECT_FALSE(has_file(oldest));
     EXPECT_EQ(ids(), std::vector<std::string>{"a 3"});

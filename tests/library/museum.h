@@ -156,7 +156,7 @@ inline InstalledSet installed(VolatileDisk& disk) {
     return file ? set_to_show(file->choice, read_verdict(disk).value_or(std::nullopt)) : InstalledSet();
 }
 
-inline void judge(VolatileDisk& disk, Verdict verdict, int starts = 1) {
+inline void judge(VolatileDisk& disk, TrialState verdict, int starts = 1) {
     const SetFile file = read_set_file(disk).value_or(SetFile());
     disk.put(std::string(verdict_file_name), write_verdict({file.choice.set.number, verdict, starts, ""}));
 }

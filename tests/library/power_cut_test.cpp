@@ -23,9 +23,9 @@ protected:
         second.put("a.fspack", museum.pack("a", 2));
         ASSERT_TRUE(before.make_folder("shown"));
         ASSERT_EQ(import_quietly(first, before, request).stage, ImportStage::Done);
-        judge(before, Verdict::Good);
+        judge(before, TrialState::Good);
         ASSERT_EQ(import_quietly(second, before, request).stage, ImportStage::Done);
-        judge(before, Verdict::Good);
+        judge(before, TrialState::Good);
         before.sync_all();
         old_text = text_of(before);
 

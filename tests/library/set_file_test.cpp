@@ -76,17 +76,17 @@ TEST(SetToShow, IsTheLastGoodOneOnlyWhereTheNewOneFailed) {
         return set_to_show(choice, verdict).number;
     };
     EXPECT_EQ(shown(std::nullopt), 7U);
-    EXPECT_EQ(shown(SetVerdict{7, Verdict::Good, 1, ""}), 7U);
-    EXPECT_EQ(shown(SetVerdict{7, Verdict::Good, most_starts, ""}), 7U);
-    EXPECT_EQ(shown(SetVerdict{7, Verdict::Bad, 1, "x"}), 6U);
-    EXPECT_EQ(shown(SetVerdict{7, Verdict::Trying, most_starts - 1, ""}), 7U);
-    EXPECT_EQ(shown(SetVerdict{7, Verdict::Trying, most_starts, ""}), 6U);
-    EXPECT_EQ(shown(SetVerdict{6, Verdict::Bad, 1, "of another set"}), 7U);
-    EXPECT_EQ(set_to_show({a_set(7), std::nullopt}, SetVerdict{7, Verdict::Bad, 9, ""}).number, 7U);
+    EXPECT_EQ(shown(SetVerdict{7, TrialState::Good, 1, ""}), 7U);
+    EXPECT_EQ(shown(SetVerdict{7, TrialState::Good, most_starts, ""}), 7U);
+    EXPECT_EQ(shown(SetVerdict{7, TrialState::Bad, 1, "x"}), 6U);
+    EXPECT_EQ(shown(SetVerdict{7, TrialState::Trying, most_starts - 1, ""}), 7U);
+    EXPECT_EQ(shown(SetVerdict{7, TrialState::Trying, most_starts, ""}), 6U);
+    EXPECT_EQ(shown(SetVerdict{6, TrialState::Bad, 1, "of another set"}), 7U);
+    EXPECT_EQ(set_to_show({a_set(7), std::nullopt}, SetVerdict{7, TrialState::Bad, 9, ""}).number, 7U);
 }
 
 TEST(VerdictText, IsReadAsItWasWritten) {
-    const SetVerdict verdict{3, Verdict::Bad, 2, "the vase cannot be shown"};
+    const SetVerdict verdict{3, TrialState::Bad, 2, "the vase cannot be shown"};
     EXPECT_EQ(parse_verdict(write_verdict(verdict)).value(), verdict);
     EXPECT_FALSE(parse_verdict(""));
     EXPECT_FALSE(parse_verdict(R"({"number":3,"verdict":"fine","starts":0,"reason":""})"));

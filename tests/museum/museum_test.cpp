@@ -52,8 +52,8 @@ TEST(Museum, ABrokenMachineShowsWordsAndRestsBetweenReboots) {
     const MuseumRun run = simulate(Policy::Ladder, attacks, 5, 1);
     EXPECT_LE(run.most_reboots_in_day, reboots_a_day);
     EXPECT_GE(count_of(run, Step::Reboot), 6U);
-    EXPECT_GT(run.open.at(static_cast<std::size_t>(Shown::Words)),
-              20 * run.open.at(static_cast<std::size_t>(Shown::Dark)));
+    EXPECT_GT(run.open.at(static_cast<std::size_t>(VisibleState::Words)),
+              20 * run.open.at(static_cast<std::size_t>(VisibleState::Dark)));
     EXPECT_LT(run.longest_dark_s, 300);
 }
 
@@ -66,8 +66,8 @@ TEST(Museum, MonthsOfEverything) {
     const MuseumRun reboots = simulate(Policy::RebootAtEveryTrouble, attacks, days, 7);
     EXPECT_EQ(false_alarms(ladder), 0U);
     EXPECT_LE(ladder.most_reboots_in_day, reboots_a_day);
-    const auto whole = static_cast<std::size_t>(Shown::Whole);
-    const auto dark = static_cast<std::size_t>(Shown::Dark);
+    const auto whole = static_cast<std::size_t>(VisibleState::Whole);
+    const auto dark = static_cast<std::size_t>(VisibleState::Dark);
     EXPECT_GE(ladder.open.at(whole), reboots.open.at(whole));
     EXPECT_GE(ladder.open.at(whole), alone.open.at(whole));
     EXPECT_LT(ladder.open.at(dark), alone.open.at(dark));

@@ -26,7 +26,7 @@ struct Record {
 };
 
 /// Draws nothing, and keeps what it was asked for.
-class RecordingStage final : public Stage {
+class RecordingStage final : public ExhibitStage {
 public:
     explicit RecordingStage(Record& record) : record_(record) {}
     [[nodiscard]] DrawResult draw(MonotonicTime, const Presentation&, const glm::dvec3&,
@@ -148,7 +148,7 @@ TEST_F(Live, SaysThatUnsignedPacksAreAllowed) {
 }
 
 /// Artifacts as white as can be, everywhere.
-class WhiteStage final : public Stage {
+class WhiteStage final : public ExhibitStage {
 public:
     [[nodiscard]] DrawResult draw(MonotonicTime, const Presentation& presentation, const glm::dvec3&,
                                   const RenderTarget& target, Redraw) override {

@@ -22,8 +22,8 @@ Bytes fixture(const std::string& name) {
 }
 
 SharedRecording in_memory(const std::string& name, Bytes opus) {
-    return std::make_shared<const Recording>(
-        Recording{name, std::move(opus), {}, "en", "word", {seconds(2), seconds(1)}});
+    return std::make_shared<const PromptRecording>(
+        PromptRecording{name, std::move(opus), {}, "en", "word", {seconds(2), seconds(1)}});
 }
 
 /// Asks until there is an answer; the tests' own time limit ends what never comes.
@@ -46,7 +46,7 @@ protected:
     }
     void TearDown() override { std::filesystem::remove(file); }
     [[nodiscard]] SharedRecording in_pack(const std::string& language) const {
-        return std::make_shared<const Recording>(Recording{
+        return std::make_shared<const PromptRecording>(PromptRecording{
             "the description in '" + language + "'", {}, file, language, "description", {seconds(1)}});
     }
     const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "prompt_reading.fspack";
@@ -70,7 +70,7 @@ TEST_F(PromptReading, what_cannot_be_read_is_silent_and_said_once) {
     const SharedRecording bad = in_pack("de");
     const SharedRecording missing = in_pack("fr");
     const SharedRecording damaged = in_memory("damaged", Bytes(100, std::byte(7)));
-    auto gone_file = std::make_shared<Recording>(*in_pack("en"));
+    auto gone_file = std::make_shared<PromptRecording>(*in_pack("en"));
     gone_file->name = "gone";
     gone_file->pack = file.string() + ".gone";
     const SharedRecording gone = gone_file;

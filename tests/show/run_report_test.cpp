@@ -18,7 +18,7 @@ namespace {
 TEST(RunReport, QuantilesAreThoseOfTheSortedFramesOfTheWindow) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> ms(1.0F, 30.0F);
-    FrameTimes times(500);
+    RecentFrameTimes times(500);
     std::vector<float> all;
     for (int k = 0; k < 1234; ++k) {
         all.push_back(ms(random));
@@ -28,7 +28,7 @@ TEST(RunReport, QuantilesAreThoseOfTheSortedFramesOfTheWindow) {
     std::sort(last.begin(), last.end());
     EXPECT_EQ(static_cast<float>(times.quantile(0.5)), last[249]);
     EXPECT_EQ(static_cast<float>(times.quantile(0.99)), last[494]);
-    EXPECT_EQ(FrameTimes(10).quantile(0.5), 0.0);
+    EXPECT_EQ(RecentFrameTimes(10).quantile(0.5), 0.0);
 }
 
 TEST(RunReport, TheListOfFramesQuotesTitlesWithCommas) {
@@ -60,7 +60,7 @@ TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {
     const auto set = std::make_shared<SetStatus>();
     set->shown = 7;
     set->packs.emplace_back().title = "A cat";
-    set->newest = {8, Verdict::Bad, 2, "dog.fspack: it is damaged"};
+    set->newest = {8, TrialState::Bad, 2, "dog.fspack: it is damaged"};
     const std::time_t before = std::time(nullptr);
     {
         StatusFile status_file(file);

@@ -194,7 +194,7 @@ TEST_F(SetSwitching, ANewSetIsShownPixelForPixelAndTheOldOneIsGone) {
     rest(); // the old set is released frame by frame
     EXPECT_EQ(show->use().gpu_bytes, show->use().planned_gpu_bytes);
     EXPECT_LT(show->use().gpu_bytes, gpu_bytes);
-    EXPECT_EQ(verdict(), (SetVerdict{2, Verdict::Trying, 1, ""}));
+    EXPECT_EQ(verdict(), (SetVerdict{2, TrialState::Trying, 1, ""}));
     ASSERT_TRUE(await([&] { return sets->status() && sets->status()->shown == 2; }));
     EXPECT_TRUE(sets->status()->on_trial);
     ASSERT_EQ(sets->status()->packs.size(), 1U);
@@ -240,8 +240,8 @@ TEST_F(SetSwitching, IsGoodAfterHalfAMinuteOfTheExhibitsTime) {
         step({}, seconds(1));
         std::this_thread::sleep_for(milliseconds(10));
     }
-    EXPECT_EQ(verdict().verdict, Verdict::Trying);
-    ASSERT_TRUE(await([&] { return verdict().verdict == Verdict::Good; }));
+    EXPECT_EQ(verdict().state, TrialState::Trying);
+    ASSERT_TRUE(await([&] { return verdict().state == TrialState::Good; }));
     EXPECT_EQ(sets->switches(), 0U);
 }
 
@@ -253,7 +253,7 @@ TEST_F(SetSwitching, ASetWithABrokenPackIsNeverShown) {
     const InstalledSet broken = put(2, {3, 4});
     fs::resize_file(folder / broken.packs[1].file, 100);
     install(broken, one);
-    ASSERT_TRUE(await([&] { return verdict().number == 2 && verdict().verdict == Verdict::Bad; }));
+    ASSERT_TRUE(await([&] { return verdict().number == 2 && verdict().state == TrialState::Bad; }));
     rest();
     EXPECT_NE(verdict().reason.find(broken.packs[1].file), std::string::npos) << verdict().reason;
     EXPECT_EQ(sets->switches(), 0U);
@@ -277,7 +277,7 @@ TEST_F(SetSwitching, APackThatTurnsOutBadLaterLeadsBackToTheLastGoodSet) {
     EXPECT_EQ(show->set().number, 1U);
     EXPECT_EQ(picture().texels, before.texels);
     EXPECT_EQ(verdict().number, 2U);
-    EXPECT_EQ(verdict().verdict, Verdict::Bad);
+    EXPECT_EQ(verdict().state, TrialState::Bad);
     EXPECT_NE(verdict().reason.find("damaged"), std::string::npos) << verdict().reason;
 }
 
@@ -296,7 +296,7 @@ TEST_F(SetSwitching, StartsAreCountedAndTheFourthShowsTheLastGoodSet) {
     }
     start();
     EXPECT_EQ(show->set().number, 1U);
-    EXPECT_EQ(verdict().verdict, Verdict::Bad);
+    EXPECT_EQ(verdict().state, TrialState::Bad);
     EXPECT_FALSE(fs::exists(left));
     step();
     rest();
@@ -311,13 +311,13 @@ TEST_F(SetSwitching, AStartWithABrokenFirstSetShowsTheSettingsPacksOrWhatIsLeftO
     settings.exhibit.packs = {own};
     start();
     EXPECT_EQ(show->set().number, 0U);
-    EXPECT_EQ(verdict().verdict, Verdict::Bad);
+    EXPECT_EQ(verdict().state, TrialState::Bad);
     sets.reset();
     show.reset();
     settings.exhibit.packs.clear();
     start();
     EXPECT_EQ(show->set().number, 1U);
-    EXPECT_EQ(verdict().verdict, Verdict::Bad);
+    EXPECT_EQ(verdict().state, TrialState::Bad);
 }
 
 TEST_F(SetSwitching, AStartWithABrokenSetShowsTheLastGoodOneAtOnce) {
@@ -326,7 +326,7 @@ TEST_F(SetSwitching, AStartWithABrokenSetShowsTheLastGoodOneAtOnce) {
     install(broken, put(1, {0}));
     start();
     EXPECT_EQ(show->set().number, 1U);
-    EXPECT_EQ(verdict().verdict, Verdict::Bad);
+    EXPECT_EQ(verdict().state, TrialState::Bad);
 }
 
 TEST_F(SetSwitching, AVerdictThatCouldNotBeWrittenIsWrittenLater) {
@@ -340,7 +340,7 @@ TEST_F(SetSwitching, AVerdictThatCouldNotBeWrittenIsWrittenLater) {
     fs::remove(folder / "shown");
     ASSERT_TRUE(await_switches(1));
     EXPECT_EQ(show->set().number, 2U);
-    EXPECT_EQ(verdict(), (SetVerdict{2, Verdict::Trying, 1, ""}));
+    EXPECT_EQ(verdict(), (SetVerdict{2, TrialState::Trying, 1, ""}));
     ASSERT_TRUE(await([&] { return sets->status()->trouble.empty(); }));
 }
 
@@ -352,7 +352,7 @@ TEST_F(SetSwitching, AStartAtWhichNothingCanBeShownCondemnsNoSet) {
                                return fail(ErrorKind::DeviceLost, "the driver has no memory");
                            });
     EXPECT_FALSE(none.show);
-    EXPECT_EQ(verdict(), (SetVerdict{2, Verdict::Trying, 1, ""}));
+    EXPECT_EQ(verdict(), (SetVerdict{2, TrialState::Trying, 1, ""}));
     start();
     EXPECT_EQ(show->set().number, 2U);
 }
@@ -373,7 +373,7 @@ TEST_F(SetSwitching, AfterARefusalByTheDriverWhatIsShownIsNotOfferedAgain) {
     EXPECT_NE(::testing::internal::GetCapturedStderr().find("signs without words"), std::string::npos);
     coming->trouble = "the driver has no memory";
     ASSERT_TRUE(library.give_back(coming));
-    ASSERT_TRUE(await_there([&] { return verdict().verdict == Verdict::Bad; }));
+    ASSERT_TRUE(await_there([&] { return verdict().state == TrialState::Bad; }));
     EXPECT_FALSE(await_there([&] { return library.take() != nullptr; }, milliseconds(300)));
 }
 

@@ -30,53 +30,53 @@ void show(SetTrial& trial, MonotonicTime from, Nanoseconds length, std::uint64_t
 
 TEST(SetTrial, IsGoodWhenItWasShownForHalfAMinuteInOnePiece) {
     SetTrial trial(on_trial(), std::nullopt);
-    EXPECT_EQ(trial.verdict(), (SetVerdict{8, Verdict::Trying, 1, ""}));
+    EXPECT_EQ(trial.verdict(), (SetVerdict{8, TrialState::Trying, 1, ""}));
     EXPECT_TRUE(trial.on_trial());
     show(trial, start, milliseconds(29'500));
-    EXPECT_EQ(trial.verdict().verdict, Verdict::Trying);
+    EXPECT_EQ(trial.verdict().state, TrialState::Trying);
     trial.shown(start + seconds(30), 8, "");
-    EXPECT_EQ(trial.verdict().verdict, Verdict::Good);
+    EXPECT_EQ(trial.verdict().state, TrialState::Good);
     EXPECT_FALSE(trial.on_trial());
     EXPECT_EQ(trial.target().number, 8U);
     trial.shown(start + seconds(31), 8, "one pack went bad later"); // that is no reason to go back any more
-    EXPECT_EQ(trial.verdict().verdict, Verdict::Good);
+    EXPECT_EQ(trial.verdict().state, TrialState::Good);
 }
 
 TEST(SetTrial, ASilenceOrTimeThatGoesBackBeginsTheHalfMinuteAnew) {
     SetTrial silent(on_trial(), std::nullopt);
     show(silent, start, seconds(20));
     show(silent, start + milliseconds(22'100), seconds(29));
-    EXPECT_EQ(silent.verdict().verdict, Verdict::Trying);
+    EXPECT_EQ(silent.verdict().state, TrialState::Trying);
     show(silent, start + milliseconds(51'100), seconds(1));
-    EXPECT_EQ(silent.verdict().verdict, Verdict::Good);
+    EXPECT_EQ(silent.verdict().state, TrialState::Good);
 
     SetTrial jumping(on_trial(), std::nullopt);
     show(jumping, start + hours(1000), seconds(20));
     show(jumping, start, seconds(29)); // no monotonic clock does that; nothing comes of it
-    EXPECT_EQ(jumping.verdict().verdict, Verdict::Trying);
+    EXPECT_EQ(jumping.verdict().state, TrialState::Trying);
     jumping.shown(start + hours(2000), 8, ""); // nor of a leap
-    EXPECT_EQ(jumping.verdict().verdict, Verdict::Trying);
+    EXPECT_EQ(jumping.verdict().state, TrialState::Trying);
 }
 
 TEST(SetTrial, TheTimeOfAnotherSetDoesNotCount) {
     SetTrial trial(on_trial(), std::nullopt);
     show(trial, start, seconds(60), 7);
-    EXPECT_EQ(trial.verdict().verdict, Verdict::Trying);
+    EXPECT_EQ(trial.verdict().state, TrialState::Trying);
     show(trial, start + seconds(60), seconds(20), 8);
     show(trial, start + seconds(80), seconds(1), 7);
     show(trial, start + seconds(82), seconds(29), 8);
-    EXPECT_EQ(trial.verdict().verdict, Verdict::Trying);
+    EXPECT_EQ(trial.verdict().state, TrialState::Trying);
 }
 
 TEST(SetTrial, AFaultLeadsBackToTheLastGoodOne) {
     SetTrial trial(on_trial(), std::nullopt);
     show(trial, start, seconds(29));
     trial.shown(start + milliseconds(29'500), 8, "vase.fspack: it is damaged");
-    EXPECT_EQ(trial.verdict(), (SetVerdict{8, Verdict::Bad, 1, "vase.fspack: it is damaged"}));
+    EXPECT_EQ(trial.verdict(), (SetVerdict{8, TrialState::Bad, 1, "vase.fspack: it is damaged"}));
     EXPECT_EQ(trial.target().number, 7U);
     show(trial, start + seconds(30), seconds(60), 8); // it stays on show until the other one is there
     show(trial, start + seconds(90), seconds(60), 7);
-    EXPECT_EQ(trial.verdict().verdict, Verdict::Bad);
+    EXPECT_EQ(trial.verdict().state, TrialState::Bad);
 }
 
 TEST(SetTrial, IsNotBegunWithWhereItsStartCannotBeCounted) {
@@ -88,7 +88,7 @@ TEST(SetTrial, IsNotBegunWithWhereItsStartCannotBeCounted) {
     SetTrial alone({set_of(8), std::nullopt}, std::nullopt);
     alone.note_kept(false);
     EXPECT_EQ(alone.target().number, 8U);
-    SetTrial good(on_trial(), SetVerdict{8, Verdict::Good, 1, ""});
+    SetTrial good(on_trial(), SetVerdict{8, TrialState::Good, 1, ""});
     good.note_kept(false);
     EXPECT_EQ(good.target().number, 8U);
 }
@@ -97,7 +97,7 @@ TEST(SetTrial, WithoutAnotherSetABadOneStays) {
     SetTrial trial({set_of(8), std::nullopt}, std::nullopt);
     EXPECT_FALSE(trial.on_trial());
     trial.refuse(8, "it is damaged");
-    EXPECT_EQ(trial.verdict().verdict, Verdict::Bad);
+    EXPECT_EQ(trial.verdict().state, TrialState::Bad);
     EXPECT_EQ(trial.target().number, 8U);
 }
 
@@ -112,12 +112,12 @@ TEST(SetTrial, StartsWithoutAVerdictAreCountedAndTheFourthGoesBack) {
     }
     SetTrial trial(on_trial(), kept);
     EXPECT_EQ(trial.target().number, 7U);
-    EXPECT_EQ(trial.verdict().verdict, Verdict::Bad);
+    EXPECT_EQ(trial.verdict().state, TrialState::Bad);
     EXPECT_NE(trial.verdict().reason.find("3 times"), std::string::npos) << trial.verdict().reason;
 }
 
 TEST(SetTrial, AGoodSetsStartsAreNotCounted) {
-    const SetVerdict good{8, Verdict::Good, 2, ""};
+    const SetVerdict good{8, TrialState::Good, 2, ""};
     for (int begun = 0; begun < 10; ++begun) {
         SetTrial trial(on_trial(), good);
         EXPECT_EQ(trial.target().number, 8U);
@@ -126,21 +126,21 @@ TEST(SetTrial, AGoodSetsStartsAreNotCounted) {
 }
 
 TEST(SetTrial, AnotherSetIsOnTrialAndTheSameOneKeepsItsVerdict) {
-    SetTrial trial({set_of(7), std::nullopt}, SetVerdict{7, Verdict::Good, 1, ""});
+    SetTrial trial({set_of(7), std::nullopt}, SetVerdict{7, TrialState::Good, 1, ""});
     trial.take(on_trial());
-    EXPECT_EQ(trial.verdict(), (SetVerdict{8, Verdict::Trying, 1, ""})); // its coming is its first start
+    EXPECT_EQ(trial.verdict(), (SetVerdict{8, TrialState::Trying, 1, ""})); // its coming is its first start
     EXPECT_EQ(trial.target().number, 8U);
     show(trial, start, seconds(30));
     trial.take({set_of(8), std::nullopt}); // the importer lets go of the one before
-    EXPECT_EQ(trial.verdict().verdict, Verdict::Good);
+    EXPECT_EQ(trial.verdict().state, TrialState::Good);
 }
 
 TEST(SetTrial, WithoutTrustTheOneBeforeIsShownAndNothingIsKeptOfIt) {
-    const SetVerdict good{8, Verdict::Good, 1, ""};
+    const SetVerdict good{8, TrialState::Good, 1, ""};
     SetTrial trial(on_trial(), good, Trust::Before);
     EXPECT_EQ(trial.target().number, 7U);
     EXPECT_EQ(trial.verdict(), good); // the next normal start shows it again
-    EXPECT_EQ(trial.told().verdict, Verdict::Bad);
+    EXPECT_EQ(trial.told().state, TrialState::Bad);
     EXPECT_FALSE(trial.on_trial());
     show(trial, start, seconds(60), 7);
     EXPECT_EQ(trial.target().number, 7U);
@@ -150,17 +150,17 @@ TEST(SetTrial, WithoutTrustTheOneBeforeIsShownAndNothingIsKeptOfIt) {
     EXPECT_EQ(trial.target().number, 9U);
     EXPECT_EQ(trial.told(), trial.verdict());
 
-    const SetTrial tried(on_trial(), SetVerdict{8, Verdict::Trying, 2, ""}, Trust::Before);
+    const SetTrial tried(on_trial(), SetVerdict{8, TrialState::Trying, 2, ""}, Trust::Before);
     EXPECT_EQ(tried.verdict().starts, 2); // it is not begun with
     const SetTrial alone({set_of(8), std::nullopt}, std::nullopt, Trust::Before);
     EXPECT_EQ(alone.target().number, 8U);
-    EXPECT_EQ(alone.told().verdict, Verdict::Trying);
+    EXPECT_EQ(alone.told().state, TrialState::Trying);
 }
 
 TEST(SetTrial, AVerdictOnAnotherSetSaysNothing) {
-    const SetTrial trial(on_trial(), SetVerdict{9, Verdict::Bad, 3, "damaged"});
+    const SetTrial trial(on_trial(), SetVerdict{9, TrialState::Bad, 3, "damaged"});
     EXPECT_EQ(trial.target().number, 8U);
-    EXPECT_EQ(trial.verdict(), (SetVerdict{8, Verdict::Trying, 1, ""}));
+    EXPECT_EQ(trial.verdict(), (SetVerdict{8, TrialState::Trying, 1, ""}));
 }
 
 TEST(SetTrial, BeforeTheFirstSetAreThePacksOfTheSettings) {

@@ -20,12 +20,12 @@ Bytes fixture(const std::string& name) {
 }
 
 SharedRecording recording_of(const std::string& name) {
-    return std::make_shared<const Recording>(
-        Recording{name, fixture(name), {}, "en", name, {seconds(1), seconds(1)}});
+    return std::make_shared<const PromptRecording>(
+        PromptRecording{name, fixture(name), {}, "en", name, {seconds(1), seconds(1)}});
 }
 
 /// One word of advice and one description; the second artifact has none.
-class SpeakingStage final : public Stage {
+class SpeakingStage final : public ExhibitStage {
 public:
     DrawResult draw(MonotonicTime, const Presentation&, const glm::dvec3&, const RenderTarget&,
                     Redraw) override {
@@ -170,7 +170,8 @@ TEST_F(Speaking, what_has_no_sound_is_silent) {
     presentation.tells = presentation.prepares = DescriptionIndex{1, 0};
     frames(2);
     EXPECT_EQ(speaker.narration().state, Narration::State::Silent);
-    stage.description = std::make_shared<const Recording>(Recording{"bad", Bytes(9), {}, "", "", {}});
+    stage.description =
+        std::make_shared<const PromptRecording>(PromptRecording{"bad", Bytes(9), {}, "", "", {}});
     ::testing::internal::CaptureStderr();
     tell();
     frames(2);
@@ -201,9 +202,9 @@ TEST_F(Speaking, a_step_allocates_nothing) {
 
 TEST_F(Speaking, an_announcement_waits_until_nothing_else_is_heard_and_is_said_once) {
     const SharedRecording loud = recording_of("tone.opus");
-    Recording soft_one = *loud;
+    PromptRecording soft_one = *loud;
     soft_one.gain_db = -12.0;
-    const SharedRecording soft = std::make_shared<const Recording>(soft_one);
+    const SharedRecording soft = std::make_shared<const PromptRecording>(soft_one);
     tell();
     frames(10);
     while (speaker.narration().state == Narration::State::Heard) {

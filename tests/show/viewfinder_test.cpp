@@ -375,7 +375,7 @@ TEST_F(ViewfinderRun, TheStaffsPictureShowsTheCamerasWhileBothButtonsAreHeld) {
 TEST_F(ViewfinderRun, NoFrameIsHeldBeforeTheStaffsPictureIsThere) {
     settings.panel.kind = PanelKind::Gpio;
     settings.panel.lines = {"4", "5", "6"};
-    class Nothing final : public Stage {
+    class Nothing final : public ExhibitStage {
     public:
         [[nodiscard]] DrawResult draw(MonotonicTime, const Presentation&, const glm::dvec3&,
                                       const RenderTarget&, Redraw) override {

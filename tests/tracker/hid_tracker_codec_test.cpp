@@ -143,9 +143,9 @@ TEST(HidTrackerCodec, NumbersThatAreNoPoseAreMarked) {
     }
     wire::HidPose strange;
     strange.station = 17;
-    EXPECT_EQ(std::get<Refusal>(parse_hid_tracker(wire::hid_pose(strange))), Refusal::Content);
+    EXPECT_EQ(std::get<DiscardReason>(parse_hid_tracker(wire::hid_pose(strange))), DiscardReason::Content);
     strange.station = 0;
-    EXPECT_EQ(std::get<Refusal>(parse_hid_tracker(wire::hid_pose(strange))), Refusal::Content);
+    EXPECT_EQ(std::get<DiscardReason>(parse_hid_tracker(wire::hid_pose(strange))), DiscardReason::Content);
 }
 
 TEST(HidTrackerCodec, EveryChangedBitAndEveryOtherLengthIsRefused) {
@@ -153,15 +153,15 @@ TEST(HidTrackerCodec, EveryChangedBitAndEveryOtherLengthIsRefused) {
         for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
             wire::Wire changed = good;
             changed[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
-            EXPECT_TRUE(std::holds_alternative<Refusal>(parse_hid_tracker(changed))) << bit;
+            EXPECT_TRUE(std::holds_alternative<DiscardReason>(parse_hid_tracker(changed))) << bit;
         }
         for (std::size_t length = 0; length < good.size(); ++length) {
             const std::span<const std::byte> cut(good.data(), length);
-            EXPECT_TRUE(std::holds_alternative<Refusal>(parse_hid_tracker(cut))) << length;
+            EXPECT_TRUE(std::holds_alternative<DiscardReason>(parse_hid_tracker(cut))) << length;
         }
         wire::Wire longer = good;
         longer.push_back(std::byte{0});
-        EXPECT_EQ(std::get<Refusal>(parse_hid_tracker(longer)), Refusal::Length);
+        EXPECT_EQ(std::get<DiscardReason>(parse_hid_tracker(longer)), DiscardReason::Length);
     }
 }
 

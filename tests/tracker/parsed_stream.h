@@ -32,7 +32,7 @@ template <typename Parse> ParsedStream parsed_stream(std::span<const std::byte> 
         }
         if (const auto* frame = std::get_if<DeviceFrame>(&step.message)) {
             parsed.frames.push_back(*frame);
-        } else if (std::holds_alternative<Refusal>(step.message)) {
+        } else if (std::holds_alternative<DiscardReason>(step.message)) {
             ++parsed.refusals;
         } else {
             ++parsed.others;

@@ -62,13 +62,14 @@ TEST(SpaceMouseCodec, ReadsBothFormsInTheTablesAxes) {
 TEST(SpaceMouseCodec, ButtonsAndBatteryAreNothingOfOursAndOtherLengthsAreRefused) {
     EXPECT_TRUE(std::holds_alternative<SpaceMouseOther>(parse_space_mouse(wire::from_hex("03 0100"))));
     EXPECT_TRUE(std::holds_alternative<SpaceMouseOther>(parse_space_mouse(wire::from_hex("17 64"))));
-    EXPECT_EQ(std::get<Refusal>(parse_space_mouse({})), Refusal::Length);
+    EXPECT_EQ(std::get<DiscardReason>(parse_space_mouse({})), DiscardReason::Length);
     const wire::Wire both = wire::from_hex("01 0100 0200 0300 0400 0500 0600");
     for (std::size_t length = 1; length < both.size(); ++length) {
         const auto message = parse_space_mouse(std::span(both).first(length));
-        EXPECT_EQ(std::holds_alternative<Refusal>(message), length != 7) << length;
+        EXPECT_EQ(std::holds_alternative<DiscardReason>(message), length != 7) << length;
     }
-    EXPECT_EQ(std::get<Refusal>(parse_space_mouse(wire::from_hex("02 0100 0200 0300 04"))), Refusal::Length);
+    EXPECT_EQ(std::get<DiscardReason>(parse_space_mouse(wire::from_hex("02 0100 0200 0300 04"))),
+              DiscardReason::Length);
 }
 
 TEST(SpaceMouse, FullDeflectionForOneSecondGoesAsFarAsItSays) {

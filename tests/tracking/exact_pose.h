@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace frustumscreen::exact {
+namespace frustumscreen::exact_pose {
 
 using Real = long double;
 using Vector = std::array<Real, 3>;
@@ -54,4 +54,4 @@ inline double angle(const glm::dquat& a, const Quaternion& b) {
     return static_cast<double>(4 * std::asin(std::fmin(Real(1), std::sqrt(std::fmin(less, more)) / 2)));
 }
 
-} // namespace frustumscreen::exact
+} // namespace frustumscreen::exact_pose

@@ -39,13 +39,15 @@ RigidTransform at_x(double x) {
 
 /// 0.25 m/s along a slanting line, 1 rad/s about a slanting axis, in long double.
 struct SteadyMotion {
-    exact::Vector axis{0.6L, 0.0L, 0.8L};
-    [[nodiscard]] exact::Quaternion rotation(long double t_s) const { return exact::about(axis, t_s); }
+    exact_pose::Vector axis{0.6L, 0.0L, 0.8L};
+    [[nodiscard]] exact_pose::Quaternion rotation(long double t_s) const {
+        return exact_pose::about(axis, t_s);
+    }
     [[nodiscard]] static glm::dvec3 place(long double t_s) {
         return {static_cast<double>(0.15L * t_s), static_cast<double>(-0.2L * t_s), 0.0};
     }
     [[nodiscard]] RigidTransform pose(long double t_s) const {
-        return {exact::rounded(rotation(t_s)), place(t_s)};
+        return {exact_pose::rounded(rotation(t_s)), place(t_s)};
     }
 };
 
@@ -70,7 +72,7 @@ TEST(PoseEstimator, PredictsSteadyMotionExactlyWithOneModel) {
     EXPECT_EQ(estimate.status, PoseStatus::Predicted);
     EXPECT_EQ(estimate.age, milliseconds(40));
     EXPECT_LT(glm::length(estimate.pose.translation - SteadyMotion::place(t_s)), 1e-9);
-    EXPECT_LT(exact::angle(estimate.pose.rotation, motion.rotation(t_s)), 1e-8);
+    EXPECT_LT(exact_pose::angle(estimate.pose.rotation, motion.rotation(t_s)), 1e-8);
 }
 
 TEST(PoseEstimator, PredictsSteadyMotionUpToItsCautionWithAllModels) {
@@ -81,7 +83,7 @@ TEST(PoseEstimator, PredictsSteadyMotionUpToItsCautionWithAllModels) {
     const long double t_s = static_cast<long double>(asked_us) * 1e-6L;
     const double way_m = 0.25 * 0.040;
     EXPECT_LT(glm::length(estimate.pose.translation - SteadyMotion::place(t_s)), 0.25 * way_m);
-    EXPECT_LT(exact::angle(estimate.pose.rotation, motion.rotation(t_s)), 0.25 * 0.040);
+    EXPECT_LT(exact_pose::angle(estimate.pose.rotation, motion.rotation(t_s)), 0.25 * 0.040);
 }
 
 /// How far the predicted pose goes from one picture to the next beyond what the prop goes, RMS, in mm: 60 Hz each, 35 ms ahead, for 40 s.
@@ -136,10 +138,10 @@ TEST(PoseEstimator, AnswersExactInterpolatedPredictedAndStale) {
     const PoseEstimate within = estimator.at(at_us(303'000));
     EXPECT_EQ(a.status, PoseStatus::Exact);
     EXPECT_EQ(within.status, PoseStatus::Interpolated);
-    const auto wide = [](const glm::dquat& q) { return exact::Quaternion{q.w, q.x, q.y, q.z}; };
-    EXPECT_LT(
-        exact::angle(within.pose.rotation, exact::slerp(wide(a.pose.rotation), wide(b.pose.rotation), 0.3L)),
-        1e-14);
+    const auto wide = [](const glm::dquat& q) { return exact_pose::Quaternion{q.w, q.x, q.y, q.z}; };
+    EXPECT_LT(exact_pose::angle(within.pose.rotation,
+                                exact_pose::slerp(wide(a.pose.rotation), wide(b.pose.rotation), 0.3L)),
+              1e-14);
     EXPECT_LT(glm::length(within.pose.translation - glm::mix(a.pose.translation, b.pose.translation, 0.3)),
               1e-15);
     EXPECT_EQ(estimator.at(at_us(590'000)).status, PoseStatus::Exact);

@@ -8,9 +8,9 @@
 namespace frustumscreen {
 namespace {
 
-exact::Vector some_axis(std::mt19937_64& random) {
+exact_pose::Vector some_axis(std::mt19937_64& random) {
     std::normal_distribution<long double> normal;
-    exact::Vector axis{normal(random), normal(random), normal(random)};
+    exact_pose::Vector axis{normal(random), normal(random), normal(random)};
     const long double length = std::sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
     for (long double& part : axis) {
         part /= length;
@@ -21,10 +21,10 @@ exact::Vector some_axis(std::mt19937_64& random) {
 TEST(PoseMath, RotationVectorsGoThereAndBackAtEveryAngle) {
     std::mt19937_64 random(3);
     for (const long double angle : {1e-300L, 1e-12L, 1e-9L, 1e-8L, 1e-7L, 1e-3L, 1.0L, 3.0L, 3.14159265L}) {
-        const exact::Vector axis = some_axis(random);
+        const exact_pose::Vector axis = some_axis(random);
         const glm::dvec3 vector(static_cast<double>(angle * axis[0]), static_cast<double>(angle * axis[1]),
                                 static_cast<double>(angle * axis[2]));
-        EXPECT_LT(exact::angle(rotation_of(vector), exact::about(axis, angle)), 1e-15);
+        EXPECT_LT(exact_pose::angle(rotation_of(vector), exact_pose::about(axis, angle)), 1e-15);
         const glm::dvec3 back = rotation_vector(rotation_of(vector));
         EXPECT_LE(glm::length(back - vector), 1e-15 + 1e-14 * static_cast<double>(angle));
         const glm::dvec3 other_sign = rotation_vector(-rotation_of(vector));
@@ -37,14 +37,14 @@ TEST(PoseMath, BetweenIsTheExactSlerpAndAStraightLine) {
     std::mt19937_64 random(4);
     std::uniform_real_distribution<long double> turn(0.001L, 3.1L);
     for (int k = 0; k < 200; ++k) {
-        const exact::Quaternion a = exact::about(some_axis(random), turn(random));
-        const exact::Quaternion b = exact::about(some_axis(random), turn(random));
+        const exact_pose::Quaternion a = exact_pose::about(some_axis(random), turn(random));
+        const exact_pose::Quaternion b = exact_pose::about(some_axis(random), turn(random));
         const double share = static_cast<double>(k) / 199.0;
         const double sign = k % 2 == 0 ? 1.0 : -1.0;
-        const RigidTransform from{exact::rounded(a), {1.0, 2.0, -3.0}};
-        const RigidTransform to{sign * exact::rounded(b), {2.0, 0.0, 1.0}};
+        const RigidTransform from{exact_pose::rounded(a), {1.0, 2.0, -3.0}};
+        const RigidTransform to{sign * exact_pose::rounded(b), {2.0, 0.0, 1.0}};
         const RigidTransform pose = between(from, to, share);
-        EXPECT_LT(exact::angle(pose.rotation, exact::slerp(a, b, share)), 1e-13);
+        EXPECT_LT(exact_pose::angle(pose.rotation, exact_pose::slerp(a, b, share)), 1e-13);
         EXPECT_LT(glm::length(pose.translation - glm::mix(from.translation, to.translation, share)),
                   1e-15 * 8);
     }

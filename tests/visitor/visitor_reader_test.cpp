@@ -18,8 +18,8 @@ const glm::dvec3 prop(0.05, 0.0, 0.0);
 const glm::dvec3 eye(0.1, -0.42, 0.6);
 
 /// A table, and on demand a person at it.
-const VisitorScene& scene() {
-    static const VisitorScene one({}, {}, {0.8, 0.5}, make_frustum(shipped_frustum), prop);
+const RoomScene& scene() {
+    static const RoomScene one({}, {}, {0.8, 0.5}, make_frustum(shipped_frustum), prop);
     return one;
 }
 

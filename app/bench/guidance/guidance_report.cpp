@@ -171,7 +171,7 @@ std::string guidance_csv(const std::vector<GuidedProp>& props) {
     return csv;
 }
 
-std::vector<Verdict> judge(const GuidedProp& prop) {
+std::vector<LimitVerdict> judge(const GuidedProp& prop) {
     const VisitsOf& ours = prop.visits[0];
     const VisitsOf& paper = prop.visits[1];
     const double p95_s = ours.quantile_s(0.95);

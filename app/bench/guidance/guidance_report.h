@@ -59,6 +59,6 @@ struct GuidedProp {
 [[nodiscard]] std::string guidance_table(const GuidedProp& prop);
 [[nodiscard]] std::string guidance_csv(const std::vector<GuidedProp>& props);
 /// The targets: no advice that fails, 95 % of the losses mended within 6 s, the picture whole for 95 % of the time.
-[[nodiscard]] std::vector<Verdict> judge(const GuidedProp& prop);
+[[nodiscard]] std::vector<LimitVerdict> judge(const GuidedProp& prop);
 
 } // namespace frustumscreen

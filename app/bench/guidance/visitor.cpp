@@ -214,7 +214,7 @@ private:
             return false;
         }
         const bool goes_away =
-            doing_->wrong && !Standing{doing_->asked, doing_->motion.from}.holds(situation_);
+            doing_->wrong && !GivenAdvice{doing_->asked, doing_->motion.from}.holds(situation_);
         const bool darkens = doing_->asked.action == Action::Wait &&
                              reader_.unlit_px(situation_) > visibly_darker * doing_->dark_px;
         doing_->doubted = goes_away || darkens;

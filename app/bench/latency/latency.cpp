@@ -210,7 +210,7 @@ TrackerResult measure_tracker(const TrackedBy& tracker, const LatencyOptions& op
     return result;
 }
 
-RecordingResult measure_recording(const Recording& recording, const LatencyOptions& options) {
+RecordingResult measure_recording(const PoseRecording& recording, const LatencyOptions& options) {
     TrackedBy tracker{recording.name, 60.0, 18.0, {}};
     RecordingResult result{recording.name, tracker.latency_ms + options.setting.display_latency_ms, {}};
     if (recording.poses.size() > 1) {

@@ -124,7 +124,7 @@ struct LatencyOptions {
 [[nodiscard]] TrackerResult measure_tracker(const TrackedBy& tracker, const LatencyOptions& options);
 
 /// A recording that is replayed.
-struct Recording {
+struct PoseRecording {
     std::string name;
     std::vector<RecordedPose> poses;
     bool noisy = true; ///< false: from motion capture, so a tracker's noise is added
@@ -134,6 +134,7 @@ struct RecordingResult {
     double total_ms = 0.0;
     std::vector<std::pair<std::string, Slip>> slips; ///< by contestant
 };
-[[nodiscard]] RecordingResult measure_recording(const Recording& recording, const LatencyOptions& options);
+[[nodiscard]] RecordingResult measure_recording(const PoseRecording& recording,
+                                                const LatencyOptions& options);
 
 } // namespace frustumscreen

@@ -42,8 +42,8 @@ double worst_tremble_mm(const ContestantResult& contestant) {
 
 } // namespace
 
-std::vector<Verdict> judge(const TrackerResult& result, const LatencyOptions& options) {
-    std::vector<Verdict> verdicts;
+std::vector<LimitVerdict> judge(const TrackerResult& result, const LatencyOptions& options) {
+    std::vector<LimitVerdict> verdicts;
     const ContestantResult& shown = named(result, "exhibit, as shown");
     const Slip* with = at_speed(shown, judged_speed_m_s);
     const Slip* without = at_speed(named(result, "exhibit"), judged_speed_m_s);

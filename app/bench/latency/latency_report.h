@@ -15,7 +15,7 @@ namespace frustumscreen {
 
 /// The targets: 60 Hz display, 18 ms + 17 ms, 0.3 mm and 0.15 degrees. They judge the exhibit as shown, and
 /// its stop by the 95th percentile of the runs.
-[[nodiscard]] std::vector<Verdict> judge(const TrackerResult& result, const LatencyOptions& options);
+[[nodiscard]] std::vector<LimitVerdict> judge(const TrackerResult& result, const LatencyOptions& options);
 
 [[nodiscard]] std::string latency_table(const TrackerResult& result, const LatencyOptions& options);
 [[nodiscard]] std::string recordings_table(std::span<const RecordingResult> recordings);

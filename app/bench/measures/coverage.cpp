@@ -105,7 +105,7 @@ std::string estimates_csv(const std::string& artifact, const SetUpResult& result
     return csv;
 }
 
-Verdict judge(std::span<const NamedCoverage> rows) {
+LimitVerdict judge(std::span<const NamedCoverage> rows) {
     std::size_t poses = 0;
     std::size_t covered = 0;
     for (const NamedCoverage& row : rows) {

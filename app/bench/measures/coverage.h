@@ -57,6 +57,6 @@ inline constexpr const char* estimates_csv_header =
     "artifact,set_up,level,pose,true_mean_mm,true_p95_mm,estimated_mean_mm,estimated_p95_mm,truth_pixels\n";
 [[nodiscard]] std::string estimates_csv(const std::string& artifact, const SetUpResult& result);
 /// Of all poses together.
-[[nodiscard]] Verdict judge(std::span<const NamedCoverage> rows);
+[[nodiscard]] LimitVerdict judge(std::span<const NamedCoverage> rows);
 
 } // namespace frustumscreen

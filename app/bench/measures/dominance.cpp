@@ -72,7 +72,7 @@ void append(std::string& list, const std::string& more) {
     list += (list.empty() ? "" : "; ") + more;
 }
 
-Verdict judge_level(const SetUpResult& result, const TechniqueResult& level, Dominance by) {
+LimitVerdict judge_level(const SetUpResult& result, const TechniqueResult& level, Dominance by) {
     std::string dominating;
     std::string tied;
     for (const TechniqueResult* peer : rivals(result, level, by)) {
@@ -131,8 +131,8 @@ std::vector<const TechniqueResult*> at_best_eye_images(const SetUpResult& result
     return best;
 }
 
-std::vector<Verdict> judge_dominance(const SetUpResult& result) {
-    std::vector<Verdict> verdicts;
+std::vector<LimitVerdict> judge_dominance(const SetUpResult& result) {
+    std::vector<LimitVerdict> verdicts;
     for (const TechniqueResult& technique : result.techniques) {
         if (!is_judged_level(technique.kind)) {
             continue;

@@ -32,6 +32,6 @@ enum class Dominance { Shape, Colour };
 
 /// Two verdicts for each level and relief of the pack; none without peers, none by shape where no peer has as many samples, none by colour
 /// of a pack with baked light. Every eye image counts here.
-[[nodiscard]] std::vector<Verdict> judge_dominance(const SetUpResult& result);
+[[nodiscard]] std::vector<LimitVerdict> judge_dominance(const SetUpResult& result);
 
 } // namespace frustumscreen

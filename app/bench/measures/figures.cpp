@@ -38,8 +38,8 @@ std::vector<LevelFigures> measure_figures(const Pack& pack, const SourceMesh& me
     return figures;
 }
 
-std::vector<Verdict> judge(const std::vector<LevelFigures>& figures, double mm_per_box) {
-    std::vector<Verdict> verdicts;
+std::vector<LimitVerdict> judge(const std::vector<LevelFigures>& figures, double mm_per_box) {
+    std::vector<LimitVerdict> verdicts;
     for (const LevelFigures& each : figures) {
         const auto mm = [mm_per_box](float box) { return mm_per_box * static_cast<double>(box); };
         verdicts.push_back({fmt::format("level {}: the pack says {:.4f} mm mean, {:.4f} mm p95", each.level,
@@ -52,9 +52,9 @@ std::vector<Verdict> judge(const std::vector<LevelFigures>& figures, double mm_p
     return verdicts;
 }
 
-Result<void> require_true(std::span<const Verdict> figures, const std::string& pack) {
-    const auto false_one =
-        std::find_if(figures.begin(), figures.end(), [](const Verdict& verdict) { return !verdict.held; });
+Result<void> require_true(std::span<const LimitVerdict> figures, const std::string& pack) {
+    const auto false_one = std::find_if(figures.begin(), figures.end(),
+                                        [](const LimitVerdict& verdict) { return !verdict.held; });
     if (false_one == figures.end()) {
         return {};
     }

@@ -27,8 +27,8 @@ struct LevelFigures {
 inline constexpr double slack_box = 5e-5; ///< some micrometres on a prop
 inline constexpr double slack_share = 0.25;
 /// One for each level: mean and 95th percentile.
-[[nodiscard]] std::vector<Verdict> judge(const std::vector<LevelFigures>& figures, double mm_per_box);
+[[nodiscard]] std::vector<LimitVerdict> judge(const std::vector<LevelFigures>& figures, double mm_per_box);
 /// An error that names the first false figure.
-[[nodiscard]] Result<void> require_true(std::span<const Verdict> figures, const std::string& pack);
+[[nodiscard]] Result<void> require_true(std::span<const LimitVerdict> figures, const std::string& pack);
 
 } // namespace frustumscreen

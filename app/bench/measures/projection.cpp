@@ -106,9 +106,9 @@ public:
         VisitorViewOptions sixteen = exact_check();
         sixteen.rays_per_side = rays_per_side;
         ProjectionRow row = row_;
-        row.one_ray = agreement(visitor_view(scene_, for_one_ray, camera_, exact_check()), one_ray_);
+        row.one_ray = pixel_accuracy(visitor_view(scene_, for_one_ray, camera_, exact_check()), one_ray_);
         smooth_ = visitor_view(scene_, for_sixteen_rays, camera_, sixteen);
-        row.sixteen_rays = agreement(smooth_, sixteen_rays_);
+        row.sixteen_rays = pixel_accuracy(smooth_, sixteen_rays_);
         return row;
     }
     [[nodiscard]] Image8 pictures() const { return side_by_side(smooth_, sixteen_rays_); }
@@ -203,15 +203,15 @@ VisitorTruth cast_visitor(const Truth& truth, const VisitorScene& scene, const V
     return picture;
 }
 
-double Agreement::prop_percent() const {
+double PixelAccuracy::prop_percent() const {
     return percent_of(prop_right, prop_pixels);
 }
-double Agreement::artifact_percent() const {
+double PixelAccuracy::artifact_percent() const {
     return percent_of(artifact_right, artifact_pixels);
 }
 
-Agreement agreement(const Image8& view, const VisitorTruth& truth) {
-    Agreement found;
+PixelAccuracy pixel_accuracy(const Image8& view, const VisitorTruth& truth) {
+    PixelAccuracy found;
     for (int y = 0; y < view.height; ++y) {
         for (int x = 0; x < view.width; ++x) {
             if (truth.prop.at(x, y) == 0) {

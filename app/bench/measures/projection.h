@@ -39,7 +39,7 @@ struct VisitorTruth {
                                         const VisitorCamera& camera, int rays_per_side);
 
 /// How much of a view is right.
-struct Agreement {
+struct PixelAccuracy {
     std::int64_t prop_pixels = 0;
     std::int64_t prop_right = 0;
     std::int64_t artifact_pixels = 0; ///< of the prop's
@@ -48,7 +48,7 @@ struct Agreement {
     [[nodiscard]] double prop_percent() const;
     [[nodiscard]] double artifact_percent() const;
 };
-[[nodiscard]] Agreement agreement(const Image8& view, const VisitorTruth& truth);
+[[nodiscard]] PixelAccuracy pixel_accuracy(const Image8& view, const VisitorTruth& truth);
 
 /// The camera with the picture's size as described at the top.
 [[nodiscard]] VisitorCamera no_finer_camera(const VisitorScene& scene);
@@ -71,8 +71,8 @@ struct ProjectionRow {
     glm::ivec2 size_px{0}; ///< of the visitor's picture
     /// Projector pixels in a step of one visitor's pixel: the least over the prop and all directions.
     double least_span_px = 0.0;
-    Agreement one_ray;
-    Agreement sixteen_rays;
+    PixelAccuracy one_ray;
+    PixelAccuracy sixteen_rays;
 };
 
 struct ProjectionResult {
@@ -90,7 +90,7 @@ struct ProjectionResult {
 inline constexpr double least_right_percent = 97.0; ///< of the prop's pixels, in every pose
 inline constexpr int most_codes_off = 16;
 
-[[nodiscard]] std::vector<Verdict> judge(const ProjectionResult& result);
+[[nodiscard]] std::vector<LimitVerdict> judge(const ProjectionResult& result);
 [[nodiscard]] std::string projection_csv(std::span<const ProjectionResult> results);
 [[nodiscard]] std::string projection_table(const ProjectionResult& result);
 

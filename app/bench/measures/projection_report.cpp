@@ -60,8 +60,8 @@ std::vector<Summary> by_technique(const ProjectionResult& result) {
 
 } // namespace
 
-std::vector<Verdict> judge(const ProjectionResult& result) {
-    std::vector<Verdict> verdicts;
+std::vector<LimitVerdict> judge(const ProjectionResult& result) {
+    std::vector<LimitVerdict> verdicts;
     const std::vector<Summary> summaries = by_technique(result);
     for (const Summary& summary : summaries) {
         if (summary.level < 0) {

@@ -83,9 +83,9 @@ nlohmann::json json_of(const TechniqueResult& technique) {
     return json;
 }
 
-nlohmann::json json_of(std::span<const Verdict> verdicts) {
+nlohmann::json json_of(std::span<const LimitVerdict> verdicts) {
     nlohmann::json json = nlohmann::json::array();
-    for (const Verdict& verdict : verdicts) {
+    for (const LimitVerdict& verdict : verdicts) {
         json.push_back({{"what", verdict.what},
                         {"found", verdict.found},
                         {"held", verdict.held},
@@ -173,7 +173,7 @@ std::string poses_csv(std::span<const SetUpResult> results) {
 }
 
 std::string report_json(std::span<const SetUpResult> results, const std::string& pack_title,
-                        std::span<const Verdict> pack_figures) {
+                        std::span<const LimitVerdict> pack_figures) {
     nlohmann::json json = {
         {"pack", pack_title}, {"pack_figures", json_of(pack_figures)}, {"set_ups", nlohmann::json::array()}};
     for (const SetUpResult& result : results) {
@@ -191,10 +191,10 @@ std::string report_json(std::span<const SetUpResult> results, const std::string&
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string verdicts_csv(std::span<const SetUpResult> results, std::span<const Verdict> pack_figures) {
+std::string verdicts_csv(std::span<const SetUpResult> results, std::span<const LimitVerdict> pack_figures) {
     std::string csv = "set_up,what,found,verdict\n";
-    const auto add = [&csv](const std::string& set_up, std::span<const Verdict> verdicts) {
-        for (const Verdict& verdict : verdicts) {
+    const auto add = [&csv](const std::string& set_up, std::span<const LimitVerdict> verdicts) {
+        for (const LimitVerdict& verdict : verdicts) {
             csv += fmt::format("{},{},{},{}\n", set_up, quoted(verdict.what), quoted(verdict.found),
                                verdict.held ? "held" : (verdict.wished ? "unmet" : "missed"));
         }

@@ -19,10 +19,10 @@ namespace frustumscreen {
 [[nodiscard]] std::string poses_csv(std::span<const SetUpResult> results);
 /// `pack_figures`: the verdicts on the pack's own figures.
 [[nodiscard]] std::string report_json(std::span<const SetUpResult> results, const std::string& pack_title,
-                                      std::span<const Verdict> pack_figures);
+                                      std::span<const LimitVerdict> pack_figures);
 /// Every verdict: its set-up ('pack': the pack's own figures), the limit, what was found, held or missed.
 [[nodiscard]] std::string verdicts_csv(std::span<const SetUpResult> results,
-                                       std::span<const Verdict> pack_figures);
+                                       std::span<const LimitVerdict> pack_figures);
 /// The table that a person reads, with the verdicts below it.
 [[nodiscard]] std::string console_table(const SetUpResult& result);
 

@@ -50,7 +50,7 @@ struct ShimmerResult {
 inline constexpr double most_ratio = 1.0;
 inline constexpr double most_excess_percent = 0.1;
 
-[[nodiscard]] std::vector<Verdict> judge(const ShimmerResult& result);
+[[nodiscard]] std::vector<LimitVerdict> judge(const ShimmerResult& result);
 [[nodiscard]] std::string shimmer_csv(std::span<const ShimmerResult> results);
 [[nodiscard]] std::string edge_sparkle_csv(std::span<const ShimmerResult> results);
 [[nodiscard]] std::string shimmer_table(const ShimmerResult& result);

@@ -102,8 +102,8 @@ std::string edge_sparkle_csv(std::span<const ShimmerResult> results) {
     return csv;
 }
 
-std::vector<Verdict> judge(const ShimmerResult& result) {
-    std::vector<Verdict> verdicts;
+std::vector<LimitVerdict> judge(const ShimmerResult& result) {
+    std::vector<LimitVerdict> verdicts;
     const auto add = [&verdicts](const std::string& what, const Spans& found, double most, const char* unit) {
         verdicts.push_back({fmt::format("{} <= {:g}{}", what, most, unit),
                             fmt::format("worst {:.3f}{}, mean {:.3f}{}", found.worst, unit, found.mean, unit),

@@ -15,7 +15,7 @@ bool silhouette_holds(const PictureError& error, const Limits& limits) {
            error.outline_shift_px <= limits.outline_shift_px;
 }
 
-Verdict judge_silhouette(const TechniqueResult& level, const Limits& limits) {
+LimitVerdict judge_silhouette(const TechniqueResult& level, const Limits& limits) {
     const auto failed =
         std::count_if(level.errors.begin(), level.errors.end(),
                       [&limits](const PictureError& error) { return !silhouette_holds(error, limits); });
@@ -34,7 +34,7 @@ bool errors_hold(const TechniqueResult& level, const Limits& limits) {
 }
 
 /// Judges the cost of the pack's cheapest level or relief whose errors are within the limits; how fine that is they say.
-Verdict judge_cheapest(const SetUpResult& result, const std::string& whose, const Limits& limits) {
+LimitVerdict judge_cheapest(const SetUpResult& result, const std::string& whose, const Limits& limits) {
     const TechniqueResult* fine = nullptr;
     for (const TechniqueResult& technique : result.techniques) {
         if (is_judged_level(technique.kind) && errors_hold(technique, limits) &&
@@ -51,7 +51,7 @@ Verdict judge_cheapest(const SetUpResult& result, const std::string& whose, cons
 }
 
 /// Of the picture that the kiosk shows, lit and with all its samples.
-std::vector<Verdict> judge_shown(const TechniqueResult& level, const Limits& limits) {
+std::vector<LimitVerdict> judge_shown(const TechniqueResult& level, const Limits& limits) {
     if (!level.error.worst.shown) {
         return {};
     }
@@ -74,18 +74,18 @@ std::vector<Verdict> judge_shown(const TechniqueResult& level, const Limits& lim
 
 } // namespace
 
-std::string lines_of(std::span<const Verdict> verdicts) {
+std::string lines_of(std::span<const LimitVerdict> verdicts) {
     std::string lines;
-    for (const Verdict& verdict : verdicts) {
+    for (const LimitVerdict& verdict : verdicts) {
         lines += fmt::format("{} {} ({})\n", verdict.held ? "held  " : (verdict.wished ? "unmet " : "MISSED"),
                              verdict.what, verdict.found);
     }
     return lines;
 }
 
-std::vector<Verdict> judge(const TechniqueResult& level, const Limits& limits) {
+std::vector<LimitVerdict> judge(const TechniqueResult& level, const Limits& limits) {
     const PictureError& worst = level.error.worst;
-    std::vector<Verdict> verdicts = {
+    std::vector<LimitVerdict> verdicts = {
         judge_silhouette(level, limits),
         {fmt::format("mean geometric error <= {:g} mm", limits.geometric_mean_mm),
          fmt::format("worst pose {:.4f} mm", worst.geometric_mean_mm),
@@ -101,7 +101,7 @@ std::vector<Verdict> judge(const TechniqueResult& level, const Limits& limits) {
                             fmt::format("worst pose {:.3f} px", worst.drawn_shift_px),
                             worst.drawn_shift_px <= most_drawn_shift_px});
     }
-    const std::vector<Verdict> shown = judge_shown(level, limits);
+    const std::vector<LimitVerdict> shown = judge_shown(level, limits);
     verdicts.insert(verdicts.end(), shown.begin(), shown.end());
     if (limits.times_floor > 0.0) {
         verdicts.push_back({fmt::format("median cost <= {:g} x floor", limits.times_floor),
@@ -138,10 +138,10 @@ double least_two_pass_speed_up(std::uint64_t triangles) {
     return triangles >= 4 * least_two_pass_triangles ? 25.0 : 8.0;
 }
 
-std::vector<Verdict> judge(const SetUpResult& result) {
-    std::vector<Verdict> verdicts;
-    const auto add = [&verdicts](const std::string& whose, std::vector<Verdict> more) {
-        for (Verdict& verdict : more) {
+std::vector<LimitVerdict> judge(const SetUpResult& result) {
+    std::vector<LimitVerdict> verdicts;
+    const auto add = [&verdicts](const std::string& whose, std::vector<LimitVerdict> more) {
+        for (LimitVerdict& verdict : more) {
             verdict.what = whose + ": " + verdict.what;
             verdicts.push_back(std::move(verdict));
         }
@@ -177,7 +177,7 @@ std::vector<Verdict> judge(const SetUpResult& result) {
         verdicts.push_back(judge_cheapest(result, "wished", limits));
         verdicts.back().wished = true;
     }
-    const std::vector<Verdict> dominance = judge_dominance(result);
+    const std::vector<LimitVerdict> dominance = judge_dominance(result);
     verdicts.insert(verdicts.end(), dominance.begin(), dominance.end());
     return verdicts;
 }
@@ -186,7 +186,7 @@ Result<void> require_limits(std::span<const SetUpResult> results) {
     std::size_t missed = 0;
     std::string first;
     for (const SetUpResult& result : results) {
-        for (const Verdict& verdict : judge(result)) {
+        for (const LimitVerdict& verdict : judge(result)) {
             if (!verdict.held && !verdict.wished && missed++ == 0) {
                 first = fmt::format("{}, {} ({})", result.name, verdict.what, verdict.found);
             }

@@ -36,7 +36,7 @@ inline constexpr Limits wished_fine_limits{0.05, 0.05, 0.01, std::numeric_limits
 inline constexpr std::uint64_t least_two_pass_triangles = 950'000;
 [[nodiscard]] double least_two_pass_speed_up(std::uint64_t triangles);
 
-struct Verdict {
+struct LimitVerdict {
     std::string what; ///< the limit, with its number
     std::string found;
     bool held = false;
@@ -44,9 +44,9 @@ struct Verdict {
 };
 
 /// One line each: held, MISSED or unmet (a wish that is not held), the limit, what was found.
-[[nodiscard]] std::string lines_of(std::span<const Verdict> verdicts);
+[[nodiscard]] std::string lines_of(std::span<const LimitVerdict> verdicts);
 
-[[nodiscard]] std::vector<Verdict> judge(const TechniqueResult& level, const Limits& limits);
+[[nodiscard]] std::vector<LimitVerdict> judge(const TechniqueResult& level, const Limits& limits);
 
 /// The cheapest level whose mean silhouette, geometric and colour errors are no larger than the two-pass
 /// method's; null if there is none.
@@ -55,7 +55,7 @@ struct Verdict {
 
 /// Default level, finest level, the two-pass picture of a large enough source at its best eye image, a fine
 /// level or relief, the wishes, and whether a peer dominates a level.
-[[nodiscard]] std::vector<Verdict> judge(const SetUpResult& result);
+[[nodiscard]] std::vector<LimitVerdict> judge(const SetUpResult& result);
 
 /// Wishes apart. The error names how many verdicts are missed, and the first.
 [[nodiscard]] Result<void> require_limits(std::span<const SetUpResult> results);

@@ -160,17 +160,17 @@ void KioskModel::take(Step step, Mode mode, MuseumTime now) {
     }
 }
 
-Shown KioskModel::shown() const {
+VisibleState KioskModel::shown() const {
     if (mode_ == Mode::Safe) {
-        return Shown::Words;
+        return VisibleState::Words;
     }
     if (!is_lit_ || hangs_since_ || has(Ailment::Freeze)) {
-        return Shown::Dark;
+        return VisibleState::Dark;
     }
     if (has(Ailment::TrackerHung) || has(Ailment::TrackerDead)) {
-        return Shown::Untracked;
+        return VisibleState::Untracked;
     }
-    return mode_ == Mode::BuiltIn ? Shown::BuiltIn : Shown::Whole;
+    return mode_ == Mode::BuiltIn ? VisibleState::BuiltIn : VisibleState::Whole;
 }
 
 } // namespace frustumscreen

@@ -16,14 +16,14 @@
 namespace frustumscreen {
 
 /// What the visitors see.
-enum class Shown : std::uint8_t {
+enum class VisibleState : std::uint8_t {
     Whole,     ///< the museum's own exhibit, as it should be
     Untracked, ///< the same, and it does not follow the prop
     BuiltIn,   ///< another object
     Words,     ///< for the staff
     Dark,      ///< nothing, or a picture that is frozen
 };
-inline constexpr std::size_t shown_count = 5;
+inline constexpr std::size_t visible_state_count = 5;
 
 class KioskModel {
 public:
@@ -41,7 +41,7 @@ public:
     /// As a watchdog says after a boot.
     void show(Mode mode) { mode_ = mode; }
 
-    [[nodiscard]] Shown shown() const;
+    [[nodiscard]] VisibleState shown() const;
     [[nodiscard]] bool is_booting(MuseumTime now) const { return now < boots_until_; }
     [[nodiscard]] bool is_ill() const { return !attacks_.empty(); }
     [[nodiscard]] bool has(Ailment ailment) const;

@@ -124,14 +124,15 @@ public:
 private:
     /// Staff come by, and switch off and on what does not look well.
     void make_the_round(MuseumTime now) {
-        if (kiosk_.shown() != Shown::Whole && kiosk_.shown() != Shown::BuiltIn) {
+        if (kiosk_.shown() != VisibleState::Whole && kiosk_.shown() != VisibleState::BuiltIn) {
             kiosk_.attack({now, Ailment::PowerCut, now}, now);
         }
     }
 
     void note_health(MuseumTime now) {
-        const Shown shown = kiosk_.shown();
-        const bool is_well = !kiosk_.is_ill() && (shown == Shown::Whole || shown == Shown::BuiltIn);
+        const VisibleState shown = kiosk_.shown();
+        const bool is_well =
+            !kiosk_.is_ill() && (shown == VisibleState::Whole || shown == VisibleState::BuiltIn);
         well_since_ = is_well ? well_since_.value_or(now) : std::optional<MuseumTime>{};
     }
 
@@ -156,11 +157,11 @@ private:
     void account(MuseumTime now) {
         const MuseumTime hour_s = now % museum_day;
         const bool is_asleep = hour_s >= sleeps_s || hour_s < wakes_s;
-        const Shown shown = is_asleep ? Shown::Whole : kiosk_.shown();
+        const VisibleState shown = is_asleep ? VisibleState::Whole : kiosk_.shown();
         if (hour_s >= opens_s && hour_s < closes_s) {
             ++run_.open.at(static_cast<std::size_t>(shown));
         }
-        if (shown != Shown::Dark) {
+        if (shown != VisibleState::Dark) {
             if (dark_since_) {
                 run_.dark_times.push_back(now - *dark_since_);
                 dark_since_.reset();

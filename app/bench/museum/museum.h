@@ -35,8 +35,8 @@ struct TakenStep {
 };
 struct MuseumRun {
     Policy policy = Policy::Ladder;
-    std::array<MuseumTime, shown_count> open{}; ///< seconds of opening hours
-    MuseumTime longest_dark_s = 0;              ///< by day or night, in one piece
+    std::array<MuseumTime, visible_state_count> open{}; ///< seconds of opening hours
+    MuseumTime longest_dark_s = 0;                      ///< by day or night, in one piece
     MuseumTime longest_dark_at = 0;
     std::array<MuseumTime, ailment_count> longest{}; ///< dark, in one piece that began with this ailment
     std::vector<MuseumTime> dark_times;              ///< seconds of each piece

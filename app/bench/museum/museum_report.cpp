@@ -10,7 +10,7 @@ namespace frustumscreen {
 
 namespace {
 
-double share(const MuseumRun& run, Shown shown) {
+double share(const MuseumRun& run, VisibleState shown) {
     const MuseumTime all = std::accumulate(run.open.begin(), run.open.end(), MuseumTime{0});
     return all == 0
                ? 0.0
@@ -50,9 +50,9 @@ std::string museum_table(std::span<const MuseumRun> runs, std::span<const Attack
     auto out = std::back_inserter(text);
     for (const MuseumRun& run : runs) {
         fmt::format_to(out, "{:24} {:9.3f} {:9.3f} {:9.3f} {:9.3f} {:9.3f} {:>12} {:6} {:8} {:6}\n",
-                       name_of(run.policy), 100.0 * share(run, Shown::Whole),
-                       100.0 * share(run, Shown::Untracked), 100.0 * share(run, Shown::BuiltIn),
-                       100.0 * share(run, Shown::Words), 100.0 * share(run, Shown::Dark),
+                       name_of(run.policy), 100.0 * share(run, VisibleState::Whole),
+                       100.0 * share(run, VisibleState::Untracked), 100.0 * share(run, VisibleState::BuiltIn),
+                       100.0 * share(run, VisibleState::Words), 100.0 * share(run, VisibleState::Dark),
                        length_of(run.longest_dark_s), run.steps.size(), count_of(run, Step::Reboot),
                        false_alarms(run));
     }
@@ -76,10 +76,11 @@ std::string museum_csv(std::span<const MuseumRun> runs, int days) {
                       "reboots_in_day,false_alarms\n";
     for (const MuseumRun& run : runs) {
         fmt::format_to(std::back_inserter(csv), "{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{},{},{}\n",
-                       name_of(run.policy), days, share(run, Shown::Whole), share(run, Shown::Untracked),
-                       share(run, Shown::BuiltIn), share(run, Shown::Words), share(run, Shown::Dark),
-                       run.longest_dark_s, run.steps.size(), count_of(run, Step::Reboot),
-                       run.most_reboots_in_day, false_alarms(run));
+                       name_of(run.policy), days, share(run, VisibleState::Whole),
+                       share(run, VisibleState::Untracked), share(run, VisibleState::BuiltIn),
+                       share(run, VisibleState::Words), share(run, VisibleState::Dark), run.longest_dark_s,
+                       run.steps.size(), count_of(run, Step::Reboot), run.most_reboots_in_day,
+                       false_alarms(run));
     }
     return csv;
 }

@@ -53,7 +53,7 @@ Fitted fitted(const SimulatedTable& table, const Touches& touches, const TouchNo
     out.predicted_m =
         picture_uncertainty(places, out.fit.information().ldlt().solve(Covariance::Identity())).mean_m;
     if (const auto found = in_table_frame(out.fit.model)) {
-        out.observed_m = picture_error(table, *found, 0.12).mean_m;
+        out.observed_m = registration_error(table, *found, 0.12).mean_m;
     }
     return out;
 }

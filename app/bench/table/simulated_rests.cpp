@@ -119,8 +119,8 @@ Rests simulated_rests(const SimulatedTable& table, const TagCorners& corners, co
     return rests;
 }
 
-PictureError prop_error(const SimulatedTable& table, const CalibratedTable& calibrated,
-                        const RigidTransform& sensor_from_prop, double top_m) {
+RegistrationError prop_error(const SimulatedTable& table, const CalibratedTable& calibrated,
+                             const RigidTransform& sensor_from_prop, double top_m) {
     const double base = 0.15;
     const double top = 0.04;
     std::vector<glm::dvec3> points;
@@ -129,7 +129,7 @@ PictureError prop_error(const SimulatedTable& table, const CalibratedTable& cali
         points.emplace_back(top * side, top_m);
     }
     SeededNumbers none(1);
-    PictureError error;
+    RegistrationError error;
     int count = 0;
     for (int k = 0; k < 35 * 4; ++k) {
         const glm::dvec2 pixel(table.truth.pinhole.width * (k / 4 % 7) / 6.0,

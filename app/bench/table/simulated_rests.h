@@ -47,8 +47,8 @@ struct PlacedRest {
 [[nodiscard]] std::optional<glm::dvec2> true_pixel(const CalibratedTable& truth,
                                                    const glm::dvec3& table_point);
 
-/// As picture_error, for points all over the prop: its bottom's and its top's corners too, which its turn in the sensor moves.
-[[nodiscard]] PictureError prop_error(const SimulatedTable& table, const CalibratedTable& calibrated,
-                                      const RigidTransform& sensor_from_prop, double top_m);
+/// As registration_error, for points all over the prop: its bottom's and its top's corners too, which its turn in the sensor moves.
+[[nodiscard]] RegistrationError prop_error(const SimulatedTable& table, const CalibratedTable& calibrated,
+                                           const RigidTransform& sensor_from_prop, double top_m);
 
 } // namespace frustumscreen

@@ -154,9 +154,9 @@ Touch simulated_touch(const SimulatedTable& table, const PlacedProp& placed, con
     return touch;
 }
 
-PictureError picture_error(const SimulatedTable& table, const CalibratedTable& calibrated, double top_m,
-                           const Reported& reported) {
-    PictureError error;
+RegistrationError registration_error(const SimulatedTable& table, const CalibratedTable& calibrated,
+                                     double top_m, const Reported& reported) {
+    RegistrationError error;
     int count = 0;
     for (int level = 0; level <= 2; ++level) {
         const double height = 0.5 * level * top_m;

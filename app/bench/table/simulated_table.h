@@ -53,13 +53,14 @@ struct PlacedProp {
 
 /// How far the light lies beside what it should light, over the picture and from the table up to `top_m`: a prop's
 /// place is taken from the tracker, lit by the calibrated projector, and looked at where the true projector's light is.
-struct PictureError {
+struct RegistrationError {
     double mean_m = 0.0;
     double worst_m = 0.0;
 };
 /// `reported`: what the tracker says of a sensor's pose; left out: what it is.
 using Reported = std::function<RigidTransform(const RigidTransform&)>;
-[[nodiscard]] PictureError picture_error(const SimulatedTable& table, const CalibratedTable& calibrated,
-                                         double top_m, const Reported& reported = {});
+[[nodiscard]] RegistrationError registration_error(const SimulatedTable& table,
+                                                   const CalibratedTable& calibrated, double top_m,
+                                                   const Reported& reported = {});
 
 } // namespace frustumscreen

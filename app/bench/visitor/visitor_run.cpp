@@ -93,7 +93,7 @@ struct Room {
     VisitorCase of;
     std::vector<Somebody> people;
     Lights lights;
-    VisitorScene scene;
+    RoomScene scene;
     VisitorReader reader;
     LiveSituation live;
 };
@@ -116,7 +116,7 @@ Room room_of(const VisitorCase& of, bool comes, std::mt19937_64& random) {
             of,
             std::move(people),
             std::move(lights),
-            VisitorScene(of.camera, of.light, table_size_m, make_frustum(shipped_frustum), prop),
+            RoomScene(of.camera, of.light, table_size_m, make_frustum(shipped_frustum), prop),
             VisitorReader({of.camera.pinhole, believed(of).table_from_camera(), zone}, thread_seconds),
             LiveSituation(default_eye_m, 0.5 * shipped_frustum.height_m)};
 }

@@ -5,7 +5,7 @@
 /// Threads  pure but for the clock; any. The same seed gives the same visit with the same C++ library.
 #pragma once
 
-#include "app/bench/visitor/visitor_scene.h"
+#include "app/bench/visitor/room_scene.h"
 
 #include <optional>
 #include <string>

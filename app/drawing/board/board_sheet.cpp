@@ -91,7 +91,7 @@ void draw_top_tag(SvgSheet& sheet, const Board& board, const glm::dvec2& middle,
     draw_tag(sheet, board.top(), middle);
     sheet.text({middle.x, high.y + 1.6 * type_mm},
                "cut out; onto the middle of the prop's top, this edge to the front",
-               {type_mm, Anchor::Middle});
+               {type_mm, TextAnchor::Middle});
 }
 
 } // namespace
@@ -114,7 +114,7 @@ std::string board_sheet(const Board& board, std::string_view name) {
     double y = middle.y - half_mm + 3.0 * type_mm;
     const glm::dvec2 left(middle.x - 0.5 * base_mm + 2.0 * type_mm, 0.0);
     sheet.text({left.x, y}, "Board of tags for frustumscreen-calibrate auto",
-               {1.2 * type_mm, Anchor::Start, 0.0, true});
+               {1.2 * type_mm, TextAnchor::Start, 0.0, true});
     for (const std::string& line :
          {fmt::format("of the settings {}; the prop stands on the lines ({} x {}), held by tape", name,
                       mm_words(board.prop.base_m), mm_words(board.prop.base_m)),

@@ -34,14 +34,14 @@ std::vector<WorkStep> all_steps(const std::vector<SetUp>& set_ups, const LoadedA
 }
 
 /// Measures the pack's own figures again, in mm on the first set-up's prop.
-std::vector<Verdict> judge_figures(const LoadedArtifact& artifact, const SetUp& set_up,
-                                   BenchProgress& progress) {
+std::vector<LimitVerdict> judge_figures(const LoadedArtifact& artifact, const SetUp& set_up,
+                                        BenchProgress& progress) {
     progress.show("the pack's own figures", 0.0);
     const std::vector<LevelFigures> figures = measure_figures(*artifact.pack, *artifact.mesh);
     progress.show("the pack's own figures", 1.0);
     progress.clear();
     const double mm_per_box = 1e3 * place(*artifact.pack, make_prop(set_up.settings.prop)).metres_per_box;
-    std::vector<Verdict> verdicts = judge(figures, mm_per_box);
+    std::vector<LimitVerdict> verdicts = judge(figures, mm_per_box);
     fmt::print("Are the pack's own figures true?\n{}\n", lines_of(verdicts));
     return verdicts;
 }
@@ -82,7 +82,7 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
                    arguments.artifact.pack.string());
     }
     progress.plan(all_steps(*set_ups, *artifact, arguments.options));
-    const std::vector<Verdict> figures = judge_figures(*artifact, set_ups->front(), progress);
+    const std::vector<LimitVerdict> figures = judge_figures(*artifact, set_ups->front(), progress);
     std::vector<SetUpResult> results;
     std::vector<std::pair<std::string, std::string>> files;
     for (const SetUp& set_up : *set_ups) {

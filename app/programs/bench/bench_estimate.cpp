@@ -63,7 +63,7 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
         }
         rows.insert(rows.end(), more->begin(), more->end());
     }
-    const Verdict verdict = judge(rows);
+    const LimitVerdict verdict = judge(rows);
     fmt::print("{}", lines_of(std::span(&verdict, 1)));
     Result<void> written =
         write_all(arguments.place.out, {{"estimate.csv", coverage_csv(rows)}, {"estimate_poses.csv", poses}});

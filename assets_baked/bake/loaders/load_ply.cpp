@@ -174,7 +174,7 @@ private:
     /// Polygons are kept until the vertices are known, because faces may come first.
     void add_polygon(const std::vector<std::int64_t>& corners, std::uint64_t row) {
         for (const std::int64_t corner : corners) {
-            if (corner < 0 || corner >= static_cast<std::int64_t>(most_vertices)) {
+            if (corner < 0 || corner >= static_cast<std::int64_t>(most_source_vertices)) {
                 refuse_contradiction("face {}: vertex {} is out of range", row, corner);
             }
             corners_.push_back(static_cast<std::uint32_t>(corner));

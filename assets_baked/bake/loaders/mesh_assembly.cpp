@@ -29,8 +29,9 @@ std::uint32_t MeshAssembly::add_vertex(const glm::dvec3& position, const char* p
                           position.x, position.y, position.z);
         }
     }
-    if (mesh_.positions.size() >= most_vertices) {
-        refuse("it has more than {} vertices; simplify it first, for instance in MeshLab", most_vertices);
+    if (mesh_.positions.size() >= most_source_vertices) {
+        refuse("it has more than {} vertices; simplify it first, for instance in MeshLab",
+               most_source_vertices);
     }
     mesh_.positions.push_back(position);
     return static_cast<std::uint32_t>(mesh_.positions.size() - 1);

@@ -15,7 +15,7 @@
 
 namespace frustumscreen {
 
-class LightDelay {
+class CaptureDelay {
 public:
     static constexpr Nanoseconds settled = std::chrono::milliseconds(600);
     static constexpr int changes = 6;

@@ -49,10 +49,10 @@ using Lights = std::function<LightNow(double t_s)>;
 /// Who is there at a time, each as a body.
 using Bodies = std::function<std::vector<std::vector<Ball>>(double t_s)>;
 
-class VisitorScene {
+class RoomScene {
 public:
-    VisitorScene(const WatchingCamera& camera, const RoomLight& light, const glm::dvec2& table_size_m,
-                 const PropShape& prop, const glm::dvec3& prop_m);
+    RoomScene(const WatchingCamera& camera, const RoomLight& light, const glm::dvec2& table_size_m,
+              const PropShape& prop, const glm::dvec3& prop_m);
 
     /// [height][width]; the first row's exposure begins at `t_s`.
     [[nodiscard]] std::vector<std::uint8_t> picture(const Bodies& bodies, const Lights& lights, double t_s,

@@ -1,4 +1,4 @@
-#include "app/bench/visitor/visitor_scene.h"
+#include "app/bench/visitor/room_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,8 +51,8 @@ RigidTransform WatchingCamera::table_from_camera() const {
     return {glm::quat_cast(glm::dmat3(right, glm::cross(forward, right), forward)), place_m};
 }
 
-VisitorScene::VisitorScene(const WatchingCamera& camera, const RoomLight& light,
-                           const glm::dvec2& table_size_m, const PropShape& prop, const glm::dvec3& prop_m)
+RoomScene::RoomScene(const WatchingCamera& camera, const RoomLight& light, const glm::dvec2& table_size_m,
+                     const PropShape& prop, const glm::dvec3& prop_m)
     : camera_(camera), table_from_camera_(camera.table_from_camera()), light_(light),
       table_size_m_(table_size_m), prop_(prop), prop_m_(prop_m) {
     for (std::size_t k = 0; k < code_of_.size(); ++k) {
@@ -70,12 +70,12 @@ VisitorScene::VisitorScene(const WatchingCamera& camera, const RoomLight& light,
     }
 }
 
-std::size_t VisitorScene::pixel_at(int row, int column) const {
+std::size_t RoomScene::pixel_at(int row, int column) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(camera_.pinhole.width) +
            static_cast<std::size_t>(column);
 }
 
-VisitorScene::Seen VisitorScene::room(const glm::dvec3& direction) const {
+RoomScene::Seen RoomScene::room(const glm::dvec3& direction) const {
     const glm::dvec3& origin = table_from_camera_.translation;
     Seen seen;
     const auto set = [&](double away, double reflectance, const glm::dvec3& normal, double direct) {
@@ -117,7 +117,7 @@ VisitorScene::Seen VisitorScene::room(const glm::dvec3& direction) const {
     return seen;
 }
 
-double VisitorScene::people_light(const Ball& ball, const glm::dvec3& point_m, const LightNow& now) const {
+double RoomScene::people_light(const Ball& ball, const glm::dvec3& point_m, const LightNow& now) const {
     const glm::dvec3 unit = ball.unit_from_table * (point_m - ball.middle_m);
     const glm::dvec3 normal = glm::normalize(glm::transpose(ball.unit_from_table) * unit);
     const glm::dvec2 at = glm::abs(glm::dvec2(point_m));
@@ -127,13 +127,13 @@ double VisitorScene::people_light(const Ball& ball, const glm::dvec3& point_m, c
            (light_.room * now.lamps * lamps_on(point_m, normal) + light_.projector * now.picture * picture);
 }
 
-double VisitorScene::moment_s(const glm::dvec3& point_m, double t_s) const {
+double RoomScene::moment_s(const glm::dvec3& point_m, double t_s) const {
     const auto pixel = camera_.pinhole.pixel(table_from_camera_.inverse().point(point_m));
     const double row = pixel ? pixel->y / camera_.pinhole.height : 0.5;
     return t_s + 1e-3 * (row * camera_.rolling_ms + 0.5 * camera_.exposure_ms);
 }
 
-std::pair<int, int> VisitorScene::columns_of(const std::vector<Ball>& body) const {
+std::pair<int, int> RoomScene::columns_of(const std::vector<Ball>& body) const {
     const Pinhole& pinhole = camera_.pinhole;
     const RigidTransform camera_from_table = table_from_camera_.inverse();
     double left = pinhole.width;
@@ -151,8 +151,8 @@ std::pair<int, int> VisitorScene::columns_of(const std::vector<Ball>& body) cons
 }
 
 /// The light of what a body's ray meets before `nearest_m`, which becomes how far away that is.
-void VisitorScene::meet(const std::vector<Ball>& body, const LightNow& now, std::size_t ray, float& nearest_m,
-                        double& light) const {
+void RoomScene::meet(const std::vector<Ball>& body, const LightNow& now, std::size_t ray, float& nearest_m,
+                     double& light) const {
     const glm::dvec3& origin = table_from_camera_.translation;
     const glm::dvec3& direction = rays_[ray];
     const Ball* met = nullptr;
@@ -172,8 +172,8 @@ void VisitorScene::meet(const std::vector<Ball>& body, const LightNow& now, std:
     }
 }
 
-void VisitorScene::add_people(std::vector<double>& light, const Bodies& bodies, const Lights& lights,
-                              double t_s) const {
+void RoomScene::add_people(std::vector<double>& light, const Bodies& bodies, const Lights& lights,
+                           double t_s) const {
     const Pinhole& pinhole = camera_.pinhole;
     std::vector<float> nearest_m(seen_.size());
     std::transform(seen_.begin(), seen_.end(), nearest_m.begin(),
@@ -199,8 +199,8 @@ void VisitorScene::add_people(std::vector<double>& light, const Bodies& bodies, 
     }
 }
 
-std::vector<std::uint8_t> VisitorScene::picture(const Bodies& bodies, const Lights& lights, double t_s,
-                                                std::uint64_t seed) const {
+std::vector<std::uint8_t> RoomScene::picture(const Bodies& bodies, const Lights& lights, double t_s,
+                                             std::uint64_t seed) const {
     const LightNow now = lights(t_s);
     std::vector<glm::dvec2> feet;
     for (const std::vector<Ball>& body : bodies(t_s)) {

@@ -51,7 +51,7 @@ struct BakedLetter {
     std::int32_t advance = 0;
 };
 
-struct BakedWords {
+struct SafeWords {
     int texels_per_em = 0;
     int spread_texels = 0; ///< 128 codes
     int atlas_width = 0, atlas_height = 0;
@@ -63,6 +63,6 @@ struct BakedWords {
     std::span<const BakedLetter> letters; ///< in order of their characters
 };
 
-[[nodiscard]] const BakedWords& baked_words();
+[[nodiscard]] const SafeWords& safe_words();
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-#include "app/calibration/light_delay.h"
+#include "app/calibration/capture_delay.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ constexpr double near_levels = 4.0;
 
 } // namespace
 
-LightDelay::Parts LightDelay::parts_of(const CameraFrame& frame) {
+CaptureDelay::Parts CaptureDelay::parts_of(const CameraFrame& frame) {
     constexpr int every = 3; // enough pixels of each part
     Parts sums{};
     Parts counts{};
@@ -32,7 +32,7 @@ LightDelay::Parts LightDelay::parts_of(const CameraFrame& frame) {
     return sums;
 }
 
-void LightDelay::step(std::optional<MonotonicTime> lit, const CameraFrame* frame) {
+void CaptureDelay::step(std::optional<MonotonicTime> lit, const CameraFrame* frame) {
     if (frame == nullptr || !lit || is_done() || frame->time < *lit) {
         return;
     }
@@ -45,7 +45,7 @@ void LightDelay::step(std::optional<MonotonicTime> lit, const CameraFrame* frame
     }
 }
 
-void LightDelay::judge(MonotonicTime lit) {
+void CaptureDelay::judge(MonotonicTime lit) {
     if (change_ == 0) {
         return;
     }
