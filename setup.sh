@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Installs what is missing of the Debian 12 packages that a command needs, and says which. ./run and ./test call it; with
-# everything there it takes a fraction of a second.
-#
-#   ./setup.sh [window|kiosk|tests|fuzz|hil|bundle|packages|image]...
-#
-# No part: what ./run builds and runs. Each part comes on top of that: window: frustumscreen-window; kiosk: frustumscreen-safe;
-# tests: ./test, with both; fuzz: ./test fuzz; hil: ./test hil, with kiosk; packages: image_build/packages, with window and kiosk;
-# bundle: image_build/bundle; image: image_build/build, with these
+# everything there it takes a fraction of a second; usage below.
 set -euo pipefail
+
+usage="usage: ./setup.sh [window|kiosk|tests|tidy|coverage|fuzz|hil|bundle|packages|image]...
+
+No part: what ./run builds and runs. Each part comes on top of that: window: frustumscreen-window; kiosk: frustumscreen-safe;
+tests: ./test, with both; tidy, coverage: ./test tidy and ./test coverage, with these three; fuzz: ./test fuzz;
+hil: ./test hil, with kiosk; packages: image_build/packages, with window and kiosk;
+bundle: image_build/bundle; image: image_build/build, with these"
 
 packages=(
     # tools
@@ -37,11 +38,11 @@ for part; do
         kiosk) packages+=(fonts-noto-cjk) ;; # the safe picture's words, in all languages
         tests)
             packages+=(
-                ccache libgtest-dev umockdev libumockdev-dev python3
+                ccache mold libgtest-dev umockdev libumockdev-dev python3
                 python3-scipy                     # another solver for the calibration
                 systemd                           # its tools check the units
                 libharfbuzz-dev fonts-noto-cjk    # texts in all languages
-                minisign                          # signatures
+                minisign unzip                    # signatures
                 strace                            # what a program asks of the kernel
                 tzdata                            # time zones
                 rauc openssl                      # updates
@@ -65,6 +66,8 @@ for part; do
                 rauc openssl                                                         # updates
             )
             ;;
+        tidy) packages+=(clang-tidy-16 python3) ;;
+        coverage) packages+=(gcovr) ;;
         fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;
         bundle) packages+=(rauc openssl squashfs-tools) ;; # image_build/bundle
         packages) packages+=(dpkg-dev file python3) ;; # file: CPack finds programs by it; python3: pages of the manual
@@ -74,8 +77,12 @@ for part; do
                 dosfstools mtools exfatprogs e2fsprogs ntfs-3g # sticks
             )
             ;;
+        -h | --help)
+            echo "$usage"
+            exit 0
+            ;;
         *)
-            echo "usage: ./setup.sh [window|kiosk|tests|fuzz|hil|bundle|packages|image]..." >&2
+            echo "$usage" >&2
             exit 2
             ;;
     esac

@@ -1,14 +1,25 @@
 #!/usr/bin/env bash
-# Configures a preset where needed, and builds it or some of its targets. On a terminal ninja says how far it is;
+# Configures a preset where needed, and builds it or some of its targets; usage below. On a terminal ninja says how far it is;
 # elsewhere one line does every 20 s, and the whole log only if something fails.
-#
-#   build.sh release|debug|asan|tsan|fuzz [--without tests|window|bench]... [TARGET...]
 #
 # A new build folder leaves out a part that is not wanted, and needs none of its packages. A folder that has the part keeps
 # it, and one that lacks a wanted part gets it; neither builds anything twice.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-preset=$1
+usage="usage: cmake/build.sh release|debug|asan|tsan|fuzz [--without tests|window|bench]... [TARGET...]
+
+Configures build/PRESET where needed, and builds it or some of its targets."
+case "${1-}" in
+    release | debug | asan | tsan | fuzz) preset=$1 ;;
+    -h | --help)
+        echo "$usage"
+        exit 0
+        ;;
+    *)
+        echo "$usage" >&2
+        exit 2
+        ;;
+esac
 shift
 declare -A wanted=([BUILD_TESTING]=ON [FRUSTUMSCREEN_WINDOW]=ON [FRUSTUMSCREEN_BENCH]=ON)
 while [[ ${1-} == --without ]]; do
@@ -52,13 +63,15 @@ quietly() {
 
 # Where ccache is installed, it finds what another clone on this machine has compiled. Nothing depends on it.
 launcher=$(command -v ccache || true)
-export CMAKE_C_COMPILER_LAUNCHER=$launcher CMAKE_CXX_COMPILER_LAUNCHER=$launcher # for a new build folder
+timed="$PWD/cmake/timed"
+export CMAKE_{C,CXX}_COMPILER_LAUNCHER="$timed;compile${launcher:+;$launcher}" # for a new build folder
+export CMAKE_{C,CXX}_LINKER_LAUNCHER="$timed;link"
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 export CCACHE_INODECACHE=1 # else every hit reads the precompiled headers, 110 MB, to hash them
 
 options=()
-if [[ -z $launcher ]] && grep -qs '^CMAKE_CXX_COMPILER_LAUNCHER:.*=.' "$folder/CMakeCache.txt"; then
-    options+=(-DCMAKE_C_COMPILER_LAUNCHER= -DCMAKE_CXX_COMPILER_LAUNCHER=)
+if [[ -z $launcher ]] && grep -qs '^CMAKE_CXX_COMPILER_LAUNCHER:.*ccache' "$folder/CMakeCache.txt"; then
+    options+=(-DCMAKE_{C,CXX}_COMPILER_LAUNCHER="$CMAKE_CXX_COMPILER_LAUNCHER")
 fi
 for option in "${!wanted[@]}"; do
     if [[ ! -f $folder/build.ninja || ! -f $folder/CMakeCache.txt ]]; then

@@ -35,15 +35,22 @@ public:
         }
     }
     void set(std::uint32_t object, std::uint32_t property, std::uint64_t value) {
-        drmModeAtomicAddProperty(request_.get(), object, property, value);
+        if (count_ >= 0) {
+            count_ = drmModeAtomicAddProperty(request_.get(), object, property, value);
+        }
     }
+    /// What is not whole is not sent; libdrm would call an empty request done.
     [[nodiscard]] KmsAnswer send(std::uint32_t flags, std::uint64_t ticket) const {
+        if (count_ <= 0) {
+            return answer_to_a_lack(file_);
+        }
         return kms_answer(drmModeAtomicCommit(file_, request_.get(), flags | DRM_MODE_ATOMIC_NONBLOCK,
                                               bits_given_back(ticket)));
     }
 
 private:
     int file_;
+    int count_ = 0; ///< of properties; negative: one could not be added
     std::unique_ptr<drmModeAtomicReq, decltype(&drmModeAtomicFree)> request_;
 };
 
@@ -121,7 +128,8 @@ std::optional<AtomicKms::Route> AtomicKms::route_to(std::uint32_t connector) con
     const std::vector<Plane> planes = planes_of(file_);
     for (const KmsCrtc& crtc : crtcs_for(file_, connector)) {
         if (const std::uint32_t plane = primary_plane(file_, planes, crtc.index); plane != 0) {
-            const KmsProperty* shown = KmsProperties(file_, plane, DRM_MODE_OBJECT_PLANE).find("FB_ID");
+            const KmsProperties properties(file_, plane, DRM_MODE_OBJECT_PLANE);
+            const KmsProperty* shown = properties.find("FB_ID");
             return Route{connector, crtc.id, plane, shown != nullptr ? shown->id : 0};
         }
     }
@@ -134,7 +142,7 @@ KmsAnswer AtomicKms::light(std::uint32_t connector, const ModeTiming& mode, cons
     const drmModeModeInfo info = mode_info(mode);
     std::uint32_t blob = 0;
     if (!route || drmModeCreatePropertyBlob(file_, &info, sizeof info, &blob) != 0) {
-        return resources_of(file_) ? KmsAnswer::Refused : kms_answer(-errno);
+        return answer_to_a_lack(file_);
     }
     forget_mode(); // the kernel keeps the mode that is set
     mode_blob_ = blob;

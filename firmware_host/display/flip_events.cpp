@@ -36,14 +36,13 @@ std::optional<Flipped> FlipEvents::wait(Nanoseconds at_most) {
         const auto left = std::max(give_up - monotonic_now(), Nanoseconds(0));
         pollfd card{card_, POLLIN, 0};
         const auto left_ms = std::chrono::ceil<std::chrono::milliseconds>(left).count();
-        if (::poll(&card, 1, static_cast<int>(left_ms)) <= 0 || (card.revents & POLLIN) == 0) {
+        if (::poll(&card, 1, static_cast<int>(left_ms)) <= 0 || (card.revents & POLLIN) == 0 || !read()) {
             return std::nullopt;
         }
-        read();
     }
 }
 
-void FlipEvents::read() {
+bool FlipEvents::read() {
     alignas(drm_event_vblank) std::array<char, 1024> bytes; // the kernel hands out whole events
     const ssize_t length = ::read(card_, bytes.data(), bytes.size());
     std::size_t at = 0;
@@ -51,7 +50,7 @@ void FlipEvents::read() {
         drm_event event;
         std::memcpy(&event, bytes.data() + at, sizeof event);
         if (event.length < sizeof event || at + event.length > static_cast<std::size_t>(length)) {
-            return;
+            break;
         }
         if (event.type == DRM_EVENT_FLIP_COMPLETE && event.length >= sizeof(drm_event_vblank)) {
             drm_event_vblank flip;
@@ -65,6 +64,7 @@ void FlipEvents::read() {
         }
         at += event.length;
     }
+    return length > 0;
 }
 
 void FlipEvents::ask_whether_they_keep_time() {

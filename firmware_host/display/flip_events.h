@@ -26,7 +26,8 @@ public:
     [[nodiscard]] bool keep_time() const { return keep_time_.value_or(false); }
 
 private:
-    void read();
+    /// False: there was nothing to read.
+    bool read();
     void ask_whether_they_keep_time();
 
     int card_;

@@ -20,8 +20,6 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr const char* folder = "/dev/dri";
-constexpr const char* connectors_folder = "/sys/class/drm";
 constexpr std::uint64_t link_is_bad = 1; ///< DRM_MODE_LINK_STATUS_BAD
 
 bool is_built_in(std::uint32_t type) {
@@ -41,7 +39,7 @@ Plugged plugged(drmModeConnection connection) {
     return Plugged::Unknown;
 }
 
-std::vector<std::string> card_paths() {
+std::vector<std::string> card_paths(const std::filesystem::path& folder) {
     std::vector<std::string> paths;
     std::error_code failed;
     for (std::filesystem::directory_iterator entry(folder, failed), end; !failed && entry != end;
@@ -56,14 +54,15 @@ std::vector<std::string> card_paths() {
 
 } // namespace
 
-Result<KmsCard> KmsCard::open(std::string_view name, const OutputRequest& request) {
+Result<KmsCard> KmsCard::open(std::string_view name, const OutputRequest& request,
+                              const std::string& folder) {
     if (!name.empty()) {
         return open_path(name.front() == '/' ? std::string(name) : fmt::format("{}/{}", folder, name));
     }
     Result<KmsCard> best =
         fail(ErrorKind::DeviceLost, fmt::format("display: no graphics card in {}; load its driver", folder));
     CardRank best_rank{};
-    const std::vector<std::string> paths = card_paths();
+    const std::vector<std::string> paths = card_paths(folder);
     for (const std::string& path : paths) {
         Result<KmsCard> card = open_path(path);
         if (card) {
@@ -171,16 +170,17 @@ bool take_screen(int card) {
 }
 
 CardState KmsCard::state() const {
-    return open(any_ ? std::string_view() : path_, {}) ? CardState::Back : CardState::Gone;
+    const std::string folder = std::filesystem::path(path_).parent_path();
+    return open(any_ ? std::string_view() : path_, {}, folder) ? CardState::Back : CardState::Gone;
 }
 
 bool OtherCards::have_projector() {
-    std::vector<std::string> connected = connected_connectors(connectors_folder);
+    std::vector<std::string> connected = connected_connectors(connectors_);
     if (connected == looked_at_) {
         return false;
     }
     bool all_opened = true;
-    for (const std::string& path : card_paths()) {
+    for (const std::string& path : card_paths(std::filesystem::path(own_path_).parent_path())) {
         if (path == own_path_ || !has_connected(connected, path, request_.connector)) {
             continue;
         }

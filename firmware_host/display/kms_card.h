@@ -18,8 +18,9 @@ namespace frustumscreen {
 
 class KmsCard {
 public:
-    /// `name`: a path, or "card1", or empty for the first one of the best `CardRank`.
-    [[nodiscard]] static Result<KmsCard> open(std::string_view name, const OutputRequest& request);
+    /// `name`: a path, or "card1", or empty for the first one of the best `CardRank` in `folder`.
+    [[nodiscard]] static Result<KmsCard> open(std::string_view name, const OutputRequest& request,
+                                              const std::string& folder = "/dev/dri");
     ~KmsCard();
     KmsCard(KmsCard&& other) noexcept;
     KmsCard& operator=(KmsCard&& other) noexcept;
@@ -51,12 +52,14 @@ private:
 /// the kernel says of its connectors has changed.
 class OtherCards {
 public:
-    OtherCards(std::string own_path, OutputRequest request)
-        : own_path_(std::move(own_path)), request_(std::move(request)) {}
+    /// The other cards lie beside `own_path`.
+    OtherCards(std::string own_path, OutputRequest request, std::string connectors = "/sys/class/drm")
+        : own_path_(std::move(own_path)), connectors_(std::move(connectors)), request_(std::move(request)) {}
     [[nodiscard]] bool have_projector();
 
 private:
     std::string own_path_;
+    std::string connectors_; ///< the folder of `connected_connectors`
     OutputRequest request_;
     std::vector<std::string> looked_at_; ///< connected ones at the last look, which found no projector
 };

@@ -31,6 +31,10 @@ KmsAnswer kms_answer(int status) {
     }
 }
 
+KmsAnswer answer_to_a_lack(int card) {
+    return resources_of(card) ? KmsAnswer::Refused : kms_answer(-errno);
+}
+
 ModeTiming timing_of(const drmModeModeInfo& mode) {
     ModeTiming timing;
     timing.clock_khz = mode.clock;

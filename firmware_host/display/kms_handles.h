@@ -27,6 +27,8 @@ using KmsEncoder = std::unique_ptr<drmModeEncoder, decltype(&drmModeFreeEncoder)
 [[nodiscard]] bool is_hdmi(int card, std::uint32_t connector);
 /// The answer for a call's negative error number; 0 = done.
 [[nodiscard]] KmsAnswer kms_answer(int status);
+/// The answer where something that is needed was not found on the card: it lacks that, or it is gone.
+[[nodiscard]] KmsAnswer answer_to_a_lack(int card);
 [[nodiscard]] ModeTiming timing_of(const drmModeModeInfo& mode);
 [[nodiscard]] drmModeModeInfo mode_info(const ModeTiming& timing);
 

@@ -34,7 +34,10 @@ KmsAnswer LegacyKms::light(std::uint32_t connector, const ModeTiming& mode, cons
                            std::uint64_t ticket) {
     const PixelSize screen{mode.width, mode.height};
     const std::vector<KmsCrtc> crtcs = crtcs_for(file_, connector);
-    if (crtcs.empty() || !(shown.size == screen)) {
+    if (crtcs.empty()) {
+        return answer_to_a_lack(file_);
+    }
+    if (!(shown.size == screen)) {
         return KmsAnswer::Refused;
     }
     const std::uint32_t crtc = crtcs.front().id;

@@ -205,6 +205,10 @@ void Presenter::darken() {
         went_wrong(answer);
         return; // tried again next time
     }
+    if (answer == KmsAnswer::Refused && rest_ != Rest::None) {
+        try_again_ = device_.now() + between_tries; // it is lit still
+        return;
+    }
     stuck_since_.reset();
     lit_.reset();
     darken_ = false;

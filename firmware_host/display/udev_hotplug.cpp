@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <cstdint>
 
@@ -50,8 +51,7 @@ public:
             static_cast<void>(!::read(wake_, &count, sizeof count));
         }
         bool heard = false;
-        while (monitor_ != nullptr && files[1].revents != 0 &&
-               Device(udev_monitor_receive_device(monitor_.get()), udev_device_unref) != nullptr) {
+        while (monitor_ != nullptr && files[1].revents != 0 && (came() || some_were_lost())) {
             heard = true;
         }
         return heard;
@@ -63,6 +63,12 @@ public:
     }
 
 private:
+    [[nodiscard]] bool came() const {
+        return Device(udev_monitor_receive_device(monitor_.get()), udev_device_unref) != nullptr;
+    }
+    /// The kernel had no memory for an event, or more came than it keeps: netlink(7).
+    [[nodiscard]] static bool some_were_lost() { return errno == ENOBUFS; }
+
     int wake_;
     Udev udev_{udev_new(), udev_unref};
     Monitor monitor_{nullptr, udev_monitor_unref};

@@ -170,6 +170,9 @@ TEST(SeenError, OfTheSourceItselfIsThatOfThePacksCodes) {
     const SourceMesh mesh = sphere(64);
     const SourceScene source(mesh, mesh.positions);
     const SeenErrors seen = seen_errors(pack_of(mesh), {}, source, {});
+    ASSERT_EQ(seen.levels.size(), 1U);
+    ASSERT_EQ(seen.levels[0].size(), seen.eyes.size());
+    ASSERT_FALSE(seen.eyes.empty());
     for (const SeenError& each : seen.levels[0]) {
         EXPECT_LT(each.mean_box, 2e-5F); // codes are 1.5e-5 apart
         EXPECT_LT(each.silhouette_share, 1e-3F);

@@ -106,6 +106,7 @@ TEST_F(PackRelief, LevelsAndReliefsAreDrawnWhereTheirSurfacesAre) {
 /// What the bench bakes by itself is what the bake puts into a pack.
 TEST_F(PackRelief, TheBenchBakesTheReliefsThatThePackHas) {
     const std::vector<ReliefOutline> outlines = reliefs_of(pack_).value();
+    ASSERT_FALSE(outlines.empty());
     for (const ReliefOutline& outline : outlines) {
         const BlockRelief packed = relief_of(pack_, outline).value();
         const BlockRelief baked = blocks_of_pack(pack_, static_cast<int>(outline.texels));

@@ -15,7 +15,7 @@ import tempfile
 import tomllib
 import unittest
 
-from true_table import TrueTable, apply, plus, times, turn
+from true_table import TrueTable, apply, plus, quaternion, times, turn
 
 PROGRAMS = pathlib.Path(sys.argv.pop(1))
 PROGRAM = PROGRAMS / "frustumscreen-calibrate"
@@ -42,12 +42,6 @@ library = "none"
 [calibration]
 folder = "kept"
 """
-
-
-def quaternion(m):
-    """Of a rotation by less than half a turn."""
-    w = 0.5 * math.sqrt(1 + m[0][0] + m[1][1] + m[2][2])
-    return w, (m[2][1] - m[1][2]) / (4 * w), (m[0][2] - m[2][0]) / (4 * w), (m[1][0] - m[0][1]) / (4 * w)
 
 
 class Eyes(unittest.TestCase):

@@ -35,6 +35,12 @@ def plus(a, b, share=1.0):
     return tuple(x + share * y for x, y in zip(a, b))
 
 
+def quaternion(m):
+    """Of a rotation by less than half a turn."""
+    w = 0.5 * math.sqrt(1 + m[0][0] + m[1][1] + m[2][2])
+    return w, (m[2][1] - m[1][2]) / (4 * w), (m[0][2] - m[2][0]) / (4 * w), (m[1][0] - m[0][1]) / (4 * w)
+
+
 class TrueTable:
     """`width`: of the picture, whose height is 5/8 of it. `yaw`: of the tracker."""
     rotation = times(times(turn((0, 0, 1), 0.06), turn((1, 0.3, 0), 0.05)), ((1, 0, 0), (0, -1, 0), (0, 0, -1)))

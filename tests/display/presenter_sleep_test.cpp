@@ -46,6 +46,18 @@ TEST(PresenterSleep, TurnsTheProjectorOffOnceAndLightsItWithTheNextPicture) {
     EXPECT_EQ(exhibit.presenter.state(), "the projector at HDMI-A-1 is lit, 1280 x 800 at 60 Hz");
 }
 
+TEST(PresenterSleep, ACardThatRefusesToDarkenIsAskedAgain) {
+    SleepingExhibit exhibit;
+    exhibit.kms.refused = {{}}; // the mode of a screen that is off
+    exhibit.sleep(59);
+    EXPECT_TRUE(exhibit.kms.screen);
+    EXPECT_TRUE(exhibit.says("is lit")) << exhibit.presenter.state();
+    exhibit.kms.refused.clear();
+    exhibit.sleep(60);
+    EXPECT_FALSE(exhibit.kms.screen);
+    EXPECT_TRUE(exhibit.says("dark on purpose")) << exhibit.presenter.state();
+}
+
 TEST(PresenterSleep, StaysDarkWhateverComesAndGoes) {
     SleepingExhibit exhibit;
     exhibit.sleep(10);

@@ -99,6 +99,7 @@ TEST(Signs, AnArrowPointsTheWay) {
     Guidance guidance;
     guidance.stage = GuidanceStage::Picture;
     guidance.situation.eye_m = {0.0, -0.6, 0.5};
+    int pointed = 0;
     for (int k = 0; k < 16; ++k) {
         const double azimuth = k * std::numbers::pi / 8.0;
         guidance.move = {Action::Slide, {0.1 * std::cos(azimuth), 0.1 * std::sin(azimuth), 0.0}};
@@ -110,7 +111,9 @@ TEST(Signs, AnArrowPointsTheWay) {
         const glm::dvec2 along = point_of(*sign, 1.0, 0.5) - point_of(*sign, 0.0, 0.5);
         EXPECT_NEAR(std::remainder(std::atan2(along.y, along.x) - azimuth, 2.0 * std::numbers::pi), 0.0,
                     1e-9);
+        ++pointed;
     }
+    EXPECT_GE(pointed, 8);
 }
 
 /// A turn's head is at the end that it turns to: counter-clockwise about the prop, seen from above.

@@ -244,7 +244,9 @@ std::string written_sound(int format, int channels) {
         sf_close(sound);
     }
     std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
+    std::string bytes(std::istreambuf_iterator<char>(stream), {});
+    std::filesystem::remove(file);
+    return bytes;
 }
 
 /// Recordings of a few packets, which libsndfile wrote.

@@ -237,6 +237,7 @@ double depth_of(const glm::dmat4& clip_from_prop, const glm::dvec3& x) {
 
 TEST(Collineation, DepthFillsTheRangeOverTheBoxInFrontOfTheEye) {
     Random random(37);
+    int faces = 0;
     for (int k = 0; k < 2000; ++k) {
         const Case c = random_case(random, random.between(1.2, 5.0), random.scale(1e-3, 1e3));
         for (const PropFace& face : c.prop.faces) {
@@ -262,12 +263,15 @@ TEST(Collineation, DepthFillsTheRangeOverTheBoxInFrontOfTheEye) {
             }
             EXPECT_GT(farthest, 0.8);
             EXPECT_LT(nearest, farthest);
+            ++faces;
         }
     }
+    EXPECT_GT(faces, 2000);
 }
 
 TEST(Collineation, DepthOrdersPointsOfAnEyeRayByTheirDistance) {
     Random random(38);
+    int ordered = 0;
     for (int k = 0; k < 3000; ++k) {
         const Case c = random_case(random, random.between(0.8, 3.0), random.scale(1e-3, 1e3));
         for (const PropFace& face : c.prop.faces) {
@@ -282,8 +286,10 @@ TEST(Collineation, DepthOrdersPointsOfAnEyeRayByTheirDistance) {
                 continue;
             }
             EXPECT_LT(depth_of(*clip, x), depth_of(*clip, farther));
+            ++ordered;
         }
     }
+    EXPECT_GT(ordered, 1000);
 }
 
 TEST(Collineation, APointOfTheFaceItselfIsDrawnWhereTheProjectorSeesIt) {

@@ -263,6 +263,12 @@ class Machine:
     def granted_s(self):
         return self.given().granted_s
 
+    def let_run(self, seconds):
+        """Waits until the host has granted the guest so many seconds more."""
+        until = self.granted_s() + seconds
+        while self.granted_s() < until:
+            time.sleep(0.05)
+
     def spawn(self, command):
         """Starts a shell command in the guest and returns its process number."""
         arguments = {"path": "/bin/sh", "arg": ["-c", command], "capture-output": True}

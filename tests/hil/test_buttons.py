@@ -1,6 +1,5 @@
 """The buttons, through the CP2112's kernel driver and libgpiod, to another artifact on the screen."""
 
-import time
 
 import screen
 from bench import eventually
@@ -22,7 +21,7 @@ class Buttons(HilTest):
         self.assert_shown(nautilus)
         self.bench.buttons.tell("bounce", NEXT, "300ms")  # one press, however often its contacts bounce
         self.assert_shown(amphora)
-        time.sleep(3.0)
+        self.bench.machine.let_run(3.0)
         self.assert_shown(amphora)
 
     def assert_shown(self, outline):

@@ -10,7 +10,6 @@ import pathlib
 import subprocess
 import sys
 import tempfile
-import time
 import tomllib
 
 import screen
@@ -87,7 +86,7 @@ class Calibration(HilTest):
         finally:
             for button in (FIRST, LAST):
                 self.bench.buttons.tell("release", button)
-        time.sleep(RELEASED_S)
+        self.bench.machine.let_run(RELEASED_S)
 
     def has_begun(self):
         return self.bench.machine.run(f"systemctl is-active {CALIBRATION}").output.strip() in ("activating", "active")

@@ -3,7 +3,6 @@ uvcvideo; its faults told in a sentence each. No picture leaves that process."""
 
 import json
 import re
-import time
 
 from bench import SETTINGS, Patience, eventually
 from hil_test import HilTest, long
@@ -97,7 +96,7 @@ class Camera(HilTest):
         refused = ("cd /sys/bus/usb/devices; for d in *-*; do [ ! -e $d/idProduct ] || [ $(cat $d/idVendor):$(cat $d/idProduct) != "
                    "1d6b:0102 ] || cat $d/authorized; done")
         eventually(lambda: self.bench.machine.run(refused).output.strip() == "0", 30.0, "the kernel takes a camera that nobody wants")
-        time.sleep(2.0)
+        self.bench.machine.let_run(2.0)
         self.assertFalse(self.is_there())
         self.plug()
         self.connected()
@@ -107,7 +106,7 @@ class Camera(HilTest):
         self.connected()
         watching = Watching(self.bench)
         watching.says(WELL)
-        time.sleep(3.0)
+        self.bench.machine.let_run(3.0)
         process = watching.process()
         with self.subTest("nothing leaves the process"):
             self.assert_keeps_nothing(process)

@@ -1,7 +1,6 @@
 """Another graphics card, whose driver comes late and whose projector comes, goes and wants another mode: virtio-gpu, with
 a viewer's window as the projector. The kernel reports it by uevent."""
 
-import time
 
 import screen
 from bench import CONNECTOR, HEIGHT, UNIT, UPRIGHT, USUAL, WIDTH, eventually
@@ -70,7 +69,7 @@ class Display(HilTest):
         eventually(lambda: "its driver loaded?" in self.bench.machine.run(shown).output, 20.0,
                    "it does not say that it waits for its card")
         process = self.bench.main_process()
-        time.sleep(WAITED_S)
+        self.bench.machine.let_run(WAITED_S)
         self.assertEqual(self.bench.main_process(), process, "it gave up waiting for its card")
         self.assertNotEqual(process, 0)
 

@@ -8,7 +8,6 @@ the screen, what is heard is QEMU's sound card. Sounds are compared sample by sa
 import array
 import subprocess
 import tempfile
-import time
 import wave
 from dataclasses import dataclass
 
@@ -182,7 +181,7 @@ class Guidance(HilTest):
         self.bench.picture_of((0.0, 0.0, 0.0, *UPRIGHT))
         eventually(lambda: not self.sign_is_there(), TALKS_S, "the sign stays although everything is lit")
         quiet = len(self.heard())
-        time.sleep(CALM_S)
+        self.bench.machine.let_run(CALM_S)
         self.assertFalse(self.is_loud(quiet + 24000), "it goes on talking")
 
     @long

@@ -2,7 +2,6 @@
 the screen."""
 
 import re
-import time
 
 import screen
 from bench import CONNECTOR, USUAL, eventually
@@ -68,7 +67,7 @@ class Hours(HilTest):
 
         for state in ("off", "detect"):  # the projector's cable
             bench.machine.check(f"echo {state} > {CONNECTOR}")
-            time.sleep(2.0)
+            bench.machine.let_run(2.0)
             self.assertEqual(self.dpms(), "Off")
         self.assertEqual(bench.status()["drawn"], drawn, "something was drawn in the dark")
 

@@ -1,4 +1,5 @@
 // What holds for every file of the house.
+#include "tests/base/temporary_folder.h"
 #include "tests/folders.h"
 
 #include <gtest/gtest.h>
@@ -22,9 +23,6 @@ std::vector<fs::path> files_ending(const std::vector<std::string>& endings) {
     const fs::path root = frustumscreen::source_dir();
     std::vector<fs::path> files;
     for (const char* folder : {"app", "firmware_host", "assets_baked", "tests", "cmake", "config"}) {
-        if (!fs::exists(root / folder)) {
-            continue;
-        }
         for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
             const std::string ending = entry.path().extension();
             for (const std::string& wanted : endings) {
@@ -131,11 +129,12 @@ TEST(House, EveryFileIsFormatted) {
     EXPECT_EQ(std::system(command.c_str()), 0) << "run clang-format -i on the files named above";
 }
 
+class SkippedTests : public frustumscreen::WithTemporaryFolder {};
+
 /// What GoogleTest 1.12 prints, copied by hand.
-TEST(House, WhatWasSkippedIsListedWithItsReason) {
-    const fs::path folder = fs::temp_directory_path();
-    const std::string log = folder / "frustumscreen_skipped.log";
-    const std::string listed = folder / "frustumscreen_skipped.txt";
+TEST_F(SkippedTests, AreListedWithTheirReasons) {
+    const std::string log = folder / "tests.log";
+    const std::string listed = folder / "listed.txt";
     std::ofstream(log)
         << "[ RUN      ] A.Passes\n[       OK ] A.Passes (0 ms)\n[ RUN      ] A.Traces\n"
            "/x/a_test.cpp:170: Skipped\nthis machine lets nobody trace\n\n[  SKIPPED ] A.Traces (3 ms)\n"

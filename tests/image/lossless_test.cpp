@@ -16,7 +16,44 @@ struct Codec {
     Bytes (*encode)(const Image8&);
     Result<Image8> (*decode)(std::span<const std::byte>, std::int64_t most_pixels);
     std::size_t tail; ///< bytes at the end that hold nothing of the picture
+    std::string (*chunks)(const Bytes&);
+    const char* expected_chunks; ///< a chunk's name once, however often it follows itself
 };
+
+/// The names of a file's chunks from `at` on. `head`: what is before a chunk's bytes; `foot`: after them.
+template <typename Length>
+std::string chunk_names(const Bytes& bytes, std::size_t at, std::size_t name_at, std::size_t foot,
+                        const Length& length_at) {
+    std::string names;
+    std::string last;
+    while (at + 8 <= bytes.size()) {
+        const std::string name(as_text(std::span(bytes).subspan(at + name_at, 4)));
+        names += name == last ? "" : name + " ";
+        last = name;
+        at += 8 + length_at(at) + foot;
+    }
+    return names;
+}
+/// Source  ISO/IEC 15948: length, name, bytes, checksum
+std::string png_chunks(const Bytes& bytes) {
+    return chunk_names(bytes, 8, 4, 4, [&](std::size_t at) {
+        std::size_t length = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            length = length << 8U | std::to_integer<std::size_t>(bytes[at + k]);
+        }
+        return length;
+    });
+}
+/// Source  RFC 9649: name, length, bytes to an even count
+std::string webp_chunks(const Bytes& bytes) {
+    return chunk_names(bytes, 12, 0, 0, [&](std::size_t at) {
+        std::size_t length = 0;
+        for (std::size_t k = 4; k-- > 0;) {
+            length = length << 8U | std::to_integer<std::size_t>(bytes[at + 4 + k]);
+        }
+        return length + length % 2;
+    });
+}
 
 constexpr std::int64_t plenty = 1 << 20; ///< pixels
 
@@ -38,9 +75,12 @@ TEST_P(Lossless, every_texel_comes_back_unchanged_under_alpha_too) {
     }
 }
 
-TEST_P(Lossless, the_same_picture_gives_the_same_bytes) {
+/// No time, no program's name: so the same picture gives the same bytes.
+TEST_P(Lossless, a_file_has_the_picture_and_nothing_else) {
     const Image8 image = noise(20, 30, true);
-    EXPECT_EQ(codec_.encode(image), codec_.encode(image));
+    const Bytes bytes = codec_.encode(image);
+    EXPECT_EQ(bytes, codec_.encode(image));
+    EXPECT_EQ(codec_.chunks(bytes), codec_.expected_chunks);
 }
 
 TEST_P(Lossless, a_picture_without_texels_gives_no_bytes) {
@@ -78,6 +118,7 @@ TEST_P(Lossless, altered_bytes_never_crash) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Codecs, Lossless,
-                         ::testing::Values(Codec{"Png", encode_png, decode_png8, 12}, // the chunk IEND
-                                           Codec{"WebP", encode_webp, decode_webp8, 4}),
+                         ::testing::Values(Codec{"Png", encode_png, decode_png8, 12, // the chunk IEND
+                                                 png_chunks, "IHDR sRGB IDAT IEND "},
+                                           Codec{"WebP", encode_webp, decode_webp8, 4, webp_chunks, "VP8L "}),
                          [](const auto& info) { return std::string(info.param.name); });

@@ -1,19 +1,30 @@
 #!/usr/bin/env bash
-# ./test image: makes the image for tests, and starts it in an emulated PC with UEFI.
-#
-#   run_tests.sh [--all] [NAME...]    --all: the long tests too; NAME: as unittest names them, such as test_start.Start.test_two_starts
-#   run_tests.sh --cuts [OPTION...]   power cuts instead: ../cuts/cuts.py, whose options these are
-#   run_tests.sh --start-time [OPTION...]    how long starts take; options of start_time.py
+# ./test image: makes the image for tests, and starts it in an emulated PC with UEFI; usage below.
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 cd "$here/../.."
+usage="usage: ./test image [--all] [NAME...]
+       ./test image --cuts [OPTION...]
+       ./test image --start-time [OPTION...]
+
+  --all          the long tests too
+  NAME           as unittest names them, such as test_start.Start.test_two_starts; all if left out
+  --cuts         power cuts instead: './test image --cuts --help'
+  --start-time   how long starts take instead: './test image --start-time --help'"
+for option; do # before anything is built
+    if [[ $option == --help || $option == -h ]]; then
+        case "$1" in
+            --cuts) exec python3 "$here/../cuts/cuts.py" --help ;;
+            --start-time) exec "$here/start_time.py" --help ;;
+        esac
+        echo "$usage"
+        exit 0
+    fi
+done
 cuts=false
 if [[ ${1-} == --cuts ]]; then
     cuts=true
     shift
-    if [[ " $* " == *" --help "* || " $* " == *" -h "* ]]; then
-        exec python3 "$here/../cuts/cuts.py" --help
-    fi
 elif [[ ${1-} == --start-time ]]; then
     start_time=true
     shift

@@ -78,7 +78,8 @@ def table(starts, first):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(prog="./test image --start-time", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--starts", type=int, default=5, help="of each kind (5)")
     parser.add_argument("--limit", type=float, help="exit status 1 above this ratio")
     arguments = parser.parse_args()

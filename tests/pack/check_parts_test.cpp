@@ -62,10 +62,12 @@ TEST(CheckParts, refuses_a_level_whenever_reading_it_does) {
 TEST(CheckParts, a_level_may_come_in_any_pieces) {
     const samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack()));
     std::mt19937 random(3);
+    int levels = 0;
     for (const auto& [name, part] : entries.parts) {
         if (!name.starts_with("levels/")) {
             continue;
         }
+        ++levels;
         const bool is_mesh = name == "levels/0.bin";
         const nlohmann::ordered_json& record = entries.manifest["levels"][is_mesh ? 0 : 1];
         for (int k = 0; k < 200; ++k) {
@@ -81,6 +83,7 @@ TEST(CheckParts, a_level_may_come_in_any_pieces) {
             EXPECT_FALSE(scan.finish(technique, record["triangles"], 7)) << name;
         }
     }
+    EXPECT_EQ(levels, 2);
 }
 
 TEST(CheckParts, refuses_pictures_that_are_too_large_or_none) {

@@ -2,6 +2,7 @@
 #include "app/pack/relief_texel.h"
 #include "tests/folders.h"
 #include "tests/pack/samples.h"
+#include "tests/pack/zip_dates.h"
 
 #include <filesystem>
 
@@ -158,8 +159,14 @@ TEST(RoundTrip, errors_of_any_size_keep_all_their_bits) {
     }
 }
 
-TEST(RoundTrip, the_same_pack_gives_the_same_bytes) {
-    EXPECT_EQ(samples::bytes_of(samples::pack()), samples::bytes_of(samples::pack()));
+TEST(RoundTrip, the_same_pack_gives_the_same_bytes_at_any_time) {
+    const Bytes file = samples::bytes_of(samples::pack());
+    EXPECT_EQ(file, samples::bytes_of(samples::pack()));
+    const std::vector<std::uint32_t> dates = samples::zip_dates(file);
+    ASSERT_FALSE(dates.empty());
+    for (const std::uint32_t date : dates) {
+        EXPECT_EQ(date, samples::earliest_zip_date);
+    }
 }
 
 TEST(RoundTrip, a_relief_vertex_half_a_code_off_is_taken_to_its_texel) {

@@ -12,12 +12,16 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
+constexpr milliseconds debounce(1);
+constexpr milliseconds longer_than_debounce(2); ///< between two rounds
+
 /// A chip that a test plugs, unplugs and presses.
 struct FakeChip {
     std::array<std::atomic<bool>, 3> down{};
     std::array<std::atomic<bool>, 3> lit{};
     std::atomic<bool> plugged{true};
     std::atomic<int> opened{0};
+    std::atomic<int> rounds{0}; ///< how often the levels were read
     std::string remark;
 };
 
@@ -31,10 +35,11 @@ public:
         for (std::size_t k = 0; k < down.size(); ++k) {
             down[k] = chip_.down.at(k);
         }
+        ++chip_.rounds;
         return {};
     }
-    [[nodiscard]] Result<void> wait(Nanoseconds timeout) override {
-        std::this_thread::sleep_for(std::min<Nanoseconds>(timeout, milliseconds(2)));
+    [[nodiscard]] Result<void> wait(Nanoseconds) override {
+        std::this_thread::sleep_for(longer_than_debounce);
         return {};
     }
 
@@ -59,9 +64,18 @@ OpenLines opener(FakeChip& chip) {
     };
 }
 
-/// Polls until `done` or for ten seconds: no time is asserted.
+/// Until the levels count as they are now: a round may be on its way, one reads them, one finds that they have held for the debounce
+/// time, and one more begins once that was told. Nobody polls meanwhile.
+void let_levels_count(const FakeChip& chip) {
+    const int begin = chip.rounds;
+    while (chip.rounds < begin + 4) {
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+}
+
+/// Polls until `done` or for a minute: no time is asserted.
 template <typename Done> bool until(ButtonPanel& panel, std::vector<PanelEvent>& events, const Done& done) {
-    const auto give_up = std::chrono::steady_clock::now() + seconds(10);
+    const auto give_up = std::chrono::steady_clock::now() + seconds(60);
     while (!done()) {
         if (std::chrono::steady_clock::now() > give_up) {
             return false;
@@ -75,11 +89,11 @@ template <typename Done> bool until(ButtonPanel& panel, std::vector<PanelEvent>&
 TEST(ButtonPanel, APressComesThroughAndAnUnpluggedChipIsFoundAgain) {
     FakeChip chip;
     ButtonTimes times;
-    times.debounce = milliseconds(5);
+    times.debounce = debounce;
     ButtonPanel panel(opener(chip), 3, times);
     std::vector<PanelEvent> events;
     ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
-    std::this_thread::sleep_for(milliseconds(20)); // levels are known before they change
+    let_levels_count(chip); // they are known before they change
     chip.down[1] = true;
     ASSERT_TRUE(until(panel, events, [&] { return !events.empty(); }));
     EXPECT_EQ(events[0].button, 1);
@@ -89,7 +103,7 @@ TEST(ButtonPanel, APressComesThroughAndAnUnpluggedChipIsFoundAgain) {
     chip.plugged = true;
     ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
     EXPECT_EQ(chip.opened, 2);
-    std::this_thread::sleep_for(milliseconds(20));
+    let_levels_count(chip);
     events.clear();
     chip.down[2] = true;
     ASSERT_TRUE(until(panel, events, [&] { return !events.empty(); }));
@@ -99,7 +113,7 @@ TEST(ButtonPanel, APressComesThroughAndAnUnpluggedChipIsFoundAgain) {
 TEST(ButtonPanel, TheChordIsHeldUntilAButtonIsLetGoOrNobodyKnows) {
     FakeChip chip;
     ButtonTimes times;
-    times.debounce = milliseconds(5);
+    times.debounce = debounce;
     ButtonPanel panel(opener(chip), 3, times);
     std::vector<PanelEvent> events;
     const auto held = [&panel] { return panel.chord_held(monotonic_now()); };
@@ -108,7 +122,7 @@ TEST(ButtonPanel, TheChordIsHeldUntilAButtonIsLetGoOrNobodyKnows) {
         chip.down[2] = down;
     };
     ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
-    std::this_thread::sleep_for(milliseconds(20)); // levels are known before they change
+    let_levels_count(chip); // they are known before they change
     EXPECT_FALSE(held());
     press_both(true);
     ASSERT_TRUE(until(panel, events, held));
@@ -126,19 +140,19 @@ TEST(ButtonPanel, TheChordIsHeldUntilAButtonIsLetGoOrNobodyKnows) {
 TEST(ButtonPanel, NobodyWhoPollsMakesItForgetTheNewest) {
     FakeChip chip;
     ButtonTimes times;
-    times.debounce = milliseconds(1);
+    times.debounce = debounce;
     times.chatter_window = Nanoseconds(0); // nobody presses too often here
     ButtonPanel panel(opener(chip), 3, times);
     std::vector<PanelEvent> events;
     ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
     for (std::size_t k = 0; k < ButtonPanel::most_waiting + 10; ++k) {
         chip.down[0] = true;
-        std::this_thread::sleep_for(milliseconds(10));
+        let_levels_count(chip);
         chip.down[0] = false;
-        std::this_thread::sleep_for(milliseconds(10));
+        let_levels_count(chip);
     }
     chip.down[2] = true;
-    std::this_thread::sleep_for(milliseconds(200));
+    let_levels_count(chip);
     events.clear();
     ASSERT_TRUE(panel.poll(monotonic_now(), events));
     ASSERT_LE(events.size(), ButtonPanel::most_waiting);
@@ -153,7 +167,7 @@ TEST(ButtonPanel, LampsAreLitAsWishedButNotAStuckButtonsAndAreDarkAfterwards) {
     };
     {
         ButtonTimes times;
-        times.debounce = milliseconds(1);
+        times.debounce = debounce;
         times.stuck = milliseconds(50);
         ButtonPanel panel(opener(chip), 3, times);
         std::vector<PanelEvent> events;
@@ -179,7 +193,7 @@ TEST(ButtonPanel, LampsAreLitAsWishedButNotAStuckButtonsAndAreDarkAfterwards) {
 TEST(ButtonPanel, AButtonThatChattersIsSaidAndItsLampIsDarkUntilItIsQuiet) {
     FakeChip chip;
     ButtonTimes times;
-    times.debounce = milliseconds(1);
+    times.debounce = debounce;
     times.quiet = milliseconds(300);
     ButtonPanel panel(opener(chip), 3, times);
     panel.light(0b111U);
@@ -188,7 +202,7 @@ TEST(ButtonPanel, AButtonThatChattersIsSaidAndItsLampIsDarkUntilItIsQuiet) {
     const auto chatters = [&] { return panel.state().find("a button chatters and is ignored") == 0; };
     ASSERT_TRUE(until(panel, events, [&] {
         chip.down[1] = !chip.down[1];
-        std::this_thread::sleep_for(milliseconds(10));
+        let_levels_count(chip);
         return chatters();
     }));
     ASSERT_TRUE(until(panel, events, [&] { return !chip.lit[1].load(); }));
@@ -202,7 +216,7 @@ TEST(ButtonPanel, WhatDoesNotWorkThoughTheButtonsAreThereIsSaidUnlessAButtonIsSt
     FakeChip chip;
     chip.remark = "a lamp cannot be lit";
     ButtonTimes times;
-    times.debounce = milliseconds(1);
+    times.debounce = debounce;
     times.stuck = milliseconds(50);
     ButtonPanel panel(opener(chip), 3, times);
     std::vector<PanelEvent> events;

@@ -91,13 +91,23 @@ TEST_F(KeyLevelsTest, AreAskedForAnewWhereTheKernelDroppedSome) {
 
 TEST_F(KeyLevelsTest, AnyBytesAreTaken) {
     std::mt19937 random(5);
+    std::size_t taken = 0;
     for (int k = 0; k < 20'000; ++k) {
         std::vector<std::byte> bytes(random() % 100);
         for (std::byte& byte : bytes) {
             byte = static_cast<std::byte>(random() % 4); // mostly event types that there are
         }
         (void)levels.take(bytes);
+        taken += bytes.size();
     }
+    // Zeros end the event that was begun, a report what was dropped; then events count as ever.
+    const std::size_t event_bytes = event(syn, report, 0).size();
+    (void)levels.take(std::vector<std::byte>(event_bytes - taken % event_bytes));
+    (void)levels.take(event(syn, report, 0));
+    levels.set(std::array<std::byte, 96>{});
+    EXPECT_FALSE(levels.take(event(key, right, 1)));
+    EXPECT_FALSE(levels.down(0));
+    EXPECT_TRUE(levels.down(1));
 }
 
 TEST(KeyCodes, AreKnownByTheirNames) {

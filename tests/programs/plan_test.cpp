@@ -6,6 +6,7 @@
 #include "app/scene/device_plan.h"
 #include "app/show/artifact_show.h"
 #include "firmware_host/display/surfaceless_display.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/render/synthetic_pack.h"
 
 #include <fmt/format.h>
@@ -63,10 +64,11 @@ std::size_t programs_that_exist() {
     return count;
 }
 
-class PlanAgainstShow : public ::testing::Test {
+class PlanAgainstShow : public WithTemporaryFolder {
 protected:
     void SetUp() override {
-        file = fs::temp_directory_path() / "frustumscreen_plan_test.fspack";
+        WithTemporaryFolder::SetUp();
+        file = folder / "full.fspack";
         const Result<Bytes> bytes = write_pack(full_pack());
         ASSERT_TRUE(bytes) << bytes.error().message;
         ASSERT_TRUE(write_file(file, *bytes));

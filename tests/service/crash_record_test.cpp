@@ -40,6 +40,7 @@ protected:
     CrashRecord() {
         std::string pattern = (fs::temp_directory_path() / "crashes.XXXXXX").string();
         folder_ = ::mkdtemp(pattern.data());
+        records_ = folder_;
     }
     ~CrashRecord() override { fs::remove_all(folder_); }
 
@@ -49,7 +50,7 @@ protected:
         const pid_t child = ::fork();
         if (child == 0) {
             ::alarm(20); // whatever happens
-            record_crashes({folder_, "1.2.3", "Debian, Linux"});
+            record_crashes({records_, "1.2.3", "Debian, Linux"});
             work();
             ::_exit(7);
         }
@@ -86,6 +87,7 @@ protected:
     }
 
     fs::path folder_;
+    fs::path records_; ///< where the child is told to record
     std::string said_;
 };
 
@@ -178,7 +180,7 @@ TEST_F(CrashRecord, TheLastThreeStay) {
 }
 
 TEST_F(CrashRecord, AFolderThatCannotBeWrittenCostsOnlyTheFile) {
-    folder_ = "/proc/no-such-folder";
+    records_ = "/proc/no-such-folder";
     EXPECT_EQ(signal_that_ends([] { crash_from_its_caller(nullptr); }), SIGSEGV);
     EXPECT_TRUE(said_.starts_with("frustumscreen: crashed: ")) << said_;
 }

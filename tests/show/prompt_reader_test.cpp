@@ -153,9 +153,19 @@ TEST_F(PromptReading, always_an_answer_waits_for_it) {
 }
 
 TEST_F(PromptReading, ends_in_the_middle_of_its_work) {
+    const auto threads = [] { // as the kernel lists them
+        return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
+    };
+    const auto before = threads();
     for (int k = 0; k < 20; ++k) {
         PromptReader reader;
         reader.want(SpokenUse::Description, in_pack("en"));
         reader.want(SpokenUse::Word, in_memory("word", fixture("tone.opus")));
     }
+    // The kernel drops a thread from its list just after it was waited for.
+    const MonotonicTime end = monotonic_now() + std::chrono::seconds(60);
+    while (threads() > before && monotonic_now() < end) {
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    EXPECT_EQ(threads(), before);
 }

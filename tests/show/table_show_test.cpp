@@ -6,6 +6,7 @@
 #include "app/scene/device_plan.h"
 #include "app/show/artifact_show.h"
 #include "firmware_host/display/surfaceless_display.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/render/counted_new.h"
 #include "tests/render/synthetic_pack.h"
 
@@ -53,11 +54,9 @@ Pack pack_of(std::size_t artifact, bool with_picture) {
     return pack;
 }
 
-class OnTheTable : public ::testing::Test {
+class OnTheTable : public WithTemporaryFolder {
 protected:
     void make(std::size_t artifacts, std::string_view more = "", std::size_t without_picture = 99) {
-        folder = fs::temp_directory_path() / "frustumscreen_table_show_test";
-        fs::create_directories(folder);
         std::vector<fs::path> packs;
         for (std::size_t k = 0; k < artifacts; ++k) {
             packs.push_back(folder / fmt::format("{}.fspack", k));
@@ -77,7 +76,6 @@ protected:
         situation.prop_known = true;
         situation.eye_m = settings.eye.default_m;
     }
-    void TearDown() override { fs::remove_all(folder); }
     void wait(milliseconds time, std::span<const Command> commands = {}) {
         for (milliseconds each{0}; each < time; each += milliseconds(20)) {
             now += milliseconds(20);
@@ -163,7 +161,6 @@ protected:
     }
 
     bool waits = false; ///< for all that is loaded ahead
-    fs::path folder;
     Settings settings;
     std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(width, height).value();
     std::unique_ptr<ArtifactShow> show;

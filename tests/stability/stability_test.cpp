@@ -5,11 +5,15 @@
 #include "app/bench/stability/stability.h"
 #include "tests/folders.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cctype>
 #include <cfenv>
+#include <fstream>
+#include <map>
 #include <ostream>
+#include <string>
 
 namespace frustumscreen {
 
@@ -35,6 +39,22 @@ public:
     Traps& operator=(const Traps&) = delete;
 };
 
+/// The bounds that docs/stability.md gives reasons for, in two digits, by quantity: of a case, `theme: name`.
+std::map<std::string, std::string> published_bounds(const std::string& which) {
+    std::ifstream page(source_dir() + "/docs/stability.md");
+    const std::string begin = "| " + which + " | ";
+    std::map<std::string, std::string> bounds;
+    for (std::string line; std::getline(page, line);) {
+        if (line.starts_with(begin)) {
+            const std::size_t quantity_end = line.find(" | ", begin.size());
+            const std::size_t bound_begin = quantity_end + 3;
+            bounds[line.substr(begin.size(), quantity_end - begin.size())] =
+                line.substr(bound_begin, line.find(" | ", bound_begin) - bound_begin);
+        }
+    }
+    return bounds;
+}
+
 class Stability : public ::testing::TestWithParam<StabilityCase> {};
 
 TEST_P(Stability, HoldsItsBounds) {
@@ -45,7 +65,13 @@ TEST_P(Stability, HoldsItsBounds) {
         const Traps traps(GetParam().arithmetic == FloatingPoint::Strict);
         result = measure(GetParam(), options);
     }
+    const std::map<std::string, std::string> published =
+        published_bounds(GetParam().theme + ": " + GetParam().name);
+    EXPECT_FALSE(published.empty()) << "docs/stability.md has no row of this case";
     for (const StabilityRow& row : result.rows) {
+        const auto bound = published.find(row.quantity);
+        EXPECT_TRUE(bound == published.end() || bound->second == fmt::format("{:.2g}", row.bound))
+            << row.quantity << ": " << row.bound << ", and docs/stability.md has another bound";
         EXPECT_TRUE(row.held()) << row.quantity << ": " << row.observed << ", allowed " << row.bound;
     }
     if (!result.left_out.empty()) {

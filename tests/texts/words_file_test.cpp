@@ -1,6 +1,7 @@
 // The file of the exhibit's own words.
 #include "app/pack/words_file.h"
 #include "app/pack/zip_archive.h"
+#include "tests/pack/zip_dates.h"
 
 #include <gtest/gtest.h>
 
@@ -47,8 +48,14 @@ TEST(WordsFile, a_language_comes_back_as_it_was_written) {
     EXPECT_EQ(back->sounds, expected.sounds);
 }
 
-TEST(WordsFile, the_same_words_give_the_same_bytes) {
-    EXPECT_EQ(file_of_two(), file_of_two());
+TEST(WordsFile, the_same_words_give_the_same_bytes_at_any_time) {
+    const Bytes file = file_of_two();
+    EXPECT_EQ(file, file_of_two());
+    const std::vector<std::uint32_t> dates = samples::zip_dates(file);
+    ASSERT_FALSE(dates.empty());
+    for (const std::uint32_t date : dates) {
+        EXPECT_EQ(date, samples::earliest_zip_date);
+    }
 }
 
 TEST(WordsFile, it_lists_its_languages_with_that_of_the_house_first) {

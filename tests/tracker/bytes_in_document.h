@@ -17,13 +17,13 @@ namespace frustumscreen::wire {
 inline Wire bytes_in_document(const std::string& document, const std::string& start) {
     const Result<Bytes> file = read_file(source_dir() + "/docs/" + document);
     const std::string text = file ? std::string(as_text(*file)) : std::string();
-    const std::size_t begin = text.find("```\n" + start);
+    const std::size_t begin = text.find("```text\n" + start);
     const std::size_t end = text.find("```", begin + 3);
     if (begin == std::string::npos || end == std::string::npos) {
         ADD_FAILURE() << document << " has no block that begins with " << start;
         return {};
     }
-    std::istringstream lines(text.substr(begin + 4, end - begin - 4));
+    std::istringstream lines(text.substr(begin + 8, end - begin - 8));
     Wire bytes;
     for (std::string line; std::getline(lines, line);) {
         std::istringstream words(line);

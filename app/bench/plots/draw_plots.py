@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Draws what frustumscreen-bench has measured: tables (CSV) as SVG files beside them.
 
-    draw_plots.py TABLE.csv...
-    draw_plots.py --overall OUT.svg FOLDER...    error_time.csv of several artifacts on one sheet
+usage: draw_plots.py TABLE.csv...
+       draw_plots.py --overall OUT.svg FOLDER...    error_time.csv of several artifacts on one sheet
 
 The bench calls it; the name of a table says what it is. A table gives the same bytes each time. Exit status 1
 and one line on standard error where something is missing or broken.
@@ -309,7 +309,9 @@ def draw(path):
 
 
 def main(arguments):
-    if len(arguments) > 2 and arguments[0] == "--overall":
+    if "--help" in arguments or "-h" in arguments:
+        print(__doc__.strip())
+    elif len(arguments) > 2 and arguments[0] == "--overall":
         with tables_of("a table of " + ", ".join(arguments[2:])):
             draw_overall(Path(arguments[1]), [Path(folder) for folder in arguments[2:]])
     else:

@@ -154,10 +154,9 @@ Touch simulated_touch(const SimulatedTable& table, const PlacedProp& placed, con
     return touch;
 }
 
-RegistrationError registration_error(const SimulatedTable& table, const CalibratedTable& calibrated,
-                                     double top_m, const Reported& reported) {
-    RegistrationError error;
-    int count = 0;
+std::vector<glm::dvec3> registration_offsets(const SimulatedTable& table, const CalibratedTable& calibrated,
+                                             double top_m, const Reported& reported) {
+    std::vector<glm::dvec3> offsets;
     for (int level = 0; level <= 2; ++level) {
         const double height = 0.5 * level * top_m;
         for (int row = 0; row <= 6; ++row) {
@@ -170,17 +169,24 @@ RegistrationError registration_error(const SimulatedTable& table, const Calibrat
                     pose = reported ? reported(pose) : pose;
                     const glm::dvec3 believed = calibrated.table_from_tracker.point(
                         pose.translation + pose.rotation * calibrated.sensor_offset_m);
-                    const glm::dvec3 lit =
-                        true_light(table.truth, calibrated_pixel(calibrated, believed), height);
-                    const double off = glm::distance(lit, place);
-                    error.mean_m += off;
-                    error.worst_m = std::fmax(error.worst_m, off);
-                    ++count;
+                    offsets.push_back(
+                        true_light(table.truth, calibrated_pixel(calibrated, believed), height) - place);
                 }
             }
         }
     }
-    error.mean_m /= count;
+    return offsets;
+}
+
+RegistrationError registration_error(const SimulatedTable& table, const CalibratedTable& calibrated,
+                                     double top_m, const Reported& reported) {
+    const std::vector<glm::dvec3> offsets = registration_offsets(table, calibrated, top_m, reported);
+    RegistrationError error;
+    for (const glm::dvec3& offset : offsets) {
+        const double off = glm::length(offset);
+        error.mean_m += off / static_cast<double>(offsets.size());
+        error.worst_m = std::fmax(error.worst_m, off);
+    }
     return error;
 }
 

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -62,5 +63,9 @@ using Reported = std::function<RigidTransform(const RigidTransform&)>;
 [[nodiscard]] RegistrationError registration_error(const SimulatedTable& table,
                                                    const CalibratedTable& calibrated, double top_m,
                                                    const Reported& reported = {});
+/// The same at each place: from what should be lit to the light.
+[[nodiscard]] std::vector<glm::dvec3> registration_offsets(const SimulatedTable& table,
+                                                           const CalibratedTable& calibrated, double top_m,
+                                                           const Reported& reported = {});
 
 } // namespace frustumscreen

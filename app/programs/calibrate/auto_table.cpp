@@ -59,6 +59,7 @@ private:
         TableRounds rounds;
         rounds.show = [&](MonotonicTime now) { return show(procedure, now); };
         rounds.between = between_rounds;
+        rounds.with_camera = true;
         return rounds;
     }
     void step(AutoProcedure& procedure, MonotonicTime now) {

@@ -66,15 +66,15 @@ Result<std::unique_ptr<TableDevices>> TableDevices::open(const CalibrateRequest&
     if (!inputs) {
         return tl::unexpected<Error>(inputs.error());
     }
-    return std::make_unique<TableDevices>(settings, *std::move(inputs), *std::move(display),
+    return std::make_unique<TableDevices>(settings, request.headless, *std::move(inputs), *std::move(display),
                                           *std::move(typesetter));
 }
 
-TableDevices::TableDevices(const Settings& settings, Inputs inputs, std::unique_ptr<Display> display,
-                           Typesetter typesetter)
-    : inputs_(std::move(inputs)), display_(std::move(display)), typesetter_(std::move(typesetter)),
-      upload_(display_->width(), display_->height()), house_(house_words(settings)),
-      voice_(voice_of(settings, house_)) {}
+TableDevices::TableDevices(const Settings& settings, bool headless, Inputs inputs,
+                           std::unique_ptr<Display> display, Typesetter typesetter)
+    : headless_(headless), inputs_(std::move(inputs)), display_(std::move(display)),
+      typesetter_(std::move(typesetter)), upload_(display_->width(), display_->height()),
+      house_(house_words(settings)), voice_(voice_of(settings, house_)) {}
 
 TableDevices::Heard TableDevices::hear(MonotonicTime now) {
     Heard heard;

@@ -32,8 +32,13 @@ public:
     /// they have no tracker or no buttons, the end of a sentence.
     [[nodiscard]] static Result<std::unique_ptr<TableDevices>>
     open(const CalibrateRequest& request, Settings settings, std::string_view instead);
-    TableDevices(const Settings& settings, Inputs inputs, std::unique_ptr<Display> display,
+    TableDevices(const Settings& settings, bool headless, Inputs inputs, std::unique_ptr<Display> display,
                  Typesetter typesetter);
+
+    [[nodiscard]] bool is_headless() const { return headless_; }
+    /// The system's time, and what was passed over of it.
+    [[nodiscard]] MonotonicTime now() const { return monotonic_now() + passed_over_; }
+    void pass_over(Nanoseconds time) { passed_over_ += time; }
 
     /// What came since the call before.
     struct Heard {
@@ -62,6 +67,8 @@ public:
     [[nodiscard]] const LanguageWords* house() const { return house_ ? &*house_ : nullptr; }
 
 private:
+    bool headless_;
+    Nanoseconds passed_over_{0};
     StopSignals stop_;
     ServiceManager manager_;
     std::optional<MonotonicTime> fed_;

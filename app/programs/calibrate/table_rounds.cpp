@@ -4,9 +4,21 @@
 
 namespace frustumscreen {
 
-Result<bool> run_rounds(const TableDevices& devices, const TableRounds& rounds) {
+namespace {
+
+void wait(TableDevices& devices, const TableRounds& rounds) {
+    if (devices.is_headless() && !rounds.with_camera) {
+        devices.pass_over(rounds.between);
+    } else {
+        std::this_thread::sleep_for(rounds.between);
+    }
+}
+
+} // namespace
+
+Result<bool> run_rounds(TableDevices& devices, const TableRounds& rounds) {
     while (!devices.told_to_stop()) {
-        const MonotonicTime now = monotonic_now();
+        const MonotonicTime now = devices.now();
         if (Result<void> shown = rounds.show(now); !shown) {
             return tl::unexpected<Error>(shown.error());
         }
@@ -14,15 +26,15 @@ Result<bool> run_rounds(const TableDevices& devices, const TableRounds& rounds) 
             return true;
         }
         rounds.step(now);
-        std::this_thread::sleep_for(rounds.between);
+        wait(devices, rounds);
     }
     return false;
 }
 
-void stay(const TableDevices& devices, const TableRounds& rounds) {
-    const MonotonicTime end = monotonic_now() + TableDevices::last_words;
-    while (!devices.told_to_stop() && monotonic_now() < end && rounds.show(monotonic_now())) {
-        std::this_thread::sleep_for(rounds.between);
+void stay(TableDevices& devices, const TableRounds& rounds) {
+    const MonotonicTime end = devices.now() + TableDevices::last_words;
+    while (!devices.told_to_stop() && devices.now() < end && rounds.show(devices.now())) {
+        wait(devices, rounds);
     }
 }
 

@@ -1,0 +1,43 @@
+/// Why the loop of a run came back, and what that means for the program.
+///
+/// Threads  any; pure.
+#pragma once
+
+#include "app/show/run_loop.h"
+#include "firmware_host/base/result.h"
+#include "firmware_host/base/time.h"
+
+#include <optional>
+
+namespace frustumscreen {
+
+/// A service shows for this long why it has nothing to show. Then it ends, is started again and looks for
+/// packs again; at once when a set of packs is installed meanwhile.
+inline constexpr Nanoseconds excuse_length = std::chrono::minutes(1);
+
+struct RunEnd {
+    enum class Why : std::uint8_t {
+        Done,         ///< it was told to stop, or its time is over
+        SetInstalled, ///< there is something to show now: the exhibit is started anew
+        Failed
+    };
+    Why why = Why::Done;
+    std::optional<Error> error; ///< of a run that failed
+};
+
+/// `excuse`: why there is nothing to show; none: there is. `set_came`: a set of packs was installed meanwhile.
+[[nodiscard]] inline RunEnd end_of_run(const Result<LoopResult>& result, const std::optional<Error>& excuse,
+                                       bool set_came) {
+    if (!result) {
+        return {RunEnd::Why::Failed, result.error()};
+    }
+    if (set_came) {
+        return {RunEnd::Why::SetInstalled, {}};
+    }
+    if (excuse && result->status.uptime_s >= to_seconds(excuse_length)) { // nobody told it to stop
+        return {RunEnd::Why::Failed, excuse};
+    }
+    return {};
+}
+
+} // namespace frustumscreen

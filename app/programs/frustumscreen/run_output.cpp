@@ -1,0 +1,70 @@
+#include "app/programs/frustumscreen/run_output.h"
+
+#include "app/show/run_report.h"
+#include "app/simulation/visitor_view.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/sound/wav_sound.h"
+#include "firmware_host/tracker/pose_file.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace frustumscreen {
+
+namespace {
+
+Result<void> write_pictures(const std::filesystem::path& folder, const LoopResult& result) {
+    std::vector<PoseSample> poses;
+    for (std::size_t k = 0; k < result.stills.size(); ++k) {
+        const Still& still = result.stills[k];
+        const RigidTransform& pose = still.situation.table_from_prop;
+        poses.push_back({still.time, prop_station, pose.translation, pose.rotation, true});
+        poses.push_back({still.time, head_station, still.situation.eye_m, {1.0, 0.0, 0.0, 0.0}, true});
+        const std::filesystem::path file = folder / fmt::format("frame_{:05}.png", k);
+        if (Result<void> written = write_file(file, encode_png(still.picture)); !written) {
+            return written;
+        }
+    }
+    if (Result<void> written = write_file(folder / "poses.csv", as_bytes(write_poses(poses))); !written) {
+        return written;
+    }
+    return write_file(folder / "frames.csv", as_bytes(frames_csv(result.rows)));
+}
+
+} // namespace
+
+Result<void> write_output(const std::filesystem::path& folder, const LoopResult& result, const Sound* sound) {
+    std::error_code failed;
+    std::filesystem::remove(folder / visitor_cameras_name, failed);
+    if (Result<void> written = write_pictures(folder, result); !written) {
+        return written;
+    }
+    const auto* const heard = dynamic_cast<const WavSound*>(sound);
+    return heard != nullptr ? heard->write(folder / "sound.wav") : Result<void>();
+}
+
+void report(const RunRequest& request, const LoopResult& result) {
+    RunStatus status = result.status;
+    stamp(status);
+    if (request.json) {
+        fmt::print("{}", status_json(status));
+        return;
+    }
+    fmt::print(
+        "{} frames in {:.1f} s, {} drawn: median {:.2f} ms, 95th percentile {:.2f} ms, 99th {:.2f} ms; {} "
+        "deadlines and {} display times missed, {} changes of level; {:.0f} MiB resident",
+        status.frames, status.uptime_s, status.drawn, status.median_ms, status.p95_ms, status.p99_ms,
+        status.missed_deadlines, status.late, status.level_switches, status.resident_mib);
+    if (request.changes > 0) {
+        fmt::print("; {} changes of artifact, {:+.1f} MiB since the first tenth, p99/p50 {:.2f}",
+                   request.changes, status.resident_mib - result.first_resident_mib,
+                   status.median_ms > 0.0 ? status.p99_ms / status.median_ms : 0.0);
+    }
+    fmt::print("\n");
+    if (!request.out.empty()) {
+        fmt::print("{} pictures in {}\n", result.stills.size(), request.out.string());
+    }
+}
+
+} // namespace frustumscreen

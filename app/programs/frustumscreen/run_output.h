@@ -1,0 +1,23 @@
+/// What a run leaves: pictures, poses, frames and sound in a folder, and a report on standard output.
+///
+/// Threads  the render thread, when the loop is over.
+/// Errors   a file cannot be written; those before it are there.
+#pragma once
+
+#include "app/programs/frustumscreen/run_request.h"
+#include "app/show/run_loop.h"
+#include "firmware_host/base/result.h"
+#include "firmware_host/sound/sound.h"
+
+#include <filesystem>
+
+namespace frustumscreen {
+
+/// frame_00000.png ..., poses.csv with their poses, frames.csv with every frame of the run; sound.wav where `sound` keeps what
+/// would be heard. Removes the visitor's cameras that an earlier call of render left there.
+[[nodiscard]] Result<void> write_output(const std::filesystem::path& folder, const LoopResult& result,
+                                        const Sound* sound);
+
+void report(const RunRequest& request, const LoopResult& result);
+
+} // namespace frustumscreen

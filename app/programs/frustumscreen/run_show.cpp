@@ -1,0 +1,73 @@
+#include "app/programs/frustumscreen/run_show.h"
+
+#include "app/show/artifact_show.h"
+#include "app/show/installed_show.h"
+#include "app/show/library_watch.h"
+#include "app/show/live_exhibit.h"
+#include "app/show/pattern_show.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <string>
+#include <utility>
+
+namespace frustumscreen {
+
+Result<std::unique_ptr<Show>> make_show(const RunRequest& request, const Settings& settings,
+                                        const DevicePlan& devices, const Display& display,
+                                        MonotonicTime start) {
+    if (request.pattern) {
+        return PatternShow::create(settings);
+    }
+    ArtifactShowOptions options = request.show;
+    options.waits = request.fast;
+    const bool from_library = options.packs.empty();
+    if (from_library) {
+        options.packs = settings.exhibit.packs;
+        options.packs_key = settings.exhibit.packs_key;
+    }
+    // Other sets come in real time alone: a run of simulated time is repeatable.
+    const bool watches = from_library && !request.fast && library_is_there(settings);
+    options.other_sets = watches;
+    const auto create = [&](const ArtifactShowOptions& each) {
+        return ArtifactShow::create(settings, devices, each, {display.framebuffer(), 0});
+    };
+    InstalledShow installed;
+    if (from_library) {
+        installed = show_installed_set(settings, options, request.trust, create);
+    }
+    Result<std::unique_ptr<ArtifactShow>> artifacts =
+        installed.show ? std::move(installed.show) : create(options);
+    if (!artifacts) {
+        return tl::unexpected<Error>(artifacts.error());
+    }
+    for (const std::string& note : (*artifacts)->notes()) {
+        say_line("frustumscreen", note);
+    }
+    Exhibit exhibit = make_exhibit(settings, **artifacts, start);
+    ArtifactShow& stage = **artifacts;
+    auto live = std::make_unique<LiveExhibit>(
+        settings, std::move(*artifacts), std::move(exhibit), display.name(),
+        request.fast ? PromptReader::Answer::Always : PromptReader::Answer::WhenReady);
+    if (watches) {
+        live->watch(stage,
+                    std::make_unique<LibraryWatch>(
+                        settings, LibraryWatch::SetUp{settings.exhibit.library, stage.set_options(),
+                                                      stage.expected_frames(), std::move(installed.start),
+                                                      stage.set().number}));
+    }
+    return live;
+}
+
+Result<std::unique_ptr<Show>> make_excuse(const Settings& settings, const Journal& journal,
+                                          const Error& why) {
+    journal.note(LogPriority::Error, why.message, {{"DEVICE", "exhibit"}});
+    Result<std::unique_ptr<PatternShow>> pattern = PatternShow::create(settings);
+    if (!pattern) {
+        return tl::unexpected<Error>(why);
+    }
+    (*pattern)->set_lines({why.message});
+    (*pattern)->is_fault();
+    return std::move(*pattern);
+}
+
+} // namespace frustumscreen

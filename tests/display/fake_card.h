@@ -1,0 +1,223 @@
+/// A graphics card as the kernel's mode setting has it, for tests: objects with properties, framebuffers, flips; what a driver may
+/// refuse is the test's to set.
+///
+/// Errors   negative error numbers, those of the kernel.
+/// Source   Linux 6.1, drivers/gpu/drm:
+///          drm_atomic_uapi.c    drm_mode_atomic_ioctl: unknown object or property ENOENT, unknown flag or a test with an event
+///                               EINVAL; drm_property_change_valid_get (drm_property.c): immutable or out of range EINVAL;
+///                               prepare_signaling: an event for each CRTC that the commit touches, EINVAL if there is none
+///          drm_atomic.c         a framebuffer without a CRTC or the reverse, or a plane that cannot feed the CRTC, EINVAL; a part
+///                               outside the framebuffer ENOSPC; a mode set without ALLOW_MODESET EINVAL; an event of a CRTC that
+///                               is off before and afterwards EINVAL
+///          drm_atomic_helper.c  an enabled CRTC without a connector or the reverse EINVAL; scaling that the driver lacks ERANGE;
+///                               a commit that does not block on a CRTC whose last one is not done EBUSY
+///          drm_crtc.c           drm_mode_setcrtc: no connector for a mode, or no mode for a connector, EINVAL; a framebuffer
+///                               that is too small ENOSPC
+///          drm_plane.c          drm_mode_page_flip_ioctl: nothing is shown, or a flip is pending: EBUSY
+///          drm_framebuffer.c    a framebuffer that is removed, or whose file is closed, turns off its planes; without atomic
+///                               commits the CRTC
+///          drm_property.c       a blob lives as long as a file or a state holds it; foreign ones cannot be destroyed: EPERM
+///          drm_vblank.c         drm_crtc_get_sequence_ioctl: EOPNOTSUPP without vertical blanks, EINVAL while the CRTC is off
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+extern "C" {
+#include <xf86drm.h>
+#include <xf86drmMode.h>
+}
+
+namespace frustumscreen {
+
+class FakeCard;
+
+/// An open file of a card.
+struct FakeFile {
+    FakeCard* card = nullptr;
+    int events = -1; ///< the end of the file at which the kernel writes
+    bool universal_planes = false;
+    bool atomic = false;
+    bool was_master = false;
+    std::string renderer; ///< of a render node: what OpenGL says of its GPU; empty: the processor draws
+    std::set<std::uint32_t> framebuffers, blobs, handles;
+};
+
+struct FakeProperty {
+    std::uint32_t id = 0;
+    std::string name;
+    std::uint32_t flags = 0;                                    ///< DRM_MODE_PROP_...
+    std::vector<std::uint64_t> limits;                          ///< of a range; the kind of an object
+    std::vector<std::pair<std::string, std::uint64_t>> choices; ///< of an enumeration or a bit mask
+};
+
+struct FakeConnector {
+    std::uint32_t id = 0, type = 0, number = 0;
+    std::vector<std::uint32_t> encoders;
+    drmModeConnection cable = DRM_MODE_DISCONNECTED; ///< as it is
+    std::vector<drmModeModeInfo> edid;
+    drmModeConnection known = DRM_MODE_DISCONNECTED; ///< as of the last probe
+    std::vector<drmModeModeInfo> modes;
+};
+
+struct FakePlane {
+    std::uint32_t id = 0, type = 0, possible_crtcs = 0;
+    std::vector<std::uint32_t> formats;
+};
+
+struct FakeBuffer {
+    std::uint32_t pitch = 0;
+    std::shared_ptr<std::vector<std::byte>> memory;
+};
+
+struct FakeFramebuffer {
+    std::uint32_t width = 0, height = 0;
+    std::shared_ptr<std::vector<std::byte>> memory;
+};
+
+struct FakeChange {
+    std::uint32_t object = 0, property = 0;
+    std::uint64_t value = 0;
+};
+
+class FakeCard {
+public:
+    // What its driver has and takes.
+    bool atomic = true;
+    bool universal_planes = true;
+    bool vertical_blanks = true;
+    bool scales = false;
+    bool knows_fourcc = true; ///< false: ADDFB2 is refused
+    bool monotonic = true;    ///< its events' times
+    std::uint32_t most_khz = 300'000;
+    std::set<std::string> fixed; ///< properties that no commit may set to another value
+    bool has_gbm = true;
+    std::string renderer; ///< what OpenGL says of its own GPU; empty: it has none, and the processor draws
+    // What happens to it.
+    bool gone = false;
+    bool flips_at_once = true; ///< as an emulated card; else when `refresh` is called
+    std::uint64_t time_us = 1'000'000;
+
+    std::uint32_t add_crtc();
+    std::uint32_t add_encoder(std::uint32_t possible_crtcs);
+    FakeConnector& add_connector(std::uint32_t type, std::uint32_t number,
+                                 std::vector<std::uint32_t> encoders);
+    std::uint32_t add_plane(std::uint32_t type, std::uint32_t possible_crtcs);
+    void add_property(std::uint32_t object, const FakeProperty& property, std::uint64_t value);
+    void take_property(std::uint32_t object, const std::string& name);
+
+    /// Pulls or plugs a cable: a probe sees it.
+    void plug(std::uint32_t connector, std::vector<drmModeModeInfo> edid);
+    void unplug(std::uint32_t connector);
+    /// Another program becomes the master and lets go again.
+    void drop_master() { master_ = nullptr; }
+    /// What was committed reaches the screen, and its events the files.
+    void refresh();
+
+    struct Shown {
+        std::uint32_t framebuffer = 0;
+        drmModeModeInfo mode{};
+        [[nodiscard]] bool operator==(const Shown& other) const {
+            return framebuffer == other.framebuffer && mode.hdisplay == other.mode.hdisplay &&
+                   mode.vdisplay == other.mode.vdisplay && mode.clock == other.mode.clock;
+        }
+    };
+    /// What a monitor at the connector would show; nothing: it is dark.
+    [[nodiscard]] std::optional<Shown> shown(std::uint32_t connector) const;
+    [[nodiscard]] std::uint64_t value(std::uint32_t object, const std::string& property) const;
+    void set(std::uint32_t object, const std::string& property, std::uint64_t value);
+    /// A property's number; 0: the object has none of this name.
+    [[nodiscard]] std::uint32_t id_of(std::uint32_t object, const std::string& property) const;
+    [[nodiscard]] FakeConnector& connector(std::uint32_t id);
+    /// So many times a framebuffer was removed while it was shown.
+    [[nodiscard]] int removed_while_shown() const { return removed_while_shown_; }
+
+    // The kernel's calls; fake_libdrm.cpp makes them.
+    int commit(FakeFile& file, std::span<const FakeChange> changes, std::uint32_t flags,
+               std::uint64_t given_back);
+    int set_crtc(std::uint32_t crtc, std::uint32_t framebuffer, std::span<const std::uint32_t> connectors,
+                 const drmModeModeInfo* mode);
+    int page_flip(FakeFile& file, std::uint32_t crtc, std::uint32_t framebuffer, std::uint32_t flags,
+                  std::uint64_t given_back);
+    int set_property(std::uint32_t object, std::uint32_t property, std::uint64_t value);
+    int add_framebuffer(FakeFile& file, std::uint32_t width, std::uint32_t height, std::uint32_t handle,
+                        std::uint32_t pitch, std::uint32_t* id);
+    int remove_framebuffer(FakeFile& file, std::uint32_t id);
+    int create_blob(FakeFile& file, std::span<const std::byte> data, std::uint32_t* id);
+    int destroy_blob(FakeFile& file, std::uint32_t id);
+    int sequence(std::uint32_t crtc) const;
+    /// The number of a new piece of memory.
+    std::uint32_t create_buffer(FakeFile& file, std::uint32_t width, std::uint32_t height);
+    int destroy_buffer(FakeFile& file, std::uint32_t handle);
+    [[nodiscard]] const FakeBuffer* buffer(const FakeFile& file, std::uint32_t handle) const;
+    int become_master(FakeFile& file);
+    [[nodiscard]] bool is_master(const FakeFile& file) const { return master_ == &file; }
+    void probe(FakeConnector& connector);
+    void opened(FakeFile& file);
+    /// What a file still has, in words, is given up with it.
+    [[nodiscard]] std::string closed(FakeFile& file);
+
+    [[nodiscard]] const std::vector<std::uint32_t>& crtcs() const { return crtcs_; }
+    [[nodiscard]] const std::map<std::uint32_t, std::uint32_t>& encoders() const { return encoders_; }
+    [[nodiscard]] const std::vector<FakeConnector>& connectors() const { return connectors_; }
+    [[nodiscard]] const std::vector<FakePlane>& planes() const { return planes_; }
+    [[nodiscard]] const FakeProperty* property(std::uint32_t id) const;
+    /// Properties and their values; nullptr: there is no such object.
+    [[nodiscard]] const std::map<std::uint32_t, std::uint64_t>* values_of(std::uint32_t object) const;
+    /// The CRTC that an encoder is fed by; 0: none.
+    [[nodiscard]] std::uint32_t crtc_of(std::uint32_t encoder) const;
+    [[nodiscard]] std::uint32_t encoder_of(const FakeConnector& connector) const;
+
+private:
+    using Values = std::map<std::uint32_t, std::uint64_t>; ///< of one object, by property
+    using State = std::map<std::uint32_t, Values>;         ///< by object
+    struct Blob {
+        std::vector<std::byte> data;
+        FakeFile* owner = nullptr; ///< nullptr: states alone hold it
+    };
+    struct Pending {
+        FakeFile* file = nullptr; ///< nullptr: nobody wants the event
+        std::uint64_t given_back = 0;
+    };
+    std::uint32_t add_object(std::uint32_t kind);
+    [[nodiscard]] std::uint64_t get(const State& state, std::uint32_t object, const std::string& name) const;
+    void put(State& state, std::uint32_t object, const std::string& name, std::uint64_t value) const;
+    [[nodiscard]] bool takes(const FakeProperty& property, std::uint64_t value) const;
+    [[nodiscard]] std::optional<drmModeModeInfo> mode_of(const State& state, std::uint32_t crtc) const;
+    [[nodiscard]] bool can_feed(const FakeConnector& connector, std::uint32_t crtc) const;
+    [[nodiscard]] const FakePlane* primary(std::uint32_t crtc) const;
+    [[nodiscard]] unsigned index_of(std::uint32_t crtc) const;
+    [[nodiscard]] int judge(const State& next) const;
+    [[nodiscard]] int judge_plane(const State& next, const FakePlane& plane) const;
+    [[nodiscard]] int judge_crtc(const State& next, std::uint32_t crtc) const;
+    [[nodiscard]] bool needs_modeset(const State& next, std::uint32_t crtc) const;
+    void turn_off(State& state, std::uint32_t crtc) const;
+    void settle(State next);
+    void forget_unheld_blobs();
+    void send_event(const Pending& pending, std::uint32_t crtc) const;
+
+    std::uint32_t last_id_ = 30;
+    std::vector<std::uint32_t> crtcs_;
+    std::map<std::uint32_t, std::uint32_t> encoders_; ///< and the CRTCs that can feed each
+    std::vector<FakeConnector> connectors_;
+    std::vector<FakePlane> planes_;
+    std::map<std::uint32_t, std::uint32_t> kinds_; ///< of objects
+    std::map<std::uint32_t, FakeProperty> properties_;
+    std::map<std::uint32_t, FakeFramebuffer> framebuffers_;
+    std::map<std::uint32_t, Blob> blobs_;
+    std::map<std::uint32_t, FakeBuffer> buffers_;
+    State state_;
+    std::map<std::uint32_t, Pending> pending_; ///< by CRTC
+    FakeFile* master_ = nullptr;
+    int removed_while_shown_ = 0;
+};
+
+} // namespace frustumscreen

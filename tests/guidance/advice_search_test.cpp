@@ -1,0 +1,253 @@
+// The search for an advice against an exhaustive one, which looks at every move and sequence of the lists and leaves nothing out.
+
+#include "app/guidance/advice_search.h"
+#include "app/guidance/steadiness.h"
+#include "guided_props.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+namespace frustumscreen {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// What is left to find: its cost, for each first move.
+struct Found {
+    struct One {
+        Move move;
+        double cost = never;
+    };
+    std::vector<One> all;
+    [[nodiscard]] double least() const {
+        double least = never;
+        for (const One& one : all) {
+            least = std::min(least, one.cost);
+        }
+        return least;
+    }
+    [[nodiscard]] double cost_of(const Move& move) const {
+        for (const One& one : all) {
+            if (one.move.action == move.action && one.move.by_m == move.by_m &&
+                one.move.turn_rad == move.turn_rad && one.move.side == move.side) {
+                return one.cost;
+            }
+        }
+        return never;
+    }
+};
+
+/// Six for an end that no small movement leaves whole.
+double cost_of_end(const FaceReader& reader, const GuidedSituation& end) {
+    int looks = 0;
+    return reader.valid(end) ? 6.0 * (1.0 - steadiness(reader, end, looks)) : never;
+}
+
+/// Single moves that help everybody: their effort, what their end costs, and three for those whom no way leads to a whole picture.
+Found single_moves(const FaceReader& reader, const GuidedSituation& situation,
+                   const std::optional<GivenAdvice>& standing) {
+    Found found;
+    for (const Candidate& each : candidates(reader.setup(), situation, MoveSet::Only).all()) {
+        const double end = cost_of_end(reader, after(each.move, reader.setup(), situation));
+        const bool is_standing = standing && alike(standing->move, each.move);
+        const bool replaces = standing && standing->holds(situation) && !is_standing;
+        const Help help = help_of(reader, situation, each.move, replaces ? 1.25 : 1.12);
+        if (help.always && end < never) {
+            found.all.push_back(
+                {each.move, each.effort - (is_standing ? 2.0 : 0.0) + end + 3.0 * (1.0 - help.whole_share)});
+        }
+    }
+    return found;
+}
+
+/// Sequences of moves that are done well.
+Found sequences(const FaceReader& reader, const GuidedSituation& situation, int length, MoveSet last) {
+    const GuidanceSetup& setup = reader.setup();
+    Found found;
+    for (const Candidate& first : candidates(setup, situation, length == 1 ? last : MoveSet::Inner).all()) {
+        if (setup.in_hand && stands_elsewhere(first.move)) {
+            continue; // hardly met in the hand; two moves are easier
+        }
+        const GuidedSituation next = after(first.move, setup, situation);
+        double rest = length == 1 ? cost_of_end(reader, next) : never;
+        if (length == 2) {
+            for (const Candidate& second : candidates(setup, next, last).all()) {
+                const GuidedSituation end = after(second.move, setup, next);
+                if (second.effort < rest && reader.valid(end)) { // the end costs at least nothing
+                    rest = std::min(rest, second.effort + cost_of_end(reader, end));
+                }
+            }
+        }
+        if (rest < never) {
+            found.all.push_back({first.move, first.effort + rest});
+        }
+    }
+    return found;
+}
+
+std::optional<Advice> searched(const FaceReader& reader, const GuidedSituation& situation,
+                               const std::optional<GivenAdvice>& standing = {}) {
+    AdviceSearch search;
+    search.begin(reader, situation, standing);
+    EXPECT_TRUE(search.advance(reader, AdviceSearch::unlimited));
+    return search.found();
+}
+
+class SearchOf : public ::testing::TestWithParam<GuidanceSetup (*)()> {
+protected:
+    const FaceReader reader{GetParam()()};
+    Seeded seeded{23};
+};
+INSTANTIATE_TEST_SUITE_P(EveryProp, SearchOf, ::testing::Values(&frustum_setup, &cube_setup, &wedge_setup));
+
+TEST_P(SearchOf, TheEasiestSingleMoveOfAllIsFound) {
+    int single = 0;
+    const int situations = reader.setup().in_hand ? 25 : 60; // in the hand there are far more moves
+    for (int k = 0; k < situations; ++k) {
+        const GuidedSituation situation = seeded_situation(reader.setup(), seeded);
+        const std::optional<Advice> advice = searched(reader, situation);
+        ASSERT_EQ(advice.has_value(), !reader.valid(situation));
+        if (!advice) {
+            continue;
+        }
+        const Found all = single_moves(reader, situation, {});
+        EXPECT_EQ(advice->steps == 1 && advice->move.action != Action::Wait, all.least() < never) << k;
+        if (advice->steps == 1 && all.least() < never) {
+            ++single;
+            EXPECT_NEAR(all.cost_of(advice->move), all.least(), 1e-9) << k;
+        }
+    }
+    EXPECT_GT(single, 4);
+}
+
+TEST_P(SearchOf, WhatStandsCountsForItselfAndMustBeClearlyBeaten) {
+    int kept = 0;
+    int single = 0;
+    const int situations = reader.setup().in_hand ? 20 : 40;
+    for (int k = 0; k < situations; ++k) {
+        const GuidedSituation situation = seeded_situation(reader.setup(), seeded);
+        const std::optional<Advice> before = searched(reader, situation);
+        if (!before || before->steps != 1) {
+            continue;
+        }
+        GuidedSituation nearby = situation; // the visitor has hardly begun to follow
+        nearby.table_from_prop.translation += glm::dvec3(seeded.between(-0.004, 0.004), 0.0, 0.0);
+        const GivenAdvice standing{before->move, situation};
+        const std::optional<Advice> now = searched(reader, nearby, standing);
+        const Found all = single_moves(reader, nearby, standing);
+        if (now && now->steps == 1 && all.least() < never) {
+            ++single;
+            EXPECT_NEAR(all.cost_of(now->move), all.least(), 1e-9) << k;
+            kept += alike(now->move, before->move) ? 1 : 0;
+        }
+    }
+    EXPECT_GT(single, 3);
+    EXPECT_GE(10 * kept, 9 * single) << "of " << single;
+}
+
+TEST_P(SearchOf, TheEasiestOfTheShortestSequencesIsFound) {
+    int several = 0;
+    for (int k = 0; k < 4000 && several < 8; ++k) {
+        const GuidedSituation situation = seeded_situation(reader.setup(), seeded);
+        const std::optional<Advice> advice = searched(reader, situation);
+        if (!advice || advice->steps != 2) {
+            continue;
+        }
+        ++several;
+        Found all;
+        for (const auto& [length, last] :
+             {std::pair(1, MoveSet::Only), {1, MoveSet::Last}, {2, MoveSet::Inner}, {2, MoveSet::Last}}) {
+            if (all.least() == never) {
+                all = sequences(reader, situation, length, last);
+            }
+        }
+        ASSERT_LT(all.least(), never) << k;
+        EXPECT_NEAR(all.cost_of(advice->move), all.least(), 1e-9) << k;
+    }
+    EXPECT_GT(several, 3);
+}
+
+TEST_P(SearchOf, AVisitorWhoHasASequenceKeepsItsBeginning) {
+    int several = 0;
+    for (int k = 0; k < 400 && several < 4; ++k) {
+        const GuidedSituation situation = seeded_situation(reader.setup(), seeded);
+        const std::optional<Advice> advice = searched(reader, situation);
+        if (advice && advice->steps > 1) {
+            ++several;
+            const std::optional<Advice> again =
+                searched(reader, situation, GivenAdvice{advice->move, situation});
+            ASSERT_TRUE(again);
+            EXPECT_TRUE(alike(again->move, advice->move)) << k;
+        }
+    }
+    EXPECT_GT(several, 0);
+}
+
+/// A prop that stands beside a projector which lights nothing: no move helps, and the visitor has to wait.
+TEST_P(SearchOf, WhereNoSequenceHelpsTheVisitorWaits) {
+    GuidanceSetup dark = GetParam()();
+    dark.projector.width = 1; // nothing is in its picture
+    dark.projector.height = 1;
+    const FaceReader nothing_lit(dark);
+    GuidedSituation situation = seeded_situation(reader.setup(), seeded);
+    while (nothing_lit.read(situation).seen == 0) {
+        situation = seeded_situation(reader.setup(), seeded);
+    }
+    const std::optional<Advice> advice = searched(nothing_lit, situation);
+    ASSERT_TRUE(advice);
+    EXPECT_EQ(advice->move.action, Action::Wait);
+    EXPECT_EQ(advice->steps, 1);
+}
+
+/// Three and four moves: there is no sequence of two, even with the last move all over the table.
+TEST_P(SearchOf, NoLongerSequenceIsAdvisedWhereAShorterOneIs) {
+    int longer = 0;
+    for (int k = 0; k < 400 && longer < 3; ++k) {
+        const GuidedSituation situation = seeded_situation(reader.setup(), seeded);
+        const std::optional<Advice> advice = searched(reader, situation);
+        if (advice && advice->steps > 2) {
+            ++longer;
+            EXPECT_EQ(single_moves(reader, situation, {}).least(), never) << k;
+            EXPECT_EQ(sequences(reader, situation, 2, MoveSet::Last).least(), never) << k;
+        }
+    }
+    RecordProperty("longer", longer);
+}
+
+TEST_P(SearchOf, IsTheSameInTheSmallestPiecesAndAfterABeginningThatWasGivenUp) {
+    AdviceSearch search;
+    int sought = 0;
+    for (int k = 0; k < 12; ++k) {
+        search.begin(reader, seeded_situation(reader.setup(), seeded), {});
+        static_cast<void>(search.advance(reader, 500)); // given up
+        const GuidedSituation situation = seeded_situation(reader.setup(), seeded);
+        search.begin(reader, situation, {});
+        EXPECT_EQ(search.situation().table_from_prop.translation, situation.table_from_prop.translation);
+        EXPECT_FALSE(search.found());
+        while (!search.advance(reader, 1)) {
+            EXPECT_FALSE(search.found()) << "it is not over";
+        }
+        const std::optional<Advice> whole = searched(reader, situation);
+        ASSERT_EQ(search.found().has_value(), whole.has_value());
+        if (whole) {
+            ++sought;
+            EXPECT_EQ(search.found()->move.action, whole->move.action);
+            EXPECT_EQ(search.found()->move.by_m, whole->move.by_m);
+            EXPECT_EQ(search.found()->move.turn_rad, whole->move.turn_rad);
+            EXPECT_EQ(search.found()->steps, whole->steps);
+        }
+        EXPECT_TRUE(search.advance(reader, 1)) << "it stays over";
+    }
+    EXPECT_GT(sought, 3);
+}
+
+TEST(AdviceSearch, BeforeItsBeginningItIsOverAndHasFoundNothing) {
+    AdviceSearch search;
+    EXPECT_TRUE(search.advance(FaceReader(frustum_setup()), 1));
+    EXPECT_FALSE(search.found());
+}
+
+} // namespace
+} // namespace frustumscreen

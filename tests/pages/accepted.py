@@ -1,0 +1,100 @@
+"""What our programs accept, read from their --help."""
+
+import dataclasses
+import functools
+import re
+import subprocess
+
+OPTION = re.compile(r"(?<![\w-])--?[A-Za-z][\w-]*")
+# Of the programs that say more of a mode behind these words than with --help alone.
+MODES = {
+    "frustumscreen-bake": ("--watch", "--batch", "--words"),
+    "test": ("hil", "soak", "image --cuts", "image --start-time", "image"),
+}
+
+
+@dataclasses.dataclass(frozen=True)
+class Accepted:
+    options: frozenset
+    choices: dict  # of an option, where it has a few
+    subcommands: frozenset
+    required: tuple  # each the names of one option
+    operands: int  # required ones
+    help: str
+
+
+@functools.lru_cache(maxsize=None)
+def help_of(program, words=()):
+    done = subprocess.run([program, *words, "--help"], capture_output=True, text=True, timeout=60, check=False, stdin=subprocess.DEVNULL)
+    if done.returncode != 0 or not done.stdout:
+        raise ValueError(f"'{' '.join((program.name, *words))} --help' ends with {done.returncode}: {done.stderr.strip()[:200]}")
+    return done.stdout
+
+
+@functools.lru_cache(maxsize=None)
+def read(program, words=()):
+    text = help_of(program, words)
+    options, choices, required = set(), {}, []
+    for line in text.splitlines():
+        head = re.match(r"\s+((?:--?[A-Za-z][\w-]*(?:, ?)?)+)(.*)", line)
+        if not head:
+            continue
+        names = OPTION.findall(head[1])
+        options.update(names)
+        few = re.match(r" \S+:\{([^}]*)\}", head[2])
+        choices.update({name: few[1].split(",") for name in names if few})
+        if re.search(r" REQUIRED(?:  |$)", head[2]):
+            required.append(tuple(names))
+    usage = re.search(r"^usage: .*(?:\n .*)*", text, re.MULTILINE | re.IGNORECASE)
+    options.update(OPTION.findall(usage[0]) if usage else ())
+    return Accepted(frozenset(options), choices, frozenset(subcommands(text)), tuple(required),
+                    len(re.findall(r"^  [A-Z]+ TEXT(?: \.\.\.)? REQUIRED", text, re.MULTILINE)), text)
+
+
+def subcommands(text):
+    """CLI11's list below a heading, or the words between bars behind the program's name."""
+    section = re.search(r"^Subcommands:\n((?:  .*\n?)+)", text, re.MULTILINE)
+    if section:
+        return re.findall(r"^  ([a-z][\w-]*)", section[1], re.MULTILINE)
+    bars = re.match(r"usage: \S+ \[?([a-z]+(?:[^\n]*\|[a-z]+)+)", text)
+    return re.findall(r"(?:^|\|)([a-z]+)", bars[1]) if bars else []
+
+
+def of_command(program, arguments):
+    """What stands for these arguments; a ValueError says which subcommand there is not."""
+    base = read(program)
+    line = " ".join(arguments)
+    for mode in MODES.get(program.name, ()):
+        if mode.startswith("--") and mode in arguments or line == mode or line.startswith(mode + " "):
+            return read(program, tuple(mode.split()))
+    if not base.subcommands or not arguments or arguments[0].startswith("-"):
+        return base
+    if arguments[0] not in base.subcommands:
+        raise ValueError(f"{program.name} has no subcommand '{arguments[0]}'")
+    return base if program.name in MODES else read(program, (arguments[0],))
+
+
+def objections(program, arguments):
+    """One sentence for each word that the program would not take."""
+    try:
+        accepted = of_command(program, arguments)
+    except ValueError as error:
+        return [str(error)]
+    wrong = []
+    for before, word, following in zip(["", *arguments], arguments, [*arguments[1:], ""]):
+        name, _, value = word.partition("=")
+        if not OPTION.fullmatch(name) or before in accepted.choices: # "--up -z"
+            continue
+        if name not in accepted.options:
+            wrong.append(f"{program.name} has no option {name} here")
+        elif name in accepted.choices and (value or following) not in accepted.choices[name] and not (value or following).isupper():
+            wrong.append(f"{program.name} takes for {name} one of {', '.join(accepted.choices[name])}, not '{value or following}'")
+    return wrong
+
+
+def is_complete(program, arguments):
+    """Whether all is named that the program requires, and a value at least; else it is a mention of the program or an option."""
+    accepted = of_command(program, arguments)
+    values = [word for word in arguments if not word.startswith("-") and word not in read(program).subcommands]
+    named = all(any(name in arguments for name in names) for names in accepted.required)
+    return named and len(values) >= max(1, len(accepted.required) + accepted.operands)

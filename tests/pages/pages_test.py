@@ -1,0 +1,100 @@
+"""What documented_commands_test.py takes for a command, and that a wrong one is told with page and line.
+
+    pages_test.py SOURCE BUILD
+"""
+
+import pathlib
+import sys
+import unittest
+
+import accepted
+from checks import Checks
+from commands import commands_of, examples_of
+
+BUILD, SOURCE = (pathlib.Path(sys.argv.pop()).resolve() for _ in range(2))
+
+PAGE = """# A page
+
+```
+program one  # a comment
+FOO=1 sudo program two \\
+    --three "#4" && other >file
+```
+```text
+not a command
+```
+- in a list: `./test hil`, `run --out`, `--seed`, and `a name`
+  ```
+  $ indented [--option A | --other] [FILE]
+  ```
+A span over two lines: `frustumscreen
+status --json`.
+"""
+
+
+def texts(commands):
+    return [(command.line, command.text) for command in commands]
+
+
+class Extraction(unittest.TestCase):
+    def setUp(self):
+        self.commands = commands_of("page.md", PAGE, ("run",))
+
+    def test_each_command_has_its_line(self):
+        self.assertEqual(texts(self.commands), [
+            (4, "program one"), (5, 'FOO=1 sudo program two --three "#4" && other >file'), (13, "indented [--option A | --other] [FILE]"),
+            (11, "./test hil"), (11, "run --out"), (11, "--seed"), (15, "frustumscreen status --json")])
+
+    def test_a_line_is_its_simple_commands(self):
+        self.assertEqual(self.commands[1].simple_commands(), [["program", "two", "--three", "#4"], ["other"]])
+
+    def test_what_is_in_brackets_is_looked_at_and_not_run(self):
+        self.assertEqual(self.commands[2].simple_commands(), [["indented", "--option", "A", "--other", "FILE"]])
+        self.assertEqual(self.commands[2].required, "indented")
+
+    def test_examples_of_a_help(self):
+        self.assertEqual(texts(examples_of("x --help", "usage: x\n\nexamples:\n  x --a\n  x --b\n\nmore:\n  y\n")), [(4, "x --a"), (5, "x --b")])
+
+
+class Teeth(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.checks = Checks(SOURCE, BUILD, ["cp"], ())
+
+    def wrong(self, line):
+        """(place, what is said) of a page with this line, and a right one before."""
+        page = f"```\nfrustumscreen states --dot\n{line}\n```\n"
+        return [(command.place, wrong) for command in commands_of("docs/page.md", page) for wrong in self.checks.objections(command)]
+
+    def test_what_no_program_takes(self):
+        for line, said in (("frustumscreen run --confg kiosk.toml", "frustumscreen has no option --confg here"),
+                           ("frustumscreen rnu", "frustumscreen has no subcommand 'rnu'"),
+                           ("frustumscreen-bake --batch DIR --preview x.html", "frustumscreen-bake has no option --preview here"),
+                           ("frustumscreen render --view eye", "frustumscreen takes for --view one of projector, visitor, not 'eye'"),
+                           ("./test image --cut", "test has no option --cut here"),
+                           ("./tset", "there is no program ./tset"),
+                           ("cmake/build.sh release no_such_test", "there is no target no_such_test"),
+                           ("ctest --test-dir build/release -R '^no_such_test$'", "ctest finds no test so")):
+            self.assertEqual(self.wrong(line), [("docs/page.md:3", said)])
+
+    def test_an_unknown_option_in_a_sentence(self):
+        command, = commands_of("page.md", "\nwith `--no-such-option`")
+        self.assertEqual((command.place, self.checks.objections(command)), ("page.md:2", ["no program has an option --no-such-option"]))
+
+    def test_what_programs_take(self):
+        for line in ("frustumscreen-bake --up -z FILE", "frustumscreen run --config FILE --seconds 8", "cd x && ./test hil --only pose"):
+            self.assertEqual(self.wrong(line), [])
+
+    def test_what_may_run(self):
+        for line, may in (("frustumscreen states && cp a b", True), ("sudo frustumscreen states", False), ("rm -r /", False), ("./run", False)):
+            command, = commands_of("page.md", f"```\n{line}\n```\n")
+            self.assertEqual(self.checks.may_run(command), may, line)
+
+    def test_a_mention_lacks_what_is_required(self):
+        program = BUILD / "bin/frustumscreen"
+        self.assertFalse(accepted.is_complete(program, ["run", "--headless"]))
+        self.assertTrue(accepted.is_complete(program, ["run", "--config", "FILE"]))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,140 @@
+// What the exhibit answers the staff, over the socket, from a picture that is presented on another thread.
+
+#include "app/programs/frustumscreen/staff_service.h"
+#include "firmware_host/display/surfaceless_display.h"
+#include "tests/base/temporary_folder.h"
+
+#include <GLES3/gl31.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <fstream>
+#include <future>
+
+namespace frustumscreen {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::seconds;
+
+constexpr int width = 32, height = 16;
+
+std::size_t open_descriptors() {
+    const fs::directory_iterator all("/proc/self/fd");
+    return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+}
+
+class StaffService : public WithTemporaryFolder {
+protected:
+    void SetUp() override {
+        WithTemporaryFolder::SetUp();
+        path = folder / "s";
+        ::unsetenv("JOURNAL_STREAM");
+    }
+    /// What the journal says goes to `said`.
+    [[nodiscard]] std::unique_ptr<StaffSocket> opened(const fs::path& at) {
+        ::testing::internal::CaptureStderr();
+        std::unique_ptr<StaffSocket> socket = open_staff_socket(at, screenshot, Journal("test"));
+        said = ::testing::internal::GetCapturedStderr();
+        return socket;
+    }
+    /// As the socket answers it; `most` bytes.
+    [[nodiscard]] Result<Bytes> asked(std::string_view question) const {
+        return ask_staff_socket(path, question, std::size_t{1} << 20, seconds(60));
+    }
+
+    fs::path path;
+    Screenshot screenshot{width, height};
+    std::string said;
+};
+
+TEST_F(StaffService, HandsOutThePictureThatIsPresented) {
+    const auto display = SurfacelessDisplay::create(width, height);
+    ASSERT_TRUE(display) << display.error().message;
+    glBindFramebuffer(GL_FRAMEBUFFER, (*display)->framebuffer());
+    glClearColor(1.0F, 0.0F, 1.0F, 1.0F);
+    glClear(GL_COLOR_BUFFER_BIT);
+    ASSERT_TRUE((*display)->present(monotonic_now()));
+    const auto socket = opened(path);
+    ASSERT_NE(socket, nullptr);
+    EXPECT_EQ(said, "");
+    std::future<Result<Bytes>> answer =
+        std::async(std::launch::async, [this] { return ask_for_screenshot(path); });
+    while (answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
+        screenshot.serve(**display);
+    }
+    const Result<Bytes> png = answer.get();
+    ASSERT_TRUE(png) << png.error().message;
+    const Result<Image8> picture = decode_png8(*png);
+    ASSERT_TRUE(picture) << picture.error().message;
+    EXPECT_EQ(picture->width, width);
+    EXPECT_EQ(picture->height, height);
+    for (const glm::u8vec4& texel : picture->texels) {
+        ASSERT_EQ(texel, glm::u8vec4(255, 0, 255, 255));
+    }
+}
+
+TEST_F(StaffService, RefusesEveryOtherQuestionAndNamesTheRightOne) {
+    const auto socket = opened(path);
+    ASSERT_NE(socket, nullptr);
+    for (const std::string_view question : {"", "Screenshot", "screenshot ", "reboot", "\x1b[2J"}) {
+        const Result<Bytes> answer = asked(question);
+        ASSERT_FALSE(answer) << question;
+        EXPECT_NE(answer.error().message.find("ask 'screenshot'"), std::string::npos)
+            << answer.error().message;
+        EXPECT_EQ(answer.error().message.find('\x1b'), std::string::npos) << "it goes to a terminal";
+    }
+}
+
+TEST_F(StaffService, SaysThatTheExhibitHandsOutNoPicture) {
+    const auto socket = opened(path); // nobody presents
+    ASSERT_NE(socket, nullptr);
+    for (int k = 0; k < 2; ++k) {
+        const Result<Bytes> answer = ask_for_screenshot(path);
+        ASSERT_FALSE(answer);
+        EXPECT_NE(answer.error().message.find("hands out no picture"), std::string::npos)
+            << answer.error().message;
+    }
+}
+
+TEST_F(StaffService, WithoutAPathThereIsNone) {
+    EXPECT_EQ(opened({}), nullptr);
+    EXPECT_EQ(said, "");
+}
+
+TEST_F(StaffService, ASocketThatCannotBeMadeIsSaidAndTheExhibitGoesOn) {
+    std::ofstream(folder / "file") << "kept";
+    for (const fs::path& at :
+         {folder / "none" / "s", folder / "file", folder, folder / std::string(200, 'x')}) {
+        EXPECT_EQ(opened(at), nullptr) << at;
+        EXPECT_NE(said.find(at.string() + ": the staff's socket cannot be made"), std::string::npos) << said;
+    }
+    EXPECT_TRUE(fs::is_regular_file(folder / "file"));
+}
+
+TEST_F(StaffService, AnotherExhibitKeepsItsSocket) {
+    auto first = opened(path);
+    ASSERT_NE(first, nullptr);
+    EXPECT_EQ(opened(path), nullptr);
+    EXPECT_NE(said.find("another exhibit listens there"), std::string::npos) << said;
+    EXPECT_FALSE(asked("who")); // answered, by the first
+    first.reset();
+    EXPECT_NE(opened(path), nullptr) << said;
+}
+
+TEST_F(StaffService, EndsWhileAQuestionWaitsAndLeavesNothing) {
+    const std::size_t before = open_descriptors();
+    auto socket = opened(path);
+    ASSERT_NE(socket, nullptr);
+    std::future<Result<Bytes>> answer =
+        std::async(std::launch::async, [this] { return ask_for_screenshot(path); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(100)); // mostly it has been asked by then
+    socket.reset();
+    EXPECT_FALSE(answer.get());
+    EXPECT_FALSE(fs::exists(path));
+    EXPECT_EQ(open_descriptors(), before);
+    EXPECT_FALSE(ask_for_screenshot(path));
+}
+
+} // namespace
+} // namespace frustumscreen

@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""clang-tidy over the C++ files; `./test tidy` calls this.
+
+A file that was clean is not analysed again while its preprocessed text, the checks and clang-tidy are the same; which files were clean is
+remembered in the user's cache folder, for all clones. Exit status 1: something was found.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+TOOL = "clang-tidy-16"  # of Debian 12; 14 does not know C++20's captured bindings
+CACHE = pathlib.Path(os.environ.get("XDG_CACHE_HOME", pathlib.Path.home() / ".cache")) / "frustumscreen" / "tidy"
+COMMITS = 20  # the change that --changed looks at
+MAX_INCLUDERS = 20  # of a changed header, with --changed
+PROGRESS = 50  # files between two lines that say how far it is
+
+
+def output_of(*command):
+    return subprocess.run(command, capture_output=True, text=True, check=True, cwd=ROOT).stdout
+
+
+def entries(build):
+    """File -> compile command, of all that is not generated."""
+    commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
+    found = {pathlib.Path(entry["file"]): entry for entry in commands}
+    return {file: entry for file, entry in sorted(found.items()) if build not in file.parents and file.suffix == ".cpp"}
+
+
+def touched(files):
+    """The files that the last commits and the working tree change, and of each changed header some that include it."""
+    base = output_of("git", "rev-list", f"--max-count={COMMITS + 1}", "HEAD").split()[-1]
+    changed = {ROOT / name for name in output_of("git", "diff", "--name-only", "--diff-filter=d", base).splitlines()}
+    names = output_of("git", "grep", "--extended-regexp", r'^#include "', "--", "*.cpp").splitlines()
+    includers = {}
+    for line in names:
+        source, include = line.split(":", 1)
+        includers.setdefault(ROOT / include.split('"')[1], []).append(ROOT / source)
+    chosen = {file for file in changed if file in files}
+    left_out = 0
+    for header in sorted(changed):
+        using = [file for file in includers.get(header, []) if file in files and file not in chosen]
+        chosen.update(using[:MAX_INCLUDERS])
+        left_out += len(using[MAX_INCLUDERS:])
+    if left_out:
+        print(f"   {left_out} includers of changed headers are left out; ./test tidy looks at all", flush=True)
+    return sorted(chosen)
+
+
+class Analysis:
+    def __init__(self, build, commands):
+        self._build, self._commands = build, commands
+        checks = (ROOT / ".clang-tidy").read_bytes()
+        self._salt = checks + output_of(TOOL, "--version").encode()
+
+    def _key(self, file):
+        """The hash of what is analysed: the preprocessed text without comments and line numbers."""
+        words = shlex.split(self._commands[file]["command"])
+        compiler = next(k for k, word in enumerate(words) if re.search(r"(\+\+|cc)(-\d+)?$", word))
+        end = words.index("-o")
+        text = subprocess.run([*words[compiler:end], "-E", "-P", file], capture_output=True, check=True, cwd=self._build).stdout
+        return hashlib.sha256(self._salt + text.replace(os.fsencode(ROOT), b"")).hexdigest()
+
+    def run(self, file):
+        """What clang-tidy says of a file; empty: nothing. None: it was clean before."""
+        clean = CACHE / self._key(file)
+        if clean.exists():
+            return None
+        command = [TOOL, "-p", self._build, "--quiet", file]
+        ran = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
+        if ran.returncode == 0:
+            clean.touch()
+            return ""
+        return ran.stdout or ran.stderr
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="./test tidy", description=__doc__)
+    parser.add_argument("--changed", action="store_true", help=f"only what the last {COMMITS} commits and the working tree touch")
+    parser.add_argument("--jobs", metavar="N", type=int, default=os.cpu_count(), help="files at a time; as many as processors, if not given")
+    parser.add_argument("files", metavar="FILE", nargs="*", type=pathlib.Path, help="only these")
+    arguments = parser.parse_args()
+
+    build = ROOT / "build" / "tidy"  # configured, not built
+    commands = entries(build)
+    files = [file.resolve() for file in arguments.files] or (touched(commands) if arguments.changed else list(commands))
+    for file in files:
+        if file not in commands:
+            parser.error(f"{file} is no C++ file that the build compiles")
+    CACHE.mkdir(parents=True, exist_ok=True)
+    analysis = Analysis(build, commands)
+    said, known = set(), 0
+    with ThreadPoolExecutor(arguments.jobs) as pool:
+        for number, found in enumerate(pool.map(analysis.run, files), 1):
+            known += found is None
+            for finding in re.split(r"\n(?=/\S+:\d+:\d+: )", (found or "").strip()):
+                if finding and finding not in said:  # one in a header is found by each of its includers
+                    said.add(finding)
+                    print(finding, flush=True)
+            if number % PROGRESS == 0:
+                print(f"   {number} of {len(files)} files", flush=True)
+    print(f"== clang-tidy: {len(files)} files, {known} of them known to be clean, {len(said)} findings")
+    return 1 if said else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
