@@ -6,11 +6,11 @@
 # it, and one that lacks a wanted part gets it; neither builds anything twice.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-usage="usage: cmake/build.sh release|debug|asan|tsan|fuzz [--without tests|window|bench]... [TARGET...]
+usage="usage: cmake/build.sh release|debug|asan|tsan|fuzz|odr [--without tests|window|bench]... [TARGET...]
 
 Configures build/PRESET where needed, and builds it or some of its targets."
 case "${1-}" in
-    release | debug | asan | tsan | fuzz) preset=$1 ;;
+    release | debug | asan | tsan | fuzz | odr) preset=$1 ;;
     -h | --help)
         echo "$usage"
         exit 0

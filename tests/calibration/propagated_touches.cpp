@@ -94,11 +94,11 @@ PriorRows prior_rows(const SimulatedTable& table, const Priors& priors) {
 
 /// Differences of the picture's offsets, a column for each unknown.
 Eigen::MatrixXd picture_by_unknown(const SimulatedTable& table, double top_m) {
-    const auto places = static_cast<Eigen::Index>(picture_offsets(table, table.truth, top_m).size());
+    const auto places = static_cast<Eigen::Index>(registration_offsets(table, table.truth, top_m).size());
     Eigen::MatrixXd rows(3 * places, unknowns);
     for (int k = 0; k < unknowns; ++k) {
         const std::vector<glm::dvec3> offsets =
-            picture_offsets(table, changed_truth(table.truth, difference * Unknowns::Unit(k)), top_m);
+            registration_offsets(table, changed_truth(table.truth, difference * Unknowns::Unit(k)), top_m);
         for (Eigen::Index place = 0; place < places; ++place) {
             const glm::dvec3& offset = offsets[static_cast<std::size_t>(place)];
             rows.block<3, 1>(3 * place, k) = Eigen::Vector3d(offset.x, offset.y, offset.z) / difference;

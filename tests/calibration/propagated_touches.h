@@ -15,12 +15,12 @@ namespace frustumscreen {
 
 struct PropagatedTouches {
     Eigen::MatrixXd
-        by_noise; ///< three rows for each place of picture_offsets; a column for each standard normal number
+        by_noise; ///< three rows for each place of registration_offsets; a column for each standard normal number
     Eigen::VectorXd bias;                   ///< where the priors pull the picture to
     std::vector<Eigen::Matrix3d> whitening; ///< of each touch's pixel and height
 };
 
-/// `touches`: without noise. `top_m`: the zone's height, as for picture_offsets.
+/// `touches`: without noise. `top_m`: the zone's height, as for registration_offsets.
 [[nodiscard]] PropagatedTouches propagated_touches(const SimulatedTable& table,
                                                    const std::vector<Touch>& touches, const TouchNoise& noise,
                                                    const Priors& priors, double top_m);

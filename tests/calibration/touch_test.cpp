@@ -63,7 +63,7 @@ TEST(Touch, TheFitIsTheBestOneToFirstOrder) {
         if (!found.repeat.empty()) {
             continue; // by chance one looks wrong, and is left out of the fit
         }
-        const std::vector<glm::dvec3> offsets = picture_offsets(table, *found.table, 0.12);
+        const std::vector<glm::dvec3> offsets = registration_offsets(table, *found.table, 0.12);
         const Eigen::VectorXd expected = offsets_by(best, table, touches);
         ASSERT_EQ(static_cast<std::size_t>(expected.size()), 3 * offsets.size());
         double sum = 0.0;
@@ -101,7 +101,7 @@ Figures figures_of(int count) {
             ADD_FAILURE() << seed << ": " << found.reason;
             continue;
         }
-        const std::vector<glm::dvec3> offsets = picture_offsets(table, *found.table, 0.12);
+        const std::vector<glm::dvec3> offsets = registration_offsets(table, *found.table, 0.12);
         double sum = 0.0;
         double worst = 0.0;
         for (const glm::dvec3& offset : offsets) {

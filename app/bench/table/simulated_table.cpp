@@ -154,8 +154,8 @@ Touch simulated_touch(const SimulatedTable& table, const PlacedProp& placed, con
     return touch;
 }
 
-std::vector<glm::dvec3> picture_offsets(const SimulatedTable& table, const CalibratedTable& calibrated,
-                                        double top_m, const Reported& reported) {
+std::vector<glm::dvec3> registration_offsets(const SimulatedTable& table, const CalibratedTable& calibrated,
+                                             double top_m, const Reported& reported) {
     std::vector<glm::dvec3> offsets;
     for (int level = 0; level <= 2; ++level) {
         const double height = 0.5 * level * top_m;
@@ -180,7 +180,7 @@ std::vector<glm::dvec3> picture_offsets(const SimulatedTable& table, const Calib
 
 RegistrationError registration_error(const SimulatedTable& table, const CalibratedTable& calibrated,
                                      double top_m, const Reported& reported) {
-    const std::vector<glm::dvec3> offsets = picture_offsets(table, calibrated, top_m, reported);
+    const std::vector<glm::dvec3> offsets = registration_offsets(table, calibrated, top_m, reported);
     RegistrationError error;
     for (const glm::dvec3& offset : offsets) {
         const double off = glm::length(offset);

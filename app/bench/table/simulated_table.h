@@ -64,8 +64,8 @@ using Reported = std::function<RigidTransform(const RigidTransform&)>;
                                                    const CalibratedTable& calibrated, double top_m,
                                                    const Reported& reported = {});
 /// The same at each place: from what should be lit to the light.
-[[nodiscard]] std::vector<glm::dvec3> picture_offsets(const SimulatedTable& table,
-                                                      const CalibratedTable& calibrated, double top_m,
-                                                      const Reported& reported = {});
+[[nodiscard]] std::vector<glm::dvec3> registration_offsets(const SimulatedTable& table,
+                                                           const CalibratedTable& calibrated, double top_m,
+                                                           const Reported& reported = {});
 
 } // namespace frustumscreen
