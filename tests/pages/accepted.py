@@ -11,7 +11,7 @@ MODES = {
     "frustumscreen-bake": ("--watch", "--batch", "--words"),
     "test": ("hil", "soak", "image --cuts", "image --start-time", "image"),
 }
-GUARD_S = 1200  # only against a program that never ends
+GUARD_S = 3600  # only against a program that never ends
 
 
 @dataclasses.dataclass(frozen=True)
