@@ -11,6 +11,7 @@ MODES = {
     "frustumscreen-bake": ("--watch", "--batch", "--words"),
     "test": ("hil", "soak", "image --cuts", "image --start-time", "image"),
 }
+GUARD_S = 3600  # only against a program that never ends
 
 
 @dataclasses.dataclass(frozen=True)
@@ -20,12 +21,11 @@ class Accepted:
     subcommands: frozenset
     required: tuple  # each the names of one option
     operands: int  # required ones
-    help: str
 
 
 @functools.lru_cache(maxsize=None)
 def help_of(program, words=()):
-    done = subprocess.run([program, *words, "--help"], capture_output=True, text=True, timeout=60, check=False, stdin=subprocess.DEVNULL)
+    done = subprocess.run([program, *words, "--help"], capture_output=True, text=True, timeout=GUARD_S, check=False, stdin=subprocess.DEVNULL)
     if done.returncode != 0 or not done.stdout:
         raise ValueError(f"'{' '.join((program.name, *words))} --help' ends with {done.returncode}: {done.stderr.strip()[:200]}")
     return done.stdout
@@ -48,7 +48,7 @@ def read(program, words=()):
     usage = re.search(r"^usage: .*(?:\n .*)*", text, re.MULTILINE | re.IGNORECASE)
     options.update(OPTION.findall(usage[0]) if usage else ())
     return Accepted(frozenset(options), choices, frozenset(subcommands(text)), tuple(required),
-                    len(re.findall(r"^  [A-Z]+ TEXT(?: \.\.\.)? REQUIRED", text, re.MULTILINE)), text)
+                    len(re.findall(r"^  [A-Z]+ TEXT(?: \.\.\.)? REQUIRED", text, re.MULTILINE)))
 
 
 def subcommands(text):

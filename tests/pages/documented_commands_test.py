@@ -23,7 +23,7 @@ from checks import Checks
 from commands import commands_of, examples_of
 
 HISTORY = "CHANGELOG.md"
-GUARD_S = 1200  # only against a command that never ends
+GUARD_S = 3600  # only against a command that never ends
 
 
 class Table:
