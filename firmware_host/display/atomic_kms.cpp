@@ -128,7 +128,8 @@ std::optional<AtomicKms::Route> AtomicKms::route_to(std::uint32_t connector) con
     const std::vector<Plane> planes = planes_of(file_);
     for (const KmsCrtc& crtc : crtcs_for(file_, connector)) {
         if (const std::uint32_t plane = primary_plane(file_, planes, crtc.index); plane != 0) {
-            const KmsProperty* shown = KmsProperties(file_, plane, DRM_MODE_OBJECT_PLANE).find("FB_ID");
+            const KmsProperties properties(file_, plane, DRM_MODE_OBJECT_PLANE);
+            const KmsProperty* shown = properties.find("FB_ID");
             return Route{connector, crtc.id, plane, shown != nullptr ? shown->id : 0};
         }
     }

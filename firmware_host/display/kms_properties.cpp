@@ -34,7 +34,7 @@ KmsProperties::KmsProperties(int card, std::uint32_t object, std::uint32_t kind)
     }
 }
 
-const KmsProperty* KmsProperties::find(std::string_view name) const {
+const KmsProperty* KmsProperties::find(std::string_view name) const& {
     for (const KmsProperty& property : all_) {
         if (property.name == name) {
             return &property;

@@ -34,7 +34,8 @@ public:
 
     [[nodiscard]] std::uint32_t object() const { return object_; }
     [[nodiscard]] std::span<const KmsProperty> all() const { return all_; }
-    [[nodiscard]] const KmsProperty* find(std::string_view name) const;
+    [[nodiscard]] const KmsProperty* find(std::string_view name) const&;
+    const KmsProperty* find(std::string_view name) const&& = delete; ///< it would not outlive the statement
     /// 0 where there is none.
     [[nodiscard]] std::uint64_t value(std::string_view name) const;
 
