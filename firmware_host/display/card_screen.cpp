@@ -21,8 +21,11 @@ Result<std::unique_ptr<CardScreen>> CardScreen::create(int card, PixelSize pictu
     if (!copying) {
         return tl::unexpected<Error>(copying.error());
     }
-    Result<PictureCopy> copy = [&] {
+    Result<PictureCopy> copy = [&]() -> Result<PictureCopy> {
         const CopyingNow now(*copying, gpu->context());
+        if (!now.current()) {
+            return fail(ErrorKind::Internal, "display: the second OpenGL ES context cannot be made current");
+        }
         return PictureCopy::create();
     }();
     if (!copy) {

@@ -34,6 +34,11 @@ private:
 
 Result<void> DumbScanoutPair::make() {
     const CopyingNow copying(screen_);
+    if (!copying.current()) {
+        return fail(ErrorKind::BadConfiguration,
+                    fmt::format("the graphics card lacks the second OpenGL ES context for {} x {} pixels",
+                                size_.width, size_.height));
+    }
     Result<ReadBack> read_back = ReadBack::create(size_);
     if (!read_back) {
         return tl::unexpected<Error>(read_back.error());

@@ -100,8 +100,10 @@ GbmScanoutPair::~GbmScanoutPair() {
         reinterpret_cast<PFNEGLDESTROYIMAGEKHRPROC>(eglGetProcAddress("eglDestroyImageKHR"));
     const CopyingNow copying(screen_);
     for (Buffer& buffer : buffers_) {
-        glDeleteFramebuffers(1, &buffer.framebuffer);
-        glDeleteRenderbuffers(1, &buffer.colour);
+        if (copying.current()) { // else they would be the renderer's of the same names
+            glDeleteFramebuffers(1, &buffer.framebuffer);
+            glDeleteRenderbuffers(1, &buffer.colour);
+        }
         if (buffer.image != EGL_NO_IMAGE_KHR && destroy_image != nullptr) {
             destroy_image(screen_.copying().egl_display(), buffer.image);
         }

@@ -78,6 +78,20 @@ TEST_F(Drawing, WithoutEglItSaysWhatToInstall) {
     EXPECT_TRUE(holds(draws(false), "install libegl1")) << draws(false);
 }
 
+TEST_F(Drawing, AContextThatIsLostOnTheWayIsAnErrorOfTheProgram) {
+    EXPECT_TRUE(holds(draws(true), "llvmpipe"));
+    const auto begin = std::find(kernel.calls().rbegin(), kernel.calls().rend(), "gbm_create_device").base();
+    const auto steps =
+        std::find(std::find(begin, kernel.calls().end(), "eglMakeCurrent") + 1, kernel.calls().end(),
+                  "eglMakeCurrent") -
+        begin + 2; // gbm_create_device counts, and from 1
+    kernel.fail(kernel.calls().size() + static_cast<std::size_t>(steps), EINVAL);
+    const Result<DrawingGpu> gpu = DrawingGpu::choose_for(card_.file());
+    ASSERT_FALSE(gpu);
+    EXPECT_EQ(gpu.error().kind, ErrorKind::Internal);
+    EXPECT_TRUE(holds(gpu.error().message, "cannot be made current again")) << gpu.error().message;
+}
+
 /// The picture's colours, by place; none is another's mirror image.
 std::array<unsigned char, 4> colour_at(int x, int y) {
     return {static_cast<unsigned char>(3 * x + 1), static_cast<unsigned char>(5 * y + 2),
@@ -182,10 +196,8 @@ TEST_P(Scanout, WithoutTheSecondContextNothingIsCopied) {
     kernel.fail_always("eglMakeCurrent", ENOMEM);
     EXPECT_NE(pair->fill(0, {0, 0, picture_size.width, picture_size.height}), 0U);
     EXPECT_FALSE(shows_the_picture(*pair, 0));
-    if (GetParam()) {
-        EXPECT_EQ(screen->make_pair(picture_size).error().message,
-                  "the graphics card lacks the second OpenGL ES context for 64 x 40 pixels");
-    }
+    EXPECT_EQ(screen->make_pair(picture_size).error().message,
+              "the graphics card lacks the second OpenGL ES context for 64 x 40 pixels");
     kernel.fail_always("eglMakeCurrent", 0);
     ASSERT_TRUE(screen->gpu().context().make_current());
 }

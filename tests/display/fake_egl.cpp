@@ -158,8 +158,12 @@ EGLBoolean __wrap_eglDestroyContext(EGLDisplay display, EGLContext context) {
     return __real_eglDestroyContext(real(display), context);
 }
 
+/// Told to fail, no context is current all the same: else Mesa keeps the one that is destroyed next.
 EGLBoolean __wrap_eglMakeCurrent(EGLDisplay display, EGLSurface draw, EGLSurface read, EGLContext context) {
-    return fails("eglMakeCurrent") ? EGL_FALSE : __real_eglMakeCurrent(real(display), draw, read, context);
+    const bool refused = fails("eglMakeCurrent");
+    const bool done = (!refused || context == EGL_NO_CONTEXT) &&
+                      __real_eglMakeCurrent(real(display), draw, read, context) == EGL_TRUE;
+    return done && !refused ? EGL_TRUE : EGL_FALSE;
 }
 
 const GLubyte* __wrap_glGetString(GLenum name) {
