@@ -75,7 +75,7 @@ public:
         if (visible_.indices.empty()) {
             visible_ = finest_; // nothing is seen from the zone: a sheet flat on the table
         }
-        samples_ = sample_source(source_, visible_, 5.0F * finest_tolerance);
+        samples_ = sample_source(source_, visible_, 5.0F * finest_tolerance, options_.measuring);
         std::vector<Surface> surfaces{measured(visible_, finest_tolerance)};
         const SourceMesh seen_mesh = as_source(visible_);
         const std::vector<glm::dvec3> seen_points(visible_.positions.begin(), visible_.positions.end());
@@ -386,9 +386,9 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     pack.extremes = profile_extremes(used);
     keep(pack, std::move(meshes), std::move(reliefs), std::move(atlas));
     options.progress("choice of the level", 0.98);
-    pack.samples =
-        samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop), options.prop.zone);
-    const SeenErrors seen = seen_errors(pack, cast, bakery.source(), options.prop.zone);
+    pack.samples = samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop),
+                                  options.prop.zone, options.measuring);
+    const SeenErrors seen = seen_errors(pack, cast, bakery.source(), options.prop.zone, options.measuring);
     put_seen_errors(seen, pack);
     pack.default_level = choose_default(pack, seen, options.prop);
     pack.table_picture = make_table_picture(pack);

@@ -43,6 +43,8 @@ struct BakeOptions {
     double turn_deg = 0.0; ///< about the vertical axis, counter-clockwise seen from above; best_turn.h
     double lift = 0.0;     ///< above the prop's bottom, in heights of the artifact
     double scale = 1.0;    ///< on the largest size inside the prop
+    /// Of the points and rays with which it measures what it made, 0..1: with fewer, a pack says its errors less exactly.
+    double measuring = 1.0;
     std::vector<GivenHotspot> hotspots;
     /// Called with what is being done and how much of all is done, 0..1.
     std::function<void(std::string_view step, double done)> progress = [](std::string_view, double) {};

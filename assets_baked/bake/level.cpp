@@ -115,7 +115,10 @@ float squared_codes(const glm::vec3& a, const glm::vec3& b) {
     return sum / 3.0F;
 }
 
-constexpr std::size_t sample_count = 24000;
+/// Of the usual number.
+std::size_t sample_count(double share) {
+    return static_cast<std::size_t>(24000.0 * share);
+}
 constexpr float search_reach = 0.2F;
 
 } // namespace
@@ -163,7 +166,9 @@ SourceMesh textured_source(const PackLevel& level, const Image8& texture, const 
     return mesh;
 }
 
-SourceSamples sample_source(const SourceScene& source, const TriangleMesh& visible, float tolerance_box) {
+SourceSamples sample_source(const SourceScene& source, const TriangleMesh& visible, float tolerance_box,
+                            double share) {
+    const std::size_t count = sample_count(share);
     const SourceMesh seen_mesh = as_source(visible);
     const std::vector<glm::dvec3> seen_points(visible.positions.begin(), visible.positions.end());
     const SourceScene seen(seen_mesh, seen_points);
@@ -173,11 +178,11 @@ SourceSamples sample_source(const SourceScene& source, const TriangleMesh& visib
             glm::cross(source.corner(t, 1) - source.corner(t, 0), source.corner(t, 2) - source.corner(t, 0)));
     }
     const AreaSampler sampler(std::move(areas));
-    std::vector<SourceSamples::Point> points(sample_count);
-    std::vector<std::uint8_t> keep(sample_count, 0);
-    parallel_for(sample_count, 256, [&](std::size_t begin, std::size_t end) {
+    std::vector<SourceSamples::Point> points(count);
+    std::vector<std::uint8_t> keep(count, 0);
+    parallel_for(count, 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
-            const auto t = static_cast<std::uint32_t>(sampler.triangle(k, sample_count));
+            const auto t = static_cast<std::uint32_t>(sampler.triangle(k, count));
             const glm::vec2 w = AreaSampler::weights(k);
             const glm::vec3 a = source.corner(t, 0);
             const glm::vec3 position = a + (source.corner(t, 1) - a) * w.x + (source.corner(t, 2) - a) * w.y;
@@ -192,7 +197,8 @@ SourceSamples sample_source(const SourceScene& source, const TriangleMesh& visib
         }
     });
     SourceSamples samples;
-    for (std::size_t k = 0; k < sample_count; ++k) {
+    samples.share = share;
+    for (std::size_t k = 0; k < count; ++k) {
         if (keep[k] != 0) {
             samples.points.push_back(points[k]);
         }
@@ -215,14 +221,15 @@ LevelError measure_shape(const TriangleMesh& surface, const SourceScene& source,
         areas[t] = glm::length(surface.area_normal(t));
     }
     const AreaSampler sampler(std::move(areas));
-    std::vector<float> distances(sample_count + samples.points.size());
+    const std::size_t count = sample_count(samples.share);
+    std::vector<float> distances(count + samples.points.size());
     parallel_for(distances.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
-            if (k >= sample_count) {
-                distances[k] = distance_to(surface_scene, samples.points[k - sample_count].position);
+            if (k >= count) {
+                distances[k] = distance_to(surface_scene, samples.points[k - count].position);
                 continue;
             }
-            const std::size_t t = sampler.triangle(k, sample_count);
+            const std::size_t t = sampler.triangle(k, count);
             const glm::vec2 w = AreaSampler::weights(k);
             const glm::vec3 a = surface.corner(t, 0);
             distances[k] =

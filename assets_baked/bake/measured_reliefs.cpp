@@ -43,7 +43,7 @@ std::vector<MeasuredRelief> bake_reliefs(const ReliefSource& source, int size) {
         made.error = seen_distances(
             drawn.scene(),
             [&](const glm::vec3& eye, const glm::vec3& direction) { return drawn.trace(eye, direction); },
-            source.truth, source.box_size, source.zone);
+            source.truth, source.box_size, source.zone, source.samples.share);
         made.error.colour_rmse = source.compare_colour ? drawn.colour_rmse(source.samples) : 0.0F;
         reliefs.push_back(std::move(made));
     }

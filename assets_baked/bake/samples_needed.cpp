@@ -52,15 +52,15 @@ double squared_codes(const glm::vec3& a, const glm::vec3& b) {
     return sum / 3.0;
 }
 
-/// RMSE of each grid over the pixels whose centre hits.
+/// RMSE of each grid over the pixels whose centre hits; of `every` row, such as each fourth.
 std::array<double, grids.size()> errors_of(const FarView& view, const SourceScene& source,
-                                           const glm::ivec2& half, double& pixels) {
+                                           const glm::ivec2& half, int every, double& pixels) {
     using Sums = std::array<double, grids.size() + 1>;
-    std::vector<Sums> rows(static_cast<std::size_t>(2 * half.y), Sums{});
+    std::vector<Sums> rows(static_cast<std::size_t>(2 * half.y / every), Sums{});
     parallel_for(rows.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t row = begin; row < end; ++row) {
             for (int x = -half.x; x < half.x; ++x) {
-                const glm::ivec2 pixel(x, static_cast<int>(row) - half.y);
+                const glm::ivec2 pixel(x, static_cast<int>(row) * every - half.y);
                 bool hit = false;
                 static_cast<void>(view.colour(source, glm::vec2(pixel) + 0.5F, hit));
                 if (!hit) {
@@ -80,7 +80,7 @@ std::array<double, grids.size()> errors_of(const FarView& view, const SourceScen
             total[k] += row[k];
         }
     }
-    pixels = std::max(pixels, total.back());
+    pixels = std::max(pixels, total.back() * every);
     std::array<double, grids.size()> result{};
     for (std::size_t g = 0; g < grids.size(); ++g) {
         result[g] = total.back() > 0.0 ? std::sqrt(total[g] / total.back()) : 0.0;
@@ -91,7 +91,7 @@ std::array<double, grids.size()> errors_of(const FarView& view, const SourceScen
 } // namespace
 
 int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double mm_per_box,
-                   const ViewingZone& zone) {
+                   const ViewingZone& zone, double share) {
     constexpr double good_rmse = 8.0;
     constexpr double most_samples =
         45e3; // for the artifact's pixels on a usual table: what a slow GPU shades in time
@@ -102,6 +102,7 @@ int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double
     const glm::vec2 pixel_box = glm::vec2(0.63F, 1.6F) / static_cast<float>(mm_per_box);
     const auto radius = static_cast<float>(glm::length(box_size) / 2.0);
     const glm::ivec2 half(glm::ceil(radius / pixel_box));
+    const auto every = static_cast<int>(1.0 / share);
     std::array<double, grids.size()> worst{};
     double pixels = 0.0;
     for (int k = 0; k < views; ++k) {
@@ -113,7 +114,7 @@ int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double
         const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 0, 1), towards));
         const FarView view{towards, right, glm::cross(towards, right),
                            glm::vec3(0.0F, 0.0F, static_cast<float>(box_size.z) / 2.0F), pixel_box};
-        const auto errors = errors_of(view, source, half, pixels);
+        const auto errors = errors_of(view, source, half, every, pixels);
         for (std::size_t g = 0; g < grids.size(); ++g) {
             worst[g] = std::max(worst[g], errors[g]);
         }

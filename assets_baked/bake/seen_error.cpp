@@ -312,8 +312,8 @@ std::vector<glm::dvec3> eyes_of(const ViewingZone& zone) {
 } // namespace
 
 SeenErrors seen_errors(const Pack& pack, std::span<const MeasuredRelief> reliefs, const SourceScene& source,
-                       const ViewingZone& zone) {
-    constexpr double rays_an_eye = 10'000.0;
+                       const ViewingZone& zone, double share) {
+    const double rays_an_eye = 10'000.0 * share;
     SeenErrors seen;
     std::vector<SeenSource> eyes;
     for (const glm::dvec3& towards : eyes_of(zone)) {
@@ -344,8 +344,8 @@ SeenErrors seen_errors(const Pack& pack, std::span<const MeasuredRelief> reliefs
 }
 
 LevelError seen_distances(const SourceScene& surface, const TraceSurface& trace, const SourceScene& source,
-                          const glm::dvec3& box_size, const ViewingZone& zone) {
-    constexpr double rays_an_eye = 1'750.0;
+                          const glm::dvec3& box_size, const ViewingZone& zone, double share) {
+    const double rays_an_eye = 1'750.0 * share;
     constexpr float reach = 0.2F;
     const auto distance_to = [](const SourceScene& scene, const glm::vec3& point) {
         const SurfaceHit hit = scene.nearest(point, reach);

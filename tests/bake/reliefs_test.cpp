@@ -26,6 +26,7 @@ Pack sphere_pack(int size) {
     options.unlit = true;
     options.up = "z";
     options.turn_deg = 0.0;
+    options.measuring = 0.25;
     return bake(mesh, options).value();
 }
 

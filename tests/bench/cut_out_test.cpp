@@ -55,6 +55,7 @@ protected:
         options.size = 512;
         options.unlit = true;
         options.relief = relief;
+        options.measuring = 0.05;
         Result<Pack> pack = bake(*mesh_, options);
         ASSERT_TRUE(pack) << pack.error().message;
         pack_ = std::move(*pack);
@@ -123,12 +124,13 @@ TEST_F(CutOut, AReliefHasTheGapsAndWhatShowsThroughThem) {
 }
 
 TEST_F(CutOut, AnArtifactWithoutMaskPaysNothing) {
-    ASSERT_NO_FATAL_FAILURE(bake_fence(true));
+    mesh_ = fence(true);
     mesh_->materials[0].alpha_mask = false;
     BakeOptions options;
     options.size = 128;
     options.unlit = true;
     options.relief = false;
+    options.measuring = 0.05;
     const Result<Pack> pack = bake(*mesh_, options);
     ASSERT_TRUE(pack);
     for (const Image8& texture : pack->textures) {

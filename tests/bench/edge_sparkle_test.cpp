@@ -85,6 +85,7 @@ TEST(EdgeSparkle, FeatheringCalmsTheEdgesAndNothingElse) {
     options.size = 64;
     options.relief = false;
     options.unlit = true;
+    options.measuring = 0.05;
     const Result<Pack> pack = bake(*white, options);
     ASSERT_TRUE(pack) << pack.error().message;
     const Result<std::vector<SparkleRow>> rows =

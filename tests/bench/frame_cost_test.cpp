@@ -21,6 +21,7 @@ const Pack& ring_pack() {
     static const Pack pack = [] {
         BakeOptions options;
         options.size = 64;
+        options.measuring = 0.05;
         return bake(*ring(), options).value();
     }();
     return pack;

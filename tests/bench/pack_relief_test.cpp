@@ -17,18 +17,25 @@ namespace {
 
 class PackRelief : public DrawnNear {
 protected:
-    void SetUp() override {
+    static std::shared_ptr<SourceMesh> upright_ring() {
+        std::shared_ptr<SourceMesh> mesh = ring();
+        mesh->default_up = 'z';
+        return mesh;
+    }
+    static Pack baked(int size, bool unlit) {
         BakeOptions options;
-        options.size = 192;
-        options.unlit = true;
-        mesh_->default_up = 'z';
-        Result<Pack> pack = bake(*mesh_, options);
-        ASSERT_TRUE(pack) << pack.error().message;
-        pack_ = std::move(*pack);
+        options.size = size;
+        options.unlit = unlit;
+        options.measuring = 0.05;
+        return bake(*upright_ring(), options).value();
+    }
+    static const Pack& ring_pack() {
+        static const Pack pack = baked(192, true);
+        return pack;
     }
 
-    std::shared_ptr<SourceMesh> mesh_ = ring();
-    Pack pack_;
+    const std::shared_ptr<SourceMesh> mesh_ = upright_ring();
+    const Pack& pack_ = ring_pack();
 };
 
 TEST_F(PackRelief, ThereIsARowForEachByTheNameThatDrawsIt) {
@@ -77,9 +84,7 @@ TEST_F(PackRelief, ThereIsARowForEachByTheNameThatDrawsIt) {
 
 /// With light baked into its colours and without: light that falls off towards an outline is none that moves it.
 TEST_F(PackRelief, LevelsAndReliefsAreDrawnWhereTheirSurfacesAre) {
-    BakeOptions lit;
-    lit.size = 96;
-    const Pack with_light = bake(*mesh_, lit).value();
+    const Pack with_light = baked(96, false);
     for (const Pack* const pack : std::array<const Pack*, 2>{&pack_, &with_light}) {
         const std::vector<std::uint32_t> levels{pack->default_level};
         Result<Comparison> opened =

@@ -22,6 +22,7 @@ protected:
         BakeOptions options;
         options.size = 96;
         options.unlit = true;
+        options.measuring = 0.05;
         Result<Pack> pack = bake(*mesh_, options);
         ASSERT_TRUE(pack) << pack.error().message;
         pack_ = std::move(*pack);
