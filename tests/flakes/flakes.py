@@ -11,6 +11,7 @@ import hashlib
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import time
@@ -81,6 +82,7 @@ def main():
     parser.add_argument("--ci", metavar="N", type=int, default=3, help="runs of .ci/run (3)")
     arguments = parser.parse_args()
 
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))  # ends the busy loops, too
     folder = state_folder()
     print(f"== what passed is remembered in {folder.relative_to(ROOT)}", flush=True)
     runs = Runs(folder)
