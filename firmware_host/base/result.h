@@ -2,6 +2,9 @@
 ///
 /// Errors that a person can cause (files, settings, devices) travel as values with one sentence for that
 /// person: what, where, what is allowed, what to do next. Programming errors assert.
+///
+/// TRY(const X x, f()); is `const X x` with the value of f(), or ends the function with f()'s error.
+/// TRY_VOID(g()); is the same for a Result<void>.
 #pragma once
 
 #include <tl/expected.hpp>
@@ -38,5 +41,28 @@ template <typename T> using Result = tl::expected<T, Error>;
     error.message = place + ": " + error.message;
     return tl::unexpected<Error>(std::move(error));
 }
+/// The same for a result, if it is an error.
+template <typename T> [[nodiscard]] Result<T> at(const std::string& place, Result<T> result) {
+    if (!result) {
+        result.error().message = place + ": " + result.error().message;
+    }
+    return result;
+}
 
 } // namespace frustumscreen
+
+/// The value is moved out of its result; both live to the end of the scope. `variable` is a declaration without a
+/// comma (auto, where the type has one) or something to assign to; the function may return a Result of any type.
+#define TRY(variable, ...) FRUSTUMSCREEN_TRY_COUNTED(__COUNTER__, variable, __VA_ARGS__)
+#define FRUSTUMSCREEN_TRY_COUNTED(count, variable, ...) FRUSTUMSCREEN_TRY_NAMED(count, variable, __VA_ARGS__)
+#define FRUSTUMSCREEN_TRY_NAMED(count, variable, ...)                                                        \
+    auto result_of_try_##count = __VA_ARGS__;                                                                \
+    if (!result_of_try_##count) {                                                                            \
+        return tl::unexpected(std::move(result_of_try_##count).error());                                     \
+    }                                                                                                        \
+    variable = *std::move(result_of_try_##count)
+
+#define TRY_VOID(...)                                                                                        \
+    if (auto result_of_try = __VA_ARGS__; !result_of_try) {                                                  \
+        return tl::unexpected(std::move(result_of_try).error());                                             \
+    }
