@@ -95,12 +95,9 @@ bool is_left_behind(std::string_view name, const std::string& target) {
 
 Result<Bytes> read_file(const std::filesystem::path& path, std::uintmax_t limit_bytes) {
     // Its size is that of the file that is open: another may be put in its place at any time.
-    const Result<OpenFile> file = OpenFile::open(path, limit_bytes);
-    if (!file) {
-        return tl::unexpected<Error>(file.error());
-    }
-    Bytes bytes(static_cast<std::size_t>(file->bytes()));
-    if (!file->read(0, bytes)) {
+    TRY(const OpenFile file, OpenFile::open(path, limit_bytes));
+    Bytes bytes(static_cast<std::size_t>(file.bytes()));
+    if (!file.read(0, bytes)) {
         return bad_input(path.string() + ": cannot be read: it became shorter, or its disk fails");
     }
     return bytes;
@@ -123,9 +120,7 @@ Result<void> write_file_with(const std::filesystem::path& path,
                              const std::function<Result<void>(int descriptor)>& write) {
     TemporaryFile file(path);
     if (file.is_open()) {
-        if (Result<void> written = write(file.descriptor()); !written) {
-            return written;
-        }
+        TRY_VOID(write(file.descriptor()));
     }
     if (!file.is_open() || !file.sync() || !file.keep_as(path)) {
         return bad_input(path.string() + ": cannot be written: " + system_reason());

@@ -51,9 +51,7 @@ Result<void> check_output_place(const fs::path& output, std::uintmax_t bytes) {
     if (!fs::is_directory(folder, ignored)) {
         return bad_input(output.string() + ": there is no folder " + folder.string() + "; make it first");
     }
-    if (Result<void> writable = try_to_write_in(folder); !writable) {
-        return writable;
-    }
+    TRY_VOID(try_to_write_in(folder));
     clear_partial_files(output); // before the room is counted
     return check_space(folder, bytes);
 }

@@ -256,29 +256,26 @@ Result<ProgramEnd> follow_program(const std::vector<std::string>& command, std::
 
 Result<Bytes> run_program(const std::vector<std::string>& command, std::string_view input,
                           const ProgramLimits& limits) {
-    Result<ProgramEnd> end = follow_program(command, input, limits);
-    if (!end) {
-        return tl::unexpected<Error>(end.error());
-    }
+    TRY(ProgramEnd end, follow_program(command, input, limits));
     const std::string name = name_of(command);
-    if (end->how == ProgramEnd::How::TooMuch) {
+    if (end.how == ProgramEnd::How::TooMuch) {
         return bad_input(fmt::format("{}: writes more than {} bytes for one text; it was ended", name,
                                      limits.output_bytes));
     }
-    if (end->how == ProgramEnd::How::TooLate) {
+    if (end.how == ProgramEnd::How::TooLate) {
         return bad_input(fmt::format("{}: takes longer than {:g} s for one text; it was ended", name,
                                      std::chrono::duration<double>(limits.time).count()));
     }
-    if (end->how == ProgramEnd::How::GivenUp) {
+    if (end.how == ProgramEnd::How::GivenUp) {
         return bad_input(fmt::format("{}: it was ended, as nobody waits for it any more", name));
     }
-    if (end->status != 0) {
+    if (end.status != 0) {
         const std::string why =
-            printable(std::string_view(end->complaint).substr(0, end->complaint.find('\n')), 160);
-        return bad_input(fmt::format("{}: ends with {} {}{}{}", name, end->status > 0 ? "status" : "signal",
-                                     std::abs(end->status), why.empty() ? "" : ": ", why));
+            printable(std::string_view(end.complaint).substr(0, end.complaint.find('\n')), 160);
+        return bad_input(fmt::format("{}: ends with {} {}{}{}", name, end.status > 0 ? "status" : "signal",
+                                     std::abs(end.status), why.empty() ? "" : ": ", why));
     }
-    return std::move(end->output);
+    return std::move(end.output);
 }
 
 } // namespace frustumscreen

@@ -1,5 +1,6 @@
 #include "firmware_host/camera/camera_driver.h"
 
+#include "firmware_host/base/result.h"
 #include "firmware_host/camera/v4l2_controls.h"
 
 #include <linux/videodev2.h>
@@ -117,22 +118,14 @@ tl::expected<void, CameraState> CameraDriver::open(const std::string& path) {
     if (!mode) {
         return tl::unexpected(CameraState::NoFormat);
     }
-    const tl::expected<SetMode, CameraState> set = set_mode(**device, *mode);
-    if (!set) {
-        return tl::unexpected(set.error());
-    }
-    const FrameFormat& frame = set->frame;
+    TRY(const SetMode set, set_mode(**device, *mode));
+    const FrameFormat& frame = set.frame;
     CameraSetUp set_up{path,
                        identity->name,
                        identity->bus,
-                       {frame.format, frame.width, frame.height, set->rate_hz},
+                       {frame.format, frame.width, frame.height, set.rate_hz},
                        lock_controls(**device, wish_)};
-    tl::expected<std::unique_ptr<V4l2Stream>, CameraState> stream =
-        V4l2Stream::start(std::move(*device), frame);
-    if (!stream) {
-        return tl::unexpected(stream.error());
-    }
-    stream_ = std::move(*stream);
+    TRY(stream_, V4l2Stream::start(std::move(*device), frame));
     set_up_ = std::move(set_up);
     path_ = path;
     return {};

@@ -9,20 +9,11 @@
 namespace frustumscreen {
 
 Result<std::unique_ptr<CardScreen>> CardScreen::create(int card, PixelSize picture_size) {
-    Result<DrawingGpu> gpu = DrawingGpu::choose_for(card);
-    if (!gpu) {
-        return tl::unexpected<Error>(gpu.error());
-    }
-    Result<PictureFramebuffer> picture = PictureFramebuffer::create(picture_size.width, picture_size.height);
-    if (!picture) {
-        return tl::unexpected<Error>(picture.error());
-    }
-    Result<EglContext> copying = gpu->context().sharing();
-    if (!copying) {
-        return tl::unexpected<Error>(copying.error());
-    }
+    TRY(DrawingGpu gpu, DrawingGpu::choose_for(card));
+    TRY(PictureFramebuffer picture, PictureFramebuffer::create(picture_size.width, picture_size.height));
+    TRY(EglContext copying, gpu.context().sharing());
     Result<PictureCopy> copy = [&]() -> Result<PictureCopy> {
-        const CopyingNow now(*copying, gpu->context());
+        const CopyingNow now(copying, gpu.context());
         if (!now.current()) {
             return fail(ErrorKind::Internal, "display: the second OpenGL ES context cannot be made current");
         }
@@ -32,7 +23,7 @@ Result<std::unique_ptr<CardScreen>> CardScreen::create(int card, PixelSize pictu
         return tl::unexpected<Error>(copy.error());
     }
     std::unique_ptr<CardScreen> screen(
-        new CardScreen(card, std::move(*gpu), std::move(*picture), std::move(*copying), std::move(*copy)));
+        new CardScreen(card, std::move(gpu), std::move(picture), std::move(copying), std::move(*copy)));
     screen->warm_up();
     return screen;
 }

@@ -75,11 +75,8 @@ Result<DrawingGpu> DrawingGpu::on(Device device, bool shows) {
         return fail(ErrorKind::BadConfiguration,
                     "display: no memory for pictures on the graphics card (GBM); install libgl1-mesa-dri");
     }
-    Result<EglContext> context = EglContext::on_gbm(device.get());
-    if (!context) {
-        return tl::unexpected<Error>(context.error());
-    }
-    return DrawingGpu(std::move(device), std::move(*context), shows);
+    TRY(EglContext context, EglContext::on_gbm(device.get()));
+    return DrawingGpu(std::move(device), std::move(context), shows);
 }
 
 Result<DrawingGpu> DrawingGpu::on_render_node(const char* path) {

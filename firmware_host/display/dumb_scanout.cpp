@@ -39,11 +39,7 @@ Result<void> DumbScanoutPair::make() {
                     fmt::format("the graphics card lacks the second OpenGL ES context for {} x {} pixels",
                                 size_.width, size_.height));
     }
-    Result<ReadBack> read_back = ReadBack::create(size_);
-    if (!read_back) {
-        return tl::unexpected<Error>(read_back.error());
-    }
-    read_back_ = std::move(*read_back);
+    TRY(read_back_, ReadBack::create(size_));
     for (int k = 0; k < 2; ++k) {
         std::optional<DumbBuffer> buffer = DumbBuffer::create(screen_.card(), size_);
         if (!buffer || !buffer->map()) {
@@ -84,9 +80,7 @@ bool DumbScanoutPair::read(int which, std::span<std::byte> rgba) const {
 
 Result<std::unique_ptr<ScanoutPair>> make_dumb_scanout(const CardScreen& screen, PixelSize size) {
     auto pair = std::make_unique<DumbScanoutPair>(screen, size);
-    if (Result<void> made = pair->make(); !made) {
-        return tl::unexpected<Error>(made.error());
-    }
+    TRY_VOID(pair->make());
     return pair;
 }
 

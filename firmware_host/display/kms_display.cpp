@@ -23,13 +23,10 @@ Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_nam
             fmt::format("display: another program holds the screen of {}; end it, or run with --headless",
                         card->path()));
     }
-    Result<std::unique_ptr<CardScreen>> screen =
-        CardScreen::create(card->file(), {request.picture_width, request.picture_height});
-    if (!screen) {
-        return tl::unexpected<Error>(screen.error());
-    }
+    TRY(std::unique_ptr<CardScreen> screen,
+        CardScreen::create(card->file(), {request.picture_width, request.picture_height}));
     return std::unique_ptr<KmsDisplay>(
-        new KmsDisplay(std::move(*card), card_name.empty(), std::move(*screen), request));
+        new KmsDisplay(std::move(*card), card_name.empty(), std::move(screen), request));
 }
 
 KmsDisplay::KmsDisplay(KmsCard card, bool any_card, std::unique_ptr<CardScreen> screen,

@@ -65,11 +65,8 @@ GlSampler make_sampler(GLint filter, bool of_codes) {
 
 Result<PictureCopy> PictureCopy::create() {
     const bool of_codes = has_gl_extension("GL_EXT_texture_sRGB_decode");
-    Result<GlProgram> program = make_program("", vertex_shader, of_codes ? shader_of_codes : shader_of_light);
-    if (!program) {
-        return tl::unexpected<Error>(program.error());
-    }
-    return PictureCopy(std::move(*program), make_sampler(GL_NEAREST, of_codes),
+    TRY(GlProgram program, make_program("", vertex_shader, of_codes ? shader_of_codes : shader_of_light));
+    return PictureCopy(std::move(program), make_sampler(GL_NEAREST, of_codes),
                        make_sampler(GL_LINEAR, of_codes));
 }
 

@@ -73,9 +73,7 @@ void Presenter::wake() {
 }
 
 Result<void> Presenter::stay_dark(bool may_set) {
-    if (Result<void> card = check_card(); !card) {
-        return card;
-    }
+    TRY_VOID(check_card());
     if (rest_ == Rest::None) {
         rest_ = Rest::Wanted;
         try_again_.reset();
@@ -89,9 +87,7 @@ Result<void> Presenter::stay_dark(bool may_set) {
 }
 
 Result<MonotonicTime> Presenter::present(const PixelRectangle& changed, bool may_set) {
-    if (Result<void> card = check_card(); !card) {
-        return tl::unexpected<Error>(card.error());
-    }
+    TRY_VOID(check_card());
     wake();
     if (stuck_since_ && device_.now() - *stuck_since_ >= stuck_given_up) {
         stuck_since_.reset();

@@ -5,16 +5,10 @@
 namespace frustumscreen {
 
 Result<std::unique_ptr<SurfacelessDisplay>> SurfacelessDisplay::create(int width, int height) {
-    Result<EglContext> context = EglContext::without_screen();
-    if (!context) {
-        return tl::unexpected<Error>(context.error());
-    }
-    Result<PictureFramebuffer> picture = PictureFramebuffer::create(width, height);
-    if (!picture) {
-        return tl::unexpected<Error>(picture.error());
-    }
+    TRY(EglContext context, EglContext::without_screen());
+    TRY(PictureFramebuffer picture, PictureFramebuffer::create(width, height));
     return std::unique_ptr<SurfacelessDisplay>(
-        new SurfacelessDisplay(std::move(*context), std::move(*picture)));
+        new SurfacelessDisplay(std::move(context), std::move(picture)));
 }
 
 Result<MonotonicTime> SurfacelessDisplay::present(MonotonicTime now) {

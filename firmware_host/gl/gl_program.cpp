@@ -42,12 +42,8 @@ Result<void> attach(GLuint program, GLenum stage, std::string_view defines, std:
 
 Result<GlProgram> make_program(std::string_view defines, std::string_view vertex, std::string_view fragment) {
     GlProgram program = GlProgram::generate();
-    if (Result<void> ok = attach(program.get(), GL_VERTEX_SHADER, defines, vertex); !ok) {
-        return tl::unexpected<Error>(ok.error());
-    }
-    if (Result<void> ok = attach(program.get(), GL_FRAGMENT_SHADER, defines, fragment); !ok) {
-        return tl::unexpected<Error>(ok.error());
-    }
+    TRY_VOID(attach(program.get(), GL_VERTEX_SHADER, defines, vertex));
+    TRY_VOID(attach(program.get(), GL_FRAGMENT_SHADER, defines, fragment));
     glLinkProgram(program.get());
     GLint linked = GL_FALSE;
     glGetProgramiv(program.get(), GL_LINK_STATUS, &linked);

@@ -95,11 +95,8 @@ Result<ConvertedRecording> convert_recording(std::string_view text, std::string_
         if (first && names_columns(rows)) {
             continue;
         }
-        const Result<Row> row = read_row(rows);
-        if (!row) {
-            return tl::unexpected(row.error());
-        }
-        const auto& [t, x, y, z, qx, qy, qz, qw] = *row;
+        TRY(const Row row, read_row(rows));
+        const auto& [t, x, y, z, qx, qy, qz, qw] = row;
         start_s = start_s.value_or(t);
         if (t - *start_s > longest_s) {
             return bad_input(rows.located(fmt::format(

@@ -17,11 +17,8 @@ constexpr Nanoseconds between_rounds = std::chrono::seconds(1);
 } // namespace
 
 Result<PacketReplay> PacketReplay::open(Bytes file, std::string_view name) {
-    const Result<PacketReader> packets = PacketReader::open(file, name);
-    if (!packets) {
-        return tl::unexpected<Error>(packets.error());
-    }
-    PacketReplay replay(std::move(file), *packets);
+    TRY(const PacketReader packets, PacketReader::open(file, name));
+    PacketReplay replay(std::move(file), packets);
     if (!replay.survey()) {
         return bad_input(fmt::format("{}: no tracker was found while this was recorded", name));
     }

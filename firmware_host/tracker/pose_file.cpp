@@ -91,19 +91,16 @@ Result<std::vector<PoseSample>> parse_poses(std::string_view text, std::string_v
     std::vector<PoseSample> samples;
     std::optional<MonotonicTime> last_prop;
     while (rows.next()) {
-        const Result<PoseSample> sample = read_row(rows);
-        if (!sample) {
-            return tl::unexpected(sample.error());
-        }
-        if (order == PoseOrder::PropAscends && sample->station == prop_station && last_prop &&
-            sample->time <= *last_prop) {
+        TRY(const PoseSample sample, read_row(rows));
+        if (order == PoseOrder::PropAscends && sample.station == prop_station && last_prop &&
+            sample.time <= *last_prop) {
             return bad_input(rows.located(
                 fmt::format("t_us is {} after {}; allowed are ascending times of station 1, each once",
-                            to_microseconds(sample->time), to_microseconds(*last_prop))));
+                            to_microseconds(sample.time), to_microseconds(*last_prop))));
         }
-        samples.push_back(*sample);
-        if (sample->station == prop_station) {
-            last_prop = sample->time;
+        samples.push_back(sample);
+        if (sample.station == prop_station) {
+            last_prop = sample.time;
         }
     }
     return samples;

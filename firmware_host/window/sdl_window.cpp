@@ -94,35 +94,21 @@ Result<void> SdlWindow::open() {
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
-    if (Result<void> opened = create_window(); !opened) {
-        return opened;
-    }
+    TRY_VOID(create_window());
     copying_ = SDL_GL_CreateContext(window_);
     if (copying_ == nullptr) {
         return no_window("the desktop has no OpenGL ES 3");
     }
     SDL_GL_SetSwapInterval(0); // the exhibit sets its own pace
-    Result<PictureCopy> copy = PictureCopy::create();
-    if (!copy) {
-        return tl::unexpected<Error>(copy.error());
-    }
-    copy_ = std::move(*copy);
-    Result<SeenSurfacesPass> visitor = SeenSurfacesPass::create();
-    if (!visitor) {
-        return tl::unexpected<Error>(visitor.error());
-    }
-    visitor_ = std::move(*visitor);
+    TRY(copy_, PictureCopy::create());
+    TRY(visitor_, SeenSurfacesPass::create());
     keep_help();
     SDL_GL_SetAttribute(SDL_GL_SHARE_WITH_CURRENT_CONTEXT, 1);
     drawing_ = SDL_GL_CreateContext(window_);
     if (drawing_ == nullptr) {
         return no_window("the desktop has no second OpenGL ES context");
     }
-    Result<PictureFramebuffer> picture = PictureFramebuffer::create(set_up_.width, set_up_.height);
-    if (!picture) {
-        return tl::unexpected<Error>(picture.error());
-    }
-    picture_ = std::move(*picture);
+    TRY(picture_, PictureFramebuffer::create(set_up_.width, set_up_.height));
     return {};
 }
 
@@ -346,9 +332,7 @@ private:
 
 Result<Window> open_window(const WindowSetUp& set_up) {
     const auto window = std::make_shared<SdlWindow>(set_up);
-    if (Result<void> opened = window->open(); !opened) {
-        return tl::unexpected<Error>(opened.error());
-    }
+    TRY_VOID(window->open());
     return Window{std::make_unique<WindowDisplay>(window), std::make_unique<MouseTracker>(window),
                   std::make_unique<KeyPanel>(window)};
 }

@@ -51,11 +51,8 @@ void attribute(GLuint location, GLint numbers, std::size_t offset) {
 } // namespace
 
 Result<SeenSurfacesPass> SeenSurfacesPass::create() {
-    Result<GlProgram> program = make_program("", vertex_shader, fragment_shader);
-    if (!program) {
-        return tl::unexpected<Error>(program.error());
-    }
-    return SeenSurfacesPass(std::move(*program));
+    TRY(GlProgram program, make_program("", vertex_shader, fragment_shader));
+    return SeenSurfacesPass(std::move(program));
 }
 
 SeenSurfacesPass::SeenSurfacesPass(GlProgram program) : program_(std::move(program)) {
