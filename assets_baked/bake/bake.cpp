@@ -341,22 +341,16 @@ std::uintmax_t room_for_pack(int size) {
 
 Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
-    const Result<BoxFrame> frame = make_box_frame(mesh, {up, options.turn_deg, options.lift});
-    if (!frame) {
-        return tl::unexpected<Error>(frame.error());
-    }
+    TRY(const BoxFrame frame, make_box_frame(mesh, {up, options.turn_deg, options.lift}));
     options.progress("reading the surface", 0.0);
-    Bakery bakery(mesh, *frame, options);
+    Bakery bakery(mesh, frame, options);
     if (!bakery.has_surface()) {
         return bad_input("every triangle is degenerate; there is no surface to show");
     }
     Pack pack;
     for (const GivenHotspot& given : options.hotspots) {
-        Result<PackHotspot> hotspot = put_on_surface(given, bakery.source(), *frame, options.prop.zone);
-        if (!hotspot) {
-            return tl::unexpected<Error>(hotspot.error());
-        }
-        pack.hotspots.push_back(*std::move(hotspot));
+        TRY(PackHotspot hotspot, put_on_surface(given, bakery.source(), frame, options.prop.zone));
+        pack.hotspots.push_back(std::move(hotspot));
     }
     std::vector<Surface> surfaces = bakery.surfaces();
     const bool may_need_relief = Bakery::may_need_relief(surfaces);
@@ -370,8 +364,8 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     pack.prop_kind = options.prop.kind;
     pack.unlit = options.unlit;
     pack.relief_size = options.size;
-    pack.box_size = frame->box_size;
-    pack.box_from_file = frame->box_from_file;
+    pack.box_size = frame.box_size;
+    pack.box_from_file = frame.box_from_file;
     pack.scale = options.scale;
     pack.provenance.source_triangles = mesh.triangles.size();
     std::vector<glm::dvec3> used;
@@ -380,7 +374,7 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
             used.push_back(bakery.points()[vertex]);
         }
     }
-    if (frame->lift_box > 0.0) {
+    if (frame.lift_box > 0.0) {
         used.emplace_back(0.0); // the box's bottom, above which the artifact stands
     }
     pack.extremes = profile_extremes(used);

@@ -263,11 +263,8 @@ Result<ArtifactFile> read_artifact_file(const std::filesystem::path& folder) {
                         "one to start from",
                         folder.string(), artifact_file_name, folder.string()));
     }
-    const Result<Bytes> bytes = read_file(file, largest_file_bytes);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    return parse_artifact_file(as_text(*bytes), file);
+    TRY(const Bytes bytes, read_file(file, largest_file_bytes));
+    return parse_artifact_file(as_text(bytes), file);
 }
 
 } // namespace frustumscreen

@@ -179,25 +179,16 @@ Result<fs::path> start_folder(const fs::path& folder, const ScanFacts& scan) {
             fmt::format("{}: this file is there already; edit it, or choose another folder", file.string()));
     }
     if (!is_same_folder(folder, scan.file.parent_path())) {
-        const auto copies = copies_of(scan);
-        if (!copies) {
-            return tl::unexpected<Error>(copies.error());
-        }
+        TRY(const auto copies, copies_of(scan));
         fs::create_directories(folder, failed);
         if (failed) {
             return bad_input(
                 fmt::format("{}: this folder cannot be made: {}", folder.string(), failed.message()));
         }
-        if (const Result<void> copied = copy_into(folder, *copies); !copied) {
-            return tl::unexpected<Error>(copied.error());
-        }
+        TRY_VOID(copy_into(folder, copies));
     }
     const std::string title = scan.file.stem().string();
-    if (const Result<void> written =
-            write_file(file, as_bytes(new_artifact_text(scan, title, new_id(title))));
-        !written) {
-        return tl::unexpected<Error>(written.error());
-    }
+    TRY_VOID(write_file(file, as_bytes(new_artifact_text(scan, title, new_id(title)))));
     return file;
 }
 

@@ -41,13 +41,10 @@ struct Letter {
 };
 
 Result<std::vector<LanguageToBake>> read_words(const std::string& file) {
-    const Result<Bytes> bytes = read_file(file, most_file_bytes);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
+    TRY(const Bytes bytes, read_file(file, most_file_bytes));
     std::vector<LanguageToBake> languages;
     try {
-        const toml::table root = toml::parse(as_text(*bytes));
+        const toml::table root = toml::parse(as_text(bytes));
         for (const auto& [language, node] : root) {
             const auto visitors = node.as_table() == nullptr
                                       ? std::nullopt
@@ -90,11 +87,7 @@ public:
         for (const std::int32_t width : staff_widths_em) {
             widths.push_back(width * em_units);
         }
-        if (Result<void> added =
-                add("visitors." + language.language, language.visitors, language.language, {one_line});
-            !added) {
-            return added;
-        }
+        TRY_VOID(add("visitors." + language.language, language.visitors, language.language, {one_line}));
         return add("staff." + language.language, language.staff, language.language, widths);
     }
 
@@ -128,14 +121,11 @@ private:
     }
     [[nodiscard]] Result<void> add(const std::string& key, const std::string& text,
                                    const std::string& language, std::vector<std::int32_t> widths) {
-        const Result<ShapedText> shaped = shaper_.shape({text, language, std::move(widths), false});
-        if (!shaped) {
-            return at(key, shaped.error());
+        TRY(const ShapedText shaped, at(key, shaper_.shape({text, language, std::move(widths), false})));
+        if (!shaped.notes.empty()) {
+            return bad_input(fmt::format("{}: {}", key, shaped.notes.front()));
         }
-        if (!shaped->notes.empty()) {
-            return bad_input(fmt::format("{}: {}", key, shaped->notes.front()));
-        }
-        builder_.add(key, *shaped);
+        builder_.add(key, shaped);
         return {};
     }
 
@@ -192,14 +182,11 @@ void write_atlas(std::string& cpp, const DistanceAtlas& atlas) {
 }
 
 Result<std::string> WordsBaker::as_cpp(const std::vector<LanguageToBake>& languages) {
-    const Result<GlyphSheet> sheet = builder_.finish();
-    if (!sheet) {
-        return tl::unexpected<Error>(sheet.error());
-    }
-    const GlyphRuns& runs = sheet->runs;
+    TRY(const GlyphSheet sheet, builder_.finish());
+    const GlyphRuns& runs = sheet.runs;
     std::string cpp = "// Made by frustumscreen-safe-words of assets_baked/safe/words.toml.\n"
                       "#include \"app/safe/safe_words.h\"\n\nnamespace frustumscreen {\nnamespace {\n";
-    write_atlas(cpp, sheet->atlas);
+    write_atlas(cpp, sheet.atlas);
     cpp += "constexpr BakedBox boxes[]{\n";
     for (const GlyphBox& box : runs.boxes) {
         fmt::format_to(Out(cpp), "{{{},{},{},{},{},{}}},\n", box.x, box.y, box.width, box.height, box.left,
@@ -239,28 +226,18 @@ Result<std::string> WordsBaker::as_cpp(const std::vector<LanguageToBake>& langua
 }
 
 Result<void> bake(const std::string& file, const std::string& out) {
-    const Result<std::vector<LanguageToBake>> languages = read_words(file);
-    if (!languages) {
-        return tl::unexpected<Error>(languages.error());
-    }
-    const Result<Shaper> shaper = Shaper::open();
-    if (!shaper) {
-        return tl::unexpected<Error>(shaper.error());
-    }
-    WordsBaker baker(*shaper);
-    for (const LanguageToBake& language : *languages) {
-        if (Result<void> added = baker.add(language); !added) {
-            return added;
-        }
+    TRY(const std::vector<LanguageToBake> languages, read_words(file));
+    TRY(const Shaper shaper, Shaper::open());
+    WordsBaker baker(shaper);
+    for (const LanguageToBake& language : languages) {
+        TRY_VOID(baker.add(language));
     }
     for (const auto& [first, last] : letter_ranges) {
         for (char32_t character = first; character <= last; ++character) {
-            if (Result<void> added = baker.add(character); !added) {
-                return added;
-            }
+            TRY_VOID(baker.add(character));
         }
     }
-    const Result<std::string> cpp = baker.as_cpp(*languages);
+    const Result<std::string> cpp = baker.as_cpp(languages);
     return cpp ? write_file(out, as_bytes(*cpp)) : Result<void>(tl::unexpected<Error>(cpp.error()));
 }
 

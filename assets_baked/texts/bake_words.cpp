@@ -18,15 +18,12 @@ Result<BakedWords> bake_words(const std::vector<CollectedWords>& collected, cons
             texts.push_back({word.key, word.text, word.language, false});
             words.words.push_back({word.key, word.text, word.language});
         }
-        Result<SetTexts> set = set_texts(texts, shaper);
-        if (!set) {
-            return at(language.language, set.error());
-        }
-        for (const std::string& note : set->notes) {
+        TRY(SetTexts set, at(language.language, set_texts(texts, shaper)));
+        for (const std::string& note : set.notes) {
             baked.notes.push_back(fmt::format("{}: {}", language.language, note));
         }
-        words.runs = std::move(set->sheet.runs);
-        words.atlas = std::move(set->sheet.atlas);
+        words.runs = std::move(set.sheet.runs);
+        words.atlas = std::move(set.sheet.atlas);
         baked.languages.push_back(std::move(words));
     }
     return baked;

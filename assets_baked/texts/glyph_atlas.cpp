@@ -280,25 +280,19 @@ Result<GlyphSheet> GlyphAtlasBuilder::finish() {
             "texels holds: shorten them",
             glyphs_.size(), most_atlas_texels));
     };
-    Result<GlyphPainter> painter = GlyphPainter::open(options_);
-    if (!painter) {
-        return tl::unexpected<Error>(painter.error());
-    }
+    TRY(GlyphPainter painter, GlyphPainter::open(options_));
     if (glyphs_.size() > most_boxes || texts_.size() > most_texts) {
         return too_many();
     }
     std::vector<DrawnGlyph> drawn;
     std::int64_t texels = 0;
     for (const auto& [face, glyph] : glyphs_) {
-        Result<DrawnGlyph> one = painter->draw(face, glyph);
-        if (!one) {
-            return tl::unexpected<Error>(one.error());
-        }
-        texels += static_cast<std::int64_t>(one->distances.texels.size());
+        TRY(DrawnGlyph one, painter.draw(face, glyph));
+        texels += static_cast<std::int64_t>(one.distances.texels.size());
         if (texels > most_atlas_texels / 2) {
             return too_many();
         }
-        drawn.push_back(*std::move(one));
+        drawn.push_back(std::move(one));
     }
     GlyphSheet sheet;
     sheet.runs.texels_per_em = static_cast<std::uint16_t>(options_.texels_per_em);

@@ -145,16 +145,10 @@ std::vector<float> levelled(std::span<const float> samples, double lufs, double 
 
 /// As Opus, with what a player decodes of it.
 Result<Speech> stored(std::span<const float> samples) {
-    Result<Bytes> opus = encoded(samples);
-    if (!opus) {
-        return tl::unexpected<Error>(opus.error());
-    }
-    const Result<Recording> decoded = read_recording(*opus, RecordingSource::File);
-    if (!decoded) {
-        return tl::unexpected<Error>(decoded.error());
-    }
-    return Speech{*std::move(opus), static_cast<double>(decoded->samples.size()) / speech_rate_hz,
-                  loudness_of(decoded->samples)};
+    TRY(Bytes opus, encoded(samples));
+    TRY(const Recording decoded, read_recording(opus, RecordingSource::File));
+    return Speech{std::move(opus), static_cast<double>(decoded.samples.size()) / speech_rate_hz,
+                  loudness_of(decoded.samples)};
 }
 
 } // namespace
@@ -180,25 +174,19 @@ Loudness loudness_of(std::span<const float> samples) {
 }
 
 Result<std::optional<Speech>> level_speech(const Recording& recording) {
-    Result<std::vector<float>> samples =
-        resampled(trimmed(recording.samples, recording.rate_hz), recording.rate_hz);
-    if (!samples) {
-        return tl::unexpected<Error>(samples.error());
-    }
-    const Loudness before = loudness_of(*samples);
+    TRY(std::vector<float> samples,
+        resampled(trimmed(recording.samples, recording.rate_hz), recording.rate_hz));
+    const Loudness before = loudness_of(samples);
     if (!std::isfinite(before.lufs)) {
         return std::optional<Speech>();
     }
     double most_db = most_true_peak_db;
     for (int tries = 1; tries <= most_tries; ++tries) {
-        Result<Speech> speech = stored(levelled(*samples, before.lufs, most_db));
-        if (!speech) {
-            return tl::unexpected<Error>(speech.error());
-        }
+        TRY(Speech speech, stored(levelled(samples, before.lufs, most_db)));
         // Opus does not keep peaks exactly, and between samples a sound rises above them.
-        const double over_db = speech->loudness.true_peak_db - most_true_peak_db;
+        const double over_db = speech.loudness.true_peak_db - most_true_peak_db;
         if (over_db <= 0.0) {
-            return std::optional<Speech>(*std::move(speech));
+            return std::optional<Speech>(std::move(speech));
         }
         most_db -= over_db + 0.1 * tries;
     }

@@ -96,21 +96,12 @@ std::vector<std::string> unused_recordings(const fs::path& folder, const Recordi
 }
 
 Result<Speech> read_speech(const std::filesystem::path& file) {
-    const Result<Bytes> bytes = read_file(file, most_recording_bytes);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
+    TRY(const Bytes bytes, read_file(file, most_recording_bytes));
     const std::string name = printable(file.string(), 300);
-    const Result<Recording> recording = read_recording(*bytes, RecordingSource::File);
-    if (!recording) {
-        return at(name, recording.error());
-    }
-    Result<std::optional<Speech>> speech = level_speech(*recording);
-    if (!speech) {
-        return at(name, speech.error());
-    }
-    return *speech ? Result<Speech>(**std::move(speech))
-                   : bad_input(name + ": the recording is silent; record it again, louder");
+    TRY(const Recording recording, at(name, read_recording(bytes, RecordingSource::File)));
+    TRY(std::optional<Speech> speech, at(name, level_speech(recording)));
+    return speech ? Result<Speech>(*std::move(speech))
+                  : bad_input(name + ": the recording is silent; record it again, louder");
 }
 
 } // namespace frustumscreen

@@ -94,9 +94,7 @@ Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSour
         return bad_input(fmt::format("this is no recording that can be read ({}); WAV, FLAC and Ogg Opus can",
                                      printable(sf_strerror(nullptr), 120)));
     }
-    if (const Result<void> kind = check_kind(info); !kind) {
-        return tl::unexpected<Error>(kind.error());
-    }
+    TRY_VOID(check_kind(info));
     Recording recording;
     recording.rate_hz = info.samplerate;
     const auto most_frames =
@@ -106,11 +104,7 @@ Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSour
                              static_cast<std::size_t>(info.channels));
     while (const sf_count_t count = sf_readf_float(file.get(), block.data(), block_frames)) {
         const auto values = static_cast<std::size_t>(count) * static_cast<std::size_t>(info.channels);
-        if (const Result<void> mixed =
-                append_mixed(std::span(block).first(values), info.channels, recording.samples);
-            !mixed) {
-            return tl::unexpected<Error>(mixed.error());
-        }
+        TRY_VOID(append_mixed(std::span(block).first(values), info.channels, recording.samples));
         if (recording.samples.size() > most_frames) {
             return bad_input(fmt::format("the recording is longer than {} s; allowed is that: shorten it",
                                          longest_recording_s));

@@ -21,21 +21,14 @@ Result<SetTexts> set_texts(std::span<const TextToSet> texts, const Shaper& shape
     SetTexts set;
     GlyphAtlasBuilder builder(options);
     for (const TextToSet& text : texts) {
-        const Result<ShapedText> shaped =
-            shaper.shape({text.text, text.language, caption_limits(), text.bold});
-        if (!shaped) {
-            return at(text.key, shaped.error());
-        }
-        for (const std::string& note : shaped->notes) {
+        TRY(const ShapedText shaped,
+            at(text.key, shaper.shape({text.text, text.language, caption_limits(), text.bold})));
+        for (const std::string& note : shaped.notes) {
             set.notes.push_back(fmt::format("{}: {}", text.key, note));
         }
-        builder.add(text.key, *shaped);
+        builder.add(text.key, shaped);
     }
-    Result<GlyphSheet> sheet = builder.finish();
-    if (!sheet) {
-        return tl::unexpected<Error>(sheet.error());
-    }
-    set.sheet = *std::move(sheet);
+    TRY(set.sheet, builder.finish());
     return set;
 }
 

@@ -192,16 +192,13 @@ Shaper& Shaper::operator=(Shaper&&) noexcept = default;
 Shaper::~Shaper() = default;
 
 Result<Shaper> Shaper::open() {
-    Result<Fonts> fonts = Fonts::open();
-    if (!fonts) {
-        return tl::unexpected<Error>(fonts.error());
-    }
+    TRY(Fonts fonts, Fonts::open());
     auto engine = std::make_unique<Engine>();
     engine->map.reset(pango_ft2_font_map_new());
-    pango_fc_font_map_set_config(PANGO_FC_FONT_MAP(engine->map.get()), fonts->config());
+    pango_fc_font_map_set_config(PANGO_FC_FONT_MAP(engine->map.get()), fonts.config());
     engine->context.reset(pango_font_map_create_context(engine->map.get()));
     pango_context_set_round_glyph_positions(engine->context.get(), FALSE);
-    return Shaper(*std::move(fonts), std::move(engine));
+    return Shaper(std::move(fonts), std::move(engine));
 }
 
 Result<ShapedText> Shaper::shape(const TextToShape& text) const {

@@ -87,12 +87,9 @@ Result<std::vector<std::string>> speak_words(std::vector<LanguageWords>& languag
             options.progress(languages[k].language,
                              static_cast<double>(k) / static_cast<double>(languages.size()));
         }
-        Result<std::string> why = speak_language(languages[k], options);
-        if (!why) {
-            return tl::unexpected<Error>(why.error());
-        }
-        if (!why->empty()) {
-            silent.push_back(*std::move(why));
+        TRY(std::string why, speak_language(languages[k], options));
+        if (!why.empty()) {
+            silent.push_back(std::move(why));
         }
     }
     return silent;

@@ -138,22 +138,13 @@ std::optional<std::string> Voice::why_silent(std::string_view text, const std::s
 
 Result<Spoken> Voice::speak(std::string_view text, const std::string& language) const {
     const std::vector<std::string> command = command_for(language);
-    const Result<Bytes> wav = run_program(command, text, limits_);
-    if (!wav) {
-        return tl::unexpected<Error>(wav.error());
-    }
+    TRY(const Bytes wav, run_program(command, text, limits_));
     const std::string place = fmt::format("{} on '{}'", printable(command.front()), printable(text, 40));
-    const Result<Recording> recording = read_recording(*wav, RecordingSource::Stream);
-    if (!recording) {
-        return at(place, recording.error());
-    }
-    Result<std::optional<Speech>> speech = level_speech(*recording);
-    if (!speech) {
-        return at(place, speech.error());
-    }
-    return *speech ? Spoken{*std::move(speech), {}}
-                   : Spoken{std::nullopt, fmt::format("{} finds nothing to speak in '{}'",
-                                                      printable(command.front()), printable(text, 40))};
+    TRY(const Recording recording, at(place, read_recording(wav, RecordingSource::Stream)));
+    TRY(std::optional<Speech> speech, at(place, level_speech(recording)));
+    return speech ? Spoken{std::move(speech), {}}
+                  : Spoken{std::nullopt, fmt::format("{} finds nothing to speak in '{}'",
+                                                     printable(command.front()), printable(text, 40))};
 }
 
 } // namespace frustumscreen

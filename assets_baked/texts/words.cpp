@@ -204,11 +204,7 @@ Result<WrittenWords> words_of(const std::filesystem::path& folder, const std::st
     WrittenWords words;
     for (const BuiltinWords& file : builtin_words()) {
         if (file.language == language) {
-            Result<WrittenWords> read = parse_words(file.toml, fmt::format("words/{}.toml", language));
-            if (!read) {
-                return read;
-            }
-            words = *std::move(read);
+            TRY(words, parse_words(file.toml, fmt::format("words/{}.toml", language)));
         }
     }
     const std::filesystem::path file = folder / (language + ".toml");
@@ -216,15 +212,9 @@ Result<WrittenWords> words_of(const std::filesystem::path& folder, const std::st
     if (folder.empty() || !std::filesystem::exists(file, ignored)) {
         return words;
     }
-    const Result<Bytes> bytes = read_file(file, most_file_bytes);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    Result<WrittenWords> read = parse_words(as_text(*bytes), printable(file.string(), 4096));
-    if (!read) {
-        return read;
-    }
-    read->merge(words);
+    TRY(const Bytes bytes, read_file(file, most_file_bytes));
+    TRY(WrittenWords read, parse_words(as_text(bytes), printable(file.string(), 4096)));
+    read.merge(words);
     return read;
 }
 
@@ -286,12 +276,9 @@ Result<std::vector<CollectedWords>> collect_words(const std::filesystem::path& f
         return bad_input("no language is named; name at least that of the house, such as en");
     }
     const std::string& house = languages.front();
-    const Result<WrittenWords> fallback = words_of(folder, house);
-    if (!fallback) {
-        return tl::unexpected<Error>(fallback.error());
-    }
+    TRY(const WrittenWords fallback, words_of(folder, house));
     for (const std::string_view key : keys) {
-        if (!fallback->contains(key)) {
+        if (!fallback.contains(key)) {
             return bad_input(fmt::format(
                 "the house's language '{}' has no text for {}; write it into {}.toml, or name another "
                 "language first (built in: {})",
@@ -300,18 +287,15 @@ Result<std::vector<CollectedWords>> collect_words(const std::filesystem::path& f
     }
     std::vector<CollectedWords> collected;
     for (const std::string& language : languages) {
-        const Result<WrittenWords> own = words_of(folder, language);
-        if (!own) {
-            return tl::unexpected<Error>(own.error());
-        }
-        if (own->find("name") == own->end()) {
+        TRY(const WrittenWords own, words_of(folder, language));
+        if (own.find("name") == own.end()) {
             return bad_input(fmt::format("there are no words in '{}'; write {}.toml with at least a line "
                                          "name = \"...\", the language's "
                                          "own name (built in: {})",
                                          printable(language, 40), printable(language, 40),
                                          fmt::join(builtin_word_languages(), ", ")));
         }
-        collected.push_back(collect(language, *own, house, *fallback));
+        collected.push_back(collect(language, own, house, fallback));
     }
     return collected;
 }

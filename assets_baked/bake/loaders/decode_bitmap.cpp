@@ -93,10 +93,7 @@ bool runs_reach_the_end(ByteView bytes, const Header& header) {
 
 /// The library's picture, of the size that was checked before.
 Result<Image8> unpack(const char* kind, ByteView bytes, const Header& header, std::int64_t limit_texels) {
-    Result<Image8> picture = blank_image(header.width, header.height, limit_texels);
-    if (!picture) {
-        return picture;
-    }
+    TRY(Image8 picture, blank_image(header.width, header.height, limit_texels));
     if (bytes.size() > std::size_t{std::numeric_limits<int>::max()}) {
         return damaged(kind, "more than 2 GiB");
     }
@@ -108,10 +105,10 @@ Result<Image8> unpack(const char* kind, ByteView bytes, const Header& header, st
     if (!pixels) {
         return damaged(kind, stbi_failure_reason());
     }
-    if (width != picture->width || height != picture->height) {
+    if (width != picture.width || height != picture.height) {
         return damaged(kind, "its header has two sizes");
     }
-    std::memcpy(raw(*picture), pixels.get(), picture->texels.size() * 4);
+    std::memcpy(raw(picture), pixels.get(), picture.texels.size() * 4);
     return picture;
 }
 
@@ -129,9 +126,7 @@ Result<Image8> decode_bmp(ByteView bytes, std::int64_t limit_texels) {
     if (header->packed) {
         return damaged("BMP", "it is packed");
     }
-    if (Result<Image8> size = blank_image(header->width, header->height, limit_texels); !size) {
-        return size;
-    }
+    TRY_VOID(blank_image(header->width, header->height, limit_texels));
     const std::int64_t row_bytes = (header->width * header->bits + 31) / 32 * 4;
     if (header->begin > bytes.size() ||
         static_cast<std::uint64_t>(row_bytes * header->height) > bytes.size() - header->begin) {
@@ -155,9 +150,7 @@ bool is_tga(ByteView bytes) {
 
 Result<Image8> decode_tga(ByteView bytes, std::int64_t limit_texels) {
     const Header header = tga_header(bytes);
-    if (Result<Image8> size = blank_image(header.width, header.height, limit_texels); !size) {
-        return size;
-    }
+    TRY_VOID(blank_image(header.width, header.height, limit_texels));
     const auto plain_bytes = static_cast<std::uint64_t>((header.bits + 7) / 8 * header.width * header.height);
     const bool whole = header.packed
                            ? runs_reach_the_end(bytes, header)

@@ -61,11 +61,8 @@ Result<Image8> decode_png(ByteView bytes, std::int64_t limit_texels) {
     }
     reader.image.format = PNG_FORMAT_RGBA;
     reader.image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
-    Result<Image8> picture = blank_image(reader.image.width, reader.image.height, limit_texels);
-    if (!picture) {
-        return picture;
-    }
-    png_image_finish_read(&reader.image, nullptr, raw(*picture), 0, nullptr);
+    TRY(Image8 picture, blank_image(reader.image.width, reader.image.height, limit_texels));
+    png_image_finish_read(&reader.image, nullptr, raw(picture), 0, nullptr);
     if (PNG_IMAGE_FAILED(reader.image) || reader.image.warning_or_error != 0) {
         return bad_input(fmt::format("the PNG picture is damaged: {}", reader.image.message));
     }
@@ -97,11 +94,8 @@ Result<Image8> decode_jpeg(ByteView bytes, std::int64_t limit_texels) {
     if (colours == TJCS_CMYK || colours == TJCS_YCCK) {
         return bad_input("the JPEG picture is CMYK; save it as RGB");
     }
-    Result<Image8> picture = blank_image(width, height, limit_texels);
-    if (!picture) {
-        return picture;
-    }
-    if (tjDecompress2(handle.get(), raw(bytes), size, raw(*picture), width, 0, height, TJPF_RGBA,
+    TRY(Image8 picture, blank_image(width, height, limit_texels));
+    if (tjDecompress2(handle.get(), raw(bytes), size, raw(picture), width, 0, height, TJPF_RGBA,
                       TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS) != 0 &&
         !is_harmless(tjGetErrorStr2(handle.get()))) {
         return damaged();
@@ -117,11 +111,8 @@ Result<Image8> decode_webp(ByteView bytes, std::int64_t limit_texels) {
     if (features.has_animation != 0) {
         return bad_input("the WebP picture is animated; save it as a still picture");
     }
-    Result<Image8> picture = blank_image(features.width, features.height, limit_texels);
-    if (!picture) {
-        return picture;
-    }
-    if (WebPDecodeRGBAInto(raw(bytes), bytes.size(), raw(*picture), picture->texels.size() * 4,
+    TRY(Image8 picture, blank_image(features.width, features.height, limit_texels));
+    if (WebPDecodeRGBAInto(raw(bytes), bytes.size(), raw(picture), picture.texels.size() * 4,
                            features.width * 4) == nullptr) {
         return bad_input("the WebP picture is damaged or truncated");
     }

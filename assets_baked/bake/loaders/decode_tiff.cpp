@@ -153,23 +153,20 @@ Result<Image8> decode_tiff(ByteView bytes, std::int64_t limit_texels) {
     std::uint32_t height = 0;
     TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width);
     TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height);
-    Result<Image8> picture = blank_image(width, height, limit_texels);
-    if (!picture) {
-        return picture;
-    }
+    TRY(Image8 picture, blank_image(width, height, limit_texels));
     const bool multiplied = keep_alpha_apart(tiff.get());
     std::array<char, 1024> reason{}; // the length that libtiff asks for
     if (TIFFRGBAImageOK(tiff.get(), reason.data()) != 1) {
         memory.error = printable(reason.data(), 200);
         return damaged();
     }
-    auto* const texels = reinterpret_cast<std::uint32_t*>(picture->texels.data());
+    auto* const texels = reinterpret_cast<std::uint32_t*>(picture.texels.data());
     if (TIFFReadRGBAImageOriented(tiff.get(), width, height, texels, ORIENTATION_TOPLEFT, 1) != 1 ||
         !memory.error.empty()) {
         return damaged();
     }
     if (multiplied) {
-        take_alpha_out(*picture);
+        take_alpha_out(picture);
     }
     return picture;
 }
