@@ -6,16 +6,10 @@
 namespace frustumscreen {
 
 Result<std::vector<RecordedPose>> read_recorded_poses(const std::filesystem::path& file) {
-    const Result<Bytes> bytes = read_file(file);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    const Result<ConvertedRecording> converted = convert_recording(as_text(*bytes), file.string(), {});
-    if (!converted) {
-        return tl::unexpected<Error>(converted.error());
-    }
+    TRY(const Bytes bytes, read_file(file));
+    TRY(const ConvertedRecording converted, convert_recording(as_text(bytes), file.string(), {}));
     std::vector<RecordedPose> poses;
-    for (const PoseSample& sample : converted->samples) {
+    for (const PoseSample& sample : converted.samples) {
         poses.push_back({to_seconds(sample.time.time_since_epoch()), {sample.rotation, sample.position_m}});
     }
     return poses;

@@ -8,29 +8,18 @@ Result<Comparison> open_comparison(const SetUp& set_up, const Pack& pack,
                                    std::span<const std::uint32_t> levels,
                                    const std::shared_ptr<const SourceMesh>& mesh,
                                    const ComparisonOptions& options) {
-    Result<std::unique_ptr<TechniqueSet>> set = TechniqueSet::open(set_up);
-    if (!set) {
-        return tl::unexpected<Error>(set.error());
-    }
-    const PropShape& prop = (*set)->stage().prop;
-    Result<std::vector<BenchPose>> poses = draw_poses(set_up.settings, prop, options.poses, options.seed);
-    if (!poses) {
-        return tl::unexpected<Error>(poses.error());
-    }
+    TRY(std::unique_ptr<TechniqueSet> set, TechniqueSet::open(set_up));
+    const PropShape& prop = set->stage().prop;
+    TRY(std::vector<BenchPose> poses, draw_poses(set_up.settings, prop, options.poses, options.seed));
     const glm::dmat4 prop_from_artifact = place(pack, prop).prop_from_artifact;
-    Result<Truth> truth = Truth::build(mesh, prop_from_artifact);
-    if (!truth) {
-        return tl::unexpected<Error>(truth.error());
-    }
+    TRY(Truth truth, Truth::build(mesh, prop_from_artifact));
     if (!pack.unlit) {
-        truth->light_by(std::make_shared<const LitSource>(mesh, pack.box_from_file));
+        truth.light_by(std::make_shared<const LitSource>(mesh, pack.box_from_file));
     }
     for (const std::uint32_t level : levels) {
-        if (const Result<void> added = (*set)->add_level(pack, level, options.picture); !added) {
-            return tl::unexpected<Error>(added.error());
-        }
+        TRY_VOID(set->add_level(pack, level, options.picture));
     }
-    return Comparison{std::move(*set), std::move(*poses), std::move(*truth), prop_from_artifact};
+    return Comparison{std::move(set), std::move(poses), std::move(truth), prop_from_artifact};
 }
 
 std::vector<std::uint32_t> default_and_finest(const Pack& pack) {

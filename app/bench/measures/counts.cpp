@@ -96,14 +96,11 @@ FrameCounts count_frames(const Settings& settings, const Pack& pack, std::span<c
 }
 
 Result<CountedPack> count_frames(const SetUp& set_up, const Pack& pack, int poses, std::uint64_t seed) {
-    const Result<std::vector<BenchPose>> drawn =
-        draw_poses(set_up.settings, make_prop(set_up.settings.prop), poses, seed);
-    if (!drawn) {
-        return at(set_up.name, drawn.error());
-    }
+    TRY(const std::vector<BenchPose> drawn,
+        at(set_up.name, draw_poses(set_up.settings, make_prop(set_up.settings.prop), poses, seed)));
     return CountedPack{
         fmt::format("{}, {} triangles", pack.provenance.source_name, pack.provenance.source_triangles),
-        set_up.name, count_frames(set_up.settings, pack, *drawn)};
+        set_up.name, count_frames(set_up.settings, pack, drawn)};
 }
 
 std::string counts_json(std::span<const CountedPack> counted) {

@@ -36,15 +36,12 @@ Result<SetUpResult> measure_estimates(const SetUp& set_up, const Pack& pack,
     progress(step, 0.0);
     std::vector<std::uint32_t> levels(pack.levels.size());
     std::iota(levels.begin(), levels.end(), 0U);
-    Result<Comparison> opened =
-        open_comparison(set_up, pack, levels, mesh, {PictureOptions{}, options.poses, options.seed});
-    if (!opened) {
-        return at(set_up.name, opened.error());
-    }
-    TechniqueSet& set = *opened->set;
+    TRY(Comparison opened, at(set_up.name, open_comparison(set_up, pack, levels, mesh,
+                                                           {PictureOptions{}, options.poses, options.seed})));
+    TechniqueSet& set = *opened.set;
     const Result<void> measured =
         set.add_auto(pack, {}).and_then([&] { return set.add_reliefs(pack, {}); }).and_then([&] {
-            return set.measure_shape(opened->truth, opened->poses, options.rays,
+            return set.measure_shape(opened.truth, opened.poses, options.rays,
                                      [&](double done) { progress(step, done); });
         });
     if (!measured) {
@@ -52,7 +49,7 @@ Result<SetUpResult> measure_estimates(const SetUp& set_up, const Pack& pack,
     }
     SetUpResult result{set_up.name, set.driver(), pack.default_level, levels.back(),
                        !pack.unlit, {},           set.results(),      {}};
-    result.poses = std::move(opened->poses);
+    result.poses = std::move(opened.poses);
     return result;
 }
 

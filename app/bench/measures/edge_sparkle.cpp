@@ -216,23 +216,18 @@ void add_step(const std::array<Image8, 2>& sharp, const std::array<Image8, 2>& f
 Result<std::vector<SparkleRow>> edge_sparkle(const SetUp& set_up, const Pack& pack,
                                              const std::vector<BenchPose>& poses, int steps,
                                              const PictureOptions& picture, const Progress& progress) {
-    Result<std::unique_ptr<TechniqueSet>> set = TechniqueSet::open(set_up);
-    if (!set) {
-        return tl::unexpected<Error>(set.error());
-    }
-    const std::size_t sharp = (*set)->results().size();
+    TRY(std::unique_ptr<TechniqueSet> set, TechniqueSet::open(set_up));
+    const std::size_t sharp = set->results().size();
     for (const bool feathered : {false, true}) {
         PictureOptions options = picture;
         options.lit = true;
         options.feathered = feathered;
-        if (Result<void> added = (*set)->add_level(pack, pack.default_level, options); !added) {
-            return tl::unexpected<Error>(added.error());
-        }
+        TRY_VOID(set->add_level(pack, pack.default_level, options));
     }
     std::vector<SparkleRow> rows;
     for (std::size_t k = 0; k < 2 * poses.size(); ++k) {
         const bool along_x = k % 2 == 0;
-        Sequence sequence(**set, sharp, sharp + 1);
+        Sequence sequence(*set, sharp, sharp + 1);
         BenchPose pose = poses[k / 2];
         for (int step = 0; step <= steps; ++step) {
             sequence.add(pose);

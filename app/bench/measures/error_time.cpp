@@ -31,11 +31,8 @@ Result<Image8> worst_picture(TechniqueSet& set, const Truth& truth, const std::v
         return a.geometric_mean_mm < b.geometric_mean_mm;
     });
     const BenchPose& pose = poses[static_cast<std::size_t>(worst - errors.begin())];
-    const Result<Drawn> drawn = set.drawn(k, pose);
-    if (!drawn) {
-        return tl::unexpected<Error>(drawn.error());
-    }
-    return error_picture(truth.cast(set.stage().prop, view_of(set.stage().settings, pose), true), *drawn);
+    TRY(const Drawn drawn, set.drawn(k, pose));
+    return error_picture(truth.cast(set.stage().prop, view_of(set.stage().settings, pose), true), drawn);
 }
 
 Result<void> add_peers(TechniqueSet& set, const SourceMesh& mesh, const Truth& truth, const Pack& pack,
@@ -73,12 +70,9 @@ Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
     progress(set_up.name + ": meshes", 0.0);
     std::vector<std::uint32_t> levels(pack.levels.size());
     std::iota(levels.begin(), levels.end(), 0U);
-    Result<Comparison> opened =
-        open_comparison(set_up, pack, levels, mesh, {options.picture, options.poses, options.seed});
-    if (!opened) {
-        return tl::unexpected<Error>(opened.error());
-    }
-    auto& [set, poses, truth, prop_from_artifact] = *opened;
+    TRY(Comparison opened,
+        open_comparison(set_up, pack, levels, mesh, {options.picture, options.poses, options.seed}));
+    auto& [set, poses, truth, prop_from_artifact] = opened;
     Result<void> ready = set->add_auto(pack, options.picture)
                              .and_then([&] { return set->add_reliefs(pack, options.picture); })
                              .and_then([&] {
@@ -102,11 +96,8 @@ Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
         set_up.name, set->driver(), pack.default_level, finest, !pack.unlit, {}, set->results(), {}};
     for (const auto& [name, level] :
          {std::pair("default", pack.default_level), std::pair("finest", finest)}) {
-        Result<Image8> picture = worst_picture(*set, truth, poses, level);
-        if (!picture) {
-            return tl::unexpected<Error>(picture.error());
-        }
-        result.worst.emplace_back(name, std::move(*picture));
+        TRY(Image8 picture, worst_picture(*set, truth, poses, level));
+        result.worst.emplace_back(name, std::move(picture));
     }
     result.poses = std::move(poses);
     return result;

@@ -125,14 +125,11 @@ private:
 Result<ProjectionResult> compare(const SetUp& set_up, const Pack& pack,
                                  const std::shared_ptr<const SourceMesh>& mesh,
                                  const ProjectionOptions& options, const StepProgress& progress) {
-    Result<Comparison> opened = open_comparison(set_up, pack, default_and_finest(pack), mesh,
-                                                {options.picture, options.poses, options.seed});
-    if (!opened) {
-        return tl::unexpected<Error>(opened.error());
-    }
-    TechniqueSet& set = *opened->set;
-    const Truth& truth = opened->truth;
-    ProjectionResult result{set_up.name, std::move(opened->poses), {}, {}};
+    TRY(Comparison opened, open_comparison(set_up, pack, default_and_finest(pack), mesh,
+                                           {options.picture, options.poses, options.seed}));
+    TechniqueSet& set = *opened.set;
+    const Truth& truth = opened.truth;
+    ProjectionResult result{set_up.name, std::move(opened.poses), {}, {}};
     double worst_percent = std::numeric_limits<double>::infinity();
     for (std::size_t pose = 0; pose < result.poses.size(); ++pose) {
         const BenchPose& at = result.poses[pose];

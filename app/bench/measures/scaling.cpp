@@ -22,25 +22,14 @@ Result<void> add_size(TechniqueSet& set, const ScalingSource& source, const std:
                       const ScalingOptions& options, const Progress& progress) {
     const std::size_t first = set.results().size();
     const glm::dmat4 prop_from_artifact = place(source.pack, set.stage().prop).prop_from_artifact;
-    Result<Truth> truth = Truth::build(source.mesh, prop_from_artifact);
-    if (!truth) {
-        return tl::unexpected<Error>(truth.error());
-    }
+    TRY(Truth truth, Truth::build(source.mesh, prop_from_artifact));
     const auto finest = static_cast<std::uint32_t>(source.pack.levels.size() - 1);
     for (const std::uint32_t level : {source.pack.default_level, finest}) {
-        if (Result<void> added = set.add_level(source.pack, level, options.picture); !added) {
-            return added;
-        }
+        TRY_VOID(set.add_level(source.pack, level, options.picture));
     }
-    if (Result<void> added = set.add_finest_relief(source.pack, options.picture); !added) {
-        return added;
-    }
-    if (Result<void> added =
-            set.add_peers(*source.mesh, prop_from_artifact, false, {options.two_pass_pixels});
-        !added) {
-        return added;
-    }
-    return set.measure_errors(*truth, poses, first, progress);
+    TRY_VOID(set.add_finest_relief(source.pack, options.picture));
+    TRY_VOID(set.add_peers(*source.mesh, prop_from_artifact, false, {options.two_pass_pixels}));
+    return set.measure_errors(truth, poses, first, progress);
 }
 
 Result<SourceMesh> make_amphora(std::int64_t triangles, const ScalingOptions& options) {
@@ -55,10 +44,7 @@ Result<SourceMesh> make_amphora(std::int64_t triangles, const ScalingOptions& op
 Result<ScalingSource> bake_amphora(std::int64_t triangles, const ScalingOptions& options,
                                    const StepProgress& progress) {
     const std::string what = fmt::format("{} triangles: ", triangles);
-    Result<SourceMesh> made = make_amphora(triangles, options);
-    if (!made) {
-        return tl::unexpected<Error>(made.error());
-    }
+    TRY(SourceMesh made, make_amphora(triangles, options));
     BakeOptions bake_options;
     bake_options.size = options.size;
     bake_options.unlit = true;
@@ -66,12 +52,12 @@ Result<ScalingSource> bake_amphora(std::int64_t triangles, const ScalingOptions&
         progress(what + std::string(step), done);
     };
     const auto start = std::chrono::steady_clock::now();
-    Result<Pack> pack = bake(*made, bake_options);
+    Result<Pack> pack = bake(made, bake_options);
     const double bake_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!pack) {
         return at(what + "bake", pack.error());
     }
-    return ScalingSource{std::make_shared<const SourceMesh>(std::move(*made)), std::move(*pack), bake_s};
+    return ScalingSource{std::make_shared<const SourceMesh>(std::move(made)), std::move(*pack), bake_s};
 }
 
 std::string growth_line(std::string_view name, TechniqueResult ScalingRow::*each, double most,
@@ -90,39 +76,26 @@ Result<std::vector<ScalingSource>> bake_amphoras(const ScalingOptions& options,
                                                  const StepProgress& progress) {
     std::vector<ScalingSource> sources;
     for (const std::int64_t triangles : options.triangles) {
-        Result<ScalingSource> source = bake_amphora(triangles, options, progress);
-        if (!source) {
-            return tl::unexpected<Error>(source.error());
-        }
-        sources.push_back(std::move(*source));
+        TRY(ScalingSource source, bake_amphora(triangles, options, progress));
+        sources.push_back(std::move(source));
     }
     return sources;
 }
 
 Result<std::vector<ScalingRow>> scaling(const SetUp& set_up, const std::vector<ScalingSource>& sources,
                                         const ScalingOptions& options, const StepProgress& progress) {
-    Result<std::unique_ptr<TechniqueSet>> opened = TechniqueSet::open(set_up);
-    if (!opened) {
-        return tl::unexpected<Error>(opened.error());
-    }
-    TechniqueSet& set = **opened;
-    const Result<std::vector<BenchPose>> poses =
-        draw_poses(set_up.settings, set.stage().prop, options.poses, options.seed);
-    if (!poses) {
-        return tl::unexpected<Error>(poses.error());
-    }
+    TRY(std::unique_ptr<TechniqueSet> opened, TechniqueSet::open(set_up));
+    TechniqueSet& set = *opened;
+    TRY(const std::vector<BenchPose> poses,
+        draw_poses(set_up.settings, set.stage().prop, options.poses, options.seed));
     const std::size_t first = set.results().size(); // behind the floors
     std::vector<ScalingRow> rows;
     for (const ScalingSource& source : sources) {
         const std::string what = fmt::format("{} triangles: errors", source.mesh->triangles.size());
-        const Result<void> added =
-            add_size(set, source, *poses, options, [&](double done) { progress(what, done); });
-        if (!added) {
-            return at(what, added.error());
-        }
+        TRY_VOID(at(what, add_size(set, source, poses, options, [&](double done) { progress(what, done); })));
         rows.push_back({source.mesh->triangles.size(), source.bake_s, {}, {}, {}, {}});
     }
-    set.measure_times(*poses, options.timing_rounds, [&](double done) { progress("times", done); });
+    set.measure_times(poses, options.timing_rounds, [&](double done) { progress("times", done); });
     for (std::size_t k = 0; k < rows.size(); ++k) {
         for (std::size_t i = 0; i < drawn.size(); ++i) {
             rows[k].*drawn[i] = set.results()[first + drawn.size() * k + i];

@@ -36,14 +36,11 @@ void measure(TechniqueSet& set, const Truth& truth, const ShimmerOptions& option
 Result<ShimmerResult> compare(const SetUp& set_up, const Pack& pack,
                               const std::shared_ptr<const SourceMesh>& mesh, const ShimmerOptions& options,
                               const StepProgress& progress) {
-    Result<Comparison> opened = open_comparison(set_up, pack, default_and_finest(pack), mesh,
-                                                {options.picture, options.poses, options.seed});
-    if (!opened) {
-        return tl::unexpected<Error>(opened.error());
-    }
-    ShimmerResult result{set_up.name, std::move(opened->poses), {}, {}, {}};
+    TRY(Comparison opened, open_comparison(set_up, pack, default_and_finest(pack), mesh,
+                                           {options.picture, options.poses, options.seed}));
+    ShimmerResult result{set_up.name, std::move(opened.poses), {}, {}, {}};
     measure(
-        *opened->set, opened->truth, options, [&](double done) { progress(set_up.name + ": shimmer", done); },
+        *opened.set, opened.truth, options, [&](double done) { progress(set_up.name + ": shimmer", done); },
         result);
     return result;
 }
@@ -53,17 +50,10 @@ Result<ShimmerResult> compare(const SetUp& set_up, const Pack& pack,
 Result<ShimmerResult> shimmer(const SetUp& set_up, const Pack& pack,
                               const std::shared_ptr<const SourceMesh>& mesh, const ShimmerOptions& options,
                               const StepProgress& progress) {
-    Result<ShimmerResult> result = compare(set_up, pack, mesh, options, progress);
-    if (!result) {
-        return at(set_up.name, result.error());
-    }
-    Result<std::vector<SparkleRow>> edges =
-        edge_sparkle(set_up, pack, result->poses, options.steps, options.picture,
-                     [&](double done) { progress(set_up.name + ": edges", done); });
-    if (!edges) {
-        return at(set_up.name, edges.error());
-    }
-    result->edges = std::move(*edges);
+    TRY(ShimmerResult result, at(set_up.name, compare(set_up, pack, mesh, options, progress)));
+    TRY(result.edges,
+        at(set_up.name, edge_sparkle(set_up, pack, result.poses, options.steps, options.picture,
+                                     [&](double done) { progress(set_up.name + ": edges", done); })));
     return result;
 }
 

@@ -28,12 +28,9 @@ Result<std::string> TechniqueSet::keep_surface(const Pack& pack, SourceMesh surf
         return name;
     }
     const double metres_per_box = place(pack, stage_.prop).metres_per_box;
-    Result<Truth> truth = Truth::build(std::make_shared<const SourceMesh>(std::move(surface)),
-                                       glm::scale(glm::dmat4(1.0), glm::dvec3(metres_per_box)), Sides::Front);
-    if (!truth) {
-        return tl::unexpected<Error>(truth.error());
-    }
-    drawn_.emplace(name, *std::move(truth));
+    TRY(Truth truth, Truth::build(std::make_shared<const SourceMesh>(std::move(surface)),
+                                  glm::scale(glm::dmat4(1.0), glm::dvec3(metres_per_box)), Sides::Front));
+    drawn_.emplace(name, std::move(truth));
     return name;
 }
 
@@ -69,14 +66,11 @@ Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<
             if (results_[k].kind == TechniqueKind::Floor) {
                 continue;
             }
-            const Result<Drawn> seen = drawn(k, poses[pose]);
-            if (!seen) {
-                return tl::unexpected<Error>(seen.error());
-            }
-            PictureError& error = results_[k].errors.emplace_back(measure(cast, *seen));
+            TRY(const Drawn seen, drawn(k, poses[pose]));
+            PictureError& error = results_[k].errors.emplace_back(measure(cast, seen));
             if (const auto own = surfaces.find(results_[k].drawn_as); own != surfaces.end()) {
                 error.drawn_shift_px =
-                    glm::length(picture_shift(own->second, seen->colour).value_or(glm::dvec2(0.0)));
+                    glm::length(picture_shift(own->second, seen.colour).value_or(glm::dvec2(0.0)));
             }
             if (ShownPicture* const shown = techniques_[k]->as_shown()) {
                 const ShownImages images = shown_images(*shown, poses[pose]);
@@ -84,7 +78,7 @@ Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<
                 if (cover->second.width == 0) {
                     cover->second = truth.cover(stage_.prop, view, cast, SampleGrid::of(images.samples));
                 }
-                error.shown = measure_shown(cast, images, cover->second, seen->point_m);
+                error.shown = measure_shown(cast, images, cover->second, seen.point_m);
             }
             results_[k].estimates.push_back(techniques_[k]->estimate(poses[pose]));
         }
@@ -101,11 +95,8 @@ Result<std::vector<PictureError>> TechniqueSet::shape_errors(const Truth& truth,
     std::vector<PictureError> errors(techniques_.size());
     for (std::size_t k = 0; k < techniques_.size(); ++k) {
         if (results_[k].kind != TechniqueKind::Floor) {
-            const Result<Drawn> seen = places(k, pose);
-            if (!seen) {
-                return tl::unexpected<Error>(seen.error());
-            }
-            errors[k] = measure(cast, *seen);
+            TRY(const Drawn seen, places(k, pose));
+            errors[k] = measure(cast, seen);
         }
     }
     return errors;

@@ -73,20 +73,13 @@ std::string_view name_of(TechniqueKind kind) {
 
 Result<std::unique_ptr<TechniqueSet>> TechniqueSet::open(const SetUp& set_up) {
     const Pinhole& pinhole = set_up.settings.projector.pinhole;
-    Result<std::unique_ptr<SurfacelessDisplay>> display =
-        SurfacelessDisplay::create(pinhole.width, pinhole.height);
-    if (!display) {
-        return tl::unexpected<Error>(display.error());
-    }
-    const unsigned framebuffer = (*display)->framebuffer();
+    TRY(std::unique_ptr<SurfacelessDisplay> display,
+        SurfacelessDisplay::create(pinhole.width, pinhole.height));
+    const unsigned framebuffer = display->framebuffer();
     std::unique_ptr<TechniqueSet> set(new TechniqueSet(
-        std::move(*display), Stage{set_up.settings, make_prop(set_up.settings.prop), framebuffer}));
+        std::move(display), Stage{set_up.settings, make_prop(set_up.settings.prop), framebuffer}));
     for (const FloorFilter filter : {FloorFilter::Trilinear, FloorFilter::OneLevel}) {
-        const Result<void> added =
-            set->add(make_floor(set->stage_, filter), described(TechniqueKind::Floor, -1, 0));
-        if (!added) {
-            return tl::unexpected<Error>(added.error());
-        }
+        TRY_VOID(set->add(make_floor(set->stage_, filter), described(TechniqueKind::Floor, -1, 0)));
     }
     return set;
 }
@@ -106,17 +99,11 @@ Result<void> TechniqueSet::add_sampled(const MakePeer& make, const TechniqueResu
     for (const int each : samples) {
         std::shared_ptr<const PeerSamples>& shared = peer_samples_[each];
         if (each > 1 && !shared) {
-            auto made = PeerSamples::create(stage_, each);
-            if (!made) {
-                return tl::unexpected<Error>(made.error());
-            }
-            shared = std::move(*made);
+            TRY(shared, PeerSamples::create(stage_, each));
         }
         TechniqueResult sampled = result;
         sampled.samples = each;
-        if (const Result<void> added = add(make(shared), std::move(sampled)); !added) {
-            return added;
-        }
+        TRY_VOID(add(make(shared), std::move(sampled)));
     }
     return {};
 }
@@ -132,11 +119,7 @@ Result<void> TechniqueSet::add_level(const Pack& pack, std::uint32_t level, cons
         described(TechniqueKind::PackLevel, static_cast<int>(level), pack.levels[level].indices.size() / 3);
     result.bytes = bytes_of(pack.levels[level], pack);
     if (level == pack.default_level || level + 1 == pack.levels.size()) {
-        Result<std::string> kept = keep_drawn(pack, level);
-        if (!kept) {
-            return tl::unexpected<Error>(kept.error());
-        }
-        result.drawn_as = std::move(*kept);
+        TRY(result.drawn_as, keep_drawn(pack, level));
     }
     result.samples = options.samples;
     return add(make_pack_level(stage_, pack, level, options, level_name(pack, level)), std::move(result));
@@ -146,12 +129,9 @@ Result<void> TechniqueSet::add_auto(const Pack& pack, const PictureOptions& opti
     SceneRequest request;
     request.light = options.lit;
     request.samples = options.samples;
-    const Result<ScenePlan> plan = plan_scene(stage_.settings, outline_of(pack), request);
-    if (!plan) {
-        return tl::unexpected<Error>(plan.error());
-    }
-    const Result<void> added = add_auto_mesh(pack, rung_that(plan->rungs, false).value(), options);
-    const std::optional<Rung> relief = rung_that(plan->rungs, true);
+    TRY(const ScenePlan plan, plan_scene(stage_.settings, outline_of(pack), request));
+    const Result<void> added = add_auto_mesh(pack, rung_that(plan.rungs, false).value(), options);
+    const std::optional<Rung> relief = rung_that(plan.rungs, true);
     if (!added || !relief) {
         return added;
     }
@@ -162,15 +142,12 @@ Result<void> TechniqueSet::add_auto(const Pack& pack, const PictureOptions& opti
 }
 
 Result<void> TechniqueSet::add_auto_mesh(const Pack& pack, const Rung& rung, PictureOptions options) {
-    Result<std::string> kept = keep_drawn(pack, rung.level);
-    if (!kept) {
-        return tl::unexpected<Error>(kept.error());
-    }
+    TRY(std::string kept, keep_drawn(pack, rung.level));
     options.samples = rung.samples;
     TechniqueResult result = described(TechniqueKind::Auto, static_cast<int>(rung.level),
                                        pack.levels[rung.level].indices.size() / 3);
     result.samples = rung.samples;
-    result.drawn_as = std::move(*kept);
+    result.drawn_as = std::move(kept);
     result.bytes = bytes_of(pack.levels[rung.level], pack);
     return add(make_pack_level(stage_, pack, rung.level, options,
                                fmt::format("auto ({})", level_name(pack, rung.level))),
@@ -180,19 +157,16 @@ Result<void> TechniqueSet::add_auto_mesh(const Pack& pack, const Rung& rung, Pic
 Result<void> TechniqueSet::add_peers(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact,
                                      bool full_mesh, const std::vector<int>& two_pass_pixels,
                                      const std::vector<int>& samples) {
-    const auto peer = PeerMesh::upload(mesh, prop_from_artifact);
-    if (!peer) {
-        return tl::unexpected<Error>(peer.error());
-    }
+    TRY(const auto peer, PeerMesh::upload(mesh, prop_from_artifact));
     const std::uint64_t triangles = mesh.triangles.size();
     Result<void> added;
     if (full_mesh) {
-        added = add_sampled([&](const auto& sampled) { return make_full_mesh(stage_, *peer, sampled); },
+        added = add_sampled([&](const auto& sampled) { return make_full_mesh(stage_, peer, sampled); },
                             described(TechniqueKind::FullMesh, -1, triangles), samples);
     }
     for (std::size_t k = 0; added && k < two_pass_pixels.size(); ++k) {
         added = add_sampled(
-            [&](const auto& sampled) { return make_two_pass(stage_, *peer, two_pass_pixels[k], sampled); },
+            [&](const auto& sampled) { return make_two_pass(stage_, peer, two_pass_pixels[k], sampled); },
             described(TechniqueKind::TwoPass, -1, triangles), samples);
     }
     return added;
@@ -215,19 +189,16 @@ Result<void> TechniqueSet::add_levels_of_detail(const SourceMesh& mesh, const gl
     for (const LevelOfDetail& level : levels_of_detail(mesh, choice.lod_triangles)) {
         const std::string name = fmt::format("LOD {}k", level.target / 1000);
         const std::uint64_t triangles = level.mesh.triangles.size();
-        const auto peer = PeerMesh::upload(level.mesh, prop_from_artifact);
-        if (!peer) {
-            return tl::unexpected<Error>(peer.error());
-        }
+        TRY(const auto peer, PeerMesh::upload(level.mesh, prop_from_artifact));
         if (choice.lod) {
             added =
-                add_sampled([&](const auto& sampled) { return make_full_mesh(stage_, *peer, sampled, name); },
+                add_sampled([&](const auto& sampled) { return make_full_mesh(stage_, peer, sampled, name); },
                             described(TechniqueKind::Lod, -1, triangles), choice.samples);
         }
         for (std::size_t k = 0; added && choice.two_pass_lod && k < choice.eye_pixels.size(); ++k) {
             added = add_sampled(
                 [&](const auto& sampled) {
-                    return make_two_pass(stage_, *peer, choice.eye_pixels[k], sampled, name);
+                    return make_two_pass(stage_, peer, choice.eye_pixels[k], sampled, name);
                 },
                 described(TechniqueKind::TwoPassLod, -1, triangles), choice.samples);
         }
@@ -240,12 +211,8 @@ Result<void> TechniqueSet::add_levels_of_detail(const SourceMesh& mesh, const gl
 
 Result<void> TechniqueSet::add_relief_peers(const Truth& truth, const SourceMesh& mesh,
                                             const glm::dmat4& prop_from_artifact, int texels) {
-    Result<std::vector<ReliefPeer>> peers =
-        make_relief_peers(stage_, truth, mesh, prop_from_artifact, texels);
-    if (!peers) {
-        return tl::unexpected<Error>(peers.error());
-    }
-    for (ReliefPeer& peer : *peers) {
+    TRY(std::vector<ReliefPeer> peers, make_relief_peers(stage_, truth, mesh, prop_from_artifact, texels));
+    for (ReliefPeer& peer : peers) {
         (void)add(std::move(peer.technique), described(TechniqueKind::Relief, -1, peer.triangles));
     }
     return {};
@@ -258,12 +225,8 @@ Result<void> TechniqueSet::add_relief(const Pack& pack, TechniqueKind kind, Bloc
     result.samples = options.samples > 0 ? options.samples : pack.samples;
     if (kind != TechniqueKind::ReliefCast) {
         result.bytes = bytes_of(relief);
-        Result<std::string> kept =
-            keep_drawn(pack, relief, fmt::format("relief of texels {:.9g}", relief.texel_box));
-        if (!kept) {
-            return tl::unexpected<Error>(kept.error());
-        }
-        result.drawn_as = std::move(*kept);
+        TRY(result.drawn_as,
+            keep_drawn(pack, relief, fmt::format("relief of texels {:.9g}", relief.texel_box)));
     }
     return add(make_pack_relief(stage_, pack, std::make_shared<const BlockRelief>(std::move(relief)), seen,
                                 options, name, kind == TechniqueKind::ReliefGpu),
@@ -299,12 +262,9 @@ Result<void> TechniqueSet::add_reliefs(const Pack& pack, const PictureOptions& o
 }
 
 Result<void> TechniqueSet::add_finest_relief(const Pack& pack, const PictureOptions& options) {
-    const Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack);
-    if (!reliefs) {
-        return tl::unexpected<Error>(reliefs.error());
-    }
+    TRY(const std::vector<ReliefOutline> reliefs, reliefs_of(pack));
     std::uint32_t most_texels = 0;
-    for (const ReliefOutline& each : *reliefs) {
+    for (const ReliefOutline& each : reliefs) {
         most_texels = std::max(most_texels, each.texels);
     }
     if (most_texels == 0) {
@@ -321,11 +281,8 @@ Result<void> TechniqueSet::add_reliefs_on_gpu(const Pack& pack, const PictureOpt
 Result<void> TechniqueSet::add_relief_casts(const Pack& pack, const std::vector<int>& texels,
                                             const PictureOptions& options) {
     for (const int size : texels) {
-        if (const Result<void> added = add_relief(pack, TechniqueKind::ReliefCast, blocks_of_pack(pack, size),
-                                                  std::nullopt, options, fmt::format("relief cast {}", size));
-            !added) {
-            return added;
-        }
+        TRY_VOID(add_relief(pack, TechniqueKind::ReliefCast, blocks_of_pack(pack, size), std::nullopt,
+                            options, fmt::format("relief cast {}", size)));
     }
     return {};
 }
@@ -345,11 +302,8 @@ Result<Drawn> TechniqueSet::drawn(std::size_t k, const BenchPose& pose) {
 }
 
 Result<Drawn> TechniqueSet::places(std::size_t k, const BenchPose& pose) {
-    Result<ImageFloat> points = techniques_[k]->hit_points(pose);
-    if (!points) {
-        return tl::unexpected<Error>(points.error());
-    }
-    return Drawn{Image8(stage_.width(), stage_.height()), std::move(*points)};
+    TRY(ImageFloat points, techniques_[k]->hit_points(pose));
+    return Drawn{Image8(stage_.width(), stage_.height()), std::move(points)};
 }
 
 void TechniqueSet::measure_times(const std::vector<BenchPose>& poses, int rounds, const Progress& progress) {

@@ -34,21 +34,13 @@ struct Candidate {
 
 Result<std::unique_ptr<Candidate>> make_candidate(const Settings& settings, const Pack& pack) {
     const Pinhole& pinhole = settings.projector.pinhole;
-    Result<PictureFramebuffer> picture = PictureFramebuffer::create(pinhole.width, pinhole.height);
-    if (!picture) {
-        return tl::unexpected<Error>(picture.error());
-    }
-    const unsigned framebuffer = picture->name();
+    TRY(PictureFramebuffer picture, PictureFramebuffer::create(pinhole.width, pinhole.height));
+    const unsigned framebuffer = picture.name();
     auto made = std::make_unique<Candidate>(
-        Candidate{std::move(*picture), {settings, make_prop(settings.prop), framebuffer}, nullptr});
+        Candidate{std::move(picture), {settings, make_prop(settings.prop), framebuffer}, nullptr});
     PictureOptions options;
     options.lit = true;
-    Result<std::unique_ptr<Technique>> level =
-        make_pack_level(made->stage, pack, pack.default_level, options, "default level");
-    if (!level) {
-        return tl::unexpected<Error>(level.error());
-    }
-    made->level = std::move(*level);
+    TRY(made->level, make_pack_level(made->stage, pack, pack.default_level, options, "default level"));
     return made;
 }
 
@@ -59,19 +51,13 @@ Result<std::vector<SetUpCost>> frame_costs(std::span<const Settings* const> set_
     if (set_ups.empty()) {
         return std::vector<SetUpCost>{};
     }
-    const Result<EglContext> context = EglContext::without_screen();
-    if (!context) {
-        return tl::unexpected<Error>(context.error());
-    }
+    TRY_VOID(EglContext::without_screen());
     std::vector<std::unique_ptr<Candidate>> candidates;
     std::vector<Technique*> techniques;
     for (const Settings* settings : set_ups) {
-        Result<std::unique_ptr<Candidate>> candidate = make_candidate(*settings, pack);
-        if (!candidate) {
-            return tl::unexpected<Error>(candidate.error());
-        }
-        techniques.push_back((*candidate)->level.get());
-        candidates.push_back(std::move(*candidate));
+        TRY(std::unique_ptr<Candidate> candidate, make_candidate(*settings, pack));
+        techniques.push_back(candidate->level.get());
+        candidates.push_back(std::move(candidate));
     }
     const std::vector<BenchPose> poses = turned_in_the_middle(set_ups.front()->eye.default_m);
     const std::vector<FrameTimes> times = time_interleaved(techniques, poses, {rounds}, progress);

@@ -46,15 +46,9 @@ void main() { result = texture(picture, at); }
 class Canvas {
 public:
     [[nodiscard]] static Result<std::unique_ptr<Canvas>> create(int width, int height) {
-        auto display = SurfacelessDisplay::create(width, height);
-        if (!display) {
-            return tl::unexpected<Error>(display.error());
-        }
-        Result<GlProgram> program = make_program("", vertex, fragment);
-        if (!program) {
-            return tl::unexpected<Error>(program.error());
-        }
-        return std::unique_ptr<Canvas>(new Canvas(std::move(*display), *std::move(program), {width, height}));
+        TRY(auto display, SurfacelessDisplay::create(width, height));
+        TRY(GlProgram program, make_program("", vertex, fragment));
+        return std::unique_ptr<Canvas>(new Canvas(std::move(display), std::move(program), {width, height}));
     }
 
     /// Black, and far.

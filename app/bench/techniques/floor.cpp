@@ -144,11 +144,8 @@ private:
 } // namespace
 
 Result<std::unique_ptr<Technique>> make_floor(const Stage& stage, FloorFilter filter) {
-    Result<GlProgram> program = make_program("", vertex, fragment);
-    if (!program) {
-        return tl::unexpected<Error>(program.error());
-    }
-    return std::make_unique<Floor>(stage, std::move(*program), filter);
+    TRY(GlProgram program, make_program("", vertex, fragment));
+    return std::make_unique<Floor>(stage, std::move(program), filter);
 }
 
 } // namespace frustumscreen

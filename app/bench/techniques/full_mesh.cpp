@@ -80,16 +80,10 @@ private:
 Result<std::unique_ptr<Technique>> make_full_mesh(const Stage& stage, std::shared_ptr<const PeerMesh> mesh,
                                                   std::shared_ptr<const PeerSamples> samples,
                                                   const std::string& name) {
-    Result<GlProgram> mark = make_program("", mark_vertex, mark_fragment);
-    if (!mark) {
-        return tl::unexpected<Error>(mark.error());
-    }
-    Result<OffscreenTarget> points = make_target(stage.width(), stage.height(), GL_RGBA32F);
-    if (!points) {
-        return tl::unexpected<Error>(points.error());
-    }
-    return std::make_unique<FullMesh>(stage, std::move(mesh), name, std::move(samples), std::move(*mark),
-                                      std::move(*points));
+    TRY(GlProgram mark, make_program("", mark_vertex, mark_fragment));
+    TRY(OffscreenTarget points, make_target(stage.width(), stage.height(), GL_RGBA32F));
+    return std::make_unique<FullMesh>(stage, std::move(mesh), name, std::move(samples), std::move(mark),
+                                      std::move(points));
 }
 
 } // namespace frustumscreen

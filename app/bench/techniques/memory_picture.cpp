@@ -5,11 +5,8 @@
 namespace frustumscreen {
 
 Result<MemoryPicture> MemoryPicture::create(const Stage& stage) {
-    Result<OffscreenTarget> target = make_target(stage.width(), stage.height(), GL_SRGB8_ALPHA8);
-    if (!target) {
-        return tl::unexpected<Error>(target.error());
-    }
-    return MemoryPicture(std::move(*target), stage.width(), stage.height());
+    TRY(OffscreenTarget target, make_target(stage.width(), stage.height(), GL_SRGB8_ALPHA8));
+    return MemoryPicture(std::move(target), stage.width(), stage.height());
 }
 
 void MemoryPicture::show(const Stage& stage, const PixelRectangle& lit) {

@@ -153,38 +153,29 @@ private:
 
 Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pack& pack, std::uint32_t level,
                                                    const PictureOptions& options, std::string name) {
-    const Result<SeenByEyes> seen = seen_by_eyes(outline_of(pack));
-    if (!seen) {
-        return tl::unexpected<Error>(seen.error());
-    }
+    TRY(const SeenByEyes seen, seen_by_eyes(outline_of(pack)));
     const SceneLevel whole = whole_level(pack, level);
     ShaderKey shader;
     shader.cut_out = whole.cut_out;
-    Result<Renderer> renderer =
-        Renderer::create(stage.width(), stage.height(), needs_of(stage, samples_of(options, pack), shader));
-    if (!renderer) {
-        return tl::unexpected<Error>(renderer.error());
-    }
+    TRY(Renderer renderer,
+        Renderer::create(stage.width(), stage.height(), needs_of(stage, samples_of(options, pack), shader)));
     const Image8& texture = pack.textures[whole.mesh.texture];
-    std::array<Result<Drawable>, 2> drawables{renderer->store().upload(whole, texture),
-                                              renderer->store().upload(whole, white(texture, whole.cut_out))};
+    std::array<Result<Drawable>, 2> drawables{renderer.store().upload(whole, texture),
+                                              renderer.store().upload(whole, white(texture, whole.cut_out))};
     for (const Result<Drawable>& drawable : drawables) {
         if (!drawable) {
             return tl::unexpected<Error>(drawable.error());
         }
     }
-    Result<HitPointRenderer> hit_points = HitPointRenderer::create(*renderer);
-    if (!hit_points) {
-        return tl::unexpected<Error>(hit_points.error());
-    }
+    TRY(HitPointRenderer hit_points, HitPointRenderer::create(renderer));
     Placed both;
     both.coloured = placed(pack, level, place(pack, stage.prop).metres_per_box, *drawables[0]);
     both.coloured.samples = samples_of(options, pack);
     both.white = both.coloured;
     both.white.drawable = *drawables[1];
-    return std::make_unique<PackLevelTechnique>(stage, both, seen->levels[level],
+    return std::make_unique<PackLevelTechnique>(stage, both, seen.levels[level],
                                                 lights_of(stage, options, pack), std::move(name),
-                                                Parts{std::move(*renderer), std::move(*hit_points)});
+                                                Parts{std::move(renderer), std::move(hit_points)});
 }
 
 Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const Pack& pack,
@@ -201,32 +192,22 @@ Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const Pa
         needs.draws = {cast_shader(false)};
         needs.casts = 1;
     }
-    Result<Renderer> renderer = Renderer::create(stage.width(), stage.height(), needs);
-    if (!renderer) {
-        return tl::unexpected<Error>(renderer.error());
-    }
-    Result<HitPointRenderer> hit_points = HitPointRenderer::create(*renderer);
-    if (!hit_points) {
-        return tl::unexpected<Error>(hit_points.error());
-    }
+    TRY(Renderer renderer, Renderer::create(stage.width(), stage.height(), needs));
+    TRY(HitPointRenderer hit_points, HitPointRenderer::create(renderer));
     auto white = std::make_shared<BlockRelief>(*relief);
     std::fill(white->colours.begin(), white->colours.end(), glm::u8vec4(255));
     Placed both;
     for (const auto& [placed_as, shows] :
          {std::pair(&both.coloured, std::move(relief)),
           std::pair(&both.white, std::shared_ptr<const BlockRelief>(std::move(white)))}) {
-        const Result<Drawable> drawable =
-            on_gpu ? renderer->store().upload(shows) : renderer->store().keep(shows);
-        if (!drawable) {
-            return tl::unexpected<Error>(drawable.error());
-        }
-        *placed_as = placed(pack, shows, place(pack, stage.prop).metres_per_box, *drawable);
+        TRY(const Drawable drawable, on_gpu ? renderer.store().upload(shows) : renderer.store().keep(shows));
+        *placed_as = placed(pack, shows, place(pack, stage.prop).metres_per_box, drawable);
         placed_as->samples = samples_of(options, pack);
         placed_as->on_gpu = on_gpu;
     }
     return std::make_unique<PackLevelTechnique>(stage, both, std::move(seen), lights_of(stage, options, pack),
                                                 std::move(name),
-                                                Parts{std::move(*renderer), std::move(*hit_points)});
+                                                Parts{std::move(renderer), std::move(hit_points)});
 }
 
 } // namespace frustumscreen

@@ -87,12 +87,9 @@ Result<OutputPrograms> make_programs(const std::string& defines, std::string_vie
                                      std::string_view fragment) {
     OutputPrograms programs;
     for (const Output output : {Output::Colour, Output::Point}) {
-        Result<GlProgram> program =
-            make_program(defines + (output == Output::Point ? "#define POINT\n" : ""), vertex, fragment);
-        if (!program) {
-            return tl::unexpected<Error>(program.error());
-        }
-        programs[static_cast<std::size_t>(output)] = std::move(*program);
+        TRY(GlProgram program,
+            make_program(defines + (output == Output::Point ? "#define POINT\n" : ""), vertex, fragment));
+        programs[static_cast<std::size_t>(output)] = std::move(program);
     }
     return programs;
 }

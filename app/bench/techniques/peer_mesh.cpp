@@ -137,13 +137,10 @@ PeerMesh::upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact, b
     std::shared_ptr<PeerMesh> peer(new PeerMesh());
     const std::string tinted = mesh.colours.empty() ? "" : "#define TINTED\n";
     for (std::size_t masked = 0; masked < 2; ++masked) {
-        Result<OutputPrograms> programs =
-            make_programs(tinted + (masked == 1 ? "#define MASKED\n" : ""), vertex_source, fragment_source);
-        if (!programs) {
-            return tl::unexpected<Error>(programs.error());
-        }
-        for (std::size_t output = 0; output < programs->size(); ++output) {
-            peer->programs_[masked][output] = Program(std::move((*programs)[output]));
+        TRY(OutputPrograms programs,
+            make_programs(tinted + (masked == 1 ? "#define MASKED\n" : ""), vertex_source, fragment_source));
+        for (std::size_t output = 0; output < programs.size(); ++output) {
+            peer->programs_[masked][output] = Program(std::move(programs[output]));
         }
     }
     peer->array_ = GlVertexArray::generate();

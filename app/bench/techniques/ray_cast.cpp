@@ -207,11 +207,8 @@ private:
 
 Result<std::unique_ptr<Technique>> make_ray_cast(const Stage& stage, std::shared_ptr<const TracedMesh> mesh,
                                                  int samples) {
-    Result<MemoryPicture> picture = MemoryPicture::create(stage);
-    if (!picture) {
-        return tl::unexpected<Error>(picture.error());
-    }
-    return std::make_unique<RayCast>(stage, std::move(mesh), samples, std::move(*picture));
+    TRY(MemoryPicture picture, MemoryPicture::create(stage));
+    return std::make_unique<RayCast>(stage, std::move(mesh), samples, std::move(picture));
 }
 
 } // namespace frustumscreen

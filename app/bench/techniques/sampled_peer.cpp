@@ -9,20 +9,13 @@ namespace frustumscreen {
 
 Result<std::shared_ptr<const PeerSamples>> PeerSamples::create(const Stage& stage, int samples) {
     const PixelSize picture{stage.width(), stage.height()};
-    Result<SampleGrid> grid = SampleGrid::create(picture, picture, samples);
-    if (!grid) {
-        return tl::unexpected<Error>(grid.error());
-    }
+    TRY(SampleGrid grid, SampleGrid::create(picture, picture, samples));
     ShaderCache shaders;
-    if (const Result<void> ready = shaders.prepare({{ShaderKey::Pass::TileClear},
-                                                    {ShaderKey::Pass::TileAverage},
-                                                    {ShaderKey::Pass::TileAverageMany}},
-                                                   std::nullopt);
-        !ready) {
-        return tl::unexpected<Error>(ready.error());
-    }
+    TRY_VOID(shaders.prepare(
+        {{ShaderKey::Pass::TileClear}, {ShaderKey::Pass::TileAverage}, {ShaderKey::Pass::TileAverageMany}},
+        std::nullopt));
     return std::shared_ptr<const PeerSamples>(
-        new PeerSamples(samples, picture, std::move(*grid), std::move(shaders)));
+        new PeerSamples(samples, picture, std::move(grid), std::move(shaders)));
 }
 
 Raster PeerSamples::begin(const LitTiles& tiles, double density) const {

@@ -218,10 +218,7 @@ private:
 Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, std::shared_ptr<const PeerMesh> mesh,
                                                  int eye_pixels, std::shared_ptr<const PeerSamples> samples,
                                                  const std::string& of_mesh) {
-    Result<OutputPrograms> project = make_programs("", project_vertex, project_fragment);
-    if (!project) {
-        return tl::unexpected<Error>(project.error());
-    }
+    TRY(OutputPrograms project, make_programs("", project_vertex, project_fragment));
     Result<OffscreenTarget> colours = make_target(eye_pixels, eye_pixels, GL_RGBA8);
     Result<OffscreenTarget> eye_points = make_target(eye_pixels, eye_pixels, GL_RGBA32F);
     Result<OffscreenTarget> points = make_target(stage.width(), stage.height(), GL_RGBA32F);
@@ -236,7 +233,7 @@ Result<std::unique_ptr<Technique>> make_two_pass(const Stage& stage, std::shared
     return std::make_unique<TwoPass>(
         stage, std::move(mesh),
         fmt::format("two-pass {}{}{}", eye_pixels, of_mesh.empty() ? "" : " ", of_mesh), std::move(samples),
-        std::move(*project), std::array{std::move(*colours), std::move(*eye_points)}, std::move(*points));
+        std::move(project), std::array{std::move(*colours), std::move(*eye_points)}, std::move(*points));
 }
 
 } // namespace frustumscreen

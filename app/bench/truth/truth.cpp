@@ -116,12 +116,9 @@ glm::u8vec4 code_of(const glm::vec3& linear) {
 
 Result<Truth> Truth::build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop_from_artifact,
                            Sides sides) {
-    Result<std::shared_ptr<const TracedMesh>> traced =
-        TracedMesh::build(std::move(mesh), prop_from_artifact, sides);
-    if (!traced) {
-        return tl::unexpected<Error>(traced.error());
-    }
-    return Truth(std::move(*traced));
+    TRY(std::shared_ptr<const TracedMesh> traced,
+        TracedMesh::build(std::move(mesh), prop_from_artifact, sides));
+    return Truth(std::move(traced));
 }
 
 bool Truth::first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit& hit) const {

@@ -27,16 +27,10 @@ Result<std::vector<ReliefPeer>> make_relief_peers(const Stage& stage, const Trut
         peers.push_back({std::move(*march), 0});
     }
     const SourceMesh grids = single_layer_mesh(images, single_layer_tolerance_m);
-    Result<std::shared_ptr<const PeerMesh>> warped = PeerMesh::upload(grids, glm::dmat4(1.0), true);
-    if (!warped) {
-        return tl::unexpected<Error>(warped.error());
-    }
-    Result<std::unique_ptr<Technique>> warp =
-        make_full_mesh(stage, std::move(*warped), nullptr, fmt::format("relief warp {}", texels));
-    if (!warp) {
-        return tl::unexpected<Error>(warp.error());
-    }
-    peers.push_back({std::move(*warp), grids.triangles.size()});
+    TRY(std::shared_ptr<const PeerMesh> warped, PeerMesh::upload(grids, glm::dmat4(1.0), true));
+    TRY(std::unique_ptr<Technique> warp,
+        make_full_mesh(stage, std::move(warped), nullptr, fmt::format("relief warp {}", texels)));
+    peers.push_back({std::move(warp), grids.triangles.size()});
     return peers;
 }
 

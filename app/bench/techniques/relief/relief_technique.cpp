@@ -282,21 +282,15 @@ Result<std::unique_ptr<Technique>> make_relief_technique(const Stage& stage, con
     std::string fragment(common_source);
     fragment += search.source;
     fragment += main_source;
-    Result<OutputPrograms> programs =
-        make_programs(search.defines + constants_of(images), vertex_source, fragment);
-    if (!programs) {
-        return tl::unexpected<Error>(programs.error());
-    }
-    Result<OffscreenTarget> points = make_target(stage.width(), stage.height(), GL_RGBA32F);
-    if (!points) {
-        return tl::unexpected<Error>(points.error());
-    }
-    ReliefGl gl{std::move(*programs), std::move(search.relief), upload_colours(images)};
+    TRY(OutputPrograms programs,
+        make_programs(search.defines + constants_of(images), vertex_source, fragment));
+    TRY(OffscreenTarget points, make_target(stage.width(), stage.height(), GL_RGBA32F));
+    ReliefGl gl{std::move(programs), std::move(search.relief), upload_colours(images)};
     if (glGetError() != GL_NO_ERROR) {
         return fail(ErrorKind::Internal, "the driver cannot hold the relief images");
     }
     return std::make_unique<ReliefTechnique>(stage, images.box, std::move(search.name), std::move(gl),
-                                             std::move(*points));
+                                             std::move(points));
 }
 
 } // namespace frustumscreen
