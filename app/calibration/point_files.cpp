@@ -80,27 +80,16 @@ Result<RigidTransform> report_of(const TextRows& rows, std::span<const double, 7
 
 Result<Touches> parse_touches(std::string_view text, std::string_view name) {
     TextRows rows(text, name);
-    if (const Result<void> header = read_header(rows, touch_columns); !header) {
-        return tl::unexpected(header.error());
-    }
+    TRY_VOID(read_header(rows, touch_columns));
     Touches touches;
     while (rows.next()) {
-        if (const Result<void> row = check_row(rows, touch_columns, touches.size()); !row) {
-            return tl::unexpected(row.error());
-        }
+        TRY_VOID(check_row(rows, touch_columns, touches.size()));
         std::array<double, touch_columns.size()> n{};
         for (std::size_t k = 0; k < n.size(); ++k) {
-            const Result<double> number = number_at(rows, touch_columns, k);
-            if (!number) {
-                return tl::unexpected(number.error());
-            }
-            n[k] = *number;
+            TRY(n[k], number_at(rows, touch_columns, k));
         }
-        const Result<RigidTransform> report = report_of(rows, std::span(n).first<7>());
-        if (!report) {
-            return tl::unexpected(report.error());
-        }
-        touches.push_back({*report, {n[7], n[8]}, n[9]});
+        TRY(const RigidTransform report, report_of(rows, std::span(n).first<7>()));
+        touches.push_back({report, {n[7], n[8]}, n[9]});
     }
     return touches;
 }
@@ -128,19 +117,12 @@ Result<Rest> rest_row(const TextRows& rows) {
     const bool leans = rows.fields().back().empty();
     std::array<double, rest_columns.size()> n{};
     for (std::size_t k = 1; k < n.size() - (leans ? 1 : 0); ++k) {
-        const Result<double> number = number_at(rows, rest_columns, k);
-        if (!number) {
-            return tl::unexpected(number.error());
-        }
-        n[k] = *number;
+        TRY(n[k], number_at(rows, rest_columns, k));
     }
-    const Result<RigidTransform> report = report_of(rows, std::span(n).subspan<1, 7>());
-    if (!report) {
-        return tl::unexpected(report.error());
-    }
+    TRY(const RigidTransform report, report_of(rows, std::span(n).subspan<1, 7>()));
     Rest rest;
     rest.name = static_cast<int>(*name);
-    rest.tracker_from_sensor = *report;
+    rest.tracker_from_sensor = report;
     rest.points.push_back({{n[8], n[9], n[10]}, {n[11], n[12]}});
     rest.block_m = leans ? std::nullopt : std::optional(n[13]);
     return rest;
@@ -155,28 +137,21 @@ bool is_same_place(const Rest& a, const Rest& b) {
 
 Result<Rests> parse_rests(std::string_view text, std::string_view name) {
     TextRows rows(text, name);
-    if (const Result<void> header = read_header(rows, rest_columns); !header) {
-        return tl::unexpected(header.error());
-    }
+    TRY_VOID(read_header(rows, rest_columns));
     Rests rests;
     std::size_t points = 0;
     while (rows.next()) {
-        if (const Result<void> row = check_row(rows, rest_columns, points++, most_points); !row) {
-            return tl::unexpected(row.error());
-        }
-        Result<Rest> next = rest_row(rows);
-        if (!next) {
-            return tl::unexpected(next.error());
-        }
+        TRY_VOID(check_row(rows, rest_columns, points++, most_points));
+        TRY(Rest next, rest_row(rows));
         const auto known = std::find_if(rests.begin(), rests.end(),
-                                        [&](const Rest& rest) { return rest.name == next->name; });
+                                        [&](const Rest& rest) { return rest.name == next.name; });
         if (known == rests.end()) {
-            rests.push_back(std::move(*next));
-        } else if (!is_same_place(*known, *next)) {
+            rests.push_back(std::move(next));
+        } else if (!is_same_place(*known, next)) {
             return bad_input(rows.located(fmt::format(
-                "rest {} has another place or block than in its first row; each rest has one", next->name)));
+                "rest {} has another place or block than in its first row; each rest has one", next.name)));
         } else {
-            known->points.push_back(next->points[0]);
+            known->points.push_back(next.points[0]);
         }
     }
     return rests;
@@ -199,14 +174,10 @@ std::string rests_text(std::span<const Rest> rests) {
 
 Result<ReportedSights> parse_sights(std::string_view text, std::string_view name) {
     TextRows rows(text, name);
-    if (const Result<void> header = read_header(rows, sight_columns); !header) {
-        return tl::unexpected(header.error());
-    }
+    TRY_VOID(read_header(rows, sight_columns));
     ReportedSights sights;
     while (rows.next()) {
-        if (const Result<void> row = check_row(rows, sight_columns, sights.size(), most_sights); !row) {
-            return tl::unexpected(row.error());
-        }
+        TRY_VOID(check_row(rows, sight_columns, sights.size(), most_sights));
         const std::string_view eye = rows.fields()[0];
         if (eye != "left" && eye != "right") {
             return bad_input(rows.located(
@@ -214,18 +185,11 @@ Result<ReportedSights> parse_sights(std::string_view text, std::string_view name
         }
         std::array<double, sight_columns.size()> n{};
         for (std::size_t k = 1; k < n.size(); ++k) {
-            const Result<double> number = number_at(rows, sight_columns, k);
-            if (!number) {
-                return tl::unexpected(number.error());
-            }
-            n[k] = *number;
+            TRY(n[k], number_at(rows, sight_columns, k));
         }
-        const Result<RigidTransform> report = report_of(rows, std::span(n).subspan<1, 7>());
-        if (!report) {
-            return tl::unexpected(report.error());
-        }
+        TRY(const RigidTransform report, report_of(rows, std::span(n).subspan<1, 7>()));
         sights.push_back(
-            {eye == "left" ? OpenEye::Left : OpenEye::Right, *report, {n[8], n[9]}, {n[10], n[11], n[12]}});
+            {eye == "left" ? OpenEye::Left : OpenEye::Right, report, {n[8], n[9]}, {n[10], n[11], n[12]}});
     }
     return sights;
 }
@@ -245,14 +209,10 @@ std::string sights_text(std::span<const ReportedSight> sights) {
 
 Result<std::vector<MeasuredCorner>> parse_corners(std::string_view text, std::string_view name) {
     TextRows rows(text, name);
-    if (const Result<void> header = read_header(rows, corner_columns); !header) {
-        return tl::unexpected(header.error());
-    }
+    TRY_VOID(read_header(rows, corner_columns));
     std::vector<MeasuredCorner> corners;
     while (rows.next()) {
-        if (const Result<void> row = check_row(rows, corner_columns, corners.size()); !row) {
-            return tl::unexpected(row.error());
-        }
+        TRY_VOID(check_row(rows, corner_columns, corners.size()));
         const auto distance = integer_in(rows.fields()[0]);
         if (!distance || *distance < 1 || *distance > 1000) {
             return bad_input(rows.located(
@@ -268,11 +228,8 @@ Result<std::vector<MeasuredCorner>> parse_corners(std::string_view text, std::st
         measured.distance = static_cast<int>(*distance);
         measured.corner = static_cast<PictureCorner>(corner - corner_names.begin());
         for (std::size_t k = 0; k < 3; ++k) {
-            const Result<double> number = number_at(rows, corner_columns, k + 2);
-            if (!number) {
-                return tl::unexpected(number.error());
-            }
-            measured.place_m[static_cast<glm::length_t>(k)] = *number;
+            TRY(const double number, number_at(rows, corner_columns, k + 2));
+            measured.place_m[static_cast<glm::length_t>(k)] = number;
         }
         corners.push_back(measured);
     }
