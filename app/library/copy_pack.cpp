@@ -187,15 +187,11 @@ tl::expected<InstalledPack, ImportFailure> copy_pack(FileTree& stick, WritableTr
     if (!hash) {
         return failed(hash.error());
     }
-    tl::expected<InstalledPack, ImportFailure> copied = check_copy(library, pack, trust, step_bytes, ears);
-    if (!copied) {
-        return copied;
-    }
-    copied->sha256 = *hash;
-    copied->file = installed_file_name(*hash);
-    if (const FileResult<void> named = library.rename(std::string(incoming_file_name), copied->file);
-        !named) {
-        return failed(disk_failure(copied->file, named.error()));
+    TRY(InstalledPack copied, check_copy(library, pack, trust, step_bytes, ears));
+    copied.sha256 = *hash;
+    copied.file = installed_file_name(*hash);
+    if (const FileResult<void> named = library.rename(std::string(incoming_file_name), copied.file); !named) {
+        return failed(disk_failure(copied.file, named.error()));
     }
     return copied;
 }

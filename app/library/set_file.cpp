@@ -90,14 +90,11 @@ Result<SetFile> parse_set_file(std::string_view text) {
     if (text.substr(first_words.size(), hash_digits) != sha256_hex(as_bytes(body))) {
         return bad_input("it does not match the hash in its first line; it is damaged");
     }
-    Result<SetFile> file = parse_document<SetFile>(
-        body, "the set", most_set_file_bytes, [](auto& fields, auto& value) { file_fields(fields, value); });
-    if (!file) {
-        return file;
-    }
+    TRY(SetFile file, parse_document<SetFile>(body, "the set", most_set_file_bytes,
+                                              [](auto& fields, auto& value) { file_fields(fields, value); }));
     const InstalledSet none;
-    if (!names_are_hashes(file->choice.set) || !names_are_hashes(file->choice.last_good.value_or(none)) ||
-        !names_are_hashes(file->before.value_or(none))) {
+    if (!names_are_hashes(file.choice.set) || !names_are_hashes(file.choice.last_good.value_or(none)) ||
+        !names_are_hashes(file.before.value_or(none))) {
         return bad_input("it names a file that is not called by its hash; it is damaged");
     }
     return file;

@@ -100,12 +100,8 @@ tl::expected<PlannedSet, ImportFailure> plan_set(const InstalledSet& shown, std:
         }
     }
     if (file) {
-        if (const auto good = check_packs(packs, unread, *file); !good) {
-            return tl::unexpected<ImportFailure>(good.error());
-        }
-        if (const auto good = apply(*file, planned); !good) {
-            return tl::unexpected<ImportFailure>(good.error());
-        }
+        TRY_VOID(check_packs(packs, unread, *file));
+        TRY_VOID(apply(*file, planned));
     }
     if (planned.set.packs.size() > most_installed_packs) {
         return no_set(ImportRefusal::TooMuch,

@@ -37,19 +37,13 @@ read_if_there(FileTree& stick, const std::string& name, std::size_t most_bytes) 
 
 tl::expected<SignedText, ImportFailure> read_signed_text(FileTree& stick, std::string_view name,
                                                          std::size_t most_bytes) {
-    auto text = read_if_there(stick, std::string(name), most_bytes);
+    TRY(auto text, read_if_there(stick, std::string(name), most_bytes));
     if (!text) {
-        return tl::unexpected<ImportFailure>(text.error());
-    }
-    if (!*text) {
         return SignedText();
     }
-    auto signature =
-        read_if_there(stick, fmt::format("{}{}", name, signature_ending), pack_format::most_signature_bytes);
-    if (!signature) {
-        return tl::unexpected<ImportFailure>(signature.error());
-    }
-    return SignedText{*std::move(text), *std::move(signature)};
+    TRY(auto signature,
+        read_if_there(stick, fmt::format("{}{}", name, signature_ending), pack_format::most_signature_bytes));
+    return SignedText{std::move(text), std::move(signature)};
 }
 
 tl::expected<Signer, ImportFailure> signer_of(std::string_view name, const SignedText& file,
