@@ -217,9 +217,7 @@ Result<void> read_cuts(ByteReader& reader, const Header& header, BlockRelief& re
         block.cut = reader.read<std::uint64_t>();
         block.first_cover = static_cast<std::uint32_t>(covers);
         covers += static_cast<std::uint64_t>(std::popcount(block.cut));
-        if (Result<void> good = check_block(block, k, header.texels); !good) {
-            return good;
-        }
+        TRY_VOID(check_block(block, k, header.texels));
     }
     return covers == header.covers
                ? Result<void>()
@@ -280,17 +278,12 @@ Bytes encode_blocks(const BlockRelief& relief) {
 }
 
 Result<BlockRelief> decode_blocks(std::span<const std::byte> bytes) {
-    const Result<Header> header = read_header(bytes);
-    if (!header) {
-        return tl::unexpected<Error>(header.error());
-    }
+    TRY(const Header header, read_header(bytes));
     BlockRelief relief;
-    relief.texel_box = static_cast<float>(1.0 / header->texels);
+    relief.texel_box = static_cast<float>(1.0 / header.texels);
     ByteReader reader(bytes.subspan(header_bytes));
-    if (Result<void> good = read_grids(reader, *header, relief); !good) {
-        return tl::unexpected<Error>(good.error());
-    }
-    relief.blocks.resize(header->blocks);
+    TRY_VOID(read_grids(reader, header, relief));
+    relief.blocks.resize(header.blocks);
     for (ReliefBlock& block : relief.blocks) {
         block.u0 = static_cast<float>(block_cells * reader.read<std::uint16_t>());
     }
@@ -306,9 +299,7 @@ Result<BlockRelief> decode_blocks(std::span<const std::byte> bytes) {
         block.mask = reader.read<std::uint64_t>();
         block.cells = extent_of(block.mask);
     }
-    if (Result<void> good = read_cuts(reader, *header, relief); !good) {
-        return tl::unexpected<Error>(good.error());
-    }
+    TRY_VOID(read_cuts(reader, header, relief));
     relief.corner_codes.reserve(cells * relief.blocks.size());
     for (std::size_t k = 0; k < relief.blocks.size(); ++k) {
         append_cell_words(read_plane(reader), relief.corner_codes);
@@ -322,7 +313,7 @@ Result<BlockRelief> decode_blocks(std::span<const std::byte> bytes) {
             }
         }
     }
-    relief.covers = reader.read_all<std::uint64_t>(header->covers);
+    relief.covers = reader.read_all<std::uint64_t>(header.covers);
     return relief;
 }
 

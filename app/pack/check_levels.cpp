@@ -22,9 +22,7 @@ bool is_sound(const PackCluster& cluster) {
 Result<void> check_clusters(const PackLevel& level) {
     std::uint64_t next = 0;
     for (std::size_t k = 0; k < level.clusters.size(); ++k) {
-        if (Result<void> good = check_cluster(level.clusters[k], k, next); !good) {
-            return good;
-        }
+        TRY_VOID(check_cluster(level.clusters[k], k, next));
         next += level.clusters[k].index_count;
     }
     if (next != level.indices.size()) {
@@ -59,9 +57,7 @@ Result<void> check_level(const Pack& pack, const PackLevel& level) {
             fmt::format("its texture is {} x {} texels, the relief {} x {}; a relief level needs the same",
                         texture.width, texture.height, pack.relief.relief.width, pack.relief.relief.height));
     }
-    if (auto good = check_errors(level.error); !good) {
-        return good;
-    }
+    TRY_VOID(check_errors(level.error));
     return check_mesh(level);
 }
 
@@ -113,16 +109,12 @@ Result<void> check_level_count(const PackDescription& pack, std::size_t levels) 
 }
 
 Result<void> check_levels(const Pack& pack, Read read) {
-    if (auto good = check_level_count(pack, pack.levels.size()); !good) {
-        return good;
-    }
+    TRY_VOID(check_level_count(pack, pack.levels.size()));
     bool uses_relief = false;
     for (std::size_t k = 0; k < pack.levels.size(); ++k) {
         const bool passed_over = read == Read::Chosen && pack.levels[k].indices.empty();
-        if (auto good = passed_over ? check_errors(pack.levels[k].error) : check_level(pack, pack.levels[k]);
-            !good) {
-            return at(fmt::format("level {}", k), good.error());
-        }
+        TRY_VOID(at(fmt::format("level {}", k),
+                    passed_over ? check_errors(pack.levels[k].error) : check_level(pack, pack.levels[k])));
         uses_relief = uses_relief || pack.levels[k].technique == LevelTechnique::Relief;
     }
     if (!uses_relief && !pack.relief.relief.texels.empty()) {

@@ -62,38 +62,24 @@ Result<void> PartChecks::level(const LevelRecord& record) {
     if (!read) {
         return read;
     }
-    if (const Result<void> good = scan.finish(record.technique, record.triangles, record.vertices); !good) {
-        return at(record.mesh, good.error());
-    }
-    return {};
+    return at(record.mesh, scan.finish(record.technique, record.triangles, record.vertices));
 }
 
 Result<void> PartChecks::charts(const std::string& name) {
-    const Result<Bytes> bytes = beginning_of(name, most_charts_bytes + 1);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    if (const Result<std::vector<ReliefChart>> read = decode_charts(*bytes); !read) {
-        return at(name, read.error());
-    }
+    TRY(const Bytes bytes, beginning_of(name, most_charts_bytes + 1));
+    TRY_VOID(at(name, decode_charts(bytes)));
     return {};
 }
 
 Result<void> PartChecks::picture(const std::string& name, std::int64_t most_side, std::int64_t most_area) {
-    const Result<Bytes> bytes = beginning_of(name, beginning_bytes);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    const Result<PictureExtent> extent =
-        begins_as_webp(*bytes) ? extent_of_webp(*bytes) : extent_of_png(*bytes);
-    if (!extent) {
-        return at(name, extent.error());
-    }
-    const std::int64_t area = extent->width * extent->height; // libraries bound both by 31 bits
-    if (area == 0 || std::max(extent->width, extent->height) > most_side || area > most_area) {
+    TRY(const Bytes bytes, beginning_of(name, beginning_bytes));
+    TRY(const PictureExtent extent,
+        at(name, begins_as_webp(bytes) ? extent_of_webp(bytes) : extent_of_png(bytes)));
+    const std::int64_t area = extent.width * extent.height; // libraries bound both by 31 bits
+    if (area == 0 || std::max(extent.width, extent.height) > most_side || area > most_area) {
         return bad_input(
             fmt::format("{}: the picture has {} x {} texels; allowed are {} a side and {} in all", name,
-                        extent->width, extent->height, most_side, most_area));
+                        extent.width, extent.height, most_side, most_area));
     }
     texels_left_ -= area;
     return {};

@@ -30,9 +30,7 @@ Result<void> check_textures(const Pack& pack, Read read) {
         if (read == Read::Chosen && pack.textures[k].texels.empty()) {
             continue;
         }
-        if (auto good = check_size(fmt::format("texture {}", k), pack.textures[k]); !good) {
-            return good;
-        }
+        TRY_VOID(check_size(fmt::format("texture {}", k), pack.textures[k]));
         together += static_cast<std::int64_t>(pack.textures[k].texels.size());
     }
     if (together > most_texels_together) {
@@ -80,9 +78,7 @@ Result<void> check_relief(const ReliefAtlas& atlas) {
     if (atlas.relief.texels.empty() && atlas.charts.empty()) {
         return {};
     }
-    if (auto good = check_size("the relief", atlas.relief); !good) {
-        return good;
-    }
+    TRY_VOID(check_size("the relief", atlas.relief));
     if (!(atlas.texel_box > 0.0F) || !(atlas.texel_box <= 1.0F)) {
         return bad_input(fmt::format("texel_box is {}; allowed are edges above 0 up to 1", atlas.texel_box));
     }
@@ -99,9 +95,7 @@ Result<void> check_table_picture(const Image8& picture) {
     if (picture.texels.empty()) {
         return {};
     }
-    if (auto good = check_size("the table's picture", picture); !good) {
-        return good;
-    }
+    TRY_VOID(check_size("the table's picture", picture));
     if (picture.width > most_table_picture_side || picture.height > most_table_picture_side) {
         return bad_input(fmt::format("the table's picture is {} x {} texels; allowed are {} a side",
                                      picture.width, picture.height, most_table_picture_side));
@@ -110,9 +104,7 @@ Result<void> check_table_picture(const Image8& picture) {
 }
 
 Result<void> check_pictures(const Pack& pack, Read read) {
-    if (auto good = check_textures(pack, read); !good) {
-        return good;
-    }
+    TRY_VOID(check_textures(pack, read));
     return check_relief(pack.relief).and_then([&] { return check_table_picture(pack.table_picture); });
 }
 

@@ -84,9 +84,7 @@ Result<void> check_hotspots(const PackDescription& pack) {
     }
     for (std::size_t k = 0; k < pack.hotspots.size(); ++k) {
         const auto place = fmt::format("hotspot {}", k);
-        if (auto good = check_hotspot(place, pack.hotspots[k], pack.box_size); !good) {
-            return good;
-        }
+        TRY_VOID(check_hotspot(place, pack.hotspots[k], pack.box_size));
     }
     return {};
 }

@@ -32,9 +32,7 @@ Result<void> check_language(const std::string& what, std::string_view text) {
 }
 
 Result<void> check_caption(const std::string& place, const PackCaption& caption) {
-    if (auto good = check_language(place + "language", caption.language); !good) {
-        return good;
-    }
+    TRY_VOID(check_language(place + "language", caption.language));
     struct Named {
         const char* name;
         const std::string& text;
@@ -45,9 +43,7 @@ Result<void> check_caption(const std::string& place, const PackCaption& caption)
           Named{"period", caption.period, TextShape::Line}, Named{"place", caption.place, TextShape::Line},
           Named{"maker", caption.maker, TextShape::Line}, Named{"credit", caption.credit, TextShape::Line},
           Named{"description", caption.description, TextShape::Lines}}) {
-        if (auto good = check_text(place + name, text, shape); !good) {
-            return good;
-        }
+        TRY_VOID(check_text(place + name, text, shape));
     }
     return {};
 }
@@ -58,22 +54,16 @@ Result<void> check_captions(const PackDescription& pack) {
                                      pack.languages.size(), pack.captions.size(), most_languages));
     }
     for (std::size_t k = 0; k < pack.languages.size(); ++k) {
-        if (auto good = check_language(fmt::format("language {}", k), pack.languages[k]); !good) {
-            return good;
-        }
+        TRY_VOID(check_language(fmt::format("language {}", k), pack.languages[k]));
     }
     for (std::size_t k = 0; k < pack.captions.size(); ++k) {
-        if (auto good = check_caption(fmt::format("caption {}'s ", k), pack.captions[k]); !good) {
-            return good;
-        }
+        TRY_VOID(check_caption(fmt::format("caption {}'s ", k), pack.captions[k]));
     }
     return {};
 }
 
 Result<void> check_provenance(const PackProvenance& provenance) {
-    if (auto good = check_line("the source's name", provenance.source_name); !good) {
-        return good;
-    }
+    TRY_VOID(check_line("the source's name", provenance.source_name));
     if (provenance.source_name.find('/') != std::string::npos) {
         return bad_input(fmt::format("the source's name is '{}'; allowed is a file name without folders",
                                      printable(provenance.source_name)));
@@ -96,15 +86,11 @@ Result<void> check_labels(const std::string& place, const std::vector<PackLabel>
     }
     std::set<std::string_view> languages;
     for (const PackLabel& label : labels) {
-        if (auto good = check_language(place + "'s language", label.language); !good) {
-            return good;
-        }
+        TRY_VOID(check_language(place + "'s language", label.language));
         if (!languages.insert(label.language).second) {
             return bad_input(fmt::format("{} has two labels in {}; allowed is one", place, label.language));
         }
-        if (auto good = check_line(place + "'s label", label.text); !good) {
-            return good;
-        }
+        TRY_VOID(check_line(place + "'s label", label.text));
     }
     return {};
 }
@@ -116,12 +102,8 @@ Result<void> check_texts(const PackDescription& pack) {
                         "first",
                         printable(pack.id, 40), most_id_bytes));
     }
-    if (auto good = check_line("the title", pack.title); !good) {
-        return good;
-    }
-    if (auto good = check_captions(pack); !good) {
-        return good;
-    }
+    TRY_VOID(check_line("the title", pack.title));
+    TRY_VOID(check_captions(pack));
     if (pack.prop_kind != "frustum" && pack.prop_kind != "cube") {
         return bad_input(
             fmt::format("prop_kind is '{}'; allowed are frustum and cube", printable(pack.prop_kind, 40)));

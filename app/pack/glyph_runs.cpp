@@ -221,23 +221,15 @@ Result<GlyphRuns> decode_glyph_runs(std::span<const std::byte> bytes) {
     }
     std::size_t boxes = 0;
     std::size_t texts = 0;
-    Result<GlyphRuns> runs = read_header(reader, boxes, texts);
-    if (!runs) {
-        return runs;
-    }
-    if (const Result<void> read = read_boxes(reader, boxes, *runs); !read) {
-        return tl::unexpected<Error>(read.error());
-    }
+    TRY(GlyphRuns runs, read_header(reader, boxes, texts));
+    TRY_VOID(read_boxes(reader, boxes, runs));
     std::set<std::string> keys;
     for (std::size_t k = 0; k < texts; ++k) {
-        Result<GlyphText> text = read_text(reader, k, boxes);
-        if (!text) {
-            return tl::unexpected<Error>(text.error());
+        TRY(GlyphText text, read_text(reader, k, boxes));
+        if (!keys.insert(text.key).second) {
+            return bad_input(fmt::format("text {} occurs twice", text.key));
         }
-        if (!keys.insert(text->key).second) {
-            return bad_input(fmt::format("text {} occurs twice", text->key));
-        }
-        runs->texts.push_back(*std::move(text));
+        runs.texts.push_back(std::move(text));
     }
     if (!reader.ok() || reader.left() != 0) {
         return bad_input(reader.ok() ? fmt::format("{} bytes are left over", reader.left())
@@ -258,17 +250,14 @@ Result<DistanceAtlas> decode_distance_atlas(std::span<const std::byte> bytes, co
         return bytes.empty() ? Result<DistanceAtlas>(DistanceAtlas())
                              : bad_input("there is a picture of glyphs, and the texts have none");
     }
-    const Result<Image8> grey = decode_webp8(bytes, most_atlas_texels);
-    if (!grey) {
-        return tl::unexpected<Error>(grey.error());
+    TRY(const Image8 grey, decode_webp8(bytes, most_atlas_texels));
+    if (grey.width != runs.atlas_width || grey.height != runs.atlas_height) {
+        return bad_input(fmt::format("it has {} x {} texels; the texts need {} x {}", grey.width, grey.height,
+                                     runs.atlas_width, runs.atlas_height));
     }
-    if (grey->width != runs.atlas_width || grey->height != runs.atlas_height) {
-        return bad_input(fmt::format("it has {} x {} texels; the texts need {} x {}", grey->width,
-                                     grey->height, runs.atlas_width, runs.atlas_height));
-    }
-    DistanceAtlas atlas(grey->width, grey->height);
+    DistanceAtlas atlas(grey.width, grey.height);
     for (std::size_t k = 0; k < atlas.texels.size(); ++k) {
-        const glm::u8vec4 texel = grey->texels[k];
+        const glm::u8vec4 texel = grey.texels[k];
         if (texel.r != texel.g || texel.g != texel.b || texel.a != 255) {
             return bad_input("it is not grey; distances are");
         }

@@ -38,29 +38,16 @@ Result<std::vector<std::filesystem::path>> key_files(const std::filesystem::path
 } // namespace
 
 Result<PublicKey> read_public_key(const std::filesystem::path& file) {
-    const Result<Bytes> bytes = read_file(file, most_file_bytes);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    Result<PublicKey> key = parse_public_key(as_text(*bytes));
-    if (!key) {
-        return at(file.string(), key.error());
-    }
-    return key;
+    TRY(const Bytes bytes, read_file(file, most_file_bytes));
+    return at(file.string(), parse_public_key(as_text(bytes)));
 }
 
 Result<std::vector<TrustedKey>> read_key_folder(const std::filesystem::path& folder) {
-    const Result<std::vector<std::filesystem::path>> files = key_files(folder);
-    if (!files) {
-        return tl::unexpected<Error>(files.error());
-    }
+    TRY(const std::vector<std::filesystem::path> files, key_files(folder));
     std::vector<TrustedKey> keys;
-    for (const std::filesystem::path& file : *files) {
-        const Result<PublicKey> key = read_public_key(file);
-        if (!key) {
-            return tl::unexpected<Error>(key.error());
-        }
-        keys.push_back({file.stem().string(), *key, std::nullopt});
+    for (const std::filesystem::path& file : files) {
+        TRY(const PublicKey key, read_public_key(file));
+        keys.push_back({file.stem().string(), key, std::nullopt});
     }
     return keys;
 }

@@ -201,38 +201,27 @@ Result<Bytes> encode_level(const PackLevel& level, const ReliefAtlas& relief, co
         append_all(bytes, level.vertices);
         return bytes;
     }
-    const Result<std::vector<StoredTexel>> texels = store_texels(level, relief, box_size);
-    if (!texels) {
-        return tl::unexpected(texels.error());
-    }
-    append_all(bytes, *texels);
+    TRY(const std::vector<StoredTexel> texels, store_texels(level, relief, box_size));
+    append_all(bytes, texels);
     return bytes;
 }
 
 Result<PackLevel> decode_level(std::span<const std::byte> bytes, const ReliefAtlas& relief,
                                const glm::dvec3& box_size) {
-    const Result<Header> header = read_header(bytes, bytes.size());
-    if (!header) {
-        return tl::unexpected(header.error());
-    }
+    TRY(const Header header, read_header(bytes, bytes.size()));
     PackLevel level;
-    level.technique = header->relief ? LevelTechnique::Relief : LevelTechnique::Mesh;
+    level.technique = header.relief ? LevelTechnique::Relief : LevelTechnique::Mesh;
     ByteReader reader(bytes.subspan(header_bytes));
-    level.clusters.reserve(header->clusters);
-    for (std::uint32_t k = 0; k < header->clusters; ++k) {
+    level.clusters.reserve(header.clusters);
+    for (std::uint32_t k = 0; k < header.clusters; ++k) {
         level.clusters.push_back(read_cluster(reader));
     }
-    level.indices = reader.read_all<std::uint32_t>(header->indices);
-    if (!header->relief) {
-        level.vertices = reader.read_all<PackVertex>(header->vertices);
+    level.indices = reader.read_all<std::uint32_t>(header.indices);
+    if (!header.relief) {
+        level.vertices = reader.read_all<PackVertex>(header.vertices);
         return level;
     }
-    Result<std::vector<PackVertex>> vertices =
-        vertices_of(reader.read_all<StoredTexel>(header->vertices), relief, box_size);
-    if (!vertices) {
-        return tl::unexpected(vertices.error());
-    }
-    level.vertices = std::move(*vertices);
+    TRY(level.vertices, vertices_of(reader.read_all<StoredTexel>(header.vertices), relief, box_size));
     return level;
 }
 

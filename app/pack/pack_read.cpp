@@ -28,11 +28,8 @@ Chosen everything(const Manifest& manifest) {
 Result<Chosen> chosen_by(const ChooseLevels& choose, const Manifest& manifest) {
     const PackOutline outline{manifest.description, {manifest.levels.begin(), manifest.levels.end()}};
     Chosen chosen{std::vector<bool>(manifest.levels.size()), std::vector<bool>(manifest.textures.size())};
-    const Result<std::vector<std::uint32_t>> levels = choose(outline);
-    if (!levels) {
-        return tl::unexpected(levels.error());
-    }
-    for (const std::uint32_t level : *levels) {
+    TRY(const std::vector<std::uint32_t> levels, choose(outline));
+    for (const std::uint32_t level : levels) {
         const LevelRecord& record = manifest.levels.at(level);
         chosen.levels[level] = true;
         chosen.textures[record.texture] = true;
@@ -45,18 +42,13 @@ Result<void> read_textures(PackReader& reader, const Chosen& chosen, Pack& pack)
     std::int64_t left = most_texels_together;
     for (const std::string& name : reader.manifest().textures) {
         if (!chosen.textures[pack.textures.size()]) {
-            if (Result<void> passed = reader.pass_over(name); !passed) {
-                return passed;
-            }
+            TRY_VOID(reader.pass_over(name));
             pack.textures.emplace_back();
             continue;
         }
-        Result<Image8> texture = read_picture(reader, name, std::min(most_texels, left));
-        if (!texture) {
-            return tl::unexpected(texture.error());
-        }
-        left -= static_cast<std::int64_t>(texture->texels.size());
-        pack.textures.push_back(std::move(*texture));
+        TRY(Image8 texture, read_picture(reader, name, std::min(most_texels, left)));
+        left -= static_cast<std::int64_t>(texture.texels.size());
+        pack.textures.push_back(std::move(texture));
     }
     return {};
 }
@@ -69,62 +61,42 @@ Result<void> read_relief(PackReader& reader, const Chosen& chosen, Pack& pack) {
     if (!chosen.relief) {
         return reader.pass_over(record->atlas).and_then([&] { return reader.pass_over(record->charts); });
     }
-    const Result<Bytes> atlas = reader.take(record->atlas);
-    if (!atlas) {
-        return tl::unexpected(atlas.error());
-    }
-    Result<Image16> relief = decode_png16(*atlas, most_texels);
-    if (!relief) {
-        return at(record->atlas, relief.error());
-    }
-    const Result<Bytes> charts_bytes = reader.take(record->charts);
-    if (!charts_bytes) {
-        return tl::unexpected(charts_bytes.error());
-    }
-    Result<std::vector<ReliefChart>> charts = decode_charts(*charts_bytes);
+    TRY(const Bytes atlas, reader.take(record->atlas));
+    TRY(Image16 relief, at(record->atlas, decode_png16(atlas, most_texels)));
+    TRY(const Bytes charts_bytes, reader.take(record->charts));
+    Result<std::vector<ReliefChart>> charts = decode_charts(charts_bytes);
     if (!charts) {
         return at(record->charts, charts.error());
     }
-    pack.relief = {record->texel_box, std::move(*charts), std::move(*relief)};
+    pack.relief = {record->texel_box, std::move(*charts), std::move(relief)};
     return {};
 }
 
 Result<PackLevel> read_level(PackReader& reader, const LevelRecord& record, const Pack& pack) {
-    const Result<Bytes> bytes = reader.take(record.mesh);
-    if (!bytes) {
-        return tl::unexpected(bytes.error());
-    }
-    Result<PackLevel> level = decode_level(*bytes, pack.relief, pack.box_size);
-    if (!level) {
-        return at(record.mesh, level.error());
-    }
-    if (level->technique != record.technique || level->vertices.size() != record.vertices ||
-        level->indices.size() != record.triangles * 3) {
+    TRY(const Bytes bytes, reader.take(record.mesh));
+    TRY(PackLevel level, at(record.mesh, decode_level(bytes, pack.relief, pack.box_size)));
+    if (level.technique != record.technique || level.vertices.size() != record.vertices ||
+        level.indices.size() != record.triangles * 3) {
         return bad_input(
             fmt::format("{} holds other triangles than the manifest says; the pack is altered", record.mesh));
     }
-    level->error = record.error;
-    level->texture = record.texture;
+    level.error = record.error;
+    level.texture = record.texture;
     return level;
 }
 
 Result<void> read_levels(PackReader& reader, const Chosen& chosen, Pack& pack) {
     for (const LevelRecord& record : reader.manifest().levels) {
         if (!chosen.levels[pack.levels.size()]) {
-            if (Result<void> passed = reader.pass_over(record.mesh); !passed) {
-                return passed;
-            }
+            TRY_VOID(reader.pass_over(record.mesh));
             pack.levels.push_back({record.technique, record.error, record.texture, {}, {}, {}});
             continue;
         }
-        Result<PackLevel> level = read_level(reader, record, pack);
-        if (!level) {
-            return tl::unexpected(level.error());
+        TRY(PackLevel level, read_level(reader, record, pack));
+        if (level.indices.empty()) { // it would count as a level that was not read
+            return at(record.mesh, check_mesh(level).error());
         }
-        if (level->indices.empty()) { // it would count as a level that was not read
-            return at(record.mesh, check_mesh(*level).error());
-        }
-        pack.levels.push_back(std::move(*level));
+        pack.levels.push_back(std::move(level));
     }
     return {};
 }
@@ -132,29 +104,18 @@ Result<void> read_levels(PackReader& reader, const Chosen& chosen, Pack& pack) {
 /// With chosen levels, neither the table's picture nor a section's part is read.
 Result<void> read_extras(PackReader& reader, Read read, Pack& pack) {
     if (read == Read::All) {
-        Result<Image8> picture = read_table_picture(reader);
-        if (!picture) {
-            return tl::unexpected(picture.error());
-        }
-        pack.table_picture = std::move(*picture);
+        TRY(pack.table_picture, read_table_picture(reader));
     } else if (!reader.manifest().table_picture.empty()) {
-        if (Result<void> passed = reader.pass_over(reader.manifest().table_picture); !passed) {
-            return passed;
-        }
+        TRY_VOID(reader.pass_over(reader.manifest().table_picture));
     }
     for (const PackSection& section : pack.sections) {
         for (const std::string& name : section.parts) {
             if (read == Read::Chosen) {
-                if (Result<void> passed = reader.pass_over(name); !passed) {
-                    return passed;
-                }
+                TRY_VOID(reader.pass_over(name));
                 continue;
             }
-            Result<Bytes> bytes = reader.take(name);
-            if (!bytes) {
-                return tl::unexpected(bytes.error());
-            }
-            pack.section_parts.emplace(name, std::move(*bytes));
+            TRY(Bytes bytes, reader.take(name));
+            pack.section_parts.emplace(name, std::move(bytes));
         }
     }
     return {};
@@ -162,22 +123,14 @@ Result<void> read_extras(PackReader& reader, Read read, Pack& pack) {
 
 /// Each step needs that the ones before it passed.
 Result<void> read_all(PackReader& reader, const ChooseLevels& choose, Pack& pack) {
-    if (Result<void> good = check_description(pack); !good) {
-        return good;
-    }
-    if (Result<void> good = check_level_count(pack, reader.manifest().levels.size()); !good) {
-        return good;
-    }
-    const Result<Chosen> chosen =
-        choose ? chosen_by(choose, reader.manifest()) : everything(reader.manifest());
-    if (!chosen) {
-        return tl::unexpected(chosen.error());
-    }
+    TRY_VOID(check_description(pack));
+    TRY_VOID(check_level_count(pack, reader.manifest().levels.size()));
+    TRY(const Chosen chosen, choose ? chosen_by(choose, reader.manifest()) : everything(reader.manifest()));
     const Read read = choose ? Read::Chosen : Read::All;
-    return read_textures(reader, *chosen, pack)
-        .and_then([&] { return read_relief(reader, *chosen, pack); })
+    return read_textures(reader, chosen, pack)
+        .and_then([&] { return read_relief(reader, chosen, pack); })
         .and_then([&] { return check_pictures(pack, read); })
-        .and_then([&] { return read_levels(reader, *chosen, pack); })
+        .and_then([&] { return read_levels(reader, chosen, pack); })
         .and_then([&] { return check_levels(pack, read); })
         .and_then([&] { return read_extras(reader, read, pack); })
         .and_then([&] { return reader.finish(); });
@@ -197,30 +150,18 @@ PackOutline outline_of(const Pack& pack) {
 Result<VerifiedPack> read_pack(PackReader& reader, const ChooseLevels& choose) {
     VerifiedPack read;
     read.pack_ = Pack{reader.manifest().description, {}, {}, {}, {}, {}};
-    if (auto good = read_all(reader, choose, read.pack_); !good) {
-        return tl::unexpected(good.error());
-    }
+    TRY_VOID(read_all(reader, choose, read.pack_));
     return read;
 }
 
 Result<VerifiedPack> verify_pack(std::span<const std::byte> bytes, const ChooseLevels& choose) {
-    Result<PackReader> reader = PackReader::open(bytes);
-    if (!reader) {
-        return tl::unexpected(reader.error());
-    }
-    return read_pack(*reader, choose);
+    TRY(PackReader reader, PackReader::open(bytes));
+    return read_pack(reader, choose);
 }
 
 Result<VerifiedPack> load_pack(const std::filesystem::path& file, const ChooseLevels& choose) {
-    Result<PackReader> reader = open_pack_file(file);
-    if (!reader) {
-        return tl::unexpected(reader.error());
-    }
-    Result<VerifiedPack> pack = read_pack(*reader, choose);
-    if (!pack) {
-        return at(file.string(), pack.error());
-    }
-    return pack;
+    TRY(PackReader reader, open_pack_file(file));
+    return at(file.string(), read_pack(reader, choose));
 }
 
 } // namespace frustumscreen

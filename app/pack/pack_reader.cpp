@@ -43,9 +43,7 @@ Result<void> check_entries(const ZipReader& zip, const Manifest& manifest) {
     }
     for (const ZipEntry& entry : zip.entries()) {
         if (entry.name == signature_name) {
-            if (Result<void> good = check_signature_size(entry); !good) {
-                return good;
-            }
+            TRY_VOID(check_signature_size(entry));
         } else if (entry.name != manifest_name && !listed.contains(entry.name)) {
             return bad_input(
                 fmt::format("{} is not listed in the manifest; the pack is altered", entry.name));
@@ -96,11 +94,8 @@ Result<PackReader> PackReader::open(Result<ZipReader> zip) {
     if (!zip) {
         return tl::unexpected(zip.error());
     }
-    const Result<Bytes> manifest = read_manifest_bytes(*zip);
-    if (!manifest) {
-        return tl::unexpected(manifest.error());
-    }
-    return open(*std::move(zip), *manifest);
+    TRY(const Bytes manifest, read_manifest_bytes(*zip));
+    return open(*std::move(zip), manifest);
 }
 
 Result<PackReader> PackReader::open(ZipReader zip, std::span<const std::byte> manifest_bytes) {
@@ -108,9 +103,7 @@ Result<PackReader> PackReader::open(ZipReader zip, std::span<const std::byte> ma
     if (!manifest) {
         return at("manifest.json", manifest.error());
     }
-    if (auto good = check_entries(zip, *manifest); !good) {
-        return tl::unexpected(good.error());
-    }
+    TRY_VOID(check_entries(zip, *manifest));
     return PackReader(std::move(zip), std::move(*manifest));
 }
 
@@ -131,12 +124,9 @@ Result<void> PackReader::pass_over(const std::string& name) {
 }
 
 Result<Bytes> PackReader::take(const std::string& name) {
-    const Result<const PartRecord*> part = use(name);
-    if (!part) {
-        return tl::unexpected(part.error());
-    }
+    TRY(const PartRecord* const part, use(name));
     Result<Bytes> bytes = zip_.read(*zip_.find(name));
-    if (bytes && sha256_hex(*bytes) != (*part)->sha256) {
+    if (bytes && sha256_hex(*bytes) != part->sha256) {
         return bad_input(fmt::format("{} does not match its hash; the pack is altered", name));
     }
     return bytes;
@@ -144,16 +134,13 @@ Result<Bytes> PackReader::take(const std::string& name) {
 
 Result<void> PackReader::check(const std::string& name,
                                const std::function<void(std::span<const std::byte>)>& pass) {
-    const Result<const PartRecord*> part = use(name);
-    if (!part) {
-        return tl::unexpected(part.error());
-    }
+    TRY(const PartRecord* const part, use(name));
     Sha256 hash;
     Result<void> read = zip_.read_through(*zip_.find(name), [&](std::span<const std::byte> bytes) {
         hash.add(bytes);
         pass(bytes);
     });
-    if (read && hash.hex() != (*part)->sha256) {
+    if (read && hash.hex() != part->sha256) {
         return bad_input(fmt::format("{} does not match its hash; the pack is altered", name));
     }
     return read;
@@ -172,15 +159,8 @@ Result<PackReader> open_pack_file(const std::filesystem::path& file) {
     if (std::error_code none; std::filesystem::is_directory(file, none)) {
         return bad_input(file.string() + ": this is a folder; name the *.fspack files in it");
     }
-    Result<OpenFile> opened = OpenFile::open(file, most_pack_bytes);
-    if (!opened) {
-        return tl::unexpected(opened.error());
-    }
-    Result<PackReader> reader = PackReader::open(*std::move(opened));
-    if (!reader) {
-        return at(file.string(), reader.error());
-    }
-    return reader;
+    TRY(OpenFile opened, OpenFile::open(file, most_pack_bytes));
+    return at(file.string(), PackReader::open(std::move(opened)));
 }
 
 } // namespace frustumscreen::pack_format
@@ -188,14 +168,11 @@ Result<PackReader> open_pack_file(const std::filesystem::path& file) {
 namespace frustumscreen {
 
 Result<std::vector<PackPart>> list_pack_parts(std::span<const std::byte> bytes) {
-    const Result<pack_format::PackReader> reader = pack_format::PackReader::open(bytes);
-    if (!reader) {
-        return tl::unexpected(reader.error());
-    }
-    const pack_format::ZipEntry& manifest = reader->zip().entries().front();
+    TRY(const pack_format::PackReader reader, pack_format::PackReader::open(bytes));
+    const pack_format::ZipEntry& manifest = reader.zip().entries().front();
     std::vector<PackPart> parts{{manifest.name, manifest.bytes, manifest.stored_bytes, ""}};
-    for (const pack_format::PartRecord& part : reader->manifest().parts) {
-        parts.push_back({part.name, part.bytes, reader->zip().find(part.name)->stored_bytes, part.sha256});
+    for (const pack_format::PartRecord& part : reader.manifest().parts) {
+        parts.push_back({part.name, part.bytes, reader.zip().find(part.name)->stored_bytes, part.sha256});
     }
     return parts;
 }

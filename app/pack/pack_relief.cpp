@@ -57,12 +57,9 @@ std::optional<std::string> fault_of(const std::vector<ReliefOutline>& reliefs,
 
 /// What was decoded is what the manifest tells of it.
 Result<BlockRelief> decode(const ReliefOutline& outline, const Bytes& bytes) {
-    Result<BlockRelief> relief = decode_blocks(bytes);
-    if (!relief) {
-        return at(outline.part, relief.error());
-    }
-    if (bytes.size() != outline.bytes || relief->blocks.size() != outline.blocks ||
-        std::lround(1.0F / relief->texel_box) != std::lround(outline.texels)) {
+    TRY(BlockRelief relief, at(outline.part, decode_blocks(bytes)));
+    if (bytes.size() != outline.bytes || relief.blocks.size() != outline.blocks ||
+        std::lround(1.0F / relief.texel_box) != std::lround(outline.texels)) {
         return bad_input(
             fmt::format("{} holds another relief than the manifest says; the pack is altered", outline.part));
     }
@@ -118,11 +115,8 @@ void put_reliefs(Pack& pack, std::span<const MeasuredRelief> reliefs) {
 Result<BlockRelief> load_relief(const std::filesystem::path& file, const ReliefOutline& relief) {
     const Result<std::map<std::string, Bytes>> parts =
         load_section_parts(file, [&](const PackDescription& pack) -> Result<std::vector<std::string>> {
-            const Result<std::vector<ReliefOutline>> there = reliefs_of(pack);
-            if (!there) {
-                return tl::unexpected<Error>(there.error());
-            }
-            if (std::find(there->begin(), there->end(), relief) == there->end()) {
+            TRY(const std::vector<ReliefOutline> there, reliefs_of(pack));
+            if (std::find(there.begin(), there.end(), relief) == there.end()) {
                 return bad_input(fmt::format("it has no such relief of {} texels any more", relief.texels));
             }
             return std::vector{relief.part};
@@ -130,11 +124,7 @@ Result<BlockRelief> load_relief(const std::filesystem::path& file, const ReliefO
     if (!parts) {
         return tl::unexpected<Error>(parts.error());
     }
-    Result<BlockRelief> blocks = decode(relief, parts->at(relief.part));
-    if (!blocks) {
-        return at(file.string(), blocks.error());
-    }
-    return blocks;
+    return at(file.string(), decode(relief, parts->at(relief.part)));
 }
 
 Result<BlockRelief> relief_of(const Pack& pack, const ReliefOutline& relief) {
@@ -142,14 +132,9 @@ Result<BlockRelief> relief_of(const Pack& pack, const ReliefOutline& relief) {
 }
 
 Result<void> check_reliefs(const Pack& pack) {
-    const Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack);
-    if (!reliefs) {
-        return tl::unexpected<Error>(reliefs.error());
-    }
-    for (const ReliefOutline& relief : *reliefs) {
-        if (const Result<BlockRelief> good = relief_of(pack, relief); !good) {
-            return tl::unexpected<Error>(good.error());
-        }
+    TRY(const std::vector<ReliefOutline> reliefs, reliefs_of(pack));
+    for (const ReliefOutline& relief : reliefs) {
+        TRY_VOID(relief_of(pack, relief));
     }
     return {};
 }

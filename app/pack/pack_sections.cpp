@@ -20,17 +20,10 @@ namespace {
 template <typename Value>
 Result<Value> with_pack(const std::filesystem::path& file,
                         const std::function<Result<Value>(PackReader&)>& work) {
-    Result<PackReader> reader = open_pack_file(file);
-    if (!reader) {
-        return tl::unexpected(reader.error());
-    }
-    const PackDescription& description = reader->manifest().description;
+    TRY(PackReader reader, open_pack_file(file));
+    const PackDescription& description = reader.manifest().description;
     const Result<void> good = check_description(description);
-    Result<Value> done = good ? work(*reader) : tl::unexpected(good.error());
-    if (!done) {
-        return at(file.string(), done.error());
-    }
-    return done;
+    return at(file.string(), good ? work(reader) : tl::unexpected(good.error()));
 }
 
 Result<PackCard> read_card(PackReader& reader) {
@@ -39,11 +32,7 @@ Result<PackCard> read_card(PackReader& reader) {
     for (const PackCaption& caption : pack.captions) {
         card.titles.push_back({caption.language, caption.title});
     }
-    Result<Image8> picture = read_table_picture(reader);
-    if (!picture) {
-        return tl::unexpected(picture.error());
-    }
-    card.table_picture = std::move(*picture);
+    TRY(card.table_picture, read_table_picture(reader));
     return card;
 }
 
@@ -54,20 +43,14 @@ bool has_part(const PackDescription& pack, const std::string& name) {
 }
 
 Result<std::map<std::string, Bytes>> read_parts(PackReader& reader, const ChooseParts& choose) {
-    const Result<std::vector<std::string>> names = choose(reader.manifest().description);
-    if (!names) {
-        return tl::unexpected(names.error());
-    }
+    TRY(const std::vector<std::string> names, choose(reader.manifest().description));
     std::map<std::string, Bytes> parts;
-    for (const std::string& name : *names) {
+    for (const std::string& name : names) {
         if (!has_part(reader.manifest().description, name)) {
             return bad_input(fmt::format("no section has the part '{}'", printable(name, 40)));
         }
-        Result<Bytes> bytes = reader.take(name);
-        if (!bytes) {
-            return tl::unexpected(bytes.error());
-        }
-        parts.emplace(name, std::move(*bytes));
+        TRY(Bytes bytes, reader.take(name));
+        parts.emplace(name, std::move(bytes));
     }
     return parts;
 }

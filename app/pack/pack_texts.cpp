@@ -160,20 +160,17 @@ std::string folder_of(std::string_view section, std::string language) {
 
 Result<SetLanguage> decode(const SetEntry& entry, const std::map<std::string, Bytes>& parts,
                            Atlases atlases = Atlases::Read) {
-    Result<GlyphRuns> runs = decode_glyph_runs(parts.at(entry.glyphs));
-    if (!runs) {
-        return at(entry.glyphs, runs.error());
-    }
+    TRY(GlyphRuns runs, at(entry.glyphs, decode_glyph_runs(parts.at(entry.glyphs))));
     if (atlases == Atlases::LeftOut) {
-        return SetLanguage{entry.language, *std::move(runs), {}};
+        return SetLanguage{entry.language, std::move(runs), {}};
     }
     static const Bytes none;
     Result<DistanceAtlas> atlas =
-        decode_distance_atlas(entry.atlas.empty() ? none : parts.at(entry.atlas), *runs);
+        decode_distance_atlas(entry.atlas.empty() ? none : parts.at(entry.atlas), runs);
     if (!atlas) {
         return at(entry.atlas.empty() ? entry.glyphs : entry.atlas, atlas.error());
     }
-    return SetLanguage{entry.language, *std::move(runs), *std::move(atlas)};
+    return SetLanguage{entry.language, std::move(runs), *std::move(atlas)};
 }
 
 Result<void> check_sound(const std::string& name, const Bytes& bytes) {
@@ -221,12 +218,9 @@ Result<std::vector<SetLanguage>> load_set_texts(const std::filesystem::path& fil
                                                 std::span<const std::string> languages, Atlases atlases) {
     std::vector<SetEntry> chosen;
     const auto choose = [&](const PackDescription& pack) -> Result<std::vector<std::string>> {
-        Result<std::vector<SetEntry>> entries = entries_of<SetEntry>(pack, texts_section);
-        if (!entries) {
-            return tl::unexpected<Error>(entries.error());
-        }
+        TRY(std::vector<SetEntry> entries, entries_of<SetEntry>(pack, texts_section));
         std::vector<std::string> names;
-        for (SetEntry& entry : *entries) {
+        for (SetEntry& entry : entries) {
             if (std::find(languages.begin(), languages.end(), entry.language) != languages.end()) {
                 for (std::string& part :
                      atlases == Atlases::Read ? parts_of(entry) : std::vector{entry.glyphs}) {
@@ -237,28 +231,19 @@ Result<std::vector<SetLanguage>> load_set_texts(const std::filesystem::path& fil
         }
         return names;
     };
-    const Result<std::map<std::string, Bytes>> parts = load_section_parts(file, choose);
-    if (!parts) {
-        return tl::unexpected<Error>(parts.error());
-    }
+    TRY(const auto parts, load_section_parts(file, choose));
     std::vector<SetLanguage> loaded;
     for (const SetEntry& entry : chosen) {
-        Result<SetLanguage> language = decode(entry, *parts, atlases);
-        if (!language) {
-            return at(file.string(), language.error());
-        }
-        loaded.push_back(*std::move(language));
+        TRY(SetLanguage language, at(file.string(), decode(entry, parts, atlases)));
+        loaded.push_back(std::move(language));
     }
     return loaded;
 }
 
 Result<std::vector<SpokenText>> list_sounds(const PackDescription& pack) {
-    const Result<std::vector<SpokenEntry>> entries = entries_of<SpokenEntry>(pack, sounds_section);
-    if (!entries) {
-        return tl::unexpected<Error>(entries.error());
-    }
+    TRY(const std::vector<SpokenEntry> entries, entries_of<SpokenEntry>(pack, sounds_section));
     std::vector<SpokenText> spoken;
-    for (const SpokenEntry& entry : *entries) {
+    for (const SpokenEntry& entry : entries) {
         for (const SoundEntry& sound : entry.sounds) {
             spoken.push_back({entry.language, sound.key});
         }
@@ -268,11 +253,8 @@ Result<std::vector<SpokenText>> list_sounds(const PackDescription& pack) {
 
 Result<Bytes> load_sound(const std::filesystem::path& file, std::string_view language, std::string_view key) {
     const auto choose = [&](const PackDescription& pack) -> Result<std::vector<std::string>> {
-        const Result<std::vector<SpokenEntry>> entries = entries_of<SpokenEntry>(pack, sounds_section);
-        if (!entries) {
-            return tl::unexpected<Error>(entries.error());
-        }
-        for (const SpokenEntry& entry : *entries) {
+        TRY(const std::vector<SpokenEntry> entries, entries_of<SpokenEntry>(pack, sounds_section));
+        for (const SpokenEntry& entry : entries) {
             for (const SoundEntry& sound : entry.sounds) {
                 if (entry.language == language && sound.key == key) {
                     return std::vector{sound.part};
@@ -286,9 +268,7 @@ Result<Bytes> load_sound(const std::filesystem::path& file, std::string_view lan
         return parts ? Result<Bytes>(Bytes()) : tl::unexpected<Error>(parts.error());
     }
     auto& [name, opus] = *parts->begin();
-    if (const Result<void> good = check_sound(name, opus); !good) {
-        return at(file.string(), good.error());
-    }
+    TRY_VOID(at(file.string(), check_sound(name, opus)));
     return std::move(opus);
 }
 
@@ -299,15 +279,11 @@ Result<void> check_set_and_spoken(const Pack& pack) {
         return tl::unexpected<Error>(set ? spoken.error() : set.error());
     }
     for (const SetEntry& entry : *set) {
-        if (const Result<SetLanguage> language = decode(entry, pack.section_parts); !language) {
-            return tl::unexpected<Error>(language.error());
-        }
+        TRY_VOID(decode(entry, pack.section_parts));
     }
     for (const SpokenEntry& entry : *spoken) {
         for (const std::string& part : parts_of(entry)) {
-            if (const Result<void> good = check_sound(part, pack.section_parts.at(part)); !good) {
-                return good;
-            }
+            TRY_VOID(check_sound(part, pack.section_parts.at(part)));
         }
     }
     return {};

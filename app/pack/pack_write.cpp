@@ -86,15 +86,12 @@ void add_relief(const Pack& pack, Manifest& manifest, std::vector<Part>& parts) 
 Result<void> add_levels(const Pack& pack, Manifest& manifest, std::vector<Part>& parts) {
     for (std::size_t k = 0; k < pack.levels.size(); ++k) {
         const PackLevel& level = pack.levels[k];
-        Result<Bytes> bytes = encode_level(level, pack.relief, pack.box_size);
-        if (!bytes) {
-            return at(fmt::format("level {}", k), bytes.error());
-        }
+        TRY(Bytes bytes, at(fmt::format("level {}", k), encode_level(level, pack.relief, pack.box_size)));
         const std::string name = fmt::format("levels/{}.bin", k);
         manifest.levels.push_back(
             {{level.technique, level.error, level.indices.size() / 3, level.vertices.size(), level.texture},
              name});
-        parts.push_back({name, std::move(*bytes), Packing::Deflated});
+        parts.push_back({name, std::move(bytes), Packing::Deflated});
     }
     return {};
 }
@@ -120,23 +117,15 @@ Result<void> list_parts(const std::vector<Part>& parts, Manifest& manifest) {
 } // namespace
 
 Result<Bytes> write_pack(const Pack& pack) {
-    if (auto good = check(pack); !good) {
-        return tl::unexpected(good.error());
-    }
+    TRY_VOID(check(pack));
     Manifest manifest;
     manifest.description = pack;
     std::vector<Part> parts;
     add_table_picture(pack, manifest, parts);
     add_textures(pack, manifest, parts);
     add_relief(pack, manifest, parts);
-    if (auto good =
-            add_levels(pack, manifest, parts).and_then([&] { return add_section_parts(pack, parts); });
-        !good) {
-        return tl::unexpected(good.error());
-    }
-    if (auto good = list_parts(parts, manifest); !good) {
-        return tl::unexpected(good.error());
-    }
+    TRY_VOID(add_levels(pack, manifest, parts).and_then([&] { return add_section_parts(pack, parts); }));
+    TRY_VOID(list_parts(parts, manifest));
     const std::string text = write_manifest(manifest);
     if (text.size() > most_manifest_bytes) {
         return bad_input(fmt::format("the manifest has {} bytes, allowed are {}; give fewer or shorter texts",

@@ -6,16 +6,9 @@
 namespace frustumscreen::pack_format {
 
 Result<Image8> read_picture(PackReader& reader, const std::string& name, std::int64_t most_texels) {
-    const Result<Bytes> bytes = reader.take(name);
-    if (!bytes) {
-        return tl::unexpected(bytes.error());
-    }
-    Result<Image8> picture =
-        begins_as_webp(*bytes) ? decode_webp8(*bytes, most_texels) : decode_png8(*bytes, most_texels);
-    if (!picture) {
-        return at(name, picture.error());
-    }
-    return picture;
+    TRY(const Bytes bytes, reader.take(name));
+    return at(name,
+              begins_as_webp(bytes) ? decode_webp8(bytes, most_texels) : decode_png8(bytes, most_texels));
 }
 
 Result<Image8> read_table_picture(PackReader& reader) {
@@ -24,13 +17,8 @@ Result<Image8> read_table_picture(PackReader& reader) {
     if (name.empty()) {
         return Image8{};
     }
-    Result<Image8> picture = read_picture(reader, name, most_texels);
-    if (!picture) {
-        return picture;
-    }
-    if (const Result<void> good = check_table_picture(*picture); !good) {
-        return at(name, good.error());
-    }
+    TRY(Image8 picture, read_picture(reader, name, most_texels));
+    TRY_VOID(at(name, check_table_picture(picture)));
     return picture;
 }
 

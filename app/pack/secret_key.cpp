@@ -199,9 +199,7 @@ Result<std::string> write_secret_key(const SecretKey& key, std::optional<std::st
         record.kdf = scrypt;
         record.cost = cost;
         randombytes_buf(record.salt.data(), record.salt.size());
-        if (Result<void> done = apply_password(hidden, *password, record); !done) {
-            return tl::unexpected<Error>(done.error());
-        }
+        TRY_VOID(apply_password(hidden, *password, record));
     }
     Wiped<std::array<std::uint8_t, record_bytes>> bytes;
     auto place = bytes.bytes.begin();
@@ -224,18 +222,14 @@ Result<bool> needs_password(std::string_view text) {
 
 Result<SecretKey> parse_secret_key(std::string_view text, std::optional<std::string_view> password) {
     Record record;
-    if (Result<void> read = read_record(text, record); !read) {
-        return tl::unexpected<Error>(read.error());
-    }
+    TRY_VOID(read_record(text, record));
     Hidden& hidden = record.hidden.bytes;
     const bool encrypted = record.kdf == scrypt;
     if (encrypted) {
         if (!password) {
             return bad_input("the key has a password, and none was given");
         }
-        if (Result<void> done = apply_password(hidden, *password, record); !done) {
-            return tl::unexpected<Error>(done.error());
-        }
+        TRY_VOID(apply_password(hidden, *password, record));
     }
     const std::span<const std::uint8_t> open(hidden.data(), hidden.size() - checksum_bytes);
     Checksum checksum{};

@@ -18,9 +18,7 @@ Result<void> copy_with_signature(Result<ZipReader> from, ZipWriter& to, std::str
         if (entry.name == signature_name) {
             continue;
         }
-        if (const Result<void> copied = to.copy(*from, entry); !copied) {
-            return copied;
-        }
+        TRY_VOID(to.copy(*from, entry));
     }
     to.add(std::string(signature_name), as_bytes(signature), Packing::Stored);
     return {};

@@ -62,14 +62,11 @@ tl::expected<SignedPack, PackRefusal> open_signed_pack(std::span<const std::byte
 }
 
 Result<std::optional<SignatureClaim>> claim_of(PackReader& reader) {
-    const Result<std::optional<std::string>> signature = reader.signature();
+    TRY(const std::optional<std::string> signature, reader.signature());
     if (!signature) {
-        return tl::unexpected<Error>(signature.error());
-    }
-    if (!*signature) {
         return std::optional<SignatureClaim>();
     }
-    return read_signature_claim(**signature).map([](SignatureClaim&& claim) {
+    return read_signature_claim(*signature).map([](SignatureClaim&& claim) {
         return std::optional(std::move(claim));
     });
 }

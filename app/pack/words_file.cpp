@@ -100,12 +100,9 @@ Result<Bytes> entry_of(ZipReader& zip, std::string_view name, std::uint64_t most
 }
 
 Result<std::vector<LanguageEntry>> read_manifest(ZipReader& zip) {
-    const Result<Bytes> text = entry_of(zip, manifest_entry, most_words_manifest_bytes);
-    if (!text) {
-        return tl::unexpected<Error>(text.error());
-    }
+    TRY(const Bytes text, entry_of(zip, manifest_entry, most_words_manifest_bytes));
     Refusal refusal;
-    const nlohmann::json document = parse_json(refusal, as_text(*text));
+    const nlohmann::json document = parse_json(refusal, as_text(text));
     if (!refusal.message) {
         if (std::string fault = check_format(document); !fault.empty()) {
             refusal.message = std::move(fault);
@@ -125,11 +122,8 @@ Result<std::vector<LanguageEntry>> read_manifest(ZipReader& zip) {
 
 Result<std::vector<LanguageEntry>> open_words(std::span<const std::byte> file,
                                               std::optional<ZipReader>& zip) {
-    Result<ZipReader> opened = ZipReader::open(file);
-    if (!opened) {
-        return tl::unexpected<Error>(opened.error());
-    }
-    zip.emplace(*std::move(opened));
+    TRY(ZipReader opened, ZipReader::open(file));
+    zip.emplace(std::move(opened));
     return read_manifest(*zip);
 }
 
@@ -149,15 +143,12 @@ Result<LanguageWords> read_language(ZipReader& zip, LanguageEntry& entry) {
     if (!glyphs || !picture) {
         return tl::unexpected<Error>(glyphs ? picture.error() : glyphs.error());
     }
-    Result<GlyphRuns> runs = decode_glyph_runs(*glyphs);
-    if (!runs) {
-        return at(printable(entry.glyphs.name), runs.error());
-    }
-    Result<DistanceAtlas> atlas = decode_distance_atlas(*picture, *runs);
+    TRY(GlyphRuns runs, at(printable(entry.glyphs.name), decode_glyph_runs(*glyphs)));
+    Result<DistanceAtlas> atlas = decode_distance_atlas(*picture, runs);
     if (!atlas) {
         return at(printable(entry.atlas.name), atlas.error());
     }
-    words.runs = *std::move(runs);
+    words.runs = std::move(runs);
     words.atlas = *std::move(atlas);
     for (const PlainWord& word : words.words) {
         if (words.runs.find(word.key) == nullptr) {
@@ -166,11 +157,8 @@ Result<LanguageWords> read_language(ZipReader& zip, LanguageEntry& entry) {
         }
     }
     for (const SoundPart& sound : entry.sounds) {
-        Result<Bytes> bytes = part_of(zip, sound.part);
-        if (!bytes) {
-            return tl::unexpected<Error>(bytes.error());
-        }
-        words.sounds.emplace(sound.key, *std::move(bytes));
+        TRY(Bytes bytes, part_of(zip, sound.part));
+        words.sounds.emplace(sound.key, std::move(bytes));
     }
     return words;
 }
@@ -213,12 +201,9 @@ Result<Bytes> write_words(std::span<const LanguageWords> languages) {
 
 Result<std::vector<WordsLanguage>> list_words(std::span<const std::byte> file) {
     std::optional<ZipReader> zip;
-    const Result<std::vector<LanguageEntry>> entries = open_words(file, zip);
-    if (!entries) {
-        return tl::unexpected<Error>(entries.error());
-    }
+    TRY(const std::vector<LanguageEntry> entries, open_words(file, zip));
     std::vector<WordsLanguage> languages;
-    for (const LanguageEntry& entry : *entries) {
+    for (const LanguageEntry& entry : entries) {
         languages.push_back({entry.language, entry.name, entry.words.size(), entry.sounds.size()});
     }
     return languages;
@@ -226,13 +211,10 @@ Result<std::vector<WordsLanguage>> list_words(std::span<const std::byte> file) {
 
 Result<LanguageWords> read_words(std::span<const std::byte> file, std::string_view language) {
     std::optional<ZipReader> zip;
-    Result<std::vector<LanguageEntry>> entries = open_words(file, zip);
-    if (!entries) {
-        return tl::unexpected<Error>(entries.error());
-    }
-    const auto found = std::find_if(entries->begin(), entries->end(),
+    TRY(std::vector<LanguageEntry> entries, open_words(file, zip));
+    const auto found = std::find_if(entries.begin(), entries.end(),
                                     [&](const LanguageEntry& entry) { return entry.language == language; });
-    if (found == entries->end()) {
+    if (found == entries.end()) {
         return bad_input(fmt::format("there are no words in the language '{}'; bake them with --languages",
                                      printable(language, 40)));
     }

@@ -347,9 +347,7 @@ Result<ZipReader> ZipReader::open(std::unique_ptr<ArchiveBytes> bytes) {
     if (reader.zip_ == nullptr) {
         return reader.refusal("the pack's directory is damaged; copy it again");
     }
-    if (const Result<void> directory = reader.read_directory(); !directory) {
-        return tl::unexpected(directory.error());
-    }
+    TRY_VOID(reader.read_directory());
     return reader;
 }
 
@@ -376,9 +374,7 @@ Result<void> ZipReader::read_directory() {
         if (!numbers_.emplace(entry.name, entries_.size()).second) {
             return bad_input(fmt::format("two entries are called {}; the pack is altered", entry.name));
         }
-        if (auto sound = check_entry(entry, info); !sound) {
-            return sound;
-        }
+        TRY_VOID(check_entry(entry, info));
         entries_.push_back(std::move(entry));
     }
     if (found != UNZ_END_OF_LIST_OF_FILE || entries_.size() != global.number_entry) {
