@@ -48,16 +48,10 @@ int list_artifacts(const std::string& language) {
 /// The mesh, and with a folder its artifact.toml beside it.
 Result<void> write_artifact(const std::string& name, std::int64_t triangles,
                             const std::filesystem::path& output, const std::filesystem::path& folder) {
-    const Result<SourceMesh> mesh = make_builtin(name, triangles);
-    if (!mesh) {
-        return tl::unexpected<Error>(mesh.error());
-    }
-    const Result<Bytes> bytes = write_glb(*mesh);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
+    TRY(const SourceMesh mesh, make_builtin(name, triangles));
+    TRY(const Bytes bytes, write_glb(mesh));
     if (folder.empty()) {
-        return write_file(output, *bytes);
+        return write_file(output, bytes);
     }
     std::error_code failed;
     std::filesystem::create_directories(folder, failed);
@@ -65,7 +59,7 @@ Result<void> write_artifact(const std::string& name, std::int64_t triangles,
         return bad_input(
             fmt::format("{}: this folder cannot be made: {}", folder.string(), failed.message()));
     }
-    return write_file(folder / (name + ".glb"), *bytes).and_then([&] {
+    return write_file(folder / (name + ".glb"), bytes).and_then([&] {
         return write_file(folder / artifact_file_name, as_bytes(builtin_folder_text(name)));
     });
 }

@@ -51,13 +51,10 @@ Result<ArtifactWords> words_of(const BakeRequest& request) {
     ArtifactWords words;
     words.lost = request.lost;
     set_texts(request, words);
-    Result<SpokenArtifact> spoken = speak_artifact(request.captions, request.speech);
-    if (!spoken) {
-        return tl::unexpected<Error>(spoken.error());
-    }
-    words.spoken = std::move(spoken->languages);
-    words.silent = std::move(spoken->silent);
-    words.lost.insert(words.lost.end(), spoken->notes.begin(), spoken->notes.end());
+    TRY(SpokenArtifact spoken, speak_artifact(request.captions, request.speech));
+    words.spoken = std::move(spoken.languages);
+    words.silent = std::move(spoken.silent);
+    words.lost.insert(words.lost.end(), spoken.notes.begin(), spoken.notes.end());
     return words;
 }
 

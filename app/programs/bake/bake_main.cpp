@@ -23,21 +23,15 @@ namespace {
 
 /// --new: a folder to start from.
 Result<void> start(const BakeArguments& arguments) {
-    const Result<SourceMesh> mesh = load_mesh(arguments.input, {arguments.texture});
-    if (!mesh) {
-        return tl::unexpected<Error>(mesh.error());
-    }
-    ScanFacts scan{arguments.input, mesh->side_files, mesh->positions.front(), mesh->positions.front(),
-                   mesh->default_up};
-    for (const glm::dvec3& position : mesh->positions) {
+    TRY(const SourceMesh mesh, load_mesh(arguments.input, {arguments.texture}));
+    ScanFacts scan{arguments.input, mesh.side_files, mesh.positions.front(), mesh.positions.front(),
+                   mesh.default_up};
+    for (const glm::dvec3& position : mesh.positions) {
         scan.low = glm::min(scan.low, position);
         scan.high = glm::max(scan.high, position);
     }
-    const Result<std::filesystem::path> file = start_folder(arguments.new_folder, scan);
-    if (!file) {
-        return tl::unexpected<Error>(file.error());
-    }
-    fmt::print("{}: edit it, then: frustumscreen-bake {} -o {}.fspack\n", file->string(),
+    TRY(const std::filesystem::path file, start_folder(arguments.new_folder, scan));
+    fmt::print("{}: edit it, then: frustumscreen-bake {} -o {}.fspack\n", file.string(),
                arguments.new_folder.string(), arguments.input.stem().string());
     return {};
 }

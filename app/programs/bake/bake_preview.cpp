@@ -35,17 +35,13 @@ Result<void> check_preview(const BakeRequest& request) {
     if (request.preview.empty()) {
         return {};
     }
-    if (Result<void> safe = check_output_is_no_input(request.preview, request.inputs); !safe) {
-        return safe;
-    }
+    TRY_VOID(check_output_is_no_input(request.preview, request.inputs));
     if (std::filesystem::absolute(request.preview).lexically_normal() ==
         std::filesystem::absolute(request.output).lexically_normal()) {
         return bad_input(fmt::format("{}: the pack and its preview have the same name; choose two",
                                      request.output.string()));
     }
-    if (Result<void> place = check_output_place(request.preview, room_for_page); !place) {
-        return place;
-    }
+    TRY_VOID(check_output_place(request.preview, room_for_page));
     std::error_code ignored;
     if (!request.force && std::filesystem::exists(request.preview, ignored) &&
         !begins_as_page(request.preview)) {
@@ -69,21 +65,13 @@ Result<std::uint64_t> write_preview(const BakeRequest& request, const BakeResult
     ProgressLine progress("drawing the preview: ");
     TurnOptions options = turn_options(request.watched);
     options.progress = [&](std::string_view step, double done) { progress.show_share(step, done); };
-    Result<TurnPictures> turn = turn_pictures(result.file, options);
-    if (!turn) {
-        return tl::unexpected<Error>(turn.error());
-    }
-    Result<std::vector<ProjectedLanguage>> languages =
-        projected_texts(result.file, result.pack, place(result.pack, result.prop.shape).metres_per_box);
-    if (!languages) {
-        return tl::unexpected<Error>(languages.error());
-    }
-    const PreviewMedia media{*std::move(turn), result.pack.table_picture, *std::move(languages)};
+    TRY(TurnPictures turn, turn_pictures(result.file, options));
+    TRY(std::vector<ProjectedLanguage> languages,
+        projected_texts(result.file, result.pack, place(result.pack, result.prop.shape).metres_per_box));
+    const PreviewMedia media{std::move(turn), result.pack.table_picture, std::move(languages)};
     const std::string page = preview_page(result.pack, preview_facts(result), media,
                                           request.watched ? PageKind::Reloading : PageKind::Final);
-    if (const Result<void> written = write_file(request.preview, as_bytes(page)); !written) {
-        return tl::unexpected<Error>(written.error());
-    }
+    TRY_VOID(write_file(request.preview, as_bytes(page)));
     return page.size();
 }
 

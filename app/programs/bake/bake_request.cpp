@@ -47,14 +47,10 @@ Result<void> check_text(const std::string& option, std::string_view text, TextSh
 Result<void> check_texts(const BakeArguments& arguments) {
     for (const auto& [option, text] :
          {std::pair("--title", arguments.title), {"--licence", arguments.licence}}) {
-        if (Result<void> good = check_text(option, text, TextShape::Line); !good) {
-            return good;
-        }
+        TRY_VOID(check_text(option, text, TextShape::Line));
     }
     for (const std::string& caption : arguments.captions) {
-        if (Result<void> good = check_text("--caption", caption, TextShape::Lines); !good) {
-            return good;
-        }
+        TRY_VOID(check_text("--caption", caption, TextShape::Lines));
     }
     return {};
 }
@@ -104,42 +100,37 @@ SpeechSources speech_of(const BakeArguments& arguments, const ArtifactFile& file
 
 Result<BakeRequest> request_of(const BakeArguments& written) {
     const BakeArguments arguments = with_folder(written);
-    if (const Result<void> good = check_texts(arguments); !good) {
-        return tl::unexpected<Error>(good.error());
-    }
-    Result<ArtifactFile> file = file_of(arguments);
-    if (!file) {
-        return tl::unexpected<Error>(file.error());
-    }
+    TRY_VOID(check_texts(arguments));
+    TRY(ArtifactFile file, file_of(arguments));
     const Result<std::vector<PackCaption>> captions = captions_of(
-        {arguments.title, arguments.languages, arguments.captions, file->texts, file->scan.stem().string()});
+        {arguments.title, arguments.languages, arguments.captions, file.texts, file.scan.stem().string()});
     if (!captions) {
         return fail(ErrorKind::BadConfiguration, captions.error().message);
     }
     BakeRequest request;
-    request.scan = file->scan;
+    request.scan = file.scan;
     request.output = arguments.output;
     request.preview = arguments.preview;
     request.watched = arguments.watched;
-    request.inputs = {file->scan};
-    const bool is_folder = file->scan != arguments.input;
+    request.inputs = {file.scan};
+    const bool is_folder = file.scan != arguments.input;
     if (is_folder) {
         request.inputs.push_back(arguments.input / artifact_file_name);
     }
-    for (const auto& [language, recording] : file->recordings) {
+    for (const auto& [language, recording] : file.recordings) {
         request.inputs.push_back(recording);
     }
     request.force = arguments.force;
     request.strict = arguments.strict;
-    request.texture = arguments.texture.empty() ? file->texture : arguments.texture;
-    request.turn_deg = arguments.turn_deg ? arguments.turn_deg : file->turn_deg;
-    request.options = options_of(arguments, *file);
-    request.id = file->id;
-    request.licence = arguments.licence.empty() ? file->licence : arguments.licence;
+    request.texture = arguments.texture.empty() ? file.texture : arguments.texture;
+    request.turn_deg = arguments.turn_deg ? arguments.turn_deg : file.turn_deg;
+    request.options = options_of(arguments, file);
+    request.id = file.id;
+    request.licence = arguments.licence.empty() ? file.licence : arguments.licence;
     request.captions = *captions;
-    const std::vector<std::string> left_out = left_out_of(*file, *captions);
-    request.lost = label_notes(file->hotspots, *captions, left_out);
-    request.speech = speech_of(arguments, *file, left_out, is_folder);
+    const std::vector<std::string> left_out = left_out_of(file, *captions);
+    request.lost = label_notes(file.hotspots, *captions, left_out);
+    request.speech = speech_of(arguments, file, left_out, is_folder);
     return request;
 }
 

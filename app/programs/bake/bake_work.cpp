@@ -33,12 +33,9 @@ Result<void> describe(Pack& pack, const BakeRequest& request) {
     for (const PackCaption& caption : pack.captions) {
         pack.languages.push_back(caption.language);
     }
-    const Result<Bytes> source = read_file(request.scan);
-    if (!source) {
-        return tl::unexpected<Error>(source.error());
-    }
+    TRY(const Bytes source, read_file(request.scan));
     pack.provenance.source_name = request.scan.filename().string();
-    pack.provenance.source_sha256 = sha256_hex(*source);
+    pack.provenance.source_sha256 = sha256_hex(source);
     pack.provenance.licence = request.licence;
     return {};
 }
@@ -71,15 +68,10 @@ Result<void> tell(const std::vector<SourceNote>& notes, const BakeRequest& reque
 
 /// Reads the file; its notes say what is lost of it.
 Result<SourceMesh> load(const BakeRequest& request) {
-    Result<SourceMesh> mesh = load_mesh(request.scan, {request.texture});
-    if (!mesh) {
-        return mesh;
-    }
-    if (const Result<void> safe = check_output_is_no_input(request.output, mesh->side_files); !safe) {
-        return tl::unexpected<Error>(safe.error());
-    }
-    if (request.options.unlit && !has_colours(*mesh)) {
-        mesh->notes.push_back(
+    TRY(SourceMesh mesh, load_mesh(request.scan, {request.texture}));
+    TRY_VOID(check_output_is_no_input(request.output, mesh.side_files));
+    if (request.options.unlit && !has_colours(mesh)) {
+        mesh.notes.push_back(
             {SourceNote::Kind::Lost,
              "light and shade: the file has no colours, and --unlit makes a flat picture of it; without "
              "--unlit it is lit as in a museum"});
@@ -91,66 +83,43 @@ Result<SourceMesh> load(const BakeRequest& request) {
 Result<ArtifactWords> set_and_speak(const BakeRequest& request, const BakeOptions& options,
                                     std::vector<SourceNote>& notes) {
     options.progress("texts and speech", 0.0);
-    Result<ArtifactWords> words = words_of(request);
-    if (!words) {
-        return words;
-    }
-    for (const std::string& lost : words->lost) {
+    TRY(ArtifactWords words, words_of(request));
+    for (const std::string& lost : words.lost) {
         notes.push_back({SourceNote::Kind::Lost, lost});
     }
-    if (const Result<void> told = tell(notes, request); !told) {
-        return tl::unexpected<Error>(told.error());
-    }
+    TRY_VOID(tell(notes, request));
     return words;
 }
 
 Result<BakeResult> bake_file(const BakeRequest& request, BakeOptions options) {
     const auto start = std::chrono::steady_clock::now();
-    const Result<SourceMesh> mesh = load(request);
-    if (!mesh) {
-        return tl::unexpected<Error>(mesh.error());
-    }
+    TRY(const SourceMesh mesh, load(request));
     BakeResult result;
     result.file = request.output;
     result.prop = options.prop;
-    result.notes = mesh->notes;
-    result.up = options.up.empty() ? std::string(1, mesh->default_up) : options.up;
+    result.notes = mesh.notes;
+    result.up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
     result.up_given = !options.up.empty();
     result.turn_given = request.turn_deg.has_value();
     options.turn_deg = result.turn_deg =
         request.turn_deg ? *request.turn_deg
-                         : best_turn_deg(*mesh, result.up, options.lift, options.prop.shape);
-    if (const Result<void> checked = check_hotspots(*mesh, options); !checked) {
-        return tl::unexpected<Error>(checked.error());
-    }
-    Result<ArtifactWords> words = set_and_speak(request, options, result.notes);
-    if (!words) {
-        return tl::unexpected<Error>(words.error());
-    }
-    result.silent = std::move(words->silent);
-    Result<Pack> pack = bake(*mesh, options);
-    if (!pack) {
-        return at(request.scan.string(), pack.error());
-    }
-    if (const Result<void> described = describe(*pack, request); !described) {
-        return tl::unexpected<Error>(described.error());
-    }
-    put_sounds(*pack, words->spoken);
-    put_set_texts(*pack, words->set);
-    result.pack = *std::move(pack);
+                         : best_turn_deg(mesh, result.up, options.lift, options.prop.shape);
+    TRY_VOID(check_hotspots(mesh, options));
+    TRY(ArtifactWords words, set_and_speak(request, options, result.notes));
+    result.silent = std::move(words.silent);
+    TRY(Pack pack, at(request.scan.string(), bake(mesh, options)));
+    TRY_VOID(describe(pack, request));
+    put_sounds(pack, words.spoken);
+    put_set_texts(pack, words.set);
+    result.pack = std::move(pack);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }
 
 /// Checks before the work that no scan and no unknown file is overwritten, and that the pack can be written.
 Result<void> check_output(const BakeRequest& request) {
-    if (Result<void> safe = check_output_is_no_input(request.output, request.inputs); !safe) {
-        return safe;
-    }
-    if (Result<void> place = check_output_place(request.output, room_for_pack(request.options.size));
-        !place) {
-        return place;
-    }
+    TRY_VOID(check_output_is_no_input(request.output, request.inputs));
+    TRY_VOID(check_output_place(request.output, room_for_pack(request.options.size)));
     std::error_code ignored;
     if (!request.force && std::filesystem::exists(request.output, ignored) &&
         !begins_as_pack(request.output)) {
@@ -164,29 +133,15 @@ Result<void> check_output(const BakeRequest& request) {
 } // namespace
 
 Result<BakeResult> bake_pack(const BakeRequest& request) {
-    if (Result<void> checked = check_output(request); !checked) {
-        return tl::unexpected<Error>(checked.error());
-    }
+    TRY_VOID(check_output(request));
     ProgressLine progress("baking: ");
     BakeOptions options = request.options;
     options.progress = [&](std::string_view step, double done) { progress.show_share(step, done); };
-    Result<BakeResult> result = bake_file(request, std::move(options));
-    if (!result) {
-        return result;
-    }
-    const Result<Bytes> bytes = write_pack(result->pack);
-    if (!bytes) {
-        return at(request.output.string(), bytes.error());
-    }
-    Result<std::vector<PackPart>> parts = list_pack_parts(*bytes);
-    if (!parts) {
-        return at(request.output.string(), parts.error());
-    }
-    result->parts = *std::move(parts);
-    result->file_bytes = bytes->size();
-    if (const Result<void> written = write_file(request.output, *bytes); !written) {
-        return tl::unexpected<Error>(written.error());
-    }
+    TRY(BakeResult result, bake_file(request, std::move(options)));
+    TRY(const Bytes bytes, at(request.output.string(), write_pack(result.pack)));
+    TRY(result.parts, at(request.output.string(), list_pack_parts(bytes)));
+    result.file_bytes = bytes.size();
+    TRY_VOID(write_file(request.output, bytes));
     return result;
 }
 

@@ -64,15 +64,12 @@ Result<std::string> program_key() {
 }
 
 Result<BatchPlan> plan_of(const Arguments& arguments, std::vector<BatchObject> objects) {
-    Result<std::string> key = program_key();
-    if (!key) {
-        return tl::unexpected<Error>(key.error());
-    }
+    TRY(std::string key, program_key());
     BatchPlan plan;
     plan.objects = std::move(objects);
     plan.output = arguments.output;
     plan.program = {"/proc/self/exe"};
-    plan.program_key = *std::move(key);
+    plan.program_key = std::move(key);
     plan.bake_options = bake_options_of(arguments.bake);
     plan.pages = arguments.pages;
     plan.bakes = !arguments.report_only;
@@ -95,10 +92,7 @@ Result<void> write_reports(const Arguments& arguments, const std::optional<Shard
     const std::string title =
         shard ? fmt::format("{}, share {} of {}", arguments.folder.string(), shard->number, shard->of)
               : arguments.folder.string();
-    if (Result<void> csv = write_file(report_file(arguments, shard, "csv"), as_bytes(report_csv(rows)));
-        !csv) {
-        return csv;
-    }
+    TRY_VOID(write_file(report_file(arguments, shard, "csv"), as_bytes(report_csv(rows))));
     return write_file(report_file(arguments, shard, "html"),
                       as_bytes(report_page(rows, title, seconds, collection.passed_over)));
 }
@@ -138,34 +132,20 @@ Result<bool> work(const Arguments& arguments) {
     const MonotonicTime start = monotonic_now();
     std::optional<Shard> shard;
     if (!arguments.shard.empty()) {
-        const Result<Shard> parsed = parse_shard(arguments.shard);
-        if (!parsed) {
-            return tl::unexpected<Error>(parsed.error());
-        }
-        shard = *parsed;
+        TRY(shard, parse_shard(arguments.shard));
     }
-    const Result<Collection> collection = list_collection(arguments.folder, arguments.output);
-    if (!collection) {
-        return tl::unexpected<Error>(collection.error());
-    }
-    if (collection->objects.empty()) {
+    TRY(const Collection collection, list_collection(arguments.folder, arguments.output));
+    if (collection.objects.empty()) {
         return bad_input(
             fmt::format("{}: there is no folder with an artifact.toml and no scan in it; frustumscreen-bake "
                         "--new FOLDER SCAN makes such a folder",
                         arguments.folder.string()));
     }
-    if (const Result<void> folder = check_output_folder(arguments.output); !folder) {
-        return tl::unexpected<Error>(folder.error());
-    }
-    const Result<BatchPlan> plan = plan_of(arguments, share_of(collection->objects, shard.value_or(Shard())));
-    if (!plan) {
-        return tl::unexpected<Error>(plan.error());
-    }
-    const std::vector<BatchRow> rows = run(*plan);
+    TRY_VOID(check_output_folder(arguments.output));
+    TRY(const BatchPlan plan, plan_of(arguments, share_of(collection.objects, shard.value_or(Shard()))));
+    const std::vector<BatchRow> rows = run(plan);
     const double seconds = to_seconds(monotonic_now() - start);
-    if (const Result<void> written = write_reports(arguments, shard, rows, *collection, seconds); !written) {
-        return tl::unexpected<Error>(written.error());
-    }
+    TRY_VOID(write_reports(arguments, shard, rows, collection, seconds));
     print_end(arguments, rows, report_file(arguments, shard, "html"), seconds);
     return count_of(rows, BatchStatus::Failed) + count_of(rows, BatchStatus::Missing) == 0;
 }

@@ -69,9 +69,7 @@ Result<void> add_text(const std::string& written, std::vector<std::string>& seen
 Result<std::vector<PackCaption>> captions_of(const WrittenCaptions& written) {
     std::vector<PackCaption> made;
     for (const std::string& language : written.languages) {
-        if (const Result<void> added = add_language(language, written.from_file, made); !added) {
-            return tl::unexpected<Error>(added.error());
-        }
+        TRY_VOID(add_language(language, written.from_file, made));
     }
     if (written.languages.empty()) {
         made = written.from_file.empty() ? std::vector<PackCaption>{{"en", "", ""}} : written.from_file;
@@ -86,9 +84,7 @@ Result<std::vector<PackCaption>> captions_of(const WrittenCaptions& written) {
     }
     std::vector<std::string> seen;
     for (const std::string& text : written.texts) {
-        if (const Result<void> added = add_text(text, seen, made); !added) {
-            return tl::unexpected<Error>(added.error());
-        }
+        TRY_VOID(add_text(text, seen, made));
     }
     return made;
 }

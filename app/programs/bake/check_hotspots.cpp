@@ -18,9 +18,7 @@ Result<void> check_hotspots(const SourceMesh& mesh, const BakeOptions& options) 
     const std::vector<glm::dvec3> points = in_box(mesh, *frame);
     const SourceScene scene(mesh, points);
     for (const GivenHotspot& given : options.hotspots) {
-        if (const auto put = put_on_surface(given, scene, *frame, options.prop.zone); !put) {
-            return tl::unexpected<Error>(put.error());
-        }
+        TRY_VOID(put_on_surface(given, scene, *frame, options.prop.zone));
     }
     return {};
 }

@@ -88,17 +88,14 @@ public:
     }
 
     [[nodiscard]] Result<void> run() {
-        Result<FolderWatch> watch = FolderWatch::open(arguments_.folder);
-        if (!watch) {
-            return tl::unexpected<Error>(watch.error());
-        }
+        TRY(FolderWatch watch, FolderWatch::open(arguments_.folder));
         say(fmt::format("watching {}; open {} in a browser; Ctrl-C ends", arguments_.folder.string(),
                         arguments_.page.string()));
         Result<void> baked = bake();
         while (baked && !stopped()) {
-            pollfd waited{watch->descriptor(), POLLIN, 0};
+            pollfd waited{watch.descriptor(), POLLIN, 0};
             ::poll(&waited, 1, look_ms);
-            const Result<bool> changed = watch->take();
+            const Result<bool> changed = watch.take();
             if (!changed) {
                 baked = tl::unexpected<Error>(changed.error());
                 break;
@@ -127,15 +124,12 @@ private:
         limits.time = std::chrono::hours(1);
         limits.complaint_bytes = std::size_t{1} << 20;
         limits.given_up = [this] { return stopped(); };
-        const Result<ProgramEnd> end = follow_program(command_, "", limits);
-        if (!end) {
-            return tl::unexpected<Error>(end.error());
-        }
-        if (end->how == ProgramEnd::How::GivenUp) {
+        TRY(const ProgramEnd end, follow_program(command_, "", limits));
+        if (end.how == ProgramEnd::How::GivenUp) {
             return {};
         }
         const double seconds = to_seconds(monotonic_now() - start);
-        if (const std::string sentence = sentence_of(*end, limits); !sentence.empty()) {
+        if (const std::string sentence = sentence_of(end, limits); !sentence.empty()) {
             say(fmt::format("{} ({:.1f} s; {})", sentence, seconds,
                             has_page_ ? "the page stays as it was" : "there is no page yet"));
             return {};
@@ -177,9 +171,7 @@ Result<void> check_is_outside(const std::filesystem::path& written, const std::f
 Result<void> work(Arguments arguments) {
     std::error_code none;
     for (const std::filesystem::path& written : {arguments.page, arguments.pack}) {
-        if (Result<void> outside = check_is_outside(written, arguments.folder); !outside) {
-            return outside;
-        }
+        TRY_VOID(check_is_outside(written, arguments.folder));
     }
     if (!std::filesystem::is_directory(arguments.folder, none)) {
         return bad_input(fmt::format("{}: this is no folder; --watch takes the folder of an artifact, and "

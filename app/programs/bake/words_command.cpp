@@ -78,15 +78,10 @@ Result<std::vector<std::string>> named_languages(const std::vector<std::string>&
 }
 
 Result<void> write_outputs(const BakedWords& baked, const Arguments& arguments) {
-    const Result<Bytes> bytes = write_words(baked.languages);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    if (const Result<void> written = write_file(arguments.output, *bytes); !written) {
-        return written;
-    }
+    TRY(const Bytes bytes, write_words(baked.languages));
+    TRY_VOID(write_file(arguments.output, bytes));
     fmt::print("{}: {} words in {} languages, {} kB\n", arguments.output.string(),
-               baked.languages.front().words.size(), baked.languages.size(), (bytes->size() + 999) / 1000);
+               baked.languages.front().words.size(), baked.languages.size(), (bytes.size() + 999) / 1000);
     for (const LanguageWords& words : baked.languages) {
         fmt::print("  {:<8}{:<14}{:>5} letters, {:>3} spoken\n", words.language, words.name,
                    words.runs.boxes.size(), words.sounds.size());
@@ -104,12 +99,9 @@ Result<void> speak(BakedWords& baked, const Arguments& arguments) {
         options.voice = arguments.speech.empty() ? Voice() : Voice(arguments.speech);
     }
     options.progress = [&](std::string_view what, double done) { progress.show_share(what, done); };
-    const Result<std::vector<std::string>> silent = speak_words(baked.languages, options);
-    if (!silent) {
-        return tl::unexpected<Error>(silent.error());
-    }
+    TRY(const std::vector<std::string> silent, speak_words(baked.languages, options));
     progress.clear();
-    for (const std::string& sentence : *silent) {
+    for (const std::string& sentence : silent) {
         say_line(program, sentence);
     }
     return {};
@@ -118,9 +110,7 @@ Result<void> speak(BakedWords& baked, const Arguments& arguments) {
 /// Checks before the work that no other file than one of the same kind is replaced, and no input.
 Result<void> check_output(const std::filesystem::path& output, bool is_of_kind, const char* kind,
                           bool force) {
-    if (Result<void> place = check_output_place(output); !place) {
-        return place;
-    }
+    TRY_VOID(check_output_place(output));
     std::error_code ignored;
     if (!force && std::filesystem::exists(output, ignored) && !is_of_kind) {
         return bad_input(
@@ -159,9 +149,7 @@ Result<void> check_outputs_are_no_inputs(const Arguments& arguments, const Words
                                          const WordRecordings& recordings) {
     for (const auto& inputs : {folder.word_files, recordings.taken}) {
         for (const auto& output : {arguments.output, arguments.preview}) {
-            if (Result<void> safe = check_output_is_no_input(output, inputs); !safe) {
-                return safe;
-            }
+            TRY_VOID(check_output_is_no_input(output, inputs));
         }
     }
     return {};
@@ -180,53 +168,28 @@ std::vector<std::string> left_out_of(const std::vector<std::string>& all,
 /// The words in their files, with all that may be lost of the folder; checked against the outputs.
 Result<std::vector<CollectedWords>> collect(const Arguments& arguments, std::vector<std::string>& notes) {
     const WordsFolder folder = list_words_folder(arguments.folder);
-    const Result<std::vector<std::string>> named = named_languages(arguments.languages);
-    if (!named) {
-        return tl::unexpected<Error>(named.error());
-    }
-    const std::vector<std::string>& languages = named->empty() ? folder.languages : *named;
-    Result<std::vector<CollectedWords>> collected = collect_words(arguments.folder, languages);
-    if (!collected) {
-        return collected;
-    }
+    TRY(const std::vector<std::string> named, named_languages(arguments.languages));
+    const std::vector<std::string>& languages = named.empty() ? folder.languages : named;
+    TRY(std::vector<CollectedWords> collected, collect_words(arguments.folder, languages));
     const WordRecordings recordings =
-        list_word_recordings(arguments.folder, *collected, left_out_of(folder.languages, languages));
-    if (const Result<void> safe = check_outputs_are_no_inputs(arguments, folder, recordings); !safe) {
-        return tl::unexpected<Error>(safe.error());
-    }
+        list_word_recordings(arguments.folder, collected, left_out_of(folder.languages, languages));
+    TRY_VOID(check_outputs_are_no_inputs(arguments, folder, recordings));
     notes = folder.notes;
     notes.insert(notes.end(), recordings.notes.begin(), recordings.notes.end());
     return collected;
 }
 
 Result<void> work(const Arguments& arguments) {
-    if (const Result<void> folder = check_folder(arguments.folder); !folder) {
-        return folder;
-    }
-    if (const Result<void> outputs = check_outputs(arguments); !outputs) {
-        return outputs;
-    }
+    TRY_VOID(check_folder(arguments.folder));
+    TRY_VOID(check_outputs(arguments));
     std::vector<std::string> notes;
-    const Result<std::vector<CollectedWords>> collected = collect(arguments, notes);
-    if (!collected) {
-        return tl::unexpected<Error>(collected.error());
-    }
-    const Result<Shaper> shaper = Shaper::open();
-    if (!shaper) {
-        return tl::unexpected<Error>(shaper.error());
-    }
-    Result<BakedWords> baked = bake_words(*collected, *shaper);
-    if (!baked) {
-        return tl::unexpected<Error>(baked.error());
-    }
-    notes.insert(notes.end(), baked->notes.begin(), baked->notes.end());
-    if (const Result<void> told = tell(notes, arguments.strict); !told) {
-        return told;
-    }
-    if (const Result<void> spoken = speak(*baked, arguments); !spoken) {
-        return spoken;
-    }
-    return write_outputs(*baked, arguments);
+    TRY(const std::vector<CollectedWords> collected, collect(arguments, notes));
+    TRY(const Shaper shaper, Shaper::open());
+    TRY(BakedWords baked, bake_words(collected, shaper));
+    notes.insert(notes.end(), baked.notes.begin(), baked.notes.end());
+    TRY_VOID(tell(notes, arguments.strict));
+    TRY_VOID(speak(baked, arguments));
+    return write_outputs(baked, arguments);
 }
 
 } // namespace

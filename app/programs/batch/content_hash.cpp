@@ -74,18 +74,12 @@ Result<std::string> hash_of_object(const fs::path& input) {
     if (!fs::is_directory(input, none)) {
         return hash_of_file(input);
     }
-    const Result<std::vector<NamedFile>> files = files_of(input);
-    if (!files) {
-        return tl::unexpected<Error>(files.error());
-    }
+    TRY(const std::vector<NamedFile> files, files_of(input));
     std::vector<std::string> texts;
-    for (const NamedFile& file : *files) {
-        Result<std::string> hash = hash_of_file(file.path);
-        if (!hash) {
-            return hash;
-        }
+    for (const NamedFile& file : files) {
+        TRY(std::string hash, hash_of_file(file.path));
         texts.push_back(file.name);
-        texts.push_back(*std::move(hash));
+        texts.push_back(std::move(hash));
     }
     return hash_of_texts(texts);
 }

@@ -37,11 +37,8 @@ BatchRow failed(const BatchObject& object, std::string sentence) {
 }
 
 Result<std::string> key_of(const BatchPlan& plan, const BatchObject& object) {
-    const Result<std::string> content = hash_of_object(object.input);
-    if (!content) {
-        return content;
-    }
-    std::vector<std::string> texts{*content, plan.program_key, plan.pages ? "pages" : ""};
+    TRY(const std::string content, hash_of_object(object.input));
+    std::vector<std::string> texts{content, plan.program_key, plan.pages ? "pages" : ""};
     texts.insert(texts.end(), plan.bake_options.begin(), plan.bake_options.end());
     return hash_of_texts(texts);
 }

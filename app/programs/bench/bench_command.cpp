@@ -54,25 +54,16 @@ void warn(const std::filesystem::path& file, const std::string& of_what) {
 } // namespace
 
 Result<LoadedArtifact> load_artifact(const BenchArtifact& artifact) {
-    Result<VerifiedPack> pack = load_pack(artifact.pack);
-    if (!pack) {
-        return tl::unexpected<Error>(pack.error());
-    }
-    const Result<Bytes> bytes = read_file(artifact.mesh);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    if (sha256_hex(*bytes) != (*pack)->provenance.source_sha256) {
+    TRY(VerifiedPack pack, load_pack(artifact.pack));
+    TRY(const Bytes bytes, read_file(artifact.mesh));
+    if (sha256_hex(bytes) != pack->provenance.source_sha256) {
         warn(artifact.mesh,
              fmt::format("not the file that {} was baked from (that one was {}); right only if "
                          "both hold the same surface",
-                         artifact.pack.string(), (*pack)->provenance.source_name));
+                         artifact.pack.string(), pack->provenance.source_name));
     }
-    Result<SourceMesh> mesh = load_mesh(artifact.mesh);
-    if (!mesh) {
-        return tl::unexpected<Error>(mesh.error());
-    }
-    return LoadedArtifact{std::move(*pack), std::make_shared<const SourceMesh>(std::move(*mesh))};
+    TRY(SourceMesh mesh, load_mesh(artifact.mesh));
+    return LoadedArtifact{std::move(pack), std::make_shared<const SourceMesh>(std::move(mesh))};
 }
 
 Result<std::vector<SetUp>> load_set_ups(const BenchPlace& place) {
@@ -82,11 +73,8 @@ Result<std::vector<SetUp>> load_set_ups(const BenchPlace& place) {
     }
     std::vector<SetUp> set_ups;
     for (const std::filesystem::path& config : configs) {
-        const Result<CheckedSettings> settings = load_settings(config);
-        if (!settings) {
-            return tl::unexpected<Error>(settings.error());
-        }
-        set_ups.push_back({config.stem().string(), **settings});
+        TRY(const CheckedSettings settings, load_settings(config));
+        set_ups.push_back({config.stem().string(), *settings});
     }
     return set_ups;
 }
@@ -98,9 +86,7 @@ Result<void> write_all(const std::filesystem::path& folder, const OutputFiles& f
         return bad_input(folder.string() + ": this folder cannot be made: " + made.message());
     }
     for (const auto& [name, text] : files) {
-        if (Result<void> written = write_file(folder / name, as_bytes(text)); !written) {
-            return written;
-        }
+        TRY_VOID(write_file(folder / name, as_bytes(text)));
     }
     return {};
 }

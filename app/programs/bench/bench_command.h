@@ -86,20 +86,14 @@ template <typename Measure, typename Table, typename Files>
 [[nodiscard]] Result<void>
 measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArtifact& measured,
                 BenchProgress& progress, const Measure& measure, const Table& table, const Files& files_of) {
-    const Result<std::vector<SetUp>> set_ups = load_set_ups(place);
-    if (!set_ups) {
-        return tl::unexpected<Error>(set_ups.error());
-    }
-    const Result<LoadedArtifact> artifact = load_artifact(measured);
-    if (!artifact) {
-        return tl::unexpected<Error>(artifact.error());
-    }
+    TRY(const std::vector<SetUp> set_ups, load_set_ups(place));
+    TRY(const LoadedArtifact artifact, load_artifact(measured));
     const auto steps = [&progress](const std::string& step, double done) { progress.show(step, done); };
-    using Measured = decltype(measure(set_ups->front(), *artifact->pack, artifact->mesh, steps));
+    using Measured = decltype(measure(set_ups.front(), *artifact.pack, artifact.mesh, steps));
     std::vector<typename Measured::value_type> results;
     OutputFiles files;
-    for (const SetUp& set_up : *set_ups) {
-        Measured result = measure(set_up, *artifact->pack, artifact->mesh, steps);
+    for (const SetUp& set_up : set_ups) {
+        Measured result = measure(set_up, *artifact.pack, artifact.mesh, steps);
         if (!result) {
             return tl::unexpected<Error>(result.error());
         }

@@ -22,25 +22,16 @@ struct Arguments {
 };
 
 Result<std::vector<CountedPack>> count_all(const Arguments& arguments, BenchProgress& progress) {
-    const Result<std::vector<SetUp>> set_ups = load_set_ups(arguments.place);
-    if (!set_ups) {
-        return tl::unexpected<Error>(set_ups.error());
-    }
+    TRY(const std::vector<SetUp> set_ups, load_set_ups(arguments.place));
     std::vector<CountedPack> counted;
     for (const std::filesystem::path& file : arguments.packs) {
         progress.show(file.filename().string(),
                       static_cast<double>(counted.size()) /
-                          static_cast<double>(arguments.packs.size() * set_ups->size()));
-        const Result<VerifiedPack> pack = load_pack(file);
-        if (!pack) {
-            return tl::unexpected<Error>(pack.error());
-        }
-        for (const SetUp& set_up : *set_ups) {
-            Result<CountedPack> one = count_frames(set_up, **pack, arguments.poses, arguments.seed);
-            if (!one) {
-                return tl::unexpected<Error>(one.error());
-            }
-            counted.push_back(std::move(*one));
+                          static_cast<double>(arguments.packs.size() * set_ups.size()));
+        TRY(const VerifiedPack pack, load_pack(file));
+        for (const SetUp& set_up : set_ups) {
+            TRY(CountedPack one, count_frames(set_up, *pack, arguments.poses, arguments.seed));
+            counted.push_back(std::move(one));
         }
     }
     progress.clear();
@@ -51,11 +42,8 @@ Result<std::vector<CountedPack>> load_reference(const std::filesystem::path& fil
     if (file.empty()) {
         return std::vector<CountedPack>{};
     }
-    const Result<Bytes> bytes = read_file(file);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    Result<std::vector<CountedPack>> counts = read_counts(as_text(*bytes));
+    TRY(const Bytes bytes, read_file(file));
+    Result<std::vector<CountedPack>> counts = read_counts(as_text(bytes));
     return counts ? std::move(counts) : at(file.string(), counts.error());
 }
 
@@ -75,23 +63,14 @@ Result<void> require_reference(std::span<const CountedPack> counted, std::span<c
 }
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    const Result<std::vector<CountedPack>> reference = load_reference(arguments.reference);
-    if (!reference) {
-        return tl::unexpected<Error>(reference.error());
-    }
-    const Result<std::vector<CountedPack>> counted = count_all(arguments, progress);
-    if (!counted) {
-        return tl::unexpected<Error>(counted.error());
-    }
-    const std::vector<CountChange> against = changes(*counted, *reference);
-    fmt::print("{}", counts_table(*counted, against));
+    TRY(const std::vector<CountedPack> reference, load_reference(arguments.reference));
+    TRY(const std::vector<CountedPack> counted, count_all(arguments, progress));
+    const std::vector<CountChange> against = changes(counted, reference);
+    fmt::print("{}", counts_table(counted, against));
     std::fflush(stdout);
-    Result<void> written = write_all(arguments.place.out, {{"counts.json", counts_json(*counted)}});
-    if (!written) {
-        return written;
-    }
+    TRY_VOID(write_all(arguments.place.out, {{"counts.json", counts_json(counted)}}));
     if (!arguments.reference.empty()) {
-        return require_reference(*counted, *reference, against, arguments.reference);
+        return require_reference(counted, reference, against, arguments.reference);
     }
     return {};
 }

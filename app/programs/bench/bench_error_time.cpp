@@ -50,56 +50,42 @@ std::vector<LimitVerdict> judge_figures(const LoadedArtifact& artifact, const Se
 Result<SetUpResult> measure(const SetUp& set_up, const LoadedArtifact& artifact,
                             const ErrorTimeOptions& options, BenchProgress& progress,
                             std::vector<std::pair<std::string, std::string>>& files) {
-    Result<SetUpResult> result =
+    TRY(SetUpResult result,
         error_time(set_up, *artifact.pack, artifact.mesh, options,
-                   [&](const std::string& step, double done) { progress.show(step, done); });
-    if (!result) {
-        return result;
-    }
+                   [&](const std::string& step, double done) { progress.show(step, done); }));
     progress.clear();
-    fmt::print("{}\n", console_table(*result));
+    fmt::print("{}\n", console_table(result));
     std::fflush(stdout);
-    for (const auto& [level, picture] : result->worst) {
+    for (const auto& [level, picture] : result.worst) {
         files.emplace_back(fmt::format("worst_{}_{}.png", set_up.name, level), as_text(encode_png(picture)));
     }
     return result;
 }
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    const Result<std::vector<SetUp>> set_ups = load_set_ups(arguments.place);
-    if (!set_ups) {
-        return tl::unexpected<Error>(set_ups.error());
-    }
-    const Result<LoadedArtifact> artifact = load_artifact(arguments.artifact);
-    if (!artifact) {
-        return tl::unexpected<Error>(artifact.error());
-    }
-    if (!artifact->pack->unlit) {
+    TRY(const std::vector<SetUp> set_ups, load_set_ups(arguments.place));
+    TRY(const LoadedArtifact artifact, load_artifact(arguments.artifact));
+    if (!artifact.pack->unlit) {
         fmt::print(stderr,
                    "frustumscreen-bench: {}: baked with light; its levels are held against that light at "
                    "each ray's hit, "
                    "peers have none and are compared by shape alone\n",
                    arguments.artifact.pack.string());
     }
-    progress.plan(all_steps(*set_ups, *artifact, arguments.options));
-    const std::vector<LimitVerdict> figures = judge_figures(*artifact, set_ups->front(), progress);
+    progress.plan(all_steps(set_ups, artifact, arguments.options));
+    const std::vector<LimitVerdict> figures = judge_figures(artifact, set_ups.front(), progress);
     std::vector<SetUpResult> results;
     std::vector<std::pair<std::string, std::string>> files;
-    for (const SetUp& set_up : *set_ups) {
-        Result<SetUpResult> result = measure(set_up, *artifact, arguments.options, progress, files);
-        if (!result) {
-            return tl::unexpected<Error>(result.error());
-        }
-        results.push_back(std::move(*result));
+    for (const SetUp& set_up : set_ups) {
+        TRY(SetUpResult result, measure(set_up, artifact, arguments.options, progress, files));
+        results.push_back(std::move(result));
     }
     files.emplace_back("error_time.csv", summary_csv(results));
     files.emplace_back("error_time_poses.csv", poses_csv(results));
-    files.emplace_back("error_time.json", report_json(results, artifact->pack->title, figures));
+    files.emplace_back("error_time.json", report_json(results, artifact.pack->title, figures));
     files.emplace_back("verdicts.csv", verdicts_csv(results, figures));
     files.emplace_back("limits.csv", limits_csv());
-    if (Result<void> written = write_all(arguments.place.out, files); !written) {
-        return written;
-    }
+    TRY_VOID(write_all(arguments.place.out, files));
     const Result<void> drawn = draw_all(arguments.place.out, {"error_time.csv"});
     const Result<void> figures_hold = require_true(figures, arguments.artifact.pack.string());
     if (!figures_hold || !drawn) {

@@ -20,22 +20,16 @@ struct Arguments {
 Result<std::vector<NamedCoverage>> measure(const BenchArtifact& named, const std::vector<SetUp>& set_ups,
                                            const EstimateOptions& options, BenchProgress& progress,
                                            std::string& poses) {
-    const Result<LoadedArtifact> artifact = load_artifact(named);
-    if (!artifact) {
-        return tl::unexpected<Error>(artifact.error());
-    }
+    TRY(const LoadedArtifact artifact, load_artifact(named));
     const std::string name = named.pack.stem().string();
     std::vector<NamedCoverage> rows;
     for (const SetUp& set_up : set_ups) {
-        const Result<SetUpResult> result =
-            measure_estimates(set_up, *artifact->pack, artifact->mesh, options,
-                              [&](const std::string& step, double done) { progress.show(step, done); });
-        if (!result) {
-            return tl::unexpected<Error>(result.error());
-        }
-        const std::vector<NamedCoverage> more = coverages_of(name, *result);
+        TRY(const SetUpResult result,
+            measure_estimates(set_up, *artifact.pack, artifact.mesh, options,
+                              [&](const std::string& step, double done) { progress.show(step, done); }));
+        const std::vector<NamedCoverage> more = coverages_of(name, result);
         rows.insert(rows.end(), more.begin(), more.end());
-        poses += estimates_csv(name, *result);
+        poses += estimates_csv(name, result);
     }
     progress.clear();
     fmt::print("{}\n", coverage_table(rows));
@@ -49,19 +43,13 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
             fmt::format("there are {} packs and {} meshes; give each --pack its --mesh, in the same order",
                         arguments.packs.size(), arguments.meshes.size()));
     }
-    const Result<std::vector<SetUp>> set_ups = load_set_ups(arguments.place);
-    if (!set_ups) {
-        return tl::unexpected<Error>(set_ups.error());
-    }
+    TRY(const std::vector<SetUp> set_ups, load_set_ups(arguments.place));
     std::vector<NamedCoverage> rows;
     std::string poses(estimates_csv_header);
     for (std::size_t k = 0; k < arguments.packs.size(); ++k) {
-        const Result<std::vector<NamedCoverage>> more =
-            measure({arguments.packs[k], arguments.meshes[k]}, *set_ups, arguments.options, progress, poses);
-        if (!more) {
-            return tl::unexpected<Error>(more.error());
-        }
-        rows.insert(rows.end(), more->begin(), more->end());
+        TRY(const std::vector<NamedCoverage> more,
+            measure({arguments.packs[k], arguments.meshes[k]}, set_ups, arguments.options, progress, poses));
+        rows.insert(rows.end(), more.begin(), more.end());
     }
     const LimitVerdict verdict = judge(rows);
     fmt::print("{}", lines_of(std::span(&verdict, 1)));

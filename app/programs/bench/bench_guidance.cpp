@@ -20,11 +20,8 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     std::vector<std::pair<std::string, Settings>> props{{"frustum on the table", Settings{}},
                                                         {"cube in the hand", cube_in_hand()}};
     if (!arguments.config.empty()) {
-        const Result<CheckedSettings> checked = load_settings(arguments.config);
-        if (!checked) {
-            return tl::unexpected<Error>(checked.error());
-        }
-        props = {{arguments.config.stem().string(), **checked}};
+        TRY(const CheckedSettings checked, load_settings(arguments.config));
+        props = {{arguments.config.stem().string(), *checked}};
     }
     std::vector<GuidedProp> results;
     for (const auto& [name, settings] : props) {

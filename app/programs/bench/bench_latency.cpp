@@ -51,12 +51,9 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
             fmt::print(stderr, "frustumscreen-bench: {}: not there, left out\n", path.string());
             continue;
         }
-        Result<std::vector<RecordedPose>> poses = read_recorded_poses(path);
-        if (!poses) {
-            return tl::unexpected<Error>(poses.error());
-        }
+        TRY(std::vector<RecordedPose> poses, read_recorded_poses(path));
         recordings.push_back(
-            measure_recording({std::string(file.name), *std::move(poses), file.noisy}, arguments.options));
+            measure_recording({std::string(file.name), std::move(poses), file.noisy}, arguments.options));
     }
     if (!recordings.empty()) {
         fmt::print("{}\n", recordings_table(recordings));

@@ -14,9 +14,7 @@ struct Arguments {
 };
 
 Result<void> run(const Arguments& arguments) {
-    if (Result<void> made = write_all(arguments.out, {}); !made) {
-        return made;
-    }
+    TRY_VOID(write_all(arguments.out, {}));
     std::vector<std::string> words = {"--overall", (arguments.out / "error_time_overall.svg").string()};
     for (const std::filesystem::path& folder : arguments.from) {
         words.push_back(folder.string());

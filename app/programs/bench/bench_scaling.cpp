@@ -27,14 +27,12 @@ Result<void> measure(const SetUp& set_up, const std::vector<ScalingSource>& sour
     const auto show = [&](const std::string& step, double done) {
         progress.show(set_up.name + ": " + step, done);
     };
-    const Result<std::vector<ScalingRow>> rows = scaling(set_up, sources, arguments.options, show);
-    if (!rows) {
-        return at(set_up.name, rows.error());
-    }
+    TRY(const std::vector<ScalingRow> rows,
+        at(set_up.name, scaling(set_up, sources, arguments.options, show)));
     progress.clear();
-    fmt::print("{} set-up\n{}\n", set_up.name, scaling_table(*rows));
+    fmt::print("{} set-up\n{}\n", set_up.name, scaling_table(rows));
     std::fflush(stdout);
-    files.emplace_back("scaling_" + set_up.name + ".csv", scaling_csv(*rows));
+    files.emplace_back("scaling_" + set_up.name + ".csv", scaling_csv(rows));
     for (const ScalingSource& source : sources) {
         if (arguments.no_peers || source.mesh->triangles.size() < least_two_pass_triangles) {
             continue;
@@ -44,46 +42,33 @@ Result<void> measure(const SetUp& set_up, const std::vector<ScalingSource>& sour
         compared.poses = arguments.options.poses;
         compared.seed = arguments.options.seed;
         compared.peers.ray_cast = compared.peers.lod = compared.peers.two_pass_lod = false;
-        const Result<SetUpResult> result = error_time(set_up, source.pack, source.mesh, compared, show);
-        if (!result) {
-            return tl::unexpected<Error>(result.error());
-        }
+        TRY(const SetUpResult result, error_time(set_up, source.pack, source.mesh, compared, show));
         progress.clear();
         const std::string title =
             fmt::format("Built-in amphora, {} triangles", source.mesh->triangles.size());
-        fmt::print("{}\n{}\n", title, console_table(*result));
+        fmt::print("{}\n{}\n", title, console_table(result));
         std::fflush(stdout);
         files.emplace_back(fmt::format("two_pass_{}_{}.csv", set_up.name, source.mesh->triangles.size()),
-                           summary_csv({&*result, 1}));
+                           summary_csv({&result, 1}));
     }
     return {};
 }
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    const Result<std::vector<SetUp>> set_ups = load_set_ups(arguments.place);
-    if (!set_ups) {
-        return tl::unexpected<Error>(set_ups.error());
-    }
-    const Result<std::vector<ScalingSource>> sources =
+    TRY(const std::vector<SetUp> set_ups, load_set_ups(arguments.place));
+    TRY(const std::vector<ScalingSource> sources,
         bake_amphoras(arguments.options,
-                      [&](const std::string& step, double done) { progress.show("bake: " + step, done); });
-    if (!sources) {
-        return tl::unexpected<Error>(sources.error());
-    }
+                      [&](const std::string& step, double done) { progress.show("bake: " + step, done); }));
     std::vector<std::pair<std::string, std::string>> files;
-    for (const SetUp& set_up : *set_ups) {
-        if (Result<void> measured = measure(set_up, *sources, arguments, progress, files); !measured) {
-            return measured;
-        }
+    for (const SetUp& set_up : set_ups) {
+        TRY_VOID(measure(set_up, sources, arguments, progress, files));
     }
     std::vector<std::string> tables;
     for (const auto& [name, text] : files) {
         tables.push_back(name);
     }
     files.emplace_back("limits.csv", limits_csv());
-    if (Result<void> written = write_all(arguments.place.out, files); !written) {
-        return written;
-    }
+    TRY_VOID(write_all(arguments.place.out, files));
     return draw_all(arguments.place.out, tables);
 }
 

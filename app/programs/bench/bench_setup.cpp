@@ -29,13 +29,10 @@ Result<void> measure_costs(const Pack& pack, SetUpChoice& now, std::vector<SetUp
     for (const SetUpChoice* choice : timed) {
         set_ups.push_back(&choice->settings);
     }
-    const Result<std::vector<SetUpCost>> costs =
-        frame_costs(set_ups, pack, [&progress](double done) { progress.show("frames", done); });
-    if (!costs) {
-        return tl::unexpected<Error>(costs.error());
-    }
+    TRY(const std::vector<SetUpCost> costs,
+        frame_costs(set_ups, pack, [&progress](double done) { progress.show("frames", done); }));
     for (std::size_t k = 0; k < timed.size(); ++k) {
-        timed[k]->cost = (*costs)[k];
+        timed[k]->cost = costs[k];
     }
     return {};
 }
@@ -44,42 +41,31 @@ Result<std::optional<VerifiedPack>> load_if_named(const std::filesystem::path& f
     if (file.empty()) {
         return std::optional<VerifiedPack>();
     }
-    Result<VerifiedPack> pack = load_pack(file);
-    if (!pack) {
-        return tl::unexpected<Error>(pack.error());
-    }
-    return std::optional(std::move(*pack));
+    TRY(VerifiedPack pack, load_pack(file));
+    return std::optional(std::move(pack));
 }
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    const Result<CheckedSettings> checked = load_settings(arguments.config);
-    if (!checked) {
-        return tl::unexpected<Error>(checked.error());
-    }
+    TRY(const CheckedSettings checked, load_settings(arguments.config));
     if (arguments.options.lowest_m > arguments.options.highest_m) {
         return bad_input("--lowest-m is above --highest-m; no lens can hang there");
     }
-    const Settings& settings = **checked;
+    const Settings& settings = *checked;
     AdviceOptions options = arguments.options;
     if (arguments.picture.size() == 2) {
         options.width = arguments.picture[0];
         options.height = arguments.picture[1];
     }
-    const Result<std::optional<VerifiedPack>> pack = load_if_named(arguments.pack);
-    if (!pack) {
-        return tl::unexpected<Error>(pack.error());
-    }
+    TRY(const std::optional<VerifiedPack> pack, load_if_named(arguments.pack));
     SetUpChoice now = as_it_is(settings);
     std::vector<SetUpChoice> found =
         choices(settings, options, [&progress](double done) { progress.show("set-ups", done); });
-    if (*pack) {
-        if (Result<void> measured = measure_costs(***pack, now, found, progress); !measured) {
-            return measured;
-        }
+    if (pack) {
+        TRY_VOID(measure_costs(**pack, now, found, progress));
     }
     progress.clear();
     fmt::print("{}\n", setup_table(now, found, options));
-    if (!*pack) {
+    if (!pack) {
         fmt::print("What a frame costs was not measured: name a baked pack with --pack.\n\n");
     }
     if (const SetUpChoice* best = best_of(found); best != nullptr && best->works) {

@@ -30,11 +30,8 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     std::fflush(stdout);
     const std::vector<StepError> smoothers = smoother_step_errors();
     const std::vector<StepError> program = program_step_errors();
-    Result<void> written = write_all(arguments.out, {{"stability.csv", stability_csv(measured)},
-                                                     {"step_error.csv", step_error_csv(smoothers, program)}});
-    if (!written) {
-        return written;
-    }
+    TRY_VOID(write_all(arguments.out, {{"stability.csv", stability_csv(measured)},
+                                       {"step_error.csv", step_error_csv(smoothers, program)}}));
     Result<void> drawn = draw_all(arguments.out, {"step_error.csv"});
     if (!all_held(measured)) {
         return fail(ErrorKind::Internal, fmt::format("a bound was missed; {} says which",

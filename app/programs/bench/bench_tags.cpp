@@ -35,11 +35,8 @@ Result<void> add_recordings(const std::filesystem::path& folder, std::vector<Tag
             say_line("frustumscreen-bench", fmt::format("{}: not there, left out", (folder / name).string()));
             continue;
         }
-        Result<std::vector<RecordedPose>> poses = read_recorded_poses(folder / name);
-        if (!poses) {
-            return tl::unexpected<Error>(poses.error());
-        }
-        const auto motion = slid_as(std::make_shared<const std::vector<RecordedPose>>(*std::move(poses)));
+        TRY(std::vector<RecordedPose> poses, read_recorded_poses(folder / name));
+        const auto motion = slid_as(std::make_shared<const std::vector<RecordedPose>>(std::move(poses)));
         for (const double rolling_ms : {0.0, 25.0}) {
             TagCase one;
             one.name =
@@ -57,9 +54,7 @@ Result<void> add_recordings(const std::filesystem::path& folder, std::vector<Tag
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     std::vector<TagCase> cases = tag_cases();
-    if (Result<void> added = add_recordings(arguments.recordings, cases); !added) {
-        return added;
-    }
+    TRY_VOID(add_recordings(arguments.recordings, cases));
     for (TagCase& one : cases) {
         one.decimate = arguments.half ? 2.0 : 1.0;
     }

@@ -61,30 +61,21 @@ Result<int> calibrate(const CalibrateRequest& request) {
     if (request.from.empty()) {
         return calibrate_by_camera(request);
     }
-    const Result<Described> described = describe(request);
-    if (!described) {
-        return tl::unexpected<Error>(described.error());
-    }
-    const auto rests = read_points(request, parse_rests);
-    if (!rests) {
-        return tl::unexpected<Error>(rests.error());
-    }
-    const AutoCalibration calibration = calibrate_auto(*rests, set_up_for<AutoSetup>(*described, request));
+    TRY(const Described described, describe(request));
+    TRY(const auto rests, read_points(request, parse_rests));
+    const AutoCalibration calibration = calibrate_auto(rests, set_up_for<AutoSetup>(described, request));
     if (request.json) {
-        fmt::print("{}\n", auto_json(calibration, *rests).dump(2));
+        fmt::print("{}\n", auto_json(calibration, rests).dump(2));
     } else {
-        fmt::print("{}", auto_text(calibration, *rests));
+        fmt::print("{}", auto_text(calibration, rests));
     }
     if (!request.map.empty()) {
-        if (const Result<void> drawn = write_uncertainty(request.map, map_of(calibration.found),
-                                                         places_of(*rests), described->top_m);
-            !drawn) {
-            return tl::unexpected<Error>(drawn.error());
-        }
+        TRY_VOID(
+            write_uncertainty(request.map, map_of(calibration.found), places_of(rests), described.top_m));
     }
     const int status = status_of(calibration.found.verdict, request, calibration.found.reason);
     if (status == 0 && request.keep) {
-        return keep_auto(*described->settings, calibration).map([] { return 0; });
+        return keep_auto(*described.settings, calibration).map([] { return 0; });
     }
     return status;
 }

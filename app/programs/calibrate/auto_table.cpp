@@ -135,9 +135,7 @@ Result<WayEnd> measure_by_camera(const Settings& settings, const CalibrateReques
     CameraTable table(settings, devices, make_camera(settings.camera));
     AutoProcedure procedure(board, plan);
     const Result<std::optional<AutoStage>> ended = table.run(procedure, setup);
-    if (const Result<void> written = write_rests(request, procedure.rests()); !written) {
-        return tl::unexpected<Error>(written.error());
-    }
+    TRY_VOID(write_rests(request, procedure.rests()));
     if (!ended) {
         return tl::unexpected<Error>(ended.error());
     }
@@ -158,11 +156,8 @@ Result<WayEnd> measure_by_camera(const Settings& settings, const CalibrateReques
 }
 
 Result<int> calibrate_by_camera(const CalibrateRequest& request) {
-    const Result<Described> described = describe(request);
-    if (!described) {
-        return tl::unexpected<Error>(described.error());
-    }
-    const Settings& settings = *described->settings;
+    TRY(const Described described, describe(request));
+    const Settings& settings = *described.settings;
     if (settings.camera.kind == CameraKind::None) {
         return fail(
             ErrorKind::BadConfiguration,
@@ -170,16 +165,10 @@ Result<int> calibrate_by_camera(const CalibrateRequest& request) {
                         "(frustumscreen-calibrate table)",
                         request.config.string()));
     }
-    const Result<Board> board = board_of(settings);
-    if (!board) {
-        return tl::unexpected<Error>(board.error());
-    }
-    const Result<std::unique_ptr<TableDevices>> devices =
-        TableDevices::open(request, settings, ", or give --from");
-    if (!devices) {
-        return tl::unexpected<Error>(devices.error());
-    }
-    return measure_by_camera(settings, request, *board, **devices, false).map([](WayEnd) { return 0; });
+    TRY(const Board board, board_of(settings));
+    TRY(const std::unique_ptr<TableDevices> devices,
+        TableDevices::open(request, settings, ", or give --from"));
+    return measure_by_camera(settings, request, board, *devices, false).map([](WayEnd) { return 0; });
 }
 
 } // namespace frustumscreen

@@ -49,11 +49,8 @@ Result<Described> describe(const CalibrateRequest& request) {
     if (!request.picture.empty()) {
         return Described{std::nullopt, request.picture[0], request.picture[1]};
     }
-    const Result<CheckedSettings> settings = load_settings(request.config);
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
-    }
-    return described_by(**settings);
+    TRY(const CheckedSettings settings, load_settings(request.config));
+    return described_by(*settings);
 }
 
 Described described_by(const Settings& settings) {

@@ -51,29 +51,19 @@ std::string corners_text(const CornerCalibration& c, const CornerUncertainty& un
 }
 
 Result<int> corners(const CalibrateRequest& request) {
-    const Result<Described> described = describe(request);
-    if (!described) {
-        return tl::unexpected<Error>(described.error());
-    }
-    const auto measured = read_points(request, parse_corners);
-    if (!measured) {
-        return tl::unexpected<Error>(measured.error());
-    }
-    const CornerCalibration calibration = calibrate_corners(*measured, described->width, described->height);
+    TRY(const Described described, describe(request));
+    TRY(const auto measured, read_points(request, parse_corners));
+    const CornerCalibration calibration = calibrate_corners(measured, described.width, described.height);
     const CornerUncertainty uncertainty =
-        calibration.pinhole ? uncertainty_of(calibration, *measured, described->top_m) : CornerUncertainty{};
+        calibration.pinhole ? uncertainty_of(calibration, measured, described.top_m) : CornerUncertainty{};
     if (request.json) {
         fmt::print("{}\n", corners_json(calibration, uncertainty).dump(2));
     } else {
         fmt::print("{}", corners_text(calibration, uncertainty));
     }
     if (!request.map.empty()) {
-        const MeasuredPlaces places = places_of(*measured, described->width, described->height);
-        if (const Result<void> drawn =
-                write_uncertainty(request.map, map_of(calibration, uncertainty), places, described->top_m);
-            !drawn) {
-            return tl::unexpected<Error>(drawn.error());
-        }
+        const MeasuredPlaces places = places_of(measured, described.width, described.height);
+        TRY_VOID(write_uncertainty(request.map, map_of(calibration, uncertainty), places, described.top_m));
     }
     return status_of(calibration.verdict, request, calibration.reason);
 }

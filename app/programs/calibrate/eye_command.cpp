@@ -91,11 +91,8 @@ Result<int> from_file(const Settings& settings, const CalibrateRequest& request)
         return fail(ErrorKind::BadConfiguration,
                     fmt::format("{}: {}", settings.calibration.folder.string(), why));
     }
-    const auto reported = read_points(request, parse_sights);
-    if (!reported) {
-        return tl::unexpected<Error>(reported.error());
-    }
-    const std::optional<EyeFit> fit = fit_reported(*reported, settings);
+    TRY(const auto reported, read_points(request, parse_sights));
+    const std::optional<EyeFit> fit = fit_reported(reported, settings);
     if (!fit) {
         return bad_input(fmt::format("{}: the light of a cross does not come down on the table; u_px, v_px "
                                      "is its pixel in the picture",
@@ -114,11 +111,8 @@ Result<int> from_file(const Settings& settings, const CalibrateRequest& request)
 }
 
 Result<int> eye(const CalibrateRequest& request) {
-    const Result<CheckedSettings> settings = load_settings(request.config);
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
-    }
-    return request.from.empty() ? on_table(**settings, request) : from_file(**settings, request);
+    TRY(const CheckedSettings settings, load_settings(request.config));
+    return request.from.empty() ? on_table(*settings, request) : from_file(*settings, request);
 }
 
 } // namespace

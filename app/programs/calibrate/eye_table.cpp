@@ -93,9 +93,7 @@ Result<bool> measure_eyes(const Settings& settings, const CalibrateRequest& requ
     EyeTable table(settings, devices);
     EyeProcedure procedure(sight_scene(settings), registration, why_no_eye(settings));
     const Result<bool> ended = table.run(procedure);
-    if (const Result<void> written = write_sights(request, procedure.sights()); !written) {
-        return tl::unexpected<Error>(written.error());
-    }
+    TRY_VOID(write_sights(request, procedure.sights()));
     if (!ended || !*ended) {
         return ended;
     }
@@ -111,12 +109,9 @@ Result<bool> measure_eyes(const Settings& settings, const CalibrateRequest& requ
 }
 
 Result<void> calibrate_eyes(const Settings& settings, const CalibrateRequest& request) {
-    const Result<std::unique_ptr<TableDevices>> devices =
-        TableDevices::open(request, settings, ", or give --from");
-    if (!devices) {
-        return tl::unexpected<Error>(devices.error());
-    }
-    return measure_eyes(settings, request, **devices).and_then([&](bool kept) {
+    TRY(const std::unique_ptr<TableDevices> devices,
+        TableDevices::open(request, settings, ", or give --from"));
+    return measure_eyes(settings, request, *devices).and_then([&](bool kept) {
         return kept ? Result<void>() : ended_without(why_no_eye(settings));
     });
 }

@@ -54,38 +54,26 @@ std::string kept_text(const std::vector<KeptCalibration>& kept, FileTree& folder
 }
 
 Result<int> show_kept(const CalibrateRequest& request) {
-    const Result<CheckedSettings> settings = load_settings(request.config);
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
-    }
-    const std::filesystem::path& folder = (*settings)->calibration.folder;
+    TRY(const CheckedSettings settings, load_settings(request.config));
+    const std::filesystem::path& folder = settings->calibration.folder;
     std::error_code none;
     if (!request.undo && !std::filesystem::exists(folder, none)) { // nothing was ever kept
         fmt::print("{}", request.json ? "{\n  \"kept\": []\n}\n" : nothing_kept);
         return 0;
     }
-    const Result<std::unique_ptr<WritableTree>> tree = open_tree(folder);
-    if (!tree) {
-        return tl::unexpected<Error>(tree.error());
-    }
+    TRY(const std::unique_ptr<WritableTree> tree, open_tree(folder));
     if (request.undo) {
-        const Result<KeptCalibration> undone = undo_calibration(**tree);
-        if (!undone) {
-            return tl::unexpected<Error>(undone.error());
-        }
+        TRY(const KeptCalibration undone, undo_calibration(*tree));
         fmt::print(
             stderr,
             "frustumscreen-calibrate: {} is undone; the exhibit takes the one before when it starts again\n",
-            undone->name);
+            undone.name);
     }
-    const Result<std::vector<KeptCalibration>> kept = list_calibrations(**tree);
-    if (!kept) {
-        return tl::unexpected<Error>(kept.error());
-    }
+    TRY(const std::vector<KeptCalibration> kept, list_calibrations(*tree));
     if (request.json) {
-        fmt::print("{}\n", kept_json(*kept, **tree).dump(2));
+        fmt::print("{}\n", kept_json(kept, *tree).dump(2));
     } else {
-        fmt::print("{}", kept_text(*kept, **tree));
+        fmt::print("{}", kept_text(kept, *tree));
     }
     return 0;
 }
@@ -106,18 +94,12 @@ Result<void> keep_next(const Settings& settings, Calibration next) {
     const std::filesystem::path& folder = settings.calibration.folder;
     std::error_code failed; // open_tree says what is wrong with it
     std::filesystem::create_directories(folder, failed);
-    const Result<std::unique_ptr<WritableTree>> tree = open_tree(folder);
-    if (!tree) {
-        return tl::unexpected<Error>(tree.error());
-    }
+    TRY(const std::unique_ptr<WritableTree> tree, open_tree(folder));
     const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
     next.made = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(now));
-    const Result<KeptCalibration> kept = keep_calibration(**tree, next);
-    if (!kept) {
-        return tl::unexpected<Error>(kept.error());
-    }
+    TRY(const KeptCalibration kept, keep_calibration(*tree, next));
     fmt::print(stderr, "frustumscreen-calibrate: kept as {}; the exhibit takes it when it starts again\n",
-               (folder / kept->name).string());
+               (folder / kept.name).string());
     return {};
 }
 

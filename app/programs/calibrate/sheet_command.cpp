@@ -12,18 +12,10 @@ namespace {
 
 Result<int> draw(const CalibrateRequest& request) {
     const std::array inputs{request.config};
-    if (const Result<void> other = check_output_is_no_input(request.out, inputs); !other) {
-        return tl::unexpected<Error>(other.error());
-    }
-    const Result<Described> described = describe(request);
-    if (!described) {
-        return tl::unexpected<Error>(described.error());
-    }
-    const Result<Board> board = board_of(*described->settings);
-    if (!board) {
-        return tl::unexpected<Error>(board.error());
-    }
-    return write_file(request.out, as_bytes(board_sheet(*board, request.config.filename().string()))).map([] {
+    TRY_VOID(check_output_is_no_input(request.out, inputs));
+    TRY(const Described described, describe(request));
+    TRY(const Board board, board_of(*described.settings));
+    return write_file(request.out, as_bytes(board_sheet(board, request.config.filename().string()))).map([] {
         return 0;
     });
 }

@@ -118,9 +118,7 @@ Result<WayEnd> measure_by_crosses(const Session& session) {
         judged = calibrate_touch(touches, session.setup);
         return judgement_of(judged);
     });
-    if (const Result<void> written = session.write_touches(procedure.touches()); !written) {
-        return tl::unexpected<Error>(written.error());
-    }
+    TRY_VOID(session.write_touches(procedure.touches()));
     if (!ended) {
         return tl::unexpected<Error>(ended.error());
     }
@@ -141,9 +139,7 @@ Result<WayEnd> touch_up_on_table(const Session& session) {
         found = touch_up(kept_table_of(session.settings), touches, session.setup);
         return judgement_of(found);
     });
-    if (const Result<void> written = session.write_touches(procedure.touches()); !written) {
-        return tl::unexpected<Error>(written.error());
-    }
+    TRY_VOID(session.write_touches(procedure.touches()));
     if (!ended) {
         return tl::unexpected<Error>(ended.error());
     }
@@ -185,28 +181,22 @@ Result<WayEnd> take(CalibrationWay way, const Session& session, const std::optio
 /// Once a calibration is kept, where the tracker reports a head's sensor and nobody has measured where the eyes are in it. Whoever goes
 /// without them keeps the calibration.
 Result<int> measure_missing_eyes(const Session& session) {
-    const Result<CheckedSettings> settings = load_settings(session.request.config); // with what was kept
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
-    }
-    const bool are_known = (*settings)->tracker.registration.eye_in_sensor_m != glm::dvec3(0.0);
+    TRY(const CheckedSettings settings, load_settings(session.request.config)); // with what was kept
+    const bool are_known = settings->tracker.registration.eye_in_sensor_m != glm::dvec3(0.0);
     if (are_known || !session.devices.has_seen_head()) {
         return 0;
     }
     CalibrateRequest request = session.request;
     request.out.clear(); // it has the touches, or the rests
-    return measure_eyes(**settings, request, session.devices).map([](bool) { return 0; });
+    return measure_eyes(*settings, request, session.devices).map([](bool) { return 0; });
 }
 
 /// One way after the other, until one ends with a calibration or without.
 Result<int> take_first_wanted(const Session& session) {
     const std::optional<Board> board = board_for_camera(session.settings);
     for (const CalibrationWay way : ways_through(!session.touch_up_crosses.empty(), board.has_value())) {
-        const Result<WayEnd> ended = take(way, session, board);
-        if (!ended) {
-            return tl::unexpected<Error>(ended.error());
-        }
-        if (*ended == WayEnd::Kept) {
+        TRY(const WayEnd ended, take(way, session, board));
+        if (ended == WayEnd::Kept) {
             return measure_missing_eyes(session);
         }
     }
@@ -214,11 +204,8 @@ Result<int> take_first_wanted(const Session& session) {
 }
 
 Result<int> calibrate_table(const CalibrateRequest& request) {
-    const Result<Described> described = describe(request);
-    if (!described) {
-        return tl::unexpected<Error>(described.error());
-    }
-    const Settings& settings = *described->settings;
+    TRY(const Described described, describe(request));
+    const Settings& settings = *described.settings;
     if (request.touch_up && !settings.calibration.used) {
         return none_kept(settings);
     }
@@ -232,14 +219,11 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     const std::vector<Cross> crosses = crosses_for(settings, request);
     const std::vector<Cross> touch_up_crosses =
         touches_up ? touch_up_crosses_for(settings, request) : std::vector<Cross>();
-    const Result<std::unique_ptr<TableDevices>> devices = TableDevices::open(request, settings, "");
-    if (!devices) {
-        return tl::unexpected<Error>(devices.error());
-    }
+    TRY(const std::unique_ptr<TableDevices> devices, TableDevices::open(request, settings, ""));
     CalibrateRequest known = request;
     known.sensor_height_m = sensor_height(settings, request);
-    TouchTable table(settings, **devices);
-    return take_first_wanted({**devices, table, settings, request, set_up_for<TouchSetup>(*described, known),
+    TouchTable table(settings, *devices);
+    return take_first_wanted({*devices, table, settings, request, set_up_for<TouchSetup>(described, known),
                               crosses, touch_up_crosses});
 }
 

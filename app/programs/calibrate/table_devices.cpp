@@ -54,20 +54,11 @@ Result<std::unique_ptr<TableDevices>> TableDevices::open(const CalibrateRequest&
                                 "tracker.kind and panel.kind{}",
                                 request.config.string(), instead));
     }
-    Result<std::unique_ptr<Display>> display = make_display(settings, request.headless);
-    if (!display) {
-        return tl::unexpected<Error>(display.error());
-    }
-    Result<Typesetter> typesetter = Typesetter::open();
-    if (!typesetter) {
-        return tl::unexpected<Error>(typesetter.error());
-    }
-    Result<Inputs> inputs = make_inputs(settings, plan, std::nullopt, monotonic_now());
-    if (!inputs) {
-        return tl::unexpected<Error>(inputs.error());
-    }
-    return std::make_unique<TableDevices>(settings, request.headless, *std::move(inputs), *std::move(display),
-                                          *std::move(typesetter));
+    TRY(std::unique_ptr<Display> display, make_display(settings, request.headless));
+    TRY(Typesetter typesetter, Typesetter::open());
+    TRY(Inputs inputs, make_inputs(settings, plan, std::nullopt, monotonic_now()));
+    return std::make_unique<TableDevices>(settings, request.headless, std::move(inputs), std::move(display),
+                                          std::move(typesetter));
 }
 
 TableDevices::TableDevices(const Settings& settings, bool headless, Inputs inputs,
@@ -127,10 +118,7 @@ Result<MonotonicTime> TableDevices::present(MonotonicTime now) {
     if (voice_) {
         voice_->poll(now);
     }
-    const Result<MonotonicTime> lit = display_->present(now);
-    if (!lit) {
-        return lit;
-    }
+    TRY(const MonotonicTime lit, display_->present(now));
     if (!fed_) {
         manager_.ready();
     }

@@ -19,9 +19,7 @@ void wait(TableDevices& devices, const TableRounds& rounds) {
 Result<bool> run_rounds(TableDevices& devices, const TableRounds& rounds) {
     while (!devices.told_to_stop()) {
         const MonotonicTime now = devices.now();
-        if (Result<void> shown = rounds.show(now); !shown) {
-            return tl::unexpected<Error>(shown.error());
-        }
+        TRY_VOID(rounds.show(now));
         if (rounds.has_ended()) {
             return true;
         }

@@ -31,34 +31,23 @@ std::string touch_text(const TouchCalibration& c) {
 }
 
 Result<int> touch(const CalibrateRequest& request) {
-    const Result<Described> described = describe(request);
-    if (!described) {
-        return tl::unexpected<Error>(described.error());
-    }
-    const auto touches = read_points(request, parse_touches);
-    if (!touches) {
-        return tl::unexpected<Error>(touches.error());
-    }
+    TRY(const Described described, describe(request));
+    TRY(const auto touches, read_points(request, parse_touches));
     if (request.touch_up) {
-        return touch_up_kept(request, *described, *touches);
+        return touch_up_kept(request, described, touches);
     }
-    const TouchCalibration calibration =
-        calibrate_touch(*touches, set_up_for<TouchSetup>(*described, request));
+    const TouchCalibration calibration = calibrate_touch(touches, set_up_for<TouchSetup>(described, request));
     if (request.json) {
         fmt::print("{}\n", touch_json(calibration).dump(2));
     } else {
         fmt::print("{}", touch_text(calibration));
     }
     if (!request.map.empty()) {
-        if (const Result<void> drawn =
-                write_uncertainty(request.map, map_of(calibration), places_of(*touches), described->top_m);
-            !drawn) {
-            return tl::unexpected<Error>(drawn.error());
-        }
+        TRY_VOID(write_uncertainty(request.map, map_of(calibration), places_of(touches), described.top_m));
     }
     const int status = status_of(calibration.verdict, request, calibration.reason);
     if (status == 0 && request.keep) {
-        return keep_touch(*described->settings, calibration, *touches).map([] { return 0; });
+        return keep_touch(*described.settings, calibration, touches).map([] { return 0; });
     }
     return status;
 }

@@ -71,9 +71,7 @@ tl::unexpected<Error> none_kept(const Settings& settings) {
 
 Result<void> keep_touch_up(const Settings& settings, const TouchUp& found) {
     if (found.moved != Moved::Nothing) {
-        if (Result<void> kept = keep_next(settings, next_calibration(settings, found)); !kept) {
-            return kept;
-        }
+        TRY_VOID(keep_next(settings, next_calibration(settings, found)));
     }
     // A camera may have said that something moved. Where the projector did not, it was the camera: it learns anew.
     std::error_code none;
@@ -95,11 +93,7 @@ Result<int> touch_up_kept(const CalibrateRequest& request, const Described& desc
         fmt::print("{}: {}\n", name_of(found.verdict), found.reason);
     }
     if (!request.map.empty()) {
-        if (const Result<void> drawn =
-                write_uncertainty(request.map, map_of(found), places_of(touches), described.top_m);
-            !drawn) {
-            return tl::unexpected<Error>(drawn.error());
-        }
+        TRY_VOID(write_uncertainty(request.map, map_of(found), places_of(touches), described.top_m));
     }
     const int status = status_of(found.verdict, request, found.reason);
     if (status == 0 && request.keep) {

@@ -286,11 +286,8 @@ Result<void> write_uncertainty(const std::filesystem::path& file, const std::opt
     if (!map) {
         return {}; // nothing is known, and the reason is told
     }
-    const Result<Typesetter> typesetter = Typesetter::open();
-    if (!typesetter) {
-        return tl::unexpected<Error>(typesetter.error());
-    }
-    return write_file(file, encode_png(uncertainty_picture(*map, measured, top_m, *typesetter)));
+    TRY(const Typesetter typesetter, Typesetter::open());
+    return write_file(file, encode_png(uncertainty_picture(*map, measured, top_m, typesetter)));
 }
 
 } // namespace frustumscreen

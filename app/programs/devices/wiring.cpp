@@ -43,22 +43,13 @@ Nanoseconds nanoseconds(double seconds) {
 /// A pose file or a recording of packets.
 Result<std::unique_ptr<Tracker>> make_replay(const TrackerSettings& tracker, MonotonicTime start) {
     const std::string name = tracker.poses.string();
-    Result<Bytes> bytes = read_file(tracker.poses);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
+    TRY(Bytes bytes, read_file(tracker.poses));
+    if (is_packet_recording(bytes)) {
+        TRY(PacketReplay replay, PacketReplay::open(std::move(bytes), name));
+        return std::make_unique<PacketReplayTracker>(std::move(replay), start, tracker.replay_speed);
     }
-    if (is_packet_recording(*bytes)) {
-        Result<PacketReplay> replay = PacketReplay::open(std::move(*bytes), name);
-        if (!replay) {
-            return tl::unexpected<Error>(replay.error());
-        }
-        return std::make_unique<PacketReplayTracker>(std::move(*replay), start, tracker.replay_speed);
-    }
-    Result<std::vector<PoseSample>> samples = parse_poses(as_text(*bytes), name);
-    if (!samples) {
-        return tl::unexpected<Error>(samples.error());
-    }
-    return std::make_unique<ReplayTracker>(std::move(*samples), start, true, tracker.replay_speed);
+    TRY(std::vector<PoseSample> samples, parse_poses(as_text(bytes), name));
+    return std::make_unique<ReplayTracker>(std::move(samples), start, true, tracker.replay_speed);
 }
 
 bool has_packets(TrackerKind kind) {
@@ -102,11 +93,8 @@ ButtonTimes times_of(const PanelSettings& panel) {
 }
 
 Result<std::unique_ptr<Panel>> make_keys(const PanelSettings& panel) {
-    const Result<std::vector<std::uint16_t>> codes = key_codes(panel.keys);
-    if (!codes) {
-        return tl::unexpected<Error>(codes.error());
-    }
-    const KeyRequest request{panel.device, *codes};
+    TRY(const std::vector<std::uint16_t> codes, key_codes(panel.keys));
+    const KeyRequest request{panel.device, codes};
     return std::make_unique<ButtonPanel>([request] { return open_key_lines(request); }, panel.keys.size(),
                                          times_of(panel));
 }
@@ -212,13 +200,10 @@ Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind, const st
                         "\"spacemouse\"",
                         name_of(kind)));
     }
-    Result<GrowingFile> file = GrowingFile::create(path);
-    if (!file) {
-        return tl::unexpected<Error>(file.error());
-    }
+    TRY(GrowingFile file, GrowingFile::create(path));
     const std::string about = fmt::format("FrustumScreen {}, recorded from {:%Y-%m-%d %H:%M:%S} UTC on",
                                           FRUSTUMSCREEN_VERSION, fmt::gmtime(std::time(nullptr)));
-    return std::make_unique<PacketRecorder>(std::move(*file), about, monotonic_now());
+    return std::make_unique<PacketRecorder>(std::move(file), about, monotonic_now());
 }
 
 std::unique_ptr<Sound> make_sound(const SoundSettings& settings) {
@@ -260,20 +245,13 @@ Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
     Inputs inputs;
     inputs.recorder = std::move(recorder);
     if (plan.tracker != TrackerKind::None) {
-        Result<std::unique_ptr<Tracker>> tracker = make_tracker(settings, start, inputs.recorder.get());
-        if (!tracker) {
-            return tl::unexpected<Error>(tracker.error());
-        }
+        TRY(std::unique_ptr<Tracker> tracker, make_tracker(settings, start, inputs.recorder.get()));
         inputs.tracker =
-            std::make_unique<RegisteredTracker>(std::move(*tracker), settings.tracker.registration);
+            std::make_unique<RegisteredTracker>(std::move(tracker), settings.tracker.registration);
     }
     add_camera(inputs, settings, plan);
     if (plan.panel) {
-        Result<std::unique_ptr<Panel>> panel = make_panel(settings, press_every, start);
-        if (!panel) {
-            return tl::unexpected<Error>(panel.error());
-        }
-        inputs.panel = std::move(*panel);
+        TRY(inputs.panel, make_panel(settings, press_every, start));
     }
     return inputs;
 }

@@ -81,11 +81,8 @@ void look(Camera& camera, const Request& request, const StopSignals& stop, Camer
 /// The caller ends `camera`: its thread may hang in the device.
 Result<int> run(const Request& request, std::unique_ptr<Camera>& camera) {
     const StopSignals stop;
-    const Result<CheckedSettings> settings = load_settings(request.config);
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
-    }
-    const CameraSettings& wished = (*settings)->camera;
+    TRY(const CheckedSettings settings, load_settings(request.config));
+    const CameraSettings& wished = settings->camera;
     CameraReport report;
     report.is_on = wished.kind == CameraKind::V4l2;
     if (request.is_on) {

@@ -49,14 +49,11 @@ Result<void> print_config(const Request& request) {
         fmt::print("{}", settings_page());
         return {};
     }
-    const Result<CheckedSettings> settings = load_settings(request.config);
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
-    }
-    for (const std::string& missing : missing_files(**settings)) {
+    TRY(const CheckedSettings settings, load_settings(request.config));
+    for (const std::string& missing : missing_files(*settings)) {
         say_line("frustumscreen", missing);
     }
-    fmt::print("{}", request.explain ? setup_page(**settings) : config_json(*settings));
+    fmt::print("{}", request.explain ? setup_page(*settings) : config_json(settings));
     return {};
 }
 

@@ -36,20 +36,13 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
 
 Result<void> draw(const Request& request) {
     const std::array inputs{request.config};
-    if (Result<void> other = check_output_is_no_input(request.output, inputs); !other) {
-        return other;
-    }
-    const Result<CheckedSettings> settings = load_settings(request.config);
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
-    }
-    if (Result<void> place = check_output_place(request.output); !place) {
-        return place;
-    }
+    TRY_VOID(check_output_is_no_input(request.output, inputs));
+    TRY(const CheckedSettings settings, load_settings(request.config));
+    TRY_VOID(check_output_place(request.output));
     const std::string name = request.config.filename().string();
-    const std::string drawing = request.sheet == "table"  ? table_sheet(**settings, name)
-                                : request.sheet == "prop" ? prop_sheet(**settings, name)
-                                                          : net_sheet(**settings, name);
+    const std::string drawing = request.sheet == "table"  ? table_sheet(*settings, name)
+                                : request.sheet == "prop" ? prop_sheet(*settings, name)
+                                                          : net_sheet(*settings, name);
     return write_file(request.output, as_bytes(drawing));
 }
 

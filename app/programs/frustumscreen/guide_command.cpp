@@ -117,18 +117,12 @@ std::string text_line(const Guided& guided, const PropShape& prop) {
 
 /// Advice that stands is kept while it helps, from pose to pose, as in the exhibit.
 Result<void> guide(const Request& request) {
-    const Result<CheckedSettings> settings = load_settings(request.config);
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
-    }
-    const Result<std::vector<Situation>> frames = load_pose_frames(request.poses, (*settings)->eye.default_m);
-    if (!frames) {
-        return tl::unexpected<Error>(frames.error());
-    }
-    Advisor advisor(guidance_setup(**settings));
+    TRY(const CheckedSettings settings, load_settings(request.config));
+    TRY(const std::vector<Situation> frames, load_pose_frames(request.poses, settings->eye.default_m));
+    Advisor advisor(guidance_setup(*settings));
     const FaceReader& reader = advisor.reader();
     const PropShape& prop = reader.setup().prop;
-    for (const Situation& frame : *frames) {
+    for (const Situation& frame : frames) {
         const GuidedSituation situation{frame.table_from_prop, frame.eye_m};
         const Guided guided{to_microseconds(frame.time), reader.read(situation), reader.unlit_px(situation),
                             advisor.advise(situation)};

@@ -40,22 +40,13 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
 }
 
 Result<void> plan(const Request& request) {
-    const Result<CheckedSettings> settings = load_settings(request.config);
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
-    }
-    const Result<std::unique_ptr<Display>> display = make_display(**settings, true);
-    if (!display) {
-        return tl::unexpected<Error>(display.error());
-    }
-    const DevicePlan devices = plan_devices(**settings, false, false);
-    const Result<PlanMeasurement> measured =
-        measure_plan(**settings, devices, request.pack, request.technique, **display);
-    if (!measured) {
-        return tl::unexpected<Error>(measured.error());
-    }
+    TRY(const CheckedSettings settings, load_settings(request.config));
+    TRY(const std::unique_ptr<Display> display, make_display(*settings, true));
+    const DevicePlan devices = plan_devices(*settings, false, false);
+    TRY(const PlanMeasurement measured,
+        measure_plan(*settings, devices, request.pack, request.technique, *display));
     const PlanReport report{
-        request.config.string(), request.pack.string(), request.technique, **settings, devices, *measured};
+        request.config.string(), request.pack.string(), request.technique, *settings, devices, measured};
     fmt::print("{}", request.json ? plan_json(report) : plan_text(report));
     return {};
 }

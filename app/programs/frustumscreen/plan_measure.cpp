@@ -35,12 +35,9 @@ std::int64_t allocated_bytes() {
 /// The situations that the plan's devices give, half a second apart.
 Result<std::vector<Situation>> situations(const Settings& settings, const DevicePlan& devices) {
     const MonotonicTime start;
-    Result<Inputs> inputs = make_inputs(settings, devices, std::nullopt, start);
-    if (!inputs) {
-        return tl::unexpected<Error>(inputs.error());
-    }
+    TRY(Inputs inputs, make_inputs(settings, devices, std::nullopt, start));
     SituationTracker tracker(settings.eye.default_m);
-    if (!inputs->tracker) {
+    if (!inputs.tracker) {
         Situation standing = tracker.at(start);
         standing.prop_known = true;
         return std::vector<Situation>{standing};
@@ -50,9 +47,7 @@ Result<std::vector<Situation>> situations(const Settings& settings, const Device
     for (std::size_t k = 0; k < most_poses; ++k) {
         const MonotonicTime now = start + std::chrono::milliseconds(500 * (k + 1));
         samples.clear();
-        if (Result<void> polled = inputs->tracker->poll(now, samples); !polled) {
-            return tl::unexpected<Error>(polled.error());
-        }
+        TRY_VOID(inputs.tracker->poll(now, samples));
         for (const PoseSample& sample : samples) {
             if (devices.head || sample.station != head_station) {
                 tracker.take(sample);
@@ -91,12 +86,9 @@ public:
         std::vector<double> load_ms;
         std::vector<double> ram_bytes;
         for (int k = 0; k < loads; ++k) {
-            const Result<Scene> scene = load_once(economies);
-            if (!scene) {
-                return tl::unexpected<Error>(scene.error());
-            }
-            load_ms.push_back(scene->cost.load_ms);
-            ram_bytes.push_back(static_cast<double>(scene->cost.ram_bytes));
+            TRY(const Scene scene, load_once(economies));
+            load_ms.push_back(scene.cost.load_ms);
+            ram_bytes.push_back(static_cast<double>(scene.cost.ram_bytes));
         }
         Result<Scene> stays = load_once(economies);
         if (stays) {
@@ -110,13 +102,10 @@ public:
         options_.economies = economies;
         const std::int64_t before = allocated_bytes();
         const Clock::time_point start = Clock::now();
-        Result<std::unique_ptr<ArtifactShow>> show =
-            ArtifactShow::create(settings_, devices_, options_, target());
-        if (!show) {
-            return tl::unexpected<Error>(show.error());
-        }
-        Exhibit exhibit = make_exhibit(settings_, **show, MonotonicTime{});
-        Scene scene{std::move(*show), std::move(exhibit), {}, {}};
+        TRY(std::unique_ptr<ArtifactShow> show,
+            ArtifactShow::create(settings_, devices_, options_, target()));
+        Exhibit exhibit = make_exhibit(settings_, *show, MonotonicTime{});
+        Scene scene{std::move(show), std::move(exhibit), {}, {}};
         scene.cost.load_ms = 1e-3 * microseconds_since(start);
         scene.cost.ram_bytes = allocated_bytes() - before;
         scene.cost.gpu_bytes = static_cast<std::int64_t>(scene.show->use().gpu_bytes);
@@ -125,36 +114,31 @@ public:
 
     /// Draws all scenes at each pose, one after the other, each round in another order.
     [[nodiscard]] Result<std::size_t> draw(std::vector<Scene>& scenes) {
-        const Result<std::vector<Situation>> poses = situations(settings_, devices_);
-        if (!poses) {
-            return tl::unexpected<Error>(poses.error());
-        }
+        TRY(const std::vector<Situation> poses, situations(settings_, devices_));
         ProgressLine progress("measuring");
         MonotonicTime now;
         std::size_t drawn = 0;
-        const std::size_t frames_each = std::max<std::size_t>(poses->size(), 6) * rounds;
+        const std::size_t frames_each = std::max<std::size_t>(poses.size(), 6) * rounds;
         for (std::size_t frame = 0; frame < frames_each; ++frame) {
             now += std::chrono::milliseconds(500);
             for (std::size_t k = 0; k < scenes.size(); ++k) {
                 Scene& scene = scenes[(k + frame) % scenes.size()];
                 const Clock::time_point start = Clock::now();
-                const Situation& situation = (*poses)[frame % poses->size()];
+                const Situation& situation = poses[frame % poses.size()];
                 const DrawResult result = scene.show->draw(now, scene.exhibit.step(now, {}, situation),
                                                            situation.eye_m, target(), Redraw::Everything);
                 wait_until_drawn();
                 if (result.drawn && frame >= frames_each / rounds) {
                     scene.us.push_back(microseconds_since(start));
                 }
-                if (Result<MonotonicTime> shown = display_.present(now); !shown) {
-                    return tl::unexpected<Error>(shown.error());
-                }
+                TRY_VOID(display_.present(now));
                 progress.show(++drawn, frames_each * scenes.size());
             }
         }
         for (Scene& scene : scenes) {
             scene.cost.frame_us = quantile(scene.us, 0.5);
         }
-        return poses->size();
+        return poses.size();
     }
 
 private:
@@ -175,19 +159,14 @@ Result<PlanMeasurement> measure_plan(const Settings& settings, const DevicePlan&
     unhurried.projector.refresh_hz = 1e-3;
     Measuring measuring(unhurried, devices, {{pack}, technique, default_samples, AllEconomies}, display);
     // The first scene also pays for what the driver does only once.
-    if (const Result<Scene> warm_up = measuring.load_once(0); !warm_up) {
-        return tl::unexpected<Error>(warm_up.error());
-    }
-    Result<Scene> planned = measuring.load(AllEconomies);
-    if (!planned) {
-        return tl::unexpected<Error>(planned.error());
-    }
+    TRY_VOID(measuring.load_once(0));
+    TRY(Scene planned, measuring.load(AllEconomies));
     unsigned used = 0;
-    for (const LeftOut& each : planned->show->plan(0).left_out) {
+    for (const LeftOut& each : planned.show->plan(0).left_out) {
         used |= each.economy;
     }
     std::vector<Scene> scenes;
-    scenes.push_back(std::move(*planned));
+    scenes.push_back(std::move(planned));
     std::vector<unsigned> without{0};
     for (unsigned economy = 1; economy < AllEconomies; economy <<= 1U) {
         if ((used & economy) != 0) {
@@ -195,18 +174,12 @@ Result<PlanMeasurement> measure_plan(const Settings& settings, const DevicePlan&
         }
     }
     for (const unsigned economies : without) {
-        Result<Scene> scene = measuring.load(economies);
-        if (!scene) {
-            return tl::unexpected<Error>(scene.error());
-        }
-        scenes.push_back(std::move(*scene));
+        TRY(Scene scene, measuring.load(economies));
+        scenes.push_back(std::move(scene));
     }
-    const Result<std::size_t> poses = measuring.draw(scenes);
-    if (!poses) {
-        return tl::unexpected<Error>(poses.error());
-    }
+    TRY(const std::size_t poses, measuring.draw(scenes));
     PlanMeasurement result;
-    result.poses = *poses;
+    result.poses = poses;
     result.planned = scenes[0].cost;
     result.everything = scenes[1].cost;
     result.saved = saving(scenes[1], scenes[0]);

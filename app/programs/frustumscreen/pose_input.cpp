@@ -7,15 +7,9 @@ namespace frustumscreen {
 
 Result<std::vector<Situation>> load_pose_frames(const std::filesystem::path& file,
                                                 const glm::dvec3& default_eye_m) {
-    const Result<Bytes> bytes = read_file(file);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    const Result<std::vector<PoseSample>> samples = parse_poses(as_text(*bytes), file.string());
-    if (!samples) {
-        return tl::unexpected<Error>(samples.error());
-    }
-    return pose_frames(*samples, default_eye_m);
+    TRY(const Bytes bytes, read_file(file));
+    TRY(const std::vector<PoseSample> samples, parse_poses(as_text(bytes), file.string()));
+    return pose_frames(samples, default_eye_m);
 }
 
 } // namespace frustumscreen

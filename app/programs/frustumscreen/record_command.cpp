@@ -129,18 +129,14 @@ Result<void> write_pose_recording(const Request& request, const Inputs& inputs, 
         text.insert(text.find('\n') + 1,
                     fmt::format("# table_from_tracker = [{}], column by column\n", fmt::join(numbers, ", ")));
     }
-    if (Result<void> written = write_file(request.output, as_bytes(text)); !written) {
-        return written;
-    }
+    TRY_VOID(write_file(request.output, as_bytes(text)));
     fmt::print("{}: {} poses: prop {}, head {}, torch {}\n", request.output.string(), poses.size(),
                of_station[1], of_station[2], of_station[3]);
     return {};
 }
 
 Result<void> end_raw_recording(PacketRecorder& recorder, std::string_view tracker_state) {
-    if (Result<void> finished = recorder.finish(); !finished) {
-        return finished;
-    }
+    TRY_VOID(recorder.finish());
     const PacketRecorder::Counts counts = recorder.counts();
     fmt::print("{}: {} packets, {} dropped; {}\n", recorder.path().string(), counts.packets, counts.dropped,
                tracker_state);
@@ -150,34 +146,19 @@ Result<void> end_raw_recording(PacketRecorder& recorder, std::string_view tracke
 /// The caller ends `inputs`: one of their threads may hang in its device.
 Result<void> record(const Request& request, Inputs& inputs) {
     const StopSignals stop;
-    const Result<CheckedSettings> settings = load_settings(request.config);
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
-    }
-    if (Result<void> safe =
-            check_output_is_no_input(request.output, {{request.config, (*settings)->tracker.poses}});
-        !safe) {
-        return safe;
-    }
+    TRY(const CheckedSettings settings, load_settings(request.config));
+    TRY_VOID(check_output_is_no_input(request.output, {{request.config, settings->tracker.poses}}));
     DevicePlan devices;
-    devices.tracker = (*settings)->tracker.kind;
+    devices.tracker = settings->tracker.kind;
     if (devices.tracker == TrackerKind::None) {
         return fail(ErrorKind::BadConfiguration, "tracker.kind is \"none\"; there is nothing to record");
     }
     const MonotonicTime start = monotonic_now();
     std::unique_ptr<PacketRecorder> recorder;
     if (request.raw) {
-        Result<std::unique_ptr<PacketRecorder>> opened = make_recorder(devices.tracker, request.output);
-        if (!opened) {
-            return tl::unexpected<Error>(opened.error());
-        }
-        recorder = std::move(*opened);
+        TRY(recorder, make_recorder(devices.tracker, request.output));
     }
-    Result<Inputs> made = make_inputs(**settings, devices, std::nullopt, start, std::move(recorder));
-    if (!made) {
-        return tl::unexpected<Error>(made.error());
-    }
-    inputs = std::move(*made);
+    TRY(inputs, make_inputs(*settings, devices, std::nullopt, start, std::move(recorder)));
     Recording recording(*inputs.tracker, start);
     recording.run(request, stop, !request.raw);
     const StopSignals::AtOnce at_once(stop); // a disk may hang: from here a stop ends the program

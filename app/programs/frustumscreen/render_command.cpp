@@ -116,14 +116,9 @@ Result<std::string> make_frame(const Studio& studio, std::size_t frame, const Si
         visitor_frames.push_back({static_cast<int>(frame), t_us, situation.eye_m, camera});
     }
     const std::filesystem::path stem = studio.request.out / fmt::format("frame_{:05}", frame);
-    if (Result<void> written = write_file(stem.string() + ".png", encode_png(picture.colour)); !written) {
-        return tl::unexpected<Error>(written.error());
-    }
+    TRY_VOID(write_file(stem.string() + ".png", encode_png(picture.colour)));
     if (picture.hit_points) {
-        if (Result<void> written = write_file(stem.string() + ".pfm", encode_pfm(*picture.hit_points));
-            !written) {
-            return tl::unexpected<Error>(written.error());
-        }
+        TRY_VOID(write_file(stem.string() + ".pfm", encode_pfm(*picture.hit_points)));
     }
     return fmt::format("{},{},{:.3f},{},{},{}\n", frame, t_us, picture.ms, studio.renderer.technique(),
                        picture.error ? fmt::format("{:.4f}", picture.error->mean_mm) : std::string(),
@@ -131,26 +126,16 @@ Result<std::string> make_frame(const Studio& studio, std::size_t frame, const Si
 }
 
 Result<void> render(const Request& request) {
-    const Result<CheckedSettings> settings = load_settings(request.config);
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
-    }
-    const Result<std::vector<Situation>> frames = load_pose_frames(request.poses, (*settings)->eye.default_m);
-    if (!frames) {
-        return tl::unexpected<Error>(frames.error());
-    }
-    say_off_the_table(*frames, (*settings)->table);
-    OfflineSetup setup{*settings, request.options};
-    for (const Situation& frame : *frames) {
+    TRY(const CheckedSettings settings, load_settings(request.config));
+    TRY(const std::vector<Situation> frames, load_pose_frames(request.poses, settings->eye.default_m));
+    say_off_the_table(frames, settings->table);
+    OfflineSetup setup{settings, request.options};
+    for (const Situation& frame : frames) {
         setup.options.views.push_back({frame.table_from_prop, frame.eye_m});
     }
-    const Result<OfflineScene> scene =
-        load_offline(request.pack, [&](const PackOutline& /*outline*/) { return setup; });
-    if (!scene) {
-        return tl::unexpected<Error>(scene.error());
-    }
-    if (const auto note =
-            note_other_prop(request.pack.string(), *scene->pack, name_of((*settings)->prop.kind))) {
+    TRY(const OfflineScene scene,
+        load_offline(request.pack, [&](const PackOutline& /*outline*/) { return setup; }));
+    if (const auto note = note_other_prop(request.pack.string(), *scene.pack, name_of(settings->prop.kind))) {
         say_line("frustumscreen", *note);
     }
     std::error_code failed;
@@ -159,29 +144,20 @@ Result<void> render(const Request& request) {
         return bad_input(
             fmt::format("{}: the folder cannot be made: {}", request.out.string(), failed.message()));
     }
-    const Result<std::unique_ptr<OfflineRenderer>> renderer = OfflineRenderer::create(*scene);
-    if (!renderer) {
-        return tl::unexpected<Error>(renderer.error());
-    }
-    const Studio studio{request, **settings, **renderer};
+    TRY(const std::unique_ptr<OfflineRenderer> renderer, OfflineRenderer::create(scene));
+    const Studio studio{request, *settings, *renderer};
     std::string csv = "frame,t_us,ms,technique,estimated_error_mm,p95_error_mm\n";
     std::vector<VisitorFrame> visitor_frames;
     ProgressLine progress("rendering");
-    for (std::size_t frame = 0; frame < frames->size(); ++frame) {
-        const Result<std::string> line = make_frame(studio, frame, (*frames)[frame], visitor_frames);
-        if (!line) {
-            return tl::unexpected<Error>(line.error());
-        }
-        csv += *line;
-        progress.show(frame + 1, frames->size());
+    for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+        TRY(const std::string line, make_frame(studio, frame, frames[frame], visitor_frames));
+        csv += line;
+        progress.show(frame + 1, frames.size());
     }
     std::filesystem::remove(request.out / visitor_cameras_name, failed); // of an earlier call
     if (!visitor_frames.empty()) {
-        if (Result<void> written = write_file(request.out / visitor_cameras_name,
-                                              as_bytes(visitor_cameras_json(visitor_frames)));
-            !written) {
-            return written;
-        }
+        TRY_VOID(
+            write_file(request.out / visitor_cameras_name, as_bytes(visitor_cameras_json(visitor_frames))));
     }
     return write_file(request.out / "frames.csv", as_bytes(csv));
 }

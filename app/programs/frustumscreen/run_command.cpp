@@ -51,14 +51,11 @@ void record_crashes_of(const RunPlaces& places) {
 
 /// The settings and packs of the watchdog's mode, and the folders that the run writes to.
 Result<RunMode> load(RunRequest& request, const Journal& journal) {
-    Result<RunMode> mode = choose_run_mode(request.places, journal);
-    if (!mode) {
-        return mode;
+    TRY(RunMode mode, choose_run_mode(request.places, journal));
+    if (!mode.packs.empty()) {
+        request.show.packs = mode.packs;
     }
-    if (!mode->packs.empty()) {
-        request.show.packs = mode->packs;
-    }
-    request.trust = mode->mode == Mode::LastGoodSet ? Trust::Before : Trust::Newest;
+    request.trust = mode.mode == Mode::LastGoodSet ? Trust::Before : Trust::Newest;
     if (!request.out.empty()) {
         std::error_code failed;
         std::filesystem::create_directories(request.out, failed);
@@ -121,12 +118,8 @@ struct OpenExhibit {
 Result<OpenExhibit> open(const RunRequest& request, const Settings& settings, const StopSignals& stop_signals,
                          ServiceManager& manager, const Journal& journal) {
     OpenExhibit exhibit;
-    Result<std::unique_ptr<Display>> display = wait_for_display(
-        {[&] { return make_display(settings, request.headless); }}, stop_signals, manager, journal);
-    if (!display) {
-        return tl::unexpected<Error>(display.error());
-    }
-    exhibit.display = std::move(*display);
+    TRY(exhibit.display, wait_for_display({[&] { return make_display(settings, request.headless); }},
+                                          stop_signals, manager, journal));
     note_driver_for_crashes(exhibit.display->name());
     // Simulated time starts at zero, real time when everything is loaded.
     const auto now = [&request] { return request.fast ? MonotonicTime{} : monotonic_now(); };
@@ -153,12 +146,8 @@ Result<OpenExhibit> open(const RunRequest& request, const Settings& settings, co
         press_every = nanoseconds(request.seconds / request.changes);
     }
     exhibit.start = now();
-    Result<Inputs> inputs =
-        open_inputs(request, settings, exhibit.devices, manager.listens(), press_every, exhibit.start);
-    if (!inputs) {
-        return tl::unexpected<Error>(inputs.error());
-    }
-    exhibit.inputs = std::move(*inputs);
+    TRY(exhibit.inputs,
+        open_inputs(request, settings, exhibit.devices, manager.listens(), press_every, exhibit.start));
     if (exhibit.show->speaks()) {
         exhibit.inputs.sound = open_sound(request, settings, exhibit.start);
     }
@@ -231,9 +220,7 @@ Result<int> finish(const RunRequest& request, const RunEnd& end, const Result<Lo
         end_within(longest_stop);
     }
     if (!request.out.empty()) {
-        if (Result<void> written = write_output(request.out, *result, sound); !written) {
-            return tl::unexpected<Error>(written.error());
-        }
+        TRY_VOID(write_output(request.out, *result, sound));
     }
     report(request, *result);
     return 0;
@@ -267,18 +254,12 @@ Result<int> run(RunRequest& request) {
     const StopSignals stop_signals;
     const Journal journal("frustumscreen");
     ServiceManager manager;
-    const Result<RunMode> mode = load(request, journal);
-    if (!mode) {
-        return tl::unexpected<Error>(mode.error());
-    }
-    const Settings& settings = *mode->used.settings;
+    TRY(const RunMode mode, load(request, journal));
+    const Settings& settings = *mode.used.settings;
     static_cast<void>(use_time_zone(settings.hours.time_zone)); // before there is a second thread
-    prepare_driver(request.places, mode->mode, journal);
-    Result<OpenExhibit> exhibit = open(request, settings, stop_signals, manager, journal);
-    if (!exhibit) {
-        return tl::unexpected<Error>(exhibit.error());
-    }
-    return loop_and_finish(request, *mode, *exhibit, stop_signals, manager, journal);
+    prepare_driver(request.places, mode.mode, journal);
+    TRY(OpenExhibit exhibit, open(request, settings, stop_signals, manager, journal));
+    return loop_and_finish(request, mode, exhibit, stop_signals, manager, journal);
 }
 
 } // namespace

@@ -63,18 +63,15 @@ Result<RunMode> choose_run_mode(const RunPlaces& places, const Journal& journal)
         packs = {places.shipped / "built_in.fspack"};
         fallback = SettingsFallback{last_good(places), places.shipped / "kiosk.toml"};
     }
-    Result<UsedSettings> used = use_settings(places.config, fallback);
-    if (!used) {
-        return tl::unexpected<Error>(used.error());
-    }
+    TRY(UsedSettings used, use_settings(places.config, fallback));
     if (mode != Mode::Normal) {
         journal.note(LogPriority::Warning, fmt::format("the watchdog wants the mode {}", word_of(mode)));
     }
-    if (!used->instead.empty()) {
-        journal.note(LogPriority::Error, used->instead);
+    if (!used.instead.empty()) {
+        journal.note(LogPriority::Error, used.instead);
     }
-    tell_of_calibration(used->settings->calibration, journal);
-    return RunMode{mode, std::move(*used), std::move(packs)};
+    tell_of_calibration(used.settings->calibration, journal);
+    return RunMode{mode, std::move(used), std::move(packs)};
 }
 
 void prepare_driver(const RunPlaces& places, Mode mode, const Journal& journal) {

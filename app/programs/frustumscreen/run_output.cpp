@@ -22,13 +22,9 @@ Result<void> write_pictures(const std::filesystem::path& folder, const LoopResul
         poses.push_back({still.time, prop_station, pose.translation, pose.rotation, true});
         poses.push_back({still.time, head_station, still.situation.eye_m, {1.0, 0.0, 0.0, 0.0}, true});
         const std::filesystem::path file = folder / fmt::format("frame_{:05}.png", k);
-        if (Result<void> written = write_file(file, encode_png(still.picture)); !written) {
-            return written;
-        }
+        TRY_VOID(write_file(file, encode_png(still.picture)));
     }
-    if (Result<void> written = write_file(folder / "poses.csv", as_bytes(write_poses(poses))); !written) {
-        return written;
-    }
+    TRY_VOID(write_file(folder / "poses.csv", as_bytes(write_poses(poses))));
     return write_file(folder / "frames.csv", as_bytes(frames_csv(result.rows)));
 }
 
@@ -37,9 +33,7 @@ Result<void> write_pictures(const std::filesystem::path& folder, const LoopResul
 Result<void> write_output(const std::filesystem::path& folder, const LoopResult& result, const Sound* sound) {
     std::error_code failed;
     std::filesystem::remove(folder / visitor_cameras_name, failed);
-    if (Result<void> written = write_pictures(folder, result); !written) {
-        return written;
-    }
+    TRY_VOID(write_pictures(folder, result));
     const auto* const heard = dynamic_cast<const WavSound*>(sound);
     return heard != nullptr ? heard->write(folder / "sound.wav") : Result<void>();
 }

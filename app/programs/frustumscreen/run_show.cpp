@@ -35,18 +35,15 @@ Result<std::unique_ptr<Show>> make_show(const RunRequest& request, const Setting
     if (from_library) {
         installed = show_installed_set(settings, options, request.trust, create);
     }
-    Result<std::unique_ptr<ArtifactShow>> artifacts =
-        installed.show ? std::move(installed.show) : create(options);
-    if (!artifacts) {
-        return tl::unexpected<Error>(artifacts.error());
-    }
-    for (const std::string& note : (*artifacts)->notes()) {
+    TRY(std::unique_ptr<ArtifactShow> artifacts,
+        installed.show ? std::move(installed.show) : create(options));
+    for (const std::string& note : artifacts->notes()) {
         say_line("frustumscreen", note);
     }
-    Exhibit exhibit = make_exhibit(settings, **artifacts, start);
-    ArtifactShow& stage = **artifacts;
+    Exhibit exhibit = make_exhibit(settings, *artifacts, start);
+    ArtifactShow& stage = *artifacts;
     auto live = std::make_unique<LiveExhibit>(
-        settings, std::move(*artifacts), std::move(exhibit), display.name(),
+        settings, std::move(artifacts), std::move(exhibit), display.name(),
         request.fast ? PromptReader::Answer::Always : PromptReader::Answer::WhenReady);
     if (watches) {
         live->watch(stage,

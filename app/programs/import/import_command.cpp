@@ -77,19 +77,12 @@ std::string import_id(const ImportArguments& arguments) {
 
 Result<void> read_trust(const ImportArguments& arguments, ImportRequest& request) {
     if (!arguments.config.empty()) {
-        const Result<CheckedSettings> settings = load_settings(arguments.config);
-        if (!settings) {
-            return tl::unexpected<Error>(settings.error());
-        }
-        request.keys = (*settings)->exhibit.keys;
-        request.unsigned_packs = (*settings)->exhibit.unsigned_packs;
+        TRY(const CheckedSettings settings, load_settings(arguments.config));
+        request.keys = settings->exhibit.keys;
+        request.unsigned_packs = settings->exhibit.unsigned_packs;
     }
     if (!arguments.keys.empty()) {
-        Result<std::vector<TrustedKey>> keys = read_key_folder(arguments.keys);
-        if (!keys) {
-            return tl::unexpected<Error>(keys.error());
-        }
-        request.keys = *std::move(keys);
+        TRY(request.keys, read_key_folder(arguments.keys));
     }
     if (arguments.allow_unsigned) {
         request.unsigned_packs = UnsignedPacks::Allow;
@@ -110,15 +103,12 @@ struct Installed {
 };
 
 Result<Installed> installed(const std::filesystem::path& folder) {
-    const Result<std::unique_ptr<WritableTree>> library = open_tree(folder);
-    if (!library) {
-        return tl::unexpected<Error>(library.error());
-    }
-    const tl::expected<SetFile, ImportFailure> file = read_set_file(**library);
+    TRY(const std::unique_ptr<WritableTree> library, open_tree(folder));
+    const tl::expected<SetFile, ImportFailure> file = read_set_file(*library);
     if (!file) {
         return bad_input(folder.string() + ": " + file.error().reason);
     }
-    const tl::expected<std::optional<SetVerdict>, ImportFailure> verdict = read_verdict(**library);
+    const tl::expected<std::optional<SetVerdict>, ImportFailure> verdict = read_verdict(*library);
     if (!verdict) {
         return bad_input(folder.string() + ": " + verdict.error().reason);
     }
@@ -244,15 +234,10 @@ Result<void> tell_ended(const ImportArguments& arguments, std::string_view servi
 }
 
 Result<std::string> list_installed(const ImportArguments& arguments) {
-    const Result<Installed> found = installed(arguments.into);
-    if (!found) {
-        return tl::unexpected<Error>(found.error());
-    }
+    TRY(const Installed found, installed(arguments.into));
     ImportRequest request; // whose keys are empty where no settings were named
-    if (const Result<void> trusted = read_trust(arguments, request); !trusted) {
-        return tl::unexpected<Error>(trusted.error());
-    }
-    const InstalledSet* set = &found->set;
+    TRY_VOID(read_trust(arguments, request));
+    const InstalledSet* set = &found.set;
     auto packs = nlohmann::ordered_json::array();
     std::string text;
     for (const InstalledPack& pack : set->packs) {
@@ -267,7 +252,7 @@ Result<std::string> list_installed(const ImportArguments& arguments) {
     }
     const bool knows_settings = !arguments.config.empty() || !arguments.keys.empty();
     auto keys = nlohmann::ordered_json::array();
-    for (const ListedKey& key : list_keys(request.keys, found->file.keys)) {
+    for (const ListedKey& key : list_keys(request.keys, found.file.keys)) {
         keys.push_back(json_of(key, knows_settings));
         text += text_of(key, knows_settings);
     }

@@ -49,23 +49,14 @@ Result<std::optional<Password>> password_for_new_key() {
     if (!is_at_terminal()) {
         return std::optional<Password>();
     }
-    Result<Password> password = ask_new_password();
-    if (!password) {
-        return tl::unexpected<Error>(password.error());
-    }
-    return password->view().empty() ? std::optional<Password>()
-                                    : std::optional<Password>(*std::move(password));
+    TRY(Password password, ask_new_password());
+    return password.view().empty() ? std::optional<Password>() : std::optional<Password>(std::move(password));
 }
 
 Result<void> write_keys(const std::string& name, std::optional<std::string_view> password) {
     const SecretKey key = SecretKey::make();
-    const Result<std::string> secret = write_secret_key(key, password);
-    if (!secret) {
-        return tl::unexpected<Error>(secret.error());
-    }
-    if (Result<void> written = write_new_file(name + ".key", 0600, *secret); !written) {
-        return written;
-    }
+    TRY(const std::string secret, write_secret_key(key, password));
+    TRY_VOID(write_new_file(name + ".key", 0600, secret));
     if (Result<void> written = write_new_file(name + ".pub", 0644, write_public_key(key.public_key()));
         !written) {
         ::unlink((name + ".key").c_str()); // half a pair is of no use
@@ -85,15 +76,10 @@ Result<void> write_keys(const std::string& name, std::optional<std::string_view>
 
 Result<void> make_keys(const std::string& name) {
     for (const char* ending : {".key", ".pub"}) { // before the person types
-        if (Result<void> free = check_free(name + ending); !free) {
-            return free;
-        }
+        TRY_VOID(check_free(name + ending));
     }
-    const Result<std::optional<Password>> password = password_for_new_key();
-    if (!password) {
-        return tl::unexpected<Error>(password.error());
-    }
-    return write_keys(name, *password ? std::optional((*password)->view()) : std::nullopt);
+    TRY(const std::optional<Password> password, password_for_new_key());
+    return write_keys(name, password ? std::optional(password->view()) : std::nullopt);
 }
 
 } // namespace frustumscreen

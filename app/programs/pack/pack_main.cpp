@@ -82,23 +82,16 @@ int explain(const Request& request) {
 }
 
 Result<Image8> table_picture_of(const std::filesystem::path& file) {
-    Result<PackCard> card = load_pack_card(file);
-    if (!card) {
-        return tl::unexpected<Error>(card.error());
-    }
-    if (card->table_picture.texels.empty()) {
+    TRY(PackCard card, load_pack_card(file));
+    if (card.table_picture.texels.empty()) {
         return bad_input(file.string() + ": it has no picture for the table; bake it again");
     }
-    return std::move(card->table_picture);
+    return std::move(card.table_picture);
 }
 
 Result<void> write_preview(const Request& request) {
-    if (Result<void> safe = check_output_is_no_input(request.output, {{request.pack}}); !safe) {
-        return safe;
-    }
-    if (Result<void> place = check_output_place(request.output); !place) {
-        return place;
-    }
+    TRY_VOID(check_output_is_no_input(request.output, {{request.pack}}));
+    TRY_VOID(check_output_place(request.output));
     const Result<Image8> picture =
         request.table ? table_picture_of(request.pack) : preview_of_pack(request.pack);
     return picture ? write_file(request.output, encode_png(*picture))

@@ -57,17 +57,14 @@ std::array<RigidTransform, 4> turned_props() {
 
 Result<OfflineSetup> setup_of(const PackOutline& outline) {
     const bool is_cube = outline.description.prop_kind == name_of(PropKind::Cube);
-    Result<CheckedSettings> settings = settings_for(is_cube ? cube_settings() : PropSettings{});
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
-    }
+    TRY(CheckedSettings settings, settings_for(is_cube ? cube_settings() : PropSettings{}));
     OfflineOptions options;
     options.technique = "finest";
     options.light = false;
     for (const RigidTransform& table_from_prop : turned_props()) {
         options.views.push_back({table_from_prop, eye_m});
     }
-    return OfflineSetup{*std::move(settings), std::move(options)};
+    return OfflineSetup{std::move(settings), std::move(options)};
 }
 
 /// The square about the picture's middle line that holds what is lit in any of the pictures, with a margin.
@@ -106,28 +103,19 @@ Frame frame_of(const std::array<Image8, 4>& sides) {
 Result<Image8> preview_of_pack(const std::filesystem::path& file) {
     static constexpr std::array<std::string_view, 4> names = {"front", "right", "back", "left"};
     static constexpr Colour grey(150, 150, 150);
-    const Result<OfflineScene> scene = load_offline(file, setup_of);
-    if (!scene) {
-        return tl::unexpected<Error>(scene.error());
-    }
-    const Result<Typesetter> typesetter = Typesetter::open();
-    if (!typesetter) {
-        return tl::unexpected<Error>(typesetter.error());
-    }
-    const Result<std::unique_ptr<OfflineRenderer>> renderer = OfflineRenderer::create(*scene);
-    if (!renderer) {
-        return tl::unexpected<Error>(renderer.error());
-    }
+    TRY(const OfflineScene scene, load_offline(file, setup_of));
+    TRY(const Typesetter typesetter, Typesetter::open());
+    TRY(const std::unique_ptr<OfflineRenderer> renderer, OfflineRenderer::create(scene));
     std::array<Image8, 4> sides;
     for (std::size_t k = 0; k < sides.size(); ++k) {
-        sides[k] = (*renderer)->draw(turned_props()[k], eye_m).colour;
+        sides[k] = renderer->draw(turned_props()[k], eye_m).colour;
     }
     const Frame frame = frame_of(sides);
     Canvas canvas(static_cast<int>(names.size()) * side_px, side_px + caption_px, Colour(0));
     int left = 0;
     for (std::size_t k = 0; k < names.size(); ++k, left += side_px) {
         canvas.picture(sides[k], frame.corner, glm::dvec2(frame.size), {left, 0}, {side_px, side_px});
-        canvas.text(*typesetter, names[k], {left + 0.5 * side_px, side_px + 0.5 * caption_px}, 24.0, grey,
+        canvas.text(typesetter, names[k], {left + 0.5 * side_px, side_px + 0.5 * caption_px}, 24.0, grey,
                     {0.5, 0.5});
     }
     return canvas.take();

@@ -303,24 +303,13 @@ std::string description_text(const Pack& pack, double mm) {
 } // namespace
 
 Result<OpenedPack> open_pack(const std::filesystem::path& file) {
-    const Result<Bytes> bytes = read_file(file);
-    if (!bytes) {
-        return tl::unexpected(bytes.error());
-    }
-    Result<VerifiedPack> pack = verify_pack(*bytes);
-    if (!pack) {
-        return at(file.string(), pack.error());
-    }
-    Result<std::vector<PackPart>> parts = list_pack_parts(*bytes);
-    if (!parts) {
-        return at(file.string(), parts.error());
-    }
-    Result<std::optional<SignatureClaim>> claim = pack_format::PackReader::open(*bytes).and_then(
-        [](pack_format::PackReader&& reader) { return claim_of(reader); });
-    if (!claim) {
-        return at(file.string(), claim.error());
-    }
-    return OpenedPack{file, bytes->size(), std::move(*pack), std::move(*parts), std::move(*claim)};
+    TRY(const Bytes bytes, read_file(file));
+    TRY(VerifiedPack pack, at(file.string(), verify_pack(bytes)));
+    TRY(std::vector<PackPart> parts, at(file.string(), list_pack_parts(bytes)));
+    TRY(std::optional<SignatureClaim> claim,
+        at(file.string(), pack_format::PackReader::open(bytes).and_then(
+                              [](pack_format::PackReader&& reader) { return claim_of(reader); })));
+    return OpenedPack{file, bytes.size(), std::move(pack), std::move(parts), std::move(claim)};
 }
 
 Json list_json(const OpenedPack& opened, const PropSettings& prop) {

@@ -82,15 +82,9 @@ Result<Password> ask_password(const std::string& question) {
 }
 
 Result<Password> ask_new_password() {
-    Result<Password> first = ask_password("Password for the new key (none: it is not encrypted)");
-    if (!first) {
-        return first;
-    }
-    const Result<Password> second = ask_password("The same again");
-    if (!second) {
-        return tl::unexpected<Error>(second.error());
-    }
-    if (first->view() != second->view()) {
+    TRY(Password first, ask_password("Password for the new key (none: it is not encrypted)"));
+    TRY(const Password second, ask_password("The same again"));
+    if (first.view() != second.view()) {
         return bad_input("the two passwords are not the same; try again");
     }
     return first;

@@ -30,28 +30,15 @@ namespace {
 constexpr std::uintmax_t most_key_bytes = 4096;
 
 Result<SecretKey> read_secret_key(const std::filesystem::path& file) {
-    const Result<Bytes> bytes = read_file(file, most_key_bytes);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    const Result<bool> encrypted = needs_password(as_text(*bytes));
-    if (!encrypted) {
-        return at(file.string(), encrypted.error());
-    }
+    TRY(const Bytes bytes, read_file(file, most_key_bytes));
+    TRY(const bool encrypted, at(file.string(), needs_password(as_text(bytes))));
     std::optional<Password> password;
-    if (*encrypted) {
-        Result<Password> typed = ask_password("Password of " + file.string());
-        if (!typed) {
-            return tl::unexpected<Error>(typed.error());
-        }
-        password.emplace(*std::move(typed));
+    if (encrypted) {
+        TRY(Password typed, ask_password("Password of " + file.string()));
+        password.emplace(std::move(typed));
     }
-    Result<SecretKey> key =
-        parse_secret_key(as_text(*bytes), password ? std::optional(password->view()) : std::nullopt);
-    if (!key) {
-        return at(file.string(), key.error());
-    }
-    return key;
+    return at(file.string(),
+              parse_secret_key(as_text(bytes), password ? std::optional(password->view()) : std::nullopt));
 }
 
 /// `before`: the signature that is replaced. One that is no signature says nothing.
@@ -90,21 +77,15 @@ struct Signable {
 /// Refuses packs that the kiosk would refuse in spite of the signature.
 Result<Signable> read_sound(OpenFile file) {
     auto zip = pack_format::ZipReader::open(std::move(file));
-    Result<Bytes> manifest = zip.and_then(pack_format::read_manifest_bytes);
-    if (!manifest) {
-        return tl::unexpected<Error>(manifest.error());
-    }
-    Result<pack_format::PackReader> reader = pack_format::PackReader::open(*std::move(zip), *manifest);
-    Result<std::optional<std::string>> before =
-        reader.and_then([](pack_format::PackReader& opened) { return opened.signature(); });
-    if (!before) {
-        return tl::unexpected<Error>(before.error());
-    }
+    TRY(Bytes manifest, zip.and_then(pack_format::read_manifest_bytes));
+    Result<pack_format::PackReader> reader = pack_format::PackReader::open(*std::move(zip), manifest);
+    TRY(std::optional<std::string> before,
+        reader.and_then([](pack_format::PackReader& opened) { return opened.signature(); }));
     const Result<VerifiedPack> pack = read_pack(*reader);
     const Result<void> sound = pack.and_then([](const VerifiedPack& read) {
         return check_set_and_spoken(*read).and_then([&] { return check_reliefs(*read); });
     });
-    return sound ? Result<Signable>(Signable{*std::move(manifest), *std::move(before)})
+    return sound ? Result<Signable>(Signable{std::move(manifest), std::move(before)})
                  : tl::unexpected<Error>(sound.error());
 }
 
@@ -114,16 +95,10 @@ Result<std::uint64_t> sign_pack(const SignRequest& request, const SecretKey& key
     if (!checked || !copied) {
         return tl::unexpected<Error>(checked ? copied.error() : checked.error());
     }
-    const Result<Signable> pack = read_sound(*std::move(checked));
-    if (!pack) {
-        return at(file, pack.error());
-    }
-    const Result<std::uint64_t> serial = serial_for(request, pack->before);
-    if (!serial) {
-        return at(file, serial.error());
-    }
-    return write_with_signature(*std::move(copied), signature_of(key, pack->manifest, *serial, file), file)
-        .map([&] { return *serial; });
+    TRY(const Signable pack, at(file, read_sound(*std::move(checked))));
+    TRY(const std::uint64_t serial, at(file, serial_for(request, pack.before)));
+    return write_with_signature(*std::move(copied), signature_of(key, pack.manifest, serial, file), file)
+        .map([&] { return serial; });
 }
 
 /// Messages of the set file's own parser begin with the name that it has on a stick.
@@ -145,21 +120,13 @@ Result<void> check_sound(std::string_view text, const std::string& file) {
 
 Result<std::uint64_t> sign_text(const SignRequest& request, const SecretKey& key, const std::string& file) {
     static_assert(most_stick_settings_bytes == most_exhibit_file_bytes);
-    const Result<Bytes> text = read_file(file, most_exhibit_file_bytes);
-    if (!text) {
-        return tl::unexpected<Error>(text.error());
-    }
-    if (const Result<void> sound = check_sound(as_text(*text), file); !sound) {
-        return tl::unexpected<Error>(sound.error());
-    }
+    TRY(const Bytes text, read_file(file, most_exhibit_file_bytes));
+    TRY_VOID(check_sound(as_text(text), file));
     const std::string beside = file + ".minisig";
     const Result<Bytes> before = read_file(beside, pack_format::most_signature_bytes);
-    const Result<std::uint64_t> serial =
-        serial_for(request, before ? std::optional<std::string>(as_text(*before)) : std::nullopt);
-    if (!serial) {
-        return at(file, serial.error());
-    }
-    return write_file(beside, as_bytes(signature_of(key, *text, *serial, file))).map([&] { return *serial; });
+    TRY(const std::uint64_t serial,
+        at(file, serial_for(request, before ? std::optional<std::string>(as_text(*before)) : std::nullopt)));
+    return write_file(beside, as_bytes(signature_of(key, text, serial, file))).map([&] { return serial; });
 }
 
 Result<std::uint64_t> sign_file(const SignRequest& request, const SecretKey& key, const std::string& file) {

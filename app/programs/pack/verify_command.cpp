@@ -31,11 +31,8 @@ struct SoundPack {
 Result<std::vector<TrustedKey>> read_keys(const std::vector<std::filesystem::path>& files) {
     std::vector<TrustedKey> keys;
     for (const std::filesystem::path& file : files) {
-        const Result<PublicKey> key = read_public_key(file);
-        if (!key) {
-            return tl::unexpected<Error>(key.error());
-        }
-        keys.push_back({file.stem().string(), *key, std::nullopt});
+        TRY(const PublicKey key, read_public_key(file));
+        keys.push_back({file.stem().string(), key, std::nullopt});
     }
     return keys;
 }
@@ -60,26 +57,17 @@ Result<SoundPack> check(const std::string& file, std::span<const TrustedKey> key
     if (std::error_code none; std::filesystem::is_directory(file, none)) {
         return bad_input(file + ": this is a folder; name the *.fspack files in it");
     }
-    Result<OpenFile> opened = OpenFile::open(file, pack_format::most_pack_bytes);
-    if (!opened) {
-        return tl::unexpected<Error>(opened.error());
-    }
-    auto reader = open_checked(*std::move(opened), keys);
-    if (!reader) {
-        return at(file, reader.error());
-    }
-    Result<std::optional<SignatureClaim>> claim = claim_of(reader->first);
-    if (!claim) {
-        return at(file, claim.error());
-    }
-    Result<VerifiedPack> pack = read_pack(reader->first);
+    TRY(OpenFile opened, OpenFile::open(file, pack_format::most_pack_bytes));
+    TRY(auto reader, at(file, open_checked(std::move(opened), keys)));
+    TRY(std::optional<SignatureClaim> claim, at(file, claim_of(reader.first)));
+    Result<VerifiedPack> pack = read_pack(reader.first);
     const Result<void> good = pack.and_then([](const VerifiedPack& read) {
         return check_set_and_spoken(*read).and_then([&] { return check_reliefs(*read); });
     });
     if (!good) {
         return at(file, good.error());
     }
-    return SoundPack{*std::move(pack), *std::move(claim), std::move(reader->second)};
+    return SoundPack{*std::move(pack), std::move(claim), std::move(reader.second)};
 }
 
 std::string signature_words(const SoundPack& sound) {

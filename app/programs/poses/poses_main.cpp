@@ -53,28 +53,22 @@ Result<void> write_pose_file(const std::string& path, const std::string& comment
 
 /// Converts packets of `frustumscreen record --raw` to the poses that the exhibit had then.
 Result<void> convert_packets(const ConvertRequest& request, Bytes bytes) {
-    Result<PacketReplay> replay = PacketReplay::open(std::move(bytes), request.input);
-    if (!replay) {
-        return tl::unexpected(replay.error());
-    }
+    TRY(PacketReplay replay, PacketReplay::open(std::move(bytes), request.input));
     std::vector<PoseSample> samples;
-    replay->play(replay->end(), samples);
-    if (!request.settings.empty() && !replay->reports_table_frame()) {
-        const auto settings = load_settings(request.settings);
-        if (!settings) {
-            return tl::unexpected(settings.error());
-        }
-        place_on_table(samples, (*settings)->tracker.registration);
+    replay.play(replay.end(), samples);
+    if (!request.settings.empty() && !replay.reports_table_frame()) {
+        TRY(const auto settings, load_settings(request.settings));
+        place_on_table(samples, settings->tracker.registration);
     }
     std::erase_if(samples, [](const PoseSample& sample) { return sample.station > torch_station; });
     for (PoseSample& sample : samples) {
-        sample.time = MonotonicTime(sample.time - replay->begin());
+        sample.time = MonotonicTime(sample.time - replay.begin());
     }
     const std::string comment =
         fmt::format("{} poses of {} packets over {:.3f} s; {} packets that the recorder dropped, {} bytes "
                     "behind a cut left out",
-                    samples.size(), replay->packets(), to_seconds(replay->end() - replay->begin()),
-                    replay->dropped(), replay->left_bytes());
+                    samples.size(), replay.packets(), to_seconds(replay.end() - replay.begin()),
+                    replay.dropped(), replay.left_bytes());
     Result<void> written = write_pose_file(request.output, comment, samples);
     if (written) {
         fmt::print("{}: {}\n", request.output, comment);
@@ -83,30 +77,21 @@ Result<void> convert_packets(const ConvertRequest& request, Bytes bytes) {
 }
 
 Result<void> convert(const ConvertRequest& request) {
-    if (Result<void> safe = check_output_is_no_input(request.output, {{request.input, request.settings}});
-        !safe) {
-        return safe;
+    TRY_VOID(check_output_is_no_input(request.output, {{request.input, request.settings}}));
+    TRY(Bytes bytes, read_file(request.input));
+    if (is_packet_recording(bytes)) {
+        return convert_packets(request, std::move(bytes));
     }
-    Result<Bytes> bytes = read_file(request.input);
-    if (!bytes) {
-        return tl::unexpected(bytes.error());
-    }
-    if (is_packet_recording(*bytes)) {
-        return convert_packets(request, std::move(*bytes));
-    }
-    if (bytes->size() > largest_text_bytes) {
-        return bad_input(fmt::format("{}: {} bytes; at most {} are allowed", request.input, bytes->size(),
+    if (bytes.size() > largest_text_bytes) {
+        return bad_input(fmt::format("{}: {} bytes; at most {} are allowed", request.input, bytes.size(),
                                      largest_text_bytes));
     }
-    const auto converted = convert_recording(as_text(*bytes), request.input, request.recording);
-    if (!converted) {
-        return tl::unexpected(converted.error());
-    }
-    const std::string comment = fmt::format("{} poses; left out {} rows that did not step forward in time; "
-                                            "mended {} changes of sign; scale {:.4g}",
-                                            converted->samples.size(), converted->dropped_rows,
-                                            converted->sign_flips, converted->scale);
-    Result<void> written = write_pose_file(request.output, comment, converted->samples);
+    TRY(const auto converted, convert_recording(as_text(bytes), request.input, request.recording));
+    const std::string comment =
+        fmt::format("{} poses; left out {} rows that did not step forward in time; "
+                    "mended {} changes of sign; scale {:.4g}",
+                    converted.samples.size(), converted.dropped_rows, converted.sign_flips, converted.scale);
+    Result<void> written = write_pose_file(request.output, comment, converted.samples);
     if (written) {
         fmt::print("{}: {}\n", request.output, comment);
     }
@@ -115,36 +100,25 @@ Result<void> convert(const ConvertRequest& request) {
 
 /// The prop stays where every face is lit at every yaw, for any eye.
 Result<SimulatedVisitor> visitor_for(const SimulateRequest& request) {
-    const auto settings = load_settings(request.settings);
-    if (!settings) {
-        return tl::unexpected(settings.error());
-    }
-    const Rectangle places = lit_rectangle(**settings);
+    TRY(const auto settings, load_settings(request.settings));
+    const Rectangle places = lit_rectangle(*settings);
     SimulatedVisitor visitor;
     visitor.seed = request.seed;
     visitor.centre_m = places.centre_m;
     visitor.half_extent_m = places.half_m;
-    visitor.eye_m = (*settings)->eye.default_m;
+    visitor.eye_m = settings->eye.default_m;
     visitor.rate_hz = request.rate_hz;
     return visitor;
 }
 
 Result<void> simulate(const SimulateRequest& request) {
-    if (Result<void> safe = check_output_is_no_input(request.output, {{request.settings}}); !safe) {
-        return safe;
-    }
-    const Result<SimulatedVisitor> visitor = visitor_for(request);
-    if (!visitor) {
-        return tl::unexpected(visitor.error());
-    }
+    TRY_VOID(check_output_is_no_input(request.output, {{request.settings}}));
+    TRY(const SimulatedVisitor visitor, visitor_for(request));
     std::vector<PoseSample> samples;
     // The last pose is one period before the end: S seconds at H hertz are S x H poses of each station.
     const auto last_ns = static_cast<std::int64_t>((request.seconds - 0.5 / request.rate_hz) * 1e9);
-    SimulatedTracker tracker(*visitor, MonotonicTime{});
-    Result<void> polled = tracker.poll(MonotonicTime(Nanoseconds(last_ns)), samples);
-    if (!polled) {
-        return polled;
-    }
+    SimulatedTracker tracker(visitor, MonotonicTime{});
+    TRY_VOID(tracker.poll(MonotonicTime(Nanoseconds(last_ns)), samples));
     return write_pose_file(request.output,
                            fmt::format("a simulated visitor; seed {}, {} s at {} Hz", request.seed,
                                        request.seconds, request.rate_hz),
@@ -152,25 +126,13 @@ Result<void> simulate(const SimulateRequest& request) {
 }
 
 Result<void> follow_path(const PathRequest& request) {
-    if (Result<void> safe = check_output_is_no_input(request.output, {{request.input}}); !safe) {
-        return safe;
-    }
-    const Result<Bytes> bytes = read_file(request.input);
-    if (!bytes) {
-        return tl::unexpected(bytes.error());
-    }
-    const auto keys = parse_poses(as_text(*bytes), request.input, PoseOrder::PropAscends);
-    if (!keys) {
-        return tl::unexpected(keys.error());
-    }
+    TRY_VOID(check_output_is_no_input(request.output, {{request.input}}));
+    TRY(const Bytes bytes, read_file(request.input));
+    TRY(const auto keys, parse_poses(as_text(bytes), request.input, PoseOrder::PropAscends));
     const Nanoseconds period(static_cast<Nanoseconds::rep>(1e9 / request.rate_hz));
-    const Result<std::vector<PoseSample>> path = pose_path(*keys, period);
-    if (!path) {
-        return at(request.input, path.error());
-    }
-    return write_pose_file(request.output,
-                           fmt::format("a path through {} poses at {} Hz", keys->size(), request.rate_hz),
-                           *path);
+    TRY(const std::vector<PoseSample> path, at(request.input, pose_path(keys, period)));
+    return write_pose_file(
+        request.output, fmt::format("a path through {} poses at {} Hz", keys.size(), request.rate_hz), path);
 }
 
 void add_convert(CommandLine& app, ConvertRequest& request, std::vector<double>& within) {

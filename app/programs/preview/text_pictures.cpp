@@ -47,26 +47,19 @@ Result<ProjectedLanguage> language_of(const TextSource& source, const ArtifactTe
     made.caption = source.pack.captions[source.captions[language]];
     const Result<TextPictures> captions =
         draw_texts(source, texts, TextPart::Caption, language, usual_style(), never);
-    const Result<TextPictures> telling =
-        captions ? draw_texts(source, texts, TextPart::Telling, language, usual_style(), never) : captions;
-    if (!telling) {
-        return tl::unexpected<Error>(telling.error());
-    }
+    TRY(const TextPictures telling,
+        captions ? draw_texts(source, texts, TextPart::Telling, language, usual_style(), never) : captions);
     made.title = projected(made.caption.title, captions->front());
     const std::size_t portions = texts.entry.descriptions[language].sizes_m.size();
     const std::vector<std::string> told = portions_of(made.caption.description);
     for (std::size_t k = 0; k < portions; ++k) {
-        made.portions.push_back(projected(told[k], (*telling)[portion_picture(k, 0)]));
+        made.portions.push_back(projected(told[k], telling[portion_picture(k, 0)]));
     }
     for (std::size_t k = 0; k < source.pack.hotspots.size(); ++k) {
         made.labels.push_back(projected(label_in(source.pack.hotspots[k], made.caption.language),
-                                        (*telling)[label_picture(texts.entry, language, k)]));
+                                        telling[label_picture(texts.entry, language, k)]));
     }
-    Result<Bytes> sound = load_sound(source.file, made.caption.language, "description");
-    if (!sound) {
-        return tl::unexpected<Error>(sound.error());
-    }
-    made.sound = *std::move(sound);
+    TRY(made.sound, load_sound(source.file, made.caption.language, "description"));
     return made;
 }
 
@@ -79,17 +72,11 @@ Result<std::vector<ProjectedLanguage>> projected_texts(const std::filesystem::pa
         all.push_back(k);
     }
     const TextSource source{pack_file, pack, all};
-    const Result<ArtifactTexts> texts = lay_out_texts(source, metres_per_box, usual_style(), true);
-    if (!texts) {
-        return tl::unexpected<Error>(texts.error());
-    }
+    TRY(const ArtifactTexts texts, lay_out_texts(source, metres_per_box, usual_style(), true));
     std::vector<ProjectedLanguage> languages;
     for (std::size_t k = 0; k < all.size(); ++k) {
-        Result<ProjectedLanguage> language = language_of(source, *texts, k);
-        if (!language) {
-            return tl::unexpected<Error>(language.error());
-        }
-        languages.push_back(*std::move(language));
+        TRY(ProjectedLanguage language, language_of(source, texts, k));
+        languages.push_back(std::move(language));
     }
     return languages;
 }

@@ -36,19 +36,16 @@ std::vector<RigidTransform> turned_props(int count) {
 Result<OfflineSetup> setup_of(const PackOutline& outline, const std::vector<RigidTransform>& props,
                               int projected_width) {
     const bool is_cube = outline.description.prop_kind == name_of(PropKind::Cube);
-    Result<CheckedSettings> settings = parse_settings(is_cube ? cube_table : frustum_table, "preview");
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
-    }
-    const Pinhole& projector = (*settings)->projector.pinhole;
+    TRY(CheckedSettings settings, parse_settings(is_cube ? cube_table : frustum_table, "preview"));
+    const Pinhole& projector = settings->projector.pinhole;
     OfflineOptions options;
     options.technique = "finest";
     options.width = projected_width;
     options.height = projected_width * projector.height / projector.width;
     for (const RigidTransform& prop : props) {
-        options.views.push_back({prop, (*settings)->eye.default_m});
+        options.views.push_back({prop, settings->eye.default_m});
     }
-    return OfflineSetup{*std::move(settings), std::move(options)};
+    return OfflineSetup{std::move(settings), std::move(options)};
 }
 
 VisitorScene visitor_scene(const Settings& settings, const Pinhole& projector) {
@@ -115,17 +112,14 @@ Result<TurnPictures> turn_pictures(const std::filesystem::path& pack_file, const
     if (!scene) {
         return tl::unexpected<Error>(scene.error());
     }
-    const Result<std::unique_ptr<OfflineRenderer>> renderer = OfflineRenderer::create(*scene);
-    if (!renderer) {
-        return tl::unexpected<Error>(renderer.error());
-    }
-    VisitorScene visitor = visitor_scene(*scene->setup.settings, (*renderer)->projector());
+    TRY(const std::unique_ptr<OfflineRenderer> renderer, OfflineRenderer::create(*scene));
+    VisitorScene visitor = visitor_scene(*scene->setup.settings, renderer->projector());
     const VisitorCamera camera = camera_for(visitor, props, turn.size);
     turn.sheet = Image8(turn.columns * turn.size.x, turn.rows * turn.size.y);
     turn.marks.resize(scene->pack->hotspots.size());
     for (int k = 0; k < turn.frames; ++k) {
         visitor.table_from_prop = props[static_cast<std::size_t>(k)];
-        const Image8 projected = (*renderer)->draw(visitor.table_from_prop, visitor.eye_m).colour;
+        const Image8 projected = renderer->draw(visitor.table_from_prop, visitor.eye_m).colour;
         put(visitor_view(visitor, projected, camera, {true, rays_per_side, false}), k % turn.columns,
             k / turn.columns, turn.sheet);
         for (std::size_t each = 0; each < turn.marks.size(); ++each) {

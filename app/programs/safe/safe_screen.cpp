@@ -12,16 +12,13 @@ constexpr int pictures_between_asking = 10;
 
 Result<std::unique_ptr<SafeScreen>> SafeScreen::open(const std::string& name,
                                                      std::vector<std::string_view> languages) {
-    Result<KmsCard> card = KmsCard::open(name, {});
-    if (!card) {
-        return tl::unexpected<Error>(card.error());
-    }
-    if (!take_screen(card->file())) {
+    TRY(KmsCard card, KmsCard::open(name, {}));
+    if (!take_screen(card.file())) {
         return fail(ErrorKind::DeviceLost,
                     fmt::format("another program holds the screen of {}; end it, or wait until it has ended",
-                                card->path()));
+                                card.path()));
     }
-    return std::unique_ptr<SafeScreen>(new SafeScreen(*std::move(card), name.empty(), std::move(languages)));
+    return std::unique_ptr<SafeScreen>(new SafeScreen(std::move(card), name.empty(), std::move(languages)));
 }
 
 SafeScreen::SafeScreen(KmsCard card, bool any_card, std::vector<std::string_view> languages)
@@ -44,10 +41,7 @@ Result<bool> SafeScreen::show(const SafeText& text) {
     }
     picture_.text = text;
     ++picture_.code;
-    const Result<MonotonicTime> presented = presenter_.present({}, true);
-    if (!presented) {
-        return tl::unexpected<Error>(presented.error());
-    }
+    TRY_VOID(presenter_.present({}, true));
     return presenter_.wait_until_shown();
 }
 

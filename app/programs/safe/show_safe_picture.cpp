@@ -77,14 +77,11 @@ Result<void> show_safe_picture(const SafeArguments& arguments) {
         }
         bool fed = screen == nullptr;
         if (screen != nullptr) {
-            const Result<bool> on = screen->show(
-                {read_reason(arguments.reason), std::chrono::floor<std::chrono::minutes>(since_boot())});
-            if (!on) {
-                return tl::unexpected<Error>(on.error());
-            }
-            const Result<void> said = *on ? say_alive(arguments.alive, ++shown) : Result<void>();
+            TRY(const bool on, screen->show({read_reason(arguments.reason),
+                                             std::chrono::floor<std::chrono::minutes>(since_boot())}));
+            const Result<void> said = on ? say_alive(arguments.alive, ++shown) : Result<void>();
             teller.tell(said ? screen->state() : said.error().message); // the picture goes on all the same
-            fed = *on || !screen->lit(); // a lit projector that takes no pictures is what the watchdog is for
+            fed = on || !screen->lit(); // a lit projector that takes no pictures is what the watchdog is for
         }
         teller.ready();
         if (fed) {

@@ -56,19 +56,16 @@ void place(Canvas& canvas, const Image8& image, const glm::ivec2& corner, const 
 } // namespace
 
 Result<Image8> room_picture(const Settings& settings, const SheetFrame& frame, const Typesetter& typesetter) {
-    const Result<Image8> picture = read_picture(frame, settings.projector.pinhole);
-    if (!picture) {
-        return tl::unexpected<Error>(picture.error());
-    }
-    const VisitorScene scene = visitor_scene(settings, frame.situation, picture->width, picture->height);
+    TRY(const Image8 picture, read_picture(frame, settings.projector.pinhole));
+    const VisitorScene scene = visitor_scene(settings, frame.situation, picture.width, picture.height);
     VisitorScene in_room = scene;
     const VisitorCamera bystander = room_camera(scene, room_tile);
     in_room.eye_m = bystander.table_from_camera.translation;
     in_room.blocks = room_around(scene.table_size_m, scene.table_from_projector.translation);
-    Canvas room(visitor_view(in_room, *picture, bystander));
+    Canvas room(visitor_view(in_room, picture, bystander));
     draw_beam(room, scene, bystander);
 
-    const glm::ivec2 projector_tile(right_width, right_width * picture->height / picture->width);
+    const glm::ivec2 projector_tile(right_width, right_width * picture.height / picture.width);
     const int right = 2 * gap + room_tile.x;
     const int below = gap + projector_tile.y + label_height;
     Canvas canvas(right + right_width + gap,
@@ -77,11 +74,11 @@ Result<Image8> room_picture(const Settings& settings, const SheetFrame& frame, c
                   background);
     place(canvas, room.image(), {gap, gap}, "The table in its room, seen over the visitor\u2019s shoulder",
           typesetter);
-    place(canvas, projector_view(scene, *picture, projector_tile), {right, gap},
+    place(canvas, projector_view(scene, picture, projector_tile), {right, gap},
           "The projector\u2019s picture", typesetter);
     VisitorScene seen = scene;
     seen.blocks = in_room.blocks;
-    place(canvas, visitor_view(seen, *picture, framed_camera(scene, visitor_tile)), {right, below},
+    place(canvas, visitor_view(seen, picture, framed_camera(scene, visitor_tile)), {right, below},
           "What the visitor sees", typesetter);
     return canvas.take();
 }

@@ -135,13 +135,10 @@ Result<Bytes> visitor_animation(const Settings& settings, const std::vector<Shee
     const std::vector<VisitorCamera> cameras = cameras_for(settings, frames, options);
     std::vector<Image8> views;
     for (std::size_t k = 0; k < frames.size(); ++k) {
-        const Result<Image8> picture = read_picture(frames[k], settings.projector.pinhole);
-        if (!picture) {
-            return tl::unexpected<Error>(picture.error());
-        }
+        TRY(const Image8 picture, read_picture(frames[k], settings.projector.pinhole));
         const VisitorScene scene =
-            visitor_scene(settings, frames[k].situation, picture->width, picture->height);
-        views.push_back(visitor_view(scene, *picture, cameras[k], {true, 2, false}));
+            visitor_scene(settings, frames[k].situation, picture.width, picture.height);
+        views.push_back(visitor_view(scene, picture, cameras[k], {true, 2, false}));
         progress(k + 1, frames.size());
     }
     Encoder encoder(options);

@@ -147,33 +147,20 @@ Result<std::vector<FrameRecord>> parse_frames_csv(std::string_view text, const s
 Result<FrameFolder> read_frame_folder(const std::filesystem::path& folder, const std::filesystem::path& poses,
                                       const std::string& label, const glm::dvec3& default_eye_m) {
     const std::filesystem::path pose_file = poses.empty() ? folder / "poses.csv" : poses;
-    if (Result<void> fit = check_folder(folder, pose_file); !fit) {
-        return tl::unexpected<Error>(fit.error());
-    }
-    const Result<Bytes> bytes = read_file(pose_file);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    const Result<std::vector<PoseSample>> samples = parse_poses(as_text(*bytes), pose_file.string());
-    if (!samples) {
-        return tl::unexpected<Error>(samples.error());
-    }
+    TRY_VOID(check_folder(folder, pose_file));
+    TRY(const Bytes bytes, read_file(pose_file));
+    TRY(const std::vector<PoseSample> samples, parse_poses(as_text(bytes), pose_file.string()));
     FrameFolder result;
     const std::filesystem::path list = folder / "frames.csv";
     if (std::filesystem::exists(list)) {
-        const Result<Bytes> text = read_file(list);
-        Result<std::vector<FrameRecord>> records =
-            text ? parse_frames_csv(as_text(*text), list.string()) : tl::unexpected<Error>(text.error());
-        if (!records) {
-            return tl::unexpected<Error>(records.error());
-        }
-        result.records = std::move(*records);
+        TRY(const Bytes text, read_file(list));
+        TRY(result.records, parse_frames_csv(as_text(text), list.string()));
     }
     const std::string folder_name = std::filesystem::absolute(folder / "x").parent_path().filename().string();
     for (FrameRecord& record : result.records) {
         record.artifact = !label.empty() ? label : record.artifact.empty() ? folder_name : record.artifact;
     }
-    for (const Situation& situation : pose_frames(*samples, default_eye_m)) {
+    for (const Situation& situation : pose_frames(samples, default_eye_m)) {
         const std::filesystem::path file = folder / fmt::format("frame_{:05}.png", result.frames.size());
         if (!std::filesystem::exists(file)) {
             break;
@@ -217,11 +204,8 @@ std::vector<SheetFrame> distinct(const std::vector<SheetFrame>& frames) {
 }
 
 Result<Image8> read_picture(const SheetFrame& frame, const Pinhole& projector) {
-    const Result<Bytes> bytes = read_file(frame.picture);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    Result<Image8> picture = decode_png8(*bytes);
+    TRY(const Bytes bytes, read_file(frame.picture));
+    Result<Image8> picture = decode_png8(bytes);
     if (!picture) {
         return at(frame.picture.string(), picture.error());
     }

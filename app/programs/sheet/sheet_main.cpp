@@ -92,10 +92,7 @@ Result<void> draw_sheet(const Request& request, const Settings& settings,
     if (request.sheet.empty()) {
         return {};
     }
-    const Result<Typesetter> typesetter = Typesetter::open();
-    if (!typesetter) {
-        return tl::unexpected<Error>(typesetter.error());
-    }
+    TRY(const Typesetter typesetter, Typesetter::open());
     std::vector<SheetFrame> frames;
     for (const FrameFolder& folder : folders) {
         const std::vector<SheetFrame> chosen = evenly(distinct(folder.frames), request.rows);
@@ -103,7 +100,7 @@ Result<void> draw_sheet(const Request& request, const Settings& settings,
     }
     ProgressLine progress("contact sheet");
     const Result<Image8> sheet =
-        contact_sheet(settings, frames, request.sheet_options, *typesetter,
+        contact_sheet(settings, frames, request.sheet_options, typesetter,
                       [&](std::size_t done, std::size_t all) { progress.show(done, all); });
     return sheet ? write_file(request.sheet, encode_png(*sheet)) : tl::unexpected<Error>(sheet.error());
 }
@@ -112,11 +109,8 @@ Result<void> draw_room(const Request& request, const Settings& settings, const S
     if (request.room.empty()) {
         return {};
     }
-    const Result<Typesetter> typesetter = Typesetter::open();
-    if (!typesetter) {
-        return tl::unexpected<Error>(typesetter.error());
-    }
-    const Result<Image8> picture = room_picture(settings, frame, *typesetter);
+    TRY(const Typesetter typesetter, Typesetter::open());
+    const Result<Image8> picture = room_picture(settings, frame, typesetter);
     return picture ? write_file(request.room, encode_png(*picture)) : tl::unexpected<Error>(picture.error());
 }
 
@@ -132,29 +126,17 @@ Result<void> draw_animation(const Request& request, const Settings& settings, co
 }
 
 Result<void> make(const Request& request) {
-    const Result<CheckedSettings> settings = load_settings(request.config);
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
-    }
+    TRY(const CheckedSettings settings, load_settings(request.config));
     std::vector<FrameFolder> folders;
     for (std::size_t k = 0; k < request.folders.size(); ++k) {
-        Result<FrameFolder> folder =
+        TRY(FrameFolder folder,
             read_frame_folder(request.folders[k], k < request.poses.size() ? request.poses[k] : "",
-                              k < request.labels.size() ? request.labels[k] : "", (*settings)->eye.default_m);
-        if (!folder) {
-            return tl::unexpected<Error>(folder.error());
-        }
-        folders.push_back(std::move(*folder));
+                              k < request.labels.size() ? request.labels[k] : "", settings->eye.default_m));
+        folders.push_back(std::move(folder));
     }
-    if (Result<void> drawn = draw_sheet(request, **settings, folders); !drawn) {
-        return drawn;
-    }
-    if (Result<void> drawn = draw_room(request, **settings, folders.front().frames.front()); !drawn) {
-        return drawn;
-    }
-    if (Result<void> drawn = draw_animation(request, **settings, folders.front()); !drawn) {
-        return drawn;
-    }
+    TRY_VOID(draw_sheet(request, *settings, folders));
+    TRY_VOID(draw_room(request, *settings, folders.front().frames.front()));
+    TRY_VOID(draw_animation(request, *settings, folders.front()));
     if (!request.table.empty()) {
         std::vector<FrameRecord> records;
         for (const FrameFolder& folder : folders) {

@@ -125,13 +125,10 @@ Result<Image8> contact_sheet(const Settings& settings, const std::vector<SheetFr
                 {margin, 52.0}, 15.0, quiet);
     for (int k = 0; k < count; ++k) {
         const SheetFrame& frame = frames[static_cast<std::size_t>(k)];
-        const Result<Image8> picture = read_picture(frame, settings.projector.pinhole);
-        if (!picture) {
-            return tl::unexpected<Error>(picture.error());
-        }
+        TRY(const Image8 picture, read_picture(frame, settings.projector.pinhole));
         const glm::ivec2 corner(margin + (k % columns) * (cell.x + gap),
                                 header_height + (k / columns) * (cell.y + gap / 2));
-        draw_frame(canvas, settings, frame, *picture, options.whole_table, corner, typesetter);
+        draw_frame(canvas, settings, frame, picture, options.whole_table, corner, typesetter);
         progress(static_cast<std::size_t>(k) + 1, frames.size());
     }
     return canvas.take();

@@ -44,9 +44,7 @@ Result<FolderWatch> FolderWatch::open(const std::filesystem::path& folder) {
                                 "folders",
                                 folder.string(), std::strerror(errno)));
     }
-    if (Result<void> added = watch.add(folder); !added) {
-        return tl::unexpected<Error>(added.error());
-    }
+    TRY_VOID(watch.add(folder));
     return watch;
 }
 
@@ -80,9 +78,7 @@ Result<void> FolderWatch::add(const std::filesystem::path& folder, std::set<int>
     std::error_code none;
     for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
         if (entry.is_directory(none) && !is_passing_name(entry.path().filename().string())) {
-            if (Result<void> added = add(entry.path(), seen); !added) {
-                return added;
-            }
+            TRY_VOID(add(entry.path(), seen));
         }
     }
     return {};
@@ -109,9 +105,7 @@ Result<bool> FolderWatch::take() {
             const bool is_new_folder = is_new && ((event.mask & IN_ISDIR) != 0 || is_new_link);
             const bool missed_some = (event.mask & IN_Q_OVERFLOW) != 0; // new folders perhaps
             if (missed_some || (is_new_folder && place != watched_.end() && !is_passing_name(name))) {
-                if (Result<void> added = add(missed_some ? folder_ : place->second / name); !added) {
-                    return tl::unexpected<Error>(added.error());
-                }
+                TRY_VOID(add(missed_some ? folder_ : place->second / name));
             }
             if ((event.mask & IN_IGNORED) != 0) {
                 watched_.erase(event.wd);

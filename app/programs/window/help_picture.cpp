@@ -32,15 +32,12 @@ constexpr Colour bright{236, 236, 232};
 } // namespace
 
 Result<WindowHelp> help_picture() {
-    const Result<Typesetter> typesetter = Typesetter::open();
-    if (!typesetter) {
-        return tl::unexpected<Error>(typesetter.error());
-    }
+    TRY(const Typesetter typesetter, Typesetter::open());
     Canvas canvas(width, 2 * margin + pitch * static_cast<int>(lines.size()), background);
     double y = margin;
     for (const auto& [key, meaning] : lines) {
-        canvas.text(*typesetter, key, {margin, y}, em_px, quiet, {}, true);
-        canvas.text(*typesetter, meaning, {second_column, y}, em_px, bright);
+        canvas.text(typesetter, key, {margin, y}, em_px, quiet, {}, true);
+        canvas.text(typesetter, meaning, {second_column, y}, em_px, bright);
         y += pitch;
     }
     const Image8 image = canvas.take();

@@ -76,16 +76,13 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
     DevicePlan devices;
     devices.tracker = TrackerKind::Simulated;
     devices.panel = devices.other_packs = devices.language = true;
-    Result<std::unique_ptr<ArtifactShow>> show =
-        ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0});
-    if (!show) {
-        return tl::unexpected<Error>(show.error());
-    }
-    for (const std::string& note : (*show)->notes()) {
+    TRY(std::unique_ptr<ArtifactShow> show,
+        ArtifactShow::create(settings, devices, options, {display.framebuffer(), 0}));
+    for (const std::string& note : show->notes()) {
         say_line(options.program, note);
     }
-    Exhibit exhibit = make_exhibit(settings, **show, monotonic_now());
-    return std::make_unique<LiveExhibit>(settings, std::move(*show), std::move(exhibit), display.name());
+    Exhibit exhibit = make_exhibit(settings, *show, monotonic_now());
+    return std::make_unique<LiveExhibit>(settings, std::move(show), std::move(exhibit), display.name());
 }
 
 /// `visitor` outlives the window.
@@ -110,33 +107,24 @@ Result<void> run(const Request& request) {
     const StopSignals stop_signals;
     const Journal journal("frustumscreen-window");
     ServiceManager manager;
-    const Result<CheckedSettings> checked = load_settings(request.config);
-    if (!checked) {
-        return tl::unexpected<Error>(checked.error());
-    }
-    Settings settings = **checked;
+    TRY(const CheckedSettings checked, load_settings(request.config));
+    Settings settings = *checked;
     settings.tracker.kind = TrackerKind::Simulated; // the mouse goes anywhere on the table, as a hand does
     settings.tracker.display_latency_ms = 0.0;
     settings.eye.tracked = true;
-    Result<WindowHelp> help = help_picture();
-    if (!help) {
-        return tl::unexpected<Error>(help.error());
-    }
+    TRY(WindowHelp help, help_picture());
     const VisitorHalf visitor(settings);
-    Result<Window> window = open_window(set_up_of(settings, visitor, std::move(*help)));
-    if (!window) {
-        return tl::unexpected<Error>(window.error());
-    }
+    TRY(Window window, open_window(set_up_of(settings, visitor, std::move(help))));
     const Result<std::unique_ptr<Show>> show = [&] {
         const StopSignals::AtOnce at_once(stop_signals);
-        return make_show(request, settings, *window->display);
+        return make_show(request, settings, *window.display);
     }();
     if (!show) {
         return tl::unexpected<Error>(show.error());
     }
     Inputs inputs;
-    inputs.tracker = std::make_unique<RegisteredTracker>(std::move(window->tracker), Registration{});
-    inputs.panel = std::move(window->panel);
+    inputs.tracker = std::make_unique<RegisteredTracker>(std::move(window.tracker), Registration{});
+    inputs.panel = std::move(window.panel);
     LoopOptions options;
     if (request.seconds > 0.0) {
         options.length = Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(request.seconds * 1e9)));
@@ -145,7 +133,7 @@ Result<void> run(const Request& request) {
     StatusFile status_file{{}};
     RunWatch watch(manager, journal);
     const Result<LoopResult> result =
-        run_loop(settings, *window->display, inputs, **show, options, status_file, watch, monotonic_now());
+        run_loop(settings, *window.display, inputs, **show, options, status_file, watch, monotonic_now());
     return result ? Result<void>{} : tl::unexpected<Error>(result.error());
 }
 
