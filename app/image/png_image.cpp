@@ -84,24 +84,18 @@ Result<PictureExtent> extent_of_png(std::span<const std::byte> beginning) {
 }
 
 Result<Image8> decode_png8(std::span<const std::byte> bytes, std::int64_t limit_texels) {
-    Result<PngImage> png = begin_decode(bytes, limit_texels);
-    if (!png) {
-        return tl::unexpected(png.error());
-    }
+    TRY(PngImage png, begin_decode(bytes, limit_texels));
     // Pictures of 16 bits without a gamma chunk are sRGB here; libpng would take them for linear light.
-    (*png)->flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
-    return finish_decode<glm::u8vec4>(std::move(*png), PNG_FORMAT_RGBA);
+    png->flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
+    return finish_decode<glm::u8vec4>(std::move(png), PNG_FORMAT_RGBA);
 }
 
 Result<Image16> decode_png16(std::span<const std::byte> bytes, std::int64_t limit_texels) {
-    Result<PngImage> png = begin_decode(bytes, limit_texels);
-    if (!png) {
-        return tl::unexpected(png.error());
-    }
-    if ((*png)->format != PNG_FORMAT_LINEAR_Y) {
+    TRY(PngImage png, begin_decode(bytes, limit_texels));
+    if (png->format != PNG_FORMAT_LINEAR_Y) {
         return bad_input("the PNG picture is not 16-bit grey");
     }
-    return finish_decode<std::uint16_t>(std::move(*png), PNG_FORMAT_LINEAR_Y);
+    return finish_decode<std::uint16_t>(std::move(png), PNG_FORMAT_LINEAR_Y);
 }
 
 Bytes encode_png(const Image8& image) {

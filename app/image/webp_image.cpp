@@ -79,16 +79,13 @@ Result<PictureExtent> extent_of_webp(std::span<const std::byte> beginning) {
 }
 
 Result<Image8> decode_webp8(std::span<const std::byte> bytes, std::int64_t limit_texels) {
-    const Result<PictureExtent> extent = extent_of_webp(bytes);
-    if (!extent) {
-        return tl::unexpected<Error>(extent.error());
-    }
-    if (extent->width * extent->height > limit_texels) {
-        return bad_input("the WebP picture has " + std::to_string(extent->width) + " x " +
-                         std::to_string(extent->height) + " texels, allowed are " +
+    TRY(const PictureExtent extent, extent_of_webp(bytes));
+    if (extent.width * extent.height > limit_texels) {
+        return bad_input("the WebP picture has " + std::to_string(extent.width) + " x " +
+                         std::to_string(extent.height) + " texels, allowed are " +
                          std::to_string(limit_texels) + " in all");
     }
-    Image8 image(static_cast<int>(extent->width), static_cast<int>(extent->height));
+    Image8 image(static_cast<int>(extent.width), static_cast<int>(extent.height));
     if (WebPDecodeRGBAInto(raw(bytes), bytes.size(), &image.texels[0].x, 4 * image.texels.size(),
                            4 * image.width) == nullptr) {
         return bad_input("the WebP picture is damaged or truncated");

@@ -110,11 +110,7 @@ std::uint32_t most_blocks_on_gpu() {
 
 /// Makes the textures with room for everything, and uploads the covers, a small part of it.
 Result<void> BlockUpload::begin() {
-    const Result<BlockSheet> sheet = sheet_of(*relief_, most_texels());
-    if (!sheet) {
-        return tl::unexpected<Error>(sheet.error());
-    }
-    sheet_ = *sheet;
+    TRY(sheet_, sheet_of(*relief_, most_texels()));
     textures_.colours =
         make_texture(GL_RGBA8, block_corners * sheet_.columns, block_corners * sheet_.rows, GL_LINEAR);
     textures_.numbers = make_texture(GL_RGBA32UI, numbers_of_block * sheet_.columns, sheet_.rows, GL_NEAREST);
@@ -167,9 +163,7 @@ void BlockUpload::upload_row() {
 Result<void> BlockUpload::go_on(std::uint64_t most_bytes) {
     glActiveTexture(GL_TEXTURE0);
     if (!begun_) {
-        if (Result<void> begun = begin(); !begun) {
-            return begun;
-        }
+        TRY_VOID(begin());
         begun_ = true;
     }
     const std::uint64_t bytes_a_row = static_cast<std::uint64_t>(sheet_.columns) * bytes_of_block;

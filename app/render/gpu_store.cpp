@@ -69,9 +69,7 @@ Result<Drawable> GpuStore::upload(const Pack& pack, std::uint32_t level) {
 
 Result<Drawable> GpuStore::upload(const SceneLevel& level, const Image8& texture) {
     LevelUpload whole(level_data(level, texture));
-    if (Result<void> done = whole.go_on(); !done) {
-        return tl::unexpected<Error>(done.error());
-    }
+    TRY_VOID(whole.go_on());
     return keep(std::move(whole));
 }
 
@@ -96,9 +94,7 @@ Result<Drawable> GpuStore::upload(std::shared_ptr<const BlockRelief> relief) {
     data.relief = std::move(relief);
     data.on_gpu = true;
     LevelUpload whole(std::move(data));
-    if (Result<void> done = whole.go_on(); !done) {
-        return tl::unexpected<Error>(done.error());
-    }
+    TRY_VOID(whole.go_on());
     return keep(std::move(whole));
 }
 

@@ -18,9 +18,7 @@ Result<HitPointRenderer> HitPointRenderer::create(const Renderer& shown) {
             shaders.insert(places_of(key));
         }
     }
-    if (Result<void> ready = renderer.shaders_.prepare(shaders, shown.bent_by()); !ready) {
-        return tl::unexpected<Error>(ready.error());
-    }
+    TRY_VOID(renderer.shaders_.prepare(shaders, shown.bent_by()));
     renderer.framebuffer_ = GlFramebuffer::generate();
     renderer.points_ = GlRenderbuffer::generate();
     renderer.depth_stencil_ = GlRenderbuffer::generate();

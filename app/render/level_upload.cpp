@@ -23,9 +23,7 @@ Result<void> LevelUpload::go_on(std::uint64_t most_bytes) {
         return sent;
     }
     if (!begun_) {
-        if (Result<void> begun = begin(); !begun) {
-            return begun;
-        }
+        TRY_VOID(begin());
         begun_ = true;
     }
     std::uint64_t left = most_bytes;

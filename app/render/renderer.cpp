@@ -45,27 +45,17 @@ Result<Renderer> Renderer::create(int width, int height, const RenderNeeds& need
         }
     }
     Renderer renderer(width, height);
-    if (Result<void> ready = renderer.prepare(needs); !ready) {
-        return tl::unexpected<Error>(ready.error());
-    }
+    TRY_VOID(renderer.prepare(needs));
     return renderer;
 }
 
 Result<void> Renderer::prepare(const RenderNeeds& needs) {
     const RenderNeeds all = united(needs_, needs);
-    if (Result<void> ready = shaders_.prepare(shaders_of(all), all.bent_by); !ready) {
-        return ready;
-    }
-    if (Result<void> ready = casts_.prepare(all.casts, width_, height_); !ready) {
-        return ready;
-    }
+    TRY_VOID(shaders_.prepare(shaders_of(all), all.bent_by));
+    TRY_VOID(casts_.prepare(all.casts, width_, height_));
     if (all.samples > 1 && (all.samples != needs_.samples || all.outline != needs_.outline)) {
         const PixelSize picture{width_, height_};
-        Result<SampleGrid> grid = SampleGrid::create(picture, all.outline.value_or(picture), all.samples);
-        if (!grid) {
-            return tl::unexpected<Error>(grid.error());
-        }
-        sample_grid_ = std::move(*grid);
+        TRY(sample_grid_, SampleGrid::create(picture, all.outline.value_or(picture), all.samples));
     }
     needs_ = all;
     return {};

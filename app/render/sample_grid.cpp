@@ -34,9 +34,7 @@ Result<SampleGrid> SampleGrid::create(const PixelSize& picture, const PixelSize&
     SampleGrid made;
     made.picture_ = {picture.width, picture.height};
     made.room_ = grid * glm::ivec2(part.width, part.height);
-    if (Result<void> ready = made.make_target(); !ready) {
-        return tl::unexpected<Error>(ready.error());
-    }
+    TRY_VOID(made.make_target());
     made.no_attributes_ = GlVertexArray::generate();
     return made;
 }

@@ -35,12 +35,9 @@ void set_lens(GLuint program, const Pinhole& pinhole) {
 
 Result<Shader> Shader::compile(const ShaderKey& key, const std::optional<Pinhole>& bent_by) {
     const ShaderSource source = source_of(key, bent_by.has_value());
-    Result<GlProgram> program = make_program(source.defines, source.vertex, source.fragment);
-    if (!program) {
-        return tl::unexpected<Error>(program.error());
-    }
+    TRY(GlProgram program, make_program(source.defines, source.vertex, source.fragment));
     Shader made;
-    made.program_ = std::move(*program);
+    made.program_ = std::move(program);
     for (std::size_t k = 0; k < uniform_names.size(); ++k) {
         made.locations_[k] = glGetUniformLocation(made.program_.get(), uniform_names[k]);
     }
@@ -86,11 +83,8 @@ Result<void> ShaderCache::prepare(const std::set<ShaderKey>& keys, const std::op
         if (find(key) != nullptr) {
             continue;
         }
-        Result<Shader> shader = Shader::compile(key, bent_by);
-        if (!shader) {
-            return tl::unexpected<Error>(shader.error());
-        }
-        shaders_.emplace(key, std::move(*shader));
+        TRY(Shader shader, Shader::compile(key, bent_by));
+        shaders_.emplace(key, std::move(shader));
     }
     return {};
 }

@@ -85,28 +85,20 @@ SeenLevel derived(const LevelError& error, const glm::dvec3& box_size) {
 }
 
 Result<SeenByEyes> seen_by_eyes(const PackOutline& pack) {
-    const Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack.description);
-    if (!reliefs) {
-        return tl::unexpected<Error>(reliefs.error());
-    }
-    const Result<SeenErrors> seen = seen_errors_of(pack.description, pack.levels.size());
-    if (!seen) {
-        return tl::unexpected<Error>(seen.error());
-    }
-    if (!seen->reliefs.empty() && seen->reliefs.size() != reliefs->size()) {
+    TRY(const std::vector<ReliefOutline> reliefs, reliefs_of(pack.description));
+    TRY(const SeenErrors seen, seen_errors_of(pack.description, pack.levels.size()));
+    if (!seen.reliefs.empty() && seen.reliefs.size() != reliefs.size()) {
         return bad_input(fmt::format("sections.seen_reliefs.data has {} reliefs; allowed are the pack's {}",
-                                     seen->reliefs.size(), reliefs->size()));
+                                     seen.reliefs.size(), reliefs.size()));
     }
     SeenByEyes surfaces;
     for (std::size_t k = 0; k < pack.levels.size(); ++k) {
-        surfaces.levels.push_back(seen->eyes.empty()
-                                      ? derived(pack.levels[k].error, pack.description.box_size)
-                                      : SeenLevel{seen->eyes, seen->levels[k]});
+        surfaces.levels.push_back(seen.eyes.empty() ? derived(pack.levels[k].error, pack.description.box_size)
+                                                    : SeenLevel{seen.eyes, seen.levels[k]});
     }
-    for (std::size_t k = 0; k < reliefs->size(); ++k) {
-        surfaces.reliefs.push_back(seen->reliefs.empty()
-                                       ? derived((*reliefs)[k].error, pack.description.box_size)
-                                       : SeenLevel{seen->eyes, seen->reliefs[k]});
+    for (std::size_t k = 0; k < reliefs.size(); ++k) {
+        surfaces.reliefs.push_back(seen.reliefs.empty() ? derived(reliefs[k].error, pack.description.box_size)
+                                                        : SeenLevel{seen.eyes, seen.reliefs[k]});
     }
     return surfaces;
 }

@@ -294,10 +294,7 @@ std::string name_of(const Rung& rung) {
 }
 
 Result<Rung> rung_of(const PackOutline& pack, std::string_view technique, double pixel_box) {
-    const Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack.description);
-    if (!reliefs) {
-        return tl::unexpected<Error>(reliefs.error());
-    }
+    TRY(const std::vector<ReliefOutline> reliefs, reliefs_of(pack.description));
     const auto levels = static_cast<std::uint32_t>(pack.levels.size());
     if (technique == "auto") {
         return Rung{pack.description.default_level};
@@ -312,16 +309,16 @@ Result<Rung> rung_of(const PackOutline& pack, std::string_view technique, double
     const std::string_view of = without_gpu(technique);
     std::optional<std::uint32_t> texels = number_behind(relief_prefix, of);
     if (const std::optional<ReliefOutline> relief =
-            relief_for(*reliefs, pixel_box, [](const ReliefOutline&) { return true; });
+            relief_for(reliefs, pixel_box, [](const ReliefOutline&) { return true; });
         relief && of == relief_prefix) {
         texels = relief->texels;
     }
-    if (texels && relief_of(*reliefs, *texels)) {
+    if (texels && relief_of(reliefs, *texels)) {
         return Rung{*texels, 1, false, true, of != technique};
     }
     return bad_input(fmt::format(
-        "technique '{}'; this pack has {}{}", technique, techniques_of(pack, *reliefs),
-        technique.starts_with(relief_prefix) && reliefs->empty() ? "; bake it again for relief" : ""));
+        "technique '{}'; this pack has {}{}", technique, techniques_of(pack, reliefs),
+        technique.starts_with(relief_prefix) && reliefs.empty() ? "; bake it again for relief" : ""));
 }
 
 bool is_technique(std::string_view name) {
@@ -337,16 +334,10 @@ std::string_view name_of(Economy economy) {
 }
 
 Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, const SceneRequest& request) {
-    Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack.description);
-    if (!reliefs) {
-        return tl::unexpected<Error>(reliefs.error());
-    }
-    Result<SeenByEyes> seen = seen_by_eyes(pack);
-    if (!seen) {
-        return tl::unexpected<Error>(seen.error());
-    }
+    TRY(std::vector<ReliefOutline> reliefs, reliefs_of(pack.description));
+    TRY(SeenByEyes seen, seen_by_eyes(pack));
     ScenePlan plan;
-    plan.seen = std::move(seen->levels);
+    plan.seen = std::move(seen.levels);
     plan.economies = request.economies;
     plan.projector = settings.projector.pinhole;
     plan.table_from_projector = settings.projector.table_from_projector;
@@ -359,13 +350,9 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
     }
     const double pixel_m =
         pixel_on_prop_m(plan.prop, plan.projector, settings.projector.table_from_projector.inverse());
-    const Result<Rung> asked = rung_of(pack, request.technique, pixel_m / plan.metres_per_box);
-    if (!asked) {
-        return tl::unexpected<Error>(asked.error());
-    }
+    TRY(const Rung asked, rung_of(pack, request.technique, pixel_m / plan.metres_per_box));
     choose_levels(pack, request, 1e3 * settings.render.error_tolerance_px * pixel_m,
-                  pixel_m / plan.metres_per_box, *asked, {*std::move(reliefs), std::move(seen->reliefs)},
-                  plan);
+                  pixel_m / plan.metres_per_box, asked, {std::move(reliefs), std::move(seen.reliefs)}, plan);
     choose_captions(settings, pack, request, plan);
     choose_shaders(request,
                    request.live && (shows_zone_frame(settings) || guides_visitors(settings) ||

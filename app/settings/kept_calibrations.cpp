@@ -98,15 +98,12 @@ Result<KeptCalibration> keep_calibration(WritableTree& folder, const Calibration
 }
 
 Result<KeptCalibration> undo_calibration(WritableTree& folder) {
-    const Result<std::vector<KeptCalibration>> kept = list_calibrations(folder);
-    if (!kept) {
-        return tl::unexpected<Error>(kept.error());
-    }
-    if (kept->empty()) {
+    TRY(const std::vector<KeptCalibration> kept, list_calibrations(folder));
+    if (kept.empty()) {
         return fail(ErrorKind::BadInput,
                     "there is no calibration to undo; the set-up is as the settings describe it");
     }
-    const KeptCalibration& newest = kept->front();
+    const KeptCalibration& newest = kept.front();
     const FileResult<void> gone =
         folder.rename(newest.name, name_of(newest.number, undone_ending)).and_then([&] {
             return folder.sync_folder("");

@@ -88,21 +88,12 @@ void add_language(const LanguageWords& words, const AdviceWordsRequest& request,
 } // namespace
 
 Result<AdviceWords> read_advice_words(const AdviceWordsRequest& request) {
-    const Result<Bytes> file = read_file(request.file);
-    if (!file) {
-        return tl::unexpected<Error>(file.error());
-    }
-    const Result<std::vector<WordsLanguage>> listed = list_words(*file);
-    if (!listed) {
-        return at(request.file.string(), listed.error());
-    }
+    TRY(const Bytes file, read_file(request.file));
+    TRY(const std::vector<WordsLanguage> listed, at(request.file.string(), list_words(file)));
     AdviceWords all;
-    for (const std::string& language : nearest(*listed, request.languages)) {
-        const Result<LanguageWords> words = read_words(*file, language);
-        if (!words) {
-            return at(request.file.string(), words.error());
-        }
-        add_language(*words, request, all);
+    for (const std::string& language : nearest(listed, request.languages)) {
+        TRY(const LanguageWords words, at(request.file.string(), read_words(file, language)));
+        add_language(words, request, all);
     }
     return all;
 }
@@ -116,11 +107,8 @@ Result<void> set_attract_line(std::span<const AttractLine> lines, const std::str
         return {};
     }
     CaptionSetter setter(style);
-    Result<std::vector<CaptionImage>> images =
-        setter.set({{}, {}, {}, {}, lines[caption_for(language, there)].text}, {});
-    if (!images) {
-        return tl::unexpected<Error>(images.error());
-    }
+    TRY(std::vector<CaptionImage> images,
+        setter.set({{}, {}, {}, {}, lines[caption_for(language, there)].text}, {}));
     if (words.languages.empty()) {
         words.languages.push_back({language, {}});
         words.words.emplace_back();
@@ -131,7 +119,7 @@ Result<void> set_attract_line(std::span<const AttractLine> lines, const std::str
     const std::size_t house = caption_for(language, known);
     AdviceText line{std::string(attract_key), {}};
     const AdviceWord word{words.pictures.size(), nullptr};
-    for (CaptionImage& image : *images) {
+    for (CaptionImage& image : images) {
         line.sizes_m.push_back(image.size_m);
         words.pictures.push_back(std::move(image.coverage));
     }

@@ -40,24 +40,17 @@ Result<KnownArtifact> open_pack(const Settings& settings, const OpenerOptions& o
     KnownArtifact opened{file, {}, {}, {}};
     const Result<VerifiedPack> pack =
         load_pack(file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
-            Result<ScenePlan> plan = plan_scene(settings, outline, request_of(settings, options, outline));
-            if (!plan) {
-                return tl::unexpected<Error>(plan.error());
-            }
+            TRY(ScenePlan plan, plan_scene(settings, outline, request_of(settings, options, outline)));
             opened.outline = outline;
-            opened.plan = std::move(*plan);
+            opened.plan = std::move(plan);
             return std::vector<std::uint32_t>{};
         });
     if (!pack) {
         return tl::unexpected<Error>(pack.error());
     }
-    Result<ArtifactTexts> texts =
+    TRY(opened.texts,
         lay_out_texts({file, opened.outline.description, opened.plan.captions}, opened.plan.metres_per_box,
-                      text_style(settings), settings.sound.kind != SoundKind::None);
-    if (!texts) {
-        return tl::unexpected<Error>(texts.error());
-    }
-    opened.texts = std::move(*texts);
+                      text_style(settings), settings.sound.kind != SoundKind::None));
     return opened;
 }
 

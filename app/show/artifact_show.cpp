@@ -29,11 +29,8 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
                                                            const ArtifactShowOptions& options,
                                                            const RenderTarget& target) {
     const Pinhole& pinhole = settings.projector.pinhole;
-    Result<Renderer> renderer = Renderer::create(pinhole.width, pinhole.height);
-    if (!renderer) {
-        return tl::unexpected<Error>(renderer.error());
-    }
-    std::unique_ptr<ArtifactShow> show(new ArtifactShow(settings, std::move(*renderer)));
+    TRY(Renderer renderer, Renderer::create(pinhole.width, pinhole.height));
+    std::unique_ptr<ArtifactShow> show(new ArtifactShow(settings, std::move(renderer)));
     show->set_options_ = {options.technique,
                           options.samples,
                           options.economies,
@@ -41,16 +38,10 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
                           options.waits,
                           devices,
                           draws_on_processor(gl_driver_name()) ? 0 : most_blocks_on_gpu()};
-    if (Result<void> stays = show->upload_what_stays(settings); !stays) {
-        return tl::unexpected<Error>(stays.error());
-    }
-    Result<std::unique_ptr<ShownSet>> set =
+    TRY_VOID(show->upload_what_stays(settings));
+    TRY(show->set_,
         open_set(settings, show->set_options(),
-                 {options.set_number, options.packs, options.packs_key, options.attract}, std::nullopt);
-    if (!set) {
-        return tl::unexpected<Error>(set.error());
-    }
-    show->set_ = std::move(*set);
+                 {options.set_number, options.packs, options.packs_key, options.attract}, std::nullopt));
     show->needs_ = show->set_->needs;
     if (options.other_sets) {
         const bool blocks =
@@ -58,12 +49,8 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
         show->needs_ = united(show->needs_, needs_of_any_pack(settings, options.samples, blocks));
         show->may_speak_ = settings.sound.kind != SoundKind::None;
     }
-    if (Result<void> ready = show->renderer_.prepare(show->needs_); !ready) {
-        return tl::unexpected<Error>(ready.error());
-    }
-    if (Result<void> uploaded = show->upload_set(options.other_sets); !uploaded) {
-        return tl::unexpected<Error>(uploaded.error());
-    }
+    TRY_VOID(show->renderer_.prepare(show->needs_));
+    TRY_VOID(show->upload_set(options.other_sets));
     show->notes_ = show->set_->notes;
     show->note_language(settings);
     show->measure(settings, target, options.other_sets);
@@ -73,21 +60,13 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
 
 Result<void> ArtifactShow::upload_what_stays(const Settings& settings) {
     if (shows_zone_frame(settings)) {
-        const Result<TextureId> white = renderer_.store().upload(Image<std::uint8_t>(1, 1, 255));
-        if (!white) {
-            return tl::unexpected<Error>(white.error());
-        }
-        white_ = *white;
+        TRY(white_, renderer_.store().upload(Image<std::uint8_t>(1, 1, 255)));
     }
     if (tells_of_sticks(settings)) {
-        if (Result<void> texel = notice_.prepare(renderer_.store()); !texel) {
-            return texel;
-        }
+        TRY_VOID(notice_.prepare(renderer_.store()));
     }
     if (settings.camera.drift) {
-        if (Result<void> mark = marks_.prepare(renderer_.store()); !mark) {
-            return mark;
-        }
+        TRY_VOID(marks_.prepare(renderer_.store()));
     }
     return upload_signs(settings);
 }
@@ -97,16 +76,10 @@ Result<void> ArtifactShow::upload_set(bool hotspots) {
     if (hotspots || std::any_of(catalogue().begin(), catalogue().end(), [](const CatalogueEntry& entry) {
             return !entry.hotspots.hotspots.empty();
         })) {
-        Result<HotspotShow> made = HotspotShow::create(store);
-        if (!made) {
-            return tl::unexpected<Error>(made.error());
-        }
-        hotspots_ = std::move(*made);
+        TRY(hotspots_, HotspotShow::create(store));
     }
     constexpr std::uint64_t all = std::numeric_limits<std::uint64_t>::max();
-    if (Result<void> words = set_->word_pictures.upload(store, all); !words) {
-        return words;
-    }
+    TRY_VOID(set_->word_pictures.upload(store, all));
     set_->table.upload(store, all);
     return set_->residents->upload_first(store);
 }
@@ -198,11 +171,8 @@ Result<void> ArtifactShow::upload_signs(const Settings& settings) {
     const double texels_per_m = text_style(settings).texels_per_m;
     for (std::size_t k = 0; k < signs_.size(); ++k) {
         const Image<std::uint8_t> picture = sign_picture(static_cast<Sign>(k), texels_per_m);
-        const Result<TextureId> texture = renderer_.store().upload(picture);
-        if (!texture) {
-            return tl::unexpected<Error>(texture.error());
-        }
-        signs_.at(k) = *texture;
+        TRY(const TextureId texture, renderer_.store().upload(picture));
+        signs_.at(k) = texture;
         planned_sign_bytes_ += caption_gpu_bytes(picture.width, picture.height);
     }
     return {};

@@ -64,11 +64,8 @@ SharedRecording recording_of(const TextSource& source, std::span<const SpokenTex
 Result<void> add_language(const TextSource& source, const PackCaption& caption,
                           std::span<const SetLanguage> set, std::span<const SpokenText> sounds,
                           CaptionSetter& setter, ArtifactTexts& made) {
-    const Result<std::vector<glm::dvec2>> sizes = setter.sizes_m(caption_text(caption), set);
-    if (!sizes) {
-        return tl::unexpected<Error>(sizes.error());
-    }
-    made.entry.caption_sizes_m.push_back(*sizes);
+    TRY(const std::vector<glm::dvec2> sizes, setter.sizes_m(caption_text(caption), set));
+    made.entry.caption_sizes_m.push_back(sizes);
     Tellable& tellable = made.entry.tellables.emplace_back();
     tellable.hotspots = label_times(source.pack, caption.language);
     DescriptionShape& shape = made.entry.descriptions.emplace_back();
@@ -76,11 +73,8 @@ Result<void> add_language(const TextSource& source, const PackCaption& caption,
     const std::vector<std::string> portions = told_portions(caption);
     for (std::size_t k = 0; k < portions.size(); ++k) {
         const TableText text = portion_text(caption, k, portions[k]);
-        const Result<std::vector<glm::dvec2>> portion = setter.sizes_m(text, set);
-        if (!portion) {
-            return tl::unexpected<Error>(portion.error());
-        }
-        shape.sizes_m.push_back(*portion);
+        TRY(const std::vector<glm::dvec2> portion, setter.sizes_m(text, set));
+        shape.sizes_m.push_back(portion);
         const GlyphText* const glyphs = language != nullptr ? language->runs.find(text.text_key) : nullptr;
         shape.flush_right =
             shape.flush_right || (glyphs != nullptr && glyphs->direction == TextDirection::RightToLeft);
@@ -143,11 +137,8 @@ public:
         if (given_up_()) {
             return bad_input("not wanted any more");
         }
-        Result<std::vector<CaptionImage>> images = setter_.set(text, set_);
-        if (!images) {
-            return tl::unexpected<Error>(images.error());
-        }
-        for (CaptionImage& image : *images) {
+        TRY(std::vector<CaptionImage> images, setter_.set(text, set_));
+        for (CaptionImage& image : images) {
             pictures.push_back(std::move(image.coverage));
         }
         return {};
@@ -176,9 +167,7 @@ Result<void> draw(const PackDescription& pack, const PackCaption& caption, TextP
     }
     const std::vector<std::string> portions = told_portions(caption);
     for (std::size_t k = 0; k < portions.size(); ++k) {
-        if (Result<void> added = drawing.add(portion_text(caption, k, portions[k])); !added) {
-            return added;
-        }
+        TRY_VOID(drawing.add(portion_text(caption, k, portions[k])));
     }
     for (std::size_t k = 0; k < pack.hotspots.size(); ++k) {
         drawing.add_label(caption.language, k);
@@ -195,23 +184,18 @@ Result<ArtifactTexts> lay_out_texts(const TextSource& source, double metres_per_
         made.entry.languages.push_back(source.pack.captions[each].language);
     }
     const std::vector<std::string>& languages = made.entry.languages;
-    const Result<std::vector<SetLanguage>> set =
-        languages.empty() ? std::vector<SetLanguage>()
-                          : load_set_texts(source.file, languages, Atlases::LeftOut);
-    if (!set) {
-        return tl::unexpected<Error>(set.error());
-    }
+    TRY(const std::vector<SetLanguage> set, languages.empty()
+                                                ? std::vector<SetLanguage>()
+                                                : load_set_texts(source.file, languages, Atlases::LeftOut));
     const Result<std::vector<SpokenText>> sounds =
         spoken ? list_sounds(source.pack) : std::vector<SpokenText>();
     CaptionSetter setter(style);
     for (const std::size_t each : source.captions) {
-        if (Result<void> added = add_language(source, source.pack.captions[each], *set,
-                                              sounds.value_or(std::vector<SpokenText>()), setter, made);
-            !added) {
-            return at(source.file.string(), added.error());
-        }
+        TRY_VOID(
+            at(source.file.string(), add_language(source, source.pack.captions[each], set,
+                                                  sounds.value_or(std::vector<SpokenText>()), setter, made)));
     }
-    made.entry.hotspots = lay_out_hotspots(source.pack, languages, *set, metres_per_box, style);
+    made.entry.hotspots = lay_out_hotspots(source.pack, languages, set, metres_per_box, style);
     return made;
 }
 
@@ -236,14 +220,9 @@ Result<TextPictures> draw_texts(const TextSource& source, const ArtifactTexts& t
                                 std::size_t language, const TextStyle& style,
                                 const std::function<bool()>& given_up) {
     const PackCaption& caption = source.pack.captions[source.captions[language]];
-    const Result<std::vector<SetLanguage>> set = load_set_texts(source.file, std::span(&caption.language, 1));
-    if (!set) {
-        return tl::unexpected<Error>(set.error());
-    }
-    Drawing drawing(style, *set, given_up);
-    if (Result<void> drawn = draw(source.pack, caption, part, drawing); !drawn) {
-        return at(source.file.string(), drawn.error());
-    }
+    TRY(const std::vector<SetLanguage> set, load_set_texts(source.file, std::span(&caption.language, 1)));
+    Drawing drawing(style, set, given_up);
+    TRY_VOID(at(source.file.string(), draw(source.pack, caption, part, drawing)));
     const std::vector<glm::ivec2> sizes = sizes_px(texts.entry, part, language, style);
     const auto as_laid_out = [](const Image<std::uint8_t>& picture, const glm::ivec2& size) {
         return glm::ivec2(picture.width, picture.height) == size;

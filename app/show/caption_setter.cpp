@@ -39,9 +39,7 @@ const SetLanguage* find_language(std::span<const SetLanguage> set, const std::st
 Result<std::vector<CaptionImage>> CaptionSetter::set(const TableText& text,
                                                      std::span<const SetLanguage> set) {
     const SetLanguage* const language = whole_in(set, text);
-    if (Result<void> opened = language == nullptr ? open_typesetter() : Result<void>(); !opened) {
-        return tl::unexpected<Error>(opened.error());
-    }
+    TRY_VOID(language == nullptr ? open_typesetter() : Result<void>());
     std::vector<CaptionImage> images;
     for (const double width_m : caption_widths_m) {
         images.push_back(
@@ -57,9 +55,7 @@ Result<std::vector<CaptionImage>> CaptionSetter::set(const TableText& text,
 Result<std::vector<glm::dvec2>> CaptionSetter::sizes_m(const TableText& text,
                                                        std::span<const SetLanguage> set) {
     const SetLanguage* const language = whole_in(set, text);
-    if (Result<void> opened = language == nullptr ? open_typesetter() : Result<void>(); !opened) {
-        return tl::unexpected<Error>(opened.error());
-    }
+    TRY_VOID(language == nullptr ? open_typesetter() : Result<void>());
     std::vector<glm::dvec2> sizes;
     for (const double width_m : caption_widths_m) {
         sizes.push_back(language != nullptr
@@ -74,11 +70,7 @@ Result<std::vector<glm::dvec2>> CaptionSetter::sizes_m(const TableText& text,
 
 Result<void> CaptionSetter::open_typesetter() {
     if (!typesetter_) {
-        Result<Typesetter> opened = Typesetter::open();
-        if (!opened) {
-            return tl::unexpected<Error>(opened.error());
-        }
-        typesetter_ = std::move(*opened);
+        TRY(typesetter_, Typesetter::open());
     }
     return {};
 }

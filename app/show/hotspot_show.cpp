@@ -45,12 +45,9 @@ ArtifactTriangles hiding_triangles(const PackLevel& level, const glm::dvec3& box
 
 Result<HotspotShow> HotspotShow::create(GpuStore& store) {
     const Image<std::uint8_t> picture = line_picture();
-    const Result<TextureId> line = store.upload(picture);
-    if (!line) {
-        return tl::unexpected<Error>(line.error());
-    }
+    TRY(const TextureId line, store.upload(picture));
     HotspotShow show;
-    show.line_ = *line;
+    show.line_ = line;
     show.planned_gpu_bytes_ = caption_gpu_bytes(picture.width, picture.height);
     return show;
 }

@@ -58,11 +58,8 @@ void ImportWatch::work(const std::stop_token& stop) {
 }
 
 Result<ImportReport> ImportWatch::read() const {
-    const Result<Bytes> bytes = read_file(file_, most_report_bytes);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    Result<ImportReport> report = parse_import_report(as_text(*bytes));
+    TRY(const Bytes bytes, read_file(file_, most_report_bytes));
+    Result<ImportReport> report = parse_import_report(as_text(bytes));
     return report ? std::move(report) : at(file_.string(), report.error());
 }
 

@@ -21,11 +21,8 @@ Result<UsedSettings> read_from(const std::filesystem::path& file, const std::fil
         return fail(ErrorKind::BadConfiguration, bytes.error().message);
     }
     std::string text(as_text(*bytes));
-    Result<CheckedSettings> settings = kiosk_settings(text, as);
-    if (!settings) {
-        return tl::unexpected<Error>(settings.error());
-    }
-    return UsedSettings{std::move(*settings), std::move(text), {}};
+    TRY(CheckedSettings settings, kiosk_settings(text, as));
+    return UsedSettings{std::move(settings), std::move(text), {}};
 }
 
 } // namespace

@@ -32,15 +32,9 @@ Result<std::optional<SetChoice>> read_choice(const std::filesystem::path& librar
         return std::optional<SetChoice>();
     }
     const std::filesystem::path path = library / set_file_name;
-    const Result<Bytes> bytes = read_file(path, most_set_file_bytes);
-    if (!bytes) {
-        return tl::unexpected<Error>(bytes.error());
-    }
-    Result<SetFile> file = parse_set_file(as_text(*bytes));
-    if (!file) {
-        return at(path.string(), file.error());
-    }
-    return std::optional(std::move(file->choice));
+    TRY(const Bytes bytes, read_file(path, most_set_file_bytes));
+    TRY(SetFile file, at(path.string(), parse_set_file(as_text(bytes))));
+    return std::optional(std::move(file.choice));
 }
 
 std::optional<SetVerdict> read_verdict(const std::filesystem::path& library) {

@@ -15,9 +15,7 @@ LoadedLevels::LoadedLevels(PreparedArtifact prepared) : artifact(std::move(prepa
 
 Result<void> LoadedLevels::upload(GpuStore& store, std::uint64_t most_bytes) {
     LevelUpload& level = uploads_[uploaded_];
-    if (Result<void> gone_on = level.go_on(most_bytes); !gone_on) {
-        return gone_on;
-    }
+    TRY_VOID(level.go_on(most_bytes));
     if (level.done()) {
         artifact.levels.give(uploaded_, store.keep(std::move(level)), store);
         ++uploaded_;
@@ -41,11 +39,8 @@ Result<void> LoadedTexts::upload(GpuStore& store, std::uint64_t most_bytes) {
     while (!ready() && uploaded_bytes_ - before < most_bytes) {
         Image<std::uint8_t>& picture = pictures_[textures_.size()];
         const std::uint64_t bytes = caption_gpu_bytes(picture.width, picture.height);
-        const Result<TextureId> texture = bytes > 0 ? store.upload(picture) : TextureId::None;
-        if (!texture) {
-            return tl::unexpected<Error>(texture.error());
-        }
-        textures_.push_back(*texture);
+        TRY(const TextureId texture, bytes > 0 ? store.upload(picture) : TextureId::None);
+        textures_.push_back(texture);
         uploaded_bytes_ += bytes;
         picture = {};
     }

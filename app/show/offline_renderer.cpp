@@ -50,16 +50,10 @@ Result<OfflineScene> load_offline(const std::filesystem::path& file,
     ScenePlan plan;
     Result<VerifiedPack> pack =
         load_pack(file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
-            Result<OfflineSetup> made = setup_of(outline);
-            if (!made) {
-                return tl::unexpected<Error>(made.error());
-            }
-            Result<ScenePlan> planned = plan_offline(*made, outline);
-            if (!planned) {
-                return tl::unexpected<Error>(planned.error());
-            }
-            setup = *std::move(made);
-            plan = *std::move(planned);
+            TRY(OfflineSetup made, setup_of(outline));
+            TRY(ScenePlan planned, plan_offline(made, outline));
+            setup = std::move(made);
+            plan = std::move(planned);
             return levels_to_read(plan);
         });
     if (!pack) {
@@ -67,11 +61,8 @@ Result<OfflineScene> load_offline(const std::filesystem::path& file,
     }
     OfflineScene scene{*std::move(setup), std::move(plan), *std::move(pack), nullptr};
     if (!scene.plan.reliefs.empty()) {
-        Result<BlockRelief> relief = load_relief(file, scene.plan.reliefs.front());
-        if (!relief) {
-            return tl::unexpected<Error>(relief.error());
-        }
-        scene.relief = std::make_shared<const BlockRelief>(*std::move(relief));
+        TRY(BlockRelief relief, load_relief(file, scene.plan.reliefs.front()));
+        scene.relief = std::make_shared<const BlockRelief>(std::move(relief));
     }
     return scene;
 }
@@ -86,24 +77,14 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineSc
     std::unique_ptr<OfflineRenderer> made(new OfflineRenderer(plan));
     const int width = made->projector_.width;
     const int height = made->projector_.height;
-    Result<std::unique_ptr<SurfacelessDisplay>> display = SurfacelessDisplay::create(width, height);
-    if (!display) {
-        return tl::unexpected<Error>(display.error());
-    }
-    made->display_ = std::move(*display);
+    TRY(made->display_, SurfacelessDisplay::create(width, height));
     made->technique_ = name_of(plan.rungs.front());
     const PackLevel& brightness = pack->levels[plan.exposure_level];
     made->exposure_ =
         exposure_of(brightness, pack->box_size, pack->textures[brightness.texture], plan.highlight_code);
-    if (Result<void> taken = scene.relief ? made->take_relief(scene) : made->take_level(scene); !taken) {
-        return tl::unexpected<Error>(taken.error());
-    }
+    TRY_VOID(scene.relief ? made->take_relief(scene) : made->take_level(scene));
     if (options.hit_points) {
-        Result<HitPointRenderer> hit_points = HitPointRenderer::create(*made->renderer_);
-        if (!hit_points) {
-            return tl::unexpected<Error>(hit_points.error());
-        }
-        made->hit_points_ = std::move(*hit_points);
+        TRY(made->hit_points_, HitPointRenderer::create(*made->renderer_));
     }
     made->placed_.samples = samples_of(options, *pack);
     made->placed_.faces = plan.faces;
@@ -115,37 +96,23 @@ Result<void> OfflineRenderer::take_level(const OfflineScene& scene) {
     const auto& [setup, plan, pack, relief] = scene;
     const std::uint32_t number = plan.rungs.front().level;
     const SceneLevel level = scene_level(*pack, number, plan);
-    Result<Renderer> renderer = Renderer::create(projector_.width, projector_.height, needs_of(plan, level));
-    if (!renderer) {
-        return tl::unexpected<Error>(renderer.error());
-    }
-    renderer_ = std::move(*renderer);
+    TRY(renderer_, Renderer::create(projector_.width, projector_.height, needs_of(plan, level)));
     const Image8& texture = pack->textures[level.mesh.texture];
-    const Result<Drawable> drawable = renderer_->store().upload(level, texture);
-    if (!drawable) {
-        return tl::unexpected<Error>(drawable.error());
-    }
+    TRY(const Drawable drawable, renderer_->store().upload(level, texture));
     seen_ = plan.seen[number];
     placed_ = {std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack->box_size)), pack->box_size,
-               plan.metres_per_box, *drawable};
+               plan.metres_per_box, drawable};
     return {};
 }
 
 Result<void> OfflineRenderer::take_relief(const OfflineScene& scene) {
     const auto& [setup, plan, pack, relief] = scene;
-    Result<Renderer> renderer = Renderer::create(projector_.width, projector_.height, plan.needs);
-    if (!renderer) {
-        return tl::unexpected<Error>(renderer.error());
-    }
-    renderer_ = std::move(*renderer);
+    TRY(renderer_, Renderer::create(projector_.width, projector_.height, plan.needs));
     seen_ = plan.seen_reliefs.front();
     const bool on_gpu = plan.rungs.front().on_gpu;
-    const Result<Drawable> drawable =
-        on_gpu ? renderer_->store().upload(relief) : renderer_->store().keep(relief);
-    if (!drawable) {
-        return tl::unexpected<Error>(drawable.error());
-    }
-    placed_ = placed(*pack, relief, plan.metres_per_box, *drawable);
+    TRY(const Drawable drawable,
+        on_gpu ? renderer_->store().upload(relief) : renderer_->store().keep(relief));
+    placed_ = placed(*pack, relief, plan.metres_per_box, drawable);
     placed_.on_gpu = on_gpu;
     return {};
 }

@@ -9,16 +9,13 @@ PatternShow::PatternShow(PatternScene scene, Typesetter typesetter, PictureUploa
       table_(table_pattern(scene_, typesetter_)) {}
 
 Result<std::unique_ptr<PatternShow>> PatternShow::create(const Settings& settings) {
-    Result<Typesetter> typesetter = Typesetter::open();
-    if (!typesetter) {
-        return tl::unexpected<Error>(typesetter.error());
-    }
+    TRY(Typesetter typesetter, Typesetter::open());
     const Pinhole& pinhole = settings.projector.pinhole;
     PatternScene scene{pinhole,
                        settings.projector.table_from_projector,
                        {settings.table.width_m, settings.table.depth_m},
                        make_prop(settings.prop)};
-    std::unique_ptr<PatternShow> show(new PatternShow(std::move(scene), std::move(*typesetter),
+    std::unique_ptr<PatternShow> show(new PatternShow(std::move(scene), std::move(typesetter),
                                                       PictureUpload(pinhole.width, pinhole.height)));
     if (settings.camera.kind != CameraKind::None) {
         show->panel_ = std::make_unique<ViewfinderPanel>(pinhole);

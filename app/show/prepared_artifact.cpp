@@ -65,29 +65,21 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
         if (given_up()) {
             return bad_input("not wanted any more");
         }
-        const Result<VerifiedPack> pack = read(number);
-        if (!pack) {
-            return tl::unexpected<Error>(pack.error());
-        }
-        levels.push_back(prepare_level(**pack, number, plan));
+        TRY(const VerifiedPack pack, read(number));
+        levels.push_back(prepare_level(*pack, number, plan));
     }
     for (const std::uint32_t number : read_beside(known)) {
         if (given_up()) {
             return bad_input("not wanted any more");
         }
-        if (const Result<VerifiedPack> pack = read(number); !pack) {
-            return tl::unexpected<Error>(pack.error());
-        }
+        TRY_VOID(read(number));
     }
     for (std::size_t place = 0; place < plan.reliefs.size(); ++place) {
         if (given_up()) {
             return bad_input("not wanted any more");
         }
-        Result<BlockRelief> relief = load_relief(known.file, plan.reliefs[place]);
-        if (!relief) {
-            return tl::unexpected<Error>(relief.error());
-        }
-        const auto shared = std::make_shared<const BlockRelief>(*std::move(relief));
+        TRY(BlockRelief relief, load_relief(known.file, plan.reliefs[place]));
+        const auto shared = std::make_shared<const BlockRelief>(std::move(relief));
         for (const bool on_gpu : {false, true}) {
             if (draws_relief(plan, place, on_gpu)) {
                 levels.push_back(prepare_relief(known.outline.description, place, shared, on_gpu, plan));

@@ -21,15 +21,12 @@ Result<Prompt> decode(const PromptRecording& recording) {
     if (!recording.opus.empty()) {
         return read_opus(recording.opus);
     }
-    const Result<Bytes> opus = load_sound(recording.pack, recording.language, recording.key);
-    if (!opus) {
-        return tl::unexpected<Error>(opus.error());
-    }
-    if (opus->empty()) {
+    TRY(const Bytes opus, load_sound(recording.pack, recording.language, recording.key));
+    if (opus.empty()) {
         return bad_input(
             fmt::format("{} has no sound of it any more; bake the pack again", recording.pack.string()));
     }
-    return read_opus(*opus);
+    return read_opus(opus);
 }
 
 void soften(Prompt& prompt, double gain_db) {

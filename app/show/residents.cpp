@@ -263,11 +263,7 @@ void Residents::upload(GpuStore& store, std::span<const std::size_t> needed,
 }
 
 Result<void> Residents::upload(GpuStore& store, std::size_t item, std::uint64_t most_bytes) {
-    if (Result<void> done =
-            std::visit([&](auto& each) { return each.upload(store, most_bytes); }, *loaded_[item]);
-        !done) {
-        return done;
-    }
+    TRY_VOID(std::visit([&](auto& each) { return each.upload(store, most_bytes); }, *loaded_[item]));
     if (!items_[item].part && !arrives(item)) {
         states_[items_[item].artifact] = ArtifactState::Ready;
     }

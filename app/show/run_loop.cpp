@@ -74,9 +74,7 @@ public:
         watch_.begin(start_, options_.fast, status_file_);
         MonotonicTime next_status = start_ + between_statuses;
         while (!(options_.length && now - start_ >= *options_.length) && !told_to_stop()) {
-            if (Result<void> drawn = frame(now); !drawn) {
-                return tl::unexpected<Error>(drawn.error());
-            }
+            TRY_VOID(frame(now));
             if (fault_since_ && now - *fault_since_ >= longest_fault) {
                 return fail(ErrorKind::BadConfiguration,
                             "no artifact can be shown any more; the lines before this "
@@ -134,11 +132,8 @@ private:
                 display_.changed(part);
             }
             watch_.enters("waits for the display");
-            const Result<MonotonicTime> shown = display_.present(now);
-            if (!shown) {
-                return tl::unexpected<Error>(shown.error());
-            }
-            light_delay_.flipped(now, *shown);
+            TRY(const MonotonicTime shown, display_.present(now));
+            light_delay_.flipped(now, shown);
             presented_ = now;
             result_.status.presented.code = coded ? std::optional(probe_code_) : std::nullopt;
         }
@@ -221,9 +216,7 @@ private:
     /// The projector is dark; the devices are read, and heard of by the watchdog.
     [[nodiscard]] Result<void> sleep(MonotonicTime now, const Situation& situation, MonotonicTime begin) {
         watch_.enters("waits for the display");
-        if (Result<void> dark = display_.stay_dark(); !dark) {
-            return dark;
-        }
+        TRY_VOID(display_.stay_dark());
         presented_ = now - between_probes; // the first picture afterwards is presented in any case
         fault_since_
             .reset(); // nobody sees that there is nothing to show, and a new start would light the projector

@@ -73,39 +73,36 @@ Result<std::unique_ptr<ShownSet>> open_set(const Settings& settings, const SetOp
                                            const std::optional<ExpectedFrames>& frames) {
     const double deadline_ms = 1e3 / settings.projector.refresh_hz;
     const bool table = chooses_on_table(settings) && options.devices.other_packs && request.packs.size() > 1;
-    Result<OpenedArtifacts> opened =
+    TRY(OpenedArtifacts opened,
         open_artifacts(settings, request.packs,
                        {options.technique, options.samples, options.economies, options.devices.language,
                         options.devices.other_packs, table, options.most_blocks_on_gpu, deadline_ms,
-                        options.program, request.packs_key, request.goes_on});
-    if (!opened) {
-        return tl::unexpected<Error>(opened.error());
-    }
+                        options.program, request.packs_key, request.goes_on}));
     auto set = std::make_unique<ShownSet>();
     set->number = request.number;
-    set->catalogue = catalogue_of(opened->known);
-    set->languages = std::move(opened->languages);
-    set->notes = std::move(opened->notes);
-    set->needs = std::move(opened->needs);
-    for (const KnownArtifact& known : opened->known) {
+    set->catalogue = catalogue_of(opened.known);
+    set->languages = std::move(opened.languages);
+    set->notes = std::move(opened.notes);
+    set->needs = std::move(opened.needs);
+    for (const KnownArtifact& known : opened.known) {
         const std::string& id = known.outline.description.id;
         set->names.push_back(id.empty() ? known.file.string() : id);
     }
     set->words = read_words(settings, options, request, *set);
     set->word_pictures = LoadedTexts(std::exchange(set->words.pictures, {}));
-    set->table = read_table(settings, options, opened->known);
+    set->table = read_table(settings, options, opened.known);
     set->notes.insert(set->notes.end(), set->table.notes().begin(), set->table.notes().end());
     if (frames) {
         set->browser = lay_out_catalogue(set->catalogue, exhibit_place(settings));
-        expect(*frames, opened->known.front(), opened->first->levels);
+        expect(*frames, opened.known.front(), opened.first->levels);
     }
     const auto budget = static_cast<std::uint64_t>(settings.exhibit.memory_mb) * 1'000'000;
     const std::uint64_t stays = options.gpu_bytes_that_stay + set->planned_gpu_bytes();
     set->residents = std::make_unique<Residents>(
-        ResidentsSetUp{std::move(opened->known), options.technique, deadline_ms,
+        ResidentsSetUp{std::move(opened.known), options.technique, deadline_ms,
                        budget - std::min(budget, stays), text_style(settings), settings.exhibit.language,
-                       options.waits, options.program, std::move(opened->left_out)},
-        std::move(*opened->first));
+                       options.waits, options.program, std::move(opened.left_out)},
+        std::move(*opened.first));
     if (frames) {
         set->residents->start(frames->cost, frames->prop, frames->view, frames->eye_m);
     }

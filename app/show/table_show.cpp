@@ -85,43 +85,30 @@ struct TableShow::Loader {
             }
         }
         if (!typesetter) {
-            Result<Typesetter> opened = Typesetter::open();
-            if (!opened) {
-                return tl::unexpected<Error>(opened.error());
-            }
-            typesetter = std::move(*opened);
+            TRY(typesetter, Typesetter::open());
         }
         return make_table_title(*typesetter, title.text, texels_per_m);
     }
 
     /// What was read before a refusal stays with the card.
     [[nodiscard]] Result<void> load(const std::filesystem::path& file, Card& card) {
-        Result<PackCard> read = load_pack_card(file);
-        if (!read) {
-            return tl::unexpected<Error>(read.error());
-        }
-        const Image8& picture = read->table_picture;
+        TRY(PackCard read, load_pack_card(file));
+        const Image8& picture = read.table_picture;
         if (picture.width > 0 && picture.height > 0) {
             card.picture = {show.textures_.size(), glm::dvec2(picture.width, picture.height)};
             show.planned_gpu_bytes_ += picture_gpu_bytes(picture.width, picture.height);
             show.textures_.push_back({light_mips(picture)});
         }
-        const std::vector<PackLabel> titles = titles_of(*read);
+        const std::vector<PackLabel> titles = titles_of(read);
         std::vector<std::string> languages;
         for (const PackLabel& title : titles) {
             languages.push_back(title.language);
         }
-        const Result<std::vector<SetLanguage>> set = load_set_texts(file, languages);
-        if (!set) {
-            return tl::unexpected<Error>(set.error());
-        }
+        TRY(const std::vector<SetLanguage> set, load_set_texts(file, languages));
         for (const PackLabel& title : titles) {
-            Result<CaptionImage> image = set_title(title, *set);
-            if (!image) {
-                return tl::unexpected<Error>(image.error());
-            }
+            TRY(CaptionImage image, set_title(title, set));
             card.languages.push_back(title.language);
-            card.titles.push_back({add(std::move(image->coverage)), image->size_m});
+            card.titles.push_back({add(std::move(image.coverage)), image.size_m});
         }
         return {};
     }
