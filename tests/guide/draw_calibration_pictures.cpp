@@ -40,22 +40,13 @@ Result<void> draw(const TouchProcedure& procedure, const Means& means, const std
 
 /// `words`: file and language, or nothing.
 Result<Means> means_with(std::span<char*> words) {
-    Result<Typesetter> typesetter = Typesetter::open();
-    if (!typesetter) {
-        return tl::unexpected<Error>(typesetter.error());
-    }
+    TRY(Typesetter typesetter, Typesetter::open());
     if (words.empty()) {
-        return Means{*std::move(typesetter), std::nullopt};
+        return Means{std::move(typesetter), std::nullopt};
     }
-    const Result<Bytes> file = read_file(words[0]);
-    if (!file) {
-        return tl::unexpected<Error>(file.error());
-    }
-    Result<LanguageWords> house = read_words(*file, words[1]);
-    if (!house) {
-        return tl::unexpected<Error>(house.error());
-    }
-    return Means{*std::move(typesetter), *std::move(house)};
+    TRY(const Bytes file, read_file(words[0]));
+    TRY(LanguageWords house, read_words(file, words[1]));
+    return Means{std::move(typesetter), std::move(house)};
 }
 
 /// The prop is laid on every cross, as a tracker would report it.
@@ -118,14 +109,11 @@ void look_at_light(AutoProcedure& procedure) {
 }
 
 Result<void> draw_by_camera(const Means& means, const std::filesystem::path& folder) {
-    const Result<Board> board = board_for({0.30, 0.08, 0.155});
-    if (!board) {
-        return tl::unexpected<Error>(board.error());
-    }
+    TRY(const Board board, board_for({0.30, 0.08, 0.155}));
     AutoPlan plan;
     plan.stripes = stripes_for(width, height);
     plan.crosses_follow = true;
-    AutoProcedure procedure(*board, plan);
+    AutoProcedure procedure(board, plan);
     Result<void> drawn = draw(procedure, means, folder / "camera_begin.png");
     look_at_light(procedure);
     return drawn ? draw(procedure, means, folder / "camera_rest.png") : drawn;
@@ -174,10 +162,7 @@ Result<void> draw_eyes(const Pinhole& pinhole, const Means& means, const std::fi
 }
 
 Result<void> draw_all(const std::filesystem::path& folder, std::span<char*> words) {
-    const Result<Means> means = means_with(words);
-    if (!means) {
-        return tl::unexpected<Error>(means.error());
-    }
+    TRY(const Means means, means_with(words));
     Pinhole pinhole;
     pinhole.width = width;
     pinhole.height = height;
@@ -186,10 +171,10 @@ Result<void> draw_all(const std::filesystem::path& folder, std::span<char*> word
     pinhole.cy = 0.5 * height;
     const TouchModel kept = rough_model(pinhole, 1.5, 0.085);
     TouchProcedure procedure(choose_crosses(kept, {}));
-    Result<void> drawn = draw(procedure, *means, folder / "calibrate_begin.png");
+    Result<void> drawn = draw(procedure, means, folder / "calibrate_begin.png");
     procedure.step({MonotonicTime{}, std::nullopt, true, false});
     if (drawn) {
-        drawn = draw(procedure, *means, folder / "calibrate_cross.png");
+        drawn = draw(procedure, means, folder / "calibrate_cross.png");
     }
     touch_all(procedure);
     TouchCalibration judged; // as a table with the usual noise gets it
@@ -200,15 +185,15 @@ Result<void> draw_all(const std::filesystem::path& folder, std::span<char*> word
     judged.worst_residual_m = 1.3e-3;
     procedure.judge(judgement_of(judged));
     if (drawn) {
-        drawn = draw(procedure, *means, folder / "calibrate_verdict.png");
+        drawn = draw(procedure, means, folder / "calibrate_verdict.png");
     }
     if (drawn) {
-        drawn = draw_touch_up(kept, *means, folder);
+        drawn = draw_touch_up(kept, means, folder);
     }
     if (drawn) {
-        drawn = draw_by_camera(*means, folder);
+        drawn = draw_by_camera(means, folder);
     }
-    return drawn ? draw_eyes(pinhole, *means, folder) : drawn;
+    return drawn ? draw_eyes(pinhole, means, folder) : drawn;
 }
 
 } // namespace

@@ -49,11 +49,8 @@ struct Show {
         SceneRequest request;
         request.technique = technique;
         request.light = false;
-        const Result<ScenePlan> plan = plan_scene(settings, outline_of(pack), request);
-        if (!plan) {
-            return tl::unexpected<Error>(plan.error());
-        }
-        Result<RunLevels> made = RunLevels::upload(pack, *plan, technique, deadline_ms, renderer.store());
+        TRY(const ScenePlan plan, plan_scene(settings, outline_of(pack), request));
+        Result<RunLevels> made = RunLevels::upload(pack, plan, technique, deadline_ms, renderer.store());
         if (made) {
             EXPECT_TRUE(renderer.prepare(made->needs()));
         }
