@@ -39,13 +39,10 @@ struct WatchedPack {
 
 FileResult<WatchedPack> open_watched(FileTree& tree, const std::string& path, const PackTrust& trust,
                                      int& fault) {
-    FileResult<std::unique_ptr<const FileContent>> content = tree.open(path);
-    if (!content) {
-        return tl::unexpected<FileFault>(content.error());
-    }
-    const std::uint64_t bytes = (*content)->bytes();
+    TRY(std::unique_ptr<const FileContent> content, tree.open(path));
+    const std::uint64_t bytes = content->bytes();
     WatchedPack watched{
-        open_signed_pack(OpenFile(std::make_unique<WatchedContent>(*std::move(content), fault)), trust),
+        open_signed_pack(OpenFile(std::make_unique<WatchedContent>(std::move(content), fault)), trust),
         bytes};
     if (fault != 0) {
         return file_fault(fault);
@@ -183,13 +180,10 @@ tl::expected<StickPack, ImportFailure> look_at_pack(FileTree& tree, const std::s
 tl::expected<InstalledPack, ImportFailure> copy_pack(FileTree& stick, WritableTree& library,
                                                      const StickPack& pack, const PackTrust& trust,
                                                      std::size_t step_bytes, const CopyEars& ears) {
-    const tl::expected<std::string, ImportFailure> hash = copy_file(stick, library, pack, step_bytes, ears);
-    if (!hash) {
-        return failed(hash.error());
-    }
+    TRY(const std::string hash, copy_file(stick, library, pack, step_bytes, ears));
     TRY(InstalledPack copied, check_copy(library, pack, trust, step_bytes, ears));
-    copied.sha256 = *hash;
-    copied.file = installed_file_name(*hash);
+    copied.sha256 = hash;
+    copied.file = installed_file_name(hash);
     if (const FileResult<void> named = library.rename(std::string(incoming_file_name), copied.file); !named) {
         return failed(disk_failure(copied.file, named.error()));
     }

@@ -26,9 +26,7 @@ Outcome CopyStage::run(std::vector<StickPack>& packs, const PackTrust& trust) {
         decided_bytes += 2 * pack.pack.bytes;
         weigh_against_taken(pack, packs);
         if (pack.is_wanted()) {
-            if (Outcome copied = copy(pack, trust); !copied) {
-                return copied;
-            }
+            TRY_VOID(copy(pack, trust));
         }
         done_bytes_ = decided_bytes;
     }

@@ -131,16 +131,8 @@ void Import::fail_whole(const ImportFailure& failure) {
 }
 
 Outcome Import::read_library() {
-    tl::expected<SetFile, ImportFailure> known = read_set_file(library_);
-    if (!known) {
-        return failed(known.error());
-    }
-    known_ = *std::move(known);
-    const tl::expected<std::optional<SetVerdict>, ImportFailure> verdict = read_verdict(library_);
-    if (!verdict) {
-        return failed(verdict.error());
-    }
-    verdict_ = *verdict;
+    TRY(known_, read_set_file(library_));
+    TRY(verdict_, read_verdict(library_));
     report_.set_number = known_.choice.set.number;
     if (const FileResult<void> settled = settle(library_); !settled) {
         return failed(disk_failure(packs_folder_name, settled.error()));
@@ -216,14 +208,10 @@ Outcome Import::look_at_packs(const std::vector<std::string>& paths) {
 Outcome Import::look() {
     began_ = outside_.now();
     tell(ImportStage::Found);
-    tl::expected<StickFiles, ImportFailure> files =
-        walk_stick(stick_, request_.limits, [this] { return is_too_late(); });
-    if (!files) {
-        return failed(files.error());
-    }
-    refused_on_the_way_ = std::move(files->refused);
-    misnamed_ = std::move(files->misnamed);
-    return read_exhibit_file(files->has_exhibit_file).and_then([&] { return look_at_packs(files->packs); });
+    TRY(StickFiles files, walk_stick(stick_, request_.limits, [this] { return is_too_late(); }));
+    refused_on_the_way_ = std::move(files.refused);
+    misnamed_ = std::move(files.misnamed);
+    return read_exhibit_file(files.has_exhibit_file).and_then([&] { return look_at_packs(files.packs); });
 }
 
 /// Each installed file is read once, however often the stick has its pack.
@@ -240,9 +228,9 @@ void Import::weigh() {
 
 /// Whether the set file allows the set at all is known before anything is copied, and looked at again after.
 Outcome Import::plan() {
-    const auto planned = plan_set(shown(), packs_, refused_on_the_way_,
-                                  exhibit_ ? std::optional(exhibit_->file) : std::nullopt);
-    return planned ? Outcome() : failed(planned.error());
+    TRY_VOID(plan_set(shown(), packs_, refused_on_the_way_,
+                      exhibit_ ? std::optional(exhibit_->file) : std::nullopt));
+    return {};
 }
 
 Outcome Import::look_for_room() {
@@ -257,9 +245,7 @@ Outcome Import::look_for_room() {
     const std::uint64_t needed = wanted + request_.limits.margin_bytes;
     FileResult<std::uint64_t> free = library_.free_bytes();
     if (free && *free < needed) {
-        if (Outcome forgotten = forget_older_sets(); !forgotten) {
-            return forgotten;
-        }
+        TRY_VOID(forget_older_sets());
         free = library_.free_bytes();
     }
     if (!free) {
@@ -308,22 +294,15 @@ Outcome Import::copy() {
 /// Copying takes minutes, in which the exhibit may have come to a verdict.
 Outcome Import::read_verdict_again() {
     const std::uint64_t weighed = shown().number;
-    const tl::expected<std::optional<SetVerdict>, ImportFailure> verdict = read_verdict(library_);
-    if (!verdict) {
-        return failed(verdict.error());
-    }
-    verdict_ = *verdict;
+    TRY(verdict_, read_verdict(library_));
     shows_another_ = shown().number != weighed;
     return {};
 }
 
 /// Serials and keys are kept even where the set stays as it is.
 Outcome Import::switch_set() {
-    tl::expected<PlannedSet, ImportFailure> planned = plan_set(
-        shown(), packs_, refused_on_the_way_, exhibit_ ? std::optional(exhibit_->file) : std::nullopt);
-    if (!planned) {
-        return failed(planned.error());
-    }
+    TRY(PlannedSet planned, plan_set(shown(), packs_, refused_on_the_way_,
+                                     exhibit_ ? std::optional(exhibit_->file) : std::nullopt));
     SetFile next = known_;
     remember(next, packs_, exhibit_);
     next.keys = carried_;
@@ -336,8 +315,8 @@ Outcome Import::switch_set() {
     const bool has_mended = std::any_of(packs_.begin(), packs_.end(), [](const StickPack& pack) {
         return pack.mends && pack.told.outcome == ImportOutcome::Taken;
     });
-    if (!(planned->set == shown()) || has_mended) {
-        replace_set(next, std::move(planned->set), verdict_);
+    if (!(planned.set == shown()) || has_mended) {
+        replace_set(next, std::move(planned.set), verdict_);
     }
     if (!(next == known_)) {
         may_clear_away_ = false; // as long as nobody knows which of the two is on the disk
@@ -354,7 +333,7 @@ Outcome Import::switch_set() {
     }
     known_ = std::move(next);
     may_clear_away_ = !is_unsure_;
-    removed_ = std::move(planned->removed);
+    removed_ = std::move(planned.removed);
     report_.set_number = known_.choice.set.number;
     return is_unsure_ ? failed(unsure_switch()) : Outcome();
 }

@@ -48,20 +48,11 @@ tl::expected<void, ImportFailure> weigh(const SignedExhibitFile& exhibit, const 
 
 tl::expected<SignedExhibitFile, ImportFailure>
 read_signed_exhibit_file(FileTree& stick, const PackTrust& trust, const SetFile& known) {
-    const tl::expected<SignedText, ImportFailure> read =
-        read_signed_text(stick, exhibit_file_name, most_exhibit_file_bytes);
-    if (!read) {
-        return failed(read.error());
-    }
-    tl::expected<std::optional<Signer>, ImportFailure> signer = signer_of(*read, trust);
-    if (!signer) {
-        return failed(signer.error());
-    }
-    const std::string bytes = read->text.value_or("");
-    SignedExhibitFile exhibit{{}, *std::move(signer), sha256_hex(as_bytes(bytes))};
-    if (const auto counts = weigh(exhibit, known); !counts) {
-        return failed(counts.error());
-    }
+    TRY(const SignedText read, read_signed_text(stick, exhibit_file_name, most_exhibit_file_bytes));
+    TRY(std::optional<Signer> signer, signer_of(read, trust));
+    const std::string bytes = read.text.value_or("");
+    SignedExhibitFile exhibit{{}, std::move(signer), sha256_hex(as_bytes(bytes))};
+    TRY_VOID(weigh(exhibit, known));
     Result<ExhibitFile> file = parse_exhibit_file(bytes);
     if (!file) {
         return failed({ImportRefusal::NotAPack, file.error().message, true});

@@ -79,14 +79,11 @@ Outcome<std::uint64_t> believe(const SignedText& file, const Own& own,
     if (own.keys.empty()) {
         return 0;
     }
-    const Outcome<Signer> signer = signer_of(settings_file_name, file, own.keys, today);
-    if (!signer) {
-        return tl::unexpected<ImportFailure>(signer.error());
+    TRY(const Signer signer, signer_of(settings_file_name, file, own.keys, today));
+    if (signer.serial < own.serial) {
+        return tl::unexpected<ImportFailure>(lower_serial(settings_file_name, signer.serial, own.serial));
     }
-    if (signer->serial < own.serial) {
-        return tl::unexpected<ImportFailure>(lower_serial(settings_file_name, signer->serial, own.serial));
-    }
-    return signer->serial;
+    return signer.serial;
 }
 
 /// Of settings that nobody had to sign, and that one of their own keys has signed all the same: older ones are refused from then on.
@@ -117,26 +114,23 @@ FileResult<void> keep_before(WritableTree& folder, const Own& own) {
 Outcome<ImportOutcome> take(const SignedText& file, WritableTree& folder,
                             std::optional<std::chrono::sys_days> today) {
     const std::string& text = *file.text;
-    const Outcome<Own> own = read_own(folder);
-    if (!own) {
-        return tl::unexpected<ImportFailure>(own.error());
-    }
-    const Outcome<std::uint64_t> serial = believe(file, *own, today);
-    if (!serial && own->text != text) {
+    TRY(const Own own, read_own(folder));
+    const Outcome<std::uint64_t> serial = believe(file, own, today);
+    if (!serial && own.text != text) {
         return tl::unexpected<ImportFailure>(serial.error());
     }
     const Result<CheckedSettings> settings = parse_settings(text, settings_file_name);
     if (!settings) {
         return failed(ImportRefusal::NotAPack, settings.error().message);
     }
-    const std::uint64_t seen = own->keys.empty() ? serial_of_first(file, *settings) : serial.value_or(0);
-    if (const FileResult<void> kept = keep_serial(folder, seen, *own); !kept) {
+    const std::uint64_t seen = own.keys.empty() ? serial_of_first(file, *settings) : serial.value_or(0);
+    if (const FileResult<void> kept = keep_serial(folder, seen, own); !kept) {
         return failed_on_disk(kept.error());
     }
-    if (own->text == text) {
+    if (own.text == text) {
         return ImportOutcome::AlreadyThere;
     }
-    const FileResult<void> replaced = keep_before(folder, *own).and_then([&] {
+    const FileResult<void> replaced = keep_before(folder, own).and_then([&] {
         return replace_text(folder, settings_file_name, next_name, text);
     });
     if (!replaced) {

@@ -64,11 +64,8 @@ Result<void> read_relief(PackReader& reader, const Chosen& chosen, Pack& pack) {
     TRY(const Bytes atlas, reader.take(record->atlas));
     TRY(Image16 relief, at(record->atlas, decode_png16(atlas, most_texels)));
     TRY(const Bytes charts_bytes, reader.take(record->charts));
-    Result<std::vector<ReliefChart>> charts = decode_charts(charts_bytes);
-    if (!charts) {
-        return at(record->charts, charts.error());
-    }
-    pack.relief = {record->texel_box, std::move(*charts), std::move(relief)};
+    TRY(std::vector<ReliefChart> charts, at(record->charts, decode_charts(charts_bytes)));
+    pack.relief = {record->texel_box, std::move(charts), std::move(relief)};
     return {};
 }
 

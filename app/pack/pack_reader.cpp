@@ -91,9 +91,7 @@ Result<PackReader> PackReader::open(OpenFile file) {
 }
 
 Result<PackReader> PackReader::open(Result<ZipReader> zip) {
-    if (!zip) {
-        return tl::unexpected(zip.error());
-    }
+    TRY_VOID(zip);
     TRY(const Bytes manifest, read_manifest_bytes(*zip));
     return open(*std::move(zip), manifest);
 }

@@ -121,9 +121,7 @@ Result<BlockRelief> load_relief(const std::filesystem::path& file, const ReliefO
             }
             return std::vector{relief.part};
         });
-    if (!parts) {
-        return tl::unexpected<Error>(parts.error());
-    }
+    TRY_VOID(parts);
     return at(file.string(), decode(relief, parts->at(relief.part)));
 }
 

@@ -165,12 +165,10 @@ Result<SetLanguage> decode(const SetEntry& entry, const std::map<std::string, By
         return SetLanguage{entry.language, std::move(runs), {}};
     }
     static const Bytes none;
-    Result<DistanceAtlas> atlas =
-        decode_distance_atlas(entry.atlas.empty() ? none : parts.at(entry.atlas), runs);
-    if (!atlas) {
-        return at(entry.atlas.empty() ? entry.glyphs : entry.atlas, atlas.error());
-    }
-    return SetLanguage{entry.language, std::move(runs), *std::move(atlas)};
+    TRY(DistanceAtlas atlas,
+        at(entry.atlas.empty() ? entry.glyphs : entry.atlas,
+           decode_distance_atlas(entry.atlas.empty() ? none : parts.at(entry.atlas), runs)));
+    return SetLanguage{entry.language, std::move(runs), std::move(atlas)};
 }
 
 Result<void> check_sound(const std::string& name, const Bytes& bytes) {

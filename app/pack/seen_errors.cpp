@@ -246,16 +246,14 @@ Result<SeenErrors> seen_errors_of(const PackDescription& pack, std::size_t level
             error_records(fields, "reliefs", of_reliefs, most_reliefs);
         });
     });
-    if (!read) {
-        return tl::unexpected<Error>(read.error());
-    }
+    TRY_VOID(read);
     if (!*has_levels) {
         return SeenErrors{};
     }
     SeenErrors seen{{}, errors_of(records.levels), errors_of(of_reliefs)};
     std::transform(records.eyes.begin(), records.eyes.end(), std::back_inserter(seen.eyes), eye_of);
-    const Result<void> good = check(seen, levels);
-    return good ? Result<SeenErrors>(std::move(seen)) : tl::unexpected<Error>(good.error());
+    TRY_VOID(check(seen, levels));
+    return seen;
 }
 
 } // namespace frustumscreen

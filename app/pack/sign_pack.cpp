@@ -11,9 +11,7 @@ using namespace pack_format;
 namespace {
 
 Result<void> copy_with_signature(Result<ZipReader> from, ZipWriter& to, std::string_view signature) {
-    if (!from) {
-        return tl::unexpected<Error>(from.error());
-    }
+    TRY_VOID(from);
     for (const ZipEntry& entry : from->entries()) {
         if (entry.name == signature_name) {
             continue;

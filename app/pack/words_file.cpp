@@ -144,12 +144,9 @@ Result<LanguageWords> read_language(ZipReader& zip, LanguageEntry& entry) {
         return tl::unexpected<Error>(glyphs ? picture.error() : glyphs.error());
     }
     TRY(GlyphRuns runs, at(printable(entry.glyphs.name), decode_glyph_runs(*glyphs)));
-    Result<DistanceAtlas> atlas = decode_distance_atlas(*picture, runs);
-    if (!atlas) {
-        return at(printable(entry.atlas.name), atlas.error());
-    }
+    TRY(DistanceAtlas atlas, at(printable(entry.atlas.name), decode_distance_atlas(*picture, runs)));
     words.runs = std::move(runs);
-    words.atlas = *std::move(atlas);
+    words.atlas = std::move(atlas);
     for (const PlainWord& word : words.words) {
         if (words.runs.find(word.key) == nullptr) {
             return bad_input(fmt::format("{} has no glyphs for '{}'; bake the words again",

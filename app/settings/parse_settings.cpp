@@ -41,9 +41,7 @@ std::optional<Error> refusal(const ReadState& state, const Settings& settings) {
 /// The settings with this calibration, or why it cannot be used.
 Result<Settings> calibrated(Settings settings, const Result<Calibration>& calibration,
                             const ReadState& state) {
-    if (!calibration) {
-        return tl::unexpected<Error>(calibration.error());
-    }
+    TRY_VOID(calibration);
     settings.projector.pinhole = calibration->pinhole;
     settings.projector.table_from_projector = calibration->table_from_projector;
     settings.tracker.registration = calibration->registration;

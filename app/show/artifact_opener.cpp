@@ -45,9 +45,7 @@ Result<KnownArtifact> open_pack(const Settings& settings, const OpenerOptions& o
             opened.plan = std::move(plan);
             return std::vector<std::uint32_t>{};
         });
-    if (!pack) {
-        return tl::unexpected<Error>(pack.error());
-    }
+    TRY_VOID(pack);
     TRY(opened.texts,
         lay_out_texts({file, opened.outline.description, opened.plan.captions}, opened.plan.metres_per_box,
                       text_style(settings), settings.sound.kind != SoundKind::None));

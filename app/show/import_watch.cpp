@@ -59,8 +59,7 @@ void ImportWatch::work(const std::stop_token& stop) {
 
 Result<ImportReport> ImportWatch::read() const {
     TRY(const Bytes bytes, read_file(file_, most_report_bytes));
-    Result<ImportReport> report = parse_import_report(as_text(bytes));
-    return report ? std::move(report) : at(file_.string(), report.error());
+    return at(file_.string(), parse_import_report(as_text(bytes)));
 }
 
 /// Another file is read at once; one that could not be read, some seconds later.

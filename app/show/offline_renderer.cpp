@@ -56,9 +56,7 @@ Result<OfflineScene> load_offline(const std::filesystem::path& file,
             plan = std::move(planned);
             return levels_to_read(plan);
         });
-    if (!pack) {
-        return tl::unexpected<Error>(pack.error());
-    }
+    TRY_VOID(pack);
     OfflineScene scene{*std::move(setup), std::move(plan), *std::move(pack), nullptr};
     if (!scene.plan.reliefs.empty()) {
         TRY(BlockRelief relief, load_relief(file, scene.plan.reliefs.front()));

@@ -204,9 +204,7 @@ Result<Shaper> Shaper::open() {
 Result<ShapedText> Shaper::shape(const TextToShape& text) const {
     for (const Result<void>& checked : {check_shaped_text(text.text), check_length(text.text),
                                         check_limits(text), fonts_.check(text.language)}) {
-        if (!checked) {
-            return tl::unexpected<Error>(checked.error());
-        }
+        TRY_VOID(checked);
     }
     ShapedText shaped;
     shaped.direction = direction_of(text.language);

@@ -26,9 +26,8 @@ std::optional<std::filesystem::path> recording_of(const std::string& language, c
 
 Result<Spoken> speak(const PackCaption& caption, const SpeechSources& sources) {
     if (const auto file = recording_of(caption.language, sources)) {
-        Result<Speech> speech = read_speech(*file);
-        return speech ? Result<Spoken>(Spoken{*std::move(speech), {}})
-                      : tl::unexpected<Error>(speech.error());
+        TRY(Speech speech, read_speech(*file));
+        return Spoken{std::move(speech), {}};
     }
     if (!sources.voice) {
         return Spoken{std::nullopt, "there is no recording and no voice"};
@@ -36,9 +35,8 @@ Result<Spoken> speak(const PackCaption& caption, const SpeechSources& sources) {
     if (std::optional<std::string> why = sources.voice->why_silent(caption.description, caption.language)) {
         return Spoken{std::nullopt, *std::move(why)};
     }
-    Result<Spoken> spoken = sources.voice->speak(caption.description, caption.language);
-    return spoken ? std::move(spoken)
-                  : at(fmt::format("the description in '{}'", caption.language), spoken.error());
+    return at(fmt::format("the description in '{}'", caption.language),
+              sources.voice->speak(caption.description, caption.language));
 }
 
 /// A sentence where recording and description are of so different lengths that one of them must be another text's.

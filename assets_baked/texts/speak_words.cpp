@@ -37,15 +37,14 @@ private:
 Result<Spoken> speak(const PlainWord& word, const LanguageWords& words, const SpeakOptions& options,
                      const VoiceCheck& check) {
     if (const auto file = find_recording(options.recordings, words.language, word.key)) {
-        Result<Speech> recorded = read_speech(*file);
-        return recorded ? Result<Spoken>(Spoken{*std::move(recorded), {}})
-                        : tl::unexpected<Error>(recorded.error());
+        TRY(Speech recorded, read_speech(*file));
+        return Spoken{std::move(recorded), {}};
     }
     if (const std::optional<std::string>& why = check.why_silent(word.language)) {
         return Spoken{std::nullopt, *why};
     }
-    Result<Spoken> spoken = options.voice->speak(word.text, word.language);
-    return spoken ? std::move(spoken) : at(fmt::format("{}: {}", words.language, word.key), spoken.error());
+    return at(fmt::format("{}: {}", words.language, word.key),
+              options.voice->speak(word.text, word.language));
 }
 
 /// Speaks one language; returns why some of its words are silent, or nothing.

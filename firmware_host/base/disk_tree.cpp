@@ -97,11 +97,8 @@ FileResult<Descriptor> DiskTree::open_folder(std::string_view path) const {
 FileResult<Place> DiskTree::place_of(const std::string& path) const {
     const std::size_t slash = path.rfind('/');
     const bool inner = slash != std::string::npos;
-    FileResult<Descriptor> folder = open_folder(inner ? path.substr(0, slash) : std::string());
-    if (!folder) {
-        return tl::unexpected<FileFault>(folder.error());
-    }
-    return Place{*std::move(folder), inner ? path.substr(slash + 1) : path};
+    TRY(Descriptor folder, open_folder(inner ? path.substr(0, slash) : std::string()));
+    return Place{std::move(folder), inner ? path.substr(slash + 1) : path};
 }
 
 EntryKind kind_of(int folder, const dirent& entry) {
@@ -121,15 +118,12 @@ EntryKind kind_of(int folder, const dirent& entry) {
 
 FileResult<void> DiskTree::list(const std::string& folder,
                                 const std::function<bool(const FolderEntry&)>& visit) {
-    FileResult<Descriptor> opened = open_folder(folder);
-    if (!opened) {
-        return tl::unexpected<FileFault>(opened.error());
-    }
-    const std::unique_ptr<DIR, int (*)(DIR*)> stream(::fdopendir(opened->number()), ::closedir);
+    TRY(Descriptor opened, open_folder(folder));
+    const std::unique_ptr<DIR, int (*)(DIR*)> stream(::fdopendir(opened.number()), ::closedir);
     if (!stream) {
         return file_fault(errno);
     }
-    static_cast<void>(opened->release()); // the stream's now
+    static_cast<void>(opened.release()); // the stream's now
     for (;;) {
         errno = 0;
         const dirent* entry = ::readdir(stream.get());
@@ -145,12 +139,9 @@ FileResult<void> DiskTree::list(const std::string& folder,
 }
 
 FileResult<std::unique_ptr<const FileContent>> DiskTree::open(const std::string& path) {
-    const FileResult<Place> place = place_of(path);
-    if (!place) {
-        return tl::unexpected<FileFault>(place.error());
-    }
+    TRY(const Place place, place_of(path));
     // A pipe or a device must not hold the program up before it is refused.
-    Descriptor file(::openat(place->folder.number(), place->name.c_str(),
+    Descriptor file(::openat(place.folder.number(), place.name.c_str(),
                              O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
     struct stat status {};
     if (file.number() < 0 || ::fstat(file.number(), &status) != 0) {
@@ -163,11 +154,8 @@ FileResult<std::unique_ptr<const FileContent>> DiskTree::open(const std::string&
 }
 
 FileResult<std::unique_ptr<NewFile>> DiskTree::create(const std::string& path) {
-    const FileResult<Place> place = place_of(path);
-    if (!place) {
-        return tl::unexpected<FileFault>(place.error());
-    }
-    Descriptor file(::openat(place->folder.number(), place->name.c_str(),
+    TRY(const Place place, place_of(path));
+    Descriptor file(::openat(place.folder.number(), place.name.c_str(),
                              O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, file_mode));
     if (file.number() < 0) {
         return file_fault(errno);
@@ -186,28 +174,19 @@ FileResult<void> DiskTree::rename(const std::string& from, const std::string& to
 }
 
 FileResult<void> DiskTree::remove(const std::string& path) {
-    const FileResult<Place> place = place_of(path);
-    if (!place) {
-        return tl::unexpected<FileFault>(place.error());
-    }
-    return done(::unlinkat(place->folder.number(), place->name.c_str(), 0));
+    TRY(const Place place, place_of(path));
+    return done(::unlinkat(place.folder.number(), place.name.c_str(), 0));
 }
 
 FileResult<void> DiskTree::make_folder(const std::string& path) {
-    const FileResult<Place> place = place_of(path);
-    if (!place) {
-        return tl::unexpected<FileFault>(place.error());
-    }
-    const FileResult<void> made = done(::mkdirat(place->folder.number(), place->name.c_str(), folder_mode));
+    TRY(const Place place, place_of(path));
+    const FileResult<void> made = done(::mkdirat(place.folder.number(), place.name.c_str(), folder_mode));
     return !made && made.error().number == EEXIST ? FileResult<void>() : made;
 }
 
 FileResult<void> DiskTree::sync_folder(const std::string& path) {
-    const FileResult<Descriptor> folder = open_folder(path);
-    if (!folder) {
-        return tl::unexpected<FileFault>(folder.error());
-    }
-    return done(::fsync(folder->number()));
+    TRY(const Descriptor folder, open_folder(path));
+    return done(::fsync(folder.number()));
 }
 
 FileResult<std::uint64_t> DiskTree::free_bytes() {

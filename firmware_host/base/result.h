@@ -4,7 +4,7 @@
 /// person: what, where, what is allowed, what to do next. Programming errors assert.
 ///
 /// TRY(const X x, f()); is `const X x` with the value of f(), or ends the function with f()'s error.
-/// TRY_VOID(g()); is the same for a Result<void>.
+/// TRY_VOID(g()); is the same where there is no value, or where it is not needed.
 #pragma once
 
 #include <tl/expected.hpp>
@@ -62,7 +62,8 @@ template <typename T> [[nodiscard]] Result<T> at(const std::string& place, Resul
     }                                                                                                        \
     variable = *std::move(result_of_try_##count)
 
+/// A result that has a name keeps its value.
 #define TRY_VOID(...)                                                                                        \
-    if (auto result_of_try = __VA_ARGS__; !result_of_try) {                                                  \
-        return tl::unexpected(std::move(result_of_try).error());                                             \
+    if (auto&& result_of_try = __VA_ARGS__; !result_of_try) {                                                \
+        return tl::unexpected(std::forward<decltype(result_of_try)>(result_of_try).error());                 \
     }

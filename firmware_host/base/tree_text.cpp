@@ -7,15 +7,12 @@
 namespace frustumscreen {
 
 FileResult<std::string> read_text(FileTree& tree, std::string_view path, std::size_t most_bytes) {
-    const FileResult<std::unique_ptr<const FileContent>> file = tree.open(std::string(path));
-    if (!file) {
-        return tl::unexpected<FileFault>(file.error());
-    }
-    if ((*file)->bytes() > most_bytes) {
+    TRY(const std::unique_ptr<const FileContent> file, tree.open(std::string(path)));
+    if (file->bytes() > most_bytes) {
         return file_fault(EFBIG);
     }
-    std::string text((*file)->bytes(), '\0');
-    if (const int fault = (*file)->read(0, std::as_writable_bytes(std::span(text))); fault != 0) {
+    std::string text(file->bytes(), '\0');
+    if (const int fault = file->read(0, std::as_writable_bytes(std::span(text))); fault != 0) {
         return file_fault(fault);
     }
     return text;
@@ -24,15 +21,8 @@ FileResult<std::string> read_text(FileTree& tree, std::string_view path, std::si
 FileResult<void> replace_text(WritableTree& tree, std::string_view path, std::string_view next,
                               std::string_view text) {
     {
-        const FileResult<std::unique_ptr<NewFile>> created = tree.create(std::string(next));
-        if (!created) {
-            return tl::unexpected<FileFault>(created.error());
-        }
-        const FileResult<void> written =
-            (*created)->append(as_bytes(text)).and_then([&] { return (*created)->sync(); });
-        if (!written) {
-            return written;
-        }
+        TRY(const std::unique_ptr<NewFile> created, tree.create(std::string(next)));
+        TRY_VOID(created->append(as_bytes(text)).and_then([&] { return created->sync(); }));
     }
     return tree.rename(std::string(next), std::string(path));
 }

@@ -19,9 +19,7 @@ Result<std::unique_ptr<CardScreen>> CardScreen::create(int card, PixelSize pictu
         }
         return PictureCopy::create();
     }();
-    if (!copy) {
-        return tl::unexpected<Error>(copy.error());
-    }
+    TRY_VOID(copy);
     std::unique_ptr<CardScreen> screen(
         new CardScreen(card, std::move(gpu), std::move(picture), std::move(copying), std::move(*copy)));
     screen->warm_up();

@@ -98,8 +98,7 @@ Result<Bytes> ask_staff_socket(const std::filesystem::path& path, std::string_vi
     if (!answer) {
         return bad_input(place + ": the exhibit does not answer in time; it hangs, or others ask it too");
     }
-    Result<Bytes> content = content_of(std::move(*answer));
-    return content ? std::move(content) : at(place, content.error());
+    return at(place, content_of(std::move(*answer)));
 }
 
 } // namespace frustumscreen

@@ -75,8 +75,8 @@ Result<PoseSample> read_row(const TextRows& rows) {
     sample.time = from_microseconds(*time_us);
     sample.station = static_cast<int>(*station);
     sample.ok = *ok == 1;
-    const Result<void> pose = read_pose(rows, sample);
-    return pose ? Result<PoseSample>(sample) : tl::unexpected(pose.error());
+    TRY_VOID(read_pose(rows, sample));
+    return sample;
 }
 
 } // namespace

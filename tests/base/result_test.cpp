@@ -84,6 +84,19 @@ TEST(Result, TryCopiesFromAResultThatHasAName) {
     EXPECT_EQ(named.value(), "seven");
 }
 
+TEST(Result, TryVoidLeavesAResultThatHasANameAsItIs) {
+    Result<std::unique_ptr<int>> named = owned(true);
+    Result<void> late = step(false);
+    const auto pass = [&]() -> Result<void> {
+        TRY_VOID(named);
+        TRY_VOID(late);
+        return {};
+    };
+    expect_torn(pass());
+    EXPECT_EQ(**named, 7);
+    expect_torn(late);
+}
+
 TEST(Result, OneScopeAndOneLineHaveManyTries) {
     const auto sum = [](bool good) -> Result<int> {
         // clang-format off

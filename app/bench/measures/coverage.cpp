@@ -44,9 +44,7 @@ Result<SetUpResult> measure_estimates(const SetUp& set_up, const Pack& pack,
             return set.measure_shape(opened.truth, opened.poses, options.rays,
                                      [&](double done) { progress(step, done); });
         });
-    if (!measured) {
-        return at(set_up.name, measured.error());
-    }
+    TRY_VOID(at(set_up.name, measured));
     SetUpResult result{set_up.name, set.driver(), pack.default_level, levels.back(),
                        !pack.unlit, {},           set.results(),      {}};
     result.poses = std::move(opened.poses);

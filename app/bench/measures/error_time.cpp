@@ -85,9 +85,7 @@ Result<SetUpResult> compare(const SetUp& set_up, const Pack& pack,
         ready = set->measure_errors(truth, poses, 0,
                                     [&](double done) { progress(set_up.name + ": errors", done); });
     }
-    if (!ready) {
-        return tl::unexpected<Error>(ready.error());
-    }
+    TRY_VOID(ready);
     progress(set_up.name + ": times", 0.0);
     set->measure_times(poses, rounds_of(options),
                        [&](double done) { progress(set_up.name + ": times", done); });
@@ -129,8 +127,7 @@ std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const So
 Result<SetUpResult> error_time(const SetUp& set_up, const Pack& pack,
                                const std::shared_ptr<const SourceMesh>& mesh, const ErrorTimeOptions& options,
                                const StepProgress& progress) {
-    Result<SetUpResult> result = compare(set_up, pack, mesh, options, progress);
-    return result ? std::move(result) : at(set_up.name, result.error());
+    return at(set_up.name, compare(set_up, pack, mesh, options, progress));
 }
 
 } // namespace frustumscreen

@@ -255,8 +255,7 @@ Image8 side_by_side(const Image8& view, const VisitorTruth& truth) {
 Result<ProjectionResult> projection(const SetUp& set_up, const Pack& pack,
                                     const std::shared_ptr<const SourceMesh>& mesh,
                                     const ProjectionOptions& options, const StepProgress& progress) {
-    Result<ProjectionResult> result = compare(set_up, pack, mesh, options, progress);
-    return result ? std::move(result) : at(set_up.name, result.error());
+    return at(set_up.name, compare(set_up, pack, mesh, options, progress));
 }
 
 } // namespace frustumscreen

@@ -54,9 +54,7 @@ Result<ScalingSource> bake_amphora(std::int64_t triangles, const ScalingOptions&
     const auto start = std::chrono::steady_clock::now();
     Result<Pack> pack = bake(made, bake_options);
     const double bake_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (!pack) {
-        return at(what + "bake", pack.error());
-    }
+    TRY_VOID(at(what + "bake", pack));
     return ScalingSource{std::make_shared<const SourceMesh>(std::move(made)), std::move(*pack), bake_s};
 }
 

@@ -115,9 +115,7 @@ Result<void> TechniqueSet::measure_shape(const Truth& truth, const std::vector<B
             pinhole.cy = centres.cy + 0.5 - (ray / grid.x + 0.5) / grid.y;
             const Result<std::vector<PictureError>> found = shape_errors(truth, poses[pose]);
             pinhole = centres;
-            if (!found) {
-                return tl::unexpected<Error>(found.error());
-            }
+            TRY_VOID(found);
             for (std::size_t k = 0; k < errors.size(); ++k) {
                 errors[k].push_back((*found)[k]);
             }

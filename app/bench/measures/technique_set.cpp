@@ -85,9 +85,7 @@ Result<std::unique_ptr<TechniqueSet>> TechniqueSet::open(const SetUp& set_up) {
 }
 
 Result<void> TechniqueSet::add(Result<std::unique_ptr<Technique>> technique, TechniqueResult result) {
-    if (!technique) {
-        return tl::unexpected<Error>(technique.error());
-    }
+    TRY_VOID(technique);
     result.name = (*technique)->name();
     results_.push_back(std::move(result));
     techniques_.push_back(std::move(*technique));

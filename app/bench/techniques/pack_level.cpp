@@ -163,9 +163,7 @@ Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pac
     std::array<Result<Drawable>, 2> drawables{renderer.store().upload(whole, texture),
                                               renderer.store().upload(whole, white(texture, whole.cut_out))};
     for (const Result<Drawable>& drawable : drawables) {
-        if (!drawable) {
-            return tl::unexpected<Error>(drawable.error());
-        }
+        TRY_VOID(drawable);
     }
     TRY(HitPointRenderer hit_points, HitPointRenderer::create(renderer));
     Placed both;

@@ -179,8 +179,8 @@ Result<void> work(Arguments arguments) {
                                      arguments.folder.string()));
     }
     if (!std::filesystem::exists(arguments.folder / artifact_file_name, none)) {
-        const Result<ArtifactFile> missing = read_artifact_file(arguments.folder);
-        return missing ? Result<void>() : tl::unexpected<Error>(missing.error());
+        TRY_VOID(read_artifact_file(arguments.folder));
+        return {};
     }
     arguments.page = arguments.page.empty() ? page_beside(arguments.folder) : arguments.page;
     arguments.bake.size = arguments.bake.size.value_or(coarse_size);

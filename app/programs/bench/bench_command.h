@@ -94,9 +94,7 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
     OutputFiles files;
     for (const SetUp& set_up : set_ups) {
         Measured result = measure(set_up, *artifact.pack, artifact.mesh, steps);
-        if (!result) {
-            return tl::unexpected<Error>(result.error());
-        }
+        TRY_VOID(result);
         progress.clear();
         fmt::print("{}\n", table(*result));
         std::fflush(stdout);

@@ -43,8 +43,7 @@ Result<std::vector<CountedPack>> load_reference(const std::filesystem::path& fil
         return std::vector<CountedPack>{};
     }
     TRY(const Bytes bytes, read_file(file));
-    Result<std::vector<CountedPack>> counts = read_counts(as_text(bytes));
-    return counts ? std::move(counts) : at(file.string(), counts.error());
+    return at(file.string(), read_counts(as_text(bytes)));
 }
 
 /// An artifact that the reference lacks is an error too: it would go on unwatched.

@@ -136,9 +136,7 @@ Result<WayEnd> measure_by_camera(const Settings& settings, const CalibrateReques
     AutoProcedure procedure(board, plan);
     const Result<std::optional<AutoStage>> ended = table.run(procedure, setup);
     TRY_VOID(write_rests(request, procedure.rests()));
-    if (!ended) {
-        return tl::unexpected<Error>(ended.error());
-    }
+    TRY_VOID(ended);
     if (*ended == AutoStage::Crosses) {
         return WayEnd::GoesOn;
     }

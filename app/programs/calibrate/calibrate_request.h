@@ -61,8 +61,8 @@ void check_request(const CalibrateRequest& request);
 template <typename Points>
 [[nodiscard]] Result<Points> read_points(const CalibrateRequest& request,
                                          Result<Points> (*parse)(std::string_view, std::string_view)) {
-    const Result<Bytes> bytes = read_file(request.from);
-    return bytes ? parse(as_text(*bytes), request.from.string()) : tl::unexpected<Error>(bytes.error());
+    TRY(const Bytes bytes, read_file(request.from));
+    return parse(as_text(bytes), request.from.string());
 }
 /// A calibration's set-up as far as the request has it: TouchSetup, AutoSetup.
 template <typename Setup>

@@ -119,9 +119,7 @@ Result<WayEnd> measure_by_crosses(const Session& session) {
         return judgement_of(judged);
     });
     TRY_VOID(session.write_touches(procedure.touches()));
-    if (!ended) {
-        return tl::unexpected<Error>(ended.error());
-    }
+    TRY_VOID(ended);
     const Result<void> without = ended_without(procedure.problem());
     if (!*ended) {
         return tl::unexpected<Error>(without.error());
@@ -140,9 +138,7 @@ Result<WayEnd> touch_up_on_table(const Session& session) {
         return judgement_of(found);
     });
     TRY_VOID(session.write_touches(procedure.touches()));
-    if (!ended) {
-        return tl::unexpected<Error>(ended.error());
-    }
+    TRY_VOID(ended);
     if (*ended == TouchStage::Anew) {
         return WayEnd::GoesOn;
     }

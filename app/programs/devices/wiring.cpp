@@ -68,8 +68,7 @@ std::unique_ptr<UsbBus> make_bus(TrackerKind kind) {
 
 Result<std::unique_ptr<Tracker>> make_tracker(const Settings& settings, MonotonicTime start, PacketTap* tap) {
     if (settings.tracker.kind == TrackerKind::Replay) {
-        Result<std::unique_ptr<Tracker>> replay = make_replay(settings.tracker, start);
-        return replay ? std::move(replay) : at(settings.tracker.poses_key, replay.error());
+        return at(settings.tracker.poses_key, make_replay(settings.tracker, start));
     }
     if (has_packets(settings.tracker.kind)) {
         const UsbTrackerSetUp set_up{settings.tracker.hemisphere,

@@ -137,9 +137,7 @@ Result<OpenExhibit> open(const RunRequest& request, const Settings& settings, co
             exhibit.arrival = std::make_unique<SetArrival>(library, set_before);
         }
     }
-    if (!show) {
-        return tl::unexpected<Error>(show.error());
-    }
+    TRY_VOID(show);
     exhibit.show = std::move(*show);
     std::optional<Nanoseconds> press_every;
     if (request.changes > 0) {

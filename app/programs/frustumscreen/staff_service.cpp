@@ -25,8 +25,8 @@ std::unique_ptr<StaffSocket> open_staff_socket(const std::filesystem::path& path
                 return bad_input(fmt::format("'{}' is no question; ask '{}'", printable(question, 64),
                                              screenshot_question));
             }
-            const Result<const Image8*> picture = screenshot.take(stop);
-            return picture ? Result<Bytes>(encode_png(**picture)) : tl::unexpected<Error>(picture.error());
+            TRY(const Image8* const picture, screenshot.take(stop));
+            return encode_png(*picture);
         });
     if (!socket) {
         journal.note(LogPriority::Warning, socket.error().message, {{"DEVICE", "staff"}});

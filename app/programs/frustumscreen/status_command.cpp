@@ -50,8 +50,8 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
 }
 
 Result<void> write_screenshot(const Request& request) {
-    const Result<Bytes> png = ask_for_screenshot(request.staff_socket);
-    return png ? write_file(request.screenshot, *png) : tl::unexpected<Error>(png.error());
+    TRY(const Bytes png, ask_for_screenshot(request.staff_socket));
+    return write_file(request.screenshot, png);
 }
 
 } // namespace

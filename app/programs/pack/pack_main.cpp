@@ -92,10 +92,8 @@ Result<Image8> table_picture_of(const std::filesystem::path& file) {
 Result<void> write_preview(const Request& request) {
     TRY_VOID(check_output_is_no_input(request.output, {{request.pack}}));
     TRY_VOID(check_output_place(request.output));
-    const Result<Image8> picture =
-        request.table ? table_picture_of(request.pack) : preview_of_pack(request.pack);
-    return picture ? write_file(request.output, encode_png(*picture))
-                   : tl::unexpected<Error>(picture.error());
+    TRY(const Image8 picture, request.table ? table_picture_of(request.pack) : preview_of_pack(request.pack));
+    return write_file(request.output, encode_png(picture));
 }
 
 int preview(const Request& request) {

@@ -64,9 +64,7 @@ Result<SoundPack> check(const std::string& file, std::span<const TrustedKey> key
     const Result<void> good = pack.and_then([](const VerifiedPack& read) {
         return check_set_and_spoken(*read).and_then([&] { return check_reliefs(*read); });
     });
-    if (!good) {
-        return at(file, good.error());
-    }
+    TRY_VOID(at(file, good));
     return SoundPack{*std::move(pack), std::move(claim), std::move(reader.second)};
 }
 

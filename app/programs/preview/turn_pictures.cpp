@@ -109,9 +109,7 @@ Result<TurnPictures> turn_pictures(const std::filesystem::path& pack_file, const
     const Result<OfflineScene> scene = load_offline(pack_file, [&](const PackOutline& outline) {
         return setup_of(outline, props, options.projected_width);
     });
-    if (!scene) {
-        return tl::unexpected<Error>(scene.error());
-    }
+    TRY_VOID(scene);
     TRY(const std::unique_ptr<OfflineRenderer> renderer, OfflineRenderer::create(*scene));
     VisitorScene visitor = visitor_scene(*scene->setup.settings, renderer->projector());
     const VisitorCamera camera = camera_for(visitor, props, turn.size);

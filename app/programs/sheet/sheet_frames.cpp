@@ -205,15 +205,12 @@ std::vector<SheetFrame> distinct(const std::vector<SheetFrame>& frames) {
 
 Result<Image8> read_picture(const SheetFrame& frame, const Pinhole& projector) {
     TRY(const Bytes bytes, read_file(frame.picture));
-    Result<Image8> picture = decode_png8(bytes);
-    if (!picture) {
-        return at(frame.picture.string(), picture.error());
-    }
-    if (std::abs(picture->width * projector.height - picture->height * projector.width) >
+    TRY(Image8 picture, at(frame.picture.string(), decode_png8(bytes)));
+    if (std::abs(picture.width * projector.height - picture.height * projector.width) >
         std::max(projector.width, projector.height)) {
         return bad_input(fmt::format(
             "{}: {} x {} pixels do not have the shape of the configured projector's {} x {}",
-            frame.picture.string(), picture->width, picture->height, projector.width, projector.height));
+            frame.picture.string(), picture.width, picture.height, projector.width, projector.height));
     }
     return picture;
 }

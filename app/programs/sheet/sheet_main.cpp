@@ -99,10 +99,10 @@ Result<void> draw_sheet(const Request& request, const Settings& settings,
         frames.insert(frames.end(), chosen.begin(), chosen.end());
     }
     ProgressLine progress("contact sheet");
-    const Result<Image8> sheet =
+    TRY(const Image8 sheet,
         contact_sheet(settings, frames, request.sheet_options, typesetter,
-                      [&](std::size_t done, std::size_t all) { progress.show(done, all); });
-    return sheet ? write_file(request.sheet, encode_png(*sheet)) : tl::unexpected<Error>(sheet.error());
+                      [&](std::size_t done, std::size_t all) { progress.show(done, all); }));
+    return write_file(request.sheet, encode_png(sheet));
 }
 
 Result<void> draw_room(const Request& request, const Settings& settings, const SheetFrame& frame) {
@@ -110,8 +110,8 @@ Result<void> draw_room(const Request& request, const Settings& settings, const S
         return {};
     }
     TRY(const Typesetter typesetter, Typesetter::open());
-    const Result<Image8> picture = room_picture(settings, frame, typesetter);
-    return picture ? write_file(request.room, encode_png(*picture)) : tl::unexpected<Error>(picture.error());
+    TRY(const Image8 picture, room_picture(settings, frame, typesetter));
+    return write_file(request.room, encode_png(picture));
 }
 
 Result<void> draw_animation(const Request& request, const Settings& settings, const FrameFolder& folder) {
@@ -119,10 +119,11 @@ Result<void> draw_animation(const Request& request, const Settings& settings, co
         return {};
     }
     ProgressLine progress("animation");
-    const Result<Bytes> animation = visitor_animation(
-        settings, evenly(folder.frames, request.animation_frames), request.animation_options,
-        [&](std::size_t done, std::size_t all) { progress.show(done, all); });
-    return animation ? write_file(request.animation, *animation) : tl::unexpected<Error>(animation.error());
+    TRY(const Bytes animation,
+        visitor_animation(settings, evenly(folder.frames, request.animation_frames),
+                          request.animation_options,
+                          [&](std::size_t done, std::size_t all) { progress.show(done, all); }));
+    return write_file(request.animation, animation);
 }
 
 Result<void> make(const Request& request) {

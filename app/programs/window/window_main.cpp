@@ -119,9 +119,7 @@ Result<void> run(const Request& request) {
         const StopSignals::AtOnce at_once(stop_signals);
         return make_show(request, settings, *window.display);
     }();
-    if (!show) {
-        return tl::unexpected<Error>(show.error());
-    }
+    TRY_VOID(show);
     Inputs inputs;
     inputs.tracker = std::make_unique<RegisteredTracker>(std::move(window.tracker), Registration{});
     inputs.panel = std::move(window.panel);
@@ -132,9 +130,9 @@ Result<void> run(const Request& request) {
     options.stop = &stop_signals;
     StatusFile status_file{{}};
     RunWatch watch(manager, journal);
-    const Result<LoopResult> result =
-        run_loop(settings, *window.display, inputs, **show, options, status_file, watch, monotonic_now());
-    return result ? Result<void>{} : tl::unexpected<Error>(result.error());
+    TRY_VOID(
+        run_loop(settings, *window.display, inputs, **show, options, status_file, watch, monotonic_now()));
+    return {};
 }
 
 int window_main(int argc, char** argv) {

@@ -21,9 +21,7 @@ Result<std::vector<ReliefPeer>> make_relief_peers(const Stage& stage, const Trut
         make_linear_march(stage, images, {32, 5}), make_linear_march(stage, images, {128, 6}),
         make_cone_march(stage, images), make_quadtree_march(stage, images)};
     for (Result<std::unique_ptr<Technique>>& march : marches) {
-        if (!march) {
-            return tl::unexpected<Error>(march.error());
-        }
+        TRY_VOID(march);
         peers.push_back({std::move(*march), 0});
     }
     const SourceMesh grids = single_layer_mesh(images, single_layer_tolerance_m);
