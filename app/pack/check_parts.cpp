@@ -49,7 +49,8 @@ Result<Bytes> PartChecks::beginning_of(const std::string& name, std::size_t most
         beginning.insert(beginning.end(), more.begin(), more.end());
         progress_(bytes.size());
     });
-    return read ? Result<Bytes>(std::move(beginning)) : tl::unexpected<Error>(read.error());
+    TRY_VOID(read);
+    return beginning;
 }
 
 Result<void> PartChecks::level(const LevelRecord& record) {
@@ -59,9 +60,7 @@ Result<void> PartChecks::level(const LevelRecord& record) {
         scan.add(bytes);
         progress_(bytes.size());
     });
-    if (!read) {
-        return read;
-    }
+    TRY_VOID(read);
     return at(record.mesh, scan.finish(record.technique, record.triangles, record.vertices));
 }
 

@@ -97,12 +97,9 @@ Result<PackReader> PackReader::open(Result<ZipReader> zip) {
 }
 
 Result<PackReader> PackReader::open(ZipReader zip, std::span<const std::byte> manifest_bytes) {
-    Result<Manifest> manifest = parse_manifest(as_text(manifest_bytes));
-    if (!manifest) {
-        return at("manifest.json", manifest.error());
-    }
-    TRY_VOID(check_entries(zip, *manifest));
-    return PackReader(std::move(zip), std::move(*manifest));
+    TRY(Manifest manifest, at("manifest.json", parse_manifest(as_text(manifest_bytes))));
+    TRY_VOID(check_entries(zip, manifest));
+    return PackReader(std::move(zip), std::move(manifest));
 }
 
 Result<const PartRecord*> PackReader::use(const std::string& name) {

@@ -271,15 +271,12 @@ Result<Bytes> load_sound(const std::filesystem::path& file, std::string_view lan
 }
 
 Result<void> check_set_and_spoken(const Pack& pack) {
-    const Result<std::vector<SetEntry>> set = entries_of<SetEntry>(pack, texts_section);
-    const Result<std::vector<SpokenEntry>> spoken = entries_of<SpokenEntry>(pack, sounds_section);
-    if (!set || !spoken) {
-        return tl::unexpected<Error>(set ? spoken.error() : set.error());
-    }
-    for (const SetEntry& entry : *set) {
+    TRY(const std::vector<SetEntry> set, entries_of<SetEntry>(pack, texts_section));
+    TRY(const std::vector<SpokenEntry> spoken, entries_of<SpokenEntry>(pack, sounds_section));
+    for (const SetEntry& entry : set) {
         TRY_VOID(decode(entry, pack.section_parts));
     }
-    for (const SpokenEntry& entry : *spoken) {
+    for (const SpokenEntry& entry : spoken) {
         for (const std::string& part : parts_of(entry)) {
             TRY_VOID(check_sound(part, pack.section_parts.at(part)));
         }

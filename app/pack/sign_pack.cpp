@@ -33,11 +33,10 @@ Result<void> write_with_signature(OpenFile pack, std::string_view signature,
                                   const std::filesystem::path& file) {
     return write_file_with(file, [&](int descriptor) {
         ZipWriter to(descriptor);
-        const Result<void> written =
-            copy_with_signature(ZipReader::open(std::move(pack)), to, signature).and_then([&] {
-                return to.finish_file();
-            });
-        return written ? Result<void>() : at(file.string(), written.error());
+        return at(file.string(),
+                  copy_with_signature(ZipReader::open(std::move(pack)), to, signature).and_then([&] {
+                      return to.finish_file();
+                  }));
     });
 }
 

@@ -138,13 +138,10 @@ Result<Bytes> part_of(ZipReader& zip, const Part& part) {
 
 Result<LanguageWords> read_language(ZipReader& zip, LanguageEntry& entry) {
     LanguageWords words{std::move(entry.language), std::move(entry.name), std::move(entry.words), {}, {}, {}};
-    const Result<Bytes> glyphs = part_of(zip, entry.glyphs);
-    const Result<Bytes> picture = part_of(zip, entry.atlas);
-    if (!glyphs || !picture) {
-        return tl::unexpected<Error>(glyphs ? picture.error() : glyphs.error());
-    }
-    TRY(GlyphRuns runs, at(printable(entry.glyphs.name), decode_glyph_runs(*glyphs)));
-    TRY(DistanceAtlas atlas, at(printable(entry.atlas.name), decode_distance_atlas(*picture, runs)));
+    TRY(const Bytes glyphs, part_of(zip, entry.glyphs));
+    TRY(const Bytes picture, part_of(zip, entry.atlas));
+    TRY(GlyphRuns runs, at(printable(entry.glyphs.name), decode_glyph_runs(glyphs)));
+    TRY(DistanceAtlas atlas, at(printable(entry.atlas.name), decode_distance_atlas(picture, runs)));
     words.runs = std::move(runs);
     words.atlas = std::move(atlas);
     for (const PlainWord& word : words.words) {

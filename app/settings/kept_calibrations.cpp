@@ -70,13 +70,10 @@ Result<Calibration> read_calibration(FileTree& folder, const KeptCalibration& ke
 }
 
 Result<KeptCalibration> keep_calibration(WritableTree& folder, const Calibration& calibration) {
-    const Result<std::vector<KeptCalibration>> kept = list_calibrations(folder);
-    const Result<std::vector<KeptCalibration>> undone = list(folder, undone_ending);
-    if (!kept || !undone) {
-        return tl::unexpected<Error>(kept ? undone.error() : kept.error());
-    }
+    TRY(const std::vector<KeptCalibration> kept, list_calibrations(folder));
+    TRY(const std::vector<KeptCalibration> undone, list(folder, undone_ending));
     int newest = 0;
-    for (const auto* each : {&*kept, &*undone}) {
+    for (const auto* each : {&kept, &undone}) {
         newest = each->empty() ? newest : std::max(newest, each->front().number);
     }
     KeptCalibration next{newest + 1, name_of(newest + 1, kept_ending)};
@@ -88,10 +85,10 @@ Result<KeptCalibration> keep_calibration(WritableTree& folder, const Calibration
         return failed(next.name, written.error(), "cannot be written");
     }
     // The new one is on the disk: what is not removed now does no harm, and goes with the next one.
-    for (std::size_t k = most_kept_calibrations - 1; k < kept->size(); ++k) {
-        static_cast<void>(folder.remove((*kept)[k].name));
+    for (std::size_t k = most_kept_calibrations - 1; k < kept.size(); ++k) {
+        static_cast<void>(folder.remove(kept[k].name));
     }
-    for (const KeptCalibration& each : *undone) {
+    for (const KeptCalibration& each : undone) {
         static_cast<void>(folder.remove(each.name));
     }
     return next;

@@ -93,22 +93,17 @@ public:
 
     /// A letter that the typeface lacks is left out.
     [[nodiscard]] Result<void> add(char32_t character) {
-        const Result<ShapedText> alone = shaped(utf8(character));
-        const Result<ShapedText> between = shaped("|" + utf8(character) + "|");
-        const Result<ShapedText> bars = shaped("||");
-        for (const Result<ShapedText>* text : {&alone, &between, &bars}) {
-            if (!*text) {
-                return tl::unexpected<Error>(text->error());
-            }
-        }
-        if (alone->notes.empty()) {
+        TRY(const ShapedText alone, shaped(utf8(character)));
+        TRY(const ShapedText between, shaped("|" + utf8(character) + "|"));
+        TRY(const ShapedText bars, shaped("||"));
+        if (alone.notes.empty()) {
             Letter letter{character, fmt::format("u{:04x}", static_cast<std::uint32_t>(character)), 0};
             // A space at the end of a line has no width, and bars are not moved nearer to their neighbours.
-            letter.advance = between->settings.front().width - bars->settings.front().width;
-            builder_.add(letter.key, *alone);
+            letter.advance = between.settings.front().width - bars.settings.front().width;
+            builder_.add(letter.key, alone);
             letters_.push_back(letter);
-            ascent_ = bars->settings.front().lines.front().baseline;
-            pitch_ = bars->settings.front().height;
+            ascent_ = bars.settings.front().lines.front().baseline;
+            pitch_ = bars.settings.front().height;
         }
         return {};
     }
@@ -237,8 +232,8 @@ Result<void> bake(const std::string& file, const std::string& out) {
             TRY_VOID(baker.add(character));
         }
     }
-    const Result<std::string> cpp = baker.as_cpp(languages);
-    return cpp ? write_file(out, as_bytes(*cpp)) : Result<void>(tl::unexpected<Error>(cpp.error()));
+    TRY(const std::string cpp, baker.as_cpp(languages));
+    return write_file(out, as_bytes(cpp));
 }
 
 int run(int argc, char** argv) {

@@ -164,13 +164,10 @@ FileResult<std::unique_ptr<NewFile>> DiskTree::create(const std::string& path) {
 }
 
 FileResult<void> DiskTree::rename(const std::string& from, const std::string& to) {
-    const FileResult<Place> old_place = place_of(from);
-    const FileResult<Place> new_place = place_of(to);
-    if (!old_place || !new_place) {
-        return tl::unexpected<FileFault>(old_place ? new_place.error() : old_place.error());
-    }
-    return done(::renameat(old_place->folder.number(), old_place->name.c_str(), new_place->folder.number(),
-                           new_place->name.c_str()));
+    TRY(const Place old_place, place_of(from));
+    TRY(const Place new_place, place_of(to));
+    return done(::renameat(old_place.folder.number(), old_place.name.c_str(), new_place.folder.number(),
+                           new_place.name.c_str()));
 }
 
 FileResult<void> DiskTree::remove(const std::string& path) {

@@ -140,18 +140,15 @@ Result<std::unique_ptr<ButtonLines>> open_gpio_lines(const LineRequest& request)
     if (!chip) {
         return lost(fmt::format("GPIO chip {}: {}", request.chip, reason(errno)));
     }
-    const auto lines = find_all(chip.get(), request.lines, request.chip);
-    const auto lamps = find_all(chip.get(), request.lamps, request.chip);
-    if (!lines || !lamps) {
-        return tl::unexpected<Error>(!lines ? lines.error() : lamps.error());
-    }
-    gpiod_line_bulk watched = *lines;
+    TRY(const auto lines, find_all(chip.get(), request.lines, request.chip));
+    TRY(const auto lamps, find_all(chip.get(), request.lamps, request.chip));
+    gpiod_line_bulk watched = lines;
     const gpiod_line_request_config config{"frustumscreen", GPIOD_LINE_REQUEST_DIRECTION_INPUT,
                                            flags_of(request)};
     if (::gpiod_line_request_bulk(&watched, &config, nullptr) < 0) {
         return lost(fmt::format("GPIO chip {}: its lines cannot be read: {}", request.chip, reason(errno)));
     }
-    gpiod_line_bulk lit = *lamps;
+    gpiod_line_bulk lit = lamps;
     const gpiod_line_request_config output{"frustumscreen", GPIOD_LINE_REQUEST_DIRECTION_OUTPUT, 0};
     const std::array<int, GPIOD_LINE_BULK_MAX_LINES> dark{};
     if (lit.num_lines > 0 && ::gpiod_line_request_bulk(&lit, &output, dark.data()) < 0) {

@@ -52,10 +52,10 @@ Result<ScalingSource> bake_amphora(std::int64_t triangles, const ScalingOptions&
         progress(what + std::string(step), done);
     };
     const auto start = std::chrono::steady_clock::now();
-    Result<Pack> pack = bake(made, bake_options);
+    Result<Pack> baked = bake(made, bake_options);
     const double bake_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    TRY_VOID(at(what + "bake", pack));
-    return ScalingSource{std::make_shared<const SourceMesh>(std::move(made)), std::move(*pack), bake_s};
+    TRY(Pack pack, at(what + "bake", std::move(baked)));
+    return ScalingSource{std::make_shared<const SourceMesh>(std::move(made)), std::move(pack), bake_s};
 }
 
 std::string growth_line(std::string_view name, TechniqueResult ScalingRow::*each, double most,

@@ -200,9 +200,7 @@ Result<void> TechniqueSet::add_levels_of_detail(const SourceMesh& mesh, const gl
                 },
                 described(TechniqueKind::TwoPassLod, -1, triangles), choice.samples);
         }
-        if (!added) {
-            return added;
-        }
+        TRY_VOID(added);
     }
     return added;
 }
@@ -234,21 +232,18 @@ Result<void> TechniqueSet::add_relief(const Pack& pack, TechniqueKind kind, Bloc
 Result<void> TechniqueSet::add_pack_reliefs(const Pack& pack, TechniqueKind kind,
                                             const PictureOptions& options,
                                             const std::function<bool(std::uint32_t)>& wanted) {
-    const Result<std::vector<ReliefOutline>> reliefs = reliefs_of(pack);
-    const Result<SeenByEyes> seen = seen_by_eyes(outline_of(pack));
-    if (!reliefs || !seen) {
-        return tl::unexpected<Error>(reliefs ? seen.error() : reliefs.error());
-    }
+    TRY(const std::vector<ReliefOutline> reliefs, reliefs_of(pack));
+    TRY(const SeenByEyes seen, seen_by_eyes(outline_of(pack)));
     Result<void> added;
-    for (std::size_t k = 0; added && k < reliefs->size(); ++k) {
-        const ReliefOutline& outline = (*reliefs)[k];
+    for (std::size_t k = 0; added && k < reliefs.size(); ++k) {
+        const ReliefOutline& outline = reliefs[k];
         if (!wanted(outline.texels)) {
             continue;
         }
         const std::string name =
             name_of(Rung{outline.texels, pack.samples, false, true, kind == TechniqueKind::ReliefGpu});
         added = relief_of(pack, outline).and_then([&](BlockRelief relief) {
-            return add_relief(pack, kind, std::move(relief), seen->reliefs[k], options,
+            return add_relief(pack, kind, std::move(relief), seen.reliefs[k], options,
                               kind == TechniqueKind::Auto ? fmt::format("auto ({})", name) : name);
         });
     }

@@ -89,17 +89,17 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
     TRY(const std::vector<SetUp> set_ups, load_set_ups(place));
     TRY(const LoadedArtifact artifact, load_artifact(measured));
     const auto steps = [&progress](const std::string& step, double done) { progress.show(step, done); };
-    using Measured = decltype(measure(set_ups.front(), *artifact.pack, artifact.mesh, steps));
-    std::vector<typename Measured::value_type> results;
+    using Measured =
+        typename decltype(measure(set_ups.front(), *artifact.pack, artifact.mesh, steps))::value_type;
+    std::vector<Measured> results;
     OutputFiles files;
     for (const SetUp& set_up : set_ups) {
-        Measured result = measure(set_up, *artifact.pack, artifact.mesh, steps);
-        TRY_VOID(result);
+        TRY(Measured result, measure(set_up, *artifact.pack, artifact.mesh, steps));
         progress.clear();
-        fmt::print("{}\n", table(*result));
+        fmt::print("{}\n", table(result));
         std::fflush(stdout);
-        files.emplace_back(name + "_" + set_up.name + ".png", as_text(encode_png(result->worst)));
-        results.push_back(std::move(*result));
+        files.emplace_back(name + "_" + set_up.name + ".png", as_text(encode_png(result.worst)));
+        results.push_back(std::move(result));
     }
     for (auto& file : files_of(results)) {
         files.push_back(std::move(file));

@@ -76,28 +76,22 @@ struct Signable {
 
 /// Refuses packs that the kiosk would refuse in spite of the signature.
 Result<Signable> read_sound(OpenFile file) {
-    auto zip = pack_format::ZipReader::open(std::move(file));
-    TRY(Bytes manifest, zip.and_then(pack_format::read_manifest_bytes));
-    Result<pack_format::PackReader> reader = pack_format::PackReader::open(*std::move(zip), manifest);
-    TRY(std::optional<std::string> before,
-        reader.and_then([](pack_format::PackReader& opened) { return opened.signature(); }));
-    const Result<VerifiedPack> pack = read_pack(*reader);
-    const Result<void> sound = pack.and_then([](const VerifiedPack& read) {
-        return check_set_and_spoken(*read).and_then([&] { return check_reliefs(*read); });
-    });
-    return sound ? Result<Signable>(Signable{std::move(manifest), std::move(before)})
-                 : tl::unexpected<Error>(sound.error());
+    TRY(auto zip, pack_format::ZipReader::open(std::move(file)));
+    TRY(Bytes manifest, pack_format::read_manifest_bytes(zip));
+    TRY(pack_format::PackReader reader, pack_format::PackReader::open(std::move(zip), manifest));
+    TRY(std::optional<std::string> before, reader.signature());
+    TRY(const VerifiedPack pack, read_pack(reader));
+    TRY_VOID(check_set_and_spoken(*pack));
+    TRY_VOID(check_reliefs(*pack));
+    return Signable{std::move(manifest), std::move(before)};
 }
 
 Result<std::uint64_t> sign_pack(const SignRequest& request, const SecretKey& key, const std::string& file) {
-    Result<OpenFile> checked = OpenFile::open(file, pack_format::most_pack_bytes);
-    Result<OpenFile> copied = OpenFile::open(file, pack_format::most_pack_bytes);
-    if (!checked || !copied) {
-        return tl::unexpected<Error>(checked ? copied.error() : checked.error());
-    }
-    TRY(const Signable pack, at(file, read_sound(*std::move(checked))));
+    TRY(OpenFile checked, OpenFile::open(file, pack_format::most_pack_bytes));
+    TRY(OpenFile copied, OpenFile::open(file, pack_format::most_pack_bytes));
+    TRY(const Signable pack, at(file, read_sound(std::move(checked))));
     TRY(const std::uint64_t serial, at(file, serial_for(request, pack.before)));
-    return write_with_signature(*std::move(copied), signature_of(key, pack.manifest, serial, file), file)
+    return write_with_signature(std::move(copied), signature_of(key, pack.manifest, serial, file), file)
         .map([&] { return serial; });
 }
 
