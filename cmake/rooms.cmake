@@ -1,8 +1,9 @@
 # One static library for each room of the house; ARCHITECTURE.md has the map.
 #
-#   frustumscreen_room(<room> SOURCES ... [USES <room>...] [LIBRARIES <target>...])
+#   frustumscreen_room(<room> SOURCES ... [APART ...] [USES <room>...] [LIBRARIES <target>...])
 #
-# USES are the rooms that this room may include; tests/layers checks every #include against it.
+# USES are the rooms that this room may include; tests/layers checks every #include against it. APART are sources whose unnamed
+# namespace has a name of another source of the room, or a type that is part of a class outside of it.
 add_library(frustumscreen_options INTERFACE)
 target_compile_features(frustumscreen_options INTERFACE cxx_std_20)
 target_include_directories(frustumscreen_options INTERFACE ${CMAKE_SOURCE_DIR})
@@ -13,6 +14,7 @@ if(NOT FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_TSAN) # their own code makes GCC
     list(APPEND warnings -Werror)
 endif()
 target_compile_options(frustumscreen_options INTERFACE ${warnings} -ffp-contract=off
+    -ffunction-sections -fdata-sections # what a program does not use of a room, its link leaves out
     -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=) # so that a program's bytes do not tell in which folder it was built
 if(FRUSTUMSCREEN_ASAN)
     target_compile_options(frustumscreen_options INTERFACE
@@ -36,11 +38,44 @@ if(FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_FUZZ)
     set(rooms_alone_are_checked ON)
     set(test_options -O0 -fno-sanitize=undefined)
 endif()
+if(FRUSTUMSCREEN_UNITY) # GCC takes a fixture in the unnamed namespace of a test that another file includes for one in a header
+    list(APPEND test_options $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
 include(cmake/precompiled.cmake)
 
+# Sets `sources` to files that include a dozen of a target's sources each: to read the precompiled headers takes longer than to compile
+# most sources. They name no folder of this machine, so that ccache finds them in another clone.
+function(frustumscreen_together target)
+    if(NOT FRUSTUMSCREEN_UNITY)
+        set(sources ${ARGN} PARENT_SCOPE)
+        return()
+    endif()
+    file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+    set(together "")
+    set(count 0)
+    foreach(source IN LISTS ARGN)
+        if(IS_ABSOLUTE ${source}) # generated, or of another folder
+            list(APPEND together ${source})
+        else()
+            math(EXPR number "${count} / 12")
+            string(APPEND includes_${number} "#include \"${folder}/${source}\"\n")
+            math(EXPR count "${count} + 1")
+        endif()
+    endforeach()
+    set(number 0)
+    while(DEFINED includes_${number})
+        set(file ${CMAKE_BINARY_DIR}/together/${target}_${number}.cpp)
+        file(CONFIGURE OUTPUT ${file} CONTENT "${includes_${number}}" @ONLY) # keeps its time where it is there
+        list(APPEND together ${file})
+        math(EXPR number "${number} + 1")
+    endwhile()
+    set(sources ${together} PARENT_SCOPE)
+endfunction()
+
 function(frustumscreen_room room)
-    cmake_parse_arguments(ROOM "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
-    add_library(${room} STATIC ${ROOM_SOURCES})
+    cmake_parse_arguments(ROOM "" "" "SOURCES;APART;USES;LIBRARIES" ${ARGN})
+    frustumscreen_together(${room} ${ROOM_SOURCES})
+    add_library(${room} STATIC ${sources} ${ROOM_APART})
     target_link_libraries(${room} PUBLIC frustumscreen_options ${ROOM_USES} ${ROOM_LIBRARIES})
     frustumscreen_use_precompiled(${room} house)
     set_property(GLOBAL APPEND PROPERTY FRUSTUMSCREEN_LAYERS "${room}: ${ROOM_USES}")
@@ -87,9 +122,9 @@ if(BUILD_TESTING)
         FRUSTUMSCREEN_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
 endif()
 
-# A GoogleTest program of one room; working directory is its own build folder. OUTSIDE, THREADS: it belongs to the above.
+# A GoogleTest program of one room; working directory is its own build folder. OUTSIDE, THREADS: it belongs to the above. APART: as in a room.
 function(frustumscreen_test name)
-    cmake_parse_arguments(TEST "OUTSIDE;THREADS" "" "SOURCES;USES;LABELS" ${ARGN})
+    cmake_parse_arguments(TEST "OUTSIDE;THREADS" "" "SOURCES;APART;USES;LABELS" ${ARGN})
     if(TEST_OUTSIDE OR TEST_THREADS)
         list(APPEND TEST_LABELS outside)
         add_dependencies(outside ${name})
@@ -98,7 +133,8 @@ function(frustumscreen_test name)
         list(APPEND TEST_LABELS threads)
         add_dependencies(threads ${name})
     endif()
-    add_executable(${name} ${TEST_SOURCES})
+    frustumscreen_together(${name} ${TEST_SOURCES})
+    add_executable(${name} ${sources} ${TEST_APART})
     target_link_libraries(${name} PRIVATE frustumscreen_options ${TEST_USES} test_folders GTest::gtest_main)
     target_compile_options(${name} PRIVATE ${test_options})
     frustumscreen_use_precompiled(${name} tests)

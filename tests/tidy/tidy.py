@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """clang-tidy over the C++ files; `./test tidy` calls this.
 
-A file that was clean is not analysed again while its preprocessed text, the checks and clang-tidy are the same; which files were clean is
-remembered in the user's cache folder, for all clones. Exit status 1: something was found.
+The sources that are compiled together are analysed together, a fifth of the time of each alone. What was clean is not analysed again while
+its preprocessed text, the checks and clang-tidy are the same; the user's cache folder remembers it for all clones. Exit status 1: something was found.
 """
 
 import argparse
@@ -28,15 +28,24 @@ def output_of(*command):
     return subprocess.run(command, capture_output=True, text=True, check=True, cwd=ROOT).stdout
 
 
-def entries(build):
-    """File -> compile command, of all that is not generated."""
-    commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
-    found = {pathlib.Path(entry["file"]): entry for entry in commands}
-    return {file: entry for file, entry in sorted(found.items()) if build not in file.parents and file.suffix == ".cpp"}
+def units(build):
+    """What is compiled, as file -> its command; and source -> such a file, which is itself or includes it. Nothing generated."""
+    commands, unit_of = {}, {}
+    for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
+        file = pathlib.Path(entry["file"])
+        if file.parent == build / "together":
+            sources = [ROOT / name for name in re.findall(r'^#include "(.*)"$', file.read_text(encoding="utf-8"), re.MULTILINE)]
+        elif build not in file.parents and file.suffix == ".cpp":
+            sources = [file]
+        else:
+            continue
+        commands[file] = entry
+        unit_of.update(dict.fromkeys(sources, file))
+    return commands, unit_of
 
 
 def touched(files):
-    """The files that the last commits and the working tree change, and of each changed header some that include it."""
+    """The sources that the last commits and the working tree change, and of each changed header some that include it."""
     base = output_of("git", "rev-list", f"--max-count={COMMITS + 1}", "HEAD").split()[-1]
     changed = {ROOT / name for name in output_of("git", "diff", "--name-only", "--diff-filter=d", base).splitlines()}
     names = output_of("git", "grep", "--extended-regexp", r'^#include "', "--", "*.cpp").splitlines()
@@ -90,11 +99,12 @@ def main():
     arguments = parser.parse_args()
 
     build = ROOT / "build" / "tidy"  # configured, not built
-    commands = entries(build)
-    files = [file.resolve() for file in arguments.files] or (touched(commands) if arguments.changed else list(commands))
-    for file in files:
-        if file not in commands:
-            parser.error(f"{file} is no C++ file that the build compiles")
+    commands, unit_of = units(build)
+    sources = [file.resolve() for file in arguments.files] or (touched(unit_of) if arguments.changed else list(unit_of))
+    for source in sources:
+        if source not in unit_of:
+            parser.error(f"{source} is no C++ file that the build compiles")
+    files = sorted({unit_of[source] for source in sources})
     CACHE.mkdir(parents=True, exist_ok=True)
     analysis = Analysis(build, commands)
     said, known = set(), 0
@@ -107,7 +117,7 @@ def main():
                     print(finding, flush=True)
             if number % PROGRESS == 0:
                 print(f"   {number} of {len(files)} files", flush=True)
-    print(f"== clang-tidy: {len(files)} files, {known} of them known to be clean, {len(said)} findings")
+    print(f"== clang-tidy: {len(sources)} sources in {len(files)} files, {known} of them known to be clean, {len(said)} findings")
     return 1 if said else 0
 
 
