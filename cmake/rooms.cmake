@@ -16,6 +16,7 @@ endif()
 target_compile_options(frustumscreen_options INTERFACE ${warnings} -ffp-contract=off
     -ffunction-sections -fdata-sections # what a program does not use of a room, its link leaves out
     -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=) # so that a program's bytes do not tell in which folder it was built
+target_link_options(frustumscreen_options INTERFACE -Wl,--gc-sections)
 if(FRUSTUMSCREEN_ASAN)
     target_compile_options(frustumscreen_options INTERFACE
         -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)

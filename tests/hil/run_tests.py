@@ -19,6 +19,7 @@ from repeat import Load, Run, as_text
 MODULES = ("boot", "pose", "watch", "trackers", "buttons", "unplug", "camera", "camera_uses", "misbehaviour", "storm", "latency", "stick", "stick_hostile",
            "stick_storm", "settings", "missing", "table", "calibration", "guidance", "display", "vblank", "restart", "safe", "status", "hours",
            "watchdog", "kernel")
+SLOWEST = 10  # tests that are named at the end
 
 
 def say(text):
@@ -34,7 +35,9 @@ def flat(suite):
 
 
 class Verdicts(unittest.TextTestResult):
-    """Says how long each test took; after a failure keeps what the machine shows, before the next test begins."""
+    """Says how long each test took, and notes it in `took`; after a failure keeps what the machine shows, before the next test begins."""
+
+    took = []  # (seconds, name)
 
     def startTest(self, test):
         self._begun = time.monotonic()
@@ -42,7 +45,9 @@ class Verdicts(unittest.TextTestResult):
 
     def stopTest(self, test):
         super().stopTest(test)
-        self.stream.writeln(f"    {time.monotonic() - self._begun:.0f} s")
+        took_s = time.monotonic() - self._begun
+        self.took.append((took_s, test.id()))
+        self.stream.writeln(f"    {took_s:.0f} s")
 
     def _keep(self, test, error):
         folder = HilTest.bench.evidence_of(test)
@@ -107,11 +112,15 @@ def run(tests, bench, keep):
     HilTest.bench, HilTest.longest_s = bench, 0.0
     try:
         say("starting the machine")
-        say(f"it is up after {bench.start():.0f} s")
+        start_s = bench.start()
+        say(f"it is up after {start_s:.0f} s")
+        Verdicts.took = [(start_s, "the machine's start")]
         begun = time.monotonic()
         result = unittest.TextTestRunner(resultclass=Verdicts, verbosity=2).run(unittest.TestSuite(tests))
         took_s = time.monotonic() - begun
-        say(f"{result.testsRun} tests in {took_s:.0f} s; logs in {bench.out}")
+        for seconds, name in sorted(Verdicts.took, reverse=True)[:SLOWEST]:
+            print(f"   {seconds:6.0f} s   {name}")
+        say(f"{result.testsRun} tests in {took_s:.0f} s, the slowest above; logs in {bench.out}")
         wrong = [test.id() for test, _ in (*result.failures, *result.errors)]
         return Run(os.getloadavg()[1], took_s, HilTest.longest_s, wrong)
     finally:
