@@ -1,9 +1,8 @@
 # One static library for each room of the house; ARCHITECTURE.md has the map.
 #
-#   frustumscreen_room(<room> SOURCES ... [APART ...] [USES <room>...] [LIBRARIES <target>...])
+#   frustumscreen_room(<room> SOURCES ... [USES <room>...] [LIBRARIES <target>...])
 #
-# USES are the rooms that this room may include; tests/layers checks every #include against it. APART are sources whose unnamed
-# namespace has a name of another source of the room, or a type that is part of a class outside of it.
+# USES are the rooms that this room may include; tests/layers checks every #include against it.
 add_library(frustumscreen_options INTERFACE)
 target_compile_features(frustumscreen_options INTERFACE cxx_std_20)
 target_include_directories(frustumscreen_options INTERFACE ${CMAKE_SOURCE_DIR})
@@ -44,8 +43,9 @@ if(FRUSTUMSCREEN_UNITY) # GCC takes a fixture in the unnamed namespace of a test
 endif()
 include(cmake/precompiled.cmake)
 
-# Sets `sources` to files that include a dozen of a target's sources each: to read the precompiled headers takes longer than to compile
-# most sources. They name no folder of this machine, so that ccache finds them in another clone.
+# Sets `sources` to files that include a dozen of a test's sources each: to read the precompiled headers takes longer than to compile
+# most sources. They name no folder of this machine, so that ccache finds them in another clone. Not for rooms: a program takes a room's
+# object files whole, and would need every shared library that one of the dozen calls.
 function(frustumscreen_together target)
     if(NOT FRUSTUMSCREEN_UNITY)
         set(sources ${ARGN} PARENT_SCOPE)
@@ -74,9 +74,8 @@ function(frustumscreen_together target)
 endfunction()
 
 function(frustumscreen_room room)
-    cmake_parse_arguments(ROOM "" "" "SOURCES;APART;USES;LIBRARIES" ${ARGN})
-    frustumscreen_together(${room} ${ROOM_SOURCES})
-    add_library(${room} STATIC ${sources} ${ROOM_APART})
+    cmake_parse_arguments(ROOM "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+    add_library(${room} STATIC ${ROOM_SOURCES})
     target_link_libraries(${room} PUBLIC frustumscreen_options ${ROOM_USES} ${ROOM_LIBRARIES})
     frustumscreen_use_precompiled(${room} house)
     set_property(GLOBAL APPEND PROPERTY FRUSTUMSCREEN_LAYERS "${room}: ${ROOM_USES}")
@@ -123,7 +122,8 @@ if(BUILD_TESTING)
         FRUSTUMSCREEN_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
 endif()
 
-# A GoogleTest program of one room; working directory is its own build folder. OUTSIDE, THREADS: it belongs to the above. APART: as in a room.
+# A GoogleTest program of one room; working directory is its own build folder. OUTSIDE, THREADS: it belongs to the above. APART are
+# sources whose unnamed namespace has a name of another source of the test.
 function(frustumscreen_test name)
     cmake_parse_arguments(TEST "OUTSIDE;THREADS" "" "SOURCES;APART;USES;LABELS" ${ARGN})
     if(TEST_OUTSIDE OR TEST_THREADS)

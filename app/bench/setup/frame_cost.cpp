@@ -51,7 +51,7 @@ Result<std::vector<SetUpCost>> frame_costs(std::span<const Settings* const> set_
     if (set_ups.empty()) {
         return std::vector<SetUpCost>{};
     }
-    TRY_VOID(EglContext::without_screen());
+    TRY([[maybe_unused]] const EglContext context, EglContext::without_screen());
     std::vector<std::unique_ptr<Candidate>> candidates;
     std::vector<Technique*> techniques;
     for (const Settings* settings : set_ups) {
