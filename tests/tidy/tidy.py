@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """clang-tidy over the C++ files; `./test tidy` calls this.
 
-The sources that are compiled together are analysed together, a fifth of the time of each alone. What was clean is not analysed again while
+Sources that compile together are analysed together, in a quarter of the time. What was clean is not analysed again while
 its preprocessed text, the checks and clang-tidy are the same; the user's cache folder remembers it for all clones. Exit status 1: something was found.
 """
 
