@@ -228,9 +228,8 @@ void Import::weigh() {
 
 /// Whether the set file allows the set at all is known before anything is copied, and looked at again after.
 Outcome Import::plan() {
-    TRY_VOID(plan_set(shown(), packs_, refused_on_the_way_,
-                      exhibit_ ? std::optional(exhibit_->file) : std::nullopt));
-    return {};
+    return without_value(plan_set(shown(), packs_, refused_on_the_way_,
+                                  exhibit_ ? std::optional(exhibit_->file) : std::nullopt));
 }
 
 Outcome Import::look_for_room() {

@@ -66,8 +66,7 @@ Result<void> PartChecks::level(const LevelRecord& record) {
 
 Result<void> PartChecks::charts(const std::string& name) {
     TRY(const Bytes bytes, beginning_of(name, most_charts_bytes + 1));
-    TRY_VOID(at(name, decode_charts(bytes)));
-    return {};
+    return without_value(at(name, decode_charts(bytes)));
 }
 
 Result<void> PartChecks::picture(const std::string& name, std::int64_t most_side, std::int64_t most_area) {

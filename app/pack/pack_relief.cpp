@@ -132,7 +132,7 @@ Result<BlockRelief> relief_of(const Pack& pack, const ReliefOutline& relief) {
 Result<void> check_reliefs(const Pack& pack) {
     TRY(const std::vector<ReliefOutline> reliefs, reliefs_of(pack));
     for (const ReliefOutline& relief : reliefs) {
-        TRY_VOID(relief_of(pack, relief));
+        TRY_VOID(without_value(relief_of(pack, relief)));
     }
     return {};
 }

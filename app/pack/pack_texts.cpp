@@ -274,7 +274,7 @@ Result<void> check_set_and_spoken(const Pack& pack) {
     TRY(const std::vector<SetEntry> set, entries_of<SetEntry>(pack, texts_section));
     TRY(const std::vector<SpokenEntry> spoken, entries_of<SpokenEntry>(pack, sounds_section));
     for (const SetEntry& entry : set) {
-        TRY_VOID(decode(entry, pack.section_parts));
+        TRY_VOID(without_value(decode(entry, pack.section_parts)));
     }
     for (const SpokenEntry& entry : spoken) {
         for (const std::string& part : parts_of(entry)) {

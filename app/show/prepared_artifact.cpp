@@ -72,7 +72,7 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
         if (given_up()) {
             return bad_input("not wanted any more");
         }
-        TRY_VOID(read(number));
+        TRY_VOID(without_value(read(number)));
     }
     for (std::size_t place = 0; place < plan.reliefs.size(); ++place) {
         if (given_up()) {

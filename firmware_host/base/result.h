@@ -4,12 +4,14 @@
 /// person: what, where, what is allowed, what to do next. Programming errors assert.
 ///
 /// TRY(const X x, f()); is `const X x` with the value of f(), or ends the function with f()'s error.
-/// TRY_VOID(g()); is the same where there is no value, or where it is not needed.
+/// TRY_VOID(g()); is the same where there is no value. The compiler refuses a value that holds something, such as a context or
+/// a lock: name it with TRY, or drop it with TRY_VOID(without_value(g())).
 #pragma once
 
 #include <tl/expected.hpp>
 
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace frustumscreen {
@@ -49,6 +51,19 @@ template <typename T> [[nodiscard]] Result<T> at(const std::string& place, Resul
     return result;
 }
 
+/// A result without its value, which ends here.
+template <typename T, typename E>
+[[nodiscard]] tl::expected<void, E> without_value(tl::expected<T, E> result) {
+    return std::move(result).map([](T&&) {});
+}
+
+/// Whether nothing ends with a result's value: there is none, it holds nothing, or the result has a name and keeps it.
+template <typename ResultReference>
+inline constexpr bool may_be_dropped =
+    std::is_lvalue_reference_v<ResultReference> ||
+    std::is_void_v<typename std::remove_reference_t<ResultReference>::value_type> ||
+    std::is_trivially_destructible_v<typename std::remove_reference_t<ResultReference>::value_type>;
+
 } // namespace frustumscreen
 
 /// The value is moved out of its result; both live to the end of the scope. `variable` is a declaration without a
@@ -65,5 +80,7 @@ template <typename T> [[nodiscard]] Result<T> at(const std::string& place, Resul
 /// A result that has a name keeps its value.
 #define TRY_VOID(...)                                                                                        \
     if (auto&& result_of_try = __VA_ARGS__; !result_of_try) {                                                \
+        static_assert(frustumscreen::may_be_dropped<decltype(result_of_try)>,                                \
+                      "TRY_VOID drops what the value holds; name it with TRY");                              \
         return tl::unexpected(std::forward<decltype(result_of_try)>(result_of_try).error());                 \
     }

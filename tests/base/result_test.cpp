@@ -1,4 +1,4 @@
-// What TRY and TRY_VOID make of a result: the value, or the end of the function with the same error.
+// TRY gives the value of a result; TRY_VOID drops it. Both return from the function with its error.
 #include "firmware_host/base/result.h"
 
 #include <gtest/gtest.h>
@@ -110,6 +110,19 @@ TEST(Result, OneScopeAndOneLineHaveManyTries) {
     };
     EXPECT_EQ(sum(true).value(), 22);
     expect_torn(sum(false));
+}
+
+TEST(Result, TryVoidTakesNoValueThatHoldsSomething) {
+    static_assert(may_be_dropped<Result<void>&&> && may_be_dropped<Result<int>&&>);
+    static_assert(!may_be_dropped<Result<std::unique_ptr<int>>&&> && !may_be_dropped<Result<std::string>&&>);
+    static_assert(may_be_dropped<Result<std::unique_ptr<int>>&> &&
+                  may_be_dropped<const Result<std::string>&>);
+    const auto check = [](bool good) -> Result<void> {
+        TRY_VOID(without_value(owned(good)));
+        return {};
+    };
+    EXPECT_TRUE(check(true));
+    expect_torn(check(false));
 }
 
 TEST(Result, TryEvaluatesItsExpressionOnce) {

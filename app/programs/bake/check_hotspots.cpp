@@ -18,7 +18,7 @@ Result<void> check_hotspots(const SourceMesh& mesh, const BakeOptions& options) 
     const std::vector<glm::dvec3> points = in_box(mesh, *frame);
     const SourceScene scene(mesh, points);
     for (const GivenHotspot& given : options.hotspots) {
-        TRY_VOID(put_on_surface(given, scene, *frame, options.prop.zone));
+        TRY_VOID(without_value(put_on_surface(given, scene, *frame, options.prop.zone)));
     }
     return {};
 }

@@ -179,8 +179,7 @@ Result<void> work(Arguments arguments) {
                                      arguments.folder.string()));
     }
     if (!std::filesystem::exists(arguments.folder / artifact_file_name, none)) {
-        TRY_VOID(read_artifact_file(arguments.folder));
-        return {};
+        return without_value(read_artifact_file(arguments.folder));
     }
     arguments.page = arguments.page.empty() ? page_beside(arguments.folder) : arguments.page;
     arguments.bake.size = arguments.bake.size.value_or(coarse_size);

@@ -159,7 +159,7 @@ Result<PlanMeasurement> measure_plan(const Settings& settings, const DevicePlan&
     unhurried.projector.refresh_hz = 1e-3;
     Measuring measuring(unhurried, devices, {{pack}, technique, default_samples, AllEconomies}, display);
     // The first scene also pays for what the driver does only once.
-    TRY_VOID(measuring.load_once(0));
+    TRY_VOID(without_value(measuring.load_once(0)));
     TRY(Scene planned, measuring.load(AllEconomies));
     unsigned used = 0;
     for (const LeftOut& each : planned.show->plan(0).left_out) {

@@ -130,9 +130,8 @@ Result<void> run(const Request& request) {
     options.stop = &stop_signals;
     StatusFile status_file{{}};
     RunWatch watch(manager, journal);
-    TRY_VOID(
+    return without_value(
         run_loop(settings, *window.display, inputs, **show, options, status_file, watch, monotonic_now()));
-    return {};
 }
 
 int window_main(int argc, char** argv) {

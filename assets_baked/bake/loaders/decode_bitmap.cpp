@@ -126,7 +126,7 @@ Result<Image8> decode_bmp(ByteView bytes, std::int64_t limit_texels) {
     if (header->packed) {
         return damaged("BMP", "it is packed");
     }
-    TRY_VOID(blank_image(header->width, header->height, limit_texels));
+    TRY_VOID(without_value(blank_image(header->width, header->height, limit_texels)));
     const std::int64_t row_bytes = (header->width * header->bits + 31) / 32 * 4;
     if (header->begin > bytes.size() ||
         static_cast<std::uint64_t>(row_bytes * header->height) > bytes.size() - header->begin) {
@@ -150,7 +150,7 @@ bool is_tga(ByteView bytes) {
 
 Result<Image8> decode_tga(ByteView bytes, std::int64_t limit_texels) {
     const Header header = tga_header(bytes);
-    TRY_VOID(blank_image(header.width, header.height, limit_texels));
+    TRY_VOID(without_value(blank_image(header.width, header.height, limit_texels)));
     const auto plain_bytes = static_cast<std::uint64_t>((header.bits + 7) / 8 * header.width * header.height);
     const bool whole = header.packed
                            ? runs_reach_the_end(bytes, header)
