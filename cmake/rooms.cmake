@@ -13,7 +13,7 @@ if(NOT FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_TSAN) # their own code makes GCC
     list(APPEND warnings -Werror)
 endif()
 target_compile_options(frustumscreen_options INTERFACE ${warnings} -ffp-contract=off
-    -ffunction-sections -fdata-sections # what a program does not use of a room, its link leaves out
+    -ffunction-sections -fdata-sections # the link leaves out what a program does not use, of JSON above all
     -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=) # so that a program's bytes do not tell in which folder it was built
 target_link_options(frustumscreen_options INTERFACE -Wl,--gc-sections)
 if(FRUSTUMSCREEN_ASAN)
@@ -103,8 +103,8 @@ add_custom_target(outside)
 # Those of them that share memory between threads: under the thread sanitizer.
 add_custom_target(threads)
 
-# A test's command begins with ${timed_test} and the test's name.
-set(timed_test ${CMAKE_SOURCE_DIR}/cmake/timed test)
+# A test's command begins with ${run_test} and the test's name.
+set(run_test ${CMAKE_SOURCE_DIR}/tests/house/run_test.sh)
 
 # mold links a test in a third of the time; what ships is linked by the system's own linker.
 find_program(MOLD mold)
@@ -141,7 +141,7 @@ function(frustumscreen_test name)
     frustumscreen_use_precompiled(${name} tests)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
     target_link_options(${name} PRIVATE ${test_linker})
-    add_test(NAME ${name} COMMAND ${timed_test} ${name} $<TARGET_FILE:${name}>)
+    add_test(NAME ${name} COMMAND ${run_test} ${name} $<TARGET_FILE:${name}>)
     # Of the five slots that ./test has on two cores: a test without this, which mostly waits for another program, runs beside two with it.
     set_tests_properties(${name} PROPERTIES PROCESSORS 2)
     if(TEST_LABELS)
