@@ -6,7 +6,7 @@
 # it, and one that lacks a wanted part gets it; neither builds anything twice.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-usage="usage: cmake/build.sh release|debug|asan|tsan|fuzz|odr [--without tests|window|bench]... [TARGET...]
+usage="usage: cmake/build.sh release|debug|asan|tsan|fuzz|coverage|odr [--without tests|window|bench]... [TARGET...]
 
 Configures build/PRESET where needed, and builds it or some of its targets."
 case "${1-}" in
