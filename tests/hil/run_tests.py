@@ -37,7 +37,9 @@ def flat(suite):
 class Verdicts(unittest.TextTestResult):
     """Says how long each test took, and notes it in `took`; after a failure keeps what the machine shows, before the next test begins."""
 
-    took = []  # (seconds, name)
+    def startTestRun(self):
+        super().startTestRun()
+        self.took = []  # (seconds, name)
 
     def startTest(self, test):
         self._begun = time.monotonic()
@@ -114,11 +116,10 @@ def run(tests, bench, keep):
         say("starting the machine")
         start_s = bench.start()
         say(f"it is up after {start_s:.0f} s")
-        Verdicts.took = [(start_s, "the machine's start")]
         begun = time.monotonic()
         result = unittest.TextTestRunner(resultclass=Verdicts, verbosity=2).run(unittest.TestSuite(tests))
         took_s = time.monotonic() - begun
-        for seconds, name in sorted(Verdicts.took, reverse=True)[:SLOWEST]:
+        for seconds, name in sorted([(start_s, "the machine's start"), *result.took], reverse=True)[:SLOWEST]:
             print(f"   {seconds:6.0f} s   {name}")
         say(f"{result.testsRun} tests in {took_s:.0f} s, the slowest above; logs in {bench.out}")
         wrong = [test.id() for test, _ in (*result.failures, *result.errors)]

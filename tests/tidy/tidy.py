@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """clang-tidy over the C++ files; `./test tidy` calls this.
 
-Sources that compile together are analysed together, in a quarter of the time. What was clean is not analysed again while
-its preprocessed text, the checks and clang-tidy are the same; the user's cache folder remembers it for all clones. Exit status 1: something was found.
+Sources that compile together are analysed together. What was clean is not analysed again while its preprocessed text, the checks and
+clang-tidy are the same; the user's cache folder remembers it for all clones. Exit status 1: something was found.
 """
 
 import argparse
@@ -34,7 +34,7 @@ def units(build):
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         file = pathlib.Path(entry["file"])
         if file.parent == build / "together":
-            sources = [ROOT / name for name in re.findall(r'^#include "(.*)"$', file.read_text(encoding="utf-8"), re.MULTILINE)]
+            sources = [(ROOT / name).resolve() for name in re.findall(r'^#include "(.*)"$', file.read_text(encoding="utf-8"), re.MULTILINE)]
         elif build not in file.parents and file.suffix == ".cpp":
             sources = [file]
         else:
