@@ -4,7 +4,7 @@ function(frustumscreen_precompile name header)
     file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${name}.cpp CONTENT "") # keeps its time where it is there
     add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/${name}.cpp)
     target_link_libraries(${name} PRIVATE frustumscreen_options fmt::fmt glm::glm tl::expected ${ARGN})
-    target_precompile_headers(${name} PRIVATE ${CMAKE_SOURCE_DIR}/cmake/${header})
+    target_precompile_headers(${name} PRIVATE <cmake/${header}>) # without this clone's folder, so that ccache finds it in another
 endfunction()
 
 # frustumscreen_use_precompiled(<target> house|tests)

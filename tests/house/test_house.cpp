@@ -74,6 +74,30 @@ std::set<fs::path> linked_from(const fs::path& page) {
     return targets;
 }
 
+/// A path of this clone in a precompiled header would make every file that reads it unknown to ccache in another clone.
+TEST(House, GeneratedSourcesNameNoFolderOfThisClone) {
+    const fs::path build = frustumscreen::build_dir();
+    std::vector<fs::path> files;
+    for (const fs::path& folder : {build / "CMakeFiles", build / "together"}) {
+        if (fs::exists(folder)) {
+            for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+                const std::string name = entry.path().filename();
+                if (name == "cmake_pch.hxx" || entry.path().extension() == ".cpp") {
+                    files.push_back(entry.path());
+                }
+            }
+        }
+    }
+    if (files.empty()) {
+        GTEST_SKIP() << "this build has none";
+    }
+    for (const fs::path& file : files) {
+        for (const std::string& line : lines_of(file)) {
+            EXPECT_EQ(line.find(frustumscreen::source_dir()), std::string::npos) << file << ": " << line;
+        }
+    }
+}
+
 } // namespace
 
 TEST(House, NoFileIsTooLongToRead) {

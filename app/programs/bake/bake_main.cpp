@@ -11,6 +11,7 @@
 #include "app/programs/common/guarded_main.h"
 #include "assets_baked/bake/load_mesh.h"
 #include "assets_baked/folder/new_folder.h"
+#include "firmware_host/base/json.h"
 
 #include <fmt/format.h>
 

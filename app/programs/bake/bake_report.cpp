@@ -3,6 +3,7 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_texts.h"
 #include "assets_baked/bake/box_frame.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/base/words_of_time.h"
 
 #include <fmt/format.h>

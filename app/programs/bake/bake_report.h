@@ -9,7 +9,8 @@
 #include "app/programs/preview/preview_page.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/source_mesh.h"
-#include "firmware_host/base/json.h"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
 #include <string>

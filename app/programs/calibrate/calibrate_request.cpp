@@ -2,6 +2,7 @@
 
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
+#include "firmware_host/base/json.h"
 
 #include <fmt/format.h>
 

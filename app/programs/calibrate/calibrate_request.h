@@ -9,8 +9,9 @@
 #include "app/programs/common/command_line.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
-#include "firmware_host/base/json.h"
 #include "firmware_host/base/result.h"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
 #include <optional>

@@ -5,6 +5,7 @@
 #include "app/programs/calibrate/touch_command.h"
 #include "app/programs/calibrate/uncertainty_picture.h"
 #include "app/programs/common/command_line.h"
+#include "firmware_host/base/json.h"
 
 #include <fmt/format.h>
 

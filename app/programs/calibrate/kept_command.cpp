@@ -5,6 +5,7 @@
 #include "app/settings/kept_calibrations.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/disk_tree.h"
+#include "firmware_host/base/json.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

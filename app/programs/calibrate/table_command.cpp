@@ -13,6 +13,7 @@
 #include "app/programs/common/command_line.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>

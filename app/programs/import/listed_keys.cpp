@@ -2,6 +2,7 @@
 
 #include "app/library/trusted_keys.h"
 #include "firmware_host/base/calendar_day.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>

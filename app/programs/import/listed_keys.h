@@ -5,7 +5,8 @@
 
 #include "app/library/set_file.h"
 #include "app/pack/signature.h"
-#include "firmware_host/base/json.h"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <span>
 #include <string>

@@ -8,6 +8,7 @@
 #include "app/programs/pack/sign_command.h"
 #include "app/programs/pack/verify_command.h"
 #include "app/settings/settings.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/base/output_file.h"
 
 #include <fmt/format.h>

@@ -3,6 +3,7 @@
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
 #include "app/pack/signed_pack.h"
+#include "firmware_host/base/json.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>

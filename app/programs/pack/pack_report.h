@@ -8,7 +8,8 @@
 #include "app/pack/pack_file.h"
 #include "app/pack/signature.h"
 #include "app/settings/settings.h"
-#include "firmware_host/base/json.h"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
 #include <optional>
