@@ -13,16 +13,11 @@ constexpr std::size_t most_report_bytes = 8U << 20U;
 constexpr std::size_t most_reported_packs = 4000;
 constexpr std::size_t most_text_bytes = 1000;
 constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
-/// In the order of ImportStage.
-constexpr std::array<std::string_view, 5> stage_names{"found", "copying", "may_take_out", "done", "failed"};
-/// In the order of ImportOutcome.
-constexpr std::array<std::string_view, 5> outcome_names{"pending", "taken", "already_there", "refused",
-                                                        "removed"};
 
 void report_fields(auto& fields, auto& report) {
     fields.text("import_id", report.import_id);
     fields.text("stick", report.stick);
-    fields.choice("stage", report.stage, stage_names);
+    fields.choice("stage", report.stage, import_stage_names);
     fields.whole("done_bytes", report.done_bytes, no_limit);
     fields.whole("total_bytes", report.total_bytes, no_limit);
     fields.choice("refusal", report.refusal, import_refusal_names);
@@ -31,7 +26,7 @@ void report_fields(auto& fields, auto& report) {
     fields.objects("packs", report.packs, most_reported_packs, [](auto& item, auto& pack) {
         item.text("file", pack.file);
         item.text("title", pack.title);
-        item.choice("outcome", pack.outcome, outcome_names);
+        item.choice("outcome", pack.outcome, import_outcome_names);
         item.choice("refusal", pack.refusal, import_refusal_names);
         item.text("reason", pack.reason);
     });

@@ -23,8 +23,13 @@ enum class ImportStage : std::uint8_t {
     Failed,     ///< the stick as a whole: `refusal` and `reason`
 };
 
+inline constexpr std::array<std::string_view, 5> import_stage_names{"found", "copying", "may_take_out",
+                                                                    "done", "failed"};
+
 /// What became of a pack.
 enum class ImportOutcome : std::uint8_t { Pending, Taken, AlreadyThere, Refused, Removed };
+inline constexpr std::array<std::string_view, 5> import_outcome_names{"pending", "taken", "already_there",
+                                                                      "refused", "removed"};
 
 /// Why a pack or a stick was refused. The exhibit's own words have `stick.refused.NAME` for each.
 enum class ImportRefusal : std::uint8_t {

@@ -33,6 +33,10 @@ struct SeenImport {
     SharedNotice stopped; ///< that nothing comes any more
 };
 using SharedImport = std::shared_ptr<const SeenImport>;
+/// None where nothing was seen.
+[[nodiscard]] inline std::shared_ptr<const ImportReport> report_of(const SharedImport& import) {
+    return import ? std::shared_ptr<const ImportReport>(import, &import->report) : nullptr;
+}
 
 class ImportWatch {
 public:

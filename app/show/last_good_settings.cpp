@@ -2,6 +2,7 @@
 
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/standard_error.h"
+#include "firmware_host/service/watchdog_policy.h"
 
 #include <fmt/format.h>
 
@@ -54,8 +55,8 @@ SettingsKeeper::SettingsKeeper(std::filesystem::path file, std::string text)
     : file_(std::move(file)), text_(std::move(text)) {}
 
 void SettingsKeeper::note(const RunStatus& status) {
-    const MonotonicTime now = status.written_at_monotonic;
-    const bool is_good = status.health == Health::Well && !status.artifact.empty();
+    const MonotonicTime now = status.written.monotonic.value_or(MonotonicTime());
+    const bool is_good = status.health == word_of(Health::Well) && !status.artifact.empty();
     if (!is_good || (since_ && now - latest_ > longest_silence)) {
         since_.reset();
     }

@@ -10,8 +10,8 @@
 #pragma once
 
 #include "app/show/library_files.h"
-#include "app/show/set_status.h"
 #include "app/show/shown_set.h"
+#include "app/status/set_status.h"
 #include "firmware_host/base/heartbeat.h"
 #include "firmware_host/base/latest.h"
 

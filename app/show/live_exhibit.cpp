@@ -2,7 +2,6 @@
 
 #include "app/show/mark_show.h"
 #include "app/status/status_lines.h"
-#include "firmware_host/base/json.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
@@ -19,10 +18,9 @@ namespace {
 
 /// What `frustumscreen status` says, and what only the exhibit itself knows.
 std::vector<std::string> lines_of(const RunStatus& status, const std::string& driver, State before) {
-    const nlohmann::json fields = nlohmann::json::parse(status_json(status));
     std::vector<std::string> lines;
     for (const StatusLine& line :
-         status_lines(fields, 0.0, status.surroundings.get(),
+         status_lines(&status, 0.0, status.surroundings.get(),
                       std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()))) {
         if (line.for_staff) {
             lines.push_back(line.name.empty() ? line.text : fmt::format("{}: {}", line.name, line.text));

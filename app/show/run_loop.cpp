@@ -5,6 +5,7 @@
 #include "app/tracking/live_situation.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,21 @@ std::string_view shown_artifact(const ShowState& state) {
     return state.state != State::Fault ? state.artifact : std::string_view{};
 }
 
+/// Empty: nothing.
+std::string camera_uses(const Inputs& inputs) {
+    std::vector<std::string_view> uses;
+    if (inputs.tags) {
+        uses.emplace_back("the prop's tags");
+    }
+    if (inputs.visitor) {
+        uses.emplace_back("the visitor's eye");
+    }
+    if (inputs.drift) {
+        uses.emplace_back("the picture's place");
+    }
+    return fmt::format("{}", fmt::join(uses, ", "));
+}
+
 double milliseconds_since(MonotonicTime start) {
     return 1e3 * to_seconds(monotonic_now() - start);
 }
@@ -54,6 +70,7 @@ public:
           situation_(settings.eye.default_m, 0.5 * settings.prop.height_m), times_(window_frames),
           presented_(start), artifact_since_(start) {
         result_.status.calibrates = static_cast<bool>(options.calibrate);
+        result_.status.camera_for = camera_uses(inputs);
         samples_.reserve(1024);
         tag_poses_.reserve(64);
         heads_.reserve(64);
@@ -252,27 +269,27 @@ private:
         events_.clear();
         commands_.clear();
         if (inputs_.tracker) {
-            result_.status.bad_samples += inputs_.tracker->poll(now, samples_) ? 0 : 1;
+            result_.status.device_errors += inputs_.tracker->poll(now, samples_) ? 0 : 1;
         }
         if (inputs_.panel) {
-            result_.status.bad_samples += inputs_.panel->poll(now, events_) ? 0 : 1;
+            result_.status.device_errors += inputs_.panel->poll(now, events_) ? 0 : 1;
         }
         for (const PoseSample& sample : samples_) {
             if (head_is_followed_ || sample.station != head_station) {
-                result_.status.bad_samples += situation_.take(sample) ? 0 : 1;
+                result_.status.device_errors += situation_.take(sample) ? 0 : 1;
             }
         }
         if (inputs_.tags) {
             inputs_.tags->poll(now, tag_poses_);
         }
         for (const UncertainPose& pose : tag_poses_) {
-            result_.status.bad_samples += situation_.take_tags(pose) ? 0 : 1;
+            result_.status.device_errors += situation_.take_tags(pose) ? 0 : 1;
         }
         if (inputs_.visitor) {
             inputs_.visitor->poll(now, heads_);
         }
         for (const SeenHead& head : heads_) {
-            result_.status.bad_samples += situation_.take_visitor(head) ? 0 : 1;
+            result_.status.device_errors += situation_.take_visitor(head) ? 0 : 1;
         }
         for (const PanelEvent& event : events_) {
             const std::optional<Command> command = command_of(event);
@@ -333,24 +350,30 @@ private:
             std::chrono::system_clock::now() -
             std::chrono::duration_cast<std::chrono::system_clock::duration>(now - artifact_since_);
         status.surroundings = status_file_.surroundings();
+        if (status.surroundings) {
+            status.versions.system = status.surroundings->system;
+        }
         status.loaded = state.loaded;
         status.loaded_bytes = state.loaded_bytes;
-        status.import = state.import;
+        status.seen_import = state.import;
+        status.import = report_of(state.import);
         status.language = state.language;
         status.technique = state.levels.technique;
         status.level = state.levels.level;
         status.samples = state.levels.samples;
-        status.error = state.levels.error;
+        const std::optional<ErrorEstimate>& error = state.levels.error;
+        status.estimated_error_mm = error ? std::optional(error->mean_mm) : std::nullopt;
+        status.p95_error_mm = error ? std::optional(error->p95_mm) : std::nullopt;
         status.level_switches = state.levels.switches;
         status.ignored_times = state.levels.ignored_times;
-        status.median_ms = times_.quantile(0.5);
-        status.p95_ms = times_.quantile(0.95);
-        status.p99_ms = times_.quantile(0.99);
+        status.frame_ms = {times_.quantile(0.5), times_.quantile(0.95), times_.quantile(0.99)};
         status.uptime_s = to_seconds(now - start_);
-        status.presented.table_from_prop = shown_.table_from_prop;
-        status.presented.eye_m = shown_.eye_m;
+        const auto& [turn, place] = shown_.table_from_prop;
+        status.presented.prop_m = {place.x, place.y, place.z};
+        status.presented.prop_wxyz = {turn.w, turn.x, turn.y, turn.z};
+        status.presented.eye_m = {shown_.eye_m.x, shown_.eye_m.y, shown_.eye_m.z};
         status.shown_code = watch_.shown_code();
-        status.health = watch_.health();
+        status.health = word_of(watch_.health());
         status.tracker_counts = inputs_.tracker ? inputs_.tracker->counts() : TrackerCounts{};
         status.display = Sentence(display_.state());
         status.mode = options_.mode;
@@ -360,7 +383,7 @@ private:
         renew_camera(status);
         status.prop_by = shown_.by_tags ? "tags" : inputs_.tracker ? "tracker" : "";
         status.eye_by = shown_.head_known ? "sensor" : shown_.head_seen ? "camera" : "settings";
-        status.eye_sd_m = shown_.eye_sd_m;
+        status.eye_sd_m = status.eye_by == "camera" ? std::optional(shown_.eye_sd_m) : std::nullopt;
         status.hand_overs = situation_.hand_overs();
         status.panel = Sentence(inputs_.panel ? inputs_.panel->state() : std::string_view{});
         status.sound = Sentence(inputs_.sound ? inputs_.sound->state() : std::string_view{});
@@ -392,7 +415,6 @@ private:
             status.camera_width = set_up ? set_up->mode.width : 0;
             status.camera_height = set_up ? set_up->mode.height : 0;
         }
-        status.camera_for = {inputs_.tags != nullptr, inputs_.visitor != nullptr, inputs_.drift != nullptr};
         if (inputs_.drift) {
             const DriftVerdict& verdict = inputs_.drift->verdict();
             status.drift = sentence_of(verdict);
@@ -417,7 +439,7 @@ private:
         const MonotonicTime clock = monotonic_now();
         if (clock > next) {
             const auto missed = (clock - next) / period_;
-            result_.status.late += static_cast<std::uint64_t>(missed);
+            result_.status.skipped += static_cast<std::uint64_t>(missed);
             next += missed * period_;
         }
         std::this_thread::sleep_until(next);

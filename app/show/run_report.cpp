@@ -1,21 +1,17 @@
 #include "app/show/run_report.h"
 
-#include "app/pack/pack_file.h"
 #include "firmware_host/base/device_thread.h"
 #include "firmware_host/base/file.h"
-#include "firmware_host/base/json.h"
-#include "firmware_host/base/local_time.h"
 #include "firmware_host/base/quantile.h"
 #include "firmware_host/base/standard_error.h"
 #include "firmware_host/base/this_boot.h"
+#include "firmware_host/service/watchdog_policy.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
@@ -24,21 +20,6 @@
 namespace frustumscreen {
 
 namespace {
-
-/// Empty: nothing.
-std::string words_of(const CameraUses& uses) {
-    std::vector<std::string_view> words;
-    if (uses.tags) {
-        words.emplace_back("the prop's tags");
-    }
-    if (uses.visitor) {
-        words.emplace_back("the visitor's eye");
-    }
-    if (uses.drift) {
-        words.emplace_back("the picture's place");
-    }
-    return fmt::format("{}", fmt::join(words, ", "));
-}
 
 /// Quotes a text for CSV where it must be.
 std::string csv_text(std::string_view text) {
@@ -64,81 +45,6 @@ std::string told_name(const ToldText& told) {
         break;
     }
     return "";
-}
-
-double rounded(double value) {
-    return std::round(value * 1000.0) / 1000.0;
-}
-
-/// Null where there is none. A finest level is off by less than a micrometre.
-nlohmann::ordered_json json_of_mm(const std::optional<ErrorEstimate>& error, double ErrorEstimate::*figure) {
-    return error ? nlohmann::ordered_json(std::round((*error).*figure * 1e4) / 1e4)
-                 : nlohmann::ordered_json(nullptr);
-}
-
-nlohmann::ordered_json json_of(std::optional<std::uint8_t> code) {
-    return code ? nlohmann::ordered_json(*code) : nlohmann::ordered_json(nullptr);
-}
-
-nlohmann::ordered_json json_of(const PresentedPicture& picture) {
-    const glm::dvec3& place = picture.table_from_prop.translation;
-    const glm::dquat& turn = picture.table_from_prop.rotation;
-    return {{"code", json_of(picture.code)},
-            {"prop_m", {place.x, place.y, place.z}},
-            {"prop_wxyz", {turn.w, turn.x, turn.y, turn.z}},
-            {"eye_m", {picture.eye_m.x, picture.eye_m.y, picture.eye_m.z}},
-            {"settled", picture.settled}};
-}
-
-nlohmann::ordered_json json_of(const TrackerCounts& counts) {
-    return {{"connections", counts.connections},
-            {"frames", counts.frames},
-            {"lost", counts.lost},
-            {"duplicated", counts.duplicated},
-            {"reordered", counts.reordered},
-            {"strange", counts.strange},
-            {"unusable", counts.unusable},
-            {"broken", counts.broken},
-            {"clock_restarts", counts.clock_restarts},
-            {"clock_drift_ppm", rounded(1e6 * counts.clock_drift)}};
-}
-
-/// In the order of TrialState.
-constexpr std::array<std::string_view, 3> verdict_words{"trying", "good", "bad"};
-
-nlohmann::ordered_json json_of(const SharedSetStatus& status, bool library_hangs) {
-    if (!status) {
-        return nullptr;
-    }
-    nlohmann::ordered_json packs = nlohmann::ordered_json::array();
-    for (const InstalledPack& pack : status->packs) {
-        packs.push_back(
-            {{"file", pack.file}, {"id", pack.id}, {"title", pack.title}, {"serial", pack.serial}});
-    }
-    const SetVerdict& newest = status->newest;
-    return {{"number", status->shown},
-            {"packs", packs},
-            {"newest",
-             {{"number", newest.number},
-              {"verdict", verdict_words.at(static_cast<std::size_t>(newest.state))},
-              {"on_trial", status->on_trial},
-              {"starts", newest.starts},
-              {"reason", newest.reason}}},
-            {"trouble", library_hangs ? std::string(library_hangs_sentence) : status->trouble}};
-}
-
-/// The importer's own report, as its file has it.
-nlohmann::ordered_json json_of(const SharedImport& import) {
-    return import ? nlohmann::ordered_json::parse(write_import_report(import->report), nullptr, false)
-                  : nlohmann::ordered_json(nullptr);
-}
-
-nlohmann::ordered_json json_of(const HoursStatus& hours) {
-    return {{"state", hours.state},
-            {"until", hours.until ? nlohmann::ordered_json(local_time_text(*hours.until))
-                                  : nlohmann::ordered_json(nullptr)},
-            {"why", hours.why.view()},
-            {"clock", hours.clock.view()}};
 }
 
 } // namespace
@@ -180,82 +86,6 @@ double RecentFrameTimes::quantile(double share) {
     return quantile_in(std::span(sorted_).first(count), share);
 }
 
-std::string status_json(const RunStatus& status) {
-    nlohmann::ordered_json left_out = nlohmann::ordered_json::array();
-    if (status.left_out) {
-        for (const PackLeftOut& each : *status.left_out) {
-            left_out.push_back({{"pack", each.pack}, {"reason", each.reason}});
-        }
-    }
-    const nlohmann::ordered_json json = {
-        {"written_at", utc_text(status.written_at)},
-        {"monotonic_ns", status.written_at_monotonic.time_since_epoch().count()},
-        {"boot_id", status.boot_id.view()},
-        {"versions",
-         {{"program", FRUSTUMSCREEN_VERSION},
-          {"pack_format", pack_format_version},
-          {"system", status.surroundings ? status.surroundings->system : std::string()}}},
-        {"health", word_of(status.health)},
-        {"presented", json_of(status.presented)},
-        {"shown_code", json_of(status.shown_code)},
-        {"mode", status.mode},
-        {"settings", status.settings.view()},
-        {"left_out", left_out},
-        {"set", json_of(status.set, status.library_hangs)},
-        {"state", status.state},
-        {"asleep", status.hours.asleep},
-        {"hours", json_of(status.hours)},
-        {"artifact", status.artifact},
-        {"shown_since", utc_text(status.shown_since)},
-        {"shown_for_s", rounded(status.shown_for_s)},
-        {"loaded", {{"artifacts", status.loaded}, {"bytes", status.loaded_bytes}}},
-        {"technique", status.technique},
-        {"level", status.level},
-        {"samples", status.samples},
-        {"language", status.language},
-        {"estimated_error_mm", json_of_mm(status.error, &ErrorEstimate::mean_mm)},
-        {"p95_error_mm", json_of_mm(status.error, &ErrorEstimate::p95_mm)},
-        {"frame_ms",
-         {{"p50", rounded(status.median_ms)},
-          {"p95", rounded(status.p95_ms)},
-          {"p99", rounded(status.p99_ms)}}},
-        {"missed_deadlines", status.missed_deadlines},
-        {"level_switches", status.level_switches},
-        {"ignored_times", status.ignored_times},
-        {"frames", status.frames},
-        {"drawn", status.drawn},
-        {"unchanged", status.unchanged},
-        {"probes", status.probes},
-        {"skipped", status.late},
-        {"device_errors", status.bad_samples},
-        {"display", status.display.view()},
-        {"tracker", status.tracker.view()},
-        {"tracker_hangs", status.tracker_hangs},
-        {"tracker_counts", json_of(status.tracker_counts)},
-        {"camera", status.camera.view()},
-        {"camera_hz", rounded(status.camera_hz)},
-        {"camera_for", words_of(status.camera_for)},
-        {"drift", status.drift.view()},
-        {"drift_mm", status.drift_m ? nlohmann::ordered_json(rounded(1e3 * *status.drift_m))
-                                    : nlohmann::ordered_json(nullptr)},
-        {"drifted", status.drifted},
-        {"prop_by", status.prop_by},
-        {"hand_overs", status.hand_overs},
-        {"panel", status.panel.view()},
-        {"sound", status.sound.view()},
-        {"sound_underruns", status.sound_underruns},
-        {"recording", status.recording.view()},
-        {"import", json_of(status.import)},
-        {"prop_known", status.prop_known},
-        {"head_known", status.head_known},
-        {"eye_by", status.eye_by},
-        {"eye_sd_mm", status.eye_by == "camera" ? nlohmann::ordered_json(rounded(1e3 * status.eye_sd_m))
-                                                : nlohmann::ordered_json()},
-        {"uptime_s", rounded(status.uptime_s)},
-        {"resident_mib", rounded(status.resident_mib)}};
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
 double local_hour() {
     const std::tm local = fmt::localtime(std::time(nullptr));
     return local.tm_hour + local.tm_min / 60.0 + local.tm_sec / 3600.0;
@@ -270,9 +100,7 @@ double resident_mib() {
 }
 
 void stamp(RunStatus& status) {
-    status.written_at = std::chrono::system_clock::now();
-    status.written_at_monotonic = monotonic_now();
-    status.boot_id = Sentence(boot_id());
+    status.written = {std::chrono::system_clock::now(), monotonic_now(), Sentence(boot_id())};
     status.resident_mib = resident_mib();
 }
 
@@ -328,12 +156,15 @@ void StatusFile::work() {
             return;
         }
         RunStatus status = latest_;
-        status.health = hangs_ ? Health::Hangs : status.health;
+        if (hangs_) {
+            status.health = word_of(Health::Hangs);
+        }
         pending_ = false;
         lock.unlock();
         stamp(status);
         renew_surroundings(surroundings, {.status_file = file_}, status_clock());
         status.surroundings = std::make_shared<const Surroundings>(surroundings);
+        status.versions.system = surroundings.system;
         const Result<void> written = renew_file(file_, as_bytes(status_json(status)));
         if (!written && !complained) {
             say_line("frustumscreen", written.error().message);

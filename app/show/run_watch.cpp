@@ -141,7 +141,7 @@ void RunWatch::note(const RunStatus& status) {
         note_state(status.library_hangs ? LogPriority::Warning : LogPriority::Notice, "set", state,
                    format_sentence("set: {}", state));
     }
-    imports_.note(status.import, [this](LogPriority priority, const Sentence& line) {
+    imports_.note(status.seen_import, [this](LogPriority priority, const Sentence& line) {
         note_state(priority, "stick", line.view(), line);
     });
     // What a technician looks for comes first: a long line is cut.

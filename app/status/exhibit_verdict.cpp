@@ -1,7 +1,8 @@
 #include "app/status/exhibit_verdict.h"
 
 #include "app/exhibit/states.h"
-#include "app/status/json_fields.h"
+#include "app/status/describe_status.h"
+#include "app/status/watchdog_status.h"
 #include "app/watch/step.h"
 #include "firmware_host/base/words_of_time.h"
 #include "firmware_host/service/watchdog_policy.h"
@@ -9,20 +10,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 namespace frustumscreen {
 
 namespace {
 
-constexpr std::array healths{Health::Well, Health::NoPicture, Health::FrozenCode, Health::ThreadHangs,
-                             Health::Hangs};
-
 std::string health_sentence(const std::string& word) {
-    const auto* const known =
-        std::find_if(healths.begin(), healths.end(), [&](Health health) { return word_of(health) == word; });
-    return known != healths.end() ? std::string(sentence_of(*known))
-                                  : fmt::format("its health is '{}'", word);
+    const auto* const known = std::find_if(all_healths.begin(), all_healths.end(),
+                                           [&](Health health) { return word_of(health) == word; });
+    return known != all_healths.end() ? std::string(sentence_of(*known))
+                                      : fmt::format("its health is '{}'", word);
 }
 
 /// Why nothing is known of now; empty: the status is of now.
@@ -48,13 +45,12 @@ std::string watchdog_complaint(const StatusDocument& watchdog) {
     if (!watchdog.fresh()) {
         return {};
     }
-    const JsonFields fields(watchdog.fields);
-    if (const JsonFields trouble = fields.at("trouble"); trouble.there()) {
-        return "The exhibit runs, and its watchdog says: " + trouble.text("sentence");
+    const WatchdogStatus status = read_watchdog_status(watchdog.fields);
+    if (status.trouble) {
+        return "The exhibit runs, and its watchdog says: " + status.trouble->sentence;
     }
-    const std::string mode = fields.text("mode");
-    if (!mode.empty() && mode != word_of(Mode::Normal)) {
-        return fmt::format("The exhibit runs, but its watchdog {}", sentence_of_mode(mode));
+    if (!status.mode.empty() && status.mode != word_of(Mode::Normal)) {
+        return fmt::format("The exhibit runs, but its watchdog {}", sentence_of_mode(status.mode));
     }
     return {};
 }
@@ -70,11 +66,11 @@ ExhibitVerdict verdict_of(const KnownExhibit& known) {
     if (std::string why = why_not_running(known.status); !why.empty()) {
         return {false, false, std::move(why)};
     }
-    const JsonFields status(known.status.fields);
-    if (const std::string health = status.text("health"); health != word_of(Health::Well)) {
-        return {true, false, "The exhibit runs, and is not well: " + health_sentence(health)};
+    const StatusReport report = read_status_report(known.status.fields);
+    if (report.health != word_of(Health::Well)) {
+        return {true, false, "The exhibit runs, and is not well: " + health_sentence(report.health)};
     }
-    if (status.text("state") == name_of(State::Fault)) {
+    if (report.state == name_of(State::Fault)) {
         return {true, false, "The exhibit runs, and has no artifact that it can show"};
     }
     if (std::string complaint = watchdog_complaint(known.surroundings.watchdog); !complaint.empty()) {

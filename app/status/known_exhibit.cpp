@@ -1,7 +1,8 @@
 #include "app/status/known_exhibit.h"
 
 #include "app/pack/json_reader.h"
-#include "app/status/json_fields.h"
+#include "app/status/status_fields.h"
+#include "app/status/status_report.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/printable.h"
 #include "firmware_host/base/this_boot.h"
@@ -19,6 +20,15 @@ namespace {
 constexpr std::uintmax_t most_status_bytes = 1U << 20;
 constexpr std::uintmax_t most_ends_bytes = 16U << 20;
 constexpr std::size_t most_depth = 16;
+
+/// The exhibit's and its watchdog's status have it alike.
+StatusStamp read_stamp(const nlohmann::json& document) {
+    StatusReader fields(document);
+    StatusStamp stamp;
+    fields.field("monotonic_ns", stamp.monotonic);
+    fields.field("boot_id", stamp.boot_id);
+    return stamp;
+}
 
 } // namespace
 
@@ -51,12 +61,11 @@ StatusDocument parse_status(std::string_view json, const StatusClock& clock) {
         return document;
     }
     document.fields = std::move(fields);
-    const JsonFields status(document.fields);
-    const std::string boot = status.text("boot_id");
+    const StatusStamp written = read_stamp(document.fields);
+    const std::string_view boot = written.boot_id.view();
     document.other_boot = !boot.empty() && !clock.boot_id.empty() && boot != clock.boot_id;
-    if (const std::optional<double> written_ns = status.number("monotonic_ns");
-        written_ns && !document.other_boot) {
-        const double age_s = 1e-9 * (static_cast<double>(clock.now.time_since_epoch().count()) - *written_ns);
+    if (written.monotonic && !document.other_boot) {
+        const double age_s = to_seconds(clock.now - *written.monotonic);
         if (age_s >= -0.1) { // it may have been written since the clock was read
             document.age_s = std::max(age_s, 0.0);
         }

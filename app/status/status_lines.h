@@ -5,6 +5,7 @@
 #pragma once
 
 #include "app/status/known_exhibit.h"
+#include "app/status/status_report.h"
 
 #include <ctime>
 #include <optional>
@@ -18,8 +19,8 @@ struct StatusLine {
     std::string text;
     bool for_staff = true; ///< the staff's picture has it too
 };
-/// `age_s`: of the status; none: it is not of now. `surroundings`: none: nobody has asked yet. `now`: the wall clock, for times of day alone.
-[[nodiscard]] std::vector<StatusLine> status_lines(const nlohmann::json& status, std::optional<double> age_s,
+/// `status`: none: nothing is known. `age_s`: of the status; none: it is not of now. `surroundings`: none: nobody has asked yet. `now`: the wall clock, for times of day alone.
+[[nodiscard]] std::vector<StatusLine> status_lines(const StatusReport* status, std::optional<double> age_s,
                                                    const Surroundings* surroundings, std::time_t now);
 
 /// One screen of text: the verdict, then the lines.

@@ -45,7 +45,8 @@ Result<Image8> picture() {
     around.watchdog.age_s = 0.0;
     std::vector<std::string> lines;
     constexpr std::time_t now = 1777651200; // a Friday at noon
-    for (const StatusLine& line : status_lines(nlohmann::json::parse(status), 0.0, &around, now)) {
+    const StatusReport report = read_status_report(nlohmann::json::parse(status));
+    for (const StatusLine& line : status_lines(&report, 0.0, &around, now)) {
         if (line.for_staff) {
             lines.push_back(line.name.empty() ? line.text : fmt::format("{}: {}", line.name, line.text));
         }

@@ -187,8 +187,7 @@ TEST_F(RunOutput, AFileThatCannotBeWrittenIsNamed) {
 
 TEST_F(RunOutput, IsReportedInAFewWordsOrAsJson) {
     result.status.frames = 1234;
-    result.status.median_ms = 2.0;
-    result.status.p99_ms = 5.0;
+    result.status.frame_ms = {2.0, 3.0, 5.0};
     const auto reported = [this](const RunRequest& request) {
         ::testing::internal::CaptureStdout();
         report(request, result);

@@ -1,5 +1,6 @@
 #include "app/show/last_good_settings.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/service/watchdog_policy.h"
 #include "tests/base/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -13,8 +14,8 @@ class LastGoodSettings : public WithTemporaryFolder {
 protected:
     static RunStatus at(int second, Health health = Health::Well, std::string_view artifact = "Rings") {
         RunStatus status;
-        status.written_at_monotonic = MonotonicTime(seconds(second));
-        status.health = health;
+        status.written.monotonic = MonotonicTime(seconds(second));
+        status.health = word_of(health);
         status.artifact = artifact;
         return status;
     }

@@ -288,7 +288,7 @@ TEST_F(Notice, WhatWasOverLongBeforeTheExhibitBeganIsNotShown) {
     EXPECT_EQ(picture().texels, without.texels);
     ASSERT_NE(show->state().import, nullptr) << "the status has it all the same";
     RunStatus status;
-    status.import = show->state().import;
+    status.import = report_of(show->state().import);
     EXPECT_EQ(nlohmann::json::parse(status_json(status)).at("import").at("packs")[2].at("title"), "Title 2");
     EXPECT_TRUE(nlohmann::json::parse(status_json(RunStatus())).at("import").is_null());
 }

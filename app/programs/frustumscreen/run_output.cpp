@@ -45,15 +45,16 @@ void report(const RunRequest& request, const LoopResult& result) {
         fmt::print("{}", status_json(status));
         return;
     }
+    const auto [median_ms, p95_ms, p99_ms] = status.frame_ms;
     fmt::print(
         "{} frames in {:.1f} s, {} drawn: median {:.2f} ms, 95th percentile {:.2f} ms, 99th {:.2f} ms; {} "
         "deadlines and {} display times missed, {} changes of level; {:.0f} MiB resident",
-        status.frames, status.uptime_s, status.drawn, status.median_ms, status.p95_ms, status.p99_ms,
-        status.missed_deadlines, status.late, status.level_switches, status.resident_mib);
+        status.frames, *status.uptime_s, status.drawn, *median_ms, *p95_ms, *p99_ms, status.missed_deadlines,
+        status.skipped, status.level_switches, *status.resident_mib);
     if (request.changes > 0) {
         fmt::print("; {} changes of artifact, {:+.1f} MiB since the first tenth, p99/p50 {:.2f}",
-                   request.changes, status.resident_mib - result.first_resident_mib,
-                   status.median_ms > 0.0 ? status.p99_ms / status.median_ms : 0.0);
+                   request.changes, *status.resident_mib - result.first_resident_mib,
+                   *median_ms > 0.0 ? *p99_ms / *median_ms : 0.0);
     }
     fmt::print("\n");
     if (!request.out.empty()) {

@@ -1,4 +1,4 @@
-#include "app/show/set_status.h"
+#include "app/status/set_status.h"
 
 #include <fmt/format.h>
 

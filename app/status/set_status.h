@@ -5,6 +5,7 @@
 
 #include "app/library/installed_set.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -21,6 +22,8 @@ struct SetStatus {
     std::string trouble; ///< a sentence: set.txt or the verdict cannot be read or written; empty: all is well
     [[nodiscard]] bool operator==(const SetStatus&) const = default;
 };
+/// In the order of TrialState.
+inline constexpr std::array<std::string_view, 3> verdict_words{"trying", "good", "bad"};
 using SharedSetStatus = std::shared_ptr<const SetStatus>;
 
 /// Who writes the status cannot say this of itself.

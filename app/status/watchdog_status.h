@@ -1,0 +1,71 @@
+/// What the watchdog says of the exhibit and of itself, as far as others show it. It writes it in programs/watchdog/watchdog_report.cpp.
+///
+/// Threads  values; any.
+#pragma once
+
+#include "app/status/metric.h"
+#include "app/watch/step.h"
+#include "firmware_host/base/json.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+struct WatchdogTrouble {
+    std::string sentence;
+    double since_s = 0.0;
+};
+struct WatchdogFault {
+    std::string at; ///< the wall clock's time
+    double awake_s = 0.0;
+    std::string sentence, step, done, detail;
+    std::optional<bool> helped;
+};
+/// What is missing is empty, 0 or nothing.
+struct WatchdogStatus {
+    std::string mode;
+    std::optional<WatchdogTrouble> trouble;
+    std::optional<std::string> step; ///< that takes effect now: its name
+    std::uint64_t reboots_today = 0;
+    std::vector<std::string> notes;
+    std::vector<WatchdogFault> faults;
+};
+
+inline constexpr std::array all_modes{Mode::Normal, Mode::LastGoodSet, Mode::Plain, Mode::BuiltIn,
+                                      Mode::Safe};
+static_assert(all_modes.size() == mode_count);
+
+void watchdog_fields(auto& fields, auto& status) {
+    fields.word(
+        "mode", status.mode, {}, all_modes, [](Mode mode) { return word_of(mode); },
+        Metric{"watchdog_mode", "1 for what the watchdog lets the exhibit show.", 1.0, "mode"});
+    fields.object_or_null("trouble", status.trouble, {},
+                          Metric{"watchdog_trouble", "1: it sees something wrong."},
+                          [](auto& trouble, auto& value) {
+                              trouble.field("sentence", value.sentence);
+                              trouble.field("since_s", value.since_s);
+                          });
+    fields.object_or_null("step", status.step, {}, Metric{"watchdog_step", "1: it is trying something."},
+                          [](auto& step, auto& name) { step.field("name", name); });
+    fields.field("reboots_today", status.reboots_today, {},
+                 Metric{"watchdog_reboots", "Restarts of the machine today, by the watchdog."});
+    fields.field("notes", status.notes);
+    fields.objects("faults", status.faults, {}, Metric{}, [](auto& item, auto& fault) {
+        item.field("at", fault.at);
+        item.field("awake_s", fault.awake_s);
+        item.field("sentence", fault.sentence);
+        item.field("step", fault.step);
+        item.field("done", fault.done);
+        item.field("detail", fault.detail);
+        item.field("helped", fault.helped);
+    });
+}
+
+/// Of any JSON.
+[[nodiscard]] WatchdogStatus read_watchdog_status(const nlohmann::json& document);
+
+} // namespace frustumscreen
