@@ -67,10 +67,6 @@ struct PixelMap {
     std::vector<glm::dvec2> pixels;
     std::vector<std::uint8_t> known;    ///< 1 where `pixels` is
     std::vector<std::uint8_t> contrast; ///< grey levels of white less black, where known
-
-    [[nodiscard]] std::size_t index(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-    }
 };
 /// Pictures in another number or size than the setup's are the caller's error.
 [[nodiscard]] PixelMap decode(const StripeSetup& setup, const Captures& captures,

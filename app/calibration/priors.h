@@ -15,11 +15,6 @@ struct Priors {
     double k2 = 0.05;
     double print = 2e-3;           ///< of a printed sheet's size: printers, and damp paper
     double sensor_height_m = 5e-4; ///< how well a ruler or a drawing knows it
-
-    [[nodiscard]] Priors wider(double times) const {
-        return {aspect * times, centre_u * times, centre_v * times, k1 * times,
-                k2 * times,     print * times,    sensor_height_m};
-    }
 };
 
 } // namespace frustumscreen

@@ -47,7 +47,6 @@ std::optional<Eigen::Matrix3d> table_from_pixels(const DriftReference& reference
 struct CameraWay {
     Eigen::Matrix3d reference_from_now = Eigen::Matrix3d::Identity(); ///< pixels
     bool known = false;
-    double mean_px = 0.0;
 };
 
 CameraWay camera_way(const std::vector<AnchorTag>& before, const std::vector<AnchorTag>& now) {
@@ -68,7 +67,6 @@ CameraWay camera_way(const std::vector<AnchorTag>& before, const std::vector<Anc
     double misfit = 0.0;
     for (std::size_t k = 0; k < from.size(); ++k) {
         misfit += (mapped(*found, from[k]) - to[k]).norm() / static_cast<double>(from.size());
-        way.mean_px += (from[k] - to[k]).norm() / static_cast<double>(from.size());
     }
     way.known = misfit <= most_anchor_misfit_px; // else somebody moved one of them
     if (way.known) {
@@ -182,7 +180,7 @@ std::optional<DriftMeasure> measure_drift(const DriftReference& reference, const
     if (ways.size() < DriftCheck::least_marks || 2 * ways.size() < known) {
         return std::nullopt;
     }
-    return DriftMeasure{median(lengths), median(ways), ways.size(), camera.known, camera.mean_px};
+    return DriftMeasure{median(lengths), median(ways), ways.size(), camera.known};
 }
 
 void DriftCheck::know(DriftReference reference) {

@@ -30,7 +30,6 @@ struct DriftMeasure {
     glm::dvec2 shift_m{0.0}; ///< median of each coordinate
     std::size_t marks = 0;   ///< that were seen in both
     bool anchored = false;   ///< the camera's own way is taken out
-    double camera_px = 0.0;  ///< its way: of the anchors, on average
 };
 /// Nothing: too few marks.
 [[nodiscard]] std::optional<DriftMeasure> measure_drift(const DriftReference& reference, const MarkSet& set);

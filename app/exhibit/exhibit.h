@@ -161,8 +161,6 @@ public:
     void note_triangles(std::size_t artifact, ArtifactTriangles triangles);
     /// Whether something is being said: then no advice begins to be. `narration`: of the description told.
     void hear(bool speaking, const Narration& narration = {});
-    /// The label of this hotspot is shown while none is told of; nothing, and an index that there is not: no label.
-    void show_hotspot(std::optional<std::size_t> hotspot) { hotspot_ = hotspot; }
     /// Another set of artifacts comes, and can be shown now or not. When it suits who is there, all that belongs to this set fades
     /// out: in State::Attract with the next turn; while something is told, spoken or chosen, after that, or after `longest_wait`,
     /// which begins when the other set is ready for the first time.
@@ -278,7 +276,6 @@ private:
     bool set_is_ready_ = false;
     bool set_left_ = false;
     std::optional<MonotonicTime> set_waits_since_, set_leaves_since_;
-    std::optional<std::size_t> hotspot_;
     const std::vector<glm::dvec2>* placed_ = nullptr; ///< the sizes that `placer_` has
     /// By button: its latest press reached the selection.
     std::array<bool, button_commands.size()> selected_{};

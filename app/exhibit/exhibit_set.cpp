@@ -123,7 +123,6 @@ Catalogue Exhibit::show_set(Catalogue catalogue, std::optional<TableBrowser> tab
     placer_ = CaptionPlacer(place_.picture_m);
     placed_ = nullptr;
     labels_ = HotspotLabels(place_.picture_m);
-    hotspot_.reset();
     selected_.fill(false);
     next_turn_ = now + turn_time;
     set_is_ready_ = set_left_ = waits_ = false;

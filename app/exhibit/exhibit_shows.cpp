@@ -159,8 +159,7 @@ std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& s
     }
     const double advised = presentation.advice ? presentation.advice->brightness : 0.0;
     return labels_.step(
-        now, {&entry.hotspots, shown.artifact,
-              stand.attracts ? std::nullopt : (presentation.tells_of ? presentation.tells_of : hotspot_),
+        now, {&entry.hotspots, shown.artifact, stand.attracts ? std::nullopt : presentation.tells_of,
               caption_for(shown.language, entry.languages),
               shown.caption_brightness * stand.brightness * (1.0 - advised), &place_.prop,
               stand.table_from_prop, situation.eye_m, place_.lens_m, std::span(obstacles).first(count),

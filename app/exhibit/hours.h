@@ -98,7 +98,6 @@ public:
 
     /// All is dark; what was pressed to end it does nothing else.
     [[nodiscard]] bool asleep() const { return wants_dark_ && share_ <= 0.0; }
-    [[nodiscard]] bool falls_asleep() const { return wants_dark_ && share_ > 0.0; }
     /// Of the picture's light, 0..1.
     [[nodiscard]] double light() const;
     /// It is closed, and a button keeps it awake.

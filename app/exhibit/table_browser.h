@@ -68,9 +68,6 @@ public:
     [[nodiscard]] std::span<const TableRectangle> obstacles() const {
         return std::span(obstacles_).first(obstacle_count_);
     }
-    [[nodiscard]] const TableLayout& layout(int quarter_turns) const {
-        return layouts_[static_cast<std::size_t>(quarter_turns)];
-    }
 
 private:
     /// A side and a page of it, as one number for the fade.

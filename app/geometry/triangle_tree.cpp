@@ -151,8 +151,4 @@ bool TriangleTree::meets(const glm::dvec3& from, const glm::dvec3& to) const {
     return false;
 }
 
-double TriangleTree::diagonal() const {
-    return nodes_.empty() ? 0.0 : glm::distance(glm::dvec3(nodes_[0].low), glm::dvec3(nodes_[0].high));
-}
-
 } // namespace frustumscreen

@@ -24,7 +24,6 @@ public:
 
     /// True if a triangle meets the segment between its ends.
     [[nodiscard]] bool meets(const glm::dvec3& from, const glm::dvec3& to) const;
-    [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
     /// Of main memory, but for those of the tree itself.
     [[nodiscard]] std::uint64_t bytes() const {
         return triangles_.capacity() * sizeof(Triangle) + nodes_.capacity() * sizeof(Node);
@@ -33,8 +32,6 @@ public:
     [[nodiscard]] static constexpr std::uint64_t most_bytes(std::uint64_t triangles) {
         return triangles * (sizeof(Triangle) + sizeof(Node));
     }
-    /// Of the box around all triangles.
-    [[nodiscard]] double diagonal() const;
 
 private:
     struct Triangle {

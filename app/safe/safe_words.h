@@ -54,7 +54,7 @@ struct BakedLetter {
 struct SafeWords {
     int texels_per_em = 0;
     int spread_texels = 0; ///< 128 codes
-    int atlas_width = 0, atlas_height = 0;
+    int atlas_width = 0;
     std::int32_t ascent = 0;              ///< of a line of letters, from its top to its baseline
     std::int32_t pitch = 0;               ///< from line to line
     std::span<const unsigned char> atlas; ///< row by row from the top

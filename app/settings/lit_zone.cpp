@@ -312,11 +312,6 @@ LitZone lit_zone(const Settings& settings) {
     return zone;
 }
 
-bool every_seen_face_is_lit_at_any_yaw(const Settings& settings, const glm::dvec2& place,
-                                       const glm::dvec3& eye) {
-    return lit_at_any_yaw(Scene(settings), place, eye);
-}
-
 bool every_seen_face_is_lit(const Settings& settings, const RigidTransform& table_from_prop,
                             const glm::dvec3& eye) {
     const PropShape prop = make_prop(settings.prop);

@@ -45,9 +45,6 @@ struct LitZone {
 /// Tests one pose, upright or not.
 [[nodiscard]] bool every_seen_face_is_lit(const Settings& settings, const RigidTransform& table_from_prop,
                                           const glm::dvec3& eye);
-/// Tests the prop standing upright at `place`, at every yaw.
-[[nodiscard]] bool every_seen_face_is_lit_at_any_yaw(const Settings& settings, const glm::dvec2& place,
-                                                     const glm::dvec3& eye);
 
 /// The part of the table, lifted to height `z`, that the picture covers, with `circle_m` around each of its points.
 /// Convex.

@@ -164,11 +164,6 @@ std::uint64_t RunLevels::bytes() const {
     return bytes + 2 * sizeof(std::uint32_t) * most_indices;
 }
 
-bool RunLevels::fades() const {
-    return std::any_of(rungs_.begin(), rungs_.end(),
-                       [&](const Rung& rung) { return !rung.shows_as(rungs_.front()); });
-}
-
 std::size_t RunLevels::slot_of(const Rung& rung) const {
     return static_cast<std::size_t>(
         std::find_if(levels_.begin(), levels_.end(), [&](const Level& l) { return l.shows.shows_as(rung); }) -

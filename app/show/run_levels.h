@@ -91,8 +91,6 @@ public:
     /// Takes all levels that it was given out of the store; nothing can be drawn any more.
     void release(GpuStore& store);
 
-    /// Whether it may change from one level to another.
-    [[nodiscard]] bool fades() const;
     [[nodiscard]] const std::vector<LevelUse>& uses() const { return uses_; }
     [[nodiscard]] const std::vector<LeftOut>& left_out() const { return left_out_; }
     /// What a renderer for it must be able to do.

@@ -16,7 +16,6 @@ bool SetSwitch::step(MonotonicTime now, State state, Exhibit& exhibit) {
         // The one that the exhibit had goes where it is destroyed, as the set does.
         leaving_->catalogue =
             exhibit.show_set(artifacts_.catalogue(), std::move(browser), artifacts_.words(), first, now);
-        ++switches_;
         return true;
     }
     take_the_new(exhibit);

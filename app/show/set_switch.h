@@ -37,8 +37,6 @@ public:
     [[nodiscard]] const SharedSetStatus& status() const { return status_; }
     /// At the latest step the library's thread was overdue. That is no reason to end a picture that is well.
     [[nodiscard]] bool library_hangs() const { return library_hangs_; }
-    /// How many sets took another one's place.
-    [[nodiscard]] std::uint64_t switches() const { return switches_; }
 
 private:
     /// Of words and small pictures in a frame: a picture for the table or some titles. Their mip levels are made at upload, which
@@ -57,7 +55,6 @@ private:
     std::unique_ptr<ShownSet> coming_, leaving_;
     SharedSetStatus status_;
     bool library_hangs_ = false;
-    std::uint64_t switches_ = 0;
 };
 
 } // namespace frustumscreen

@@ -23,8 +23,7 @@ constexpr double faded_at_m = 2.0; ///< to half
 struct Place {
     glm::dvec3 point_m{0.0}; ///< table frame
     glm::dvec3 normal{0.0};  ///< table frame
-    bool on_prop = false;
-    bool lit = false; ///< in sight of the projector's lens
+    bool lit = false;        ///< in sight of the projector's lens
     double albedo = table_albedo;
     double room_share = 1.0; ///< of the room's light, that arrives
 };
@@ -79,14 +78,14 @@ public:
             const auto bound = static_cast<std::size_t>(hit.face);
             const Plane& plane = scene_.prop.bounds[bound];
             return Place{scene_.eye_m + hit.t * direction, scene_.table_from_prop.direction(plane.normal),
-                         true, bound < scene_.prop.faces.size() && plane.distance(lens_in_prop_) > 0.0,
+                         bound < scene_.prop.faces.size() && plane.distance(lens_in_prop_) > 0.0,
                          prop_albedo};
         }
         const double t = direction.z < 0.0 ? -scene_.eye_m.z / direction.z : -1.0;
         const glm::dvec3 point = scene_.eye_m + t * direction;
         if (block.block != nullptr && (t <= 0.0 || block.t < t || !on_table(point))) {
             const glm::dvec3 meets = scene_.eye_m + block.t * direction;
-            return Place{meets, block.normal, false, false, block.block->albedo, fading(meets)};
+            return Place{meets, block.normal, false, block.block->albedo, fading(meets)};
         }
         if (t <= 0.0 || !on_table(point)) {
             return std::nullopt;
@@ -95,7 +94,7 @@ public:
         const bool shadowed =
             enter(scene_.prop, lens_in_prop_, prop_from_table_.point(point) - lens_in_prop_, shade) &&
             shade.t < 1.0;
-        return Place{point, glm::dvec3(0, 0, 1), false, !shadowed, table_albedo, contact_shadow(point)};
+        return Place{point, glm::dvec3(0, 0, 1), !shadowed, table_albedo, contact_shadow(point)};
     }
 
     /// Linear light that a place sends to the eye.
@@ -221,27 +220,6 @@ Image8 visitor_view(const VisitorScene& scene, const Image8& projected, const Vi
         }
     });
     return view;
-}
-
-double projector_pixels_covered(const VisitorScene& scene, const VisitorCamera& camera,
-                                const glm::dvec2& pixel) {
-    const Image8 none;
-    const Room room(scene, none, {});
-    const glm::dvec3 ray = camera.pinhole.ray(pixel);
-    const std::optional<Place> place = room.first_place(camera.table_from_camera.direction(ray));
-    if (!place || !place->on_prop || !place->lit) {
-        return 0.0;
-    }
-    // A pixel of a pinhole covers Z^3 / (fx fy |n . p|) of a plane at the point p = (X, Y, Z), and less where its lens
-    // makes the picture larger.
-    const auto density = [](const Pinhole& pinhole, const glm::dvec3& p, const glm::dvec3& normal) {
-        const double bent = pinhole.lens.area_factor((p.x * p.x + p.y * p.y) / (p.z * p.z));
-        return pinhole.fx * pinhole.fy * bent * std::abs(glm::dot(normal, p)) / (p.z * p.z * p.z);
-    };
-    const glm::dvec3 seen = camera.table_from_camera.inverse().point(place->point_m);
-    const glm::dvec3 lit = room.in_projector(place->point_m);
-    return density(scene.projector, lit, scene.table_from_projector.inverse().direction(place->normal)) /
-           density(camera.pinhole, seen, camera.table_from_camera.inverse().direction(place->normal));
 }
 
 std::string visitor_cameras_json(std::span<const VisitorFrame> frames) {

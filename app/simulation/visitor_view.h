@@ -76,12 +76,6 @@ struct VisitorViewOptions {
 [[nodiscard]] Image8 visitor_view(const VisitorScene& scene, const Image8& projected,
                                   const VisitorCamera& camera, const VisitorViewOptions& options = {});
 
-/// How many projector pixels one visitor's pixel covers, by area, at the surface point that the visitor sees
-/// through `pixel`; 0 if that is not a lit face of the prop. Where this is >= 1, the visitor's pixel is no
-/// finer than the projector's.
-[[nodiscard]] double projector_pixels_covered(const VisitorScene& scene, const VisitorCamera& camera,
-                                              const glm::dvec2& pixel);
-
 /// One picture's camera for the file beside the pictures.
 struct VisitorFrame {
     int frame = 0;

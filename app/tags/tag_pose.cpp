@@ -251,7 +251,7 @@ double set_moments(SeenTags& tags, const Pinhole& camera, double readout_s) {
 /// The spread of the best fit, with what a second one adds.
 TagPose with_spread(const BestFits& fits, const SeenTags& tags, double variance) {
     const double corners = 4.0 * static_cast<double>(tags.size());
-    TagPose pose{fits.best.pose, infinite, infinite, std::sqrt(fits.best.cost / corners), tags.size()};
+    TagPose pose{fits.best.pose, infinite, infinite, tags.size()};
     const Eigen::LLT<Matrix> factor(fits.best.normal);
     if (factor.info() != Eigen::Success) {
         return pose;

@@ -28,7 +28,6 @@ struct TagPose {
     RigidTransform camera_from_prop;
     double place_sd_m = 0.0;  ///< RMS distance of the prop's origin from the true one
     double turn_sd_rad = 0.0; ///< RMS angle from the true turn
-    double residual_px = 0.0; ///< RMS distance of the corners from where they should be
     std::size_t tags = 0;     ///< used
     double moment_s =
         0.0; ///< at which it is the prop's, after the frame's first row: that of the row amid the corners

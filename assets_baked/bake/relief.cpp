@@ -154,12 +154,8 @@ std::optional<BakedRelief> bake_relief(const SourceScene& source, const Triangle
     const SourceMesh visible_mesh = as_source(visible);
     const std::vector<glm::dvec3> visible_points(visible.positions.begin(), visible.positions.end());
     const SourceScene visible_scene(visible_mesh, visible_points);
-    LayerInput input{source,
-                     visible,
-                     visible_scene,
-                     glm::vec3(box_size),
-                     1.0F / static_cast<float>(texels_along_longest_edge),
-                     {}};
+    LayerInput input{
+        source, visible_scene, glm::vec3(box_size), 1.0F / static_cast<float>(texels_along_longest_edge), {}};
     for (const ReliefDirection direction : directions) {
         input.normals.push_back(frame_of(direction).normal());
     }

@@ -44,7 +44,6 @@ struct DirectionLayers {
 /// What all directions share.
 struct LayerInput {
     const SourceScene& source;
-    const TriangleMesh& visible;
     const SourceScene& visible_scene;
     glm::vec3 box_size;
     float texel_box;

@@ -213,10 +213,10 @@ Result<std::string> WordsBaker::as_cpp(const std::vector<LanguageToBake>& langua
     fmt::format_to(
         Out(cpp),
         "constexpr BakedLanguage languages[]{{\n{}}};\n"
-        "constexpr SafeWords words{{{}, {}, {}, {}, {}, {}, {{atlas, sizeof atlas - 1}}, boxes, languages, "
+        "constexpr SafeWords words{{{}, {}, {}, {}, {}, {{atlas, sizeof atlas - 1}}, boxes, languages, "
         "letters}};\n}} // namespace\n\n"
         "const SafeWords& safe_words() {{\n    return words;\n}}\n\n}} // namespace frustumscreen\n",
-        list, runs.texels_per_em, runs.spread_texels, runs.atlas_width, runs.atlas_height, ascent_, pitch_);
+        list, runs.texels_per_em, runs.spread_texels, runs.atlas_width, ascent_, pitch_);
     return cpp;
 }
 

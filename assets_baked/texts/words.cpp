@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
 
 namespace frustumscreen {
@@ -23,11 +24,10 @@ constexpr std::uintmax_t most_file_bytes = std::uintmax_t{1} << 20;
 constexpr std::size_t most_word_bytes = 1000;
 constexpr std::size_t most_named_keys = 5; ///< in one sentence
 
+/// In the order of the files. `name` is the language's own name.
 constexpr auto keys = std::to_array<std::string_view>({
     "name",
     "attract_line",
-    "choose_by_sliding",
-    "help",
     "advice.slide_left",
     "advice.slide_left_a_little",
     "advice.slide_right",
@@ -37,7 +37,6 @@ constexpr auto keys = std::to_array<std::string_view>({
     "advice.slide_farther",
     "advice.slide_farther_a_little",
     "advice.slide_back_to_light",
-    "advice.slide_back_to_light_a_little",
     "advice.turn_counter_clockwise",
     "advice.turn_counter_clockwise_a_little",
     "advice.turn_clockwise",
@@ -53,7 +52,6 @@ constexpr auto keys = std::to_array<std::string_view>({
     "advice.wait_tracker",
     "advice.away_from_metal",
     "advice.show_your_head",
-    "advice.done_well",
     "stick.found",
     "stick.copying",
     "stick.take_out",
@@ -71,10 +69,7 @@ constexpr auto keys = std::to_array<std::string_view>({
     "stick.refused.unreadable",
     "stick.refused.unwritable",
     "stick.refused.too_much",
-    "fault.no_projector",
     "fault.no_artifact",
-    "fault.no_tracker",
-    "fault.repairing",
     "calibration.begin",
     "calibration.lay",
     "calibration.on_boards",
@@ -134,6 +129,21 @@ constexpr auto keys = std::to_array<std::string_view>({
     "calibration.eyes.kept",
     "calibration.eyes.unchanged",
 });
+/// A museum's file that was written for an earlier version may have these.
+constexpr auto past_keys = std::to_array<std::string_view>({
+    "choose_by_sliding",
+    "help",
+    "advice.slide_back_to_light_a_little",
+    "advice.done_well",
+    "fault.no_projector",
+    "fault.no_tracker",
+    "fault.repairing",
+});
+
+bool is_key(std::string_view name) {
+    return std::find(keys.begin(), keys.end(), name) != keys.end() ||
+           std::find(past_keys.begin(), past_keys.end(), name) != past_keys.end();
+}
 
 std::string_view nearest_key(std::string_view found) {
     const std::string_view part = found.substr(0, most_word_bytes);
@@ -165,7 +175,7 @@ public:
 private:
     void read_word(const std::string& name, const toml::node& node) {
         const std::string shown = printable(name, 60);
-        if (std::find(keys.begin(), keys.end(), name) == keys.end()) {
+        if (!is_key(name)) {
             refuse(node,
                    fmt::format("there is no word '{}'; the nearest one is {}", shown, nearest_key(name)));
             return;
@@ -239,14 +249,18 @@ CollectedWords collect(const std::string& language, const WrittenWords& own, con
             language, fmt::join(missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(named), ", "),
             more, house, language));
     }
+    std::vector<std::string_view> past;
+    std::copy_if(past_keys.begin(), past_keys.end(), std::back_inserter(past),
+                 [&](std::string_view key) { return own.find(key) != own.end(); });
+    if (!past.empty()) {
+        collected.notes.push_back(fmt::format(
+            "the language '{}' has a text for {}, which is no longer shown: delete it from {}.toml", language,
+            fmt::join(past, ", "), language));
+    }
     return collected;
 }
 
 } // namespace
-
-std::span<const std::string_view> word_keys() {
-    return keys;
-}
 
 std::vector<std::string> builtin_word_languages() {
     std::vector<std::string> languages;

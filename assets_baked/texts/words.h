@@ -1,7 +1,8 @@
 /// The exhibit's own words as a museum writes them: a folder with one file LANGUAGE.toml for each language.
 ///
-/// A file has the keys of `word_keys`, those with a dot in tables: `[advice]` with `slide_left = "..."`. A key that is left out
-/// falls back. A museum's folder may hold a few lines only; the rest are the built-in words.
+/// A file has the keys of words/en.toml, those with a dot in tables: `[advice]` with `slide_left = "..."`. A key that is left out
+/// falls back; one that only an earlier version knew is read, and not shown. A museum's folder may hold a few lines only; the rest
+/// are the built-in words.
 ///
 /// Errors   one sentence: file, line, key, what is wrong, what is allowed.
 /// Threads  pure; any.
@@ -19,9 +20,6 @@
 
 namespace frustumscreen {
 
-/// In the order of the files. `name` is the language's own name.
-[[nodiscard]] std::span<const std::string_view> word_keys();
-
 /// Text by key; what a file leaves out is not there.
 using WrittenWords = std::map<std::string, std::string, std::less<>>;
 
@@ -36,8 +34,8 @@ struct Word {
 
 struct CollectedWords {
     std::string language;
-    std::vector<Word> words;        ///< one for each key
-    std::vector<std::string> notes; ///< which lines were missing, a sentence
+    std::vector<Word> words;        ///< one for each key, in the order of words/en.toml
+    std::vector<std::string> notes; ///< which lines were missing, which are no longer shown; a sentence each
 };
 
 /// One for each of `languages` (BCP 47), of which the first is the house's. A line is looked for in the language's file in

@@ -15,9 +15,6 @@ float ease(std::uint32_t k, std::uint32_t n) {
     const float x = std::min(static_cast<float>(k) / static_cast<float>(n), 1.0F);
     return x * x * (3.0F - 2.0F * x);
 }
-float ease(float x) {
-    return x * x * (3.0F - 2.0F * x);
-}
 
 std::uint32_t length_of(const Prompt& prompt) {
     return static_cast<std::uint32_t>(prompt.samples.size());
@@ -73,26 +70,18 @@ void Mixer::follow(const SoundWish& wish) {
         leaving_ = true;
     }
     leaving_ = leaving_ && spoken_.prompt != nullptr;
-    next_ambience_ = wish.ambience_;
-    ambience_goal_ = amplitude_of(wish.ambience_gain_db_);
     gain_goal_ = amplitude_of(wish.gain_db_);
     if (!begun_) {
         gain_ = Ramp(gain_goal_, gain_samples);
-        ambience_gain_ = Ramp(ambience_goal_, gain_samples);
     }
     wish_ = wish;
     wish_.prompt_.reset();
-    wish_.ambience_.reset();
 }
 
 void Mixer::mix(std::span<std::int16_t> samples) {
     begun_ = true;
     for (std::int16_t& sample : samples) {
-        const float speech = next_of_speech();
-        const bool ducks = spoken_.prompt || waiting_.prompt || since_speech_ < unduck_after_samples;
-        const float duck = 1.0F + (ducked - 1.0F) * ease(duck_.next(ducks ? 1.0F : 0.0F));
-        const float ambience = next_of_ambience() * duck;
-        sample = code_of(soft_limit(gain_.next(gain_goal_) * (speech + ambience)));
+        sample = code_of(soft_limit(gain_.next(gain_goal_) * next_of_speech()));
     }
 }
 
@@ -121,12 +110,10 @@ void Mixer::end_speech() {
     leaving_ = false;
     fade_left_ = 0;
     breath_ = std::exchange(next_breath_, breath_samples);
-    since_speech_ = 0;
 }
 
 float Mixer::next_of_speech() {
     if (!spoken_.prompt) {
-        since_speech_ = std::min(since_speech_ + 1, unduck_after_samples);
         if (breath_ > 0) {
             --breath_;
             return 0.0F;
@@ -158,30 +145,6 @@ float Mixer::next_of_speech() {
         end_speech();
     }
     return sample;
-}
-
-float Mixer::next_of_ambience() {
-    const bool stays = ambience_ && ambience_ == next_ambience_;
-    const float fade = ease(ambience_fade_.next(stays ? 1.0F : 0.0F));
-    if (ambience_ != next_ambience_ && ambience_fade_.value() <= 0.0F) {
-        ambience_ = next_ambience_ && !next_ambience_->samples.empty() ? next_ambience_ : nullptr;
-        ambience_at_ = 0;
-    }
-    const float gain = ambience_gain_.next(ambience_goal_);
-    if (!ambience_) {
-        return 0.0F;
-    }
-    const std::uint32_t length = length_of(*ambience_);
-    const std::uint32_t overlap = std::min(loop_overlap_samples, length / 2);
-    float sample = sample_of(*ambience_, ambience_at_);
-    if (const std::uint32_t left = length - ambience_at_; left <= overlap) {
-        const float share = ease(left, overlap + 1);
-        sample = sample * share + sample_of(*ambience_, overlap - left) * (1.0F - share);
-    }
-    if (++ambience_at_ == length) {
-        ambience_at_ = overlap;
-    }
-    return sample * fade * gain;
 }
 
 } // namespace frustumscreen

@@ -1,10 +1,10 @@
-/// Mixes what is wished into samples: one prompt, and an ambience that is softer while it is spoken.
+/// Makes samples of what is wished: one prompt after the other, at the volume that is wished.
 ///
 /// Units    samples of 1/48,000 s, mono, 16-bit. How they are asked for in blocks changes none of them.
 /// Clicks   whatever begins, ends or changes does so by a smooth step x^2 (3 - 2 x), or a straight ramp of the
 ///          volume: between two samples no fade moves by more than 1.5 / its length.
-/// Loudness the sum of the voices stays as it is up to `linear_up_to`, and bends smoothly below full scale
-///          from there on. A prompt of -2 dBTP (the bake's) and 0 dB comes out bit by bit as it was.
+/// Loudness what comes out stays as it is up to `linear_up_to`, and bends smoothly below full scale from there
+///          on. A prompt of -2 dBTP (the bake's) and 0 dB comes out bit by bit as it was.
 /// Threads  a value; one caller. Allocates nothing.
 #pragma once
 
@@ -22,7 +22,6 @@ public:
     constexpr Ramp(float value, std::uint32_t samples_from_0_to_1)
         : value_(value), step_(1.0F / static_cast<float>(samples_from_0_to_1)) {}
     float next(float goal);
-    [[nodiscard]] float value() const { return value_; }
 
 private:
     float value_;
@@ -34,11 +33,6 @@ public:
     static constexpr std::uint32_t fade_samples = sample_rate_hz / 200; ///< 5 ms: begin and end of a prompt
     /// A breath between a prompt that ended, or was left, and the next.
     static constexpr std::uint32_t breath_samples = sample_rate_hz * 60 / 1000;
-    static constexpr std::uint32_t duck_samples = sample_rate_hz / 4; ///< down and up again
-    static constexpr std::uint32_t unduck_after_samples = sample_rate_hz / 2;
-    static constexpr float ducked = 0.18F; ///< the ambience under a prompt: -15 dB
-    static constexpr std::uint32_t ambience_fade_samples = sample_rate_hz;
-    static constexpr std::uint32_t loop_overlap_samples = sample_rate_hz / 20; ///< its end over its beginning
     static constexpr std::uint32_t gain_samples = sample_rate_hz / 2; ///< for the volume to go from 0 to 1
     static constexpr float linear_up_to = 0.8F;
 
@@ -57,10 +51,9 @@ private:
     [[nodiscard]] float next_of_speech();
     void end_speech();
     [[nodiscard]] bool may_leave_here();
-    [[nodiscard]] float next_of_ambience();
 
     bool begun_ = false; ///< before, the volume is simply set
-    SoundWish wish_;     ///< without its prompts, which the voices hold
+    SoundWish wish_;     ///< without its prompt
     Numbered spoken_;
     Numbered waiting_;
     std::uint32_t position_ = 0;                 ///< the next sample of `spoken_`
@@ -69,16 +62,7 @@ private:
     std::uint32_t fade_left_ = 0;                ///< samples until its early end; 0: it is not ending early
     std::uint32_t breath_ = 0;                   ///< samples until the next prompt may begin
     std::uint32_t next_breath_ = breath_samples; ///< after the one that is spoken; none where it was stopped
-    std::uint32_t since_speech_ = unduck_after_samples; ///< samples, no further than that
-
-    SharedPrompt ambience_;      ///< what is heard
-    SharedPrompt next_ambience_; ///< what is to be heard
-    std::uint32_t ambience_at_ = 0;
-    float ambience_goal_ = 1.0F;
     float gain_goal_ = 1.0F;
-    Ramp ambience_fade_{0.0F, ambience_fade_samples};
-    Ramp ambience_gain_{1.0F, gain_samples};
-    Ramp duck_{0.0F, duck_samples};
     Ramp gain_{1.0F, gain_samples};
 };
 

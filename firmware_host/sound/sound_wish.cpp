@@ -21,9 +21,4 @@ void SoundWish::stop() {
     ++stops_;
 }
 
-void SoundWish::play_ambience(SharedPrompt loop, double gain_db) {
-    ambience_ = std::move(loop);
-    ambience_gain_db_ = gain_db;
-}
-
 } // namespace frustumscreen

@@ -18,8 +18,6 @@ public:
     void leave();
     /// What is spoken fades within milliseconds, wherever it is, and what waits is forgotten.
     void stop();
-    /// Plays `loop` for ever, under the prompts; none: silence. It changes by a fade of a second.
-    void play_ambience(SharedPrompt loop, double gain_db);
     /// The volume of everything.
     void set_gain_db(double gain_db) { gain_db_ = gain_db; }
 
@@ -32,8 +30,6 @@ private:
     std::uint64_t leaves_ = 0; ///< the same
     std::uint64_t number_ = 0; ///< of the latest prompt
     SharedPrompt prompt_;      ///< the latest, or none if it was left or stopped since
-    SharedPrompt ambience_;
-    double ambience_gain_db_ = 0.0;
     double gain_db_ = 0.0;
 };
 

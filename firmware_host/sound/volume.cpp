@@ -1,7 +1,5 @@
 #include "firmware_host/sound/volume.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -11,48 +9,13 @@ namespace {
 
 constexpr double hours_a_day = 24.0;
 
-bool allowed(double gain_db) {
-    return gain_db >= Volume::least_db && gain_db <= Volume::most_db; // false for what is no number
-}
-
 /// Hours from `from` forward to `to`, around midnight if need be.
 double hours_between(double from, double to) {
     const double hours = std::fmod(to - from, hours_a_day);
     return hours < 0.0 ? hours + hours_a_day : hours;
 }
 
-tl::unexpected<Error> wrong(std::string message) {
-    return fail(ErrorKind::BadConfiguration, std::move(message));
-}
-
 } // namespace
-
-Result<void> check_volume(const Volume& volume) {
-    if (!allowed(volume.gain_db)) {
-        return wrong(fmt::format("the volume is {} dB; allowed are {} to {} dB", volume.gain_db,
-                                 Volume::least_db, Volume::most_db));
-    }
-    double last = -1.0;
-    for (const VolumeHour& row : volume.hours) {
-        if (!(row.from_h >= 0.0 && row.from_h < hours_a_day)) {
-            return wrong(fmt::format("the volume's hour {} is none of a day; allowed are 0 to below 24, 19.5 "
-                                     "is half past seven in the evening",
-                                     row.from_h));
-        }
-        if (row.from_h <= last) {
-            return wrong(
-                fmt::format("the volume's hour {} comes after {}; write the hours in ascending order, "
-                            "each once",
-                            row.from_h, last));
-        }
-        if (!allowed(row.gain_db)) {
-            return wrong(fmt::format("the volume from {} h on is {} dB; allowed are {} to {} dB", row.from_h,
-                                     row.gain_db, Volume::least_db, Volume::most_db));
-        }
-        last = row.from_h;
-    }
-    return {};
-}
 
 double gain_db_at(const Volume& volume, double hour_of_day) {
     const std::vector<VolumeHour>& rows = volume.hours;

@@ -4,8 +4,6 @@
 /// Threads  pure; any.
 #pragma once
 
-#include "firmware_host/base/result.h"
-
 #include <vector>
 
 namespace frustumscreen {
@@ -18,18 +16,13 @@ struct VolumeHour {
 struct Volume {
     /// A change of the hour is a slow ramp from that hour on: nobody hears it happen.
     static constexpr double ramp_h = 0.25;
-    static constexpr double least_db = -60.0;
-    static constexpr double most_db = 12.0;
 
     double gain_db = 0.0;
     std::vector<VolumeHour>
         hours; ///< ascending; the last row holds over midnight until the first. None: always 0 dB
 };
 
-/// Errors: a gain that is out of range, or hours that are no hours of a day or do not ascend.
-[[nodiscard]] Result<void> check_volume(const Volume& volume);
-
-/// Continuous in time, over midnight too. `volume` was checked.
+/// Continuous in time, over midnight too.
 [[nodiscard]] double gain_db_at(const Volume& volume, double hour_of_day);
 
 } // namespace frustumscreen

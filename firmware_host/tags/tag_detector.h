@@ -37,8 +37,6 @@ struct TagDetectorOptions {
 
 class TagDetector {
 public:
-    static constexpr int ids = 587; ///< of the family, from 0
-
     explicit TagDetector(const TagDetectorOptions& options = {});
     ~TagDetector();
     TagDetector(const TagDetector&) = delete;

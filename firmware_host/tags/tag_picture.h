@@ -16,7 +16,7 @@ inline constexpr std::size_t black_modules = 8;
 
 /// [row][column], row 0 at the top; true: white.
 using TagModules = std::array<std::array<bool, tag_modules>, tag_modules>;
-/// `id`: 0 to TagDetector::ids - 1.
+/// `id`: 0 to 586.
 [[nodiscard]] TagModules tag_modules_of(int id);
 
 } // namespace frustumscreen

@@ -104,12 +104,4 @@ enum class UsbTrackerState {
            state == UsbTrackerState::Silent || state == UsbTrackerState::DeviceFault;
 }
 
-/// Poses come in, good or less good.
-[[nodiscard]] constexpr bool is_streaming(UsbTrackerState state) {
-    return state == UsbTrackerState::Streaming || state == UsbTrackerState::FilterStaysOn ||
-           state == UsbTrackerState::SetUpDoubtful || state == UsbTrackerState::SensorMissing ||
-           state == UsbTrackerState::PosesUnusable || state == UsbTrackerState::PosesLate ||
-           state == UsbTrackerState::MetalNear;
-}
-
 } // namespace frustumscreen

@@ -1,5 +1,5 @@
 #include "app/bench/setup/advice_report.h"
-#include "app/settings/lit_zone.h"
+#include "tests/settings/lit_at_each_yaw.h"
 
 #include <gtest/gtest.h>
 
@@ -100,8 +100,8 @@ TEST(Advice, WhatWorksKeepsItsPromises) {
         EXPECT_GE(choice.figures.slim_height_m, 0.99 * now.slim_height_m);
         EXPECT_GE(choice.figures.pixels, now.pixels);
         for (const glm::dvec2 side : {glm::dvec2(-1, -1), glm::dvec2(1, 1)}) {
-            EXPECT_TRUE(every_seen_face_is_lit_at_any_yaw(
-                choice.settings, 0.999 * side * choice.figures.reach_m, settings.eye.default_m));
+            EXPECT_TRUE(lit_at_each_yaw(choice.settings, 0.999 * side * choice.figures.reach_m,
+                                        settings.eye.default_m));
         }
         EXPECT_LE(choice.figures.reach_m.x * choice.figures.reach_m.y * std::sqrt(choice.figures.reference),
                   best->figures.reach_m.x * best->figures.reach_m.y * std::sqrt(best->figures.reference));

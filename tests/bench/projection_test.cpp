@@ -4,6 +4,7 @@
 #include "firmware_host/display/surfaceless_display.h"
 #include "tests/bench/near_stage.h"
 #include "tests/bench/ring.h"
+#include "tests/simulation/pixels_covered.h"
 
 #include <gtest/gtest.h>
 

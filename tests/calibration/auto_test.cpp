@@ -1,6 +1,7 @@
 // What the automatic calibration is worth, from rests of points whose truth is known: exact without noise, within the limits with it.
 #include "app/bench/table/simulated_rests.h"
 #include "app/calibration/calibrate_auto.h"
+#include "tests/calibration/wide_priors.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +27,7 @@ TEST(Auto, WithoutNoiseTheTruthIsFound) {
         const SimulatedTable table = some_table(seed);
         SeededNumbers numbers(seed);
         AutoSetup setup = setup_for(table);
-        setup.priors = Priors{}.wider(1e3); // priors are not the truth
+        setup.priors = wide_priors(); // priors are not the truth
         const AutoCalibration got =
             calibrate_auto(simulated_rests(table, sheet_with_prop(), {}, no_noise, numbers), setup);
         ASSERT_TRUE(got.found.table) << seed << ": " << got.found.reason;

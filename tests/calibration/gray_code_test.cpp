@@ -41,7 +41,7 @@ std::pair<double, double> error_and_share(const StripeSetup& setup, const PixelM
     double known = 0.0;
     for (int y = 0; y < setup.height; ++y) {
         for (int x = 0; x < setup.width; ++x) {
-            const std::size_t k = map.index(x, y);
+            const auto k = static_cast<std::size_t>(y * map.width + x);
             if (map.known[k] != 0) {
                 known += 1.0 / (setup.width * setup.height);
                 worst = std::max(worst, glm::distance(map.pixels[k], glm::dvec2(x + 0.5, y + 0.5)));

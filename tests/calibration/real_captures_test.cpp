@@ -163,7 +163,7 @@ Figures figures_of(const StripeSetup& stripes, const std::filesystem::path& fold
     double lit = 0.0;
     for (int y = 0; y < map.height; ++y) {
         for (int x = 0; x < map.width; ++x) {
-            const std::size_t k = map.index(x, y);
+            const auto k = static_cast<std::size_t>(y * map.width + x);
             if (!is_on(paper, {x + 0.5, y + 0.5}) || white[k] - black[k] < 12) {
                 continue;
             }

@@ -1,6 +1,7 @@
 // What a calibration by touch is worth: exact without noise, within the limits with it.
 #include "tests/calibration/propagated_touches.h"
 #include "tests/calibration/simulated_touches.h"
+#include "tests/calibration/wide_priors.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ TEST(Touch, WithoutNoiseTheTruthIsFound) {
         const SimulatedTable table = some_table(seed);
         SeededNumbers numbers(seed);
         TouchSetup setup = setup_for(table);
-        setup.priors = Priors{}.wider(1e3); // priors are not the truth
+        setup.priors = wide_priors(); // priors are not the truth
         const TouchCalibration found =
             calibrate_touch(touches_of(table, crosses.of(table, 15), no_noise, numbers), setup);
         ASSERT_TRUE(found.table) << seed << ": " << found.reason;

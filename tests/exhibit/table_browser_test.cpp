@@ -90,7 +90,8 @@ TEST(TableBrowser, ShowsAllOthersAndWhatIsRestedOnComesIntoTheProp) {
 TEST(TableBrowser, TheLastPlaceLeadsThroughAllPagesAndAnArtifactBringsItsOwn) {
     Visitor visitor(50);
     visitor.wait(0.6);
-    const std::size_t pages = visitor.browser.layout(0).pages();
+    const TableLayout layout = lay_out_table(visitor.set_up, 0);
+    const std::size_t pages = layout.pages();
     ASSERT_GT(pages, 3U);
     std::set<std::size_t> seen = visitor.bright();
     for (std::size_t page = 1; page < pages; ++page) {
@@ -106,9 +107,9 @@ TEST(TableBrowser, TheLastPlaceLeadsThroughAllPagesAndAnArtifactBringsItsOwn) {
     EXPECT_EQ(seen.size(), 49U); // all but the one in the prop
     visitor.input.artifact = 30; // a button
     visitor.wait(1.0);
-    const std::size_t page = visitor.browser.layout(0).page_of(30);
+    const std::size_t page = layout.page_of(30);
     for (const std::size_t artifact : visitor.bright()) {
-        EXPECT_EQ(visitor.browser.layout(0).page_of(artifact), page);
+        EXPECT_EQ(layout.page_of(artifact), page);
     }
 }
 
@@ -129,7 +130,7 @@ TEST(TableBrowser, PicturesTurnToTheReaderInTheDark) {
         }
     }
     EXPECT_EQ(visitor.bright().size(), 7U);
-    EXPECT_EQ(visitor.browser.obstacles().size(), visitor.browser.layout(3).places.size());
+    EXPECT_EQ(visitor.browser.obstacles().size(), lay_out_table(visitor.set_up, 3).places.size());
 }
 
 /// Whatever happens, no picture jumps: it dims at most as fast as its fade and the prop's shadow do.

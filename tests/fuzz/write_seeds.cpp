@@ -73,7 +73,7 @@ void texts(const Seeds& seeds) {
               "\"cube\"\nbase_m = 0.1\n");
     seeds.add(
         "words", "small",
-        "name = \"X\"\nhelp = \"\303\234bung\"\n[advice]\nset_down = \"a\"\n[fault]\nrepairing = \"b\"\n");
+        "name = \"X\"\nhelp = \"\303\234bung\"\n[advice]\nset_down = \"a\"\n[fault]\nno_artifact = \"b\"\n");
     seeds.add("words", "misspelt", "nam = 3\nadvice.set_down = \"\\u202e\"\n");
     seeds.add("settings", "replay",
               "tracker = { kind = \"replay\", poses = \"p.csv\", table_from_tracker = "

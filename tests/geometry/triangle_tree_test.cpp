@@ -72,7 +72,6 @@ TEST(TriangleTree, MeetsASegmentExactlyWhereSomeTriangleDoes) {
             }
         }
         const TriangleTree tree(soup.positions, soup.indices);
-        ASSERT_EQ(tree.triangle_count(), static_cast<std::size_t>(count));
         for (int k = 0; k < 2000; ++k) {
             const glm::dvec3 from(2.0F * glm::vec3(place(random), place(random), place(random)));
             glm::dvec3 to(glm::vec3(place(random), place(random), place(random)));
@@ -113,8 +112,6 @@ TEST(TriangleTree, ASphereHasNoHoles) {
         }
     }
     const TriangleTree tree(sphere.positions, sphere.indices);
-    EXPECT_LT(tree.triangle_count(), sphere.indices.size() / 3); // those at the poles have no area
-    EXPECT_NEAR(tree.diagonal(), std::sqrt(12.0), 1e-2);
     for (const glm::vec3& corner : sphere.positions) {
         const glm::dvec3 far = 2.0 * glm::dvec3(corner);
         EXPECT_TRUE(tree.meets(far, glm::dvec3(0.0)));
@@ -126,12 +123,10 @@ TEST(TriangleTree, ASphereHasNoHoles) {
 
 TEST(TriangleTree, OfNothingAndOfTrianglesWithoutAreaMeetsNothing) {
     EXPECT_FALSE(TriangleTree().meets({0, 0, 1}, {0, 0, -1}));
-    EXPECT_EQ(TriangleTree().diagonal(), 0.0);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const std::vector<glm::vec3> positions{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {nan, 0, 0}, {0, 1, 0}};
     const std::vector<std::uint32_t> indices{0, 1, 2, 0, 1, 3, 0, 0, 4, 0, 1};
     const TriangleTree tree(positions, indices);
-    EXPECT_EQ(tree.triangle_count(), 0U);
     EXPECT_FALSE(tree.meets({0.5, 0, 1}, {0.5, 0, -1}));
 }
 

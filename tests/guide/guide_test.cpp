@@ -82,7 +82,6 @@ constexpr LeftOut left_out[] = {
     {"firmware_host/service/staff_socket.cpp", "frustumscreen status --screenshot"},
     {"firmware_host/service/stop_signals.cpp", "the journal"},
     {"firmware_host/sound/opus_reader.cpp", "packs, when they are baked"},
-    {"firmware_host/sound/volume.cpp", "the settings"},
     {"firmware_host/tracker/convert_recording.cpp", "files, when they are converted"},
     {"firmware_host/tracker/packet_file.cpp", "files, when they are read"},
     {"firmware_host/tracker/packet_replay.cpp", "files, when they are read"},

@@ -1,5 +1,5 @@
 #include "app/settings/light_range.h"
-#include "app/settings/lit_zone.h"
+#include "tests/settings/lit_at_each_yaw.h"
 
 #include <gtest/gtest.h>
 
@@ -100,8 +100,7 @@ TEST(LightRange, TheShippedTableIsLitEvenlyAllOver) {
     EXPECT_EQ(even_light(settings), range.least) << "every place can send back as much as every other";
     for (const glm::dvec2 corner :
          {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)}) {
-        EXPECT_TRUE(
-            every_seen_face_is_lit_at_any_yaw(settings, 0.999 * corner * reach, settings.eye.default_m));
+        EXPECT_TRUE(lit_at_each_yaw(settings, 0.999 * corner * reach, settings.eye.default_m));
     }
 }
 

@@ -172,6 +172,8 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
         {"[panel]\nkeys = [\"KEY_L\", \"KEY_R\", \"KEY_L\"]",
          {":2: panel.keys names \"KEY_L\" again", "a key of its own"}},
         {"[panel]\nscript = [{at_s = 2}, {at_s = 1}]", {":2: panel.script goes back in time"}},
+        {"[sound]\nhours = [{from_h = 9}, {from_h = 8}]", {":2: sound.hours goes back in time"}},
+        {"[sound]\nhours = [{from_h = 9}, {from_h = 9}]", {":2: sound.hours", "names an hour twice"}},
         {"[camera]\nexposure_ms = 40.0",
          {":2: camera.exposure_ms is 40", "at camera.rate_hz, 30 hertz, takes 33.3 milliseconds"}},
         {"[camera]\nrolling_shutter_ms = 40.0",

@@ -1,4 +1,4 @@
-#include "app/simulation/visitor_view.h"
+#include "tests/simulation/pixels_covered.h"
 
 #include <gtest/gtest.h>
 

@@ -37,7 +37,6 @@ TEST(Mixer, HowTheSamplesAreAskedForChangesNone) {
     const auto play = [](bool in_pieces) {
         Mixer mixer;
         SoundWish wish;
-        wish.play_ambience(noise(9000, 8000, 2), -6.0);
         wish.set_gain_db(-3.0);
         wish.say(noise(20'000, 20'000, 3, {{5000, 6000}, {12'000, 12'000}}));
         mixer.follow(wish);
@@ -187,50 +186,9 @@ TEST(Mixer, AnEmptyPromptIsOverAtOnce) {
     Mixer mixer;
     SoundWish wish;
     wish.say(level(0, 0));
-    wish.play_ambience(level(0, 0), 0.0);
     mixer.follow(wish);
     EXPECT_EQ(first_heard(mixed(mixer, 100)), 100U);
     EXPECT_EQ(mixer.report(Nanoseconds(0)).over, 1U);
-}
-
-TEST(Mixer, TheAmbienceIsSofterWhileAPromptIsSpokenAndChangesSmoothly) {
-    Mixer mixer;
-    SoundWish wish;
-    wish.play_ambience(level(second, 10'000), 0.0);
-    mixer.follow(wish);
-    std::vector<std::int16_t> heard = mixed(mixer, 2 * second);
-    EXPECT_EQ(heard.back(), 10'000);
-    wish.say(level(2 * second, 0));
-    mixer.follow(wish);
-    const std::vector<std::int16_t> under = mixed(mixer, second);
-    EXPECT_NEAR(under.back(), 10'000 * std::pow(10.0, -15.0 / 20.0), 30.0);
-    const std::vector<std::int16_t> after = mixed(mixer, 3 * second);
-    EXPECT_EQ(after.back(), 10'000);
-    wish.play_ambience(level(second, -10'000), 0.0);
-    mixer.follow(wish);
-    const std::vector<std::int16_t> other = mixed(mixer, 3 * second);
-    EXPECT_EQ(other.back(), -10'000);
-    for (const auto& part : {under, after, other}) {
-        heard.insert(heard.end(), part.begin(), part.end());
-    }
-    EXPECT_LE(largest_step(heard), step_of_fade(10'000, Mixer::duck_samples));
-}
-
-TEST(Mixer, TheAmbienceGoesRoundWithoutASeam) {
-    // A wave that does not end where it begins.
-    constexpr std::size_t length = 30'000;
-    const auto wave = [](std::size_t k) {
-        return 10'000.0 * std::sin(2.0 * std::numbers::pi * 2.3 * static_cast<double>(k) / length);
-    };
-    Mixer mixer;
-    SoundWish wish;
-    wish.play_ambience(prompt_of(length, {}, wave), 0.0);
-    mixer.follow(wish);
-    const std::vector<std::int16_t> heard = mixed(mixer, 5 * length);
-    const double own_step = 10'000.0 * 2.0 * std::numbers::pi * 2.3 / length;
-    EXPECT_LE(largest_step(heard), own_step + step_of_fade(20'000, Mixer::loop_overlap_samples) + 1.0);
-    // Bare, the seam would be far larger.
-    EXPECT_GT(std::abs(wave(length - 1)), 20.0 * step_of_fade(20'000, Mixer::loop_overlap_samples));
 }
 
 TEST(Mixer, TheVolumeMovesSmoothlyToWhatIsWished) {
@@ -260,11 +218,10 @@ TEST(Mixer, GainsAreHeldWithinTheirLimits) {
     EXPECT_EQ(amplitude_of(1e300), amplitude_of(12.0));
 }
 
-TEST(Mixer, NoSumClips) {
+TEST(Mixer, NothingClips) {
     Mixer mixer;
     SoundWish wish;
     wish.set_gain_db(12.0);
-    wish.play_ambience(noise(second, 32'767, 7), 12.0);
     wish.say(noise(second, 32'767, 8));
     mixer.follow(wish);
     for (const std::int16_t code : mixed(mixer, 2 * second)) {

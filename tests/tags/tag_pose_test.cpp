@@ -180,7 +180,6 @@ TEST(TagPose, ARollingShutterIsTakenOutByThePoseBefore) {
     ASSERT_TRUE(pose);
     EXPECT_LT(glm::length(off(*pose, slid(pose->moment_s)).shift_m), 1e-6);
     EXPECT_LT(glm::length(off(*pose, slid(pose->moment_s)).turn_rad), 1e-6);
-    EXPECT_LT(pose->residual_px, 1e-3);
 }
 
 /// The first pose is skewed, for nothing is known of the motion; each later one tells it better.

@@ -45,9 +45,10 @@ TEST(BuiltinWords, every_language_has_every_word_and_no_other) {
     for (const BuiltinWords& file : builtin_words()) {
         const Result<WrittenWords> words = parse_words(file.toml, std::string(file.language) + ".toml");
         ASSERT_TRUE(words) << words.error().message;
-        for (const std::string_view key : word_keys()) {
-            EXPECT_TRUE(words->contains(key)) << file.language << ".toml lacks " << key;
-        }
+        const auto collected = collect_words({}, std::vector<std::string>{std::string(file.language)});
+        ASSERT_TRUE(collected) << collected.error().message; // the house's language lacks none
+        EXPECT_EQ(words->size(), collected->front().words.size()) << file.language;
+        EXPECT_TRUE(collected->front().notes.empty()) << file.language;
     }
 }
 
@@ -67,14 +68,15 @@ TEST(BuiltinWords, no_two_words_of_a_language_say_the_same) {
 TEST(ParseWords, messages_name_file_line_and_key) {
     EXPECT_EQ(refusal("name = \"X\"\n[advice]\nslide_lefft = \"a\"\n"),
               "words/xx.toml:3: there is no word 'advice.slide_lefft'; the nearest one is advice.slide_left");
-    EXPECT_EQ(refusal("name = \"X\"\nhelp = 3\n"),
-              "words/xx.toml:2: help is no text; write it between quotation marks");
-    EXPECT_EQ(refusal("help = \"\"\n"), "words/xx.toml:1: help has 0 bytes; allowed are 1 to 1000: leave the "
-                                        "key out to use the built-in text");
-    EXPECT_EQ(refusal("help = \"a\\tb\"\n"),
-              "words/xx.toml:1: help: line 1, letter 2: U+0009 is a control character; delete it, or "
+    EXPECT_EQ(refusal("name = \"X\"\nattract_line = 3\n"),
+              "words/xx.toml:2: attract_line is no text; write it between quotation marks");
+    EXPECT_EQ(refusal("attract_line = \"\"\n"),
+              "words/xx.toml:1: attract_line has 0 bytes; allowed are 1 to 1000: leave the "
+              "key out to use the built-in text");
+    EXPECT_EQ(refusal("attract_line = \"a\\tb\"\n"),
+              "words/xx.toml:1: attract_line: line 1, letter 2: U+0009 is a control character; delete it, or "
               "use a line break");
-    EXPECT_NE(refusal("help = \"a\nname").find("words/xx.toml:1: is not TOML"), std::string::npos);
+    EXPECT_NE(refusal("attract_line = \"a\nname").find("words/xx.toml:1: is not TOML"), std::string::npos);
     EXPECT_NE(refusal(std::string(2U << 20, '#')), "");
     EXPECT_NE(refusal(std::string(9000, '.')), "");
 }
@@ -89,20 +91,34 @@ TEST_F(WordsFolder, a_museums_own_lines_replace_the_built_in_ones) {
 }
 
 TEST_F(WordsFolder, a_missing_line_falls_back_to_the_houses_language_and_says_so) {
-    write("nl.toml", "name = \"Nederlands\"\nhelp = \"Verschuif het blok.\"\n");
+    write("nl.toml", "name = \"Nederlands\"\nattract_line = \"Verschuif het blok.\"\n");
     const auto collected = collect({"de", "nl"});
     ASSERT_TRUE(collected) << collected.error().message;
     const Word& word = word_of((*collected)[1], "advice.set_down");
     EXPECT_EQ(word.text, "Bitte stellen Sie den Block auf den Tisch.");
     EXPECT_EQ(word.language, "de");
-    EXPECT_EQ(word_of((*collected)[1], "help").language, "nl");
-    EXPECT_EQ((*collected)[1].words.size(), word_keys().size());
+    EXPECT_EQ(word_of((*collected)[1], "attract_line").language, "nl");
+    EXPECT_EQ((*collected)[1].words.size(), (*collected)[0].words.size());
     ASSERT_EQ((*collected)[1].notes.size(), 1U);
     EXPECT_EQ(
         (*collected)[1].notes[0],
-        "the language 'nl' has no text for attract_line, choose_by_sliding, advice.slide_left, "
-        "advice.slide_left_a_little, advice.slide_right and 102 more; there the exhibit speaks 'de': write "
+        "the language 'nl' has no text for advice.slide_left, advice.slide_left_a_little, "
+        "advice.slide_right, "
+        "advice.slide_right_a_little, advice.slide_nearer and 95 more; there the exhibit speaks 'de': write "
         "them into nl.toml");
+}
+
+TEST_F(WordsFolder, a_line_of_an_earlier_version_is_read_and_said_to_be_no_longer_shown) {
+    write("de.toml", "help = \"Hilfe\"\n[advice]\nlower = \"Tiefer.\"\n[fault]\nrepairing = \"Gleich.\"\n");
+    const auto collected = collect({"de"});
+    ASSERT_TRUE(collected) << collected.error().message;
+    EXPECT_EQ(word_of((*collected)[0], "advice.lower").text, "Tiefer.");
+    EXPECT_EQ((*collected)[0].words.size(),
+              collect_words({}, std::vector<std::string>{"de"})->front().words.size());
+    EXPECT_EQ(
+        (*collected)[0].notes,
+        std::vector<std::string>{"the language 'de' has a text for help, fault.repairing, which is no longer "
+                                 "shown: delete it from de.toml"});
 }
 
 TEST_F(WordsFolder, a_language_without_words_is_refused) {

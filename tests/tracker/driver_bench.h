@@ -8,6 +8,14 @@
 
 namespace frustumscreen {
 
+/// Poses come in, good or less good.
+inline bool is_streaming(UsbTrackerState state) {
+    return state == UsbTrackerState::Streaming || state == UsbTrackerState::FilterStaysOn ||
+           state == UsbTrackerState::SetUpDoubtful || state == UsbTrackerState::SensorMissing ||
+           state == UsbTrackerState::PosesUnusable || state == UsbTrackerState::PosesLate ||
+           state == UsbTrackerState::MetalNear;
+}
+
 class Bench {
 public:
     explicit Bench(UsbTrackerModel model)

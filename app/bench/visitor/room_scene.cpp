@@ -127,12 +127,6 @@ double RoomScene::people_light(const Ball& ball, const glm::dvec3& point_m, cons
            (light_.room * now.lamps * lamps_on(point_m, normal) + light_.projector * now.picture * picture);
 }
 
-double RoomScene::moment_s(const glm::dvec3& point_m, double t_s) const {
-    const auto pixel = camera_.pinhole.pixel(table_from_camera_.inverse().point(point_m));
-    const double row = pixel ? pixel->y / camera_.pinhole.height : 0.5;
-    return t_s + 1e-3 * (row * camera_.rolling_ms + 0.5 * camera_.exposure_ms);
-}
-
 std::pair<int, int> RoomScene::columns_of(const std::vector<Ball>& body) const {
     const Pinhole& pinhole = camera_.pinhole;
     const RigidTransform camera_from_table = table_from_camera_.inverse();

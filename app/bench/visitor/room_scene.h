@@ -57,8 +57,6 @@ public:
     /// [height][width]; the first row's exposure begins at `t_s`.
     [[nodiscard]] std::vector<std::uint8_t> picture(const Bodies& bodies, const Lights& lights, double t_s,
                                                     std::uint64_t seed) const;
-    /// The middle of the exposure of the row in which a point is seen.
-    [[nodiscard]] double moment_s(const glm::dvec3& point_m, double t_s) const;
     [[nodiscard]] const WatchingCamera& camera() const { return camera_; }
     [[nodiscard]] const RigidTransform& table_from_camera() const { return table_from_camera_; }
 

@@ -34,7 +34,6 @@ enum class Build : std::uint8_t { Adult, Child, Seated };
 enum class Hair : std::uint8_t { Short, Long, Hat, Bald };
 
 struct Person {
-    double scale = 1.0;                     ///< of the head
     glm::dvec3 head_m{0.152, 0.193, 0.115}; ///< breadth, length, crown to eyes
     Hair hair = Hair::Short;
     double hair_top_m = 0.02, hair_side_m = 0.012;

@@ -45,8 +45,8 @@ Result<void> plan(const Request& request) {
     const DevicePlan devices = plan_devices(*settings, false, false);
     TRY(const PlanMeasurement measured,
         measure_plan(*settings, devices, request.pack, request.technique, *display));
-    const PlanReport report{
-        request.config.string(), request.pack.string(), request.technique, *settings, devices, measured};
+    const PlanReport report{request.config.string(), request.pack.string(), request.technique, devices,
+                            measured};
     fmt::print("{}", request.json ? plan_json(report) : plan_text(report));
     return {};
 }

@@ -12,7 +12,6 @@ namespace frustumscreen {
 
 struct PlanReport {
     std::string config, pack, technique;
-    const Settings& settings;
     const DevicePlan& devices;
     const PlanMeasurement& measured;
 };

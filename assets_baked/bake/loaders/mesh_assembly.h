@@ -40,7 +40,6 @@ public:
     void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t material);
 
     [[nodiscard]] const std::vector<glm::dvec3>& positions() const { return mesh_.positions; }
-    [[nodiscard]] std::size_t triangle_count() const { return mesh_.triangles.size(); }
     /// Refuses a mesh without triangles. `has_points`: whether the file has points that belong to none.
     [[nodiscard]] SourceMesh finish(bool has_points = false);
 
