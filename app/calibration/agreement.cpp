@@ -148,7 +148,7 @@ std::optional<AgreeingTouches> explained(std::vector<Tried> tried, Agreement agr
     if (3 * wrong.size() > touches) {
         return std::nullopt;
     }
-    return AgreeingTouches{agreement, std::move(tried[0].fit), std::move(wrong)};
+    return AgreeingTouches{{agreement, std::move(wrong)}, std::move(tried[0].fit)};
 }
 
 } // namespace
@@ -175,7 +175,7 @@ AgreeingTouches find_agreement(std::span<const Touch> touches, const FitSetup& s
                                std::span<const TouchModel> starts) {
     Fit all = best_fit(touches, setup, starts);
     if (agrees(touches, setup, all, 1.0)) {
-        return {Agreement::All, std::move(all), {}};
+        return {{Agreement::All, {}}, std::move(all)};
     }
     std::optional<Fit> robust;
     for (const TouchModel& start : starts) {
@@ -204,9 +204,9 @@ AgreeingTouches find_agreement(std::span<const Touch> touches, const FitSetup& s
     }
     const double scatter = std::sqrt(all.chi2 / std::max(1, all.freedom));
     if (scatter < most_scatter && agrees(touches, setup, all, scatter)) {
-        return {Agreement::Scattered, std::move(all), {}, scatter};
+        return {{Agreement::Scattered, {}, scatter}, std::move(all)};
     }
-    return {Agreement::None, std::move(all), {}};
+    return {{}, std::move(all)};
 }
 
 } // namespace frustumscreen

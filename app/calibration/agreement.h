@@ -17,12 +17,13 @@ enum class Agreement {
     None,
 };
 
-struct AgreeingTouches {
+struct Agreed {
     Agreement agreement = Agreement::None;
+    std::vector<std::size_t> wrong; ///< ascending; those to do again. Where several choices explain it, all
+    double scatter = 1.0;           ///< noise found over noise expected, at least 1
+};
+struct AgreeingTouches : Agreed {
     Fit fit; ///< of those that agree
-    std::vector<std::size_t>
-        wrong;            ///< ascending; those to do again. Where several choices explain it, all of them
-    double scatter = 1.0; ///< noise found over noise expected, at least 1
 };
 
 /// Of chi squared, one in a thousand is beyond.

@@ -88,46 +88,21 @@ double hidden_error_of(const AgreeingRests& found, std::span<const ZonePlace> pl
     return hidden_error_m(std::span<const UnseenError<6>>(unseen), rest_chi2_limit, places);
 }
 
-std::string names_of(std::span<const std::size_t> wrong, std::span<const Rest> rests) {
-    std::vector<std::string> words;
-    for (const std::size_t k : wrong) {
-        words.push_back(fmt::format("{}", rests[k].name));
-    }
-    return in_words(words);
-}
+constexpr MeasuredKind prop_rests{
+    .one = "rest",
+    .many = "rests",
+    .scattered = "tracker's reports",
+    .why_scattered = "did the prop not stand still",
+    .three_more = "let the prop rest at three more places",
+    .spread = "let the prop rest at more places, spread over the picture and two heights",
+    .tilt = "let the prop lean"};
 
-void judge(TouchCalibration& calibration, const AgreeingRests& found, std::span<const Rest> rests) {
-    const std::string expected = in_words(calibration.uncertainty);
-    if (found.agreement == Agreement::Without) {
-        calibration.verdict = Verdict::Repeat;
-        calibration.reason =
-            found.wrong.size() == 1
-                ? fmt::format("rest {} does not fit the others: do it again", names_of(found.wrong, rests))
-                : fmt::format("rests {} do not fit the others: do them again", names_of(found.wrong, rests));
-    } else if (found.agreement == Agreement::All && keeps(calibration, for_good)) {
-        calibration.verdict = Verdict::Good;
-        calibration.reason = expected;
-    } else if (keeps(calibration, for_usable)) {
-        calibration.verdict = Verdict::Usable;
-        calibration.reason =
-            found.agreement == Agreement::Scattered
-                ? fmt::format(
-                      "{}; the tracker's reports scatter {:.1f} times as much as they should: is metal "
-                      "near, or did the prop not stand still?",
-                      expected, found.scatter)
-                : fmt::format("{}; with more rests it would be good", expected);
-    } else {
-        calibration.verdict = Verdict::Repeat;
-        calibration.reason =
-            calibration.hidden_error_m > for_usable.hidden_m
-                ? "the rests agree, but are too few to check each other, and a wrong one would stay "
-                  "unnoticed: "
-                  "let the prop rest at three more places"
-                : fmt::format(
-                      "{}, which is too much: let the prop rest at more places, spread over the picture "
-                      "and two heights",
-                      expected);
+std::vector<std::string> names_of(std::span<const std::size_t> wrong, std::span<const Rest> rests) {
+    std::vector<std::string> names;
+    for (const std::size_t k : wrong) {
+        names.push_back(fmt::format("{}", rests[k].name));
     }
+    return names;
 }
 
 void count_wrong_points(AutoCalibration& calibration, const RestWeights& weights) {
@@ -144,7 +119,7 @@ AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, cons
         std::find_if(rests.begin(), rests.end(), [](const Rest& rest) { return rest.block_m.has_value(); });
     const ZoneSetup zone{setup.top_m, standing->tracker_from_sensor.rotation};
     if (const auto open = undetermined(fit, zone)) {
-        return refused(in_words(*open, "rest", "let the prop lean"));
+        return refused(in_words(*open, prop_rests));
     }
     AutoCalibration calibration;
     TouchCalibration& table = calibration.found;
@@ -162,10 +137,8 @@ AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, cons
     table.zone = by_place(places, table.uncertainty.each_m);
     table.hidden_error_m = hidden_error_of(found, places);
     table.prior_shares = prior_shares(fit);
-    table.repeat = found.wrong;
     table.residuals = residuals_of(rests, found);
-    summarise_residuals(table);
-    judge(table, found, rests);
+    judge(table, prop_rests, found, names_of(found.wrong, rests));
     return calibration;
 }
 

@@ -1,6 +1,5 @@
 #include "app/calibration/calibrate_touch.h"
 
-#include "app/calibration/agreement.h"
 #include "app/calibration/check_touches.h"
 #include "app/calibration/dense_solvers.h"
 #include "app/calibration/picture_limits.h"
@@ -65,65 +64,19 @@ bool too_few_left(const AgreeingTouches& found, std::span<const Touch> touches, 
     return hidden_error_of(kept, setup, found.fit, zone) > most_hidden_m;
 }
 
-std::string rows_in_words(std::span<const std::size_t> rows) {
-    std::vector<std::string> words;
-    for (const std::size_t row : rows) {
-        words.push_back(fmt::format("{}", row + 1));
-    }
-    return in_words(words);
-}
-
-void judge(TouchCalibration& calibration, const AgreeingTouches& found) {
-    calibration.repeat = found.wrong;
-    const std::string expected = in_words(calibration.uncertainty);
-    if (found.agreement == Agreement::Exchanged) {
-        calibration.verdict = Verdict::Repeat;
-        calibration.reason =
-            fmt::format("touches {} look exchanged: each fits the other's cross", rows_in_words(found.wrong));
-    } else if (found.agreement == Agreement::Without) {
-        calibration.verdict = Verdict::Repeat;
-        calibration.reason =
-            found.wrong.size() == 1
-                ? fmt::format("touch {} does not fit the others: do it again", rows_in_words(found.wrong))
-                : fmt::format("touches {} do not fit the others: do them again", rows_in_words(found.wrong));
-    } else if (found.agreement == Agreement::All && keeps(calibration, for_good)) {
-        calibration.verdict = Verdict::Good;
-        calibration.reason = expected;
-    } else if (keeps(calibration, for_usable)) {
-        calibration.verdict = Verdict::Usable;
-        calibration.reason =
-            found.agreement == Agreement::Scattered
-                ? fmt::format("{}; the touches scatter {:.1f} times as much as they should: is "
-                              "metal near, or was the prop moved too early?",
-                              expected, found.scatter)
-                : fmt::format("{}; with more touches it would be good", expected);
-    } else {
-        calibration.verdict = Verdict::Repeat;
-        calibration.reason =
-            calibration.hidden_error_m > for_usable.hidden_m
-                ? "the touches agree, but are too few to check each other, and a wrong one would stay "
-                  "unnoticed: touch "
-                  "three more crosses"
-                : fmt::format(
-                      "{}, which is too much: touch more crosses, spread over the picture and both heights",
-                      expected);
-    }
-}
-
-} // namespace
-
-TouchResidual residual_of(const TouchModel& model, const glm::dvec3& place, double height_m,
-                          const glm::dvec2& pixel) {
-    constexpr double nowhere = 1e3; // metres and pixels
-    const auto lit = model.lit(pixel, height_m);
-    const auto seen = model.pixel(place);
-    return {lit ? glm::distance(*lit, place) : nowhere, seen ? glm::distance(*seen, pixel) : nowhere};
-}
+constexpr MeasuredKind crosses{.one = "touch",
+                               .many = "touches",
+                               .scattered = "touches",
+                               .why_scattered = "was the prop moved too early",
+                               .three_more = "touch three more crosses",
+                               .spread = "touch more crosses, spread over the picture and both heights",
+                               .tilt = "lay the prop on a side"};
 
 bool keeps(const TouchCalibration& calibration, const PictureLimits& limits) {
     return limits.keep(calibration.uncertainty, calibration.hidden_error_m);
 }
 
+/// Means and worst ones, but for those to repeat.
 void summarise_residuals(TouchCalibration& calibration) {
     double count = 0.0;
     for (std::size_t k = 0; k < calibration.residuals.size(); ++k) {
@@ -140,36 +93,92 @@ void summarise_residuals(TouchCalibration& calibration) {
     calibration.mean_residual_px /= count;
 }
 
+/// 'a, b and c'; one at least.
+std::string in_words(std::span<const std::string> words) {
+    return words.size() == 1
+               ? words[0]
+               : fmt::format("{} and {}", fmt::join(words.first(words.size() - 1), ", "), words.back());
+}
+
+} // namespace
+
+TouchResidual residual_of(const TouchModel& model, const glm::dvec3& place, double height_m,
+                          const glm::dvec2& pixel) {
+    constexpr double nowhere = 1e3; // metres and pixels
+    const auto lit = model.lit(pixel, height_m);
+    const auto seen = model.pixel(place);
+    return {lit ? glm::distance(*lit, place) : nowhere, seen ? glm::distance(*seen, pixel) : nowhere};
+}
+
 std::string in_words(const PictureUncertainty& uncertainty) {
     return fmt::format(
         "the picture lies about {:.1f} mm beside its place on average, {:.1f} mm at the worst place",
         1e3 * uncertainty.mean_m, 1e3 * uncertainty.worst_m);
 }
 
-std::string in_words(const Undetermined& open, std::string_view one, std::string_view tilt) {
+std::vector<std::string> row_names(std::span<const std::size_t> rows) {
+    std::vector<std::string> names;
+    for (const std::size_t row : rows) {
+        names.push_back(fmt::format("{}", row + 1));
+    }
+    return names;
+}
+
+std::string misfits(std::string_view one, std::string_view many, std::span<const std::string> wrong) {
+    return wrong.size() == 1
+               ? fmt::format("{} {} does not fit the others: do it again", one, wrong[0])
+               : fmt::format("{} {} do not fit the others: do them again", many, in_words(wrong));
+}
+
+void judge(TouchCalibration& calibration, const MeasuredKind& kind, const Agreed& found,
+           std::span<const std::string> wrong) {
+    calibration.repeat = found.wrong;
+    summarise_residuals(calibration);
+    const auto is = [&](Verdict verdict, std::string reason) {
+        calibration.verdict = verdict;
+        calibration.reason = std::move(reason);
+    };
+    const std::string expected = in_words(calibration.uncertainty);
+    if (found.agreement == Agreement::Exchanged) {
+        is(Verdict::Repeat,
+           fmt::format("{} {} look exchanged: each fits the other's cross", kind.many, in_words(wrong)));
+    } else if (found.agreement == Agreement::Without) {
+        is(Verdict::Repeat, misfits(kind.one, kind.many, wrong));
+    } else if (found.agreement == Agreement::All && keeps(calibration, for_good)) {
+        is(Verdict::Good, expected);
+    } else if (!keeps(calibration, for_usable)) {
+        is(Verdict::Repeat, calibration.hidden_error_m > for_usable.hidden_m
+                                ? fmt::format("the {} agree, but are too few to check each other, and a "
+                                              "wrong one would stay unnoticed: {}",
+                                              kind.many, kind.three_more)
+                                : fmt::format("{}, which is too much: {}", expected, kind.spread));
+    } else if (found.agreement == Agreement::Scattered) {
+        is(Verdict::Usable,
+           fmt::format("{}; the {} scatter {:.1f} times as much as they should: is metal near, or {}?",
+                       expected, kind.scattered, found.scatter, kind.why_scattered));
+    } else {
+        is(Verdict::Usable, fmt::format("{}; with more {} it would be good", expected, kind.many));
+    }
+}
+
+std::string in_words(const Undetermined& open, const MeasuredKind& kind) {
     switch (open.what) {
     case Undetermined::What::SensorAcross:
         return fmt::format(
             "the prop was turned the same way in every {0}, or nearly so, which does not tell where in "
             "it the sensor sits: turn it by a quarter from one {0} to the next",
-            one);
+            kind.one);
     case Undetermined::What::SensorAbove:
         return fmt::format(
             "the prop stood upright in every {0}, which does not tell the sensor's height in it from the "
             "tracker's: give it by --sensor-height, or {1} in three of them or more",
-            one, tilt);
+            kind.one, kind.tilt);
     case Undetermined::What::Picture:
         break;
     }
     return fmt::format("these {} leave the picture open by {:.0f} mm, whatever they agree on: spread them "
                        "over the whole picture, half of them on a block as high as the prop",
-                       one == "touch" ? "touches" : "rests", 1e3 * open.picture_m);
-}
-
-std::string in_words(std::span<const std::string> words) {
-    return words.size() == 1
-               ? words[0]
-               : fmt::format("{} and {}", fmt::join(words.first(words.size() - 1), ", "), words.back());
+                       kind.many, 1e3 * open.picture_m);
 }
 
 TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetup& setup) {
@@ -185,7 +194,7 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
                          touches[static_cast<std::size_t>(some_upright - fit_setup.upright.begin())]
                              .tracker_from_sensor.rotation};
     if (const auto open = undetermined(found.fit, zone)) {
-        return refused(in_words(*open, "touch", "lay the prop on a side"));
+        return refused(in_words(*open, crosses));
     }
     if (found.agreement == Agreement::None || too_few_left(found, touches, fit_setup, zone)) {
         return refused(
@@ -204,8 +213,7 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
     calibration.hidden_error_m = hidden_error_of(touches, fit_setup, found.fit, zone);
     calibration.prior_shares = prior_shares(found.fit);
     calibration.residuals = residuals_of(touches, found.wrong, fit_setup, found.fit.model);
-    judge(calibration, found);
-    summarise_residuals(calibration);
+    judge(calibration, crosses, found, row_names(found.wrong));
     return calibration;
 }
 

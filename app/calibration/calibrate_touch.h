@@ -7,6 +7,7 @@
 /// Threads  pure; any.
 #pragma once
 
+#include "app/calibration/agreement.h"
 #include "app/calibration/calibrated_table.h"
 #include "app/calibration/determinacy.h"
 #include "app/calibration/picture_limits.h"
@@ -56,15 +57,26 @@ struct TouchCalibration {
     std::vector<PlaceUncertainty> zone; ///< zone_columns x zone_rows of each height, from the table up
 };
 
-[[nodiscard]] bool keeps(const TouchCalibration& calibration, const PictureLimits& limits);
-/// Means and worst ones of the residuals, but for those to repeat.
-void summarise_residuals(TouchCalibration& calibration);
 /// How far the picture lies beside its place, half a sentence.
 [[nodiscard]] std::string in_words(const PictureUncertainty& uncertainty);
-/// What to do about what points leave open. `one`: "touch" or "rest"; `tilt`: what the prop may do in three of them.
-[[nodiscard]] std::string in_words(const Undetermined& open, std::string_view one, std::string_view tilt);
-/// 'a, b and c'; one at least.
-[[nodiscard]] std::string in_words(std::span<const std::string> words);
+/// What was measured, and what to do about it, as sentences have it.
+struct MeasuredKind {
+    std::string_view one, many;
+    std::string_view scattered, why_scattered; ///< what scatters; a question, its last part
+    std::string_view three_more;               ///< where they are too few to check each other
+    std::string_view spread;                   ///< where the picture is too uncertain
+    std::string_view tilt;                     ///< what the prop may do in three of them
+};
+/// The verdict on a calibration whose residuals are known, its reason, what to do again. `wrong`: the names of that.
+void judge(TouchCalibration& calibration, const MeasuredKind& kind, const Agreed& found,
+           std::span<const std::string> wrong);
+/// What to do about what points leave open.
+[[nodiscard]] std::string in_words(const Undetermined& open, const MeasuredKind& kind);
+/// Which ones do not fit, half a sentence; one at least.
+[[nodiscard]] std::string misfits(std::string_view one, std::string_view many,
+                                  std::span<const std::string> wrong);
+/// As people count them, from 1.
+[[nodiscard]] std::vector<std::string> row_names(std::span<const std::size_t> rows);
 
 [[nodiscard]] TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetup& setup);
 

@@ -1,10 +1,10 @@
 #include "app/calibration/eye_fit.h"
 
+#include "app/calibration/calibrate_touch.h"
 #include "app/calibration/dense_solvers.h"
 #include "app/calibration/unknowns.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -306,11 +306,7 @@ void judge(EyeFit& fit) {
             1e3 * pupils_m, 1e3 * nearest_pupils_m, 1e3 * farthest_pupils_m);
     } else if (!fit.repeat.empty()) {
         fit.verdict = Verdict::Repeat;
-        std::vector<std::size_t> rows = fit.repeat;
-        std::for_each(rows.begin(), rows.end(), [](std::size_t& row) { ++row; });
-        fit.reason = fmt::format("sighting{} {} do{} not fit the others: do {} again",
-                                 rows.size() == 1 ? "" : "s", fmt::join(rows, " and "),
-                                 rows.size() == 1 ? "es" : "", rows.size() == 1 ? "it" : "them");
+        fit.reason = misfits("sighting", "sightings", row_names(fit.repeat));
     } else if (eyes.picture_m <= good_m && eyes.hidden_m <= good_hidden_m) {
         fit.verdict = Verdict::Good;
         fit.reason = expected;

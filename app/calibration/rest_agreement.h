@@ -14,13 +14,10 @@ namespace frustumscreen {
 /// Of six residuals of a tracker's report that is right, one in ten thousand is beyond.
 inline constexpr double rest_chi2_limit = 27.9;
 
-struct AgreeingRests {
-    Agreement agreement = Agreement::None; ///< All, Scattered, Without or None
+struct AgreeingRests : Agreed { ///< never Exchanged; the scatter is the tracker's
     RestFit fit;
-    RestWeights weights;            ///< 1 or no_weight
-    std::vector<std::size_t> wrong; ///< rests, ascending
-    double scatter = 1.0;           ///< the tracker's noise found over that expected, at least 1
-    double pixel_noise = 0.0;       ///< found
+    RestWeights weights;      ///< 1 or no_weight
+    double pixel_noise = 0.0; ///< found
 };
 
 /// `views` of each rest; `starts`: one at least.
