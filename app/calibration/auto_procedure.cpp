@@ -3,7 +3,6 @@
 #include "app/geometry/rotation_angle.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace frustumscreen {
@@ -26,56 +25,32 @@ StripeSetup stripes_for(int width, int height) {
 }
 
 AutoProcedure::AutoProcedure(Board board, const AutoPlan& plan, std::string problem)
-    : board_(std::move(board)), plan_(plan), problem_(std::move(problem)),
+    : Procedure(std::move(problem)), board_(std::move(board)), plan_(plan),
       wanted_(static_cast<std::size_t>(plan.rests)) {}
 
 void AutoProcedure::step(const Input& input) {
+    static constexpr Row<AutoProcedure> rows[]{{Stage::Begin, &AutoProcedure::begin},
+                                               {Stage::Delay, &AutoProcedure::measure_delay},
+                                               {Stage::Place, &AutoProcedure::place},
+                                               {Stage::Capture, &AutoProcedure::capture},
+                                               {Stage::Judged, &AutoProcedure::after_judgement}};
     camera_ = input.camera;
-    if (stage_ != AutoStage::Begin || !camera_well_ || can_be_used(camera_, false)) {
+    if (stage_ != Stage::Begin || !camera_well_ || can_be_used(camera_, false)) {
         camera_well_ = input.now;
     }
-    if (nobody_is_there(input)) {
-        stage_ = AutoStage::Left;
-    }
-    switch (stage_) {
-    case AutoStage::Begin:
-        begin(input);
-        break;
-    case AutoStage::Delay:
-        measure_delay(input);
-        break;
-    case AutoStage::Place:
-        place(input);
-        break;
-    case AutoStage::Capture:
-        capture(input);
-        break;
-    case AutoStage::Judged:
-        after_judgement(input);
-        break;
-    case AutoStage::Solve:
-    case AutoStage::Done:
-    case AutoStage::Crosses:
-    case AutoStage::Left:
-        break;
-    }
+    leave_if_alone(input);
+    step_in_stage(*this, rows, input);
     if (const std::optional<Pattern> next = to_show(); next != shown_) {
         shown_ = next;
         ++number_;
     }
 }
 
-bool AutoProcedure::nobody_is_there(const Input& input) {
-    const Nanoseconds patient = stage_ == AutoStage::Begin ? to_begin : to_go_on;
-    return last_press_.is_older_than(patient, input.now, input.next || input.back) &&
-           stage_ != AutoStage::Done && stage_ != AutoStage::Crosses;
-}
-
 std::optional<Pattern> AutoProcedure::to_show() const {
-    if (stage_ == AutoStage::Delay && light_) {
+    if (stage_ == Stage::Delay && light_) {
         return light_->pattern();
     }
-    return stage_ == AutoStage::Capture ? std::optional(stripes_->pattern()) : std::nullopt;
+    return stage_ == Stage::Capture ? std::optional(stripes_->pattern()) : std::nullopt;
 }
 
 std::optional<MonotonicTime> AutoProcedure::lit(const Input& input) const {
@@ -86,18 +61,17 @@ std::optional<MonotonicTime> AutoProcedure::lit(const Input& input) const {
 void AutoProcedure::begin(const Input& input) {
     word_ = input.now - *camera_well_ > patience ? AutoWord::CameraFault : AutoWord::None;
     if (input.back) {
-        stage_ = problem_.empty() && plan_.crosses_follow ? AutoStage::Crosses : AutoStage::Left;
+        stage_ = problem_.empty() && plan_.crosses_follow ? Stage::GoesOn : Stage::Left;
     } else if (input.next && problem_.empty() && word_ == AutoWord::None) {
-        stage_ = AutoStage::Delay;
+        stage_ = Stage::Delay;
     }
 }
 
 /// Where the camera does not see the light, that is said, and it is measured again as soon as Next is pressed.
 void AutoProcedure::measure_delay(const Input& input) {
     if (input.back) {
-        stage_ = word_ != AutoWord::None && plan_.crosses_follow ? AutoStage::Crosses : AutoStage::Begin;
+        go_to(word_ != AutoWord::None && plan_.crosses_follow ? Stage::GoesOn : Stage::Begin);
         light_.reset();
-        word_ = AutoWord::None;
         return;
     }
     if (!can_be_used(input.camera, true)) {
@@ -116,8 +90,7 @@ void AutoProcedure::measure_delay(const Input& input) {
     if (light_->is_done()) {
         delay_ = light_->delay();
         light_.reset();
-        word_ = delay_ ? AutoWord::None : AutoWord::NoLight;
-        stage_ = delay_ ? AutoStage::Place : AutoStage::Delay;
+        go_to(delay_ ? Stage::Place : Stage::Delay, delay_ ? AutoWord::None : AutoWord::NoLight);
     }
 }
 
@@ -128,8 +101,7 @@ void AutoProcedure::place(const Input& input) {
     }
     if (input.next) {
         const bool is_enough = taken_.size() >= least();
-        stage_ = is_enough ? AutoStage::Solve : stage_;
-        word_ = is_enough ? AutoWord::None : AutoWord::TooFew;
+        go_to(is_enough ? Stage::Solve : stage_, is_enough ? AutoWord::None : AutoWord::TooFew);
         return;
     }
     if (!watch(input) || !is_at_rest(input)) {
@@ -146,8 +118,7 @@ void AutoProcedure::place(const Input& input) {
 
 void AutoProcedure::drop_last() {
     if (taken_.empty()) {
-        word_ = AutoWord::None;
-        stage_ = AutoStage::Begin;
+        go_to(Stage::Begin);
         return;
     }
     taken_.pop_back();
@@ -158,7 +129,7 @@ void AutoProcedure::drop_last() {
 
 /// Whether camera and tracker see anything.
 bool AutoProcedure::watch(const Input& input) {
-    seen_ = input.report || !seen_ ? input.now : *seen_;
+    seen_ = input.prop || !seen_ ? input.now : *seen_;
     if (!can_be_used(input.camera, false)) {
         word_ = AutoWord::CameraFault;
         return false;
@@ -176,7 +147,7 @@ bool AutoProcedure::watch(const Input& input) {
 
 /// Somewhere else than before.
 bool AutoProcedure::is_at_rest(const Input& input) {
-    if (input.report && !still_.add(input.now, *input.report)) {
+    if (input.prop && !still_.add(input.now, *input.prop)) {
         not_before_.reset();
     }
     if (still_.count() == 0 || still_.rest() < rest) {
@@ -222,16 +193,15 @@ std::vector<FoundTag> AutoProcedure::tags_in(const CameraFrame& frame) {
 void AutoProcedure::begin_capture(MonotonicTime now) {
     stripes_.emplace(CaptureSetup{plan_.stripes, *delay_, plan_.frames}, now);
     before_.clear();
-    word_ = AutoWord::None;
-    stage_ = AutoStage::Capture;
+    go_to(Stage::Capture);
 }
 
 void AutoProcedure::capture(const Input& input) {
-    seen_ = input.report ? input.now : *seen_;
+    seen_ = input.prop ? input.now : *seen_;
     if (input.back) {
         done_with_ = still_.mean(); // it is to be put elsewhere first
         end_capture(input.now, AutoWord::None);
-    } else if (input.report && !still_.add(input.now, *input.report)) {
+    } else if (input.prop && !still_.add(input.now, *input.prop)) {
         end_capture(input.now, AutoWord::Moved);
     } else if (input.now - *seen_ > patience) {
         end_capture(input.now, AutoWord::NotSeen);
@@ -253,8 +223,7 @@ void AutoProcedure::capture(const Input& input) {
 void AutoProcedure::end_capture(MonotonicTime now, AutoWord word) {
     stripes_.reset();
     not_before_ = now + pause;
-    word_ = word;
-    stage_ = AutoStage::Place;
+    go_to(Stage::Place, word);
 }
 
 void AutoProcedure::look_at_captures(MonotonicTime now) {
@@ -286,10 +255,10 @@ void AutoProcedure::take(MonotonicTime now, const BoardView& view) {
     }
     taken_.push_back({{++last_name_, report, view.points, block_m}, *posture, view.has_top});
     done_with_ = report;
-    last_press_.renew(now);
+    latest_press_ = now;
     end_capture(now, AutoWord::Taken);
     if (taken_.size() >= wanted_) {
-        stage_ = AutoStage::Solve;
+        stage_ = Stage::Solve;
     }
 }
 
@@ -311,18 +280,11 @@ std::vector<RigidTransform> AutoProcedure::flat_ones() const {
     return flat;
 }
 
-void AutoProcedure::judge(AutoCalibration calibration) {
-    assert(stage_ == AutoStage::Solve);
-    word_ = AutoWord::None;
-    stage_ = AutoStage::Judged;
-    judged_ = std::move(calibration);
-}
-
 /// Rests that do not fit are dropped, and as many taken anew; what is refused begins anew. Back keeps all, and goes on.
 void AutoProcedure::after_judgement(const Input& input) {
     const TouchCalibration& found = judged_->found;
     if (input.next && (found.verdict == Verdict::Good || found.verdict == Verdict::Usable)) {
-        stage_ = AutoStage::Done;
+        stage_ = Stage::Done;
     } else if (input.next && found.verdict == Verdict::Refused) {
         taken_.clear();
         go_on();
@@ -339,7 +301,7 @@ void AutoProcedure::after_judgement(const Input& input) {
 
 void AutoProcedure::go_on() {
     wanted_ = std::max(wanted_, taken_.size() + 1);
-    stage_ = AutoStage::Place;
+    stage_ = Stage::Place;
 }
 
 } // namespace frustumscreen

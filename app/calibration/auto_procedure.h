@@ -1,14 +1,12 @@
 /// The way through a calibration by a camera, for one technician: what the projector shows, what is said, and which rests of the board come of it.
 ///
-/// Begin    What is needed is told, or why it cannot be done, or what is the matter with the camera. Next begins, Back leaves, or goes on
-///          to the crosses where they follow; who does nothing for a while leaves too.
+/// Begin    What is the matter with the camera is told too. Back goes on to the crosses where they follow.
 /// Delay    The projector shows light and dark, and it is measured how long the camera takes to see it. From a camera that does not, Back goes
 ///          on to the crosses too.
 /// Rests    It is said where the board is to stand next, and how. When the tracker's reports have come to rest somewhere else than before, the
 ///          stripes are shown, without a press. What moved, or was shadowed, is done again by itself.
 /// Buttons  Between rests Back drops the last one, and Next ends early, from `enough` rests on. While stripes are shown Back ends them.
-/// End      After the last one whoever calls solves and tells the verdict: Next keeps it, or does again what does not fit; Back goes on with more rests.
-/// Time     a parameter; the tracker's and the camera's own rates, whatever they are.
+/// End      Next keeps it, or does again what does not fit; Back goes on with more rests.
 /// Frames   tracker K, as the device reports; pixels of the projector.
 /// Threads  one caller. A step may take some tenths of a second: it looks for tags and decodes.
 #pragma once
@@ -16,7 +14,7 @@
 #include "app/calibration/board_view.h"
 #include "app/calibration/calibrate_auto.h"
 #include "app/calibration/capture_delay.h"
-#include "app/calibration/last_press.h"
+#include "app/calibration/procedure.h"
 #include "app/calibration/rest_wish.h"
 #include "app/calibration/still_reports.h"
 #include "app/calibration/stripe_capture.h"
@@ -29,18 +27,6 @@
 #include <vector>
 
 namespace frustumscreen {
-
-enum class AutoStage {
-    Begin,
-    Delay,
-    Place,   ///< the board is to be put somewhere
-    Capture, ///< the stripes are shown
-    Solve,   ///< all rests are there: call `judge`
-    Judged,  ///< the verdict is told
-    Done,    ///< it is to be kept
-    Crosses, ///< they are wanted in its place
-    Left     ///< it ends without one
-};
 
 /// What is said beside what is to be done.
 enum class AutoWord {
@@ -73,13 +59,9 @@ struct AutoPlan {
 /// A period of the stripes that suits the picture's width: a camera's pixel covers more of a finer picture.
 [[nodiscard]] StripeSetup stripes_for(int width, int height);
 
-class AutoProcedure {
+class AutoProcedure : public Procedure<AutoWord, AutoCalibration> {
 public:
     static constexpr Nanoseconds rest = std::chrono::milliseconds(1500);
-    static constexpr Nanoseconds patience =
-        std::chrono::seconds(2); ///< for the tracker's reports, and for a camera to be set up
-    static constexpr Nanoseconds to_begin = std::chrono::minutes(1);  ///< without a press: it is left
-    static constexpr Nanoseconds to_go_on = std::chrono::minutes(10); ///< without a press or a rest
     static constexpr Nanoseconds pause =
         std::chrono::seconds(3);              ///< before stripes that were of no use come again
     static constexpr std::size_t enough = 12; ///< rests
@@ -91,34 +73,14 @@ public:
     static constexpr double leaning_rad = 0.14;
     static constexpr double height_m = 8e-3; ///< from where the table or the block has it
 
-    /// `problem`: a sentence on why it cannot be done; empty: it can.
     AutoProcedure(Board board, const AutoPlan& plan, std::string problem = {});
 
-    /// Since when the picture with that number is lit.
-    struct Lit {
-        std::uint64_t number = 0;
-        MonotonicTime since;
-    };
-    struct Input {
-        MonotonicTime now;
-        std::optional<RigidTransform> report; ///< a new one of the prop's sensor; nothing new: none
-        const CameraFrame* frame = nullptr;   ///< a new one
-        CameraState camera = CameraState::Running;
-        std::optional<Lit> lit;
-        bool next = false; ///< a button was pressed
-        bool back = false;
-    };
     void step(const Input& input);
-    /// In stage Solve: what came of the rests.
-    void judge(AutoCalibration calibration);
 
     /// What is shown: a pattern, or nothing: words. Whenever it becomes another, it has the next number.
     [[nodiscard]] const std::optional<Pattern>& shown() const { return shown_; }
     [[nodiscard]] std::uint64_t number() const { return number_; }
 
-    [[nodiscard]] AutoStage stage() const { return stage_; }
-    [[nodiscard]] AutoWord word() const { return word_; }
-    [[nodiscard]] const std::string& problem() const { return problem_; }
     [[nodiscard]] CameraState camera() const { return camera_; }
     [[nodiscard]] const AutoPlan& plan() const { return plan_; }
     [[nodiscard]] const Board& board() const { return board_; }
@@ -134,10 +96,8 @@ public:
         return next_wish(taken_, {plan_.stripes.width, plan_.stripes.height});
     }
     [[nodiscard]] std::optional<Nanoseconds> delay() const { return delay_; }
-    [[nodiscard]] const std::optional<AutoCalibration>& judged() const { return judged_; }
 
 private:
-    [[nodiscard]] bool nobody_is_there(const Input& input);
     [[nodiscard]] std::optional<Pattern> to_show() const;
     [[nodiscard]] std::optional<MonotonicTime> lit(const Input& input) const;
     void begin(const Input& input);
@@ -159,15 +119,11 @@ private:
 
     Board board_;
     AutoPlan plan_;
-    std::string problem_;
     std::size_t wanted_;
     TagDetector detector_;
-    AutoStage stage_ = AutoStage::Begin;
-    AutoWord word_ = AutoWord::None;
     CameraState camera_ = CameraState::Running;
     std::optional<Pattern> shown_;
     std::uint64_t number_ = 0;
-    LastPress last_press_; ///< or rest
     std::optional<MonotonicTime>
         camera_well_; ///< at the beginning: so long it could be used, or nothing was to be seen yet
     std::optional<CaptureDelay> light_;
@@ -182,7 +138,6 @@ private:
     std::optional<StripeCapture> stripes_;
     std::vector<TakenRest> taken_;
     int last_name_ = 0;
-    std::optional<AutoCalibration> judged_;
 };
 
 } // namespace frustumscreen

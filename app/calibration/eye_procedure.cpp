@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -18,7 +17,7 @@ constexpr std::array postures{HeadPosture::ChinUp,      HeadPosture::TurnedLeft,
 } // namespace
 
 EyeProcedure::EyeProcedure(SightScene scene, const Registration& registration, std::string problem)
-    : scene_(std::move(scene)), registration_(registration), problem_(std::move(problem)) {
+    : Procedure(std::move(problem)), scene_(std::move(scene)), registration_(registration) {
     const SightPlan wished = plan_sights(scene_, wished_place(scene_), scene_.usual_eye_m, least_crosses);
     wished_words_ = wished.words;
     if (problem_.empty() && wished.crosses.size() < least_crosses) {
@@ -38,36 +37,15 @@ void EyeProcedure::ask(std::size_t from, std::size_t to) {
 }
 
 void EyeProcedure::step(const Input& input) {
-    const Nanoseconds patient = stage_ == EyeStage::Begin ? to_begin : to_go_on;
-    const bool is_alone = last_press_.is_older_than(patient, input.now, input.next || input.back);
-    if (is_alone && stage_ != EyeStage::Done) {
-        stage_ = EyeStage::Left;
-    }
+    static constexpr Row<EyeProcedure> rows[]{{Stage::Begin, &EyeProcedure::begin},
+                                              {Stage::Rest, &EyeProcedure::take_rest},
+                                              {Stage::Shut, &EyeProcedure::shut},
+                                              {Stage::Place, &EyeProcedure::aim},
+                                              {Stage::HoldStill, &EyeProcedure::hold_still},
+                                              {Stage::Judged, &EyeProcedure::after_judgement}};
+    leave_if_alone(input);
     watch(input);
-    switch (stage_) {
-    case EyeStage::Begin:
-        begin(input);
-        break;
-    case EyeStage::Rest:
-        take_rest(input);
-        break;
-    case EyeStage::Shut:
-        shut(input);
-        break;
-    case EyeStage::Aim:
-        aim(input);
-        break;
-    case EyeStage::HoldStill:
-        hold_still(input);
-        break;
-    case EyeStage::Judged:
-        after_judgement(input);
-        break;
-    case EyeStage::Solve:
-    case EyeStage::Done:
-    case EyeStage::Left:
-        break;
-    }
+    step_in_stage(*this, rows, input);
 }
 
 /// What is seen; and that the prop lies where its rest was taken, as long as sightings need it.
@@ -81,11 +59,10 @@ void EyeProcedure::watch(const Input& input) {
     }
     prop_seen_ = input.now;
     const bool stays = prop_still_.add(input.now, *input.prop);
-    const bool is_needed =
-        stage_ == EyeStage::Shut || stage_ == EyeStage::Aim || stage_ == EyeStage::HoldStill;
+    const bool is_needed = stage_ == Stage::Shut || stage_ == Stage::Place || stage_ == Stage::HoldStill;
     if (!stays && is_needed) {
         begin_rest(input.now, EyeWord::PropMoved);
-    } else if (!stays && stage_ == EyeStage::Rest && word_ != EyeWord::PropMoved) {
+    } else if (!stays && stage_ == Stage::Rest && word_ != EyeWord::PropMoved) {
         word_ = EyeWord::PropMoves;
     }
 }
@@ -94,7 +71,7 @@ void EyeProcedure::begin(const Input& input) {
     word_ = EyeWord::None;
     knows_place_ = false;
     if (input.back) {
-        stage_ = EyeStage::Left;
+        stage_ = Stage::Left;
     } else if (input.next && problem_.empty()) {
         prop_still_.clear();
         open_.reset();
@@ -104,9 +81,8 @@ void EyeProcedure::begin(const Input& input) {
 
 void EyeProcedure::begin_rest(MonotonicTime now, EyeWord word) {
     prop_seen_ = head_seen_ = now;
-    word_ = word;
     knows_place_ = knows_place_ && word == EyeWord::PropMoved; // then it is not far
-    stage_ = EyeStage::Rest;
+    go_to(Stage::Rest, word);
 }
 
 /// What the tracker does not see; None: it sees both.
@@ -118,8 +94,7 @@ EyeWord EyeProcedure::missing(MonotonicTime now) const {
 
 void EyeProcedure::take_rest(const Input& input) {
     if (input.back) {
-        word_ = EyeWord::None;
-        stage_ = EyeStage::Begin;
+        go_to(Stage::Begin);
         return;
     }
     if (const EyeWord lost = missing(input.now); lost != EyeWord::None) {
@@ -160,27 +135,27 @@ void EyeProcedure::plan() {
     go_to_next_open();
 }
 
-void EyeProcedure::go_to(std::size_t sight) {
+void EyeProcedure::ask_for(std::size_t sight) {
     at_ = sight;
-    stage_ = open_ == asked().eye ? EyeStage::Aim : EyeStage::Shut;
+    stage_ = open_ == asked().eye ? Stage::Place : Stage::Shut;
 }
 
 void EyeProcedure::go_to_next_open() {
     const auto open = std::find(sights_.begin(), sights_.end(), std::nullopt);
     if (open == sights_.end()) {
-        stage_ = EyeStage::Solve;
+        stage_ = Stage::Solve;
     } else {
-        go_to(static_cast<std::size_t>(open - sights_.begin()));
+        ask_for(static_cast<std::size_t>(open - sights_.begin()));
     }
 }
 
 void EyeProcedure::go_back() {
     word_ = EyeWord::None;
     if (at_ == 0) {
-        stage_ = EyeStage::Begin;
+        stage_ = Stage::Begin;
     } else {
         sights_[at_ - 1].reset();
-        go_to(at_ - 1);
+        ask_for(at_ - 1);
     }
 }
 
@@ -189,8 +164,7 @@ void EyeProcedure::shut(const Input& input) {
         go_back();
     } else if (input.next) {
         open_ = asked().eye;
-        word_ = EyeWord::None;
-        stage_ = EyeStage::Aim;
+        go_to(Stage::Place);
     }
 }
 
@@ -199,23 +173,20 @@ void EyeProcedure::aim(const Input& input) {
         go_back();
     } else if (input.next) {
         head_still_.clear();
-        word_ = EyeWord::None;
-        stage_ = EyeStage::HoldStill;
+        go_to(Stage::HoldStill);
     }
 }
 
 void EyeProcedure::hold_still(const Input& input) {
     if (input.back) {
-        word_ = EyeWord::None;
-        stage_ = EyeStage::Aim;
+        go_to(Stage::Place);
         return;
     }
     if (input.head && !head_still_.add(input.now, *input.head)) {
         word_ = EyeWord::HeadMoved;
     }
     if (const EyeWord lost = missing(input.now); lost != EyeWord::None) {
-        word_ = lost;
-        stage_ = EyeStage::Aim;
+        go_to(Stage::Place, lost);
     } else if (head_still_.rest() >= rest && head_still_.count() >= least_reports) {
         take();
     }
@@ -233,20 +204,12 @@ void EyeProcedure::take() {
     const glm::dvec3 in_sensor =
         glm::conjugate(table_from_sensor) * glm::normalize(cross().tip_m - cross().cross_m);
     if (is_held_as_before(in_sensor)) {
-        word_ = EyeWord::SameHead;
-        stage_ = EyeStage::Aim;
+        go_to(Stage::Place, EyeWord::SameHead);
         return;
     }
     sights_[at_] = Taken{{asked().eye, head, cross().pixel, cross().tip_m}, in_sensor};
     word_ = EyeWord::Taken;
     go_to_next_open();
-}
-
-void EyeProcedure::judge(EyeFit fit) {
-    assert(stage_ == EyeStage::Solve);
-    word_ = EyeWord::None;
-    stage_ = EyeStage::Judged;
-    judged_ = std::move(fit);
 }
 
 bool EyeProcedure::asks_for_more() const {
@@ -261,7 +224,7 @@ void EyeProcedure::after_judgement(const Input& input) {
         return;
     }
     if (input.next && (judged.verdict == Verdict::Good || judged.verdict == Verdict::Usable)) {
-        stage_ = EyeStage::Done;
+        stage_ = Stage::Done;
         return;
     }
     if (input.next && judged.verdict == Verdict::Refused) {

@@ -1,42 +1,26 @@
 /// The way of a person with a sensor on the head through the sightings that tell where the eyes are in it, with two buttons: which cross is shown,
 /// what is said, and which of the tracker's reports become sightings.
 ///
-/// Begin    What is needed is told, or why it cannot be done. Next begins, Back leaves; who does nothing for a while leaves too.
 /// Rest     The prop's rest is taken: where its corners are follows from the registration. Whenever the prop is pushed later, its rest is taken anew;
 ///          sightings that were made keep their own corner.
 /// Sights   For each eye: which one is to be shut is told, and Next pressed; then come its crosses, each with another posture of the head. The person
 ///          brings the corner over the cross; Next; a second of stillness is taken, and begins anew if the head moves. Back does the sighting before again.
-/// End      After the last one whoever calls fits and tells the verdict: Next keeps it, or does again what is doubtful, or makes more; Back does the
-///          sighting again that lies farthest off.
-/// Time     a parameter; the tracker's own rate, whatever it is.
+/// End      Next keeps it, or does again what is doubtful, or makes more; Back does the sighting again that lies farthest off.
 /// Frames   tracker K, as the device reports; table T.
 /// Threads  pure; any.
 #pragma once
 
 #include "app/calibration/eye_fit.h"
-#include "app/calibration/last_press.h"
+#include "app/calibration/procedure.h"
 #include "app/calibration/sight_plan.h"
 #include "app/calibration/still_reports.h"
 #include "app/geometry/registration.h"
-#include "firmware_host/base/time.h"
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace frustumscreen {
-
-enum class EyeStage {
-    Begin,
-    Rest,      ///< the prop's place is taken
-    Shut,      ///< one eye is to be shut
-    Aim,       ///< the corner is to be brought over the cross
-    HoldStill, ///< the head's rest is taken
-    Solve,     ///< all sightings are there: call `judge`
-    Judged,
-    Done, ///< the eye is to be kept
-    Left  ///< it ends without one
-};
 
 /// How the head is to be held: an eye's lines must meet at angles in the head, both upwards and sideways.
 enum class HeadPosture { ChinUp, ChinDown, TurnedLeft, TurnedRight };
@@ -62,12 +46,9 @@ struct AskedSight {
     std::size_t place = 0; ///< of its cross among those of the plan
 };
 
-class EyeProcedure {
+class EyeProcedure : public Procedure<EyeWord, EyeFit> {
 public:
     static constexpr Nanoseconds rest = std::chrono::seconds(1);
-    static constexpr Nanoseconds patience = std::chrono::seconds(2); ///< for the tracker's reports
-    static constexpr Nanoseconds to_begin = std::chrono::minutes(1); ///< without a press: it is left
-    static constexpr Nanoseconds to_go_on = std::chrono::minutes(10);
     static constexpr std::size_t least_reports = 5; ///< in a second of rest
     static constexpr std::size_t of_each = 6;       ///< sightings with each eye, at first
     static constexpr std::size_t more = 2;          ///< with each, where those are too few
@@ -79,23 +60,11 @@ public:
         0.1; ///< of the line of sight in the head, from one sighting to the next, at least
     static constexpr double off_table_m = 0.015;
 
-    /// `problem`: half a sentence on why it cannot be done; empty: it can, unless the picture is too small.
+    /// A picture that is too small is a problem too.
     EyeProcedure(SightScene scene, const Registration& registration, std::string problem = {});
 
-    struct Input {
-        MonotonicTime now;
-        std::optional<RigidTransform> prop; ///< a new report of its sensor; nothing new: none
-        std::optional<RigidTransform> head; ///< the same
-        bool next = false;                  ///< a button was pressed
-        bool back = false;
-    };
     void step(const Input& input);
-    /// In stage Solve: what came of the sightings.
-    void judge(EyeFit fit);
 
-    [[nodiscard]] EyeStage stage() const { return stage_; }
-    [[nodiscard]] EyeWord word() const { return word_; }
-    [[nodiscard]] const std::string& problem() const { return problem_; }
     [[nodiscard]] const SightScene& scene() const { return scene_; }
     /// Whether the prop's rest was taken; else it is wished to stand where scene's `wished_place` is.
     [[nodiscard]] bool knows_place() const { return knows_place_; }
@@ -103,7 +72,7 @@ public:
     [[nodiscard]] const RigidTransform& table_from_prop() const { return table_from_prop_; }
     /// For words, beside that place.
     [[nodiscard]] const WordsBox& words() const { return knows_place_ ? plan_.words : wished_words_; }
-    /// Which sighting is asked for, counted from 0; in the stages Shut, Aim and HoldStill.
+    /// Which sighting is asked for, counted from 0; in the stages Shut, Place and HoldStill.
     [[nodiscard]] std::size_t at() const { return at_; }
     [[nodiscard]] std::size_t count() const { return asked_.size(); }
     [[nodiscard]] const AskedSight& asked() const { return asked_[at_]; }
@@ -113,7 +82,6 @@ public:
     [[nodiscard]] bool is_taken(std::size_t sight) const { return sights_[sight].has_value(); }
     /// Those that are taken; in stage Solve and after it all that are asked for.
     [[nodiscard]] ReportedSights sights() const;
-    [[nodiscard]] const std::optional<EyeFit>& judged() const { return judged_; }
     /// After the verdict: Next asks for more sightings.
     [[nodiscard]] bool asks_for_more() const;
 
@@ -125,7 +93,7 @@ private:
     void take_rest(const Input& input);
     [[nodiscard]] EyeWord missing(MonotonicTime now) const;
     void plan();
-    void go_to(std::size_t sight);
+    void ask_for(std::size_t sight);
     void go_to_next_open();
     void go_back();
     void shut(const Input& input);
@@ -142,7 +110,6 @@ private:
     };
     SightScene scene_;
     Registration registration_;
-    std::string problem_;
     std::vector<AskedSight> asked_;
     std::vector<std::optional<Taken>> sights_; ///< one for each
     RigidTransform table_from_prop_;
@@ -150,15 +117,11 @@ private:
     WordsBox wished_words_;
     SightPlan plan_;
     std::size_t at_ = 0;
-    EyeStage stage_ = EyeStage::Begin;
-    EyeWord word_ = EyeWord::None;
-    LastPress last_press_;
     std::optional<OpenEye> open_; ///< the eye that is looked with
     StillReports prop_still_{3};
     StillReports head_still_{1, head_limits};
     MonotonicTime prop_seen_{}, head_seen_{};
     std::optional<RigidTransform> head_; ///< the latest report
-    std::optional<EyeFit> judged_;
 };
 
 } // namespace frustumscreen

@@ -1,85 +1,54 @@
 #include "app/calibration/touch_procedure.h"
 
 #include <algorithm>
-#include <cassert>
 
 namespace frustumscreen {
 
 void TouchProcedure::step(const Input& input) {
-    if (nobody_is_there(input)) {
-        stage_ = TouchStage::Left;
-    }
-    switch (stage_) {
-    case TouchStage::Begin:
-        begin(input);
-        break;
-    case TouchStage::Lay:
-        lay(input);
-        break;
-    case TouchStage::HoldStill:
-        hold_still(input);
-        break;
-    case TouchStage::Judged:
-        after_judgement(input);
-        break;
-    case TouchStage::Solve:
-    case TouchStage::Done:
-    case TouchStage::Anew:
-    case TouchStage::Left:
-        break;
-    }
-}
-
-bool TouchProcedure::nobody_is_there(const Input& input) {
-    const Nanoseconds patient = stage_ == TouchStage::Begin ? to_begin : to_go_on;
-    return last_press_.is_older_than(patient, input.now, input.next || input.back) &&
-           stage_ != TouchStage::Done && stage_ != TouchStage::Anew;
+    static constexpr Row<TouchProcedure> rows[]{{Stage::Begin, &TouchProcedure::begin},
+                                                {Stage::Place, &TouchProcedure::lay},
+                                                {Stage::HoldStill, &TouchProcedure::hold_still},
+                                                {Stage::Judged, &TouchProcedure::after_judgement}};
+    leave_if_alone(input);
+    step_in_stage(*this, rows, input);
 }
 
 void TouchProcedure::begin(const Input& input) {
     word_ = TouchWord::None;
     if (input.back) {
-        stage_ = task_ == TouchTask::TouchUp ? TouchStage::Anew : TouchStage::Left;
+        stage_ = task_ == TouchTask::TouchUp ? Stage::GoesOn : Stage::Left;
     } else if (input.next && problem_.empty()) {
-        stage_ = TouchStage::Lay;
+        stage_ = Stage::Place;
     }
 }
 
 void TouchProcedure::lay(const Input& input) {
     if (input.back && at_ == 0) {
-        stage_ = TouchStage::Begin;
+        stage_ = Stage::Begin;
     } else if (input.back) {
         touches_[--at_].reset();
         word_ = TouchWord::None;
     } else if (input.next) {
-        begin_rest(input.now);
-        word_ = TouchWord::None;
-        stage_ = TouchStage::HoldStill;
+        still_.clear();
+        rest_began_ = seen_ = input.now;
+        go_to(Stage::HoldStill);
     }
-}
-
-void TouchProcedure::begin_rest(MonotonicTime now) {
-    still_.clear();
-    rest_began_ = now;
-    seen_ = now;
 }
 
 void TouchProcedure::hold_still(const Input& input) {
     if (input.back) {
-        stage_ = TouchStage::Lay;
-        word_ = TouchWord::None;
+        go_to(Stage::Place);
         return;
     }
-    if (input.report) {
+    if (input.prop) {
         seen_ = input.now;
-        if (!still_.add(input.now, *input.report)) {
+        if (!still_.add(input.now, *input.prop)) {
             rest_began_ = input.now;
             word_ = TouchWord::Moved;
         }
     }
     if (input.now - seen_ > patience) {
-        stage_ = TouchStage::Lay;
-        word_ = TouchWord::NotSeen;
+        go_to(Stage::Place, TouchWord::NotSeen);
     } else if (input.now - rest_began_ >= rest && still_.count() >= least_reports) {
         take();
     }
@@ -102,8 +71,7 @@ bool TouchProcedure::lies_where_another_lay(const RigidTransform& pose) const {
 void TouchProcedure::take() {
     const RigidTransform pose = still_.mean();
     if (lies_where_another_lay(pose)) {
-        stage_ = TouchStage::Lay;
-        word_ = TouchWord::SamePlace;
+        go_to(Stage::Place, TouchWord::SamePlace);
         return;
     }
     touches_[at_] = Touch{pose, crosses_[at_].pixel, crosses_[at_].block_m};
@@ -114,15 +82,8 @@ void TouchProcedure::take() {
 void TouchProcedure::go_to_next_open() {
     const auto end = touches_.begin() + static_cast<std::ptrdiff_t>(asked_);
     const auto open = std::find(touches_.begin(), end, std::nullopt);
-    stage_ = open == end ? TouchStage::Solve : TouchStage::Lay;
+    stage_ = open == end ? Stage::Solve : Stage::Place;
     at_ = open == end ? at_ : static_cast<std::size_t>(open - touches_.begin());
-}
-
-void TouchProcedure::judge(TouchJudgement judgement) {
-    assert(stage_ == TouchStage::Solve);
-    word_ = TouchWord::None;
-    stage_ = TouchStage::Judged;
-    judged_ = std::move(judgement);
 }
 
 bool TouchProcedure::asks_for_more() const {
@@ -140,7 +101,7 @@ void TouchProcedure::after_judgement(const Input& input) {
         return;
     }
     if (input.next && (may_be_kept || (is_refused && is_touch_up))) {
-        stage_ = may_be_kept ? TouchStage::Done : TouchStage::Anew;
+        stage_ = may_be_kept ? Stage::Done : Stage::GoesOn;
         return;
     }
     if (is_refused && (input.next || is_touch_up)) {

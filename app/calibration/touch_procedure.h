@@ -1,23 +1,19 @@
 /// The way through a calibration by touch, or the touch-up of one, for one technician with two buttons: which cross the projector
 /// shows, what is said, and which of the tracker's reports become touches.
 ///
-/// Begin    What is needed is told, or why it cannot be done. Next begins, Back leaves. Who does nothing for a while leaves too, so that
-///          the exhibit comes back when somebody forgets the table, or got here by chance.
 /// Steps    The cross is shown; the prop is laid on it; Next; a second of rest is taken, and begins anew if the prop moves; the
-///          next cross. After the last one whoever calls solves and tells the verdict: Next keeps it, Back does the touch again
-///          that lies farthest off; touches that are to be repeated come again by themselves.
+///          next cross.
+/// End      Next keeps it, Back does the touch again that lies farthest off; touches that are to be repeated come again by themselves.
 /// Touch-up Back from its beginning, and Next after a refusal, lead to the whole calibration; Back after a refusal does all touches
 ///          again. Where the first touches are too few to check each other, more crosses come.
-/// Time     a parameter; the tracker's own rate, whatever it is.
 /// Frames   tracker K, as the device reports.
 /// Threads  pure; any.
 #pragma once
 
 #include "app/calibration/calibrate_touch.h"
 #include "app/calibration/choose_crosses.h"
-#include "app/calibration/last_press.h"
+#include "app/calibration/procedure.h"
 #include "app/calibration/still_reports.h"
-#include "firmware_host/base/time.h"
 
 #include <optional>
 #include <string>
@@ -28,17 +24,6 @@ namespace frustumscreen {
 enum class TouchTask {
     Anew,   ///< projector, tracker and sensor
     TouchUp ///< of the kept calibration: what moved
-};
-
-enum class TouchStage {
-    Begin,     ///< nothing was done yet; Back from the first cross leads here too
-    Lay,       ///< the prop is to be laid on the cross
-    HoldStill, ///< its rest is taken
-    Solve,     ///< all touches are there: call `judge`
-    Judged,    ///< the verdict is told
-    Done,      ///< it is to be kept
-    Anew,      ///< of a touch-up: the whole calibration is wanted in its place
-    Left       ///< it ends without one
 };
 
 /// What came of the touches, as far as the way through them depends on it.
@@ -59,39 +44,26 @@ enum class TouchWord {
     Taken      ///< well done
 };
 
-class TouchProcedure {
+class TouchProcedure : public Procedure<TouchWord, TouchJudgement> {
 public:
     static constexpr Nanoseconds rest = std::chrono::seconds(1);
-    static constexpr Nanoseconds patience = std::chrono::seconds(2); ///< for the tracker's reports
-    static constexpr Nanoseconds to_begin = std::chrono::minutes(1); ///< without a press: it is left
-    static constexpr Nanoseconds to_go_on = std::chrono::minutes(10);
     static constexpr double same_place_m = 5e-3;
     static constexpr double same_place_rad = 0.2;
     static constexpr std::size_t least_reports = 5; ///< in the second of rest
 
-    /// `crosses`: at least one, in the order in which they come. `problem`: a sentence on why it cannot be done; empty: it can.
+    /// `crosses`: at least one, in the order in which they come.
     explicit TouchProcedure(std::vector<Cross> crosses, std::string problem = {})
-        : crosses_(std::move(crosses)), asked_(crosses_.size()), touches_(crosses_.size()),
-          problem_(std::move(problem)) {}
+        : Procedure(std::move(problem)), crosses_(std::move(crosses)), asked_(crosses_.size()),
+          touches_(crosses_.size()) {}
     /// A touch-up by the first `few` of the crosses; the others are for touches that are too few to check each other.
     TouchProcedure(std::vector<Cross> crosses, std::size_t few)
-        : task_(TouchTask::TouchUp), crosses_(std::move(crosses)), asked_(few), touches_(crosses_.size()) {}
+        : Procedure({}), task_(TouchTask::TouchUp), crosses_(std::move(crosses)), asked_(few),
+          touches_(crosses_.size()) {}
 
-    struct Input {
-        MonotonicTime now;
-        std::optional<RigidTransform> report; ///< a new one of the prop's sensor; nothing new: none
-        bool next = false;                    ///< a button was pressed
-        bool back = false;
-    };
     void step(const Input& input);
-    /// In stage Solve: what came of the touches.
-    void judge(TouchJudgement judgement);
 
     [[nodiscard]] TouchTask task() const { return task_; }
-    [[nodiscard]] TouchStage stage() const { return stage_; }
-    [[nodiscard]] const std::string& problem() const { return problem_; }
-    [[nodiscard]] TouchWord word() const { return word_; }
-    /// Which cross is shown, counted from 0; in the stages Lay and HoldStill.
+    /// Which cross is shown, counted from 0; in the stages Place and HoldStill.
     [[nodiscard]] std::size_t at() const { return at_; }
     [[nodiscard]] const Cross& cross() const { return crosses_[at_]; }
     [[nodiscard]] const std::vector<Cross>& crosses() const { return crosses_; }
@@ -102,16 +74,13 @@ public:
     [[nodiscard]] bool is_taken(std::size_t cross) const { return touches_[cross].has_value(); }
     /// All of them, in stage Solve and after it.
     [[nodiscard]] Touches touches() const;
-    [[nodiscard]] const std::optional<TouchJudgement>& judged() const { return judged_; }
 
 private:
     void begin(const Input& input);
-    [[nodiscard]] bool nobody_is_there(const Input& input);
     void lay(const Input& input);
     void hold_still(const Input& input);
     void take();
     [[nodiscard]] bool lies_where_another_lay(const RigidTransform& pose) const;
-    void begin_rest(MonotonicTime now);
     void after_judgement(const Input& input);
     void go_to_next_open();
     void touch_worst_again();
@@ -120,15 +89,10 @@ private:
     std::vector<Cross> crosses_;
     std::size_t asked_;
     std::vector<std::optional<Touch>> touches_; ///< one for each cross
-    std::string problem_;
     std::size_t at_ = 0;
-    TouchStage stage_ = TouchStage::Begin;
-    LastPress last_press_;
-    TouchWord word_ = TouchWord::None;
     StillReports still_{1}; ///< of the rest so far
     MonotonicTime rest_began_{};
     MonotonicTime seen_{};
-    std::optional<TouchJudgement> judged_;
 };
 
 } // namespace frustumscreen

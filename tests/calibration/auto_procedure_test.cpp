@@ -82,10 +82,10 @@ public:
             frames_.pop_front();
             input.frame = &frame_;
         }
-        input.report = report_;
-        input.report->translation += 5e-5 * numbers.normals();
+        input.prop = report_;
+        input.prop->translation += 5e-5 * numbers.normals();
         if (now - moved_ < std::chrono::milliseconds(400)) { // on its way
-            input.report->translation.x += 0.05 + 0.1 * to_seconds(now - moved_);
+            input.prop->translation.x += 0.05 + 0.1 * to_seconds(now - moved_);
         }
         if (hand) {
             hand(input);
@@ -120,7 +120,7 @@ public:
     }
     /// Until the stage is another one, or for so long.
     void go_on(double seconds = 60.0, const std::function<void(AutoProcedure::Input&)>& hand = {}) {
-        const AutoStage stage = procedure.stage();
+        const CalibrationStage stage = procedure.stage();
         for (const MonotonicTime end = now + std::chrono::milliseconds(std::llround(1e3 * seconds));
              procedure.stage() == stage && now < end;) {
             step(hand);
@@ -131,12 +131,12 @@ public:
         step();
         press_next();
         go_on();
-        ASSERT_EQ(procedure.stage(), AutoStage::Place);
+        ASSERT_EQ(procedure.stage(), CalibrationStage::Place);
     }
     /// All rests, each where it is wanted.
     void take_all() {
-        for (int round = 0; procedure.stage() == AutoStage::Place && round < 3 * procedure.plan().rests;
-             ++round) {
+        for (int round = 0;
+             procedure.stage() == CalibrationStage::Place && round < 3 * procedure.plan().rests; ++round) {
             obey();
             go_on(6.0); // to the stripes
             go_on();    // and back
@@ -169,7 +169,7 @@ public:
 private:
     /// Such a frame may show another picture than the one that is lit. The procedure must not use it: it comes dark.
     [[nodiscard]] bool is_too_early(MonotonicTime begin) const {
-        return procedure.stage() == AutoStage::Capture && begin < lit_->since + *procedure.delay();
+        return procedure.stage() == CalibrationStage::Capture && begin < lit_->since + *procedure.delay();
     }
     [[nodiscard]] static CameraFrame dark_frame(MonotonicTime time, int width, int height) {
         return {time, 0, width, height,
@@ -182,7 +182,7 @@ private:
         }
         words_ = words;
         if (!lit_ || lit_->number != procedure.number()) {
-            lit_ = AutoProcedure::Lit{procedure.number(), now};
+            lit_ = CalibrationInput::Lit{procedure.number(), now};
         }
         const StripeSetup& size = procedure.plan().stripes;
         if (procedure.shown()) {
@@ -194,7 +194,7 @@ private:
 
     Nanoseconds tick_;
     Typesetter typesetter_;
-    std::optional<AutoProcedure::Lit> lit_;
+    std::optional<CalibrationInput::Lit> lit_;
     std::vector<std::string> words_;
     std::deque<CameraFrame> frames_;
     CameraFrame frame_;
@@ -208,7 +208,7 @@ RegistrationError whole_way(const LiveSetup& setup) {
     Live live(setup);
     live.begin();
     live.take_all();
-    if (live.procedure.stage() != AutoStage::Solve) {
+    if (live.procedure.stage() != CalibrationStage::Solve) {
         ADD_FAILURE() << "it ended at rest " << live.procedure.taken() << ", word "
                       << static_cast<int>(live.procedure.word());
         return {1.0, 1.0};
@@ -229,7 +229,7 @@ RegistrationError whole_way(const LiveSetup& setup) {
                 got.print);
     std::fflush(stdout);
     live.press_next();
-    EXPECT_EQ(live.procedure.stage(), AutoStage::Done);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Done);
     return error;
 }
 
@@ -256,15 +256,15 @@ TEST(AutoProcedure, DoesAgainWhatWasDisturbed) {
     live.begin();
     live.obey();
     live.go_on(6.0);
-    ASSERT_EQ(live.procedure.stage(), AutoStage::Capture);
+    ASSERT_EQ(live.procedure.stage(), CalibrationStage::Capture);
 
     live.go_on(2.0);
-    live.go_on(
-        1.0, [](AutoProcedure::Input& input) { input.report->translation.y += 0.004; }); // the prop is pushed
-    EXPECT_EQ(live.procedure.stage(), AutoStage::Place);
+    live.go_on(1.0,
+               [](AutoProcedure::Input& input) { input.prop->translation.y += 0.004; }); // the prop is pushed
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(live.procedure.word(), AutoWord::Moved);
     live.go_on(6.0);
-    ASSERT_EQ(live.procedure.stage(), AutoStage::Capture); // by itself, as soon as it rests
+    ASSERT_EQ(live.procedure.stage(), CalibrationStage::Capture); // by itself, as soon as it rests
 
     live.go_on(2.0);
     live.go_on(1.0, [](AutoProcedure::Input& input) { // the camera's cable is pulled
@@ -275,7 +275,7 @@ TEST(AutoProcedure, DoesAgainWhatWasDisturbed) {
     EXPECT_EQ(auto_words(live.procedure).back(),
               "No camera is connected; check its USB cable, and its name in the settings.");
     live.go_on(6.0);
-    ASSERT_EQ(live.procedure.stage(), AutoStage::Capture);
+    ASSERT_EQ(live.procedure.stage(), CalibrationStage::Capture);
 
     live.go_on(3.0); // a person bends over the table
     live.scene.shade(live.now, [](const glm::dvec2& pixel) { return pixel.x + pixel.y > 300.0; });
@@ -303,7 +303,7 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
     live.obey(most);
     live.go_on(6.0);
     live.go_on();
-    EXPECT_EQ(live.procedure.stage(), AutoStage::Place);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(live.procedure.word(), AutoWord::FewTags);
     const int hidden = live.board.tags[1].id;
     live.obey({hidden});
@@ -318,7 +318,7 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
 
     // What the buttons do after a verdict.
     const auto judge = [&](Verdict verdict, std::vector<std::size_t> repeat) {
-        ASSERT_EQ(live.procedure.stage(), AutoStage::Solve);
+        ASSERT_EQ(live.procedure.stage(), CalibrationStage::Solve);
         AutoCalibration judged;
         judged.found.verdict = verdict;
         judged.found.repeat = std::move(repeat);
@@ -327,7 +327,7 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
     judge(Verdict::Usable, {});
     EXPECT_EQ(word_key(live.procedure), "calibration.may_be_kept");
     live.press_back();
-    EXPECT_EQ(live.procedure.stage(), AutoStage::Place);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(live.procedure.wanted(), 5U);
     live.press_next();
     EXPECT_EQ(live.procedure.word(), AutoWord::TooFew);
@@ -336,7 +336,7 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
     EXPECT_EQ(live.procedure.word(), AutoWord::Dropped);
     EXPECT_EQ(live.procedure.taken(), 0U);
     live.press_back();
-    EXPECT_EQ(live.procedure.stage(), AutoStage::Begin);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Begin);
 }
 
 /// Without pictures, tracker and tags: how it begins.
@@ -362,7 +362,7 @@ struct Beginning {
              input.now < end;) {
             input.now += std::chrono::milliseconds(20);
             if (!input.lit || input.lit->number != procedure.number()) {
-                input.lit = AutoProcedure::Lit{procedure.number(), input.now};
+                input.lit = CalibrationInput::Lit{procedure.number(), input.now};
             }
             frame.time = input.now;
             ++frame.number;
@@ -388,14 +388,14 @@ TEST(AutoProcedure, GoesOnToTheCrossesWhereTheyFollow) {
         table.wait(0.1, CameraState::Running);
         EXPECT_EQ(word_key(table.procedure), follow ? "calibration.by_camera" : "calibration.begin");
         table.press(back);
-        EXPECT_EQ(table.procedure.stage(), follow ? AutoStage::Crosses : AutoStage::Left);
+        EXPECT_EQ(table.procedure.stage(), follow ? CalibrationStage::GoesOn : CalibrationStage::Left);
     }
     AutoProcedure refused(*board_for(prop), Beginning::plan(true), "the folder is full");
     EXPECT_EQ(word_key(refused), "") << "there is none for every reason";
     AutoProcedure::Input pressed;
     pressed.back = true;
     refused.step(pressed);
-    EXPECT_EQ(refused.stage(), AutoStage::Left) << "it was measured, and could not be kept";
+    EXPECT_EQ(refused.stage(), CalibrationStage::Left) << "it was measured, and could not be kept";
 }
 
 TEST(AutoProcedure, TellsOfACameraThatSeesNothingAndGoesOn) {
@@ -410,27 +410,27 @@ TEST(AutoProcedure, TellsOfACameraThatSeesNothingAndGoesOn) {
         sentence.erase(0, 1); // begins with a capital letter
         EXPECT_NE(auto_words(table.procedure)[1].find(sentence), std::string::npos);
         table.press(next);
-        EXPECT_EQ(table.procedure.stage(), AutoStage::Begin);
+        EXPECT_EQ(table.procedure.stage(), CalibrationStage::Begin);
         table.wait(0.1, CameraState::Running); // somebody mended it
         EXPECT_EQ(word_key(table.procedure), "calibration.by_camera");
         table.wait(2.5, fault);
         table.press(back);
-        EXPECT_EQ(table.procedure.stage(), AutoStage::Crosses);
+        EXPECT_EQ(table.procedure.stage(), CalibrationStage::GoesOn);
         table.wait(3600.0, fault);
-        EXPECT_EQ(table.procedure.stage(), AutoStage::Crosses);
+        EXPECT_EQ(table.procedure.stage(), CalibrationStage::GoesOn);
     }
     Beginning forgotten(true);
     forgotten.wait(62.0, CameraState::NotConnected);
-    EXPECT_EQ(forgotten.procedure.stage(), AutoStage::Left);
+    EXPECT_EQ(forgotten.procedure.stage(), CalibrationStage::Left);
 }
 
 TEST(AutoProcedure, GoesOnFromACameraThatDoesNotSeeTheLight) {
     for (const bool follow : {false, true}) {
-        const AutoStage after = follow ? AutoStage::Crosses : AutoStage::Begin;
+        const CalibrationStage after = follow ? CalibrationStage::GoesOn : CalibrationStage::Begin;
         Beginning lost(follow);
         lost.wait(0.1, CameraState::Running);
         lost.press(next);
-        ASSERT_EQ(lost.procedure.stage(), AutoStage::Delay);
+        ASSERT_EQ(lost.procedure.stage(), CalibrationStage::Delay);
         EXPECT_EQ(word_key(lost.procedure), "calibration.look_at_light");
         lost.wait(0.5, CameraState::NotConnected);
         EXPECT_EQ(word_key(lost.procedure), follow ? "calibration.no_camera" : "calibration.camera_fault");
@@ -443,7 +443,7 @@ TEST(AutoProcedure, GoesOnFromACameraThatDoesNotSeeTheLight) {
         well.wait(0.5, CameraState::Dark); // while dark is shown
         EXPECT_EQ(well.procedure.word(), AutoWord::None);
         well.press(back);
-        EXPECT_EQ(well.procedure.stage(), AutoStage::Begin);
+        EXPECT_EQ(well.procedure.stage(), CalibrationStage::Begin);
         well.wait(1.0, CameraState::Dark); // it has yet to see the words' light
         EXPECT_EQ(well.procedure.word(), AutoWord::None);
     }
@@ -456,7 +456,7 @@ TEST(AutoProcedure, GoesOnFromACameraThatLooksElsewhere) {
         elsewhere.press(next);
         const CameraFrame same{{}, 0, 8, 8, std::vector<std::uint8_t>(64, 90)};
         elsewhere.see(same, 30.0);
-        ASSERT_EQ(elsewhere.procedure.stage(), AutoStage::Delay);
+        ASSERT_EQ(elsewhere.procedure.stage(), CalibrationStage::Delay);
         EXPECT_EQ(elsewhere.procedure.word(), AutoWord::NoLight);
         EXPECT_EQ(word_key(elsewhere.procedure), "calibration.no_light");
         elsewhere.press(next); // it is measured anew
@@ -464,7 +464,7 @@ TEST(AutoProcedure, GoesOnFromACameraThatLooksElsewhere) {
         elsewhere.see(same, 30.0);
         EXPECT_EQ(elsewhere.procedure.word(), AutoWord::NoLight);
         elsewhere.press(back);
-        EXPECT_EQ(elsewhere.procedure.stage(), follow ? AutoStage::Crosses : AutoStage::Begin);
+        EXPECT_EQ(elsewhere.procedure.stage(), follow ? CalibrationStage::GoesOn : CalibrationStage::Begin);
     }
 }
 
@@ -507,7 +507,7 @@ TEST(AutoProcedure, LeavesWhenNobodyIsThere) {
     procedure.step(input);
     input.now += AutoProcedure::to_begin + std::chrono::seconds(1);
     procedure.step(input);
-    EXPECT_EQ(procedure.stage(), AutoStage::Left);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Left);
 }
 
 } // namespace

@@ -33,13 +33,14 @@ public:
     }
     void step(bool next = false) {
         now += tick;
-        procedure.step({now, prop, head, next, false});
+        procedure.step({now, prop, next, false, head});
         look_(procedure);
     }
     void go_to_solve() {
-        while (procedure.stage() != EyeStage::Solve) {
-            const bool waits = procedure.stage() == EyeStage::Begin || procedure.stage() == EyeStage::Shut ||
-                               procedure.stage() == EyeStage::Aim;
+        while (procedure.stage() != CalibrationStage::Solve) {
+            const bool waits = procedure.stage() == CalibrationStage::Begin ||
+                               procedure.stage() == CalibrationStage::Shut ||
+                               procedure.stage() == CalibrationStage::Place;
             head.rotation =
                 glm::angleAxis(0.3 * static_cast<double>(procedure.at() % 3), glm::dvec3(1, 0, 0));
             step(waits);
@@ -118,11 +119,11 @@ TEST(EyePicture, EverythingThatIsSaidHasItsWord) {
     wait(std::chrono::milliseconds(1500)); // it looks out of the head as before
     person.prop.translation.x += 0.02;     // the prop is pushed
     wait(std::chrono::milliseconds(500));
-    person.procedure.step({person.now + std::chrono::seconds(3), person.prop, std::nullopt, false, false});
+    person.procedure.step({person.now + std::chrono::seconds(3), person.prop});
     listen(person.procedure); // no head
-    person.procedure.step({person.now + std::chrono::seconds(6), std::nullopt, person.head, false, false});
+    person.procedure.step({person.now + std::chrono::seconds(6), std::nullopt, false, false, person.head});
     listen(person.procedure); // no prop
-    person.procedure.step({person.now + std::chrono::minutes(20), std::nullopt, std::nullopt, false, false});
+    person.procedure.step({person.now + std::chrono::minutes(20)});
     listen(person.procedure);
     EXPECT_EQ(said.size(), 24U) << ::testing::PrintToString(said);
     for (const std::string& key : said) {
@@ -156,7 +157,7 @@ TEST(EyePicture, NothingCrossesTheWordsWhereverThePropStands) {
         const RigidTransform prop{glm::angleAxis(place.z, glm::dvec3(0, 0, 1)), {place.x, place.y, 0.0}};
         std::optional<std::size_t> last;
         const auto look = [&](const EyeProcedure& procedure) {
-            if (procedure.stage() != EyeStage::Aim || last == procedure.at()) {
+            if (procedure.stage() != CalibrationStage::Place || last == procedure.at()) {
                 return;
             }
             last = procedure.at();

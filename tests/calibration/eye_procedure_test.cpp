@@ -71,7 +71,7 @@ TEST(EyeProcedure, EachCrossIsLitAndSeenAndAimedAtWithoutAStep) {
         for (std::size_t k = 0; k < EyeProcedure::of_each; ++k) {
             live.sight();
             const SightCross& shown = live.procedure.cross();
-            if (live.procedure.stage() != EyeStage::Aim) {
+            if (live.procedure.stage() != CalibrationStage::Place) {
                 break;
             }
             live.aim();
@@ -102,16 +102,16 @@ TEST(EyeProcedure, EachCrossIsLitAndSeenAndAimedAtWithoutAStep) {
 
 TEST(EyeProcedure, FromTheFirstWordToAnEyeThatIsKept) {
     Live live(7);
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Begin);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Begin);
     EXPECT_EQ(live.procedure.count(), 12U);
     live.begin();
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Shut);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Shut);
     EXPECT_EQ(live.procedure.asked().eye, OpenEye::Left);
     EXPECT_EQ(eye_words(live.procedure)[0], "Shut your right eye");
     for (std::size_t k = 0; k < 12; ++k) {
         EXPECT_EQ(live.procedure.at(), k);
         EXPECT_EQ(live.procedure.asked().eye, k < 6 ? OpenEye::Left : OpenEye::Right);
-        EXPECT_EQ(live.procedure.stage(), k % 6 == 0 ? EyeStage::Shut : EyeStage::Aim);
+        EXPECT_EQ(live.procedure.stage(), k % 6 == 0 ? CalibrationStage::Shut : CalibrationStage::Place);
         live.sight();
     }
     live.judge();
@@ -119,9 +119,9 @@ TEST(EyeProcedure, FromTheFirstWordToAnEyeThatIsKept) {
     const glm::dvec3 off = live.procedure.judged()->eyes->middle_m - live.world.person.middle_m();
     EXPECT_LT(glm::length(off), 0.02);
     live.next();
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Done);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Done);
     live.wait(1.0);
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Done);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Done);
 }
 
 TEST(EyeProcedure, APropThatIsPushedIsTakenAnewAndNothingIsLost) {
@@ -134,11 +134,11 @@ TEST(EyeProcedure, APropThatIsPushedIsTakenAnewAndNothingIsLost) {
     live.world.table_from_prop.translation += glm::dvec3(-0.02, 0.015, 0.0);
     live.world.table_from_prop.rotation = about(0.1, {0, 0, 1}) * live.world.table_from_prop.rotation;
     live.wait(0.2);
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Rest);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Rest);
     EXPECT_EQ(live.procedure.word(), EyeWord::PropMoved);
     EXPECT_NE(eye_words(live.procedure).back().find("pushed"), std::string::npos);
     live.wait(1.2);
-    ASSERT_EQ(live.procedure.stage(), EyeStage::Aim);
+    ASSERT_EQ(live.procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(live.procedure.word(), EyeWord::PropMoved) << "it is still to be read";
     EXPECT_EQ(live.procedure.at(), 4U);
     live.aim();
@@ -146,7 +146,7 @@ TEST(EyeProcedure, APropThatIsPushedIsTakenAnewAndNothingIsLost) {
     live.wait(0.4);
     live.world.table_from_prop.translation.x += 0.01; // and once more, in the second
     live.wait(0.2);
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Rest);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Rest);
     live.wait(1.2);
     live.sight_all();
     EXPECT_EQ(live.procedure.sights().front().tip_m, before) << "it keeps its own corner";
@@ -168,7 +168,7 @@ TEST(EyeProcedure, AWrongAimComesAgainByItself) {
     EXPECT_FALSE(live.procedure.asks_for_more());
     live.next();
     live.wait(0.1);
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Shut) << "both eyes may be open since";
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Shut) << "both eyes may be open since";
     EXPECT_EQ(live.procedure.at(), 2U);
     live.sight();
     live.judge();
@@ -209,24 +209,24 @@ TEST(EyeProcedure, WhatTheTrackerDoesNotSeeIsSaid) {
     nobody.sees_prop = false;
     nobody.begin();
     nobody.wait(1.0);
-    EXPECT_EQ(nobody.procedure.stage(), EyeStage::Rest);
+    EXPECT_EQ(nobody.procedure.stage(), CalibrationStage::Rest);
     EXPECT_EQ(nobody.procedure.word(), EyeWord::PropNotSeen);
     Live live(8);
     live.sees_head = false;
     live.begin();
     live.wait(1.0);
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Rest);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Rest);
     EXPECT_EQ(live.procedure.word(), EyeWord::HeadNotSeen);
     live.sees_head = true;
     live.wait(0.1);
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Shut) << "the prop has rested meanwhile";
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Shut) << "the prop has rested meanwhile";
     live.sight();
     live.aim();
     live.next();
     live.wait(0.5);
     live.sees_head = false; // its cable came off
     live.wait(2.2);
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Aim);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(live.procedure.word(), EyeWord::HeadNotSeen);
     EXPECT_EQ(live.procedure.at(), 1U);
     live.sees_head = true;
@@ -234,7 +234,7 @@ TEST(EyeProcedure, WhatTheTrackerDoesNotSeeIsSaid) {
     live.wait(2.2);
     live.next();
     live.wait(0.1);
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Aim);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(live.procedure.word(), EyeWord::PropNotSeen);
     live.sees_prop = true;
     live.sight();
@@ -250,10 +250,10 @@ TEST(EyeProcedure, AHeadThatMovesBeginsItsSecondAnew) {
     live.wait(0.7);
     live.table_from_sensor.translation.x += 0.02;
     live.wait(0.7);
-    EXPECT_EQ(live.procedure.stage(), EyeStage::HoldStill);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::HoldStill);
     EXPECT_EQ(live.procedure.word(), EyeWord::HeadMoved);
     live.back();
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Aim);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
     live.sight();
     EXPECT_EQ(live.procedure.at(), 1U);
 }
@@ -262,35 +262,35 @@ TEST(EyeProcedure, BackDoesTheSightingBeforeAgainAndLeavesAtTheBeginning) {
     Live live(10);
     live.begin();
     live.back();
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Begin);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Begin);
     live.begin();
     for (int k = 0; k < 6; ++k) {
         live.sight();
     }
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Shut);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Shut);
     live.back();
     EXPECT_EQ(live.procedure.at(), 5U);
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Aim) << "that eye is still the open one";
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place) << "that eye is still the open one";
     EXPECT_EQ(live.procedure.sights().size(), 5U);
     for (int k = 0; k < 6; ++k) {
         live.back();
     }
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Begin);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Begin);
     live.back();
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Left);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Left);
 }
 
 TEST(EyeProcedure, WhoDoesNothingLeaves) {
     Live live(11);
     live.wait(59.0);
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Begin);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Begin);
     live.wait(2.0);
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Left);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Left);
     Live later(11);
     later.begin();
     later.now += EyeProcedure::to_go_on;
     later.step();
-    EXPECT_EQ(later.procedure.stage(), EyeStage::Left);
+    EXPECT_EQ(later.procedure.stage(), CalibrationStage::Left);
 }
 
 TEST(EyeProcedure, APlaceThatDoesNotDoIsSaid) {
@@ -300,13 +300,13 @@ TEST(EyeProcedure, APlaceThatDoesNotDoIsSaid) {
     EXPECT_EQ(live.procedure.word(), EyeWord::OffTable);
     live.world.table_from_prop.translation = {0.0, 0.3, 0.0}; // nothing lights the table behind it
     live.wait(1.5);
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Rest);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Rest);
     EXPECT_EQ(live.procedure.word(), EyeWord::NoRoom);
     live.world.table_from_prop.translation = {0.1, -0.05, 0.0};
     live.wait(0.1);
     EXPECT_EQ(live.procedure.word(), EyeWord::PropMoves);
     live.wait(1.2);
-    EXPECT_EQ(live.procedure.stage(), EyeStage::Shut);
+    EXPECT_EQ(live.procedure.stage(), CalibrationStage::Shut);
     const EyeProcedure cannot(live.world.scene(), live.world.registration(), "no calibration is kept");
     EXPECT_EQ(eye_words(cannot)[1], "No calibration is kept.");
     SightScene small = live.world.scene();

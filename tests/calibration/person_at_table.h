@@ -100,7 +100,7 @@ public:
         if (sees_head) {
             head = trembling();
         }
-        procedure.step({now, prop, head, next, back});
+        procedure.step({now, prop, next, back, head});
     }
     void wait(double seconds) {
         for (int k = 0; k < static_cast<int>(50.0 * seconds); ++k) {
@@ -150,18 +150,18 @@ public:
     }
     /// One sighting, as it is asked for.
     void sight() {
-        if (procedure.stage() == EyeStage::Shut) {
+        if (procedure.stage() == CalibrationStage::Shut) {
             open = procedure.asked().eye;
             next();
         }
-        ASSERT_EQ(procedure.stage(), EyeStage::Aim) << static_cast<int>(procedure.word());
+        ASSERT_EQ(procedure.stage(), CalibrationStage::Place) << static_cast<int>(procedure.word());
         aim();
         wait(0.3);
         next();
         wait(1.1);
     }
     void sight_all() {
-        for (int k = 0; k < 60 && procedure.stage() != EyeStage::Solve; ++k) {
+        for (int k = 0; k < 60 && procedure.stage() != CalibrationStage::Solve; ++k) {
             sight();
         }
     }
@@ -171,7 +171,7 @@ public:
         return fit_eyes(*placed, deep_m);
     }
     void judge() {
-        ASSERT_EQ(procedure.stage(), EyeStage::Solve);
+        ASSERT_EQ(procedure.stage(), CalibrationStage::Solve);
         procedure.judge(fit());
     }
     [[nodiscard]] RigidTransform kept_table_from_tracker() const { return world.truth.table_from_tracker; }

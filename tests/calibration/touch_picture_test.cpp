@@ -26,12 +26,12 @@ void walk(TouchProcedure procedure, TouchJudgement judged, const auto& look) {
     MonotonicTime now{};
     look(procedure);
     procedure.step({now, std::nullopt, true, false});
-    while (procedure.stage() == TouchStage::Lay) {
+    while (procedure.stage() == CalibrationStage::Place) {
         look(procedure);
         const double place_m = 0.1 * static_cast<double>(procedure.at());
         procedure.step({now, std::nullopt, true, false});
         look(procedure);
-        while (procedure.stage() == TouchStage::HoldStill) {
+        while (procedure.stage() == CalibrationStage::HoldStill) {
             now += tick;
             procedure.step({now, RigidTransform{{1.0, 0.0, 0.0, 0.0}, {place_m, 0.0, 0.1}}, false, false});
         }
@@ -89,7 +89,7 @@ TEST(TouchPicture, WhereThePropsFrontGoesIsSeenBesideIt) {
         CrossSetup setup;
         setup.count = count;
         const auto look = [&](const TouchProcedure& procedure) {
-            if (procedure.stage() == TouchStage::Lay) {
+            if (procedure.stage() == CalibrationStage::Place) {
                 const Image8 picture = touch_picture(procedure, width, height, prop_px, *typesetter);
                 EXPECT_GT(arrow_pixels(picture, procedure.cross(), prop_px), 30U)
                     << procedure.at() << " of " << count;

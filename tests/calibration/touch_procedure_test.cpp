@@ -48,14 +48,14 @@ protected:
 
 TEST_F(Procedure, EachRestOfASecondBecomesATouchAtTheMeanOfItsReports) {
     for (std::size_t k = 0; k < 3; ++k) {
-        EXPECT_EQ(procedure.stage(), TouchStage::Lay);
+        EXPECT_EQ(procedure.stage(), CalibrationStage::Place);
         EXPECT_EQ(procedure.at(), k);
         rest(on(k), tick * 10);
-        EXPECT_EQ(procedure.stage(), TouchStage::Lay) << "nothing is taken before Next";
+        EXPECT_EQ(procedure.stage(), CalibrationStage::Place) << "nothing is taken before Next";
         touch(k);
         EXPECT_EQ(procedure.word(), TouchWord::Taken);
     }
-    ASSERT_EQ(procedure.stage(), TouchStage::Solve);
+    ASSERT_EQ(procedure.stage(), CalibrationStage::Solve);
     const Touches touches = procedure.touches();
     ASSERT_EQ(touches.size(), 3U);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -74,7 +74,7 @@ TEST_F(Procedure, APropThatMovesBeginsItsSecondAnew) {
     RigidTransform pushed = on(0);
     pushed.translation.x += 0.01;
     rest(pushed, TouchProcedure::rest / 2);
-    EXPECT_EQ(procedure.stage(), TouchStage::HoldStill);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::HoldStill);
     EXPECT_EQ(procedure.word(), TouchWord::Moved);
     rest(pushed, TouchProcedure::rest);
     EXPECT_EQ(procedure.at(), 1U);
@@ -91,7 +91,7 @@ TEST_F(Procedure, WhatTheTrackerDoesNotSeeIsSaid) {
     rest(on(0), TouchProcedure::rest / 2);
     now += TouchProcedure::patience + tick;
     procedure.step({now, std::nullopt, false, false});
-    EXPECT_EQ(procedure.stage(), TouchStage::Lay);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(procedure.word(), TouchWord::NotSeen);
     touch(0);
     EXPECT_EQ(procedure.at(), 1U);
@@ -102,7 +102,7 @@ TEST_F(Procedure, ATrackerOfOneReportASecondTakesLonger) {
     for (int k = 0; k < 4; ++k) {
         now += std::chrono::seconds(1);
         procedure.step({now, on(0), false, false});
-        EXPECT_EQ(procedure.stage(), TouchStage::HoldStill) << k;
+        EXPECT_EQ(procedure.stage(), CalibrationStage::HoldStill) << k;
     }
     now += std::chrono::seconds(1);
     procedure.step({now, on(0), false, false});
@@ -122,7 +122,7 @@ TEST_F(Procedure, BackDoesTheTouchBeforeAgain) {
     touch(0);
     press(true);
     press(false); // out of the rest
-    EXPECT_EQ(procedure.stage(), TouchStage::Lay);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(procedure.at(), 1U);
     press(false);
     EXPECT_EQ(procedure.at(), 0U);
@@ -137,9 +137,9 @@ TEST_F(Procedure, TheVerdictDecidesWhatComesNext) {
         touch(k);
     }
     judged(Verdict::Repeat, {2});
-    EXPECT_EQ(procedure.stage(), TouchStage::Judged);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Judged);
     press(true);
-    EXPECT_EQ(procedure.stage(), TouchStage::Lay);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(procedure.at(), 2U);
     touch(2);
     judged(Verdict::Usable, {});
@@ -148,10 +148,10 @@ TEST_F(Procedure, TheVerdictDecidesWhatComesNext) {
     touch(1);
     judged(Verdict::Good, {});
     press(true);
-    EXPECT_EQ(procedure.stage(), TouchStage::Done);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Done);
     EXPECT_EQ(procedure.touches().size(), 3U);
     press(true);
-    EXPECT_EQ(procedure.stage(), TouchStage::Done);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Done);
 }
 
 TEST_F(Procedure, AfterARefusalItBeginsAnew) {
@@ -166,14 +166,14 @@ TEST_F(Procedure, AfterARefusalItBeginsAnew) {
 
 TEST_F(Procedure, BackFromTheFirstCrossLeadsToTheBeginningAndOut) {
     press(false);
-    EXPECT_EQ(procedure.stage(), TouchStage::Begin);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Begin);
     press(true);
-    EXPECT_EQ(procedure.stage(), TouchStage::Lay);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Place);
     press(false);
     press(false);
-    EXPECT_EQ(procedure.stage(), TouchStage::Left);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Left);
     press(true);
-    EXPECT_EQ(procedure.stage(), TouchStage::Left) << "it has ended";
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Left) << "it has ended";
 }
 
 TEST_F(Procedure, WhoDoesNothingLeaves) {
@@ -182,30 +182,30 @@ TEST_F(Procedure, WhoDoesNothingLeaves) {
         procedure.step({now, on(0), false, false});
         return procedure.stage();
     };
-    EXPECT_EQ(wait(TouchProcedure::to_go_on), TouchStage::Lay);
+    EXPECT_EQ(wait(TouchProcedure::to_go_on), CalibrationStage::Place);
     press(true);
     rest(on(0), TouchProcedure::rest + 2 * tick);
     EXPECT_EQ(procedure.at(), 1U);
-    EXPECT_EQ(wait(TouchProcedure::to_go_on), TouchStage::Left) << "reports are no presses";
+    EXPECT_EQ(wait(TouchProcedure::to_go_on), CalibrationStage::Left) << "reports are no presses";
 
     TouchProcedure other(crosses());
     other.step({now, std::nullopt, false, false});
     other.step({now + TouchProcedure::to_begin, std::nullopt, false, false});
-    EXPECT_EQ(other.stage(), TouchStage::Begin);
+    EXPECT_EQ(other.stage(), CalibrationStage::Begin);
     other.step({now + TouchProcedure::to_begin + tick, std::nullopt, true, false});
-    EXPECT_EQ(other.stage(), TouchStage::Lay) << "a late press is one";
+    EXPECT_EQ(other.stage(), CalibrationStage::Place) << "a late press is one";
     other = TouchProcedure(crosses());
     other.step({now, std::nullopt, false, false});
     other.step({now + TouchProcedure::to_begin + tick, std::nullopt, false, false});
-    EXPECT_EQ(other.stage(), TouchStage::Left);
+    EXPECT_EQ(other.stage(), CalibrationStage::Left);
 }
 
 TEST_F(Procedure, WhereItCannotBeDoneNextDoesNothing) {
     TouchProcedure cannot(crosses(), "nobody knows how high the sensor is");
     cannot.step({now, std::nullopt, true, false});
-    EXPECT_EQ(cannot.stage(), TouchStage::Begin);
+    EXPECT_EQ(cannot.stage(), CalibrationStage::Begin);
     cannot.step({now, std::nullopt, false, true});
-    EXPECT_EQ(cannot.stage(), TouchStage::Left);
+    EXPECT_EQ(cannot.stage(), CalibrationStage::Left);
 }
 
 /// By the first two of three crosses.
@@ -216,22 +216,22 @@ protected:
         press(true);
         touch(0);
         touch(1);
-        ASSERT_EQ(procedure.stage(), TouchStage::Solve) << "the third is not asked for";
+        ASSERT_EQ(procedure.stage(), CalibrationStage::Solve) << "the third is not asked for";
     }
 };
 
 TEST_F(TouchUpProcedure, BackFromItsBeginningLeadsToTheWholeCalibration) {
-    EXPECT_EQ(procedure.stage(), TouchStage::Begin);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Begin);
     press(false);
-    EXPECT_EQ(procedure.stage(), TouchStage::Anew);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::GoesOn);
     now += TouchProcedure::to_go_on + tick;
     procedure.step({now, std::nullopt, false, false});
-    EXPECT_EQ(procedure.stage(), TouchStage::Anew) << "it has ended";
+    EXPECT_EQ(procedure.stage(), CalibrationStage::GoesOn) << "it has ended";
     procedure = TouchProcedure(crosses(), 2);
     procedure.step({now, std::nullopt, false, false});
     now += TouchProcedure::to_begin + tick;
     procedure.step({now, std::nullopt, false, false});
-    EXPECT_EQ(procedure.stage(), TouchStage::Left) << "who does nothing leaves";
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Left) << "who does nothing leaves";
 }
 
 TEST_F(TouchUpProcedure, TooFewTouchesBringMoreCrosses) {
@@ -242,7 +242,7 @@ TEST_F(TouchUpProcedure, TooFewTouchesBringMoreCrosses) {
     press(true);
     EXPECT_EQ(procedure.count(), 3U);
     EXPECT_EQ(procedure.at(), 2U);
-    EXPECT_EQ(procedure.stage(), TouchStage::Lay);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Place);
     touch(2);
     procedure.judge({Verdict::Repeat, {}, {}, three_residuals, false});
     EXPECT_FALSE(procedure.asks_for_more()) << "there are no others";
@@ -251,20 +251,20 @@ TEST_F(TouchUpProcedure, TooFewTouchesBringMoreCrosses) {
     touch(1);
     procedure.judge({Verdict::Good, {}, {}, three_residuals, false});
     press(true);
-    EXPECT_EQ(procedure.stage(), TouchStage::Done);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Done);
 }
 
 TEST_F(TouchUpProcedure, AfterARefusalNextMeasuresAnewAndBackTouchesAgain) {
     touch_two();
     procedure.judge({});
     press(false);
-    EXPECT_EQ(procedure.stage(), TouchStage::Lay);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Place);
     EXPECT_TRUE(procedure.touches().empty());
     touch(0);
     touch(1);
     procedure.judge({});
     press(true);
-    EXPECT_EQ(procedure.stage(), TouchStage::Anew);
+    EXPECT_EQ(procedure.stage(), CalibrationStage::GoesOn);
 }
 
 /// The whole of it on a simulated table: crosses chosen for the projector that the settings describe, touches on another one.
@@ -276,10 +276,10 @@ TEST(ProcedureOnATable, EndsWithACalibrationThatIsRight) {
     SeededNumbers numbers(4);
     MonotonicTime now = from_microseconds(0);
     procedure.step({now, std::nullopt, true, false});
-    while (procedure.stage() != TouchStage::Solve) {
+    while (procedure.stage() != CalibrationStage::Solve) {
         procedure.step({now, std::nullopt, true, false});
         const Touch lies = simulated_touch(table, {procedure.cross(), 0.0}, {}, numbers);
-        for (int k = 0; k < 60 && procedure.stage() == TouchStage::HoldStill; ++k) {
+        for (int k = 0; k < 60 && procedure.stage() == CalibrationStage::HoldStill; ++k) {
             now += tick;
             procedure.step({now, lies.tracker_from_sensor, false, false});
         }
@@ -289,7 +289,7 @@ TEST(ProcedureOnATable, EndsWithACalibrationThatIsRight) {
     ASSERT_TRUE(judged.table) << judged.reason;
     procedure.judge({judged.verdict, {}, judged.repeat, judged.residuals, false});
     procedure.step({now, std::nullopt, true, false});
-    EXPECT_EQ(procedure.stage(), TouchStage::Done) << judged.reason;
+    EXPECT_EQ(procedure.stage(), CalibrationStage::Done) << judged.reason;
     EXPECT_LT(registration_error(table, *judged.table, 0.12).mean_m, 1e-3);
 }
 

@@ -52,10 +52,10 @@ Result<Means> means_with(std::span<char*> words) {
 /// The prop is laid on every cross, as a tracker would report it.
 void touch_all(TouchProcedure& procedure) {
     MonotonicTime now{};
-    while (procedure.stage() == TouchStage::Lay) {
+    while (procedure.stage() == CalibrationStage::Place) {
         const double place = 0.1 * static_cast<double>(procedure.at());
         procedure.step({now, std::nullopt, true, false});
-        for (int k = 0; k < 60 && procedure.stage() == TouchStage::HoldStill; ++k) {
+        for (int k = 0; k < 60 && procedure.stage() == CalibrationStage::HoldStill; ++k) {
             now += std::chrono::milliseconds(20);
             procedure.step({now, RigidTransform{{1.0, 0.0, 0.0, 0.0}, {place, 0.0, 0.085}}, false, false});
         }
@@ -95,10 +95,10 @@ void look_at_light(AutoProcedure& procedure) {
     input.next = true;
     procedure.step(input);
     input.next = false;
-    for (int k = 0; k < 1000 && procedure.stage() == AutoStage::Delay; ++k) {
+    for (int k = 0; k < 1000 && procedure.stage() == CalibrationStage::Delay; ++k) {
         input.now += std::chrono::milliseconds(20);
         if (!input.lit || input.lit->number != procedure.number()) {
-            input.lit = AutoProcedure::Lit{procedure.number(), input.now};
+            input.lit = CalibrationInput::Lit{procedure.number(), input.now};
         }
         const bool is_white = procedure.shown() == Pattern{Stripes::White};
         std::fill(frame.luma.begin(), frame.luma.end(), static_cast<std::uint8_t>(is_white ? 200 : 10));
@@ -141,12 +141,12 @@ Result<void> draw_eyes(const Pinhole& pinhole, const Means& means, const std::fi
     draw_as("eyes_begin.png");
     input.head = RigidTransform{{1.0, 0.0, 0.0, 0.0}, scene.usual_eye_m};
     step(true);
-    for (int k = 0; k < 4000 && procedure.stage() != EyeStage::Solve; ++k) {
+    for (int k = 0; k < 4000 && procedure.stage() != CalibrationStage::Solve; ++k) {
         input.head->rotation =
             glm::angleAxis(0.3 * static_cast<double>(procedure.at() % 3), glm::dvec3(1, 0, 0));
-        const bool was_held = procedure.stage() == EyeStage::HoldStill;
-        step(procedure.stage() == EyeStage::Shut || procedure.stage() == EyeStage::Aim);
-        if (was_held && procedure.at() == 1 && procedure.stage() == EyeStage::Aim) {
+        const bool was_held = procedure.stage() == CalibrationStage::HoldStill;
+        step(procedure.stage() == CalibrationStage::Shut || procedure.stage() == CalibrationStage::Place);
+        if (was_held && procedure.at() == 1 && procedure.stage() == CalibrationStage::Place) {
             draw_as("eyes_cross.png");
         }
     }

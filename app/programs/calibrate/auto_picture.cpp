@@ -148,7 +148,7 @@ std::string_view key_of(Posture wished) {
 }
 
 std::string_view key_of_word(const AutoProcedure& procedure) {
-    const bool may_go_on = procedure.plan().crosses_follow && procedure.stage() != AutoStage::Place;
+    const bool may_go_on = procedure.plan().crosses_follow && procedure.stage() != CalibrationStage::Place;
     return word_key(procedure.word(), procedure.wish().posture, may_go_on);
 }
 
@@ -180,25 +180,25 @@ std::string_view key_of_verdict(const TouchCalibration& found) {
 std::vector<std::string> auto_words(const AutoProcedure& procedure) {
     std::vector<std::string> words;
     switch (procedure.stage()) {
-    case AutoStage::Begin:
+    case CalibrationStage::Begin:
         return words_of_begin(procedure);
-    case AutoStage::Delay:
+    case CalibrationStage::Delay:
         words = words_of_delay(procedure);
         break;
-    case AutoStage::Place:
+    case CalibrationStage::Place:
         words = {fmt::format("Rest {} of {}", procedure.taken() + 1, procedure.wanted()),
                  words_of(procedure.plan(), procedure.wish())};
         break;
-    case AutoStage::Capture:
+    case CalibrationStage::Capture:
         return {fmt::format("Rest {} of {}", procedure.taken() + 1, procedure.wanted()), "Stripes."};
-    case AutoStage::Solve:
-    case AutoStage::Crosses:
+    case CalibrationStage::Solve:
+    case CalibrationStage::GoesOn:
         return {"One moment, please."};
-    case AutoStage::Judged:
+    case CalibrationStage::Judged:
         return words_of_verdict(procedure);
-    case AutoStage::Done:
+    case CalibrationStage::Done:
         return {"The calibration is kept.", "The exhibit comes back with it."};
-    case AutoStage::Left:
+    default: // Left
         return {"Nothing was changed.", "The exhibit comes back."};
     }
     if (std::string more = words_of(procedure); !more.empty()) {
@@ -213,22 +213,22 @@ std::vector<std::string> auto_words(const AutoProcedure& procedure) {
 
 std::string_view word_key(const AutoProcedure& procedure) {
     switch (procedure.stage()) {
-    case AutoStage::Begin:
+    case CalibrationStage::Begin:
         return key_of_begin(procedure);
-    case AutoStage::Delay:
+    case CalibrationStage::Delay:
         return procedure.word() == AutoWord::None ? "calibration.look_at_light" : key_of_word(procedure);
-    case AutoStage::Place:
+    case CalibrationStage::Place:
         return key_of_word(procedure);
-    case AutoStage::Capture:
+    case CalibrationStage::Capture:
         return "";
-    case AutoStage::Solve:
-    case AutoStage::Crosses:
+    case CalibrationStage::Solve:
+    case CalibrationStage::GoesOn:
         return "calibration.all_taken";
-    case AutoStage::Judged:
+    case CalibrationStage::Judged:
         return key_of_verdict(procedure.judged()->found);
-    case AutoStage::Done:
+    case CalibrationStage::Done:
         return "calibration.kept";
-    case AutoStage::Left:
+    default: // Left
         return "calibration.left";
     }
     return "";
@@ -274,7 +274,7 @@ Image8 auto_picture(const AutoProcedure& procedure, int width, int height, doubl
                     const Typesetter& typesetter, const LanguageWords* house) {
     Canvas canvas(width, height, ground);
     const double unit = width / 160.0;
-    const bool has_place = procedure.stage() == AutoStage::Place;
+    const bool has_place = procedure.stage() == CalibrationStage::Place;
     const glm::dvec2 place = procedure.wish().pixel;
     if (has_place) {
         constexpr double about_the_prop = 0.27; // of the board, in whose middle it stands

@@ -17,10 +17,6 @@ namespace {
 
 constexpr Nanoseconds between_rounds = std::chrono::milliseconds(5);
 
-bool has_ended(AutoStage stage) {
-    return stage == AutoStage::Done || stage == AutoStage::Crosses || stage == AutoStage::Left;
-}
-
 Image8 grey_picture(const StripeSetup& stripes, const Pattern& pattern) {
     const std::vector<std::uint8_t> codes = pattern_picture(stripes, pattern);
     Image8 picture(stripes.width, stripes.height);
@@ -38,11 +34,12 @@ public:
                     settings.projector.table_from_projector.translation.z) {}
 
     /// Until it is done or left; nothing: it was told to stop.
-    [[nodiscard]] Result<std::optional<AutoStage>> run(AutoProcedure& procedure, const AutoSetup& setup) {
+    [[nodiscard]] Result<std::optional<CalibrationStage>> run(AutoProcedure& procedure,
+                                                              const AutoSetup& setup) {
         TableRounds rounds = rounds_of(procedure);
-        rounds.has_ended = [&] { return has_ended(procedure.stage()); };
+        rounds.has_ended = [&] { return procedure.has_ended(); };
         rounds.step = [&](MonotonicTime now) {
-            if (procedure.stage() == AutoStage::Solve) {
+            if (procedure.stage() == CalibrationStage::Solve) {
                 procedure.judge(calibrate_auto(procedure.rests(), setup));
             }
             step(procedure, now);
@@ -66,7 +63,7 @@ private:
         const TableDevices::Heard heard = devices_.hear(now);
         const CameraFrame* const frame = camera_->poll(frame_) ? &frame_ : nullptr;
         const CameraState state = camera_->state();
-        procedure.step({now, heard.prop, frame, state, lit_, heard.next, heard.back});
+        procedure.step({now, heard.prop, heard.next, heard.back, std::nullopt, frame, state, lit_});
         if (!procedure.shown()) { // what the stripes do to the camera is no fault of it
             TableDevices::tell(sentence_of(state), "camera", camera_state_);
         }
@@ -75,7 +72,7 @@ private:
         draw(procedure);
         const Result<MonotonicTime> lit = devices_.present(now);
         if (lit && (!lit_ || lit_->number != procedure.number())) {
-            lit_ = AutoProcedure::Lit{procedure.number(), *lit};
+            lit_ = CalibrationInput::Lit{procedure.number(), *lit};
         }
         return lit.map([](MonotonicTime) {});
     }
@@ -104,7 +101,7 @@ private:
     double board_px_;
     std::vector<std::string> words_;     ///< that are shown
     std::optional<std::uint64_t> drawn_; ///< number of what is shown
-    std::optional<AutoProcedure::Lit> lit_;
+    std::optional<CalibrationInput::Lit> lit_;
     CameraFrame frame_;
     Sentence camera_state_;
 };
@@ -134,17 +131,17 @@ Result<WayEnd> measure_by_camera(const Settings& settings, const CalibrateReques
     const AutoPlan plan = plan_for(settings, request, crosses_follow);
     CameraTable table(settings, devices, make_camera(settings.camera));
     AutoProcedure procedure(board, plan);
-    const Result<std::optional<AutoStage>> ended = table.run(procedure, setup);
+    const Result<std::optional<CalibrationStage>> ended = table.run(procedure, setup);
     TRY_VOID(write_rests(request, procedure.rests()));
     TRY_VOID(ended);
-    if (*ended == AutoStage::Crosses) {
+    if (*ended == CalibrationStage::GoesOn) {
         return WayEnd::GoesOn;
     }
     Result<void> kept = ended_without();
-    if (*ended == AutoStage::Done) {
+    if (*ended == CalibrationStage::Done) {
         kept = keep_auto(settings, *procedure.judged());
     }
-    if (*ended == AutoStage::Done && !kept) { // nobody reads a service's standard error
+    if (*ended == CalibrationStage::Done && !kept) { // nobody reads a service's standard error
         AutoProcedure told(board, plan, kept.error().message);
         static_cast<void>(table.run(told, setup));
     } else if (*ended) {

@@ -166,8 +166,8 @@ std::string_view key_of_verdict(const EyeProcedure& procedure) {
     return "";
 }
 
-bool has_cross(EyeStage stage) {
-    return stage == EyeStage::Aim || stage == EyeStage::HoldStill;
+bool has_cross(CalibrationStage stage) {
+    return stage == CalibrationStage::Place || stage == CalibrationStage::HoldStill;
 }
 
 /// Lines between points of the table's space.
@@ -242,7 +242,7 @@ Image<std::uint8_t> words_at(const EyeProcedure& procedure, const Typesetter& ty
                              const LanguageWords* house, double width, double unit) {
     const std::string_view key = word_key(procedure);
     Image<std::uint8_t> words = typesetter.set(paragraphs_of(eye_words(procedure), unit), 0.95 * width);
-    if (procedure.stage() == EyeStage::Aim && key != key_of(procedure.asked().posture)) {
+    if (procedure.stage() == CalibrationStage::Place && key != key_of(procedure.asked().posture)) {
         words = above(house_sentence(house, key_of(procedure.asked().posture), 0.95 * width, beside_em),
                       words, 2.0 * unit);
     }
@@ -279,28 +279,28 @@ void draw_words(Canvas& canvas, const EyeProcedure& procedure, const Typesetter&
 std::vector<std::string> eye_words(const EyeProcedure& procedure) {
     std::vector<std::string> words;
     switch (procedure.stage()) {
-    case EyeStage::Begin:
+    case CalibrationStage::Begin:
         return words_of_begin(procedure);
-    case EyeStage::Rest:
+    case CalibrationStage::Rest:
         words = {"Let the prop lie", "Its place is taken: one second of rest."};
         break;
-    case EyeStage::Shut:
+    case CalibrationStage::Shut:
         words = words_of_shut(procedure.asked().eye);
         break;
-    case EyeStage::Aim:
+    case CalibrationStage::Place:
         words = words_of_aim(procedure);
         break;
-    case EyeStage::HoldStill:
+    case CalibrationStage::HoldStill:
         words = {fmt::format("Sighting {} of {}", procedure.at() + 1, procedure.count()),
                  "Keep your head still: one second."};
         break;
-    case EyeStage::Solve:
+    case CalibrationStage::Solve:
         return {"One moment, please."};
-    case EyeStage::Judged:
+    case CalibrationStage::Judged:
         return words_of_verdict(procedure);
-    case EyeStage::Done:
+    case CalibrationStage::Done:
         return {"The eyes' place is kept."};
-    case EyeStage::Left:
+    default: // Left
         return {"Nothing was changed."};
     }
     if (const std::string_view more = words_of(procedure.word()); !more.empty()) {
@@ -311,24 +311,24 @@ std::vector<std::string> eye_words(const EyeProcedure& procedure) {
 
 std::string_view word_key(const EyeProcedure& procedure) {
     switch (procedure.stage()) {
-    case EyeStage::Begin:
+    case CalibrationStage::Begin:
         return procedure.problem().empty() ? "calibration.eyes.begin" : "";
-    case EyeStage::Rest:
+    case CalibrationStage::Rest:
         return key_of(procedure.word(), "calibration.eyes.rest");
-    case EyeStage::Shut:
+    case CalibrationStage::Shut:
         return procedure.asked().eye == OpenEye::Left ? "calibration.eyes.shut_right"
                                                       : "calibration.eyes.shut_left";
-    case EyeStage::Aim:
+    case CalibrationStage::Place:
         return key_of(procedure.word(), key_of(procedure.asked().posture));
-    case EyeStage::HoldStill:
+    case CalibrationStage::HoldStill:
         return key_of(procedure.word(), "calibration.eyes.hold_still");
-    case EyeStage::Solve:
+    case CalibrationStage::Solve:
         return "calibration.all_taken";
-    case EyeStage::Judged:
+    case CalibrationStage::Judged:
         return key_of_verdict(procedure);
-    case EyeStage::Done:
+    case CalibrationStage::Done:
         return "calibration.eyes.kept";
-    case EyeStage::Left:
+    default: // Left
         return "calibration.eyes.unchanged";
     }
     return "";
@@ -337,11 +337,11 @@ std::string_view word_key(const EyeProcedure& procedure) {
 Image8 eye_picture(const EyeProcedure& procedure, const Typesetter& typesetter, const LanguageWords* house) {
     Canvas canvas(procedure.scene().pinhole.width, procedure.scene().pinhole.height, {0, 0, 0});
     SightDrawing drawing(procedure, canvas);
-    if (!procedure.knows_place() && procedure.stage() != EyeStage::Left) {
+    if (!procedure.knows_place() && procedure.stage() != CalibrationStage::Left) {
         drawing.square();
     }
     if (has_cross(procedure.stage())) {
-        const bool is_held = procedure.stage() == EyeStage::HoldStill;
+        const bool is_held = procedure.stage() == CalibrationStage::HoldStill;
         const bool moved = procedure.word() == EyeWord::HeadMoved;
         drawing.cross(!is_held ? TableColours::white : moved ? TableColours::bad : TableColours::good);
         drawing.tip();

@@ -11,10 +11,6 @@ namespace frustumscreen {
 
 namespace {
 
-bool has_ended(EyeStage stage) {
-    return stage == EyeStage::Done || stage == EyeStage::Left;
-}
-
 /// The procedure on the table.
 class EyeTable {
 public:
@@ -23,13 +19,13 @@ public:
     /// False: it was told to stop.
     [[nodiscard]] Result<bool> run(EyeProcedure& procedure) {
         TableRounds rounds = rounds_of(procedure);
-        rounds.has_ended = [&] { return has_ended(procedure.stage()); };
+        rounds.has_ended = [&] { return procedure.has_ended(); };
         rounds.step = [&](MonotonicTime now) {
-            if (procedure.stage() == EyeStage::Solve) {
+            if (procedure.stage() == CalibrationStage::Solve) {
                 procedure.judge(fit_reported(procedure.sights(), settings_).value()); // its crosses are lit
             }
             const TableDevices::Heard heard = devices_.hear(now);
-            procedure.step({now, heard.prop, heard.head, heard.next, heard.back});
+            procedure.step({now, heard.prop, heard.next, heard.back, heard.head});
         };
         return run_rounds(devices_, rounds);
     }
@@ -54,7 +50,7 @@ private:
 
     /// What the picture depends on.
     struct Shown {
-        EyeStage stage = EyeStage::Begin;
+        CalibrationStage stage = CalibrationStage::Begin;
         EyeWord word = EyeWord::None;
         std::size_t at = 0;
         glm::dvec3 prop_m{0.0};
@@ -97,7 +93,7 @@ Result<bool> measure_eyes(const Settings& settings, const CalibrateRequest& requ
     if (!ended || !*ended) {
         return ended;
     }
-    if (procedure.stage() == EyeStage::Done) {
+    if (procedure.stage() == CalibrationStage::Done) {
         if (const Result<void> kept = keep_eye(settings, procedure.judged()->eyes->middle_m); !kept) {
             EyeProcedure told(sight_scene(settings), registration, kept.error().message);
             static_cast<void>(table.run(told)); // whoever stands at the table reads no standard error
@@ -105,7 +101,7 @@ Result<bool> measure_eyes(const Settings& settings, const CalibrateRequest& requ
         }
     }
     table.stay(procedure);
-    return procedure.stage() == EyeStage::Done;
+    return procedure.stage() == CalibrationStage::Done;
 }
 
 Result<void> calibrate_eyes(const Settings& settings, const CalibrateRequest& request) {

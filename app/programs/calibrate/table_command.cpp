@@ -101,7 +101,7 @@ struct Session {
     }
     /// The last words are read; or, where it could not be kept, why: nobody reads a service's standard error.
     [[nodiscard]] Result<WayEnd> end(const TouchProcedure& procedure, const Result<void>& kept) const {
-        if (procedure.stage() == TouchStage::Done && !kept) {
+        if (procedure.stage() == CalibrationStage::Done && !kept) {
             TouchProcedure told(procedure.crosses(), kept.error().message);
             static_cast<void>(table.run(told, {}));
         } else {
@@ -125,7 +125,7 @@ Result<WayEnd> measure_by_crosses(const Session& session) {
     if (!*ended) {
         return tl::unexpected<Error>(without.error());
     }
-    return session.end(procedure, *ended == TouchStage::Done
+    return session.end(procedure, *ended == CalibrationStage::Done
                                       ? keep_touch(session.settings, judged, procedure.touches())
                                       : without);
 }
@@ -140,14 +140,14 @@ Result<WayEnd> touch_up_on_table(const Session& session) {
     });
     TRY_VOID(session.write_touches(procedure.touches()));
     TRY_VOID(ended);
-    if (*ended == TouchStage::Anew) {
+    if (*ended == CalibrationStage::GoesOn) {
         return WayEnd::GoesOn;
     }
     if (!*ended) {
         return tl::unexpected<Error>(ended_without().error());
     }
-    return session.end(procedure,
-                       *ended == TouchStage::Done ? keep_touch_up(session.settings, found) : ended_without());
+    return session.end(procedure, *ended == CalibrationStage::Done ? keep_touch_up(session.settings, found)
+                                                                   : ended_without());
 }
 
 /// A board that cannot be made for the prop is no reason to touch nothing.

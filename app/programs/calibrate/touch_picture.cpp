@@ -94,7 +94,7 @@ std::vector<std::string> words_of_begin(const TouchProcedure& procedure) {
 }
 
 Colour colour_of(const TouchProcedure& procedure) {
-    if (procedure.stage() == TouchStage::HoldStill) {
+    if (procedure.stage() == CalibrationStage::HoldStill) {
         return procedure.word() == TouchWord::Moved ? TableColours::bad : TableColours::good;
     }
     return TableColours::white;
@@ -167,13 +167,13 @@ std::string_view key_of_verdict(const TouchProcedure& procedure) {
 
 std::vector<std::string> touch_words(const TouchProcedure& procedure) {
     switch (procedure.stage()) {
-    case TouchStage::Begin:
+    case CalibrationStage::Begin:
         return words_of_begin(procedure);
-    case TouchStage::Lay:
-    case TouchStage::HoldStill: {
+    case CalibrationStage::Place:
+    case CalibrationStage::HoldStill: {
         std::vector<std::string> words{fmt::format("Touch {} of {}", procedure.at() + 1, procedure.count())};
         words.push_back(
-            procedure.stage() == TouchStage::HoldStill
+            procedure.stage() == CalibrationStage::HoldStill
                 ? "Hold still: one second."
                 : fmt::format(
                       "Lay the middle of the prop's bottom on the cross, {}, its front along the arrow. "
@@ -184,17 +184,17 @@ std::vector<std::string> touch_words(const TouchProcedure& procedure) {
         }
         return words;
     }
-    case TouchStage::Solve:
+    case CalibrationStage::Solve:
         return {"One moment, please."};
-    case TouchStage::Judged:
+    case CalibrationStage::Judged:
         return words_of_verdict(procedure);
-    case TouchStage::Done:
+    case CalibrationStage::Done:
         return procedure.judged()->nothing_moved
                    ? std::vector<std::string>{"Nothing was changed.", "The exhibit comes back."}
                    : std::vector<std::string>{"The calibration is kept.", "The exhibit comes back with it."};
-    case TouchStage::Anew:
+    case CalibrationStage::GoesOn:
         return {"One moment, please."};
-    case TouchStage::Left:
+    default: // Left
         return {"Nothing was changed.", "The exhibit comes back."};
     }
     return {};
@@ -202,23 +202,23 @@ std::vector<std::string> touch_words(const TouchProcedure& procedure) {
 
 std::string_view word_key(const TouchProcedure& procedure) {
     switch (procedure.stage()) {
-    case TouchStage::Begin:
+    case CalibrationStage::Begin:
         return !procedure.problem().empty()             ? ""
                : procedure.task() == TouchTask::TouchUp ? "calibration.touch_up"
                                                         : "calibration.begin";
-    case TouchStage::Lay:
+    case CalibrationStage::Place:
         return key_of_lay(procedure);
-    case TouchStage::HoldStill:
+    case CalibrationStage::HoldStill:
         return procedure.word() == TouchWord::Moved ? "calibration.moved" : "calibration.hold_still";
-    case TouchStage::Solve:
+    case CalibrationStage::Solve:
         return "calibration.all_taken";
-    case TouchStage::Judged:
+    case CalibrationStage::Judged:
         return key_of_verdict(procedure);
-    case TouchStage::Done:
+    case CalibrationStage::Done:
         return procedure.judged()->nothing_moved ? "calibration.left" : "calibration.kept";
-    case TouchStage::Anew:
+    case CalibrationStage::GoesOn:
         return "calibration.all_taken";
-    case TouchStage::Left:
+    default: // Left
         return "calibration.left";
     }
     return "";
@@ -228,7 +228,8 @@ Image8 touch_picture(const TouchProcedure& procedure, int width, int height, dou
                      const Typesetter& typesetter, const LanguageWords* house) {
     Canvas canvas(width, height, {0, 0, 0});
     const double unit = width / 160.0;
-    const bool has_cross = procedure.stage() == TouchStage::Lay || procedure.stage() == TouchStage::HoldStill;
+    const bool has_cross =
+        procedure.stage() == CalibrationStage::Place || procedure.stage() == CalibrationStage::HoldStill;
     if (has_cross) {
         draw_cross(canvas, procedure, unit, prop_px);
     }

@@ -5,24 +5,16 @@
 
 namespace frustumscreen {
 
-namespace {
-
-bool has_ended(TouchStage stage) {
-    return stage == TouchStage::Done || stage == TouchStage::Anew || stage == TouchStage::Left;
-}
-
-} // namespace
-
 TouchTable::TouchTable(const Settings& settings, TableDevices& devices)
     : devices_(devices), prop_px_(settings.prop.base_m * settings.projector.pinhole.fx /
                                   settings.projector.table_from_projector.translation.z) {}
 
-Result<std::optional<TouchStage>> TouchTable::run(TouchProcedure& procedure, const Judge& judge) {
+Result<std::optional<CalibrationStage>> TouchTable::run(TouchProcedure& procedure, const Judge& judge) {
     TableRounds rounds;
     rounds.show = [&](MonotonicTime now) { return show(procedure, now); };
-    rounds.has_ended = [&] { return has_ended(procedure.stage()); };
+    rounds.has_ended = [&] { return procedure.has_ended(); };
     rounds.step = [&](MonotonicTime now) {
-        if (procedure.stage() == TouchStage::Solve) {
+        if (procedure.stage() == CalibrationStage::Solve) {
             procedure.judge(judge(procedure.touches()));
         }
         const TableDevices::Heard heard = devices_.hear(now);

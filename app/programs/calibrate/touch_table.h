@@ -20,7 +20,7 @@ public:
     /// What comes of the touches, in stage Solve.
     using Judge = std::function<TouchJudgement(const Touches& touches)>;
     /// Until it has ended, whichever way; nothing: it was told to stop.
-    [[nodiscard]] Result<std::optional<TouchStage>> run(TouchProcedure& procedure, const Judge& judge);
+    [[nodiscard]] Result<std::optional<CalibrationStage>> run(TouchProcedure& procedure, const Judge& judge);
     /// Leaves the last words to be read.
     void stay(const TouchProcedure& procedure);
 
@@ -30,7 +30,7 @@ private:
     /// What the picture depends on.
     struct Shown {
         TouchTask task = TouchTask::Anew;
-        TouchStage stage = TouchStage::Lay;
+        CalibrationStage stage = CalibrationStage::Place;
         TouchWord word = TouchWord::None;
         std::size_t at = 0;
         [[nodiscard]] bool operator==(const Shown&) const = default;

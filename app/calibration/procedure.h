@@ -1,0 +1,113 @@
+/// The skeleton of the ways through a calibration, by touch, by a camera and by eye, for one person with two buttons.
+///
+/// Begin    What is needed is told, or why it cannot be done. Next begins, Back leaves. Who presses nothing for a while leaves too, so that the
+///          exhibit comes back when somebody forgets the table, or got here by chance.
+/// Way      It has a row for each stage in which a step does something; in the other stages a step changes nothing.
+/// End      After the last point whoever calls solves, and tells the verdict by `judge`. What the buttons do then is the way's to say.
+/// Time     a parameter; the devices' own rates, whatever they are.
+/// Threads  one caller.
+#pragma once
+
+#include "app/geometry/transform.h"
+#include "firmware_host/base/time.h"
+#include "firmware_host/camera/camera.h"
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace frustumscreen {
+
+enum class CalibrationStage {
+    Begin,     ///< nothing was done yet; Back from the first point leads here too
+    Delay,     ///< by a camera: how late it sees the light is measured
+    Rest,      ///< by eye: the prop's place is taken
+    Shut,      ///< by eye: one eye is to be shut
+    Place,     ///< prop or board is to be put where the next point is, or a corner brought over its cross
+    HoldStill, ///< the rest of prop or head is taken
+    Capture,   ///< by a camera: the stripes are shown
+    Solve,     ///< all points are there: call `judge`
+    Judged,    ///< the verdict is told
+    Done,      ///< it is to be kept; here and below it has ended
+    GoesOn,    ///< another way is wanted in its place
+    Left       ///< it ends without one
+};
+
+/// What is heard in a step. A way takes of it what it needs.
+struct CalibrationInput {
+    MonotonicTime now{};
+    std::optional<RigidTransform> prop = std::nullopt; ///< a new report of its sensor; nothing new: none
+    bool next = false;                                 ///< a button was pressed
+    bool back = false;
+    std::optional<RigidTransform> head = std::nullopt; ///< as of the prop
+    const CameraFrame* frame = nullptr;                ///< a new one
+    CameraState camera = CameraState::Running;
+    /// Since when the picture with that number is lit.
+    struct Lit {
+        std::uint64_t number = 0;
+        MonotonicTime since{};
+    };
+    std::optional<Lit> lit = std::nullopt;
+};
+
+template <typename Word, typename Judgement> class Procedure {
+public:
+    using Stage = CalibrationStage;
+    using Input = CalibrationInput;
+    static constexpr Nanoseconds patience =
+        std::chrono::seconds(2); ///< for the tracker's reports, and for a camera to be set up
+    static constexpr Nanoseconds to_begin = std::chrono::minutes(1); ///< without a press: it is left
+    static constexpr Nanoseconds to_go_on = std::chrono::minutes(10);
+
+    /// In stage Solve: what came of the points.
+    void judge(Judgement judgement) {
+        assert(stage_ == Stage::Solve);
+        judged_ = std::move(judgement);
+        go_to(Stage::Judged);
+    }
+    [[nodiscard]] Stage stage() const { return stage_; }
+    [[nodiscard]] bool has_ended() const { return stage_ >= Stage::Done; }
+    /// What is said beside what is to be done.
+    [[nodiscard]] Word word() const { return word_; }
+    [[nodiscard]] const std::string& problem() const { return problem_; }
+    [[nodiscard]] const std::optional<Judgement>& judged() const { return judged_; }
+
+protected:
+    /// `problem`: half a sentence on why it cannot be done; empty: it can.
+    explicit Procedure(std::string problem) : problem_(std::move(problem)) {}
+
+    template <typename Way> struct Row {
+        Stage stage;
+        void (Way::*step)(const Input&);
+    };
+    template <typename Way, std::size_t count>
+    static void step_in_stage(Way& way, const Row<Way> (&rows)[count], const Input& input) {
+        for (const Row<Way>& row : rows) {
+            if (row.stage == way.stage_) {
+                return (way.*row.step)(input);
+            }
+        }
+    }
+    void leave_if_alone(const Input& input) {
+        latest_press_ = latest_press_ && !input.next && !input.back ? *latest_press_ : input.now;
+        const Nanoseconds patient = stage_ == Stage::Begin ? to_begin : to_go_on;
+        if (input.now - *latest_press_ > patient && stage_ != Stage::Done && stage_ != Stage::GoesOn) {
+            stage_ = Stage::Left;
+        }
+    }
+    void go_to(Stage stage, Word word = Word::None) {
+        stage_ = stage;
+        word_ = word;
+    }
+
+    Stage stage_ = Stage::Begin;
+    Word word_ = Word::None;
+    std::string problem_;
+    std::optional<MonotonicTime> latest_press_; ///< or the beginning, or what else tells of somebody
+    std::optional<Judgement> judged_;
+};
+
+} // namespace frustumscreen
