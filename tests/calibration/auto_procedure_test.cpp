@@ -2,9 +2,9 @@
 // noise, latency and rows that are read one after the other looks at it, libapriltag finds the tags, a tracker reports.
 #include "app/bench/table/simulated_board.h"
 #include "app/calibration/auto_procedure.h"
-#include "app/programs/calibrate/auto_picture.h"
 #include "app/programs/calibrate/calibration_way.h"
-#include "tests/folders.h"
+#include "app/programs/calibrate/table_pictures.h"
+#include "tests/calibration/expect_sentences.h"
 
 #include <gtest/gtest.h>
 
@@ -12,10 +12,8 @@
 #include <cmath>
 #include <cstdio>
 #include <deque>
-#include <fstream>
 #include <functional>
 #include <set>
-#include <sstream>
 
 namespace frustumscreen {
 namespace {
@@ -142,7 +140,7 @@ public:
             go_on();    // and back
             if (procedure.word() != AutoWord::Taken) {
                 std::printf("rest %d: %s\n", static_cast<int>(procedure.taken()) + 1,
-                            auto_words(procedure).back().c_str());
+                            table_words(procedure).lines.back().c_str());
             }
         }
     }
@@ -176,7 +174,7 @@ private:
                 std::vector<std::uint8_t>(static_cast<std::size_t>(width * height), 0)};
     }
     void show() {
-        const auto words = procedure.shown() ? std::vector<std::string>() : auto_words(procedure);
+        const auto words = procedure.shown() ? std::vector<std::string>() : table_words(procedure).lines;
         if (lit_ && lit_->number == procedure.number() && words == words_) {
             return;
         }
@@ -272,7 +270,7 @@ TEST(AutoProcedure, DoesAgainWhatWasDisturbed) {
         input.frame = nullptr;
     });
     EXPECT_EQ(live.procedure.word(), AutoWord::CameraFault);
-    EXPECT_EQ(auto_words(live.procedure).back(),
+    EXPECT_EQ(table_words(live.procedure).lines.back(),
               "No camera is connected; check its USB cable, and its name in the settings.");
     live.go_on(6.0);
     ASSERT_EQ(live.procedure.stage(), CalibrationStage::Capture);
@@ -325,13 +323,14 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
         live.procedure.judge(std::move(judged));
     };
     judge(Verdict::Usable, {});
-    EXPECT_EQ(word_key(live.procedure), "calibration.may_be_kept");
+    EXPECT_EQ(table_words(live.procedure).key, "calibration.may_be_kept");
     live.press_back();
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(live.procedure.wanted(), 5U);
     live.press_next();
     EXPECT_EQ(live.procedure.word(), AutoWord::TooFew);
-    EXPECT_EQ(auto_words(live.procedure).back(), "5 rests are needed at least.") << "no more than are wanted";
+    EXPECT_EQ(table_words(live.procedure).lines.back(), "5 rests are needed at least.")
+        << "no more than are wanted";
     live.press_back();
     EXPECT_EQ(live.procedure.word(), AutoWord::Dropped);
     EXPECT_EQ(live.procedure.taken(), 0U);
@@ -386,12 +385,12 @@ TEST(AutoProcedure, GoesOnToTheCrossesWhereTheyFollow) {
     for (const bool follow : {false, true}) {
         Beginning table(follow);
         table.wait(0.1, CameraState::Running);
-        EXPECT_EQ(word_key(table.procedure), follow ? "calibration.by_camera" : "calibration.begin");
+        EXPECT_EQ(table_words(table.procedure).key, follow ? "calibration.by_camera" : "calibration.begin");
         table.press(back);
         EXPECT_EQ(table.procedure.stage(), follow ? CalibrationStage::GoesOn : CalibrationStage::Left);
     }
     AutoProcedure refused(*board_for(prop), Beginning::plan(true), "the folder is full");
-    EXPECT_EQ(word_key(refused), "") << "there is none for every reason";
+    EXPECT_EQ(table_words(refused).key, "") << "there is none for every reason";
     AutoProcedure::Input pressed;
     pressed.back = true;
     refused.step(pressed);
@@ -405,14 +404,14 @@ TEST(AutoProcedure, TellsOfACameraThatSeesNothingAndGoesOn) {
         EXPECT_EQ(table.procedure.word(), AutoWord::None);
         table.wait(1.0, fault);
         EXPECT_EQ(table.procedure.word(), AutoWord::CameraFault);
-        EXPECT_EQ(word_key(table.procedure), "calibration.no_camera");
+        EXPECT_EQ(table_words(table.procedure).key, "calibration.no_camera");
         std::string sentence(sentence_of(fault));
         sentence.erase(0, 1); // begins with a capital letter
-        EXPECT_NE(auto_words(table.procedure)[1].find(sentence), std::string::npos);
+        EXPECT_NE(table_words(table.procedure).lines[1].find(sentence), std::string::npos);
         table.press(next);
         EXPECT_EQ(table.procedure.stage(), CalibrationStage::Begin);
         table.wait(0.1, CameraState::Running); // somebody mended it
-        EXPECT_EQ(word_key(table.procedure), "calibration.by_camera");
+        EXPECT_EQ(table_words(table.procedure).key, "calibration.by_camera");
         table.wait(2.5, fault);
         table.press(back);
         EXPECT_EQ(table.procedure.stage(), CalibrationStage::GoesOn);
@@ -431,9 +430,10 @@ TEST(AutoProcedure, GoesOnFromACameraThatDoesNotSeeTheLight) {
         lost.wait(0.1, CameraState::Running);
         lost.press(next);
         ASSERT_EQ(lost.procedure.stage(), CalibrationStage::Delay);
-        EXPECT_EQ(word_key(lost.procedure), "calibration.look_at_light");
+        EXPECT_EQ(table_words(lost.procedure).key, "calibration.look_at_light");
         lost.wait(0.5, CameraState::NotConnected);
-        EXPECT_EQ(word_key(lost.procedure), follow ? "calibration.no_camera" : "calibration.camera_fault");
+        EXPECT_EQ(table_words(lost.procedure).key,
+                  follow ? "calibration.no_camera" : "calibration.camera_fault");
         lost.press(back);
         EXPECT_EQ(lost.procedure.stage(), after);
 
@@ -458,7 +458,7 @@ TEST(AutoProcedure, GoesOnFromACameraThatLooksElsewhere) {
         elsewhere.see(same, 30.0);
         ASSERT_EQ(elsewhere.procedure.stage(), CalibrationStage::Delay);
         EXPECT_EQ(elsewhere.procedure.word(), AutoWord::NoLight);
-        EXPECT_EQ(word_key(elsewhere.procedure), "calibration.no_light");
+        EXPECT_EQ(table_words(elsewhere.procedure).key, "calibration.no_light");
         elsewhere.press(next); // it is measured anew
         EXPECT_EQ(elsewhere.procedure.word(), AutoWord::None);
         elsewhere.see(same, 30.0);
@@ -469,25 +469,18 @@ TEST(AutoProcedure, GoesOnFromACameraThatLooksElsewhere) {
 }
 
 TEST(AutoProcedure, EverythingThatIsSaidHasItsWord) {
-    std::ifstream file(source_dir() + "/assets_baked/texts/words/en.toml");
-    std::stringstream text;
-    text << file.rdbuf();
-    const std::string words = text.str().substr(text.str().find("[calibration]"));
     std::set<std::string> said;
     for (int word = 0; word <= static_cast<int>(AutoWord::TooFew); ++word) {
         for (const Posture wished : {Posture::Flat, Posture::Block, Posture::Leaning}) {
             for (const bool may_go_on : {false, true}) {
-                said.insert(std::string(word_key(static_cast<AutoWord>(word), wished, may_go_on)));
+                said.insert(std::string(key_of(static_cast<AutoWord>(word), wished, may_go_on)));
             }
         }
     }
     EXPECT_EQ(said.size(), 17U);
     said.insert({"calibration.by_camera", "calibration.look_at_light", "calibration.more_rests",
                  "calibration.repeat"});
-    for (const std::string& key : said) {
-        ASSERT_TRUE(key.starts_with("calibration.")) << key;
-        EXPECT_NE(words.find("\n" + key.substr(12) + " = "), std::string::npos) << key;
-    }
+    expect_sentences(said);
 }
 
 TEST(CalibrationWays, BackLeadsFromTheQuickestToTheCrosses) {

@@ -1,14 +1,12 @@
 // What a person sees and hears while the eyes are measured: every sentence has its word, and no words lie on the cross or beside the picture.
-#include "app/programs/calibrate/eye_picture.h"
-#include "tests/folders.h"
+#include "app/programs/calibrate/table_pictures.h"
+#include "tests/calibration/expect_sentences.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <set>
-#include <sstream>
 
 namespace frustumscreen {
 namespace {
@@ -73,15 +71,10 @@ glm::dvec3 line_of(const ReportedSight& sight) {
 }
 
 TEST(EyePicture, EverythingThatIsSaidHasItsWord) {
-    std::ifstream file(source_dir() + "/assets_baked/texts/words/en.toml");
-    std::stringstream text;
-    text << file.rdbuf();
-    const std::string words = text.str();
-    const std::string of_eyes = words.substr(words.find("[calibration.eyes]"));
-    const std::string of_all = words.substr(words.find("[calibration]"),
-                                            words.size() - of_eyes.size() - words.find("[calibration]"));
     std::set<std::string> said;
-    const auto listen = [&](const EyeProcedure& procedure) { said.insert(std::string(word_key(procedure))); };
+    const auto listen = [&](const EyeProcedure& procedure) {
+        said.insert(std::string(table_words(procedure).key));
+    };
     const SightScene scene = shipped_scene(640, 400);
     for (const Verdict verdict : {Verdict::Usable, Verdict::Repeat, Verdict::Refused}) {
         Person person(scene, wished_place(scene), listen);
@@ -126,13 +119,9 @@ TEST(EyePicture, EverythingThatIsSaidHasItsWord) {
     person.procedure.step({person.now + std::chrono::minutes(20)});
     listen(person.procedure);
     EXPECT_EQ(said.size(), 24U) << ::testing::PrintToString(said);
-    for (const std::string& key : said) {
-        ASSERT_TRUE(key.starts_with("calibration.")) << key;
-        const bool is_of_eyes = key.starts_with("calibration.eyes.");
-        const std::string name = key.substr(is_of_eyes ? 17 : 12);
-        EXPECT_NE((is_of_eyes ? of_eyes : of_all).find("\n" + name + " = "), std::string::npos) << key;
-    }
-    EXPECT_EQ(word_key(EyeProcedure(scene, {}, "it cannot be done")), "") << "there is none for every reason";
+    expect_sentences(said);
+    EXPECT_EQ(table_words(EyeProcedure(scene, {}, "it cannot be done")).key, "")
+        << "there is none for every reason";
 }
 
 bool is_lit(const glm::u8vec4& colour) {

@@ -1,5 +1,5 @@
 // A person with a sensor on the head at the table, played by the report: from the first word to the eyes, and what goes wrong on the way.
-#include "app/programs/calibrate/eye_picture.h"
+#include "app/programs/calibrate/table_pictures.h"
 #include "tests/calibration/person_at_table.h"
 
 #include <gtest/gtest.h>
@@ -107,7 +107,7 @@ TEST(EyeProcedure, FromTheFirstWordToAnEyeThatIsKept) {
     live.begin();
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Shut);
     EXPECT_EQ(live.procedure.asked().eye, OpenEye::Left);
-    EXPECT_EQ(eye_words(live.procedure)[0], "Shut your right eye");
+    EXPECT_EQ(table_words(live.procedure).lines[0], "Shut your right eye");
     for (std::size_t k = 0; k < 12; ++k) {
         EXPECT_EQ(live.procedure.at(), k);
         EXPECT_EQ(live.procedure.asked().eye, k < 6 ? OpenEye::Left : OpenEye::Right);
@@ -136,7 +136,7 @@ TEST(EyeProcedure, APropThatIsPushedIsTakenAnewAndNothingIsLost) {
     live.wait(0.2);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Rest);
     EXPECT_EQ(live.procedure.word(), EyeWord::PropMoved);
-    EXPECT_NE(eye_words(live.procedure).back().find("pushed"), std::string::npos);
+    EXPECT_NE(table_words(live.procedure).lines.back().find("pushed"), std::string::npos);
     live.wait(1.2);
     ASSERT_EQ(live.procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(live.procedure.word(), EyeWord::PropMoved) << "it is still to be read";
@@ -196,8 +196,9 @@ TEST(EyeProcedure, AHeadThatIsAlwaysHeldAlikeIsToldAndRefused) {
     live.sight_all();
     live.judge();
     ASSERT_EQ(live.procedure.judged()->verdict, Verdict::Refused);
-    EXPECT_NE(eye_words(live.procedure)[1].find("turn the head, and the chin up and down"), std::string::npos)
-        << eye_words(live.procedure)[1];
+    EXPECT_NE(table_words(live.procedure).lines[1].find("turn the head, and the chin up and down"),
+              std::string::npos)
+        << table_words(live.procedure).lines[1];
     live.next();
     live.wait(0.1);
     EXPECT_EQ(live.procedure.at(), 0U);
@@ -308,10 +309,10 @@ TEST(EyeProcedure, APlaceThatDoesNotDoIsSaid) {
     live.wait(1.2);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Shut);
     const EyeProcedure cannot(live.world.scene(), live.world.registration(), "no calibration is kept");
-    EXPECT_EQ(eye_words(cannot)[1], "No calibration is kept.");
+    EXPECT_EQ(table_words(cannot).lines[1], "No calibration is kept.");
     SightScene small = live.world.scene();
     small.table_from_projector.translation.z = 0.7; // a picture of 37 x 23 cm
-    EXPECT_NE(eye_words(EyeProcedure(small, {}))[1].find("too small for crosses"), std::string::npos);
+    EXPECT_NE(table_words(EyeProcedure(small, {})).lines[1].find("too small for crosses"), std::string::npos);
 }
 
 TEST(EyeProcedure, SightingsThatAreTooFewBringMore) {

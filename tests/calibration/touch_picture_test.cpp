@@ -1,14 +1,11 @@
 // What a technician sees and hears during a calibration by touch.
-#include "app/programs/calibrate/judged_words.h"
-#include "app/programs/calibrate/touch_picture.h"
-#include "tests/folders.h"
+#include "app/programs/calibrate/table_pictures.h"
+#include "tests/calibration/expect_sentences.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 namespace frustumscreen {
 namespace {
@@ -44,15 +41,9 @@ void walk(TouchProcedure procedure, TouchJudgement judged, const auto& look) {
 }
 
 TEST(TouchPicture, EverythingThatIsSaidHasItsWord) {
-    std::ifstream file(source_dir() + "/assets_baked/texts/words/en.toml");
-    std::stringstream text;
-    text << file.rdbuf();
-    const std::string words = text.str().substr(text.str().find("[calibration]"));
     std::set<std::string> said;
     const auto listen = [&](const TouchProcedure& procedure) {
-        const std::string_view key = word_key(procedure);
-        ASSERT_TRUE(key.starts_with("calibration.")) << key;
-        said.insert(std::string(key.substr(12)));
+        said.insert(std::string(table_words(procedure).key));
     };
     const std::vector<Cross> crosses{{{100, 100}, 0.0, 0.0}, {{500, 100}, 0.0, 0.0}, {{300, 300}, 0.08, 1.5}};
     for (const Verdict verdict : {Verdict::Good, Verdict::Usable, Verdict::Repeat, Verdict::Refused}) {
@@ -61,10 +52,9 @@ TEST(TouchPicture, EverythingThatIsSaidHasItsWord) {
     }
     walk(TouchProcedure(crosses, 2), {Verdict::Good, {}, {}, {}, true}, listen);
     EXPECT_EQ(said.size(), 16U);
-    for (const std::string& key : said) {
-        EXPECT_NE(words.find("\n" + key + " = "), std::string::npos) << key;
-    }
-    EXPECT_EQ(word_key(TouchProcedure(crosses, "it cannot be done")), "") << "there is none for every reason";
+    expect_sentences(said);
+    EXPECT_EQ(table_words(TouchProcedure(crosses, "it cannot be done")).key, "")
+        << "there is none for every reason";
 }
 
 /// Orange where the prop does not stand, which covers its own square and more as seen from above.

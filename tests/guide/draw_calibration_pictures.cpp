@@ -4,10 +4,7 @@
 //   draw_calibration_pictures FOLDER [WORDS LANGUAGE]
 
 #include "app/image/image.h"
-#include "app/programs/calibrate/auto_picture.h"
-#include "app/programs/calibrate/eye_picture.h"
-#include "app/programs/calibrate/judged_words.h"
-#include "app/programs/calibrate/touch_picture.h"
+#include "app/programs/calibrate/table_pictures.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/file.h"
 

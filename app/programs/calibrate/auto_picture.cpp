@@ -1,280 +1,202 @@
-#include "app/programs/calibrate/auto_picture.h"
-
-#include "app/programs/calibrate/table_words.h"
+#include "app/programs/calibrate/table_pictures.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace frustumscreen {
 
 namespace {
 
+using Stage = CalibrationStage;
+
 constexpr Colour ground{150, 150, 150};
 constexpr Colour ink{0, 0, 0};
 constexpr Colour place_colour{255, 255, 255};
 constexpr Colour taken_colour{0, 70, 0};
 
-std::string words_of(const AutoProcedure& procedure) {
-    switch (procedure.word()) {
-    case AutoWord::None:
-        return "";
-    case AutoWord::NoLight:
-        return "The camera does not see the projector's light. Turn it to the table, then press Next.";
-    case AutoWord::CameraFault:
-        return as_sentence(std::string(sentence_of(procedure.camera())));
-    case AutoWord::NoFrames:
-        return "The camera has stopped sending. Look at its cable; the stripes come again by themselves.";
-    case AutoWord::NotSeen:
-        return "The tracker does not see the prop. Look at its cable and its sensor.";
-    case AutoWord::FewTags:
-        return fmt::format("The camera sees {} of {} tags whole in the light: {} are needed. Nothing may lie "
-                           "on them or stand "
-                           "before them; put the board more into the middle.",
-                           procedure.tags(), procedure.board().tags.size(), AutoProcedure::least_tags);
-    case AutoWord::TurnIt:
-        return "Turn it too: the first three rests must look in different directions.";
-    case AutoWord::NotFlat:
-        return "The first three rests were not all flat. Press Back three times, and lay the board flat each "
-               "time.";
-    case AutoWord::LeansLittle:
-        return "It lies neither flat nor on the wedge. Lay it flat, or lean it by 15 to 30 degrees.";
-    case AutoWord::WrongHeight:
-        return fmt::format("It lies neither on the table nor on {:.0f} mm of board.",
-                           1e3 * procedure.plan().block_m);
-    case AutoWord::Moved:
-        return "It moved, or the camera did. Leave both alone; the stripes come again by themselves.";
-    case AutoWord::Disturbed:
-        return "Something passed through the light. Step back; the stripes come again by themselves.";
-    case AutoWord::TooBright:
-        return "The tags are too bright for the camera. Shorten camera.exposure_ms in the settings, or close "
-               "its lens a little.";
-    case AutoWord::Taken:
-        return fmt::format("Good: {} of {} tags.", procedure.tags(), procedure.board().tags.size());
-    case AutoWord::Dropped:
-        return "The last rest is dropped.";
-    case AutoWord::TooFew:
-        return fmt::format("{} rests are needed at least.", procedure.least());
-    }
-    return "";
+/// What is filled in is named as in `filled`. None and Taken have the key of how the board is to stand next.
+constexpr std::array<WordMessage<AutoWord>, 15> auto_messages{{
+    {AutoWord::NoLight,
+     {"calibration.no_light",
+      "The camera does not see the projector's light. Turn it to the table, then press Next."}},
+    {AutoWord::CameraFault, {"calibration.camera_fault", "{camera}"}},
+    {AutoWord::NoFrames,
+     {"calibration.camera_fault",
+      "The camera has stopped sending. Look at its cable; the stripes come again by themselves."}},
+    {AutoWord::NotSeen,
+     {"calibration.not_seen", "The tracker does not see the prop. Look at its cable and its sensor."}},
+    {AutoWord::FewTags,
+     {"calibration.few_tags",
+      "The camera sees {tags} of {all_tags} tags whole in the light: {least_tags} are needed. Nothing may "
+      "lie on them or stand before them; put the board more into the middle."}},
+    {AutoWord::TurnIt,
+     {"calibration.turn_it", "Turn it too: the first three rests must look in different directions."}},
+    {AutoWord::NotFlat,
+     {"calibration.not_flat",
+      "The first three rests were not all flat. Press Back three times, and lay the board flat each time."}},
+    {AutoWord::LeansLittle,
+     {"calibration.leans_little",
+      "It lies neither flat nor on the wedge. Lay it flat, or lean it by 15 to 30 degrees."}},
+    {AutoWord::WrongHeight,
+     {"calibration.wrong_height", "It lies neither on the table nor on {block_mm:.0f} mm of board."}},
+    {AutoWord::Moved,
+     {"calibration.board_moved",
+      "It moved, or the camera did. Leave both alone; the stripes come again by themselves."}},
+    {AutoWord::Disturbed,
+     {"calibration.disturbed",
+      "Something passed through the light. Step back; the stripes come again by themselves."}},
+    {AutoWord::TooBright,
+     {"calibration.too_bright", "The tags are too bright for the camera. Shorten camera.exposure_ms in the "
+                                "settings, or close its lens a little."}},
+    {AutoWord::Taken, {"", "Good: {tags} of {all_tags} tags."}},
+    {AutoWord::Dropped, {"calibration.dropped", "The last rest is dropped."}},
+    {AutoWord::TooFew, {"calibration.too_few", "{least_rests} rests are needed at least."}},
+}};
+constexpr std::array<WordMessage<Posture>, 3> posture_messages{{
+    {Posture::Flat,
+     {"calibration.lay_flat", "Lay the board flat on the table, the prop in the ring, turned by about a "
+                              "quarter from before. Take your hands away."}},
+    {Posture::Block,
+     {"calibration.lay_on_boards",
+      "Lay the board flat on {block_mm:.0f} mm of board, the prop in the ring. Take your hands away."}},
+    {Posture::Leaning,
+     {"calibration.lean",
+      "Lean the board on the wedge by 15 to 30 degrees, the prop about in the ring. Take your hands away."}},
+}};
+
+std::string filled(std::string_view english, const AutoProcedure& procedure) {
+    using fmt::arg;
+    return fmt::format(fmt::runtime(english), arg("camera", as_sentence(sentence_of(procedure.camera()))),
+                       arg("tags", procedure.tags()), arg("all_tags", procedure.board().tags.size()),
+                       arg("least_tags", AutoProcedure::least_tags), arg("least_rests", procedure.least()),
+                       arg("block_mm", 1e3 * procedure.plan().block_m));
 }
 
-std::string words_of(const AutoPlan& plan, const RestWish& wish) {
-    switch (wish.posture) {
-    case Posture::Flat:
-        return "Lay the board flat on the table, the prop in the ring, turned by about a quarter from "
-               "before. Take your hands away.";
-    case Posture::Block:
-        return fmt::format(
-            "Lay the board flat on {:.0f} mm of board, the prop in the ring. Take your hands away.",
-            1e3 * plan.block_m);
-    case Posture::Leaning:
-        return "Lean the board on the wedge by 15 to 30 degrees, the prop about in the ring. Take your hands "
-               "away.";
-    }
-    return "";
-}
-
-std::vector<std::string> words_of_begin(const AutoProcedure& procedure) {
+TableWords words_of_begin(const AutoProcedure& procedure) {
+    const bool may_go_on = procedure.plan().crosses_follow;
     if (!procedure.problem().empty()) {
-        return {"The table cannot be measured", as_sentence(procedure.problem()),
-                "Back returns to the exhibit."};
+        return why_not("The table cannot be measured", procedure.problem(), "Back returns to the exhibit.");
     }
     if (procedure.word() == AutoWord::CameraFault) {
-        return {"The camera cannot be used now", as_sentence(std::string(sentence_of(procedure.camera()))),
-                procedure.plan().crosses_follow
-                    ? "Put that right, or press Back to measure the table with crosses."
-                    : "Put that right. Back returns to the exhibit."};
+        return {key_of(procedure.word(), {}, may_go_on),
+                {"The camera cannot be used now", as_sentence(sentence_of(procedure.camera())),
+                 may_go_on ? "Put that right, or press Back to measure the table with crosses."
+                           : "Put that right. Back returns to the exhibit."}};
     }
-    return {"Staff: measure the table with the camera",
-            fmt::format("Projector, tracker and the prop's sensor are measured with {} rests of the board; "
-                        "that takes about "
-                        "eight minutes. You need the prop on its printed board ({:.0f} mm thick), and a "
-                        "wedge to lean it on.",
-                        procedure.wanted(), 1e3 * procedure.plan().board_m),
-            procedure.plan().crosses_follow
-                ? "Next begins. Back goes on to measuring it with crosses. A minute without a press returns "
-                  "to the exhibit."
-                : "Next begins. Back returns to the exhibit; so does a minute without a press."};
+    return {may_go_on ? "calibration.by_camera" : "calibration.begin",
+            {"Staff: measure the table with the camera",
+             fmt::format("Projector, tracker and the prop's sensor are measured with {} rests of the board; "
+                         "that takes about "
+                         "eight minutes. You need the prop on its printed board ({:.0f} mm thick), and a "
+                         "wedge to lean it on.",
+                         procedure.wanted(), 1e3 * procedure.plan().board_m),
+             may_go_on
+                 ? "Next begins. Back goes on to measuring it with crosses. A minute without a press returns "
+                   "to the exhibit."
+                 : "Next begins. Back returns to the exhibit; so does a minute without a press."}};
 }
 
-std::vector<std::string> words_of_delay(const AutoProcedure& procedure) {
-    std::vector<std::string> words{"The camera looks at the light",
-                                   "Light and dark follow each other. Back returns."};
-    if (procedure.word() != AutoWord::None && procedure.plan().crosses_follow) {
-        words.back() = "Light and dark follow each other. Back goes on to the crosses.";
+/// Before a pattern: the delay is to be measured, or a rest to be taken.
+TableWords words_of_point(const AutoProcedure& procedure) {
+    const Posture wished = procedure.wish().posture;
+    const bool is_delay = procedure.stage() == Stage::Delay;
+    const bool may_go_on = is_delay && procedure.plan().crosses_follow;
+    TableWords words;
+    if (is_delay) {
+        words = {"calibration.look_at_light",
+                 {"The camera looks at the light",
+                  may_go_on && procedure.word() != AutoWord::None
+                      ? "Light and dark follow each other. Back goes on to the crosses."
+                      : "Light and dark follow each other. Back returns."}};
+    } else {
+        words = {"",
+                 {fmt::format("Rest {} of {}", procedure.taken() + 1, procedure.wanted()),
+                  filled(message_of(posture_messages, wished).english, procedure)}};
+    }
+    if (!is_delay || procedure.word() != AutoWord::None) {
+        words.add(key_of(procedure.word(), wished, may_go_on),
+                  filled(message_of(auto_messages, procedure.word()).english, procedure));
+    }
+    // It goes on all the same.
+    if (procedure.camera() == CameraState::Slow || procedure.camera() == CameraState::Unlocked) {
+        words.add("", as_sentence(sentence_of(procedure.camera())));
     }
     return words;
 }
 
-std::vector<std::string> words_of_verdict(const AutoProcedure& procedure) {
-    const TouchCalibration& found = procedure.judged()->found;
-    std::vector<std::string> words{fmt::format("The calibration is: {}", name_of(found.verdict)),
-                                   as_sentence(found.reason)};
+/// What the two buttons do then.
+Message choice_of(const TouchCalibration& found) {
+    switch (found.verdict) {
+    case Verdict::Good:
+    case Verdict::Usable:
+        return {"calibration.may_be_kept", "Next keeps it. Back goes on with four more rests."};
+    case Verdict::Repeat:
+        return found.repeat.empty()
+                   ? Message{"calibration.more_rests", "Next goes on with four more rests."}
+                   : Message{"calibration.repeat",
+                             "Next takes as many anew in their place. Back goes on with four more rests."};
+    case Verdict::Refused:
+        break;
+    }
+    return {"calibration.refused", "Next begins anew. Back goes on with four more rests."};
+}
+
+TableWords words_of_verdict(const TouchCalibration& found) {
+    TableWords words{
+        "", {fmt::format("The calibration is: {}", name_of(found.verdict)), as_sentence(found.reason)}};
     if (found.table) {
-        words.push_back(fmt::format(
-            "The points of a rest lie {:.1f} mm from where the others expect them, {:.1f} mm at worst.",
-            1e3 * found.mean_residual_m, 1e3 * found.worst_residual_m));
+        words.add(
+            "",
+            fmt::format(
+                "The points of a rest lie {:.1f} mm from where the others expect them, {:.1f} mm at worst.",
+                1e3 * found.mean_residual_m, 1e3 * found.worst_residual_m));
     }
-    switch (found.verdict) {
-    case Verdict::Good:
-    case Verdict::Usable:
-        words.emplace_back("Next keeps it. Back goes on with four more rests.");
-        break;
-    case Verdict::Repeat:
-        words.emplace_back(
-            found.repeat.empty()
-                ? "Next goes on with four more rests."
-                : "Next takes as many anew in their place. Back goes on with four more rests.");
-        break;
-    case Verdict::Refused:
-        words.emplace_back("Next begins anew. Back goes on with four more rests.");
-        break;
-    }
+    words.add(choice_of(found));
     return words;
 }
 
-std::string_view key_of(Posture wished) {
-    switch (wished) {
-    case Posture::Flat:
-        return "calibration.lay_flat";
-    case Posture::Block:
-        return "calibration.lay_on_boards";
-    case Posture::Leaning:
-        return "calibration.lean";
+TableWords words_of_stage(const AutoProcedure& procedure) {
+    switch (procedure.stage()) {
+    case Stage::Begin:
+        return words_of_begin(procedure);
+    case Stage::Delay:
+    case Stage::Place:
+        return words_of_point(procedure);
+    case Stage::Judged:
+        return words_of_verdict(procedure.judged()->found);
+    case Stage::Done:
+        return all_kept();
+    case Stage::Left:
+        return all_unchanged();
+    default:
+        return one_moment();
     }
-    return "";
-}
-
-std::string_view key_of_word(const AutoProcedure& procedure) {
-    const bool may_go_on = procedure.plan().crosses_follow && procedure.stage() != CalibrationStage::Place;
-    return word_key(procedure.word(), procedure.wish().posture, may_go_on);
-}
-
-std::string_view key_of_begin(const AutoProcedure& procedure) {
-    if (!procedure.problem().empty()) {
-        return "";
-    }
-    if (procedure.word() != AutoWord::None) {
-        return key_of_word(procedure);
-    }
-    return procedure.plan().crosses_follow ? "calibration.by_camera" : "calibration.begin";
-}
-
-std::string_view key_of_verdict(const TouchCalibration& found) {
-    switch (found.verdict) {
-    case Verdict::Good:
-    case Verdict::Usable:
-        return "calibration.may_be_kept";
-    case Verdict::Repeat:
-        return found.repeat.empty() ? "calibration.more_rests" : "calibration.repeat";
-    case Verdict::Refused:
-        return "calibration.refused";
-    }
-    return "";
 }
 
 } // namespace
 
-std::vector<std::string> auto_words(const AutoProcedure& procedure) {
-    std::vector<std::string> words;
-    switch (procedure.stage()) {
-    case CalibrationStage::Begin:
-        return words_of_begin(procedure);
-    case CalibrationStage::Delay:
-        words = words_of_delay(procedure);
-        break;
-    case CalibrationStage::Place:
-        words = {fmt::format("Rest {} of {}", procedure.taken() + 1, procedure.wanted()),
-                 words_of(procedure.plan(), procedure.wish())};
-        break;
-    case CalibrationStage::Capture:
-        return {fmt::format("Rest {} of {}", procedure.taken() + 1, procedure.wanted()), "Stripes."};
-    case CalibrationStage::Solve:
-    case CalibrationStage::GoesOn:
-        return {"One moment, please."};
-    case CalibrationStage::Judged:
-        return words_of_verdict(procedure);
-    case CalibrationStage::Done:
-        return {"The calibration is kept.", "The exhibit comes back with it."};
-    default: // Left
-        return {"Nothing was changed.", "The exhibit comes back."};
-    }
-    if (std::string more = words_of(procedure); !more.empty()) {
-        words.push_back(std::move(more));
-    }
-    // It goes on all the same.
-    if (procedure.camera() == CameraState::Slow || procedure.camera() == CameraState::Unlocked) {
-        words.push_back(as_sentence(std::string(sentence_of(procedure.camera()))));
-    }
+TableWords table_words(const AutoProcedure& procedure) {
+    TableWords words = procedure.shown() ? TableWords() : words_of_stage(procedure);
+    words.of = procedure.number();
     return words;
 }
 
-std::string_view word_key(const AutoProcedure& procedure) {
-    switch (procedure.stage()) {
-    case CalibrationStage::Begin:
-        return key_of_begin(procedure);
-    case CalibrationStage::Delay:
-        return procedure.word() == AutoWord::None ? "calibration.look_at_light" : key_of_word(procedure);
-    case CalibrationStage::Place:
-        return key_of_word(procedure);
-    case CalibrationStage::Capture:
-        return "";
-    case CalibrationStage::Solve:
-    case CalibrationStage::GoesOn:
-        return "calibration.all_taken";
-    case CalibrationStage::Judged:
-        return key_of_verdict(procedure.judged()->found);
-    case CalibrationStage::Done:
-        return "calibration.kept";
-    default: // Left
-        return "calibration.left";
+std::string_view key_of(AutoWord word, Posture wished, bool may_go_on) {
+    if (may_go_on && (word == AutoWord::CameraFault || word == AutoWord::NoFrames)) {
+        return "calibration.no_camera";
     }
-    return "";
-}
-
-std::string_view word_key(AutoWord word, Posture wished, bool may_go_on) {
-    switch (word) {
-    case AutoWord::None:
-    case AutoWord::Taken:
-        return key_of(wished);
-    case AutoWord::NoLight:
-        return "calibration.no_light";
-    case AutoWord::CameraFault:
-    case AutoWord::NoFrames:
-        return may_go_on ? "calibration.no_camera" : "calibration.camera_fault";
-    case AutoWord::NotSeen:
-        return "calibration.not_seen";
-    case AutoWord::FewTags:
-        return "calibration.few_tags";
-    case AutoWord::TurnIt:
-        return "calibration.turn_it";
-    case AutoWord::NotFlat:
-        return "calibration.not_flat";
-    case AutoWord::LeansLittle:
-        return "calibration.leans_little";
-    case AutoWord::WrongHeight:
-        return "calibration.wrong_height";
-    case AutoWord::Moved:
-        return "calibration.board_moved";
-    case AutoWord::Disturbed:
-        return "calibration.disturbed";
-    case AutoWord::TooBright:
-        return "calibration.too_bright";
-    case AutoWord::Dropped:
-        return "calibration.dropped";
-    case AutoWord::TooFew:
-        return "calibration.too_few";
-    }
-    return "";
+    const std::string_view key = message_of(auto_messages, word).key;
+    return key.empty() ? message_of(posture_messages, wished).key : key;
 }
 
 Image8 auto_picture(const AutoProcedure& procedure, int width, int height, double board_px,
                     const Typesetter& typesetter, const LanguageWords* house) {
     Canvas canvas(width, height, ground);
     const double unit = width / 160.0;
-    const bool has_place = procedure.stage() == CalibrationStage::Place;
+    const bool has_place = procedure.stage() == Stage::Place;
     const glm::dvec2 place = procedure.wish().pixel;
     if (has_place) {
         constexpr double about_the_prop = 0.27; // of the board, in whose middle it stands
@@ -283,9 +205,10 @@ Image8 auto_picture(const AutoProcedure& procedure, int width, int height, doubl
     }
     // The words stand in the half of the picture where the board is not.
     const bool below = !has_place || place.y < 0.45 * height;
+    const TableWords words = table_words(procedure);
     const Image<std::uint8_t> coverage =
-        above(house_sentence(house, word_key(procedure), 0.7 * width),
-              typesetter.set(paragraphs_of(auto_words(procedure), unit), 0.7 * width), 2.0 * unit);
+        above(house_sentence(house, words.key, 0.7 * width),
+              typesetter.set(paragraphs_of(words.lines, unit), 0.7 * width), 2.0 * unit);
     const double room = height - 5.0 * unit - coverage.height;
     const double top = !has_place ? 0.4 * height : below ? std::fmin(room, 0.68 * height) : 5.0 * unit;
     const glm::ivec2 corner{(width - coverage.width) / 2, static_cast<int>(std::fmax(top, unit))};

@@ -1,9 +1,9 @@
 #include "app/programs/calibrate/auto_table.h"
 
 #include "app/calibration/point_files.h"
-#include "app/programs/calibrate/auto_picture.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/sheet_command.h"
+#include "app/programs/calibrate/table_pictures.h"
 #include "app/programs/calibrate/table_rounds.h"
 #include "app/programs/devices/wiring.h"
 
@@ -84,13 +84,13 @@ private:
             if (is_new) {
                 devices_.show(grey_picture(procedure.plan().stripes, *procedure.shown()));
             }
-            words_.clear();
+            words_ = {};
             return;
         }
-        std::vector<std::string> words = auto_words(procedure);
+        TableWords words = table_words(procedure);
         if (is_new || words != words_) {
             words_ = std::move(words);
-            devices_.say(words_, word_key(procedure));
+            devices_.say(words_.lines, words_.key);
             devices_.show(auto_picture(procedure, devices_.width(), devices_.height(), board_px_,
                                        devices_.typesetter(), devices_.house()));
         }
@@ -99,7 +99,7 @@ private:
     TableDevices& devices_;
     std::unique_ptr<Camera> camera_;
     double board_px_;
-    std::vector<std::string> words_;     ///< that are shown
+    TableWords words_;                   ///< that are shown
     std::optional<std::uint64_t> drawn_; ///< number of what is shown
     std::optional<CalibrationInput::Lit> lit_;
     CameraFrame frame_;

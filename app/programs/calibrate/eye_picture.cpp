@@ -1,7 +1,5 @@
-#include "app/programs/calibrate/eye_picture.h"
-
 #include "app/exhibit/canvas.h"
-#include "app/programs/calibrate/table_words.h"
+#include "app/programs/calibrate/table_pictures.h"
 
 #include <fmt/format.h>
 
@@ -13,161 +11,130 @@ namespace frustumscreen {
 
 namespace {
 
-std::string_view words_of(EyeWord word) {
-    switch (word) {
-    case EyeWord::None:
-        return "";
-    case EyeWord::PropMoves:
-        return "The prop is not at rest yet. Take your hands away.";
-    case EyeWord::PropMoved:
-        return "The prop was pushed. Let it lie; its place is taken anew, and this sighting comes again.";
-    case EyeWord::PropNotSeen:
-        return "The tracker does not see the prop. Look at its cable and its sensor.";
-    case EyeWord::HeadNotSeen:
-        return "The tracker does not see the sensor on your head. Look at its cable, and come nearer.";
-    case EyeWord::OffTable:
-        return "The prop does not stand on the table as that was calibrated. Stand it upright; if it is, put "
-               "the picture right first (table --touch-up).";
-    case EyeWord::NoRoom:
-        return "There is no room for crosses behind the prop. Lay it on the square.";
-    case EyeWord::HeadMoved:
-        return "Your head moved. Keep it still; the second begins anew.";
-    case EyeWord::SameHead:
-        return "Your head is held as before. Hold it as it is asked for, then press Next again.";
-    case EyeWord::Taken:
-        return "Good.";
-    }
-    return "";
-}
+using Stage = CalibrationStage;
 
-std::string_view name_of(OpenEye eye) {
-    return eye == OpenEye::Left ? "left" : "right";
-}
+constexpr std::array<WordMessage<EyeWord>, 9> eye_messages{{
+    {EyeWord::PropMoves,
+     {"calibration.eyes.block_moves", "The prop is not at rest yet. Take your hands away."}},
+    {EyeWord::PropMoved,
+     {"calibration.eyes.block_moved",
+      "The prop was pushed. Let it lie; its place is taken anew, and this sighting comes again."}},
+    {EyeWord::PropNotSeen,
+     {"calibration.not_seen", "The tracker does not see the prop. Look at its cable and its sensor."}},
+    {EyeWord::HeadNotSeen,
+     {"calibration.eyes.head_not_seen",
+      "The tracker does not see the sensor on your head. Look at its cable, and come nearer."}},
+    {EyeWord::OffTable,
+     {"calibration.eyes.off_table", "The prop does not stand on the table as that was calibrated. Stand it "
+                                    "upright; if it is, put the picture right first (table --touch-up)."}},
+    {EyeWord::NoRoom,
+     {"calibration.eyes.no_room", "There is no room for crosses behind the prop. Lay it on the square."}},
+    {EyeWord::HeadMoved,
+     {"calibration.eyes.head_moved", "Your head moved. Keep it still; the second begins anew."}},
+    {EyeWord::SameHead,
+     {"calibration.eyes.same_head",
+      "Your head is held as before. Hold it as it is asked for, then press Next again."}},
+    {EyeWord::Taken, {"", "Good."}},
+}};
+constexpr std::array<WordMessage<HeadPosture>, 4> posture_messages{{
+    {HeadPosture::ChinUp, {"calibration.eyes.chin_up", "chin up"}},
+    {HeadPosture::ChinDown, {"calibration.eyes.chin_down", "chin down"}},
+    {HeadPosture::TurnedLeft, {"calibration.eyes.turned_left", "face turned to the left"}},
+    {HeadPosture::TurnedRight, {"calibration.eyes.turned_right", "face turned to the right"}},
+}};
 
-std::string_view words_of(HeadPosture posture) {
-    switch (posture) {
-    case HeadPosture::ChinUp:
-        return "chin up";
-    case HeadPosture::ChinDown:
-        return "chin down";
-    case HeadPosture::TurnedLeft:
-        return "face turned to the left";
-    case HeadPosture::TurnedRight:
-        return "face turned to the right";
-    }
-    return "";
-}
-
-std::string_view key_of(HeadPosture posture) {
-    switch (posture) {
-    case HeadPosture::ChinUp:
-        return "calibration.eyes.chin_up";
-    case HeadPosture::ChinDown:
-        return "calibration.eyes.chin_down";
-    case HeadPosture::TurnedLeft:
-        return "calibration.eyes.turned_left";
-    case HeadPosture::TurnedRight:
-        return "calibration.eyes.turned_right";
-    }
-    return "";
-}
-
-std::string_view key_of(EyeWord word, std::string_view otherwise) {
-    switch (word) {
-    case EyeWord::PropMoves:
-        return "calibration.eyes.block_moves";
-    case EyeWord::PropMoved:
-        return "calibration.eyes.block_moved";
-    case EyeWord::PropNotSeen:
-        return "calibration.not_seen";
-    case EyeWord::HeadNotSeen:
-        return "calibration.eyes.head_not_seen";
-    case EyeWord::OffTable:
-        return "calibration.eyes.off_table";
-    case EyeWord::NoRoom:
-        return "calibration.eyes.no_room";
-    case EyeWord::HeadMoved:
-        return "calibration.eyes.head_moved";
-    case EyeWord::SameHead:
-        return "calibration.eyes.same_head";
-    case EyeWord::None:
-    case EyeWord::Taken:
-        break;
-    }
-    return otherwise;
-}
-
-std::vector<std::string> words_of_begin(const EyeProcedure& procedure) {
+TableWords words_of_begin(const EyeProcedure& procedure) {
     if (!procedure.problem().empty()) {
-        return {"The eyes cannot be measured", as_sentence(procedure.problem()), "Back leaves."};
+        return why_not("The eyes cannot be measured", procedure.problem(), "Back leaves.");
     }
     return {
-        "Staff: where are the eyes?",
-        fmt::format("The eyes' place in the head's sensor is measured with {} sightings over the prop; that "
-                    "takes about five minutes. Put the sensor on your head as visitors wear it. Lay the "
-                    "prop on the square, and let it lie.",
-                    procedure.count()),
-        "Next begins. Back leaves; so does a minute without a press."};
+        "calibration.eyes.begin",
+        {"Staff: where are the eyes?",
+         fmt::format("The eyes' place in the head's sensor is measured with {} sightings over the prop; that "
+                     "takes about five minutes. Put the sensor on your head as visitors wear it. Lay the "
+                     "prop on the square, and let it lie.",
+                     procedure.count()),
+         "Next begins. Back leaves; so does a minute without a press."}};
 }
 
-std::vector<std::string> words_of_shut(OpenEye open) {
-    return {fmt::format("Shut your {} eye", open == OpenEye::Left ? "right" : "left"),
-            fmt::format("Or cover it with your hand. Look with the {} one alone, until you are asked for the "
-                        "other. Then press Next.",
-                        name_of(open))};
-}
-
-std::vector<std::string> words_of_aim(const EyeProcedure& procedure) {
+TableWords words_of_sight(const EyeProcedure& procedure) {
     const AskedSight& asked = procedure.asked();
-    return {
-        fmt::format("Sighting {} of {}: {}", procedure.at() + 1, procedure.count(), words_of(asked.posture)),
-        fmt::format("With the {} eye alone, your {}: move until the lit corner of the prop covers the "
-                    "middle of the cross. Then press Next, and keep still.",
-                    name_of(asked.eye), words_of(asked.posture))};
+    const bool is_left = asked.eye == OpenEye::Left;
+    const char* const open = is_left ? "left" : "right";
+    const std::string sight = fmt::format("Sighting {} of {}", procedure.at() + 1, procedure.count());
+    if (procedure.stage() == Stage::HoldStill) {
+        return {"calibration.eyes.hold_still", {sight, "Keep your head still: one second."}};
+    }
+    if (procedure.stage() == Stage::Shut) {
+        return {is_left ? "calibration.eyes.shut_right" : "calibration.eyes.shut_left",
+                {fmt::format("Shut your {} eye", is_left ? "right" : "left"),
+                 fmt::format(
+                     "Or cover it with your hand. Look with the {} one alone, until you are asked for the "
+                     "other. Then press Next.",
+                     open)}};
+    }
+    const Message held = message_of(posture_messages, asked.posture);
+    return {held.key,
+            {fmt::format("{}: {}", sight, held.english),
+             fmt::format("With the {} eye alone, your {}: move until the lit corner of the prop covers the "
+                         "middle of the cross. Then press Next, and keep still.",
+                         open, held.english)}};
 }
 
-std::string words_of_choice(const EyeProcedure& procedure) {
+/// What the two buttons do then.
+Message choice_of(const EyeProcedure& procedure) {
     switch (procedure.judged()->verdict) {
     case Verdict::Good:
     case Verdict::Usable:
-        return "Next keeps it. Back does the sighting again that lies farthest off.";
+        return {"calibration.eyes.may_be_kept",
+                "Next keeps it. Back does the sighting again that lies farthest off."};
     case Verdict::Repeat:
-        return procedure.asks_for_more() ? "Next brings more sightings."
-                                         : "Next does the doubtful sightings again.";
+        return procedure.asks_for_more()
+                   ? Message{"calibration.more_rests", "Next brings more sightings."}
+                   : Message{"calibration.repeat", "Next does the doubtful sightings again."};
     case Verdict::Refused:
-        return "Next begins anew. Back does one sighting again.";
+        break;
     }
-    return "";
+    return {"calibration.eyes.refused", "Next begins anew. Back does one sighting again."};
 }
 
-std::vector<std::string> words_of_verdict(const EyeProcedure& procedure) {
+TableWords words_of_verdict(const EyeProcedure& procedure) {
     const EyeFit& fit = *procedure.judged();
-    std::vector<std::string> words{fmt::format("The eyes' place is: {}", name_of(fit.verdict)),
-                                   as_sentence(fit.reason)};
+    TableWords words{"",
+                     {fmt::format("The eyes' place is: {}", name_of(fit.verdict)), as_sentence(fit.reason)}};
     if (fit.eyes) {
-        words.push_back(fmt::format(
-            "A line of sight passes the eye that the others find by {:.0f} mm, {:.0f} mm at worst.",
-            1e3 * fit.mean_residual_m, 1e3 * fit.worst_residual_m));
+        words.add("",
+                  fmt::format(
+                      "A line of sight passes the eye that the others find by {:.0f} mm, {:.0f} mm at worst.",
+                      1e3 * fit.mean_residual_m, 1e3 * fit.worst_residual_m));
     }
-    words.push_back(words_of_choice(procedure));
+    words.add(choice_of(procedure));
     return words;
 }
 
-std::string_view key_of_verdict(const EyeProcedure& procedure) {
-    switch (procedure.judged()->verdict) {
-    case Verdict::Good:
-    case Verdict::Usable:
-        return "calibration.eyes.may_be_kept";
-    case Verdict::Repeat:
-        return procedure.asks_for_more() ? "calibration.more_rests" : "calibration.repeat";
-    case Verdict::Refused:
-        return "calibration.eyes.refused";
+TableWords words_of_stage(const EyeProcedure& procedure) {
+    switch (procedure.stage()) {
+    case Stage::Begin:
+        return words_of_begin(procedure);
+    case Stage::Rest:
+        return {"calibration.eyes.rest", {"Let the prop lie", "Its place is taken: one second of rest."}};
+    case Stage::Shut:
+    case Stage::Place:
+    case Stage::HoldStill:
+        return words_of_sight(procedure);
+    case Stage::Judged:
+        return words_of_verdict(procedure);
+    case Stage::Done:
+        return {"calibration.eyes.kept", {"The eyes' place is kept."}};
+    case Stage::Left:
+        return {"calibration.eyes.unchanged", {"Nothing was changed."}};
+    default:
+        return one_moment();
     }
-    return "";
 }
 
-bool has_cross(CalibrationStage stage) {
-    return stage == CalibrationStage::Place || stage == CalibrationStage::HoldStill;
+bool has_cross(Stage stage) {
+    return stage == Stage::Place || stage == Stage::HoldStill;
 }
 
 /// Lines between points of the table's space.
@@ -240,13 +207,17 @@ private:
 /// The house's sentence, and while the corner is brought over the cross also how the head is to be held; below them the English lines.
 Image<std::uint8_t> words_at(const EyeProcedure& procedure, const Typesetter& typesetter,
                              const LanguageWords* house, double width, double unit) {
-    const std::string_view key = word_key(procedure);
-    Image<std::uint8_t> words = typesetter.set(paragraphs_of(eye_words(procedure), unit), 0.95 * width);
-    if (procedure.stage() == CalibrationStage::Place && key != key_of(procedure.asked().posture)) {
-        words = above(house_sentence(house, key_of(procedure.asked().posture), 0.95 * width, beside_em),
-                      words, 2.0 * unit);
+    const TableWords said = table_words(procedure);
+    Image<std::uint8_t> words = typesetter.set(paragraphs_of(said.lines, unit), 0.95 * width);
+    const auto put_above = [&](std::string_view key) {
+        words = above(house_sentence(house, key, 0.95 * width, beside_em), words, 2.0 * unit);
+    };
+    if (procedure.stage() == Stage::Place) {
+        const std::string_view held = message_of(posture_messages, procedure.asked().posture).key;
+        put_above(said.key != held ? held : "");
     }
-    return above(house_sentence(house, key, 0.95 * width, beside_em), words, 2.0 * unit);
+    put_above(said.key);
+    return words;
 }
 
 /// As large as they fit into the box, at its lower end: the person stands there.
@@ -276,72 +247,25 @@ void draw_words(Canvas& canvas, const EyeProcedure& procedure, const Typesetter&
 
 } // namespace
 
-std::vector<std::string> eye_words(const EyeProcedure& procedure) {
-    std::vector<std::string> words;
-    switch (procedure.stage()) {
-    case CalibrationStage::Begin:
-        return words_of_begin(procedure);
-    case CalibrationStage::Rest:
-        words = {"Let the prop lie", "Its place is taken: one second of rest."};
-        break;
-    case CalibrationStage::Shut:
-        words = words_of_shut(procedure.asked().eye);
-        break;
-    case CalibrationStage::Place:
-        words = words_of_aim(procedure);
-        break;
-    case CalibrationStage::HoldStill:
-        words = {fmt::format("Sighting {} of {}", procedure.at() + 1, procedure.count()),
-                 "Keep your head still: one second."};
-        break;
-    case CalibrationStage::Solve:
-        return {"One moment, please."};
-    case CalibrationStage::Judged:
-        return words_of_verdict(procedure);
-    case CalibrationStage::Done:
-        return {"The eyes' place is kept."};
-    default: // Left
-        return {"Nothing was changed."};
-    }
-    if (const std::string_view more = words_of(procedure.word()); !more.empty()) {
-        words.emplace_back(more);
+TableWords table_words(const EyeProcedure& procedure) {
+    TableWords words = words_of_stage(procedure);
+    const Stage stage = procedure.stage();
+    if (stage > Stage::Begin && stage < Stage::Solve) {
+        const Message more = message_of(eye_messages, procedure.word());
+        words.add(stage == Stage::Shut ? "" : more.key, more.english);
+        words.of = procedure.at();
     }
     return words;
-}
-
-std::string_view word_key(const EyeProcedure& procedure) {
-    switch (procedure.stage()) {
-    case CalibrationStage::Begin:
-        return procedure.problem().empty() ? "calibration.eyes.begin" : "";
-    case CalibrationStage::Rest:
-        return key_of(procedure.word(), "calibration.eyes.rest");
-    case CalibrationStage::Shut:
-        return procedure.asked().eye == OpenEye::Left ? "calibration.eyes.shut_right"
-                                                      : "calibration.eyes.shut_left";
-    case CalibrationStage::Place:
-        return key_of(procedure.word(), key_of(procedure.asked().posture));
-    case CalibrationStage::HoldStill:
-        return key_of(procedure.word(), "calibration.eyes.hold_still");
-    case CalibrationStage::Solve:
-        return "calibration.all_taken";
-    case CalibrationStage::Judged:
-        return key_of_verdict(procedure);
-    case CalibrationStage::Done:
-        return "calibration.eyes.kept";
-    default: // Left
-        return "calibration.eyes.unchanged";
-    }
-    return "";
 }
 
 Image8 eye_picture(const EyeProcedure& procedure, const Typesetter& typesetter, const LanguageWords* house) {
     Canvas canvas(procedure.scene().pinhole.width, procedure.scene().pinhole.height, {0, 0, 0});
     SightDrawing drawing(procedure, canvas);
-    if (!procedure.knows_place() && procedure.stage() != CalibrationStage::Left) {
+    if (!procedure.knows_place() && procedure.stage() != Stage::Left) {
         drawing.square();
     }
     if (has_cross(procedure.stage())) {
-        const bool is_held = procedure.stage() == CalibrationStage::HoldStill;
+        const bool is_held = procedure.stage() == Stage::HoldStill;
         const bool moved = procedure.word() == EyeWord::HeadMoved;
         drawing.cross(!is_held ? TableColours::white : moved ? TableColours::bad : TableColours::good);
         drawing.tip();

@@ -3,8 +3,8 @@
 #include "app/calibration/eye_procedure.h"
 #include "app/calibration/point_files.h"
 #include "app/programs/calibrate/calibration_way.h"
-#include "app/programs/calibrate/eye_picture.h"
 #include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/table_pictures.h"
 #include "app/programs/calibrate/table_rounds.h"
 
 namespace frustumscreen {
@@ -42,7 +42,8 @@ private:
                          procedure.table_from_prop().translation};
         if (next != shown_) {
             shown_ = next;
-            devices_.say(eye_words(procedure), word_key(procedure));
+            const TableWords words = table_words(procedure);
+            devices_.say(words.lines, words.key);
             devices_.show(eye_picture(procedure, devices_.typesetter(), devices_.house()));
         }
         return devices_.present(now).map([](MonotonicTime) {});

@@ -8,12 +8,33 @@
 
 namespace frustumscreen {
 
-std::string as_sentence(std::string reason) {
-    if (!reason.empty()) {
-        reason.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(reason.front())));
-        reason += reason.back() == '?' ? "" : ".";
+void TableWords::add(std::string_view next_key, std::string_view line) {
+    key = next_key.empty() ? key : next_key;
+    if (!line.empty()) {
+        lines.emplace_back(line);
     }
-    return reason;
+}
+
+TableWords one_moment() {
+    return {"calibration.all_taken", {"One moment, please."}};
+}
+TableWords all_kept() {
+    return {"calibration.kept", {"The calibration is kept.", "The exhibit comes back with it."}};
+}
+TableWords all_unchanged() {
+    return {"calibration.left", {"Nothing was changed.", "The exhibit comes back."}};
+}
+TableWords why_not(std::string_view title, std::string_view reason, std::string_view back) {
+    return {"", {std::string(title), as_sentence(reason), std::string(back)}};
+}
+
+std::string as_sentence(std::string_view reason) {
+    std::string sentence(reason);
+    if (!sentence.empty()) {
+        sentence.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence.front())));
+        sentence += sentence.back() == '?' ? "" : ".";
+    }
+    return sentence;
 }
 
 std::vector<Paragraph> paragraphs_of(const std::vector<std::string>& lines, double unit) {

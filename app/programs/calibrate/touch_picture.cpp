@@ -1,12 +1,11 @@
-#include "app/programs/calibrate/touch_picture.h"
-
 #include "app/exhibit/canvas.h"
-#include "app/programs/calibrate/table_words.h"
+#include "app/programs/calibrate/table_pictures.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -14,50 +13,22 @@ namespace frustumscreen {
 
 namespace {
 
-std::string_view words_of(TouchWord word) {
-    switch (word) {
-    case TouchWord::None:
-        return "";
-    case TouchWord::Moved:
-        return "The prop moved. Keep it still; the second begins anew.";
-    case TouchWord::NotSeen:
-        return "The tracker does not see the prop. Look at its cable and its sensor, then press Next again.";
-    case TouchWord::SamePlace:
-        return "The prop still lies where it lay before. Lay it on this cross, then press Next.";
-    case TouchWord::Taken:
-        return "Good.";
-    }
-    return "";
-}
+using Stage = CalibrationStage;
+
+constexpr std::array<WordMessage<TouchWord>, 4> touch_messages{{
+    {TouchWord::Moved, {"calibration.moved", "The prop moved. Keep it still; the second begins anew."}},
+    {TouchWord::NotSeen,
+     {"calibration.not_seen",
+      "The tracker does not see the prop. Look at its cable and its sensor, then press Next again."}},
+    {TouchWord::SamePlace,
+     {"calibration.same_place",
+      "The prop still lies where it lay before. Lay it on this cross, then press Next."}},
+    {TouchWord::Taken, {"calibration.taken", "Good."}},
+}};
 
 std::string height_of(const Cross& cross) {
     return cross.block_m > 0.0 ? fmt::format("on top of {:.0f} mm of board", 1e3 * cross.block_m)
                                : std::string("on the table");
-}
-
-/// What the two buttons do then.
-std::string words_of_choice(const TouchProcedure& procedure) {
-    const TouchJudgement& judged = *procedure.judged();
-    const bool is_touch_up = procedure.task() == TouchTask::TouchUp;
-    switch (judged.verdict) {
-    case Verdict::Good:
-    case Verdict::Usable:
-        return judged.nothing_moved ? "Next returns to the exhibit. Back does one touch again."
-                                    : "Next keeps it. Back does the touch again that lies farthest off.";
-    case Verdict::Repeat:
-        return procedure.asks_for_more() ? "Next brings two more crosses."
-                                         : "Next does the doubtful touches again.";
-    case Verdict::Refused:
-        return is_touch_up ? "Next measures the whole table anew. Back does all touches again."
-                           : "Next begins anew.";
-    }
-    return "";
-}
-
-std::vector<std::string> words_of_verdict(const TouchProcedure& procedure) {
-    std::vector<std::string> words = procedure.judged()->told;
-    words.push_back(words_of_choice(procedure));
-    return words;
 }
 
 /// What a technician needs at hand: the heights that the crosses ask for, millimetres.
@@ -70,31 +41,75 @@ std::set<int> block_heights_mm(const TouchProcedure& procedure) {
     return heights_mm;
 }
 
-std::vector<std::string> words_of_begin(const TouchProcedure& procedure) {
+TableWords words_of_begin(const TouchProcedure& procedure) {
     if (!procedure.problem().empty()) {
-        return {"The table cannot be measured", as_sentence(procedure.problem()),
-                "Back returns to the exhibit."};
+        return why_not("The table cannot be measured", procedure.problem(), "Back returns to the exhibit.");
     }
     const std::string boards = fmt::format("You need the prop and boards that make {} mm.",
                                            fmt::join(block_heights_mm(procedure), ", "));
     if (procedure.task() == TouchTask::TouchUp) {
         return {
-            "Staff: put the picture right",
-            fmt::format("Somebody bumped the projector, or moved the tracker? {} touches find out, and put "
-                        "the picture right; that takes about two minutes. {}",
-                        procedure.count(), boards),
-            "Next begins. Back goes on to measuring the whole table anew, or out. A minute without a press "
-            "returns to the exhibit."};
+            "calibration.touch_up",
+            {"Staff: put the picture right",
+             fmt::format("Somebody bumped the projector, or moved the tracker? {} touches find out, and put "
+                         "the picture right; that takes about two minutes. {}",
+                         procedure.count(), boards),
+             "Next begins. Back goes on to measuring the whole table anew, or out. A minute without a press "
+             "returns to the exhibit."}};
     }
-    return {"Staff: measure the table anew",
-            fmt::format("Projector, tracker and the prop's sensor are measured with {} touches; that takes "
-                        "about five minutes. {}",
-                        procedure.count(), boards),
-            "Next begins. Back returns to the exhibit; so does a minute without a press."};
+    return {"calibration.begin",
+            {"Staff: measure the table anew",
+             fmt::format("Projector, tracker and the prop's sensor are measured with {} touches; that takes "
+                         "about five minutes. {}",
+                         procedure.count(), boards),
+             "Next begins. Back returns to the exhibit; so does a minute without a press."}};
+}
+
+TableWords words_of_cross(const TouchProcedure& procedure) {
+    const Cross& cross = procedure.cross();
+    TableWords words{"", {fmt::format("Touch {} of {}", procedure.at() + 1, procedure.count())}};
+    if (procedure.stage() == Stage::HoldStill) {
+        words.add("calibration.hold_still", "Hold still: one second.");
+    } else {
+        words.add("calibration.lay",
+                  fmt::format("Lay the middle of the prop's bottom on the cross, {}, its front "
+                              "along the arrow. Then press Next.",
+                              height_of(cross)));
+    }
+    words.add(message_of(touch_messages, procedure.word()));
+    if (procedure.word() == TouchWord::Taken && procedure.at() > 0 &&
+        cross.block_m > procedure.crosses()[procedure.at() - 1].block_m) {
+        words.key = "calibration.on_boards";
+    }
+    return words;
+}
+
+/// What the two buttons do then.
+Message choice_of(const TouchProcedure& procedure) {
+    const TouchJudgement& judged = *procedure.judged();
+    const bool is_touch_up = procedure.task() == TouchTask::TouchUp;
+    switch (judged.verdict) {
+    case Verdict::Good:
+    case Verdict::Usable:
+        return judged.nothing_moved
+                   ? Message{"calibration.nothing_moved",
+                             "Next returns to the exhibit. Back does one touch again."}
+                   : Message{is_touch_up ? "calibration.put_right" : "calibration.may_be_kept",
+                             "Next keeps it. Back does the touch again that lies farthest off."};
+    case Verdict::Repeat:
+        return procedure.asks_for_more()
+                   ? Message{"calibration.more", "Next brings two more crosses."}
+                   : Message{"calibration.repeat", "Next does the doubtful touches again."};
+    case Verdict::Refused:
+        break;
+    }
+    return is_touch_up ? Message{"calibration.does_not_fit",
+                                 "Next measures the whole table anew. Back does all touches again."}
+                       : Message{"calibration.refused", "Next begins anew."};
 }
 
 Colour colour_of(const TouchProcedure& procedure) {
-    if (procedure.stage() == CalibrationStage::HoldStill) {
+    if (procedure.stage() == Stage::HoldStill) {
         return procedure.word() == TouchWord::Moved ? TableColours::bad : TableColours::good;
     }
     return TableColours::white;
@@ -130,114 +145,91 @@ void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, do
     canvas.circle(cross.pixel, 1.5 * unit, 1.0, colour);
 }
 
-std::string_view key_of_lay(const TouchProcedure& procedure) {
-    switch (procedure.word()) {
-    case TouchWord::NotSeen:
-        return "calibration.not_seen";
-    case TouchWord::SamePlace:
-        return "calibration.same_place";
-    case TouchWord::Taken: {
-        const bool is_raised =
-            procedure.at() > 0 && procedure.cross().block_m > procedure.crosses()[procedure.at() - 1].block_m;
-        return is_raised ? "calibration.on_boards" : "calibration.taken";
-    }
+std::string what_moved(Moved moved) {
+    switch (moved) {
+    case Moved::Projector:
+        return "The projector moved.";
+    case Moved::Tracker:
+        return "The tracker's source moved.";
+    case Moved::Either:
+        return "The projector moved, or the tracker's source.";
     default:
-        return "calibration.lay";
+        return "Nothing has moved.";
     }
 }
 
-std::string_view key_of_verdict(const TouchProcedure& procedure) {
-    const TouchJudgement& judged = *procedure.judged();
-    const bool is_touch_up = procedure.task() == TouchTask::TouchUp;
-    switch (judged.verdict) {
-    case Verdict::Good:
-    case Verdict::Usable:
-        return judged.nothing_moved ? "calibration.nothing_moved"
-               : is_touch_up        ? "calibration.put_right"
-                                    : "calibration.may_be_kept";
-    case Verdict::Repeat:
-        return procedure.asks_for_more() ? "calibration.more" : "calibration.repeat";
-    case Verdict::Refused:
-        return is_touch_up ? "calibration.does_not_fit" : "calibration.refused";
-    }
-    return "";
+std::string right_again(const TouchUp& found) {
+    const std::string was = fmt::format("The picture was {:.0f} mm beside its place.", 1e3 * found.off_m);
+    return found.verdict == Verdict::Repeat
+               ? was + " These touches are too few to check each other."
+               : fmt::format("{} Once this is kept it is right again, to about {:.1f} mm.", was,
+                             1e3 * found.uncertainty.mean_m);
 }
 
 } // namespace
 
-std::vector<std::string> touch_words(const TouchProcedure& procedure) {
+TableWords table_words(const TouchProcedure& procedure) {
     switch (procedure.stage()) {
-    case CalibrationStage::Begin:
+    case Stage::Begin:
         return words_of_begin(procedure);
-    case CalibrationStage::Place:
-    case CalibrationStage::HoldStill: {
-        std::vector<std::string> words{fmt::format("Touch {} of {}", procedure.at() + 1, procedure.count())};
-        words.push_back(
-            procedure.stage() == CalibrationStage::HoldStill
-                ? "Hold still: one second."
-                : fmt::format(
-                      "Lay the middle of the prop's bottom on the cross, {}, its front along the arrow. "
-                      "Then press Next.",
-                      height_of(procedure.cross())));
-        if (const std::string_view more = words_of(procedure.word()); !more.empty()) {
-            words.emplace_back(more);
-        }
+    case Stage::Place:
+    case Stage::HoldStill:
+        return words_of_cross(procedure);
+    case Stage::Judged: {
+        TableWords words{"", procedure.judged()->told};
+        words.add(choice_of(procedure));
         return words;
     }
-    case CalibrationStage::Solve:
-        return {"One moment, please."};
-    case CalibrationStage::Judged:
-        return words_of_verdict(procedure);
-    case CalibrationStage::Done:
-        return procedure.judged()->nothing_moved
-                   ? std::vector<std::string>{"Nothing was changed.", "The exhibit comes back."}
-                   : std::vector<std::string>{"The calibration is kept.", "The exhibit comes back with it."};
-    case CalibrationStage::GoesOn:
-        return {"One moment, please."};
-    default: // Left
-        return {"Nothing was changed.", "The exhibit comes back."};
+    case Stage::Done:
+        return procedure.judged()->nothing_moved ? all_unchanged() : all_kept();
+    case Stage::Left:
+        return all_unchanged();
+    default:
+        return one_moment();
     }
-    return {};
 }
 
-std::string_view word_key(const TouchProcedure& procedure) {
-    switch (procedure.stage()) {
-    case CalibrationStage::Begin:
-        return !procedure.problem().empty()             ? ""
-               : procedure.task() == TouchTask::TouchUp ? "calibration.touch_up"
-                                                        : "calibration.begin";
-    case CalibrationStage::Place:
-        return key_of_lay(procedure);
-    case CalibrationStage::HoldStill:
-        return procedure.word() == TouchWord::Moved ? "calibration.moved" : "calibration.hold_still";
-    case CalibrationStage::Solve:
-        return "calibration.all_taken";
-    case CalibrationStage::Judged:
-        return key_of_verdict(procedure);
-    case CalibrationStage::Done:
-        return procedure.judged()->nothing_moved ? "calibration.left" : "calibration.kept";
-    case CalibrationStage::GoesOn:
-        return "calibration.all_taken";
-    default: // Left
-        return "calibration.left";
+TouchJudgement judgement_of(const TouchCalibration& calibration) {
+    TouchJudgement judged{calibration.verdict,
+                          {fmt::format("The calibration is: {}", name_of(calibration.verdict)),
+                           as_sentence(calibration.reason)},
+                          calibration.repeat,
+                          calibration.residuals,
+                          false};
+    if (calibration.table) {
+        judged.told.push_back(
+            fmt::format("Each touch lies {:.1f} mm from where the others expect it, {:.1f} mm at worst.",
+                        1e3 * calibration.mean_residual_m, 1e3 * calibration.worst_residual_m));
     }
-    return "";
+    return judged;
+}
+
+TouchJudgement judgement_of(const TouchUp& found) {
+    TouchJudgement judged{found.verdict, {}, {}, found.residuals, false};
+    if (!found.table) {
+        judged.told = {"The touches do not fit what was measured before.", as_sentence(found.reason)};
+        return judged;
+    }
+    judged.nothing_moved = found.moved == Moved::Nothing;
+    judged.told = {what_moved(found.moved),
+                   judged.nothing_moved ? as_sentence(found.reason) : right_again(found)};
+    return judged;
 }
 
 Image8 touch_picture(const TouchProcedure& procedure, int width, int height, double prop_px,
                      const Typesetter& typesetter, const LanguageWords* house) {
     Canvas canvas(width, height, {0, 0, 0});
     const double unit = width / 160.0;
-    const bool has_cross =
-        procedure.stage() == CalibrationStage::Place || procedure.stage() == CalibrationStage::HoldStill;
+    const bool has_cross = procedure.stage() == Stage::Place || procedure.stage() == Stage::HoldStill;
     if (has_cross) {
         draw_cross(canvas, procedure, unit, prop_px);
     }
     // The words stand in the half of the picture where the cross is not, so that the prop hides none of them.
     const bool below = !has_cross || procedure.cross().pixel.y < 0.5 * height;
+    const TableWords words = table_words(procedure);
     const Image<std::uint8_t> coverage =
-        above(house_sentence(house, word_key(procedure), 0.6 * width),
-              typesetter.set(paragraphs_of(touch_words(procedure), unit), 0.6 * width), 2.5 * unit);
+        above(house_sentence(house, words.key, 0.6 * width),
+              typesetter.set(paragraphs_of(words.lines, unit), 0.6 * width), 2.5 * unit);
     const double top = below ? (has_cross ? 0.62 : 0.4) * height : 0.38 * height - coverage.height;
     canvas.coverage(coverage, {(width - coverage.width) / 2, static_cast<int>(std::max(top, unit))},
                     procedure.word() == TouchWord::Taken || procedure.word() == TouchWord::None

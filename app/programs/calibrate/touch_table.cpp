@@ -1,7 +1,7 @@
 #include "app/programs/calibrate/touch_table.h"
 
+#include "app/programs/calibrate/table_pictures.h"
 #include "app/programs/calibrate/table_rounds.h"
-#include "app/programs/calibrate/touch_picture.h"
 
 namespace frustumscreen {
 
@@ -35,7 +35,8 @@ Result<void> TouchTable::show(const TouchProcedure& procedure, MonotonicTime now
     const Shown next{procedure.task(), procedure.stage(), procedure.word(), procedure.at()};
     if (next != shown_) {
         shown_ = next;
-        devices_.say(touch_words(procedure), word_key(procedure));
+        const TableWords words = table_words(procedure);
+        devices_.say(words.lines, words.key);
         devices_.show(touch_picture(procedure, devices_.width(), devices_.height(), prop_px_,
                                     devices_.typesetter(), devices_.house()));
     }

@@ -1,0 +1,44 @@
+/// What the projector shows a technician during a calibration, and says: by touch or its touch-up the cross, how the prop is to lie on it; by a camera
+/// where the board is to stand next, while no stripes are shown; by eye where the prop is to lie, the cross behind it, which of its corners is to
+/// cover that; and what to do.
+///
+/// Light    by a camera the ground is grey and not black, so that it sees the tags meanwhile. By eye the corner is lit by a dot, and an arrow on the
+///          prop's top leads to it.
+/// Units    pixels of the projector's picture.
+/// Words    in English, as in the alignment pattern; above them one sentence in the house's language, where that is another one. By touch and by a
+///          camera where the prop hides none of them; by eye beside the prop, where no cross is, as large as they fit.
+/// Threads  as Canvas.
+#pragma once
+
+#include "app/calibration/auto_procedure.h"
+#include "app/calibration/eye_procedure.h"
+#include "app/calibration/touch_procedure.h"
+#include "app/calibration/touch_up.h"
+#include "app/exhibit/text_image.h"
+#include "app/image/image.h"
+#include "app/pack/words_file.h"
+#include "app/programs/calibrate/table_words.h"
+
+namespace frustumscreen {
+
+[[nodiscard]] TableWords table_words(const TouchProcedure& procedure);
+/// None while a pattern is shown.
+[[nodiscard]] TableWords table_words(const AutoProcedure& procedure);
+[[nodiscard]] TableWords table_words(const EyeProcedure& procedure);
+/// The key of a word alone: what is amiss, else how the board is to stand next. `may_go_on`: Back leads on to the crosses.
+[[nodiscard]] std::string_view key_of(AutoWord word, Posture wished, bool may_go_on);
+/// What came of a technician's touches, in words for the table and as the way through them needs it.
+[[nodiscard]] TouchJudgement judgement_of(const TouchCalibration& calibration);
+[[nodiscard]] TouchJudgement judgement_of(const TouchUp& found);
+
+/// `house`: the house's words, or null. `prop_px`: about the width of the prop's bottom, from under which the cross's arms reach out.
+[[nodiscard]] Image8 touch_picture(const TouchProcedure& procedure, int width, int height, double prop_px,
+                                   const Typesetter& typesetter, const LanguageWords* house = nullptr);
+/// `board_px`: about the width of the board on the table.
+[[nodiscard]] Image8 auto_picture(const AutoProcedure& procedure, int width, int height, double board_px,
+                                  const Typesetter& typesetter, const LanguageWords* house = nullptr);
+/// As large as the scene's picture.
+[[nodiscard]] Image8 eye_picture(const EyeProcedure& procedure, const Typesetter& typesetter,
+                                 const LanguageWords* house = nullptr);
+
+} // namespace frustumscreen
