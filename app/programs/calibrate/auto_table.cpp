@@ -2,9 +2,8 @@
 
 #include "app/calibration/point_files.h"
 #include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/procedure_table.h"
 #include "app/programs/calibrate/sheet_command.h"
-#include "app/programs/calibrate/table_pictures.h"
-#include "app/programs/calibrate/table_rounds.h"
 #include "app/programs/devices/wiring.h"
 
 #include <fmt/format.h>
@@ -15,8 +14,6 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr Nanoseconds between_rounds = std::chrono::milliseconds(5);
-
 Image8 grey_picture(const StripeSetup& stripes, const Pattern& pattern) {
     const std::vector<std::uint8_t> codes = pattern_picture(stripes, pattern);
     Image8 picture(stripes.width, stripes.height);
@@ -24,87 +21,6 @@ Image8 grey_picture(const StripeSetup& stripes, const Pattern& pattern) {
                    [](std::uint8_t code) { return glm::u8vec4(code, code, code, 255); });
     return picture;
 }
-
-/// The procedure on the table, and the camera that sees it.
-class CameraTable {
-public:
-    CameraTable(const Settings& settings, TableDevices& devices, std::unique_ptr<Camera> camera)
-        : devices_(devices), camera_(std::move(camera)),
-          board_px_(Board::size_m.x * settings.projector.pinhole.fx /
-                    settings.projector.table_from_projector.translation.z) {}
-
-    /// Until it is done or left; nothing: it was told to stop.
-    [[nodiscard]] Result<std::optional<CalibrationStage>> run(AutoProcedure& procedure,
-                                                              const AutoSetup& setup) {
-        TableRounds rounds = rounds_of(procedure);
-        rounds.has_ended = [&] { return procedure.has_ended(); };
-        rounds.step = [&](MonotonicTime now) {
-            if (procedure.stage() == CalibrationStage::Solve) {
-                procedure.judge(calibrate_auto(procedure.rests(), setup));
-            }
-            step(procedure, now);
-        };
-        return run_rounds(devices_, rounds).map([&](bool ended) {
-            return ended ? std::optional(procedure.stage()) : std::nullopt;
-        });
-    }
-    /// Leaves the last words to be read.
-    void stay(const AutoProcedure& procedure) { frustumscreen::stay(devices_, rounds_of(procedure)); }
-
-private:
-    [[nodiscard]] TableRounds rounds_of(const AutoProcedure& procedure) {
-        TableRounds rounds;
-        rounds.show = [&](MonotonicTime now) { return show(procedure, now); };
-        rounds.between = between_rounds;
-        rounds.with_camera = true;
-        return rounds;
-    }
-    void step(AutoProcedure& procedure, MonotonicTime now) {
-        const TableDevices::Heard heard = devices_.hear(now);
-        const CameraFrame* const frame = camera_->poll(frame_) ? &frame_ : nullptr;
-        const CameraState state = camera_->state();
-        procedure.step({now, heard.prop, heard.next, heard.back, std::nullopt, frame, state, lit_});
-        if (!procedure.shown()) { // what the stripes do to the camera is no fault of it
-            TableDevices::tell(sentence_of(state), "camera", camera_state_);
-        }
-    }
-    [[nodiscard]] Result<void> show(const AutoProcedure& procedure, MonotonicTime now) {
-        draw(procedure);
-        const Result<MonotonicTime> lit = devices_.present(now);
-        if (lit && (!lit_ || lit_->number != procedure.number())) {
-            lit_ = CalibrationInput::Lit{procedure.number(), *lit};
-        }
-        return lit.map([](MonotonicTime) {});
-    }
-    /// Where something else is to be shown than before.
-    void draw(const AutoProcedure& procedure) {
-        const bool is_new = drawn_ != procedure.number();
-        drawn_ = procedure.number();
-        if (procedure.shown()) {
-            if (is_new) {
-                devices_.show(grey_picture(procedure.plan().stripes, *procedure.shown()));
-            }
-            words_ = {};
-            return;
-        }
-        TableWords words = table_words(procedure);
-        if (is_new || words != words_) {
-            words_ = std::move(words);
-            devices_.say(words_.lines, words_.key);
-            devices_.show(auto_picture(procedure, devices_.width(), devices_.height(), board_px_,
-                                       devices_.typesetter(), devices_.house()));
-        }
-    }
-
-    TableDevices& devices_;
-    std::unique_ptr<Camera> camera_;
-    double board_px_;
-    TableWords words_;                   ///< that are shown
-    std::optional<std::uint64_t> drawn_; ///< number of what is shown
-    std::optional<CalibrationInput::Lit> lit_;
-    CameraFrame frame_;
-    Sentence camera_state_;
-};
 
 AutoPlan plan_for(const Settings& settings, const CalibrateRequest& request, bool crosses_follow) {
     AutoPlan plan;
@@ -116,38 +32,43 @@ AutoPlan plan_for(const Settings& settings, const CalibrateRequest& request, boo
     return plan;
 }
 
-/// Nothing that was seen is lost.
-Result<void> write_rests(const CalibrateRequest& request, const Rests& rests) {
-    return request.out.empty() || rests.empty() ? Result<void>()
-                                                : write_file(request.out, as_bytes(rests_text(rests)));
-}
-
 } // namespace
 
 Result<WayEnd> measure_by_camera(const Settings& settings, const CalibrateRequest& request,
                                  const Board& board, TableDevices& devices, bool crosses_follow) {
-    const Described described = described_by(settings);
-    const AutoSetup setup = set_up_for<AutoSetup>(described, request);
+    const AutoSetup setup = set_up_for<AutoSetup>(described_by(settings), request);
     const AutoPlan plan = plan_for(settings, request, crosses_follow);
-    CameraTable table(settings, devices, make_camera(settings.camera));
-    AutoProcedure procedure(board, plan);
-    const Result<std::optional<CalibrationStage>> ended = table.run(procedure, setup);
-    TRY_VOID(write_rests(request, procedure.rests()));
-    TRY_VOID(ended);
-    if (*ended == CalibrationStage::GoesOn) {
-        return WayEnd::GoesOn;
-    }
-    Result<void> kept = ended_without();
-    if (*ended == CalibrationStage::Done) {
-        kept = keep_auto(settings, *procedure.judged());
-    }
-    if (*ended == CalibrationStage::Done && !kept) { // nobody reads a service's standard error
-        AutoProcedure told(board, plan, kept.error().message);
-        static_cast<void>(table.run(told, setup));
-    } else if (*ended) {
-        table.stay(procedure);
-    }
-    return kept.map([] { return WayEnd::Kept; });
+    const double board_px = Board::size_m.x * settings.projector.pinhole.fx /
+                            settings.projector.table_from_projector.translation.z;
+    const std::unique_ptr<Camera> camera = make_camera(settings.camera);
+    CameraFrame frame;
+    Sentence camera_state;
+    ProcedureTable<AutoProcedure> table(
+        devices,
+        {.draw =
+             [&](const AutoProcedure& way) {
+                 return way.shown() ? grey_picture(plan.stripes, *way.shown())
+                                    : auto_picture(way, devices.width(), devices.height(), board_px,
+                                                   devices.typesetter(), devices.house());
+             },
+         .solve = [&](AutoProcedure& way) { way.judge(calibrate_auto(way.rests(), setup)); },
+         .step =
+             [&](AutoProcedure& way, CalibrationInput& heard) {
+                 heard.frame = camera->poll(frame) ? &frame : nullptr;
+                 heard.camera = camera->state();
+                 way.step(heard);
+                 if (!way.shown()) { // what the stripes do to the camera is no fault of it
+                     TableDevices::tell(sentence_of(heard.camera), "camera", camera_state);
+                 }
+             },
+         .write = [&](const AutoProcedure& way) { return write_points(request, way.rests(), rests_text); },
+         .keep = [&](const AutoProcedure& way) { return keep_auto(settings, *way.judged()); },
+         .why_not = [&](std::string problem) { return AutoProcedure(board, plan, std::move(problem)); },
+         .between_rounds = std::chrono::milliseconds(5),
+         .with_camera = true});
+    AutoProcedure way(board, plan);
+    TRY(const std::optional<WayEnd> end, table.measure(way));
+    return ended_with(end, way.problem());
 }
 
 Result<int> calibrate_by_camera(const CalibrateRequest& request) {

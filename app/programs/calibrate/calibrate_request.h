@@ -15,6 +15,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,6 +65,13 @@ template <typename Points>
                                          Result<Points> (*parse)(std::string_view, std::string_view)) {
     TRY(const Bytes bytes, read_file(request.from));
     return parse(as_text(bytes), request.from.string());
+}
+/// Those of the table go to --out, if there are any; `text` is one of point_files.h.
+template <typename Point>
+[[nodiscard]] Result<void> write_points(const CalibrateRequest& request, const std::vector<Point>& points,
+                                        std::string (*text)(std::span<const Point>)) {
+    return request.out.empty() || points.empty() ? Result<void>()
+                                                 : write_file(request.out, as_bytes(text(points)));
 }
 /// A calibration's set-up as far as the request has it: TouchSetup, AutoSetup.
 template <typename Setup>

@@ -6,6 +6,7 @@
 
 #include "firmware_host/base/result.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,8 +37,11 @@ enum class WayEnd {
     return ways;
 }
 
-/// It ended without a calibration; `problem`: why it could not be done, a half sentence, or empty.
-[[nodiscard]] inline Result<void> ended_without(const std::string& problem = {}) {
+/// An end without a calibration is an error; `problem`: why it could not be done, a half sentence, or empty.
+[[nodiscard]] inline Result<WayEnd> ended_with(const std::optional<WayEnd>& end, const std::string& problem) {
+    if (end) {
+        return *end;
+    }
     return fail(ErrorKind::BadInput,
                 problem.empty() ? "it ended before a calibration was kept; the one before counts" : problem);
 }

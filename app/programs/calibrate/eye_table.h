@@ -7,6 +7,7 @@
 #include "app/calibration/eye_fit.h"
 #include "app/calibration/sight_plan.h"
 #include "app/programs/calibrate/calibrate_request.h"
+#include "app/programs/calibrate/calibration_way.h"
 #include "app/programs/calibrate/table_devices.h"
 
 #include <optional>
@@ -20,9 +21,9 @@ namespace frustumscreen {
 [[nodiscard]] std::optional<EyeFit> fit_reported(std::span<const ReportedSight> sights,
                                                  const Settings& settings);
 
-/// From the first word on the table to the kept file. False: it ended without an eye.
-[[nodiscard]] Result<bool> measure_eyes(const Settings& settings, const CalibrateRequest& request,
-                                        TableDevices& devices);
+/// From the first word on the table to the kept file; nothing: it ended without an eye.
+[[nodiscard]] Result<std::optional<WayEnd>>
+measure_eyes(const Settings& settings, const CalibrateRequest& request, TableDevices& devices);
 /// The same alone, where an end without an eye is an error.
 [[nodiscard]] Result<void> calibrate_eyes(const Settings& settings, const CalibrateRequest& request);
 

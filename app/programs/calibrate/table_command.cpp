@@ -1,14 +1,11 @@
 #include "app/programs/calibrate/table_command.h"
 
 #include "app/calibration/point_files.h"
-#include "app/calibration/touch_procedure.h"
 #include "app/programs/calibrate/auto_table.h"
-#include "app/programs/calibrate/calibration_way.h"
 #include "app/programs/calibrate/eye_table.h"
 #include "app/programs/calibrate/kept_command.h"
+#include "app/programs/calibrate/procedure_table.h"
 #include "app/programs/calibrate/sheet_command.h"
-#include "app/programs/calibrate/table_pictures.h"
-#include "app/programs/calibrate/touch_table.h"
 #include "app/programs/calibrate/touch_up_command.h"
 #include "app/programs/common/command_line.h"
 #include "app/settings/settings.h"
@@ -18,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <optional>
 
 namespace frustumscreen {
@@ -85,69 +83,61 @@ nlohmann::ordered_json crosses_json(const std::vector<Cross>& crosses) {
 /// A table with a technician at it, and what is asked of both.
 struct Session {
     TableDevices& devices;
-    TouchTable& table;
     const Settings& settings;
     const CalibrateRequest& request;
     TouchSetup setup; ///< with the sensor's height, where it is known
     // Chosen before the devices are opened: that takes a second, in which nobody would feed the service manager's watchdog.
     std::vector<Cross> crosses;
     std::vector<Cross> touch_up_crosses; ///< none: there is nothing to touch up
-
-    /// Nothing that was touched is lost.
-    [[nodiscard]] Result<void> write_touches(const Touches& touches) const {
-        return request.out.empty() || touches.empty()
-                   ? Result<void>()
-                   : write_file(request.out, as_bytes(touches_text(touches)));
-    }
-    /// The last words are read; or, where it could not be kept, why: nobody reads a service's standard error.
-    [[nodiscard]] Result<WayEnd> end(const TouchProcedure& procedure, const Result<void>& kept) const {
-        if (procedure.stage() == CalibrationStage::Done && !kept) {
-            TouchProcedure told(procedure.crosses(), kept.error().message);
-            static_cast<void>(table.run(told, {}));
-        } else {
-            table.stay(procedure);
-        }
-        return kept.map([] { return WayEnd::Kept; });
-    }
 };
 
-/// From the first word on the table to the kept file.
-Result<WayEnd> measure_by_crosses(const Session& session) {
-    TouchProcedure procedure(session.crosses, session.setup.sensor_height_m ? "" : no_sensor_height);
-    TouchCalibration judged;
-    const auto ended = session.table.run(procedure, [&](const Touches& touches) {
-        judged = calibrate_touch(touches, session.setup);
-        return judgement_of(judged);
-    });
-    TRY_VOID(session.write_touches(procedure.touches()));
-    TRY_VOID(ended);
-    const Result<void> without = ended_without(procedure.problem());
-    if (!*ended) {
-        return tl::unexpected<Error>(without.error());
-    }
-    return session.end(procedure, *ended == CalibrationStage::Done
-                                      ? keep_touch(session.settings, judged, procedure.touches())
-                                      : without);
+/// From the first word on the table to the kept file. `solve` judges what came of the touches, `keep` keeps it.
+Result<WayEnd> measure_by_touch(const Session& session, TouchProcedure way,
+                                const std::function<TouchJudgement(const Touches&)>& solve,
+                                const std::function<Result<void>(const Touches&)>& keep) {
+    TableDevices& devices = session.devices;
+    const ProjectorSettings& projector = session.settings.projector;
+    const double prop_px =
+        session.settings.prop.base_m * projector.pinhole.fx / projector.table_from_projector.translation.z;
+    ProcedureTable<TouchProcedure> table(
+        devices,
+        {.draw =
+             [&](const TouchProcedure& shown) {
+                 return touch_picture(shown, devices.width(), devices.height(), prop_px, devices.typesetter(),
+                                      devices.house());
+             },
+         .solve = [&](TouchProcedure& solved) { solved.judge(solve(solved.touches())); },
+         .write =
+             [&](const TouchProcedure& touched) {
+                 return write_points(session.request, touched.touches(), touches_text);
+             },
+         .keep = [&](const TouchProcedure& kept) { return keep(kept.touches()); },
+         .why_not = [&](std::string problem) { return TouchProcedure(way.crosses(), std::move(problem)); }});
+    TRY(const std::optional<WayEnd> end, table.measure(way));
+    return ended_with(end, way.problem());
 }
 
-/// The same of a touch-up, which may end with the wish for the whole.
+Result<WayEnd> measure_by_crosses(const Session& session) {
+    TouchCalibration found;
+    return measure_by_touch(
+        session, TouchProcedure(session.crosses, session.setup.sensor_height_m ? "" : no_sensor_height),
+        [&](const Touches& touches) {
+            found = calibrate_touch(touches, session.setup);
+            return judgement_of(found);
+        },
+        [&](const Touches& touches) { return keep_touch(session.settings, found, touches); });
+}
+
+/// A touch-up may end with the wish for the whole.
 Result<WayEnd> touch_up_on_table(const Session& session) {
-    TouchProcedure procedure(session.touch_up_crosses, few_crosses);
     TouchUp found;
-    const auto ended = session.table.run(procedure, [&](const Touches& touches) {
-        found = touch_up(kept_table_of(session.settings), touches, session.setup);
-        return judgement_of(found);
-    });
-    TRY_VOID(session.write_touches(procedure.touches()));
-    TRY_VOID(ended);
-    if (*ended == CalibrationStage::GoesOn) {
-        return WayEnd::GoesOn;
-    }
-    if (!*ended) {
-        return tl::unexpected<Error>(ended_without().error());
-    }
-    return session.end(procedure, *ended == CalibrationStage::Done ? keep_touch_up(session.settings, found)
-                                                                   : ended_without());
+    return measure_by_touch(
+        session, TouchProcedure(session.touch_up_crosses, few_crosses),
+        [&](const Touches& touches) {
+            found = touch_up(kept_table_of(session.settings), touches, session.setup);
+            return judgement_of(found);
+        },
+        [&](const Touches&) { return keep_touch_up(session.settings, found); });
 }
 
 /// A board that cannot be made for the prop is no reason to touch nothing.
@@ -185,7 +175,7 @@ Result<int> measure_missing_eyes(const Session& session) {
     }
     CalibrateRequest request = session.request;
     request.out.clear(); // it has the touches, or the rests
-    return measure_eyes(*settings, request, session.devices).map([](bool) { return 0; });
+    return measure_eyes(*settings, request, session.devices).map([](const auto&) { return 0; });
 }
 
 /// One way after the other, until one ends with a calibration or without.
@@ -219,9 +209,12 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     TRY(const std::unique_ptr<TableDevices> devices, TableDevices::open(request, settings, ""));
     CalibrateRequest known = request;
     known.sensor_height_m = sensor_height(settings, request);
-    TouchTable table(settings, *devices);
-    return take_first_wanted({*devices, table, settings, request, set_up_for<TouchSetup>(described, known),
-                              crosses, touch_up_crosses});
+    return take_first_wanted({.devices = *devices,
+                              .settings = settings,
+                              .request = request,
+                              .setup = set_up_for<TouchSetup>(described, known),
+                              .crosses = crosses,
+                              .touch_up_crosses = touch_up_crosses});
 }
 
 } // namespace

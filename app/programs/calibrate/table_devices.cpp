@@ -67,8 +67,9 @@ TableDevices::TableDevices(const Settings& settings, bool headless, Inputs input
       typesetter_(std::move(typesetter)), upload_(display_->width(), display_->height()),
       house_(house_words(settings)), voice_(voice_of(settings, house_)) {}
 
-TableDevices::Heard TableDevices::hear(MonotonicTime now) {
-    Heard heard;
+CalibrationInput TableDevices::hear(MonotonicTime now) {
+    CalibrationInput heard;
+    heard.now = now;
     samples_.clear();
     static_cast<void>(inputs_.tracker->poll(now, samples_)); // its state says what is wrong
     for (const PoseSample& sample : samples_) {

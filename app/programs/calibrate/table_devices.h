@@ -4,6 +4,7 @@
 /// Threads  the main one, with the display's context current.
 #pragma once
 
+#include "app/calibration/procedure.h"
 #include "app/exhibit/text_image.h"
 #include "app/image/image.h"
 #include "app/pack/words_file.h"
@@ -40,14 +41,8 @@ public:
     [[nodiscard]] MonotonicTime now() const { return monotonic_now() + passed_over_; }
     void pass_over(Nanoseconds time) { passed_over_ += time; }
 
-    /// What came since the call before.
-    struct Heard {
-        std::optional<RigidTransform> prop; ///< the latest report of its sensor
-        std::optional<RigidTransform> head; ///< the same of the head's
-        bool next = false;                  ///< a button was pressed
-        bool back = false;
-    };
-    [[nodiscard]] Heard hear(MonotonicTime now);
+    /// What came since the call before: the latest reports, and presses.
+    [[nodiscard]] CalibrationInput hear(MonotonicTime now);
     /// Whether the tracker has reported a head's sensor so far.
     [[nodiscard]] bool has_seen_head() const { return has_seen_head_; }
     /// Another picture is presented from now on.
