@@ -186,7 +186,8 @@ private:
         if (procedure.shown()) {
             scene.show(now, *procedure.shown());
         } else {
-            scene.show(now, auto_picture(procedure, size.width, size.height, 0.5 * size.width, typesetter_));
+            scene.show(
+                now, table_picture(procedure, {size.width, size.height, 0.0, 0.5 * size.width, typesetter_}));
         }
     }
 

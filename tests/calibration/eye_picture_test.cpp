@@ -150,7 +150,7 @@ TEST(EyePicture, NothingCrossesTheWordsWhereverThePropStands) {
                 return;
             }
             last = procedure.at();
-            const Image8 picture = eye_picture(procedure, *typesetter);
+            const Image8 picture = table_picture(procedure, {.typesetter = *typesetter});
             const WordsBox& box = procedure.words();
             std::size_t of_words = 0, of_cross = 0, of_tip = 0, elsewhere = 0;
             for (int v = 0; v < height; ++v) {

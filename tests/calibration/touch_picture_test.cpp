@@ -80,7 +80,7 @@ TEST(TouchPicture, WhereThePropsFrontGoesIsSeenBesideIt) {
         setup.count = count;
         const auto look = [&](const TouchProcedure& procedure) {
             if (procedure.stage() == CalibrationStage::Place) {
-                const Image8 picture = touch_picture(procedure, width, height, prop_px, *typesetter);
+                const Image8 picture = table_picture(procedure, {width, height, prop_px, 0.0, *typesetter});
                 EXPECT_GT(arrow_pixels(picture, procedure.cross(), prop_px), 30U)
                     << procedure.at() << " of " << count;
             }

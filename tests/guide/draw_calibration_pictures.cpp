@@ -22,17 +22,24 @@ namespace {
 
 constexpr int width = 1280;
 constexpr int height = 800;
-constexpr double prop_px = 480.0;  ///< 30 cm under a projector of throw ratio 1.875 at 1.5 m
-constexpr double board_px = 670.0; ///< 42 cm there
 
 struct Means {
     Typesetter typesetter;
     std::optional<LanguageWords> house;
 };
 
-Result<void> draw(const TouchProcedure& procedure, const Means& means, const std::filesystem::path& file) {
-    return write_file(file, encode_png(touch_picture(procedure, width, height, prop_px, means.typesetter,
-                                                     means.house ? &*means.house : nullptr)));
+template <typename Way>
+Result<void> draw(const Way& way, const Means& means, const std::filesystem::path& file) {
+    return write_file(file,
+                      encode_png(table_picture(
+                          way, {.width = width,
+                                .height = height,
+                                .prop_px = 480.0, // 30 cm under a projector of throw ratio 1.875 at 1.5 m
+
+                                .board_px = 670.0, // 42 cm there
+
+                                .typesetter = means.typesetter,
+                                .house = means.house ? &*means.house : nullptr})));
 }
 
 /// `words`: file and language, or nothing.
@@ -64,11 +71,9 @@ Result<void> draw_touch_up(const TouchModel& kept, const Means& means, const std
     CrossSetup setup;
     setup.count = 7;
     TouchProcedure procedure(choose_touch_up_crosses(kept, setup, 2), 7);
-    Result<void> drawn = draw(procedure, means, folder / "touch_up_begin.png");
+    TRY_VOID(draw(procedure, means, folder / "touch_up_begin.png"));
     procedure.step({MonotonicTime{}, std::nullopt, true, false});
-    if (drawn) {
-        drawn = draw(procedure, means, folder / "touch_up_cross.png");
-    }
+    TRY_VOID(draw(procedure, means, folder / "touch_up_cross.png"));
     touch_all(procedure);
     TouchUp found;
     found.verdict = Verdict::Good;
@@ -77,12 +82,7 @@ Result<void> draw_touch_up(const TouchModel& kept, const Means& means, const std
     found.off_m = 0.012;
     found.uncertainty.mean_m = 5e-4;
     procedure.judge(judgement_of(found));
-    return drawn ? draw(procedure, means, folder / "touch_up_verdict.png") : drawn;
-}
-
-Result<void> draw(const AutoProcedure& procedure, const Means& means, const std::filesystem::path& file) {
-    return write_file(file, encode_png(auto_picture(procedure, width, height, board_px, means.typesetter,
-                                                    means.house ? &*means.house : nullptr)));
+    return draw(procedure, means, folder / "touch_up_verdict.png");
 }
 
 /// Next is pressed, and the camera sees the light and the dark that are shown.
@@ -111,9 +111,9 @@ Result<void> draw_by_camera(const Means& means, const std::filesystem::path& fol
     plan.stripes = stripes_for(width, height);
     plan.crosses_follow = true;
     AutoProcedure procedure(board, plan);
-    Result<void> drawn = draw(procedure, means, folder / "camera_begin.png");
+    TRY_VOID(draw(procedure, means, folder / "camera_begin.png"));
     look_at_light(procedure);
-    return drawn ? draw(procedure, means, folder / "camera_rest.png") : drawn;
+    return draw(procedure, means, folder / "camera_rest.png");
 }
 
 /// A person at the shipped table, from the first word to a verdict; the sightings are made up.
@@ -128,14 +128,7 @@ Result<void> draw_eyes(const Pinhole& pinhole, const Means& means, const std::fi
         input.next = next;
         procedure.step(input);
     };
-    Result<void> drawn;
-    const auto draw_as = [&](const char* name) {
-        drawn =
-            drawn ? write_file(folder / name, encode_png(eye_picture(procedure, means.typesetter,
-                                                                     means.house ? &*means.house : nullptr)))
-                  : drawn;
-    };
-    draw_as("eyes_begin.png");
+    TRY_VOID(draw(procedure, means, folder / "eyes_begin.png"));
     input.head = RigidTransform{{1.0, 0.0, 0.0, 0.0}, scene.usual_eye_m};
     step(true);
     for (int k = 0; k < 4000 && procedure.stage() != CalibrationStage::Solve; ++k) {
@@ -144,7 +137,7 @@ Result<void> draw_eyes(const Pinhole& pinhole, const Means& means, const std::fi
         const bool was_held = procedure.stage() == CalibrationStage::HoldStill;
         step(procedure.stage() == CalibrationStage::Shut || procedure.stage() == CalibrationStage::Place);
         if (was_held && procedure.at() == 1 && procedure.stage() == CalibrationStage::Place) {
-            draw_as("eyes_cross.png");
+            TRY_VOID(draw(procedure, means, folder / "eyes_cross.png"));
         }
     }
     EyeFit fit;
@@ -154,8 +147,7 @@ Result<void> draw_eyes(const Pinhole& pinhole, const Means& means, const std::fi
     fit.worst_residual_m = 9e-3;
     fit.eyes.emplace();
     procedure.judge(fit);
-    draw_as("eyes_verdict.png");
-    return drawn;
+    return draw(procedure, means, folder / "eyes_verdict.png");
 }
 
 Result<void> draw_all(const std::filesystem::path& folder, std::span<char*> words) {
@@ -168,11 +160,9 @@ Result<void> draw_all(const std::filesystem::path& folder, std::span<char*> word
     pinhole.cy = 0.5 * height;
     const TouchModel kept = rough_model(pinhole, 1.5, 0.085);
     TouchProcedure procedure(choose_crosses(kept, {}));
-    Result<void> drawn = draw(procedure, means, folder / "calibrate_begin.png");
+    TRY_VOID(draw(procedure, means, folder / "calibrate_begin.png"));
     procedure.step({MonotonicTime{}, std::nullopt, true, false});
-    if (drawn) {
-        drawn = draw(procedure, means, folder / "calibrate_cross.png");
-    }
+    TRY_VOID(draw(procedure, means, folder / "calibrate_cross.png"));
     touch_all(procedure);
     TouchCalibration judged; // as a table with the usual noise gets it
     judged.verdict = Verdict::Good;
@@ -181,16 +171,10 @@ Result<void> draw_all(const std::filesystem::path& folder, std::span<char*> word
     judged.mean_residual_m = 6e-4;
     judged.worst_residual_m = 1.3e-3;
     procedure.judge(judgement_of(judged));
-    if (drawn) {
-        drawn = draw(procedure, means, folder / "calibrate_verdict.png");
-    }
-    if (drawn) {
-        drawn = draw_touch_up(kept, means, folder);
-    }
-    if (drawn) {
-        drawn = draw_by_camera(means, folder);
-    }
-    return drawn ? draw_eyes(pinhole, means, folder) : drawn;
+    TRY_VOID(draw(procedure, means, folder / "calibrate_verdict.png"));
+    TRY_VOID(draw_touch_up(kept, means, folder));
+    TRY_VOID(draw_by_camera(means, folder));
+    return draw_eyes(pinhole, means, folder);
 }
 
 } // namespace

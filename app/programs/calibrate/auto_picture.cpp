@@ -176,6 +176,14 @@ TableWords words_of_stage(const AutoProcedure& procedure) {
     }
 }
 
+Image8 grey_picture(const StripeSetup& stripes, const Pattern& pattern) {
+    const std::vector<std::uint8_t> codes = pattern_picture(stripes, pattern);
+    Image8 picture(stripes.width, stripes.height);
+    std::transform(codes.begin(), codes.end(), picture.texels.begin(),
+                   [](std::uint8_t code) { return glm::u8vec4(code, code, code, 255); });
+    return picture;
+}
+
 } // namespace
 
 TableWords table_words(const AutoProcedure& procedure) {
@@ -192,23 +200,26 @@ std::string_view key_of(AutoWord word, Posture wished, bool may_go_on) {
     return key.empty() ? message_of(posture_messages, wished).key : key;
 }
 
-Image8 auto_picture(const AutoProcedure& procedure, int width, int height, double board_px,
-                    const Typesetter& typesetter, const LanguageWords* house) {
+Image8 table_picture(const AutoProcedure& procedure, const TableDrawing& with) {
+    if (procedure.shown()) {
+        return grey_picture(procedure.plan().stripes, *procedure.shown());
+    }
+    const auto [width, height] = std::pair(with.width, with.height);
     Canvas canvas(width, height, ground);
     const double unit = width / 160.0;
     const bool has_place = procedure.stage() == Stage::Place;
     const glm::dvec2 place = procedure.wish().pixel;
     if (has_place) {
         constexpr double about_the_prop = 0.27; // of the board, in whose middle it stands
-        canvas.circle(place, about_the_prop * board_px, 4.0, place_colour);
+        canvas.circle(place, about_the_prop * with.board_px, 4.0, place_colour);
         canvas.circle(place, unit, 3.0, place_colour);
     }
     // The words stand in the half of the picture where the board is not.
     const bool below = !has_place || place.y < 0.45 * height;
     const TableWords words = table_words(procedure);
     const Image<std::uint8_t> coverage =
-        above(house_sentence(house, words.key, 0.7 * width),
-              typesetter.set(paragraphs_of(words.lines, unit), 0.7 * width), 2.0 * unit);
+        above(house_sentence(with.house, words.key, 0.7 * width),
+              with.typesetter.set(paragraphs_of(words.lines, unit), 0.7 * width), 2.0 * unit);
     const double room = height - 5.0 * unit - coverage.height;
     const double top = !has_place ? 0.4 * height : below ? std::fmin(room, 0.68 * height) : 5.0 * unit;
     const glm::ivec2 corner{(width - coverage.width) / 2, static_cast<int>(std::fmax(top, unit))};

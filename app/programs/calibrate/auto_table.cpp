@@ -8,19 +8,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace frustumscreen {
 
 namespace {
-
-Image8 grey_picture(const StripeSetup& stripes, const Pattern& pattern) {
-    const std::vector<std::uint8_t> codes = pattern_picture(stripes, pattern);
-    Image8 picture(stripes.width, stripes.height);
-    std::transform(codes.begin(), codes.end(), picture.texels.begin(),
-                   [](std::uint8_t code) { return glm::u8vec4(code, code, code, 255); });
-    return picture;
-}
 
 AutoPlan plan_for(const Settings& settings, const CalibrateRequest& request, bool crosses_follow) {
     AutoPlan plan;
@@ -38,20 +28,12 @@ Result<WayEnd> measure_by_camera(const Settings& settings, const CalibrateReques
                                  const Board& board, TableDevices& devices, bool crosses_follow) {
     const AutoSetup setup = set_up_for<AutoSetup>(described_by(settings), request);
     const AutoPlan plan = plan_for(settings, request, crosses_follow);
-    const double board_px = Board::size_m.x * settings.projector.pinhole.fx /
-                            settings.projector.table_from_projector.translation.z;
     const std::unique_ptr<Camera> camera = make_camera(settings.camera);
     CameraFrame frame;
     Sentence camera_state;
     ProcedureTable<AutoProcedure> table(
-        devices,
-        {.draw =
-             [&](const AutoProcedure& way) {
-                 return way.shown() ? grey_picture(plan.stripes, *way.shown())
-                                    : auto_picture(way, devices.width(), devices.height(), board_px,
-                                                   devices.typesetter(), devices.house());
-             },
-         .solve = [&](AutoProcedure& way) { way.judge(calibrate_auto(way.rests(), setup)); },
+        devices, settings,
+        {.solve = [&](AutoProcedure& way) { way.judge(calibrate_auto(way.rests(), setup)); },
          .step =
              [&](AutoProcedure& way, CalibrationInput& heard) {
                  heard.frame = camera->poll(frame) ? &frame : nullptr;

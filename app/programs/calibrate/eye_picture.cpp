@@ -205,12 +205,12 @@ private:
 };
 
 /// The house's sentence, and while the corner is brought over the cross also how the head is to be held; below them the English lines.
-Image<std::uint8_t> words_at(const EyeProcedure& procedure, const Typesetter& typesetter,
-                             const LanguageWords* house, double width, double unit) {
+Image<std::uint8_t> words_at(const EyeProcedure& procedure, const TableDrawing& with, double width,
+                             double unit) {
     const TableWords said = table_words(procedure);
-    Image<std::uint8_t> words = typesetter.set(paragraphs_of(said.lines, unit), 0.95 * width);
+    Image<std::uint8_t> words = with.typesetter.set(paragraphs_of(said.lines, unit), 0.95 * width);
     const auto put_above = [&](std::string_view key) {
-        words = above(house_sentence(house, key, 0.95 * width, beside_em), words, 2.0 * unit);
+        words = above(house_sentence(with.house, key, 0.95 * width, beside_em), words, 2.0 * unit);
     };
     if (procedure.stage() == Stage::Place) {
         const std::string_view held = message_of(posture_messages, procedure.asked().posture).key;
@@ -221,8 +221,7 @@ Image<std::uint8_t> words_at(const EyeProcedure& procedure, const Typesetter& ty
 }
 
 /// As large as they fit into the box, at its lower end: the person stands there.
-void draw_words(Canvas& canvas, const EyeProcedure& procedure, const Typesetter& typesetter,
-                const LanguageWords* house) {
+void draw_words(Canvas& canvas, const EyeProcedure& procedure, const TableDrawing& with) {
     const WordsBox& box = procedure.words();
     const double row = box.size().x / (4.0 * static_cast<double>(procedure.count() + 1));
     const double dot = std::fmin(procedure.scene().pinhole.width / 160.0, row);
@@ -231,8 +230,8 @@ void draw_words(Canvas& canvas, const EyeProcedure& procedure, const Typesetter&
     double share = 1.0;
     Image<std::uint8_t> words;
     do {
-        words = words_at(procedure, typesetter, house, share * box.size().x,
-                         share * procedure.scene().pinhole.width / 160.0);
+        words =
+            words_at(procedure, with, share * box.size().x, share * procedure.scene().pinhole.width / 160.0);
         share *= smaller;
     } while ((words.height > height || words.width > box.size().x) && share > smallest);
     const glm::dvec2 corner(box.low.x, box.high.y - 5.0 * dot - words.height);
@@ -258,7 +257,7 @@ TableWords table_words(const EyeProcedure& procedure) {
     return words;
 }
 
-Image8 eye_picture(const EyeProcedure& procedure, const Typesetter& typesetter, const LanguageWords* house) {
+Image8 table_picture(const EyeProcedure& procedure, const TableDrawing& with) {
     Canvas canvas(procedure.scene().pinhole.width, procedure.scene().pinhole.height, {0, 0, 0});
     SightDrawing drawing(procedure, canvas);
     if (!procedure.knows_place() && procedure.stage() != Stage::Left) {
@@ -270,7 +269,7 @@ Image8 eye_picture(const EyeProcedure& procedure, const Typesetter& typesetter, 
         drawing.cross(!is_held ? TableColours::white : moved ? TableColours::bad : TableColours::good);
         drawing.tip();
     }
-    draw_words(canvas, procedure, typesetter, house);
+    draw_words(canvas, procedure, with);
     return canvas.take();
 }
 

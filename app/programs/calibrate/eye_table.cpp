@@ -27,10 +27,8 @@ Result<std::optional<WayEnd>> measure_eyes(const Settings& settings, const Calib
         return EyeProcedure(sight_scene(settings), settings.tracker.registration, std::move(problem));
     };
     ProcedureTable<EyeProcedure> table(
-        devices,
-        {.draw =
-             [&](const EyeProcedure& way) { return eye_picture(way, devices.typesetter(), devices.house()); },
-         .solve =
+        devices, settings,
+        {.solve =
              [&](EyeProcedure& way) {
                  way.judge(fit_reported(way.sights(), settings).value()); // its crosses are lit
              },

@@ -19,7 +19,6 @@ template <typename Way> class ProcedureTable {
 public:
     /// What one kind of way does in its own manner.
     struct Manner {
-        std::function<Image8(const Way&)> draw;
         std::function<void(Way&)> solve; ///< in stage Solve: judges it
         /// With what is heard; by a camera with what that sees too.
         std::function<void(Way&, CalibrationInput&)> step = [](Way& way, CalibrationInput& heard) {
@@ -32,7 +31,13 @@ public:
         bool with_camera = false; ///< its frames come in the system's time, of which nothing is passed over
     };
     /// `devices` outlive it.
-    ProcedureTable(TableDevices& devices, Manner manner) : devices_(devices), manner_(std::move(manner)) {}
+    ProcedureTable(TableDevices& devices, const Settings& settings, Manner manner)
+        : devices_(devices), manner_(std::move(manner)) {
+        const double focal_px = settings.projector.pinhole.fx;
+        const double above_m = settings.projector.table_from_projector.translation.z;
+        prop_px_ = settings.prop.base_m * focal_px / above_m;
+        board_px_ = Board::size_m.x * focal_px / above_m;
+    }
 
     /// From the first word on the table to what is kept. Nothing: it ended without.
     [[nodiscard]] Result<std::optional<WayEnd>> measure(Way& way) {
@@ -94,7 +99,12 @@ private:
                 devices_.say(words.lines, words.key);
             }
             words_ = std::move(words);
-            devices_.show(manner_.draw(way));
+            devices_.show(table_picture(way, {.width = devices_.width(),
+                                              .height = devices_.height(),
+                                              .prop_px = prop_px_,
+                                              .board_px = board_px_,
+                                              .typesetter = devices_.typesetter(),
+                                              .house = devices_.house()}));
         }
         TRY(const MonotonicTime lit, devices_.present(now));
         if (!lit_ || lit_->number != words_.of) {
@@ -105,7 +115,8 @@ private:
 
     TableDevices& devices_;
     Manner manner_;
-    TableWords words_; ///< that are shown
+    double prop_px_, board_px_; ///< on the table, about
+    TableWords words_;          ///< that are shown
     std::optional<CalibrationInput::Lit> lit_;
 };
 

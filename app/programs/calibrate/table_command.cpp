@@ -95,18 +95,9 @@ struct Session {
 Result<WayEnd> measure_by_touch(const Session& session, TouchProcedure way,
                                 const std::function<TouchJudgement(const Touches&)>& solve,
                                 const std::function<Result<void>(const Touches&)>& keep) {
-    TableDevices& devices = session.devices;
-    const ProjectorSettings& projector = session.settings.projector;
-    const double prop_px =
-        session.settings.prop.base_m * projector.pinhole.fx / projector.table_from_projector.translation.z;
     ProcedureTable<TouchProcedure> table(
-        devices,
-        {.draw =
-             [&](const TouchProcedure& shown) {
-                 return touch_picture(shown, devices.width(), devices.height(), prop_px, devices.typesetter(),
-                                      devices.house());
-             },
-         .solve = [&](TouchProcedure& solved) { solved.judge(solve(solved.touches())); },
+        session.devices, session.settings,
+        {.solve = [&](TouchProcedure& solved) { solved.judge(solve(solved.touches())); },
          .write =
              [&](const TouchProcedure& touched) {
                  return write_points(session.request, touched.touches(), touches_text);

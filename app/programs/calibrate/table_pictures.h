@@ -31,14 +31,17 @@ namespace frustumscreen {
 [[nodiscard]] TouchJudgement judgement_of(const TouchCalibration& calibration);
 [[nodiscard]] TouchJudgement judgement_of(const TouchUp& found);
 
-/// `house`: the house's words, or null. `prop_px`: about the width of the prop's bottom, from under which the cross's arms reach out.
-[[nodiscard]] Image8 touch_picture(const TouchProcedure& procedure, int width, int height, double prop_px,
-                                   const Typesetter& typesetter, const LanguageWords* house = nullptr);
-/// `board_px`: about the width of the board on the table.
-[[nodiscard]] Image8 auto_picture(const AutoProcedure& procedure, int width, int height, double board_px,
-                                  const Typesetter& typesetter, const LanguageWords* house = nullptr);
-/// As large as the scene's picture.
-[[nodiscard]] Image8 eye_picture(const EyeProcedure& procedure, const Typesetter& typesetter,
-                                 const LanguageWords* house = nullptr);
+/// What a picture is drawn with. By eye it is as large as the scene's.
+struct TableDrawing {
+    int width = 0, height = 0;
+    double prop_px = 0.0; ///< about the width of the prop's bottom, from under which a cross's arms reach out
+    double board_px = 0.0; ///< about the width of the board
+    const Typesetter& typesetter;
+    const LanguageWords* house = nullptr; ///< the house's words
+};
+[[nodiscard]] Image8 table_picture(const TouchProcedure& procedure, const TableDrawing& with);
+/// A pattern, where one is shown.
+[[nodiscard]] Image8 table_picture(const AutoProcedure& procedure, const TableDrawing& with);
+[[nodiscard]] Image8 table_picture(const EyeProcedure& procedure, const TableDrawing& with);
 
 } // namespace frustumscreen

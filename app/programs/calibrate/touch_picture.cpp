@@ -216,20 +216,20 @@ TouchJudgement judgement_of(const TouchUp& found) {
     return judged;
 }
 
-Image8 touch_picture(const TouchProcedure& procedure, int width, int height, double prop_px,
-                     const Typesetter& typesetter, const LanguageWords* house) {
+Image8 table_picture(const TouchProcedure& procedure, const TableDrawing& with) {
+    const auto [width, height] = std::pair(with.width, with.height);
     Canvas canvas(width, height, {0, 0, 0});
     const double unit = width / 160.0;
     const bool has_cross = procedure.stage() == Stage::Place || procedure.stage() == Stage::HoldStill;
     if (has_cross) {
-        draw_cross(canvas, procedure, unit, prop_px);
+        draw_cross(canvas, procedure, unit, with.prop_px);
     }
     // The words stand in the half of the picture where the cross is not, so that the prop hides none of them.
     const bool below = !has_cross || procedure.cross().pixel.y < 0.5 * height;
     const TableWords words = table_words(procedure);
     const Image<std::uint8_t> coverage =
-        above(house_sentence(house, words.key, 0.6 * width),
-              typesetter.set(paragraphs_of(words.lines, unit), 0.6 * width), 2.5 * unit);
+        above(house_sentence(with.house, words.key, 0.6 * width),
+              with.typesetter.set(paragraphs_of(words.lines, unit), 0.6 * width), 2.5 * unit);
     const double top = below ? (has_cross ? 0.62 : 0.4) * height : 0.38 * height - coverage.height;
     canvas.coverage(coverage, {(width - coverage.width) / 2, static_cast<int>(std::max(top, unit))},
                     procedure.word() == TouchWord::Taken || procedure.word() == TouchWord::None
