@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Puts kernel, initrd, command line and os-release into one file that UEFI starts: sections behind systemd's stub.
 
 Source   systemd-stub(7); PE format: sections lie at addresses of their own, one after another.

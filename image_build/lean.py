@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Cuts the image's root out of Debian's packages and ours: only what files.list and modules.list name, each with a reason, and
 what that needs: the libraries that a program links, the modules that a module needs, what a symbolic link points to.
 

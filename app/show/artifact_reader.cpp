@@ -2,18 +2,9 @@
 
 #include "firmware_host/base/device_thread.h"
 
-#include <sys/resource.h>
-
 #include <utility>
 
 namespace frustumscreen {
-
-namespace {
-
-/// The picture comes first, and a reader that the picture's threads leave nothing at all would never be done.
-constexpr int niceness = 5;
-
-} // namespace
 
 ArtifactReader::ArtifactReader(Prepare prepare) : prepare_(std::move(prepare)), thread_([this] { work(); }) {}
 
@@ -36,9 +27,7 @@ std::unique_ptr<ArtifactReader::Answer> ArtifactReader::take() {
 }
 
 void ArtifactReader::work() {
-    begin_device_thread("artifacts");
-    // On Linux this is about the calling thread alone. Where it is not allowed, it reads at the usual priority.
-    static_cast<void>(::setpriority(PRIO_PROCESS, 0, niceness));
+    begin_device_thread("artifacts", ThreadPriority::Low);
     while (true) {
         wanted_.wait(nothing);
         const std::uint32_t item = wanted_;

@@ -5,7 +5,6 @@
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -18,7 +17,6 @@ namespace {
 constexpr std::uintmax_t most_report_bytes = 8U << 20U;
 constexpr std::size_t notices_kept = 4;    ///< of one import: found, copied, may be taken out, over
 constexpr std::size_t lines_of_counts = 3; ///< where all of them may find no room
-constexpr int niceness = 5;                ///< the picture comes first
 
 /// By the wall's clock, as the file's times are.
 Nanoseconds age_of(const struct stat& file) {
@@ -47,13 +45,10 @@ const SharedImport& ImportWatch::latest(MonotonicTime now) {
 }
 
 void ImportWatch::work(const std::stop_token& stop) {
-    begin_device_thread("import");
-    // On Linux this is about the calling thread alone. Where it is not allowed, it works at the usual priority.
-    static_cast<void>(::setpriority(PRIO_PROCESS, 0, niceness));
+    begin_device_thread("import", ThreadPriority::Low);
     while (!stop.stop_requested()) {
         look(monotonic_now());
-        std::unique_lock lock(mutex_);
-        ends_.wait_for(lock, stop, between_looks, [] { return false; });
+        sleep_until_stop(stop, between_looks);
     }
 }
 

@@ -12,7 +12,6 @@
 #include "app/library/import_report.h"
 #include "firmware_host/base/time.h"
 
-#include <condition_variable>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -78,7 +77,6 @@ private:
     std::vector<SharedNotice> drawn_;
 
     std::mutex mutex_; ///< for found_; nothing is read or drawn under it
-    std::condition_variable_any ends_;
     SharedImport found_;
     SharedImport latest_; ///< the caller's own
     std::optional<MonotonicTime> looked_;

@@ -4,7 +4,6 @@
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <utility>
@@ -13,8 +12,6 @@ namespace frustumscreen {
 
 namespace {
 
-/// As the reader of artifacts: the picture comes first.
-constexpr int niceness = 5;
 /// A disk that is busy with a stick's packs is slow.
 constexpr Nanoseconds look_patience = std::chrono::seconds(30);
 /// Of one pack, or of all small pictures of a set.
@@ -59,9 +56,7 @@ bool LibraryWatch::give_back(std::unique_ptr<ShownSet>& set) {
 }
 
 void LibraryWatch::work(const std::stop_token& stop) {
-    begin_device_thread("library");
-    // On Linux this is about the calling thread alone. Where it is not allowed, it works at the usual priority.
-    static_cast<void>(::setpriority(PRIO_PROCESS, 0, niceness));
+    begin_device_thread("library", ThreadPriority::Low);
     while (!stop.stop_requested()) {
         heartbeat_.promise(monotonic_now() + look_patience);
         take_what_comes();
@@ -70,8 +65,7 @@ void LibraryWatch::work(const std::stop_token& stop) {
         follow_target(stop);
         keep();
         post();
-        std::unique_lock lock(mutex_);
-        stopping_.wait_for(lock, stop, set_up_.between_looks, [] { return false; });
+        sleep_until_stop(stop, set_up_.between_looks);
     }
 }
 

@@ -16,9 +16,7 @@
 #include "firmware_host/base/latest.h"
 
 #include <atomic>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <thread>
 
 namespace frustumscreen {
@@ -87,8 +85,6 @@ private:
     std::atomic<ShownSet*> coming_{nullptr}; ///< this and `gone_` are owned by who takes them out
     std::atomic<ShownSet*> gone_{nullptr};
     Heartbeat heartbeat_;
-    std::mutex mutex_;
-    std::condition_variable_any stopping_;
     std::jthread thread_; ///< last: it uses the others
 };
 

@@ -2,8 +2,6 @@
 
 #include "firmware_host/base/device_thread.h"
 
-#include <condition_variable>
-#include <mutex>
 #include <utility>
 
 namespace frustumscreen {
@@ -11,13 +9,10 @@ namespace frustumscreen {
 SetArrival::SetArrival(std::filesystem::path library, const std::optional<FileStamp>& before)
     : thread_([this, folder = std::move(library), before](const std::stop_token& stop) {
           begin_device_thread("arrival");
-          std::mutex mutex;
-          std::condition_variable_any ends;
           while (!stop.stop_requested() && !came_) {
               const std::optional<FileStamp> now = stamp_of_set(folder);
               came_ = now && now != before;
-              std::unique_lock lock(mutex);
-              ends.wait_for(lock, stop, between_looks, [] { return false; });
+              sleep_until_stop(stop, between_looks);
           }
       }) {}
 

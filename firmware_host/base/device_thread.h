@@ -1,22 +1,21 @@
-/// Every thread except the exhibit's own begins with this.
-///
-/// `name` has at most 15 bytes; `top -H` and debuggers show it. SIGTERM and SIGINT are left to the exhibit's
-/// thread, which closes what is open before it ends (firmware_host/service/stop_signals.h).
+/// What every thread but the exhibit's own begins with and sleeps by.
 #pragma once
 
-#include <pthread.h>
+#include "firmware_host/base/time.h"
 
-#include <csignal>
+#include <cstdint>
+#include <stop_token>
 
 namespace frustumscreen {
 
-inline void begin_device_thread(const char* name) {
-    ::pthread_setname_np(::pthread_self(), name);
-    sigset_t stops;
-    sigemptyset(&stops);
-    sigaddset(&stops, SIGTERM);
-    sigaddset(&stops, SIGINT);
-    ::pthread_sigmask(SIG_BLOCK, &stops, nullptr);
-}
+/// Low: it gives way to the picture (nice 5), where the kernel allows that, and still ends some day on a busy machine.
+enum class ThreadPriority : std::uint8_t { Usual, Low };
+
+/// `name` has at most 15 bytes; `top -H` and debuggers show it. SIGTERM and SIGINT are left to the exhibit's thread, which closes
+/// what is open before it ends (firmware_host/service/stop_signals.h).
+void begin_device_thread(const char* name, ThreadPriority priority = ThreadPriority::Usual);
+
+/// Returns after `length`, or as soon as a stop is requested.
+void sleep_until_stop(const std::stop_token& stop, Nanoseconds length);
 
 } // namespace frustumscreen

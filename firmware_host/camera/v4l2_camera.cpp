@@ -24,8 +24,7 @@ void V4l2Camera::run(const std::stop_token& stop) {
             counts_ = driver_.counts();
             set_up_ = driver_.set_up();
         }
-        std::unique_lock lock(rest_mutex_);
-        stopped_.wait_for(lock, stop, rest, [] { return false; });
+        sleep_until_stop(stop, rest);
     }
 }
 

@@ -10,7 +10,6 @@
 #include "firmware_host/camera/frame_mailbox.h"
 
 #include <atomic>
-#include <condition_variable>
 #include <mutex>
 #include <stop_token>
 #include <thread>
@@ -49,8 +48,6 @@ private:
     CameraCounts counts_;
     std::optional<CameraSetUp> set_up_;
     Heartbeat heartbeat_{monotonic_now() + longest_search};
-    std::mutex rest_mutex_;
-    std::condition_variable_any stopped_;
     std::jthread thread_; ///< last: it uses all of the above
 };
 

@@ -66,8 +66,7 @@ void ButtonPanel::watch(const std::stop_token& stop) {
         said_.set(lines ? serve(**lines, stop).message : lines.error().message);
         held_until_.promise(MonotonicTime{});
         lines = {}; // the chip is closed before it is looked for again
-        std::unique_lock lock(rest_mutex_);
-        stopped_.wait_for(lock, stop, look_again, [] { return false; });
+        sleep_until_stop(stop, look_again);
     }
 }
 

@@ -13,8 +13,6 @@
 #include "firmware_host/panel/panel.h"
 
 #include <atomic>
-#include <condition_variable>
-#include <mutex>
 #include <stop_token>
 #include <thread>
 
@@ -56,9 +54,7 @@ private:
     std::atomic<std::uint32_t> wished_{0}; ///< lamps
     Heartbeat heartbeat_{monotonic_now() + longest_round};
     Heartbeat held_until_{MonotonicTime{}}; ///< the chord is held at least until then, unless it is let go
-    std::mutex rest_mutex_;
-    std::condition_variable_any stopped_;
-    std::jthread thread_; ///< last: it uses all of the above
+    std::jthread thread_;                   ///< last: it uses all of the above
 };
 
 } // namespace frustumscreen

@@ -47,8 +47,7 @@ void HangWatch::run(const std::stop_token& stop) {
             tell_(std::nullopt);
             break;
         }
-        std::unique_lock lock(rest_mutex_);
-        stopped_.wait_for(lock, stop, policy_.between_looks(), [] { return false; });
+        sleep_until_stop(stop, policy_.between_looks());
     }
 }
 

@@ -9,9 +9,7 @@
 #include "firmware_host/base/time.h"
 
 #include <atomic>
-#include <condition_variable>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <thread>
@@ -52,8 +50,6 @@ private:
     Tell tell_;
     std::atomic<Nanoseconds::rep> heard_;
     std::atomic<const char*> doing_{""};
-    std::mutex rest_mutex_;
-    std::condition_variable_any stopped_;
     std::jthread thread_; ///< last: it uses all of the above
 };
 

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/eventfd.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -24,7 +23,6 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int niceness = 5; ///< the picture comes first
 constexpr int most_waiting = 4;
 
 tl::unexpected<Error> cannot_listen(const std::filesystem::path& path, std::string_view reason) {
@@ -115,8 +113,7 @@ StaffSocket::~StaffSocket() {
 }
 
 void StaffSocket::work(const std::stop_token& stop) {
-    begin_device_thread("staff socket");
-    static_cast<void>(::setpriority(PRIO_PROCESS, 0, niceness));
+    begin_device_thread("staff socket", ThreadPriority::Low);
     while (!stop.stop_requested()) {
         if (wait_for(listening_.number(), POLLIN, MonotonicTime::max())) {
             const Descriptor client(

@@ -111,11 +111,10 @@ Error DeviceSound::play(PcmDevice& device, const std::stop_token& stop) {
 
 void DeviceSound::rest(Nanoseconds length, const std::stop_token& stop) {
     const MonotonicTime end = monotonic_now() + length;
-    std::unique_lock lock(rest_mutex_);
     while (!stop.stop_requested() && monotonic_now() < end) {
         heartbeat_.promise(monotonic_now() + longest_round);
         go_on_silently();
-        stopped_.wait_for(lock, stop, round, [] { return false; });
+        sleep_until_stop(stop, round);
     }
 }
 

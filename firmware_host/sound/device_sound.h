@@ -17,8 +17,6 @@
 #include "firmware_host/sound/sample_clock.h"
 #include "firmware_host/sound/sound.h"
 
-#include <condition_variable>
-#include <mutex>
 #include <stop_token>
 #include <thread>
 
@@ -64,8 +62,6 @@ private:
     SampleClock clock_{monotonic_now()}; ///< while there is no device
     std::uint64_t underruns_ = 0;        ///< of all devices
     std::uint64_t losses_ = 0;
-    std::mutex rest_mutex_;
-    std::condition_variable_any stopped_;
     std::jthread thread_; ///< last: it uses all of the above
 };
 

@@ -63,9 +63,9 @@ void PacketRecorder::write(const std::stop_token& stop) {
     MonotonicTime synced = monotonic_now();
     bool last = false;
     while (!last) {
+        sleep_until_stop(stop, between_writes);
         {
-            std::unique_lock lock(mutex_);
-            something_waits_.wait_for(lock, stop, between_writes, [] { return false; });
+            const std::lock_guard lock(mutex_);
             last = stop.stop_requested();
             if (last) {
                 name_gap(gap_until_);

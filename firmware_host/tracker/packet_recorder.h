@@ -11,7 +11,6 @@
 #include "firmware_host/base/sentence.h"
 #include "firmware_host/tracker/packet_file.h"
 
-#include <condition_variable>
 #include <mutex>
 #include <stop_token>
 #include <thread>
@@ -51,7 +50,6 @@ private:
 
     GrowingFile file_; ///< the writing thread only, but for its name
     mutable std::mutex mutex_;
-    std::condition_variable_any something_waits_;
     Bytes waiting_;
     Counts counts_;
     std::uint64_t gap_ = 0;   ///< dropped since the last packet that was taken

@@ -24,8 +24,7 @@ void UsbTracker::run(const std::stop_token& stop) {
             const std::lock_guard lock(counts_mutex_);
             counts_ = driver_.counts();
         }
-        std::unique_lock lock(rest_mutex_);
-        stopped_.wait_for(lock, stop, rest, [] { return false; });
+        sleep_until_stop(stop, rest);
     }
 }
 

@@ -11,7 +11,6 @@
 #include "firmware_host/tracker/usb_tracker_driver.h"
 
 #include <atomic>
-#include <condition_variable>
 #include <mutex>
 #include <stop_token>
 #include <thread>
@@ -52,8 +51,6 @@ private:
     std::mutex counts_mutex_;
     TrackerCounts seen_counts_; ///< of the caller of `poll`
     Heartbeat heartbeat_{monotonic_now() + longest_search};
-    std::mutex rest_mutex_;
-    std::condition_variable_any stopped_;
     std::jthread thread_; ///< last: it uses all of the above
 };
 

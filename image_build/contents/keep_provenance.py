@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Keeps, beside the image, what is known of the packages that it was made from: dpkg's data base and the texts of their licences.
 
     keep_provenance.py OUT --tree NAME=FOLDER... --compiled-in LIST

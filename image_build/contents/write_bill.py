@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Writes, beside the image, its bill of materials and the texts of all licences.
 
     write_bill.py IMAGE-FOLDER

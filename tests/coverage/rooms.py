@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Lines and branches that the tests reached, by room, and the files that none reached; `./test coverage` calls this.
 
     rooms.py SUMMARY PLACES    SUMMARY: of gcovr --json-summary; PLACES: the build's tests/layers/layers.txt

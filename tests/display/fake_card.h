@@ -132,6 +132,10 @@ public:
     };
     /// What a monitor at the connector would show; nothing: it is dark.
     [[nodiscard]] std::optional<Shown> shown(std::uint32_t connector) const;
+    /// A framebuffer's memory, row by row.
+    [[nodiscard]] std::span<const std::byte> pixels(std::uint32_t framebuffer) const {
+        return *framebuffers_.at(framebuffer).memory;
+    }
     [[nodiscard]] std::uint64_t value(std::uint32_t object, const std::string& property) const;
     void set(std::uint32_t object, const std::string& property, std::uint64_t value);
     /// A property's number; 0: the object has none of this name.

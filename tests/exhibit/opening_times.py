@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Writes when something is open, in seconds since 1970: opening_times.py ZONE 10:00-18:00[,...] YEAR YEARS
 
 Each second of the local calendar is found among the seconds of UTC, with nothing but zoneinfo's way from UTC to local time: a

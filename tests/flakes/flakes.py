@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Looks for tests that fail now and then; `./test flakes` calls this. What has passed is remembered, so that a run that was ended goes on
 where it stood; another commit, or another change of the working tree, begins anew. Exit status 1: something failed.
 

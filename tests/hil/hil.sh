@@ -22,5 +22,5 @@ tests/hil/run_tests.py || status=$?
 FRUSTUMSCREEN_IMAGE=$(readlink -f out/image/test/frustumscreen.raw) FRUSTUMSCREEN_IMAGE_LOGS=$(readlink -f out/hil)
 export FRUSTUMSCREEN_IMAGE FRUSTUMSCREEN_IMAGE_LOGS PYTHONDONTWRITEBYTECODE=1
 cd tests/image_build
-python3 -m unittest -v test_shipped.AsShipped.test_at_the_pictures_own_size || status=$?
+/usr/bin/python3 -m unittest -v test_shipped.AsShipped.test_at_the_pictures_own_size || status=$?
 exit "$status"

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Hardware in the loop: makes the guest, starts it, runs the tests in it. `./test hil` calls this."""
 
 import argparse

@@ -5,7 +5,7 @@
 set -euo pipefail
 [[ -s $1 ]] || exit 0
 printf '== slowest   wall  processor\n'
-sort -rn "$1" | head -n 10 | awk -F '\t' '{ printf "   %11.1f s %8.1f s   %-8s%s\n", $1, $2, $3, $4 }'
+sort -rn "$1" | awk -F '\t' 'NR <= 10 { printf "   %11.1f s %8.1f s   %-8s%s\n", $1, $2, $3, $4 }'
 awk -F '\t' '{ ++count[$3]; wall[$3] += $1; processor[$3] += $2 }
     END {
         for (kind in count) {

@@ -98,6 +98,26 @@ TEST(House, GeneratedSourcesNameNoFolderOfThisClone) {
     }
 }
 
+class SlowestTimes : public frustumscreen::WithTemporaryFolder {};
+
+/// More lines than a pipe holds: a reader that ends early would end the script.
+TEST_F(SlowestTimes, OfManyAreListed) {
+    const fs::path times = folder / "times.tsv";
+    std::ofstream out(times);
+    for (int k = 0; k < 5000; ++k) {
+        out << k << ".50\t1.00\tcompile\tapp/a/room/with/a/long/name/some_source_" << k << ".cpp.o\n";
+    }
+    out.close();
+    const fs::path listed = folder / "listed";
+    const std::string script = frustumscreen::source_dir() + "/tests/house/list_slowest.sh";
+    EXPECT_EQ(std::system((script + " '" + times.string() + "' >'" + listed.string() + "'").c_str()), 0);
+    const std::vector<std::string> lines = lines_of(listed);
+    ASSERT_EQ(lines.size(), 12U);
+    EXPECT_NE(lines[1].find("some_source_4999.cpp.o"), std::string::npos) << lines[1];
+    EXPECT_NE(lines[10].find("some_source_4990.cpp.o"), std::string::npos) << lines[10];
+    EXPECT_NE(lines[11].find("all 5000 of kind compile"), std::string::npos) << lines[11];
+}
+
 } // namespace
 
 TEST(House, NoFileIsTooLongToRead) {

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Updates of the kiosk's system, without a machine: what ./image_build/bundle makes, read by RAUC itself; boot-slots on a folder; and
 trim-boot-folder on a boot partition.
 

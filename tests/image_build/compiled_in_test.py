@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """What compiled_in.list says of headers, held against the headers that the compiler read and the archives that were linked.
 
     compiled_in_test.py SOURCE    SOURCE: the repository, with its release build

@@ -26,7 +26,7 @@ grep -Ei 'warning|error|fail' apt.log | grep -v 'debconf\|apt-utils' && die "the
 for user in frustumscreen frustumscreen-import frustumscreen-ntfs frustumscreen-safe frustumscreen-watchdog; do
     getent passwd "$user" >/dev/null || die "there is no user $user"
 done
-id -nG frustumscreen | grep -qw plugdev || die "the exhibit's user may not open trackers"
+id -nG frustumscreen | grep -w plugdev >/dev/null || die "the exhibit's user may not open trackers"
 [[ $(stat -c %U /var/lib/frustumscreen/library) == frustumscreen-import ]] || die "the library is not the importer's"
 [[ -u /bin/ntfs-3g || -x /bin/ntfs-3g ]] || die "there is no ntfs-3g"
 frustumscreen config --config /etc/frustumscreen/kiosk.toml --json >/dev/null 2>&1 || die "the settings are not taken"
@@ -82,6 +82,6 @@ frustumscreen-bake amphora -o amphora.fspack --size 64 --preview amphora.html >b
 sed 's/^/   /' bake.log
 frustumscreen-pack verify amphora.fspack >/dev/null || die "the pack is not sound"
 grep -q 'lost *nothing' bake.log || die "the bake has lost something"
-frustumscreen-pack explain amphora.fspack | grep -qi spoken || die "nobody speaks: espeak-ng is missing"
+frustumscreen-pack explain amphora.fspack | grep -i spoken >/dev/null || die "nobody speaks: espeak-ng is missing"
 apt-get -qq purge --yes frustumscreen-bake frustumscreen-base >apt.log 2>&1 || die "apt purge"
 say "good"

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Debian's names of licences, and the expressions of SPDX that they become, held against the page of the format and a parser of SPDX.
 
     licence_names_test.py SOURCE    SOURCE: the repository

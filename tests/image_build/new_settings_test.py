@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """What a kiosk does with settings that the importer has taken, without a machine: its own script, and a service manager that only writes down
 what it is asked for.
 

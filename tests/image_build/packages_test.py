@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The Debian packages, packed from the release build that is there: what dpkg, lintian and the pages say of them.
 
     packages_test.py SOURCE    SOURCE: the repository

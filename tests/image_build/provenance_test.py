@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """What is kept of packages beside the image: made of a package that dpkg-deb packs, and held against what it lists.
 
     provenance_test.py SOURCE    SOURCE: the repository

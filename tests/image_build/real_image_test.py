@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The bill of materials of the image that was built, held against the image, taken apart by other programs.
 
     real_image_test.py SOURCE [IMAGE-FOLDER]    default: out/image of the repository, or out/image/test; without an image there,

@@ -14,7 +14,7 @@ usage="usage: ./test image [--all] [NAME...]
 for option; do # before anything is built
     if [[ $option == --help || $option == -h ]]; then
         case "$1" in
-            --cuts) exec python3 "$here/../cuts/cuts.py" --help ;;
+            --cuts) exec /usr/bin/python3 "$here/../cuts/cuts.py" --help ;;
             --start-time) exec "$here/start_time.py" --help ;;
         esac
         echo "$usage"
@@ -54,6 +54,6 @@ if [[ ${start_time-} ]]; then
     exec ./start_time.py "$@"
 fi
 if (($# > 0)); then
-    exec python3 -m unittest -v "$@"
+    exec /usr/bin/python3 -m unittest -v "$@"
 fi
-exec python3 -m unittest discover -v
+exec /usr/bin/python3 -m unittest discover -v

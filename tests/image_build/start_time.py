@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """How long a start takes: from the kernel's first instant to the exhibit's first picture, and of the same image without the exhibit to
 multi-user.target; the medians of starts that take turns. `./test image --start-time` calls this.
 

@@ -41,6 +41,7 @@ class Build(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
+    @long  # test_what_is_shipped_is_what_is_started compares two builds for each change
     def test_two_builds_are_the_same(self):
         done = build("--test", "--out", self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)

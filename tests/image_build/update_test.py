@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """What a kiosk says of the updates on a stick, without a machine: its own script and RAUC in a made-up root, where nothing can be mounted
 or installed.
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Gives hostile sticks to frustumscreen-import, as folders: each is refused in lines that a person can read, in little memory and
 time, the set that was installed stays, and the next good stick is taken.
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Gives frustumscreen-import a signed pack of nearly 2 GiB, as large as one may be: it is taken, in 64 MiB.
 
     large_pack.py BIN [FOLDER]    BIN: where the programs are; FOLDER: 4 GiB are free there

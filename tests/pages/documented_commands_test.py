@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Every command that a page or a --help prints: the programs take it, and it is run as printed or stands in commands.toml with the reason.
 
     documented_commands_test.py SOURCE BUILD [--long] [--only PAGE]    --long: with those that take long

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Looks at a preview's page as a browser would that trusts nothing: what it may load, what runs, what it says.
 
     check_page.py PAGE [--reloads] [--sounds N] [--pictures N] [--text WORDS]...

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """What a soak's judge makes of made-up soaks of which the truth is known."""
 
 import random

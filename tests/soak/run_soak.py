@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The soak: hours of a museum on the kiosk's own image, in an emulated PC, with visitors and faults. `./test soak` calls this.
 
 Exit status   1: a limit is missed, each told in a sentence; 2: wrong use.

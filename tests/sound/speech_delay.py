@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """How long after a press speech begins, on the wall's clock: presses of a script, and the first sample of what is heard.
 
     tests/sound/speech_delay.py BIN PACK... [--presses N]    BIN: where frustumscreen is; PACK: with a spoken description

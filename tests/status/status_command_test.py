@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """`frustumscreen status` on files that an exhibit, its watchdog and systemd could have left, and on hostile ones.
 
 status_command_test.py PROGRAM [unittest's arguments]

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """clang-tidy over the C++ files; `./test tidy` calls this.
 
 Sources that compile together are analysed together. What was clean is not analysed again while its preprocessed text, the checks and

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The watchdog's program beside a kiosk made of files: it is small, feeds its service manager, and orders the steps in turn.
 
     watchdog_program.py PROGRAM

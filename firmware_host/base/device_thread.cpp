@@ -1,0 +1,32 @@
+#include "firmware_host/base/device_thread.h"
+
+#include <pthread.h>
+#include <sys/resource.h>
+
+#include <condition_variable>
+#include <csignal>
+#include <mutex>
+
+namespace frustumscreen {
+
+void begin_device_thread(const char* name, ThreadPriority priority) {
+    ::pthread_setname_np(::pthread_self(), name);
+    sigset_t stops;
+    sigemptyset(&stops);
+    sigaddset(&stops, SIGTERM);
+    sigaddset(&stops, SIGINT);
+    ::pthread_sigmask(SIG_BLOCK, &stops, nullptr);
+    if (priority == ThreadPriority::Low) {
+        constexpr int niceness = 5;
+        static_cast<void>(::setpriority(PRIO_PROCESS, 0, niceness)); // on Linux of the calling thread alone
+    }
+}
+
+void sleep_until_stop(const std::stop_token& stop, Nanoseconds length) {
+    std::mutex mutex;
+    std::condition_variable_any never;
+    std::unique_lock lock(mutex);
+    never.wait_for(lock, stop, length, [] { return false; });
+}
+
+} // namespace frustumscreen
