@@ -186,8 +186,10 @@ private:
         if (procedure.shown()) {
             scene.show(now, *procedure.shown());
         } else {
-            scene.show(
-                now, table_picture(procedure, {size.width, size.height, 0.0, 0.5 * size.width, typesetter_}));
+            scene.show(now, table_picture(procedure, {.width = size.width,
+                                                      .height = size.height,
+                                                      .board_px = 0.5 * size.width,
+                                                      .typesetter = typesetter_}));
         }
     }
 

@@ -80,7 +80,9 @@ TEST(TouchPicture, WhereThePropsFrontGoesIsSeenBesideIt) {
         setup.count = count;
         const auto look = [&](const TouchProcedure& procedure) {
             if (procedure.stage() == CalibrationStage::Place) {
-                const Image8 picture = table_picture(procedure, {width, height, prop_px, 0.0, *typesetter});
+                const Image8 picture = table_picture(
+                    procedure,
+                    {.width = width, .height = height, .prop_px = prop_px, .typesetter = *typesetter});
                 EXPECT_GT(arrow_pixels(picture, procedure.cross(), prop_px), 30U)
                     << procedure.at() << " of " << count;
             }

@@ -190,12 +190,11 @@ TableWords table_words(const TouchProcedure& procedure) {
 }
 
 TouchJudgement judgement_of(const TouchCalibration& calibration) {
-    TouchJudgement judged{calibration.verdict,
-                          {fmt::format("The calibration is: {}", name_of(calibration.verdict)),
-                           as_sentence(calibration.reason)},
-                          calibration.repeat,
-                          calibration.residuals,
-                          false};
+    TouchJudgement judged{.verdict = calibration.verdict,
+                          .told = {fmt::format("The calibration is: {}", name_of(calibration.verdict)),
+                                   as_sentence(calibration.reason)},
+                          .repeat = calibration.repeat,
+                          .residuals = calibration.residuals};
     if (calibration.table) {
         judged.told.push_back(
             fmt::format("Each touch lies {:.1f} mm from where the others expect it, {:.1f} mm at worst.",
@@ -205,7 +204,7 @@ TouchJudgement judgement_of(const TouchCalibration& calibration) {
 }
 
 TouchJudgement judgement_of(const TouchUp& found) {
-    TouchJudgement judged{found.verdict, {}, {}, found.residuals, false};
+    TouchJudgement judged{.verdict = found.verdict, .told = {}, .repeat = {}, .residuals = found.residuals};
     if (!found.table) {
         judged.told = {"The touches do not fit what was measured before.", as_sentence(found.reason)};
         return judged;
