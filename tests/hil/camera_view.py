@@ -14,7 +14,6 @@ import pathlib
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "calibration"))
 from true_table import apply, by_columns, plus, transposed, turn  # pylint: disable=wrong-import-position
 
-FAMILY = "tag36h11"
 MODULES, BLACK_MODULES = 10, 8  # in a row, with and without the white ones around
 PAPER, INK, WOOD = 205, 30, 110  # codes
 

@@ -1,9 +1,11 @@
 """Holds a printed command against the programs: is there each, does it take what is said."""
 
 import collections
+import pathlib
 import re
 import shutil
 import subprocess
+import tempfile
 
 import accepted
 
@@ -58,12 +60,19 @@ class Checks:
         if command.inline and word in self.owners:  # `run --out`
             return min((accepted.objections(program, [word, *arguments]) for program in self.owners[word]), key=len)
         if word == "ctest":
-            listed = subprocess.run(["ctest", "-N", *arguments], cwd=self.source, capture_output=True, text=True, check=False)
-            return [] if re.search(r"Total Tests: [1-9]", listed.stdout) else ["ctest finds no test so"]
+            return [] if self._finds_tests(arguments) else ["ctest finds no test so"]
         path = self._program(command, word)
         if path == self.source / "cmake/build.sh":
             return [f"there is no target {name}" for name in arguments[1:] if not self._is_target(name)]
         return accepted.objections(path, arguments) if path and arguments else []
+
+    def _finds_tests(self, arguments):
+        """From another folder: even to list tests, ctest begins a new log in its own, where the log of a run that goes on would be lost."""
+        with tempfile.TemporaryDirectory() as folder:
+            places = [self.source / after for before, after in zip(arguments, arguments[1:]) if before == "--test-dir"]
+            (pathlib.Path(folder) / "CTestTestfile.cmake").write_text("".join(f'subdirs("{place}")\n' for place in places), encoding="utf-8")
+            listed = subprocess.run(["ctest", "-N", *arguments, "--test-dir", folder], capture_output=True, text=True, check=False)
+        return re.search(r"Total Tests: [1-9]", listed.stdout)
 
     def _is_target(self, name):
         return re.search(rf"\b{re.escape(name)}\b", self.targets)

@@ -77,6 +77,13 @@ class Teeth(unittest.TestCase):
                            ("ctest --test-dir build/release -R '^no_such_test$'", "ctest finds no test so")):
             self.assertEqual(self.wrong(line), [("docs/page.md:3", said)])
 
+    def test_the_log_of_a_run_of_ctest_stays(self):
+        log = BUILD / "Testing/Temporary/LastTest.log"
+        before = log.stat() if log.exists() else None
+        self.assertEqual(self.wrong("ctest --test-dir build/release -C long -R one_definition"), [])
+        after = log.stat() if log.exists() else None
+        self.assertEqual(before and before.st_ino, after and after.st_ino)
+
     def test_an_unknown_option_in_a_sentence(self):
         command, = commands_of("page.md", "\nwith `--no-such-option`")
         self.assertEqual((command.place, self.checks.objections(command)), ("page.md:2", ["no program has an option --no-such-option"]))
