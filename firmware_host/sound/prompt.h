@@ -1,4 +1,4 @@
-/// A spoken text or a piece of music, decoded: what is played is prepared before it is asked for.
+/// A spoken text, decoded: what is played is prepared before it is asked for.
 ///
 /// Units    samples of 1/48,000 s, mono, 16-bit; 0x8000 is -1.
 /// Threads  made once, then shared as `std::shared_ptr<const Prompt>`; the last thread that lets go frees it.
