@@ -59,7 +59,7 @@ struct TouchCalibration {
 
 /// How far the picture lies beside its place, half a sentence.
 [[nodiscard]] std::string in_words(const PictureUncertainty& uncertainty);
-/// What was measured, and what to do about it, as sentences have it.
+/// The words for what was measured, touches or rests, in the sentences of a verdict.
 struct MeasuredKind {
     std::string_view one, many;
     std::string_view scattered, why_scattered; ///< what scatters; a question, its last part
@@ -70,7 +70,7 @@ struct MeasuredKind {
 /// The verdict on a calibration whose residuals are known, its reason, what to do again. `wrong`: the names of that.
 void judge(TouchCalibration& calibration, const MeasuredKind& kind, const Agreed& found,
            std::span<const std::string> wrong);
-/// What to do about what points leave open.
+/// Tells how to determine what the points leave undetermined.
 [[nodiscard]] std::string in_words(const Undetermined& open, const MeasuredKind& kind);
 /// Which ones do not fit, half a sentence; one at least.
 [[nodiscard]] std::string misfits(std::string_view one, std::string_view many,

@@ -105,7 +105,7 @@ public:
                            rows_.located(fmt::format(what, std::forward<Figures>(figures)...))};
         }
     }
-    /// What was read, or the fault.
+    /// `points`, or the first fault.
     template <typename Points> [[nodiscard]] Result<Points> read(Points points) {
         return fault_ ? Result<Points>(tl::unexpected(*std::move(fault_))) : std::move(points);
     }

@@ -1,9 +1,9 @@
 /// The skeleton of the ways through a calibration, by touch, by a camera and by eye, for one person with two buttons.
 ///
-/// Begin    What is needed is told, or why it cannot be done. Next begins, Back leaves. Who presses nothing for a while leaves too, so that the
-///          exhibit comes back when somebody forgets the table, or got here by chance.
-/// Way      It has a row for each stage in which a step does something; in the other stages a step changes nothing.
-/// End      After the last point whoever calls solves, and tells the verdict by `judge`. What the buttons do then is the way's to say.
+/// Begin    The table tells what is needed, or why the calibration cannot be done. Next begins, Back leaves. After `to_begin` without a press the
+///          procedure ends by itself, so that the exhibit comes back when a person forgets the table or got here by chance.
+/// Way      A way is a table of stages and their step functions. In a stage without a row a step changes nothing.
+/// End      In stage Solve the caller computes the calibration and passes the verdict to `judge`. Each way defines what the buttons do then.
 /// Time     a parameter; the devices' own rates, whatever they are.
 /// Threads  one caller.
 #pragma once
@@ -36,7 +36,7 @@ enum class CalibrationStage {
     Left       ///< it ends without one
 };
 
-/// What is heard in a step. A way takes of it what it needs.
+/// The input of one step: reports, presses and frames. Each way uses a part of it.
 struct CalibrationInput {
     MonotonicTime now{};
     std::optional<RigidTransform> prop = std::nullopt; ///< a new report of its sensor; nothing new: none
@@ -70,7 +70,7 @@ public:
     }
     [[nodiscard]] Stage stage() const { return stage_; }
     [[nodiscard]] bool has_ended() const { return stage_ >= Stage::Done; }
-    /// What is said beside what is to be done.
+    /// The remark that is shown below the instruction.
     [[nodiscard]] Word word() const { return word_; }
     [[nodiscard]] const std::string& problem() const { return problem_; }
     [[nodiscard]] const std::optional<Judgement>& judged() const { return judged_; }
@@ -106,7 +106,8 @@ protected:
     Stage stage_ = Stage::Begin;
     Word word_ = Word::None;
     std::string problem_;
-    std::optional<MonotonicTime> latest_press_; ///< or the beginning, or what else tells of somebody
+    std::optional<MonotonicTime>
+        latest_press_; ///< initially the first step; a way may set it when a person acts otherwise
     std::optional<Judgement> judged_;
 };
 

@@ -24,9 +24,15 @@ void begin_device_thread(const char* name, ThreadPriority priority) {
 
 void sleep_until_stop(const std::stop_token& stop, Nanoseconds length) {
     std::mutex mutex;
-    std::condition_variable_any never;
-    std::unique_lock lock(mutex);
-    never.wait_for(lock, stop, length, [] { return false; });
+    std::condition_variable changed;
+    bool is_stopped = false;
+    const std::stop_callback wake(stop, [&] {
+        const std::lock_guard lock(mutex);
+        is_stopped = true;
+        changed.notify_one();
+    });
+    std::unique_lock lock(mutex); // after `wake`, whose end waits for a call that needs the mutex
+    changed.wait_for(lock, length, [&] { return is_stopped; });
 }
 
 } // namespace frustumscreen

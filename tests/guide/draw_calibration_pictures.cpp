@@ -22,6 +22,8 @@ namespace {
 
 constexpr int width = 1280;
 constexpr int height = 800;
+constexpr double prop_px = 480.0;  ///< 30 cm under a projector of throw ratio 1.875 at 1.5 m
+constexpr double board_px = 670.0; ///< 42 cm there
 
 struct Means {
     Typesetter typesetter;
@@ -30,16 +32,12 @@ struct Means {
 
 template <typename Way>
 Result<void> draw(const Way& way, const Means& means, const std::filesystem::path& file) {
-    return write_file(file,
-                      encode_png(table_picture(
-                          way, {.width = width,
-                                .height = height,
-                                .prop_px = 480.0, // 30 cm under a projector of throw ratio 1.875 at 1.5 m
-
-                                .board_px = 670.0, // 42 cm there
-
-                                .typesetter = means.typesetter,
-                                .house = means.house ? &*means.house : nullptr})));
+    return write_file(file, encode_png(table_picture(way, {.width = width,
+                                                           .height = height,
+                                                           .prop_px = prop_px,
+                                                           .board_px = board_px,
+                                                           .typesetter = means.typesetter,
+                                                           .house = means.house ? &*means.house : nullptr})));
 }
 
 /// `words`: file and language, or nothing.

@@ -17,7 +17,7 @@ constexpr Colour ink{0, 0, 0};
 constexpr Colour place_colour{255, 255, 255};
 constexpr Colour taken_colour{0, 70, 0};
 
-/// What is filled in is named as in `filled`. None and Taken have the key of how the board is to stand next.
+/// `filled` replaces the names in braces. The words None and Taken have no key here: the next posture's key is used.
 constexpr std::array<WordMessage<AutoWord>, 15> auto_messages{{
     {AutoWord::NoLight,
      {"calibration.no_light",
@@ -127,7 +127,7 @@ TableWords words_of_point(const AutoProcedure& procedure) {
     return words;
 }
 
-/// What the two buttons do then.
+/// Tells what the two buttons do after the verdict.
 Message choice_of(const TouchCalibration& found) {
     switch (found.verdict) {
     case Verdict::Good:

@@ -81,7 +81,7 @@ TableWords words_of_sight(const EyeProcedure& procedure) {
                          open, held.english)}};
 }
 
-/// What the two buttons do then.
+/// Tells what the two buttons do after the verdict.
 Message choice_of(const EyeProcedure& procedure) {
     switch (procedure.judged()->verdict) {
     case Verdict::Good:

@@ -84,7 +84,7 @@ TableWords words_of_cross(const TouchProcedure& procedure) {
     return words;
 }
 
-/// What the two buttons do then.
+/// Tells what the two buttons do after the verdict.
 Message choice_of(const TouchProcedure& procedure) {
     const TouchJudgement& judged = *procedure.judged();
     const bool is_touch_up = procedure.task() == TouchTask::TouchUp;
