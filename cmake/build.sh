@@ -6,20 +6,19 @@
 # it, and one that lacks a wanted part gets it; neither builds anything twice.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-usage="usage: cmake/build.sh release|debug|asan|tsan|fuzz|coverage|odr [--without tests|window|bench]... [TARGET...]
+presets=(release debug asan tsan fuzz coverage odr)
+usage="usage: cmake/build.sh $(IFS='|' && echo "${presets[*]}") [--without tests|window|bench]... [TARGET...]
 
 Configures build/PRESET where needed, and builds it or some of its targets."
-case "${1-}" in
-    release | debug | asan | tsan | fuzz | odr) preset=$1 ;;
-    -h | --help)
-        echo "$usage"
-        exit 0
-        ;;
-    *)
-        echo "$usage" >&2
-        exit 2
-        ;;
-esac
+if [[ ${1-} == -h || ${1-} == --help ]]; then
+    echo "$usage"
+    exit 0
+fi
+preset=${1-}
+if [[ -z $preset || " ${presets[*]} " != *" $preset "* ]]; then
+    echo "$usage" >&2
+    exit 2
+fi
 shift
 declare -A wanted=([BUILD_TESTING]=ON [FRUSTUMSCREEN_WINDOW]=ON [FRUSTUMSCREEN_BENCH]=ON)
 while [[ ${1-} == --without ]]; do

@@ -3,7 +3,9 @@
     pages_test.py SOURCE BUILD
 """
 
+import json
 import pathlib
+import subprocess
 import sys
 import unittest
 
@@ -96,6 +98,12 @@ class Teeth(unittest.TestCase):
         for line, may in (("frustumscreen states && cp a b", True), ("sudo frustumscreen states", False), ("rm -r /", False), ("./run", False)):
             command, = commands_of("page.md", f"```\n{line}\n```\n")
             self.assertEqual(self.checks.may_run(command), may, line)
+
+    def test_every_preset_is_built_by_a_word(self):
+        presets = json.loads((SOURCE / "CMakePresets.json").read_text(encoding="utf-8"))["buildPresets"]
+        for preset in presets:
+            ran = subprocess.run([SOURCE / "cmake/build.sh", preset["name"], "--without", "nothing"], capture_output=True, text=True, check=False)
+            self.assertIn("there is no part 'nothing'", ran.stderr, preset["name"])
 
     def test_a_mention_lacks_what_is_required(self):
         program = BUILD / "bin/frustumscreen"
