@@ -39,7 +39,8 @@ public:
         : rows_(text, name), columns_(columns), max_rows_(max_rows) {
         if (!rows_.next() ||
             !std::equal(columns.begin(), columns.end(), rows_.fields().begin(), rows_.fields().end())) {
-            refuse("the first line is not the header; allowed is {}", fmt::join(columns, ","));
+            refuse("points.header", "the first line is not the header; allowed is {}",
+                   fmt::join(columns, ","));
         }
     }
 
@@ -49,10 +50,10 @@ public:
             return false;
         }
         if (rows_.fields().size() != columns_.size()) {
-            refuse("the row has {} fields; allowed are {}: {}", rows_.fields().size(), columns_.size(),
-                   fmt::join(columns_, ","));
+            refuse("points.fields", "the row has {} fields; allowed are {}: {}", rows_.fields().size(),
+                   columns_.size(), fmt::join(columns_, ","));
         } else if (count_++ >= max_rows_) {
-            refuse("there are more than {} rows", max_rows_);
+            refuse("points.too_many_rows", "there are more than {} rows", max_rows_);
         }
         return !fault_;
     }
@@ -60,7 +61,8 @@ public:
     double number(std::size_t column) {
         const double number = number_in(field(column)).value_or(NAN);
         if (!std::isfinite(number)) {
-            refuse("{} is {}; allowed is a finite number", columns_[column], quoted(field(column)));
+            refuse("points.not_a_number", "{} is {}; allowed is a finite number", columns_[column],
+                   quoted(field(column)));
         }
         return number;
     }
@@ -68,7 +70,8 @@ public:
     int integer(std::size_t column, std::int64_t min, std::int64_t max, std::string_view allowed) {
         const std::int64_t number = integer_in(field(column)).value_or(min - 1);
         if (number < min || number > max) {
-            refuse("{} is {}; allowed are {}", columns_[column], quoted(field(column)), allowed);
+            refuse("points.not_an_integer", "{} is {}; allowed are {}", columns_[column],
+                   quoted(field(column)), allowed);
         }
         return static_cast<int>(number);
     }
@@ -76,8 +79,8 @@ public:
     std::size_t choice(std::size_t column, Columns names, std::string_view what = {}) {
         const auto found = std::find(names.begin(), names.end(), field(column));
         if (found == names.end()) {
-            refuse("{} is {}; allowed are {}{}", columns_[column], quoted(field(column)),
-                   fmt::join(names, ", "), what);
+            refuse("points.not_a_choice", "{} is {}; allowed are {}{}", columns_[column],
+                   quoted(field(column)), fmt::join(names, ", "), what);
         }
         return static_cast<std::size_t>(found - names.begin());
     }
@@ -93,15 +96,17 @@ public:
         const glm::dquat turn(number(first + 3), number(first + 4), number(first + 5), number(first + 6));
         const double length = glm::length(turn);
         if (!(std::abs(length - 1.0) <= max_rounded)) {
-            refuse("qw,qx,qy,qz are no rotation: their squares must add up to 1, and the root of that "
+            refuse("points.no_rotation",
+                   "qw,qx,qy,qz are no rotation: their squares must add up to 1, and the root of that "
                    "is {:.3g}; are these angles in degrees?",
                    length);
         }
         return {glm::normalize(turn), place(first)};
     }
-    template <typename... Figures> void refuse(fmt::format_string<Figures...> what, Figures&&... figures) {
+    template <typename... Figures>
+    void refuse(MessageId id, fmt::format_string<Figures...> what, Figures&&... figures) {
         if (!fault_) {
-            fault_ = Error{ErrorKind::BadInput,
+            fault_ = Error{ErrorKind::BadInput, id,
                            rows_.located(fmt::format(what, std::forward<Figures>(figures)...))};
         }
     }
@@ -165,7 +170,8 @@ Result<Rests> parse_rests(std::string_view text, std::string_view name) {
         if (known == rests.end()) {
             rests.push_back(std::move(next));
         } else if (!is_same_place(*known, next)) {
-            rows.refuse("rest {} has another place or block than in its first row; each rest has one",
+            rows.refuse("points.rest_moved",
+                        "rest {} has another place or block than in its first row; each rest has one",
                         next.name);
         } else {
             known->points.push_back(next.points[0]);

@@ -103,8 +103,9 @@ Result<DriftReference> parse_drift_reference(std::string_view text, std::string_
     try {
         return reference_of(Json::parse(text));
     } catch (const std::exception& error) {
-        return bad_input(fmt::format("{}: no places of marks can be read from it: {}; they are learned anew",
-                                     file, error.what()));
+        return bad_input("drift.unreadable_reference",
+                         "{}: no places of marks can be read from it: {}; they are learned anew", file,
+                         error.what());
     }
 }
 

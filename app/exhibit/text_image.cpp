@@ -192,7 +192,7 @@ Typesetter::~Typesetter() = default;
 Result<Typesetter> Typesetter::open(const std::filesystem::path& folder) {
     FT_Library library = nullptr;
     if (FT_Init_FreeType(&library) != 0) {
-        return fail(ErrorKind::Internal, "typeface: FreeType cannot start");
+        return fail(ErrorKind::Internal, "typeface.no_freetype", "typeface: FreeType cannot start");
     }
     auto faces = std::make_unique<Faces>();
     faces->library.reset(library);
@@ -211,9 +211,9 @@ Result<Typesetter> Typesetter::open(const std::filesystem::path& folder) {
             return Typesetter(std::move(faces));
         }
     }
-    return fail(ErrorKind::BadConfiguration, "typeface: DejaVuSans.ttf and DejaVuSans-Bold.ttf are not in " +
-                                                 places.front().string() +
-                                                 "; install Debian's package fonts-dejavu-core");
+    return fail(ErrorKind::BadConfiguration, "typeface.missing",
+                "typeface: DejaVuSans.ttf and DejaVuSans-Bold.ttf are not in " + places.front().string() +
+                    "; install Debian's package fonts-dejavu-core");
 }
 
 struct Typesetter::Layout {

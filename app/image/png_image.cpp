@@ -26,20 +26,20 @@ PngImage new_png() {
 }
 
 tl::unexpected<Error> damaged(const png_image& png) {
-    return bad_input("the PNG picture is damaged (" + std::string(png.message) + ")");
+    return bad_input("image.png_damaged", "the PNG picture is damaged (" + std::string(png.message) + ")");
 }
 
 /// Reads the header and checks its size against the limit, before anything of that size is allocated.
 Result<PngImage> begin_decode(std::span<const std::byte> bytes, std::int64_t limit_texels) {
     PngImage png = new_png();
     if (bytes.empty() || png_image_begin_read_from_memory(png.get(), bytes.data(), bytes.size()) == 0) {
-        return bytes.empty() ? bad_input("the PNG picture is empty") : damaged(*png);
+        return bytes.empty() ? bad_input("image.png_empty", "the PNG picture is empty") : damaged(*png);
     }
     const std::int64_t texels = static_cast<std::int64_t>(png->width) * png->height;
     if (texels > limit_texels) {
-        return bad_input("the PNG picture has " + std::to_string(png->width) + " x " +
-                         std::to_string(png->height) + " texels, allowed are " +
-                         std::to_string(limit_texels) + " in all");
+        return bad_input("image.png_too_large", "the PNG picture has " + std::to_string(png->width) + " x " +
+                                                    std::to_string(png->height) + " texels, allowed are " +
+                                                    std::to_string(limit_texels) + " in all");
     }
     return png;
 }
@@ -93,7 +93,7 @@ Result<Image8> decode_png8(std::span<const std::byte> bytes, std::int64_t limit_
 Result<Image16> decode_png16(std::span<const std::byte> bytes, std::int64_t limit_texels) {
     TRY(PngImage png, begin_decode(bytes, limit_texels));
     if (png->format != PNG_FORMAT_LINEAR_Y) {
-        return bad_input("the PNG picture is not 16-bit grey");
+        return bad_input("image.png_not_grey16", "the PNG picture is not 16-bit grey");
     }
     return finish_decode<std::uint16_t>(std::move(png), PNG_FORMAT_LINEAR_Y);
 }

@@ -70,10 +70,10 @@ Result<PictureExtent> extent_of_webp(std::span<const std::byte> beginning) {
     constexpr int lossless_format = 2;
     WebPBitstreamFeatures features;
     if (WebPGetFeatures(raw(beginning), beginning.size(), &features) != VP8_STATUS_OK) {
-        return bad_input("the WebP picture is damaged");
+        return bad_input("image.webp_damaged", "the WebP picture is damaged");
     }
     if (features.has_animation != 0 || features.format != lossless_format) {
-        return bad_input("the WebP picture is not a lossless still picture");
+        return bad_input("image.webp_not_lossless", "the WebP picture is not a lossless still picture");
     }
     return PictureExtent{features.width, features.height};
 }
@@ -81,14 +81,15 @@ Result<PictureExtent> extent_of_webp(std::span<const std::byte> beginning) {
 Result<Image8> decode_webp8(std::span<const std::byte> bytes, std::int64_t limit_texels) {
     TRY(const PictureExtent extent, extent_of_webp(bytes));
     if (extent.width * extent.height > limit_texels) {
-        return bad_input("the WebP picture has " + std::to_string(extent.width) + " x " +
-                         std::to_string(extent.height) + " texels, allowed are " +
-                         std::to_string(limit_texels) + " in all");
+        return bad_input("image.webp_too_large", "the WebP picture has " + std::to_string(extent.width) +
+                                                     " x " + std::to_string(extent.height) +
+                                                     " texels, allowed are " + std::to_string(limit_texels) +
+                                                     " in all");
     }
     Image8 image(static_cast<int>(extent.width), static_cast<int>(extent.height));
     if (WebPDecodeRGBAInto(raw(bytes), bytes.size(), &image.texels[0].x, 4 * image.texels.size(),
                            4 * image.width) == nullptr) {
-        return bad_input("the WebP picture is damaged or truncated");
+        return bad_input("image.webp_truncated", "the WebP picture is damaged or truncated");
     }
     return image;
 }

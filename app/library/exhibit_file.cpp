@@ -26,11 +26,11 @@ void read_ids(TableReader& table, std::string_view key, std::vector<std::string>
     table.texts(key, ids, most_installed_packs);
     std::set<std::string_view> seen;
     for (const std::string& id : ids) {
-        table.require(is_artifact_id(id), key,
+        table.require("exhibit_file.id", is_artifact_id(id), key,
                       fmt::format("names \"{}\"; allowed are ids as in artifact.toml: 1 to 64 of a-z 0-9 . _ "
                                   "-, a letter or a digit first",
                                   printable(id, 40)));
-        table.require(seen.insert(id).second, key,
+        table.require("exhibit_file.id_twice", seen.insert(id).second, key,
                       fmt::format("names \"{}\" twice; allowed is each id once", printable(id, 64)));
     }
 }
@@ -46,17 +46,17 @@ void read_attract(TableReader& table, ExhibitFile& file) {
         const std::optional<std::string> usual =
             has_language_form(language) ? parse_language_tag(language) : std::nullopt;
         table.require(
-            usual.has_value(), "attract",
+            "exhibit_file.language", usual.has_value(), "attract",
             fmt::format("has \"{}\"; allowed are {}", printable(language, 40), allowed_language_tags));
         const std::optional<std::string> fault = fault_of_text(text, TextShape::Line);
-        table.require(!fault, "attract",
+        table.require("exhibit_file.text", !fault, "attract",
                       fmt::format("in {} {}", printable(language, 40), fault.value_or("")));
-        table.require(!trimmed(text).empty(), "attract",
+        table.require("exhibit_file.text_empty", !trimmed(text).empty(), "attract",
                       fmt::format("in {} is empty; write a text or leave the line out", usual.value_or("")));
         const bool again =
             std::any_of(file.attract->begin(), file.attract->end(),
                         [&](const AttractText& other) { return other.language == usual.value_or(""); });
-        table.require(!again, "attract",
+        table.require("exhibit_file.language_twice", !again, "attract",
                       fmt::format("has {} twice; allowed is each language once", usual.value_or("")));
         file.attract->push_back({usual.value_or(""), std::string(trimmed(text))});
     }
@@ -64,29 +64,30 @@ void read_attract(TableReader& table, ExhibitFile& file) {
 
 void read_key(TableReader& table, CarriedKey& key) {
     table.any_text("name", key.name);
-    table.require(!key.name.empty() && key.name == printable(key.name, most_key_name_bytes), "name",
+    table.require("exhibit_file.key_name",
+                  !key.name.empty() && key.name == printable(key.name, most_key_name_bytes), "name",
                   fmt::format("is missing or no name; allowed is one line of 1 to {} bytes, such as \"2031\"",
                               most_key_name_bytes));
     table.any_text("public_key", key.public_key);
     const Result<PublicKey> parsed = parse_public_key(key.public_key);
-    table.require(parsed.has_value(), "public_key",
+    table.require("exhibit_file.public_key", parsed.has_value(), "public_key",
                   "is missing or no public key; allowed is the second line of a file that "
                   "frustumscreen-pack keygen or minisign made, RW...");
     key.public_key = parsed ? public_key_line(*parsed) : std::string();
     table.any_text("until", key.until);
-    table.require(key.until.empty() || parse_day(key.until), "until",
+    table.require("exhibit_file.until", key.until.empty() || parse_day(key.until), "until",
                   "is no day; allowed is the key's last day as a text, \"2031-12-31\"");
 }
 
 void read_all(TableReader& table, ExhibitFile& file) {
     read_ids(table, "order", file.order);
     table.flag("only", file.only, {});
-    table.require(!file.only || !file.order.empty(), "only",
+    table.require("exhibit_file.only", !file.only || !file.order.empty(), "only",
                   "would remove every pack, since no order names any; write order = [\"id\", ...]");
     read_ids(table, "remove", file.remove);
     for (const std::string& id : file.remove) {
         const bool ordered = std::find(file.order.begin(), file.order.end(), id) != file.order.end();
-        table.require(!ordered, "remove",
+        table.require("exhibit_file.removed_and_ordered", !ordered, "remove",
                       fmt::format("names \"{}\", which order names too; name it in one of them", id));
     }
     read_attract(table, file);
@@ -104,7 +105,7 @@ Result<ExhibitFile> parse_exhibit_file(std::string_view text) {
         keys.finish();
     });
     if (state.error) {
-        return bad_input(*state.error);
+        return tl::unexpected<Error>(*std::move(state.error));
     }
     return file;
 }

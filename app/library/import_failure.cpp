@@ -54,19 +54,19 @@ ImportFailure disk_failure(std::string_view path, FileFault fault) {
 }
 
 ImportFailure failure_of(const SignatureRefusal& refusal) {
-    return {refusal_of(refusal.fault), refusal.message, false};
+    return {refusal_of(refusal.fault), refusal.error.message, false};
 }
 
 ImportFailure failure_of(const PackRefusal& refusal) {
     switch (refusal.why) {
     case PackRefusal::Why::Unreadable:
-        return {ImportRefusal::Unreadable, refusal.message, true};
+        return {ImportRefusal::Unreadable, refusal.error.message, true};
     case PackRefusal::Why::Signature:
-        return {refusal_of(refusal.fault), refusal.message, false};
+        return {refusal_of(refusal.fault), refusal.error.message, false};
     case PackRefusal::Why::NotAPack:
         break;
     }
-    return {ImportRefusal::NotAPack, refusal.message, false};
+    return {ImportRefusal::NotAPack, refusal.error.message, false};
 }
 
 ImportFailure no_room(std::uint64_t wanted, std::uint64_t free, std::uint64_t margin) {

@@ -20,18 +20,19 @@ template <typename Value>
 [[nodiscard]] Result<Value> parse_document(std::string_view json, const std::string& name,
                                            std::size_t most_bytes, const auto& describe) {
     if (json.size() > most_bytes) {
-        return bad_input(fmt::format("{} has {} bytes; allowed are {}", name, json.size(), most_bytes));
+        return bad_input("library.document_too_long", "{} has {} bytes; allowed are {}", name, json.size(),
+                         most_bytes);
     }
     pack_format::Refusal refusal{{}, name};
     const nlohmann::json document = pack_format::parse_json(refusal, json);
     Value value;
-    if (!refusal.message) {
+    if (!refusal.error) {
         pack_format::JsonReader fields(refusal, &document, "");
         describe(fields, value);
         fields.finish();
     }
-    if (refusal.message) {
-        return bad_input(*refusal.message);
+    if (refusal.error) {
+        return tl::unexpected<Error>(*std::move(refusal.error));
     }
     return value;
 }

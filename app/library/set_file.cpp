@@ -83,19 +83,20 @@ std::string installed_file_name(std::string_view sha256) {
 Result<SetFile> parse_set_file(std::string_view text) {
     const std::size_t line_end = first_words.size() + hash_digits;
     if (!text.starts_with(first_words) || text.size() <= line_end || text[line_end] != '\n') {
-        return bad_input("its first line is not 'frustumscreen-set 1 HASH'; it is damaged, or of a newer "
+        return bad_input("set.first_line",
+                         "its first line is not 'frustumscreen-set 1 HASH'; it is damaged, or of a newer "
                          "FrustumScreen");
     }
     const std::string_view body = text.substr(line_end + 1);
     if (text.substr(first_words.size(), hash_digits) != sha256_hex(as_bytes(body))) {
-        return bad_input("it does not match the hash in its first line; it is damaged");
+        return bad_input("set.wrong_hash", "it does not match the hash in its first line; it is damaged");
     }
     TRY(SetFile file, parse_document<SetFile>(body, "the set", most_set_file_bytes,
                                               [](auto& fields, auto& value) { file_fields(fields, value); }));
     const InstalledSet none;
     if (!names_are_hashes(file.choice.set) || !names_are_hashes(file.choice.last_good.value_or(none)) ||
         !names_are_hashes(file.before.value_or(none))) {
-        return bad_input("it names a file that is not called by its hash; it is damaged");
+        return bad_input("set.wrong_name", "it names a file that is not called by its hash; it is damaged");
     }
     return file;
 }

@@ -75,9 +75,10 @@ Result<std::vector<CarriedKey>> with_brought_keys(std::vector<CarriedKey> carrie
     for (const CarriedKey& key : brought) {
         const Result<PublicKey> parsed = parse_public_key(key.public_key);
         if (!parsed || find(counting, *parsed) == nullptr || find(counting, signer.public_key) == nullptr) {
-            return bad_input(fmt::format("it brings the key {} and is signed with it, or with one that it "
-                                         "vouches for; sign it with another key",
-                                         printable(key.name, 40)));
+            return bad_input("keys.vouches_for_itself",
+                             "it brings the key {} and is signed with it, or with one that it "
+                             "vouches for; sign it with another key",
+                             printable(key.name, 40));
         }
     }
     return carried;

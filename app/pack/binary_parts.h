@@ -42,7 +42,7 @@ private:
     std::uint32_t vertices_ = 0, indices_ = 0, clusters_ = 0;
     std::uint32_t clusters_seen_ = 0, indices_seen_ = 0, vertices_seen_ = 0;
     std::uint64_t covered_ = 0; ///< indices, by clusters
-    std::string fault_;
+    std::optional<Error> fault_;
 };
 
 [[nodiscard]] Bytes encode_charts(const std::vector<ReliefChart>& charts);

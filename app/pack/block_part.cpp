@@ -124,12 +124,12 @@ struct Header {
 Result<Header> read_header(std::span<const std::byte> bytes) {
     if (bytes.size() < header_bytes ||
         std::memcmp(bytes.data(), blocks_magic.data(), blocks_magic.size()) != 0) {
-        return bad_input("it does not begin as relief blocks do (FSRB)");
+        return bad_input("blocks.no_magic", "it does not begin as relief blocks do (FSRB)");
     }
     ByteReader reader(bytes.subspan(blocks_magic.size()));
     if (const auto version = reader.read<std::uint32_t>(); version != blocks_version) {
-        return bad_input(
-            fmt::format("its relief blocks have version {}, allowed is {}", version, blocks_version));
+        return bad_input("blocks.version", "its relief blocks have version {}, allowed is {}", version,
+                         blocks_version);
     }
     Header header;
     header.texels = reader.read<std::uint32_t>();
@@ -139,16 +139,17 @@ Result<Header> read_header(std::span<const std::byte> bytes) {
     const auto within = [](std::uint32_t value, std::uint32_t most) { return value >= 1 && value <= most; };
     if (!within(header.texels, most_relief_texels) || !within(header.directions, most_directions) ||
         !within(header.blocks, most_relief_blocks)) {
-        return bad_input(fmt::format(
-            "it has {} texels, {} directions, {} blocks; allowed are 1 to {}, {}, {}", header.texels,
-            header.directions, header.blocks, most_relief_texels, most_directions, most_relief_blocks));
+        return bad_input("blocks.counts",
+                         "it has {} texels, {} directions, {} blocks; allowed are 1 to {}, {}, {}",
+                         header.texels, header.directions, header.blocks, most_relief_texels, most_directions,
+                         most_relief_blocks);
     }
     const std::uint64_t needed = std::uint64_t{header.directions} * grid_bytes +
                                  std::uint64_t{header.blocks} * block_bytes +
                                  std::uint64_t{header.covers} * sizeof(std::uint64_t);
     if (needed != bytes.size() - header_bytes) {
-        return bad_input(fmt::format("{} directions and {} blocks need {} bytes, it has {}",
-                                     header.directions, header.blocks, needed, bytes.size() - header_bytes));
+        return bad_input("blocks.size", "{} directions and {} blocks need {} bytes, it has {}",
+                         header.directions, header.blocks, needed, bytes.size() - header_bytes);
     }
     return header;
 }
@@ -160,28 +161,29 @@ Result<void> read_grids(ByteReader& reader, const Header& header, BlockRelief& r
         const auto direction = reader.read<std::uint32_t>();
         const auto blocks = reader.read<std::uint32_t>();
         if (direction >= most_directions || (seen >> direction & 1U) != 0) {
-            return bad_input(
-                fmt::format("its directions have the number {}; allowed are 0 to 5, each once", direction));
+            return bad_input("blocks.direction",
+                             "its directions have the number {}; allowed are 0 to 5, each once", direction);
         }
         seen |= 1U << direction;
         ReliefGrid grid = grid_towards(direction);
         for (int axis = 0; axis < 3; ++axis) {
             grid.origin_box[axis] = reader.read<double>();
             if (!(std::abs(grid.origin_box[axis]) <= most_origin_box)) { // NaN too
-                return bad_input(
-                    fmt::format("direction {} begins beyond {} boxes", direction, most_origin_box));
+                return bad_input("blocks.origin", "direction {} begins beyond {} boxes", direction,
+                                 most_origin_box);
             }
         }
         relief.grids.push_back(grid);
         relief.first_block.push_back(static_cast<std::uint32_t>(first));
         first += blocks;
         if (first > header.blocks) {
-            return bad_input(fmt::format("its directions have more than its {} blocks", header.blocks));
+            return bad_input("blocks.too_many_of_direction", "its directions have more than its {} blocks",
+                             header.blocks);
         }
     }
     if (first != header.blocks) {
-        return bad_input(
-            fmt::format("its directions have {} blocks together, it has {}", first, header.blocks));
+        return bad_input("blocks.count_of_directions", "its directions have {} blocks together, it has {}",
+                         first, header.blocks);
     }
     relief.first_block.push_back(header.blocks);
     return {};
@@ -190,21 +192,21 @@ Result<void> read_grids(ByteReader& reader, const Header& header, BlockRelief& r
 Result<void> check_block(ReliefBlock& block, std::size_t k, std::uint32_t texels) {
     const auto sound = [&](Number number) { return std::abs(number(block)) <= most_texels_along; }; // not NaN
     if (!std::all_of(numbers.begin(), numbers.end(), sound)) {
-        return bad_input(
-            fmt::format("block {} has a number that is not finite or beyond {}", k, most_texels_along));
+        return bad_input("blocks.not_finite", "block {} has a number that is not finite or beyond {}", k,
+                         most_texels_along);
     }
     if (block.residual_step <= 0.0F || block.gradient_u.x > block.gradient_u.y ||
         block.gradient_v.x > block.gradient_v.y || block.mask == 0 || (block.cut & ~block.mask) != 0) {
-        return bad_input(
-            fmt::format("block {} has a step of 0 or less, a gradient's range upside down, no cell, or "
-                        "cuts one that is not there",
-                        k));
+        return bad_input("blocks.step",
+                         "block {} has a step of 0 or less, a gradient's range upside down, no cell, or "
+                         "cuts one that is not there",
+                         k);
     }
     // A grid reaches some cells beyond the box.
     const auto end = static_cast<float>(texels + 2 * block_cells);
     if (block.u0 > end || block.v0 > end) {
-        return bad_input(fmt::format("block {} lies at ({}, {}), outside a grid of {} texels", k, block.u0,
-                                     block.v0, texels));
+        return bad_input("blocks.outside_grid", "block {} lies at ({}, {}), outside a grid of {} texels", k,
+                         block.u0, block.v0, texels);
     }
     return {};
 }
@@ -221,7 +223,7 @@ Result<void> read_cuts(ByteReader& reader, const Header& header, BlockRelief& re
     }
     return covers == header.covers
                ? Result<void>()
-               : bad_input(fmt::format("its blocks cut {} cells, it has {}", covers, header.covers));
+               : bad_input("blocks.cut_cells", "its blocks cut {} cells, it has {}", covers, header.covers);
 }
 
 } // namespace

@@ -41,17 +41,18 @@ Bytes encode_charts(const std::vector<ReliefChart>& charts) {
 Result<std::vector<ReliefChart>> decode_charts(std::span<const std::byte> bytes) {
     if (bytes.size() < header_bytes ||
         std::memcmp(bytes.data(), charts_magic.data(), charts_magic.size()) != 0) {
-        return bad_input("it does not begin as charts do (FSRC)");
+        return bad_input("charts.no_magic", "it does not begin as charts do (FSRC)");
     }
     ByteReader reader(bytes.subspan(charts_magic.size()));
     const auto version = reader.read<std::uint32_t>();
     const auto count = reader.read<std::uint32_t>();
     if (version != charts_version) {
-        return bad_input(fmt::format("its charts have version {}, allowed is {}", version, charts_version));
+        return bad_input("charts.version", "its charts have version {}, allowed is {}", version,
+                         charts_version);
     }
     if (reader.left() != std::uint64_t{count} * chart_bytes) {
-        return bad_input(fmt::format("{} charts need {} bytes, it has {}", count,
-                                     std::uint64_t{count} * chart_bytes, reader.left()));
+        return bad_input("charts.size", "{} charts need {} bytes, it has {}", count,
+                         std::uint64_t{count} * chart_bytes, reader.left());
     }
     std::vector<ReliefChart> charts(count);
     for (ReliefChart& chart : charts) {
@@ -64,8 +65,9 @@ Result<std::vector<ReliefChart>> decode_charts(std::span<const std::byte> bytes)
         chart.u0_box = reader.read<float>();
         chart.v0_box = reader.read<float>();
         if (direction > static_cast<std::uint16_t>(ReliefDirection::MinusZ) || reserved != 0) {
-            return bad_input(fmt::format("a chart has direction {} and reserved {}; allowed are 0 to 5 and 0",
-                                         direction, reserved));
+            return bad_input("charts.direction",
+                             "a chart has direction {} and reserved {}; allowed are 0 to 5 and 0", direction,
+                             reserved);
         }
         chart.direction = static_cast<ReliefDirection>(direction);
     }

@@ -26,8 +26,8 @@ Result<void> check_clusters(const PackLevel& level) {
         next += level.clusters[k].index_count;
     }
     if (next != level.indices.size()) {
-        return bad_input(
-            fmt::format("the clusters cover {} indices, the level has {}", next, level.indices.size()));
+        return bad_input("level.clusters_cover", "the clusters cover {} indices, the level has {}", next,
+                         level.indices.size());
     }
     return {};
 }
@@ -36,26 +36,26 @@ Result<void> check_errors(const LevelError& error) {
     const auto allowed = [](float value, float most) { return value >= 0.0F && value <= most; };
     if (!allowed(error.mean_box, most_error_box) || !allowed(error.p95_box, most_error_box) ||
         !allowed(error.max_box, most_error_box) || !allowed(error.colour_rmse, most_colour_rmse)) {
-        return bad_input(
-            fmt::format("its error is {} mean, {} p95, {} max, {} colour; allowed are 0 to {} and colour 0 "
-                        "to {}",
-                        error.mean_box, error.p95_box, error.max_box, error.colour_rmse, most_error_box,
-                        most_colour_rmse));
+        return bad_input("level.error_range",
+                         "its error is {} mean, {} p95, {} max, {} colour; allowed are 0 to {} and colour 0 "
+                         "to {}",
+                         error.mean_box, error.p95_box, error.max_box, error.colour_rmse, most_error_box,
+                         most_colour_rmse);
     }
     return {};
 }
 
 Result<void> check_level(const Pack& pack, const PackLevel& level) {
     if (level.texture >= pack.textures.size()) {
-        return bad_input(fmt::format("its texture is number {}, the pack has {} textures", level.texture,
-                                     pack.textures.size()));
+        return bad_input("level.texture", "its texture is number {}, the pack has {} textures", level.texture,
+                         pack.textures.size());
     }
     const Image8& texture = pack.textures[level.texture];
     if (level.technique == LevelTechnique::Relief &&
         (texture.width != pack.relief.relief.width || texture.height != pack.relief.relief.height)) {
-        return bad_input(
-            fmt::format("its texture is {} x {} texels, the relief {} x {}; a relief level needs the same",
-                        texture.width, texture.height, pack.relief.relief.width, pack.relief.relief.height));
+        return bad_input("level.texture_size",
+                         "its texture is {} x {} texels, the relief {} x {}; a relief level needs the same",
+                         texture.width, texture.height, pack.relief.relief.width, pack.relief.relief.height);
     }
     TRY_VOID(check_errors(level.error));
     return check_mesh(level);
@@ -65,12 +65,12 @@ Result<void> check_level(const Pack& pack, const PackLevel& level) {
 
 Result<void> check_cluster(const PackCluster& cluster, std::size_t k, std::uint64_t first) {
     if (cluster.first_index != first || cluster.index_count == 0 || cluster.index_count % 3 != 0) {
-        return bad_input(
-            fmt::format("cluster {} has {} indices from {} on; allowed is a multiple of 3 from {} on", k,
-                        cluster.index_count, cluster.first_index, first));
+        return bad_input("level.cluster_range",
+                         "cluster {} has {} indices from {} on; allowed is a multiple of 3 from {} on", k,
+                         cluster.index_count, cluster.first_index, first);
     }
     if (!is_sound(cluster)) {
-        return bad_input(fmt::format("cluster {} has a bound that is not a finite number", k));
+        return bad_input("level.cluster_bound", "cluster {} has a bound that is not a finite number", k);
     }
     return {};
 }
@@ -78,32 +78,33 @@ Result<void> check_cluster(const PackCluster& cluster, std::size_t k, std::uint6
 Result<void> check_mesh(const PackLevel& level) {
     if (level.vertices.size() > most_vertices || level.indices.size() > most_indices ||
         level.clusters.size() > most_clusters || level.indices.empty() || level.indices.size() % 3 != 0) {
-        return bad_input(
-            fmt::format("it has {} vertices, {} indices, {} clusters; allowed are {}, {} (a multiple of 3, "
-                        "not 0), {}",
-                        level.vertices.size(), level.indices.size(), level.clusters.size(), most_vertices,
-                        most_indices, most_clusters));
+        return bad_input("level.counts",
+                         "it has {} vertices, {} indices, {} clusters; allowed are {}, {} (a multiple of 3, "
+                         "not 0), {}",
+                         level.vertices.size(), level.indices.size(), level.clusters.size(), most_vertices,
+                         most_indices, most_clusters);
     }
     const std::uint32_t highest = *std::max_element(level.indices.begin(), level.indices.end());
     if (highest >= level.vertices.size()) {
-        return bad_input(
-            fmt::format("an index is {}, the level has {} vertices", highest, level.vertices.size()));
+        return bad_input("level.index", "an index is {}, the level has {} vertices", highest,
+                         level.vertices.size());
     }
     const bool reserved = std::any_of(level.vertices.begin(), level.vertices.end(),
                                       [](const PackVertex& vertex) { return vertex.reserved != 0; });
     if (reserved) {
-        return bad_input("a vertex has its reserved bytes set; allowed is 0");
+        return bad_input("level.reserved", "a vertex has its reserved bytes set; allowed is 0");
     }
     return check_clusters(level);
 }
 
 Result<void> check_level_count(const PackDescription& pack, std::size_t levels) {
     if (levels == 0 || levels > most_levels) {
-        return bad_input(fmt::format("the pack has {} levels, allowed are 1 to {}", levels, most_levels));
+        return bad_input("pack.level_count", "the pack has {} levels, allowed are 1 to {}", levels,
+                         most_levels);
     }
     if (pack.default_level >= levels) {
-        return bad_input(
-            fmt::format("default_level is {}, the pack has {} levels", pack.default_level, levels));
+        return bad_input("pack.default_level", "default_level is {}, the pack has {} levels",
+                         pack.default_level, levels);
     }
     return {};
 }
@@ -118,7 +119,7 @@ Result<void> check_levels(const Pack& pack, Read read) {
         uses_relief = uses_relief || pack.levels[k].technique == LevelTechnique::Relief;
     }
     if (!uses_relief && !pack.relief.relief.texels.empty()) {
-        return bad_input("the pack holds a relief that no level uses");
+        return bad_input("pack.unused_relief", "the pack holds a relief that no level uses");
     }
     return {};
 }

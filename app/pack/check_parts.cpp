@@ -75,9 +75,9 @@ Result<void> PartChecks::picture(const std::string& name, std::int64_t most_side
         at(name, begins_as_webp(bytes) ? extent_of_webp(bytes) : extent_of_png(bytes)));
     const std::int64_t area = extent.width * extent.height; // libraries bound both by 31 bits
     if (area == 0 || std::max(extent.width, extent.height) > most_side || area > most_area) {
-        return bad_input(
-            fmt::format("{}: the picture has {} x {} texels; allowed are {} a side and {} in all", name,
-                        extent.width, extent.height, most_side, most_area));
+        return bad_input("pack.picture_size",
+                         "{}: the picture has {} x {} texels; allowed are {} a side and {} in all", name,
+                         extent.width, extent.height, most_side, most_area);
     }
     texels_left_ -= area;
     return {};

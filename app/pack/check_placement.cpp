@@ -45,14 +45,15 @@ bool is_similarity(const glm::dmat4& m) {
 
 Result<void> check_extremes(const PackDescription& pack) {
     if (pack.extremes.empty() || pack.extremes.size() > most_extremes) {
-        return bad_input(fmt::format("the placement has {} extremes, allowed are 1 to {}",
-                                     pack.extremes.size(), most_extremes));
+        return bad_input("placement.extreme_count", "the placement has {} extremes, allowed are 1 to {}",
+                         pack.extremes.size(), most_extremes);
     }
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     glm::dvec3 high = -low;
     for (const glm::dvec3& extreme : pack.extremes) {
         if (!is_finite(extreme)) {
-            return bad_input("an extreme of the placement is not a finite number");
+            return bad_input("placement.extreme_not_finite",
+                             "an extreme of the placement is not a finite number");
         }
         low = glm::min(low, extreme);
         high = glm::max(high, extreme);
@@ -62,6 +63,7 @@ Result<void> check_extremes(const PackDescription& pack) {
     const glm::dvec3 off = glm::max(low_off, high_off);
     if (std::max({off.x, off.y, off.z}) > extremes_tolerance) {
         return bad_input(
+            "placement.extremes_of_box",
             "the placement's extremes do not reach exactly to the sides of its box; bake the pack again");
     }
     return {};
@@ -73,16 +75,18 @@ Result<void> check_placement(const PackDescription& pack) {
     const glm::dvec3& size = pack.box_size;
     if (!is_finite(size) || !(std::min({size.x, size.y, size.z}) > 0.0) ||
         !(std::abs(std::max({size.x, size.y, size.z}) - 1.0) <= similarity_tolerance)) {
-        return bad_input(fmt::format("box_size is {} x {} x {}; allowed are edges above 0, the longest 1",
-                                     size.x, size.y, size.z));
+        return bad_input("placement.box_size",
+                         "box_size is {} x {} x {}; allowed are edges above 0, the longest 1", size.x, size.y,
+                         size.z);
     }
     if (!is_similarity(pack.box_from_file)) {
         return bad_input(
+            "placement.box_from_file",
             "box_from_file is not a rotation with one scale and a translation; bake the pack again");
     }
     if (!(pack.scale >= least_scale) || !(pack.scale <= most_scale)) {
-        return bad_input(fmt::format("the placement's scale is {}, allowed are {} to {}", pack.scale,
-                                     least_scale, most_scale));
+        return bad_input("placement.scale", "the placement's scale is {}, allowed are {} to {}", pack.scale,
+                         least_scale, most_scale);
     }
     return check_extremes(pack);
 }

@@ -28,19 +28,19 @@ bool is_section_name(std::string_view name) {
 bool is_object(const std::string& text) {
     Refusal refusal;
     const nlohmann::json data = parse_json(refusal, text, most_manifest_depth - depth_of_data);
-    return !refusal.message && data.is_object();
+    return !refusal.error && data.is_object();
 }
 
 Result<void> check_hotspot(const std::string& place, const PackHotspot& hotspot, const glm::dvec3& box_size) {
     const glm::dvec3 inside = hotspot.point - box_low(box_size);
     const glm::dvec3 beyond = glm::max(-inside, inside - box_size);
     if (!(std::max({beyond.x, beyond.y, beyond.z}) <= box_tolerance)) {
-        return bad_input(fmt::format("{} lies at ({}, {}, {}), outside the artifact's box", place,
-                                     hotspot.point.x, hotspot.point.y, hotspot.point.z));
+        return bad_input("hotspot.outside_box", "{} lies at ({}, {}, {}), outside the artifact's box", place,
+                         hotspot.point.x, hotspot.point.y, hotspot.point.z);
     }
     if (!(std::abs(glm::length(hotspot.normal) - 1.0) <= normal_tolerance)) {
-        return bad_input(fmt::format("{} has the normal ({}, {}, {}); allowed is one of length 1", place,
-                                     hotspot.normal.x, hotspot.normal.y, hotspot.normal.z));
+        return bad_input("hotspot.normal", "{} has the normal ({}, {}, {}); allowed is one of length 1",
+                         place, hotspot.normal.x, hotspot.normal.y, hotspot.normal.z);
     }
     return check_labels(place, hotspot.labels);
 }
@@ -55,32 +55,32 @@ Result<void> check_sections(const PackDescription& pack) {
         parts += section.parts.size();
         data_bytes += section.data.size();
         if (data_bytes > most_section_data_bytes) {
-            return bad_input(
-                fmt::format("the sections have more than {} bytes of data together; put what is large "
-                            "into parts",
-                            most_section_data_bytes));
+            return bad_input("sections.too_large",
+                             "the sections have more than {} bytes of data together; put what is large "
+                             "into parts",
+                             most_section_data_bytes);
         }
         if (!is_section_name(section.name) || is_known_section(section.name) ||
             !names.insert(section.name).second) {
-            return bad_input(
-                fmt::format("a section is called '{}'; allowed are a-z 0-9 and _, each name once",
-                            printable(section.name, 40)));
+            return bad_input("sections.name",
+                             "a section is called '{}'; allowed are a-z 0-9 and _, each name once",
+                             printable(section.name, 40));
         }
         if (!is_object(section.data)) {
-            return bad_input(fmt::format("the data of the section {} are no JSON object", section.name));
+            return bad_input("sections.data", "the data of the section {} are no JSON object", section.name);
         }
     }
     if (names.size() > most_sections || parts > most_section_parts) {
-        return bad_input(fmt::format("the pack has {} sections with {} parts, allowed are {} and {}",
-                                     names.size(), parts, most_sections, most_section_parts));
+        return bad_input("sections.counts", "the pack has {} sections with {} parts, allowed are {} and {}",
+                         names.size(), parts, most_sections, most_section_parts);
     }
     return {};
 }
 
 Result<void> check_hotspots(const PackDescription& pack) {
     if (pack.hotspots.size() > most_hotspots) {
-        return bad_input(
-            fmt::format("the pack has {} hotspots, allowed are {}", pack.hotspots.size(), most_hotspots));
+        return bad_input("hotspot.count", "the pack has {} hotspots, allowed are {}", pack.hotspots.size(),
+                         most_hotspots);
     }
     for (std::size_t k = 0; k < pack.hotspots.size(); ++k) {
         const auto place = fmt::format("hotspot {}", k);

@@ -59,18 +59,20 @@ Result<GlyphRuns> read_header(ByteReader& reader, std::size_t& boxes, std::size_
     if (runs.texels_per_em < 1 || runs.texels_per_em > most_texels_per_em || runs.spread_texels < 1 ||
         runs.spread_texels > most_spread_texels) {
         return bad_input(
-            fmt::format("its glyphs have {} texels an em and a spread of {}; allowed are 1 to {} and 1 to {}",
-                        runs.texels_per_em, runs.spread_texels, most_texels_per_em, most_spread_texels));
+            "glyphs.scale",
+            "its glyphs have {} texels an em and a spread of {}; allowed are 1 to {} and 1 to {}",
+            runs.texels_per_em, runs.spread_texels, most_texels_per_em, most_spread_texels);
     }
     if (runs.atlas_width > most_atlas_side || runs.atlas_height > most_atlas_side ||
         std::int64_t{runs.atlas_width} * runs.atlas_height > most_atlas_texels) {
-        return bad_input(fmt::format("its atlas has {} x {} texels; allowed are {} a side and {} in all",
-                                     runs.atlas_width, runs.atlas_height, most_atlas_side,
-                                     most_atlas_texels));
+        return bad_input("glyphs.atlas_size",
+                         "its atlas has {} x {} texels; allowed are {} a side and {} in all",
+                         runs.atlas_width, runs.atlas_height, most_atlas_side, most_atlas_texels);
     }
     if (boxes > most_boxes || texts > most_texts || boxes * box_bytes > reader.left()) {
-        return bad_input(fmt::format("it claims {} glyphs and {} texts in {} bytes; allowed are {} and {}",
-                                     boxes, texts, reader.left(), most_boxes, most_texts));
+        return bad_input("glyphs.counts",
+                         "it claims {} glyphs and {} texts in {} bytes; allowed are {} and {}", boxes, texts,
+                         reader.left(), most_boxes, most_texts);
     }
     return runs;
 }
@@ -86,7 +88,7 @@ Result<void> read_boxes(ByteReader& reader, std::size_t count, GlyphRuns& runs) 
         box.left = reader.read<std::int16_t>();
         box.top = reader.read<std::int16_t>();
         if (box.x + box.width > runs.atlas_width || box.y + box.height > runs.atlas_height) {
-            return bad_input(fmt::format("glyph {} lies outside the atlas", k));
+            return bad_input("glyphs.outside_atlas", "glyph {} lies outside the atlas", k);
         }
     }
     return {};
@@ -101,13 +103,14 @@ Result<GlyphSetting> read_setting(ByteReader& reader, std::size_t boxes) {
     const std::size_t lines = reader.read<std::uint32_t>();
     const std::size_t glyphs = reader.read<std::uint32_t>();
     if (!is_side(setting.limit) || !is_side(setting.width) || !is_side(setting.height)) {
-        return bad_input(fmt::format("is {} x {} for a width of {}; allowed are 0 to {}", setting.width,
-                                     setting.height, setting.limit, most_side));
+        return bad_input("glyphs.setting_size", "is {} x {} for a width of {}; allowed are 0 to {}",
+                         setting.width, setting.height, setting.limit, most_side);
     }
     if (lines > most_lines || glyphs > most_glyphs ||
         lines * line_bytes + glyphs * glyph_bytes > reader.left()) {
-        return bad_input(fmt::format("claims {} lines and {} glyphs in {} bytes; allowed are {} and {}",
-                                     lines, glyphs, reader.left(), most_lines, most_glyphs));
+        return bad_input("glyphs.setting_counts",
+                         "claims {} lines and {} glyphs in {} bytes; allowed are {} and {}", lines, glyphs,
+                         reader.left(), most_lines, most_glyphs);
     }
     setting.lines.resize(lines);
     std::uint64_t together = 0;
@@ -116,12 +119,12 @@ Result<GlyphSetting> read_setting(ByteReader& reader, std::size_t boxes) {
         line.glyphs = reader.read<std::uint32_t>();
         together += line.glyphs;
         if (!is_place(line.baseline)) {
-            return bad_input(fmt::format("has a line at {}; allowed are {} to {}", line.baseline, -most_side,
-                                         2 * most_side));
+            return bad_input("glyphs.baseline", "has a line at {}; allowed are {} to {}", line.baseline,
+                             -most_side, 2 * most_side);
         }
     }
     if (together != glyphs) {
-        return bad_input(fmt::format("has {} glyphs, and lines for {}", glyphs, together));
+        return bad_input("glyphs.lines", "has {} glyphs, and lines for {}", glyphs, together);
     }
     setting.glyphs.resize(glyphs);
     for (PlacedGlyph& glyph : setting.glyphs) {
@@ -129,9 +132,9 @@ Result<GlyphSetting> read_setting(ByteReader& reader, std::size_t boxes) {
         glyph.up = reader.read<std::int16_t>();
         glyph.x = reader.read<std::int32_t>();
         if (glyph.glyph >= boxes || !is_place(glyph.x)) {
-            return bad_input(
-                fmt::format("has glyph {} at {}; there are {} glyphs, and allowed places are {} to {}",
-                            glyph.glyph, glyph.x, boxes, -most_side, 2 * most_side));
+            return bad_input("glyphs.place",
+                             "has glyph {} at {}; there are {} glyphs, and allowed places are {} to {}",
+                             glyph.glyph, glyph.x, boxes, -most_side, 2 * most_side);
         }
     }
     return setting;
@@ -145,18 +148,19 @@ Result<GlyphText> read_text(ByteReader& reader, std::size_t number, std::size_t 
     const std::vector<char> key = reader.read_all<char>(key_bytes);
     text.key.assign(key.begin(), key.end());
     if (!is_text_key(text.key)) {
-        return bad_input(fmt::format("text {} has a bad key; allowed are 1 to {} of a-z 0-9 _ - and dots",
-                                     number, most_key_bytes));
+        return bad_input("glyphs.key", "text {} has a bad key; allowed are 1 to {} of a-z 0-9 _ - and dots",
+                         number, most_key_bytes);
     }
     if (direction > 1 || settings > most_settings) {
-        return bad_input(fmt::format("text {} has direction {} and {} settings; allowed are 0 or 1 and {}",
-                                     text.key, direction, settings, most_settings));
+        return bad_input("glyphs.text", "text {} has direction {} and {} settings; allowed are 0 or 1 and {}",
+                         text.key, direction, settings, most_settings);
     }
     text.direction = static_cast<TextDirection>(direction);
     for (std::size_t k = 0; k < settings; ++k) {
         Result<GlyphSetting> setting = read_setting(reader, boxes);
         if (!setting) {
-            return bad_input(fmt::format("setting {} of text {} {}", k, text.key, setting.error().message));
+            return bad_input("glyphs.setting", "setting {} of text {} {}", k, text.key,
+                             setting.error().message);
         }
         text.settings.push_back(*std::move(setting));
     }
@@ -213,11 +217,11 @@ Bytes encode_glyph_runs(const GlyphRuns& runs) {
 
 Result<GlyphRuns> decode_glyph_runs(std::span<const std::byte> bytes) {
     if (bytes.size() < header_bytes || std::memcmp(bytes.data(), magic.data(), magic.size()) != 0) {
-        return bad_input("it does not begin as glyph runs do (FSGR)");
+        return bad_input("glyphs.no_magic", "it does not begin as glyph runs do (FSGR)");
     }
     ByteReader reader(bytes.subspan(magic.size()));
     if (const auto found = reader.read<std::uint32_t>(); found != version) {
-        return bad_input(fmt::format("its glyph runs have version {}, allowed is {}", found, version));
+        return bad_input("glyphs.version", "its glyph runs have version {}, allowed is {}", found, version);
     }
     std::size_t boxes = 0;
     std::size_t texts = 0;
@@ -227,13 +231,13 @@ Result<GlyphRuns> decode_glyph_runs(std::span<const std::byte> bytes) {
     for (std::size_t k = 0; k < texts; ++k) {
         TRY(GlyphText text, read_text(reader, k, boxes));
         if (!keys.insert(text.key).second) {
-            return bad_input(fmt::format("text {} occurs twice", text.key));
+            return bad_input("glyphs.text_twice", "text {} occurs twice", text.key);
         }
         runs.texts.push_back(std::move(text));
     }
     if (!reader.ok() || reader.left() != 0) {
-        return bad_input(reader.ok() ? fmt::format("{} bytes are left over", reader.left())
-                                     : "it ends too early");
+        return bad_input("glyphs.length", reader.ok() ? fmt::format("{} bytes are left over", reader.left())
+                                                      : "it ends too early");
     }
     return runs;
 }
@@ -248,18 +252,19 @@ Bytes encode_distance_atlas(const DistanceAtlas& atlas) {
 Result<DistanceAtlas> decode_distance_atlas(std::span<const std::byte> bytes, const GlyphRuns& runs) {
     if (runs.atlas_width == 0 || runs.atlas_height == 0) {
         return bytes.empty() ? Result<DistanceAtlas>(DistanceAtlas())
-                             : bad_input("there is a picture of glyphs, and the texts have none");
+                             : bad_input("glyphs.picture_unused",
+                                         "there is a picture of glyphs, and the texts have none");
     }
     TRY(const Image8 grey, decode_webp8(bytes, most_atlas_texels));
     if (grey.width != runs.atlas_width || grey.height != runs.atlas_height) {
-        return bad_input(fmt::format("it has {} x {} texels; the texts need {} x {}", grey.width, grey.height,
-                                     runs.atlas_width, runs.atlas_height));
+        return bad_input("glyphs.picture_size", "it has {} x {} texels; the texts need {} x {}", grey.width,
+                         grey.height, runs.atlas_width, runs.atlas_height);
     }
     DistanceAtlas atlas(grey.width, grey.height);
     for (std::size_t k = 0; k < atlas.texels.size(); ++k) {
         const glm::u8vec4 texel = grey.texels[k];
         if (texel.r != texel.g || texel.g != texel.b || texel.a != 255) {
-            return bad_input("it is not grey; distances are");
+            return bad_input("glyphs.picture_not_grey", "it is not grey; distances are");
         }
         atlas.texels[k] = texel.r;
     }

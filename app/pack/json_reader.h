@@ -7,6 +7,7 @@
 
 #include "app/pack/limits.h"
 #include "firmware_host/base/json.h"
+#include "firmware_host/base/result.h"
 
 #include <glm/glm.hpp>
 
@@ -21,9 +22,9 @@
 namespace frustumscreen::pack_format {
 
 struct Refusal {
-    std::optional<std::string> message;
+    std::optional<Error> error;
     std::string document = "the manifest"; ///< what is read, for messages
-    void refuse(const std::string& place, std::string_view what);
+    void refuse(MessageId id, const std::string& place, std::string_view what);
 };
 
 class JsonReader {
@@ -97,7 +98,9 @@ public:
     /// Refuses fields that nobody asked for. Call once, last.
     void finish();
 
-    void refuse(const char* key, std::string_view what) { refusal_->refuse(place_of(key), what); }
+    void refuse(MessageId id, const char* key, std::string_view what) {
+        refusal_->refuse(id, place_of(key), what);
+    }
 
 private:
     [[nodiscard]] const nlohmann::json* take(const char* key);

@@ -22,14 +22,14 @@ Result<std::vector<std::filesystem::path>> key_files(const std::filesystem::path
             continue;
         }
         if (files.size() == most_trusted_keys) {
-            return bad_input(fmt::format("{}: it has more than {} public keys; take some away",
-                                         folder.string(), most_trusted_keys));
+            return bad_input("keys.too_many", "{}: it has more than {} public keys; take some away",
+                             folder.string(), most_trusted_keys);
         }
         files.push_back(entry->path());
     }
     if (stop) {
-        return bad_input(
-            fmt::format("{}: the folder of public keys cannot be read: {}", folder.string(), stop.message()));
+        return bad_input("keys.unreadable_folder", "{}: the folder of public keys cannot be read: {}",
+                         folder.string(), stop.message());
     }
     std::sort(files.begin(), files.end());
     return files;

@@ -73,13 +73,14 @@ Result<std::vector<StoredTexel>> store_texels(const PackLevel& level, const Reli
         const std::optional<int> x = texel_of(vertex.uv[0], relief.relief.width);
         const std::optional<int> y = texel_of(vertex.uv[1], relief.relief.height);
         if (!x || !y || owner.at(*x, *y) < 0 || relief.relief.at(*x, *y) == empty_relief) {
-            return bad_input(fmt::format("vertex {} is not at the centre of a filled texel of a chart", k));
+            return bad_input("level.vertex_off_texel",
+                             "vertex {} is not at the centre of a filled texel of a chart", k);
         }
         const auto chart = static_cast<std::size_t>(owner.at(*x, *y));
         const PackVertex there = relief_vertex(relief, relief.charts[chart], *x, *y, box_size);
         if (!same_place(vertex, there, box_size)) {
-            return bad_input(
-                fmt::format("vertex {} is not where the relief puts its texel ({}, {})", k, *x, *y));
+            return bad_input("level.vertex_off_relief",
+                             "vertex {} is not where the relief puts its texel ({}, {})", k, *x, *y);
         }
         texels.push_back({static_cast<std::uint16_t>(chart), static_cast<std::uint16_t>(*x),
                           static_cast<std::uint16_t>(*y)});
@@ -94,15 +95,15 @@ Result<std::vector<PackVertex>> vertices_of(const std::vector<StoredTexel>& texe
     for (std::size_t k = 0; k < texels.size(); ++k) {
         const StoredTexel& texel = texels[k];
         if (texel.chart >= relief.charts.size()) {
-            return bad_input(fmt::format("vertex {} lies in chart {}, the relief has {}", k, texel.chart,
-                                         relief.charts.size()));
+            return bad_input("level.vertex_chart", "vertex {} lies in chart {}, the relief has {}", k,
+                             texel.chart, relief.charts.size());
         }
         const ReliefChart& chart = relief.charts[texel.chart];
         const bool inside = texel.x >= chart.x && texel.x < chart.x + chart.width && texel.y >= chart.y &&
                             texel.y < chart.y + chart.height;
         if (!inside || relief.relief.at(texel.x, texel.y) == empty_relief) {
-            return bad_input(fmt::format("vertex {} is texel ({}, {}), {} chart {}", k, texel.x, texel.y,
-                                         inside ? "an empty one of" : "outside", texel.chart));
+            return bad_input("level.vertex_texel", "vertex {} is texel ({}, {}), {} chart {}", k, texel.x,
+                             texel.y, inside ? "an empty one of" : "outside", texel.chart);
         }
         vertices.push_back(relief_vertex(relief, chart, texel.x, texel.y, box_size));
     }
@@ -154,14 +155,15 @@ struct Header {
 Result<Header> read_header(std::span<const std::byte> bytes, std::uint64_t part_bytes) {
     if (bytes.size() < header_bytes ||
         std::memcmp(bytes.data(), level_magic.data(), level_magic.size()) != 0) {
-        return bad_input("it does not begin as a level does (FSLV)");
+        return bad_input("level.no_magic", "it does not begin as a level does (FSLV)");
     }
     ByteReader reader(bytes.subspan(level_magic.size()));
     const auto version = reader.read<std::uint32_t>();
     const auto kind = reader.read<std::uint32_t>();
     if (version != level_version || kind > 1) {
-        return bad_input(fmt::format("its triangles have version {} and kind {}, allowed are {} and 0 or 1",
-                                     version, kind, level_version));
+        return bad_input("level.version",
+                         "its triangles have version {} and kind {}, allowed are {} and 0 or 1", version,
+                         kind, level_version);
     }
     Header header{kind == 1, 0, 0, 0};
     header.vertices = reader.read<std::uint32_t>();
@@ -173,9 +175,8 @@ Result<Header> read_header(std::span<const std::byte> bytes, std::uint64_t part_
         std::uint64_t{header.vertices} * (header.relief ? sizeof(StoredTexel) : sizeof(PackVertex));
     if (header.vertices > most_vertices || header.indices > most_indices || header.clusters > most_clusters ||
         needed != part_bytes - header_bytes) {
-        return bad_input(fmt::format("{} vertices, {} indices, {} clusters need {} bytes, it has {}",
-                                     header.vertices, header.indices, header.clusters, needed,
-                                     part_bytes - header_bytes));
+        return bad_input("level.size", "{} vertices, {} indices, {} clusters need {} bytes, it has {}",
+                         header.vertices, header.indices, header.clusters, needed, part_bytes - header_bytes);
     }
     return header;
 }
@@ -239,7 +240,7 @@ void LevelScan::take(std::span<const std::byte> item) {
     if (!has_header_) {
         const Result<Header> header = read_header(item, part_bytes_);
         if (!header) {
-            fault_ = header.error().message;
+            fault_ = header.error();
             return;
         }
         has_header_ = true;
@@ -250,25 +251,28 @@ void LevelScan::take(std::span<const std::byte> item) {
     } else if (clusters_seen_ < clusters_) {
         const PackCluster cluster = read_cluster(reader);
         if (const Result<void> good = check_cluster(cluster, clusters_seen_, covered_); !good) {
-            fault_ = good.error().message;
+            fault_ = good.error();
         }
         covered_ += cluster.index_count;
         ++clusters_seen_;
     } else if (indices_seen_ < indices_) {
         ++indices_seen_;
         if (const auto index = reader.read<std::uint32_t>(); index >= vertices_) {
-            fault_ = fmt::format("an index is {}, the level has {} vertices", index, vertices_);
+            fault_ =
+                bad_input("level.scan_index", "an index is {}, the level has {} vertices", index, vertices_)
+                    .value();
         }
     } else {
         ++vertices_seen_;
         if (!is_relief_ && reader.read<PackVertex>().reserved != 0) {
-            fault_ = "a vertex has its reserved bytes set; allowed is 0";
+            fault_ =
+                bad_input("level.scan_reserved", "a vertex has its reserved bytes set; allowed is 0").value();
         }
     }
 }
 
 void LevelScan::add(std::span<const std::byte> bytes) {
-    while (!bytes.empty() && fault_.empty()) {
+    while (!bytes.empty() && !fault_) {
         const std::size_t wanted = next_bytes();
         const std::size_t more = std::min(wanted - begun_.size(), bytes.size());
         if (begun_.empty() && more == wanted) {
@@ -286,18 +290,20 @@ void LevelScan::add(std::span<const std::byte> bytes) {
 
 Result<void> LevelScan::finish(LevelTechnique technique, std::uint64_t triangles,
                                std::uint64_t vertices) const {
-    if (!fault_.empty()) {
-        return bad_input(fault_);
+    if (fault_) {
+        return tl::unexpected<Error>(*fault_);
     }
     if (!has_header_) {
-        return bad_input("it does not begin as a level does (FSLV)");
+        return bad_input("level.scan_magic", "it does not begin as a level does (FSLV)");
     }
     if (covered_ != indices_ || indices_ == 0) {
-        return bad_input(fmt::format("the clusters cover {} indices, the level has {}", covered_, indices_));
+        return bad_input("level.scan_clusters", "the clusters cover {} indices, the level has {}", covered_,
+                         indices_);
     }
     if (is_relief_ != (technique == LevelTechnique::Relief) || indices_ != 3 * triangles ||
         vertices_ != vertices) {
-        return bad_input("it holds other triangles than the manifest says; the pack is altered");
+        return bad_input("level.scan_triangles",
+                         "it holds other triangles than the manifest says; the pack is altered");
     }
     return {};
 }

@@ -20,20 +20,21 @@ void read_format(Refusal& refusal, const nlohmann::json& document) {
     JsonReader fields(refusal, &document, "");
     std::string format;
     fields.text("format", format);
-    if (!refusal.message && format != format_name) {
-        fields.refuse("format",
+    if (!refusal.error && format != format_name) {
+        fields.refuse("manifest.not_a_pack", "format",
                       fmt::format("is '{}'; this is not a FrustumScreen pack", printable(format, 40)));
     }
     std::uint64_t version = 0;
     fields.whole("version", version, no_limit);
-    if (!refusal.message && version > pack_format_version) {
-        refusal.refuse("the pack",
+    if (!refusal.error && version > pack_format_version) {
+        refusal.refuse("manifest.newer_format", "the pack",
                        fmt::format("has format version {}, this program knows up to {}; it needs a newer "
                                    "FrustumScreen",
                                    version, pack_format_version));
     }
-    if (!refusal.message && version == 0) {
-        fields.refuse("version", fmt::format("is 0; allowed are 1 to {}", pack_format_version));
+    if (!refusal.error && version == 0) {
+        fields.refuse("manifest.version_zero", "version",
+                      fmt::format("is 0; allowed are 1 to {}", pack_format_version));
     }
 }
 
@@ -44,20 +45,21 @@ void check_parts(Refusal& refusal, const std::vector<PartRecord>& parts) {
         const PartRecord& part = parts[k];
         const std::string place = fmt::format("parts[{}].name", k);
         if (!is_part_name(part.name)) {
-            refusal.refuse(place, fmt::format("is '{}'; allowed are a-z 0-9 _ - . and / between them",
-                                              printable(part.name, 40)));
+            refusal.refuse("manifest.part_name", place,
+                           fmt::format("is '{}'; allowed are a-z 0-9 _ - . and / between them",
+                                       printable(part.name, 40)));
         }
         if (!names.insert(part.name).second) {
-            refusal.refuse(place, fmt::format("is {}, which occurs twice", part.name));
+            refusal.refuse("manifest.part_twice", place, fmt::format("is {}, which occurs twice", part.name));
         }
         if (part.bytes == 0) {
-            refusal.refuse(fmt::format("parts[{}].bytes", k),
+            refusal.refuse("manifest.part_empty", fmt::format("parts[{}].bytes", k),
                            "is 0; a part that holds nothing is not listed");
         }
         together += part.bytes;
     }
     if (together > most_parts_bytes) {
-        refusal.refuse("parts",
+        refusal.refuse("manifest.parts_together", "parts",
                        fmt::format("have {} bytes together, allowed are {}", together, most_parts_bytes));
     }
 }
@@ -88,15 +90,15 @@ bool is_part_name(std::string_view name) {
 Result<Manifest> parse_manifest(std::string_view text) {
     Refusal refusal;
     const nlohmann::json document = parse_json(refusal, text);
-    if (!refusal.message) {
+    if (!refusal.error) {
         read_format(refusal, document);
     }
     Manifest manifest;
-    if (!refusal.message) {
+    if (!refusal.error) {
         manifest = read_fields(refusal, document);
     }
-    if (refusal.message) {
-        return bad_input(*refusal.message);
+    if (refusal.error) {
+        return tl::unexpected<Error>(*std::move(refusal.error));
     }
     return manifest;
 }

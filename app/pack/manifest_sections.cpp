@@ -69,7 +69,7 @@ void add_details(Refusal& refusal, std::vector<PackCaption> read, std::vector<Pa
         if (!seen.insert(from.language).second ||
             std::count_if(captions.begin(), captions.end(), same) != 1) {
             refusal.refuse(
-                "sections.details.data.captions",
+                "manifest.caption_language", "sections.details.data.captions",
                 fmt::format("has the language '{}'; allowed are languages with one caption, each once",
                             printable(from.language, 40)));
             return;
@@ -84,7 +84,8 @@ void take_known(Refusal& refusal, SectionRecord& record, Manifest& manifest) {
     const std::string place = "sections." + record.name;
     const std::size_t parts = record.name == table_picture ? 1 : 0;
     if (record.parts.size() != parts) {
-        refusal.refuse(place + ".parts", fmt::format("has {}; allowed is {}", record.parts.size(), parts));
+        refusal.refuse("manifest.section_parts", place + ".parts",
+                       fmt::format("has {}; allowed is {}", record.parts.size(), parts));
         return;
     }
     const nlohmann::json data = nlohmann::json::parse(record.data);
@@ -123,11 +124,11 @@ void take_sections(Refusal& refusal, std::vector<SectionRecord> records, Manifes
         parts += record.parts.size();
         data_bytes += record.data.size();
         if (data_bytes > most_section_data_bytes) {
-            refusal.refuse("sections",
+            refusal.refuse("manifest.sections_too_large", "sections",
                            fmt::format("have more than {} bytes of data together; allowed are fewer",
                                        most_section_data_bytes));
         }
-        if (refusal.message) {
+        if (refusal.error) {
             return;
         }
         if (is_known_section(record.name)) {
@@ -138,7 +139,7 @@ void take_sections(Refusal& refusal, std::vector<SectionRecord> records, Manifes
         }
     }
     if (parts > most_section_parts) {
-        refusal.refuse("sections",
+        refusal.refuse("manifest.section_part_count", "sections",
                        fmt::format("have {} parts together, allowed are {}", parts, most_section_parts));
     }
 }

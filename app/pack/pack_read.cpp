@@ -74,8 +74,8 @@ Result<PackLevel> read_level(PackReader& reader, const LevelRecord& record, cons
     TRY(PackLevel level, at(record.mesh, decode_level(bytes, pack.relief, pack.box_size)));
     if (level.technique != record.technique || level.vertices.size() != record.vertices ||
         level.indices.size() != record.triangles * 3) {
-        return bad_input(
-            fmt::format("{} holds other triangles than the manifest says; the pack is altered", record.mesh));
+        return bad_input("pack.other_triangles",
+                         "{} holds other triangles than the manifest says; the pack is altered", record.mesh);
     }
     level.error = record.error;
     level.texture = record.texture;

@@ -16,8 +16,8 @@ namespace {
 Result<void> check_signature_size(const ZipEntry& entry) {
     return entry.bytes <= most_signature_bytes
                ? Result<void>()
-               : bad_input(fmt::format("the signature has {} bytes, allowed are {}", entry.bytes,
-                                       most_signature_bytes));
+               : bad_input("pack.signature_size", "the signature has {} bytes, allowed are {}", entry.bytes,
+                           most_signature_bytes);
 }
 
 const PartRecord* find_part(const Manifest& manifest, std::string_view name) {
@@ -30,11 +30,11 @@ Result<void> check_entries(const ZipReader& zip, const Manifest& manifest) {
     for (const PartRecord& part : manifest.parts) {
         const ZipEntry* entry = zip.find(part.name);
         if (entry == nullptr) {
-            return bad_input(fmt::format("the part {} is missing; copy the pack again", part.name));
+            return bad_input("pack.part_missing", "the part {} is missing; copy the pack again", part.name);
         }
         if (entry->bytes != part.bytes) {
-            return bad_input(fmt::format("{} has {} bytes, its manifest says {}; the pack is altered",
-                                         part.name, entry->bytes, part.bytes));
+            return bad_input("pack.part_size", "{} has {} bytes, its manifest says {}; the pack is altered",
+                             part.name, entry->bytes, part.bytes);
         }
     }
     std::set<std::string_view> listed;
@@ -45,8 +45,8 @@ Result<void> check_entries(const ZipReader& zip, const Manifest& manifest) {
         if (entry.name == signature_name) {
             TRY_VOID(check_signature_size(entry));
         } else if (entry.name != manifest_name && !listed.contains(entry.name)) {
-            return bad_input(
-                fmt::format("{} is not listed in the manifest; the pack is altered", entry.name));
+            return bad_input("pack.part_not_listed", "{} is not listed in the manifest; the pack is altered",
+                             entry.name);
         }
     }
     return {};
@@ -56,12 +56,12 @@ Result<void> check_entries(const ZipReader& zip, const Manifest& manifest) {
 
 Result<Bytes> read_manifest_bytes(ZipReader& zip) {
     if (zip.entries().empty() || zip.entries().front().name != manifest_name) {
-        return bad_input("its first entry is not manifest.json; this is not a pack");
+        return bad_input("pack.no_manifest", "its first entry is not manifest.json; this is not a pack");
     }
     const ZipEntry& entry = zip.entries().front();
     if (entry.bytes > most_manifest_bytes) {
-        return bad_input(
-            fmt::format("manifest.json has {} bytes, allowed are {}", entry.bytes, most_manifest_bytes));
+        return bad_input("pack.manifest_size", "manifest.json has {} bytes, allowed are {}", entry.bytes,
+                         most_manifest_bytes);
     }
     return zip.read(entry);
 }
@@ -79,7 +79,7 @@ Result<std::optional<std::string>> read_signature_entry(ZipReader& zip) {
 Result<void> check_pack_size(std::uint64_t bytes) {
     return bytes <= most_pack_bytes
                ? Result<void>()
-               : bad_input(fmt::format("the pack has {} bytes, allowed are {}", bytes, most_pack_bytes));
+               : bad_input("pack.size", "the pack has {} bytes, allowed are {}", bytes, most_pack_bytes);
 }
 
 Result<PackReader> PackReader::open(std::span<const std::byte> bytes) {
@@ -105,11 +105,11 @@ Result<PackReader> PackReader::open(ZipReader zip, std::span<const std::byte> ma
 Result<const PartRecord*> PackReader::use(const std::string& name) {
     const PartRecord* part = find_part(manifest_, name);
     if (part == nullptr) {
-        return bad_input(
-            fmt::format("the manifest refers to the part '{}' and does not list it", printable(name)));
+        return bad_input("pack.part_not_in_manifest",
+                         "the manifest refers to the part '{}' and does not list it", printable(name));
     }
     if (!taken_.insert(name).second) {
-        return bad_input(fmt::format("the manifest uses the part {} twice", name));
+        return bad_input("pack.part_used_twice", "the manifest uses the part {} twice", name);
     }
     return part;
 }
@@ -122,7 +122,7 @@ Result<Bytes> PackReader::take(const std::string& name) {
     TRY(const PartRecord* const part, use(name));
     Result<Bytes> bytes = zip_.read(*zip_.find(name));
     if (bytes && sha256_hex(*bytes) != part->sha256) {
-        return bad_input(fmt::format("{} does not match its hash; the pack is altered", name));
+        return bad_input("pack.part_hash", "{} does not match its hash; the pack is altered", name);
     }
     return bytes;
 }
@@ -136,7 +136,7 @@ Result<void> PackReader::check(const std::string& name,
         pass(bytes);
     });
     if (read && hash.hex() != part->sha256) {
-        return bad_input(fmt::format("{} does not match its hash; the pack is altered", name));
+        return bad_input("pack.part_hash_in_memory", "{} does not match its hash; the pack is altered", name);
     }
     return read;
 }
@@ -144,7 +144,7 @@ Result<void> PackReader::check(const std::string& name,
 Result<void> PackReader::finish() const {
     for (const PartRecord& part : manifest_.parts) {
         if (!taken_.contains(part.name)) {
-            return bad_input(fmt::format("nothing uses the part {}; the pack is altered", part.name));
+            return bad_input("pack.part_unused", "nothing uses the part {}; the pack is altered", part.name);
         }
     }
     return {};
@@ -152,7 +152,7 @@ Result<void> PackReader::finish() const {
 
 Result<PackReader> open_pack_file(const std::filesystem::path& file) {
     if (std::error_code none; std::filesystem::is_directory(file, none)) {
-        return bad_input(file.string() + ": this is a folder; name the *.fspack files in it");
+        return bad_input("pack.folder", file.string() + ": this is a folder; name the *.fspack files in it");
     }
     TRY(OpenFile opened, OpenFile::open(file, most_pack_bytes));
     return at(file.string(), PackReader::open(std::move(opened)));

@@ -60,8 +60,8 @@ Result<BlockRelief> decode(const ReliefOutline& outline, const Bytes& bytes) {
     TRY(BlockRelief relief, at(outline.part, decode_blocks(bytes)));
     if (bytes.size() != outline.bytes || relief.blocks.size() != outline.blocks ||
         std::lround(1.0F / relief.texel_box) != std::lround(outline.texels)) {
-        return bad_input(
-            fmt::format("{} holds another relief than the manifest says; the pack is altered", outline.part));
+        return bad_input("pack.other_relief",
+                         "{} holds another relief than the manifest says; the pack is altered", outline.part);
     }
     return relief;
 }
@@ -77,16 +77,16 @@ Result<std::vector<ReliefOutline>> reliefs_of(const PackDescription& pack) {
     }
     Refusal refusal;
     const nlohmann::json data = parse_json(refusal, section->data);
-    if (!refusal.message) {
+    if (!refusal.error) {
         JsonReader fields(refusal, &data, fmt::format("sections.{}.data", section_name));
         reliefs_fields(fields, reliefs);
         fields.finish();
     }
-    if (refusal.message) {
-        return bad_input(*refusal.message);
+    if (refusal.error) {
+        return tl::unexpected<Error>(*std::move(refusal.error));
     }
     if (const std::optional<std::string> fault = fault_of(reliefs, section->parts)) {
-        return bad_input(fmt::format("the section {} {}", section_name, *fault));
+        return bad_input("pack.relief_section", "the section {} {}", section_name, *fault);
     }
     return reliefs;
 }
@@ -117,7 +117,8 @@ Result<BlockRelief> load_relief(const std::filesystem::path& file, const ReliefO
         load_section_parts(file, [&](const PackDescription& pack) -> Result<std::vector<std::string>> {
             TRY(const std::vector<ReliefOutline> there, reliefs_of(pack));
             if (std::find(there.begin(), there.end(), relief) == there.end()) {
-                return bad_input(fmt::format("it has no such relief of {} texels any more", relief.texels));
+                return bad_input("pack.relief_gone", "it has no such relief of {} texels any more",
+                                 relief.texels);
             }
             return std::vector{relief.part};
         });

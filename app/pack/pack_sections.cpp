@@ -47,7 +47,7 @@ Result<std::map<std::string, Bytes>> read_parts(PackReader& reader, const Choose
     std::map<std::string, Bytes> parts;
     for (const std::string& name : names) {
         if (!has_part(reader.manifest().description, name)) {
-            return bad_input(fmt::format("no section has the part '{}'", printable(name, 40)));
+            return bad_input("pack.no_such_part", "no section has the part '{}'", printable(name, 40));
         }
         TRY(Bytes bytes, reader.take(name));
         parts.emplace(name, std::move(bytes));

@@ -120,16 +120,16 @@ Result<std::vector<Entry>> entries_of(const PackDescription& pack, std::string_v
     }
     Refusal refusal;
     const nlohmann::json data = parse_json(refusal, section->data);
-    if (!refusal.message) {
+    if (!refusal.error) {
         JsonReader fields(refusal, &data, fmt::format("sections.{}.data", name));
         section_fields(fields, entries);
         fields.finish();
     }
-    if (refusal.message) {
-        return bad_input(*refusal.message);
+    if (refusal.error) {
+        return tl::unexpected<Error>(*std::move(refusal.error));
     }
     if (const std::optional<std::string> fault = fault_of(entries, section->parts)) {
-        return bad_input(fmt::format("the section {} {}", name, *fault));
+        return bad_input("pack.text_section", "the section {} {}", name, *fault);
     }
     return entries;
 }
@@ -174,7 +174,7 @@ Result<SetLanguage> decode(const SetEntry& entry, const std::map<std::string, By
 Result<void> check_sound(const std::string& name, const Bytes& bytes) {
     return as_text(bytes).starts_with(ogg_magic)
                ? Result<void>()
-               : bad_input(fmt::format("{} is no Ogg recording; bake the pack again", name));
+               : bad_input("pack.not_ogg", "{} is no Ogg recording; bake the pack again", name);
 }
 
 } // namespace

@@ -63,10 +63,10 @@ Result<void> add_section_parts(const Pack& pack, std::vector<Part>& parts) {
         for (const std::string& name : section.parts) {
             const auto bytes = pack.section_parts.find(name);
             if (!is_part_name(name) || bytes == pack.section_parts.end()) {
-                return bad_input(
-                    fmt::format("the section {} names the part '{}', which is not there or is no "
-                                "name of a part",
-                                section.name, printable(name, 40)));
+                return bad_input("pack.section_part",
+                                 "the section {} names the part '{}', which is not there or is no "
+                                 "name of a part",
+                                 section.name, printable(name, 40));
             }
             parts.push_back({name, bytes->second, packing_of(name)});
         }
@@ -101,13 +101,14 @@ Result<void> list_parts(const std::vector<Part>& parts, Manifest& manifest) {
     std::set<std::string_view> names;
     for (const Part& part : parts) {
         if (!names.insert(part.name).second) {
-            return bad_input(fmt::format("two parts are called {}; give them different names", part.name));
+            return bad_input("pack.parts_of_one_name", "two parts are called {}; give them different names",
+                             part.name);
         }
         together += part.bytes.size();
         if (part.bytes.empty() || part.bytes.size() > most_part_bytes || together > most_parts_bytes) {
-            return bad_input(
-                fmt::format("{} has {} bytes; allowed are 1 to {}, and {} for all parts together", part.name,
-                            part.bytes.size(), most_part_bytes, most_parts_bytes));
+            return bad_input("pack.part_too_large",
+                             "{} has {} bytes; allowed are 1 to {}, and {} for all parts together", part.name,
+                             part.bytes.size(), most_part_bytes, most_parts_bytes);
         }
         manifest.parts.push_back({part.name, part.bytes.size(), sha256_hex(part.bytes)});
     }
@@ -128,8 +129,9 @@ Result<Bytes> write_pack(const Pack& pack) {
     TRY_VOID(list_parts(parts, manifest));
     const std::string text = write_manifest(manifest);
     if (text.size() > most_manifest_bytes) {
-        return bad_input(fmt::format("the manifest has {} bytes, allowed are {}; give fewer or shorter texts",
-                                     text.size(), most_manifest_bytes));
+        return bad_input("pack.manifest_too_long",
+                         "the manifest has {} bytes, allowed are {}; give fewer or shorter texts",
+                         text.size(), most_manifest_bytes);
     }
     ZipWriter zip;
     zip.add(std::string(manifest_name), as_bytes(text), Packing::Deflated);

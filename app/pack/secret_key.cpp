@@ -80,10 +80,9 @@ Result<void> apply_password(Hidden& hidden, std::string_view password, const Rec
     if (crypto_pwhash_scryptsalsa208sha256(stream.bytes.data(), stream.bytes.size(), password.data(),
                                            password.size(), record.salt.data(), record.cost.operations,
                                            static_cast<std::size_t>(record.cost.memory_bytes)) != 0) {
-        return fail(
-            ErrorKind::Internal,
-            fmt::format("there is not enough memory for the key's password, {} MB; close other programs",
-                        record.cost.memory_bytes / 1'000'000));
+        return fail(ErrorKind::Internal, "key.no_memory",
+                    "there is not enough memory for the key's password, {} MB; close other programs",
+                    record.cost.memory_bytes / 1'000'000);
     }
     for (std::size_t k = 0; k < hidden.size(); ++k) {
         hidden[k] ^= stream.bytes[k];
@@ -93,18 +92,21 @@ Result<void> apply_password(Hidden& hidden, std::string_view password, const Rec
 
 /// Into `record`, which cannot be moved: it is wiped where it stands.
 Result<void> read_record(std::string_view text, Record& record) {
-    constexpr std::string_view wanted =
-        "this is not a minisign secret key; name the file NAME.key that frustumscreen-pack keygen wrote";
+    const auto refused = [] {
+        return bad_input(
+            "key.not_secret_key",
+            "this is not a minisign secret key; name the file NAME.key that frustumscreen-pack keygen wrote");
+    };
     if (text.size() > most_file_bytes) {
-        return bad_input(std::string(wanted));
+        return refused();
     }
     const std::vector<std::string_view> lines = lines_of(text, 3);
     if (lines.size() != 2 || !lines[0].starts_with(untrusted_prefix)) {
-        return bad_input(std::string(wanted));
+        return refused();
     }
     auto bytes = from_base64<record_bytes>(lines[1]);
     if (!bytes) {
-        return bad_input(std::string(wanted));
+        return refused();
     }
     Pieces pieces(*bytes);
     const Name algorithm = pieces.take<2>();
@@ -116,15 +118,15 @@ Result<void> read_record(std::string_view text, Record& record) {
     record.hidden.bytes = pieces.take<hidden_bytes>();
     sodium_memzero(bytes->data(), bytes->size());
     if (algorithm != ed25519 || checksum != blake2b || (record.kdf != scrypt && record.kdf != no_password)) {
-        return bad_input(std::string(wanted));
+        return refused();
     }
     if (record.kdf == scrypt && (record.cost.operations > most_cost.operations ||
                                  record.cost.memory_bytes > most_cost.memory_bytes)) {
-        return bad_input(
-            fmt::format("the key's password asks for {} MB of memory and {} steps, allowed are {} MB "
-                        "and {}; make a new key",
-                        record.cost.memory_bytes / 1'000'000, record.cost.operations,
-                        most_cost.memory_bytes / 1'000'000, most_cost.operations));
+        return bad_input("key.cost",
+                         "the key's password asks for {} MB of memory and {} steps, allowed are {} MB "
+                         "and {}; make a new key",
+                         record.cost.memory_bytes / 1'000'000, record.cost.operations,
+                         most_cost.memory_bytes / 1'000'000, most_cost.operations);
     }
     return {};
 }
@@ -227,7 +229,7 @@ Result<SecretKey> parse_secret_key(std::string_view text, std::optional<std::str
     const bool encrypted = record.kdf == scrypt;
     if (encrypted) {
         if (!password) {
-            return bad_input("the key has a password, and none was given");
+            return bad_input("key.no_password", "the key has a password, and none was given");
         }
         TRY_VOID(apply_password(hidden, *password, record));
     }
@@ -239,7 +241,8 @@ Result<SecretKey> parse_secret_key(std::string_view text, std::optional<std::str
     const std::span<const std::uint8_t, crypto_sign_SECRETKEYBYTES> both_halves(hidden.data() + 8,
                                                                                 crypto_sign_SECRETKEYBYTES);
     if ((!left_out && checksum != checksum_of(open)) || !is_whole(both_halves)) {
-        return bad_input(encrypted ? "the password is another one, or the key's file is damaged"
+        return bad_input("key.wrong_password",
+                         encrypted ? "the password is another one, or the key's file is damaged"
                                    : "the key's file is damaged; take your copy of it");
     }
     SecretKey key;

@@ -148,7 +148,7 @@ bool is_sound(const SeenEye& eye) {
 
 Result<void> check(const SeenErrors& seen, std::size_t levels) {
     const auto refused = [](std::string_view fault) {
-        return bad_input(fmt::format("sections.seen_errors.data {}", fault));
+        return bad_input("seen_errors.data", "sections.seen_errors.data {}", fault);
     };
     if (seen.eyes.empty() || seen.levels.size() != levels) {
         return refused(
@@ -206,13 +206,13 @@ Result<bool> read_section(std::string_view name, const PackDescription& pack, co
     }
     Refusal refusal;
     const nlohmann::json data = parse_json(refusal, section->data);
-    if (!refusal.message) {
+    if (!refusal.error) {
         JsonReader fields(refusal, &data, fmt::format("sections.{}.data", name));
         read(fields);
         fields.finish();
     }
-    if (refusal.message) {
-        return bad_input(*refusal.message);
+    if (refusal.error) {
+        return tl::unexpected<Error>(*std::move(refusal.error));
     }
     return true;
 }

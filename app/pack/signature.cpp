@@ -78,7 +78,7 @@ std::optional<std::uint64_t> serial_in(std::string_view comment) {
 
 Result<ReadSignature> read_signature(std::string_view text) {
     const auto damaged = [](std::string_view what) {
-        return bad_input(fmt::format("its signature {}; sign it again", what));
+        return bad_input("signature.damaged", "its signature {}; sign it again", what);
     };
     if (text.size() > pack_format::most_signature_bytes) {
         return damaged(
@@ -153,14 +153,15 @@ std::string names_of(std::span<const TrustedKey> keys) {
     return fmt::format("{}{}", fmt::join(names, ", "), keys.size() > most_named ? ", ..." : "");
 }
 
-tl::unexpected<SignatureRefusal> refused(SignatureFault fault, std::string message) {
-    return tl::unexpected<SignatureRefusal>(SignatureRefusal{fault, std::move(message)});
+tl::unexpected<SignatureRefusal> refused(SignatureFault fault, MessageId id, std::string message) {
+    return tl::unexpected<SignatureRefusal>(
+        SignatureRefusal{fault, {ErrorKind::BadInput, id, std::move(message)}});
 }
 
 tl::unexpected<SignatureRefusal> refused_as_unknown(const ReadSignature& read,
                                                     std::span<const TrustedKey> keys) {
     const std::string id = text_of_key_id(read.key_id);
-    return refused(SignatureFault::UnknownKey,
+    return refused(SignatureFault::UnknownKey, "signature.unknown_key",
                    keys.empty()
                        ? fmt::format("it is signed with the key {}, and no key is known here; put the "
                                      "museum's public key into the settings",
@@ -181,20 +182,22 @@ std::string text_of_key_id(std::span<const std::uint8_t, 8> id) {
 }
 
 Result<PublicKey> parse_public_key(std::string_view text) {
-    constexpr std::string_view wanted = "this is not a minisign public key; take the file NAME.pub that "
-                                        "frustumscreen-pack keygen wrote, or its "
-                                        "line of 56 letters, which begins with RW";
+    const auto refused = [] {
+        return bad_input("key.not_public_key",
+                         "this is not a minisign public key; take the file NAME.pub that "
+                         "frustumscreen-pack keygen wrote, or its line of 56 letters, which begins with RW");
+    };
     if (text.size() > most_public_key_bytes) {
-        return bad_input(std::string(wanted));
+        return refused();
     }
     const std::vector<std::string_view> lines = lines_of(text, 3);
     const bool with_comment = lines.size() == 2 && lines[0].starts_with(untrusted_prefix);
     if (!with_comment && lines.size() != 1) {
-        return bad_input(std::string(wanted));
+        return refused();
     }
     const auto record = from_base64<2 + 8 + crypto_sign_PUBLICKEYBYTES>(lines.back());
     if (!record) {
-        return bad_input(std::string(wanted));
+        return refused();
     }
     Pieces pieces(*record);
     const AlgorithmName algorithm = pieces.take<2>();
@@ -202,7 +205,7 @@ Result<PublicKey> parse_public_key(std::string_view text) {
     key.id = pieces.take<8>();
     key.key = pieces.take<crypto_sign_PUBLICKEYBYTES>();
     if (algorithm != of_the_bytes) {
-        return bad_input(std::string(wanted));
+        return refused();
     }
     return key;
 }
@@ -230,11 +233,12 @@ tl::expected<Signer, SignatureRefusal> check_signature(std::span<const std::byte
                                                        std::span<const TrustedKey> keys,
                                                        std::optional<std::chrono::sys_days> today) {
     if (!signature) {
-        return refused(SignatureFault::Unsigned, "it is not signed; sign it with frustumscreen-pack sign");
+        return refused(SignatureFault::Unsigned, "signature.unsigned",
+                       "it is not signed; sign it with frustumscreen-pack sign");
     }
     const Result<ReadSignature> read = read_signature(*signature);
     if (!read) {
-        return refused(SignatureFault::Malformed, read.error().message);
+        return tl::unexpected<SignatureRefusal>(SignatureRefusal{SignatureFault::Malformed, read.error()});
     }
     auto refusal = refused_as_unknown(*read, keys);
     // Two keys may have the same id, or one key two ends: the first that is good counts, and the last refusal is told.
@@ -245,19 +249,19 @@ tl::expected<Signer, SignatureRefusal> check_signature(std::span<const std::byte
         }
         if (!signs_bytes(*read, trusted.key, signed_bytes)) {
             refusal =
-                refused(SignatureFault::Altered,
+                refused(SignatureFault::Altered, "signature.altered",
                         fmt::format("it was altered after it was signed with the key {}; copy it again, or "
                                     "sign it again",
                                     name));
         } else if (!signs_comment(*read, trusted.key)) {
             refusal =
-                refused(SignatureFault::Altered,
+                refused(SignatureFault::Altered, "signature.comment_altered",
                         fmt::format("the trusted comment of its signature was altered after it was signed "
                                     "with the key {}; sign it again",
                                     name));
         } else if (today && trusted.until && *today > *trusted.until) {
             refusal =
-                refused(SignatureFault::KeyEnded,
+                refused(SignatureFault::KeyEnded, "signature.key_ended",
                         fmt::format("it is signed with the key {}, whose last day was {}, and here it is {}; "
                                     "sign it with a newer key, or set the clock right",
                                     name, text_of_day(*trusted.until), text_of_day(*today)));

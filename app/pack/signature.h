@@ -60,8 +60,8 @@ enum class SignatureFault : std::uint8_t {
     Altered,    ///< it is not the signature of these bytes, or of its trusted comment
 };
 struct SignatureRefusal {
-    SignatureFault fault = SignatureFault::Unsigned;
-    std::string message;
+    SignatureFault fault;
+    Error error;
 };
 
 /// What a signature says. Anybody can have written it: for reports, and for who signs again.

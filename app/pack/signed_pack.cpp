@@ -12,7 +12,7 @@ tl::unexpected<PackRefusal> refused(const Error& error) {
     const bool unreadable = error.kind == ErrorKind::DeviceLost;
     return tl::unexpected<PackRefusal>(
         PackRefusal{unreadable ? PackRefusal::Why::Unreadable : PackRefusal::Why::NotAPack,
-                    SignatureFault::Unsigned, error.message});
+                    SignatureFault::Unsigned, error});
 }
 
 tl::expected<SignedPack, PackRefusal> open_zip(Result<ZipReader> zip, const PackTrust& trust) {
@@ -33,7 +33,7 @@ tl::expected<SignedPack, PackRefusal> open_zip(Result<ZipReader> zip, const Pack
             check_signature(*manifest, *signature, trust.keys, trust.today);
         if (!checked) {
             return tl::unexpected<PackRefusal>(PackRefusal{PackRefusal::Why::Signature, checked.error().fault,
-                                                           std::move(checked.error().message)});
+                                                           std::move(checked.error().error)});
         }
         signer = std::move(*checked);
     }

@@ -31,9 +31,9 @@ struct PackRefusal {
         NotAPack,   ///< damaged, or of no known format; beyond a limit
         Signature,  ///< `fault`
     };
-    Why why = Why::NotAPack;
-    SignatureFault fault = SignatureFault::Unsigned;
-    std::string message;
+    Why why;
+    SignatureFault fault; ///< where the signature is why
+    Error error;
 };
 
 struct SignedPack {

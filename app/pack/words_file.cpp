@@ -73,25 +73,29 @@ void words_fields(auto& fields, auto& languages) {
                    [](auto& item, auto& entry) { language_fields(item, entry); });
 }
 
-std::string check_format(const nlohmann::json& document) {
+std::optional<Error> fault_of_format(const nlohmann::json& document) {
     if (!document.is_object() || !document.contains("format") || document["format"] != format_name) {
-        return "this is not a file of the exhibit's words (its manifest names another format)";
+        return Error{ErrorKind::BadInput, "words.not_words",
+                     "this is not a file of the exhibit's words (its manifest names another format)"};
     }
     const auto version = document.find("version");
     if (version == document.end() || !version->is_number_unsigned() || version->get<std::uint64_t>() == 0) {
-        return "its version is missing; bake the words again";
+        return Error{ErrorKind::BadInput, "words.no_version", "its version is missing; bake the words again"};
     }
     if (version->get<std::uint64_t>() > words_version) {
-        return fmt::format("it has version {}, this program knows up to {}; it needs a newer FrustumScreen",
-                           version->get<std::uint64_t>(), words_version);
+        return Error{
+            ErrorKind::BadInput, "words.newer_version",
+            fmt::format("it has version {}, this program knows up to {}; it needs a newer FrustumScreen",
+                        version->get<std::uint64_t>(), words_version)};
     }
-    return {};
+    return std::nullopt;
 }
 
 Result<Bytes> entry_of(ZipReader& zip, std::string_view name, std::uint64_t most) {
     const ZipEntry* entry = zip.find(name);
     if (entry == nullptr || entry->bytes > most) {
         return bad_input(
+            "words.part",
             entry == nullptr
                 ? fmt::format("the part {} is missing; bake the words again", printable(name))
                 : fmt::format("{} has {} bytes, allowed are {}", printable(name), entry->bytes, most));
@@ -103,19 +107,17 @@ Result<std::vector<LanguageEntry>> read_manifest(ZipReader& zip) {
     TRY(const Bytes text, entry_of(zip, manifest_entry, most_words_manifest_bytes));
     Refusal refusal;
     const nlohmann::json document = parse_json(refusal, as_text(text));
-    if (!refusal.message) {
-        if (std::string fault = check_format(document); !fault.empty()) {
-            refusal.message = std::move(fault);
-        }
+    if (!refusal.error) {
+        refusal.error = fault_of_format(document);
     }
     std::vector<LanguageEntry> languages;
-    if (!refusal.message) {
+    if (!refusal.error) {
         JsonReader fields(refusal, &document, "");
         words_fields(fields, languages);
         fields.finish();
     }
-    if (refusal.message) {
-        return bad_input(*refusal.message);
+    if (refusal.error) {
+        return tl::unexpected<Error>(*std::move(refusal.error));
     }
     return languages;
 }
@@ -130,8 +132,9 @@ Result<std::vector<LanguageEntry>> open_words(std::span<const std::byte> file,
 Result<Bytes> part_of(ZipReader& zip, const Part& part) {
     Result<Bytes> bytes = entry_of(zip, part.name, most_words_part_bytes);
     if (bytes && (bytes->size() != part.bytes || sha256_hex(*bytes) != part.sha256)) {
-        return bad_input(fmt::format("{} is not what the manifest says; bake or copy the words again",
-                                     printable(part.name)));
+        return bad_input("words.part_changed",
+                         "{} is not what the manifest says; bake or copy the words again",
+                         printable(part.name));
     }
     return bytes;
 }
@@ -146,8 +149,8 @@ Result<LanguageWords> read_language(ZipReader& zip, LanguageEntry& entry) {
     words.atlas = std::move(atlas);
     for (const PlainWord& word : words.words) {
         if (words.runs.find(word.key) == nullptr) {
-            return bad_input(fmt::format("{} has no glyphs for '{}'; bake the words again",
-                                         printable(entry.glyphs.name), printable(word.key)));
+            return bad_input("words.no_glyphs", "{} has no glyphs for '{}'; bake the words again",
+                             printable(entry.glyphs.name), printable(word.key));
         }
     }
     for (const SoundPart& sound : entry.sounds) {
@@ -209,8 +212,9 @@ Result<LanguageWords> read_words(std::span<const std::byte> file, std::string_vi
     const auto found = std::find_if(entries.begin(), entries.end(),
                                     [&](const LanguageEntry& entry) { return entry.language == language; });
     if (found == entries.end()) {
-        return bad_input(fmt::format("there are no words in the language '{}'; bake them with --languages",
-                                     printable(language, 40)));
+        return bad_input("words.no_language",
+                         "there are no words in the language '{}'; bake them with --languages",
+                         printable(language, 40));
     }
     return read_language(*zip, *found);
 }

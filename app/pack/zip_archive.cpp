@@ -215,18 +215,18 @@ bool is_whole(ArchiveBytes& bytes) {
 
 Result<void> check_entry(const ZipEntry& entry, const unz_file_info64& info) {
     if ((info.flag & encrypted_flag) != 0) {
-        return bad_input(fmt::format("{} is encrypted; packs are not", entry.name));
+        return bad_input("zip.encrypted", "{} is encrypted; packs are not", entry.name);
     }
     const bool stored = info.compression_method == 0;
     if (!stored && info.compression_method != Z_DEFLATED) {
-        return bad_input(fmt::format("{} is packed by ZIP method {}; allowed are stored and deflated",
-                                     entry.name, info.compression_method));
+        return bad_input("zip.method", "{} is packed by ZIP method {}; allowed are stored and deflated",
+                         entry.name, info.compression_method);
     }
     const std::uint64_t most = stored ? entry.stored_bytes : entry.stored_bytes * most_deflate_ratio;
     if (entry.bytes > most || (stored && entry.bytes != entry.stored_bytes)) {
-        return bad_input(
-            fmt::format("{} claims {} bytes, more than its {} packed bytes can hold; the pack is altered",
-                        entry.name, entry.bytes, entry.stored_bytes));
+        return bad_input("zip.claims",
+                         "{} claims {} bytes, more than its {} packed bytes can hold; the pack is altered",
+                         entry.name, entry.bytes, entry.stored_bytes);
     }
     return {};
 }
@@ -297,14 +297,15 @@ bool ZipWriter::close() {
 Result<void> ZipWriter::finish_file() {
     if (!close()) {
         const int fault = static_cast<const WrittenFile&>(*file_).fault;
-        return bad_input(fmt::format("cannot be written: {}", std::strerror(fault != 0 ? fault : EIO)));
+        return bad_input("zip.not_written", "cannot be written: {}", std::strerror(fault != 0 ? fault : EIO));
     }
     return {};
 }
 
 Result<Bytes> ZipWriter::finish() {
     if (!close()) {
-        return fail(ErrorKind::Internal, "the ZIP library could not write the pack in memory");
+        return fail(ErrorKind::Internal, "zip.no_memory",
+                    "the ZIP library could not write the pack in memory");
     }
     return std::move(static_cast<GrowingBytes&>(*file_).bytes);
 }
@@ -327,10 +328,10 @@ Result<ZipReader> ZipReader::open(OpenFile file) {
     return open(std::make_unique<FileBytes>(std::move(file)));
 }
 
-tl::unexpected<Error> ZipReader::refusal(std::string message) const {
-    return file_->failed
-               ? fail(ErrorKind::DeviceLost, "it cannot be read; its disk or stick fails, or was pulled out")
-               : bad_input(std::move(message));
+tl::unexpected<Error> ZipReader::refusal(MessageId id, std::string message) const {
+    return file_->failed ? fail(ErrorKind::DeviceLost, "zip.unreadable",
+                                "it cannot be read; its disk or stick fails, or was pulled out")
+                         : bad_input(id, std::move(message));
 }
 
 Result<ZipReader> ZipReader::open(std::unique_ptr<ArchiveBytes> bytes) {
@@ -339,13 +340,14 @@ Result<ZipReader> ZipReader::open(std::unique_ptr<ArchiveBytes> bytes) {
         std::array<std::byte, 4> first{};
         const bool begins_as_zip = reader.file_->size() >= first.size() && reader.file_->read(0, first) &&
                                    ByteReader(first).read<std::uint32_t>() == 0x04034b50;
-        return reader.refusal(begins_as_zip ? "the pack is truncated or altered; copy it again"
-                                            : "this is not a pack (not a ZIP container)");
+        return begins_as_zip
+                   ? reader.refusal("zip.truncated", "the pack is truncated or altered; copy it again")
+                   : reader.refusal("zip.not_a_pack", "this is not a pack (not a ZIP container)");
     }
     zlib_filefunc64_def functions = functions_over(*reader.file_);
     reader.zip_ = unzOpen2_64("", &functions);
     if (reader.zip_ == nullptr) {
-        return reader.refusal("the pack's directory is damaged; copy it again");
+        return reader.refusal("zip.directory", "the pack's directory is damaged; copy it again");
     }
     TRY_VOID(reader.read_directory());
     return reader;
@@ -365,20 +367,20 @@ Result<void> ZipReader::read_directory() {
             break;
         }
         if (info.size_filename > most_name_bytes) {
-            return bad_input(fmt::format("an entry's name has {} bytes, allowed are {}", info.size_filename,
-                                         most_name_bytes));
+            return bad_input("zip.name_length", "an entry's name has {} bytes, allowed are {}",
+                             info.size_filename, most_name_bytes);
         }
         name.resize(info.size_filename);
         ZipEntry entry{printable(name), info.uncompressed_size, info.compressed_size,
                        position.pos_in_zip_directory, position.num_of_file};
         if (!numbers_.emplace(entry.name, entries_.size()).second) {
-            return bad_input(fmt::format("two entries are called {}; the pack is altered", entry.name));
+            return bad_input("zip.entry_twice", "two entries are called {}; the pack is altered", entry.name);
         }
         TRY_VOID(check_entry(entry, info));
         entries_.push_back(std::move(entry));
     }
     if (found != UNZ_END_OF_LIST_OF_FILE || entries_.size() != global.number_entry) {
-        return refusal("the pack's directory is damaged; copy it again");
+        return refusal("zip.entries", "the pack's directory is damaged; copy it again");
     }
     return {};
 }
@@ -389,7 +391,7 @@ const ZipEntry* ZipReader::find(std::string_view name) const {
 }
 
 tl::unexpected<Error> ZipReader::damaged(const ZipEntry& entry) const {
-    return refusal(fmt::format("{} is damaged; copy the pack again", entry.name));
+    return refusal("zip.entry_damaged", fmt::format("{} is damaged; copy the pack again", entry.name));
 }
 
 Result<Bytes> ZipReader::read(const ZipEntry& entry) {

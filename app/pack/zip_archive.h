@@ -84,7 +84,7 @@ public:
 private:
     friend class ZipWriter;
     /// `message`, or that the file cannot be read any more.
-    [[nodiscard]] tl::unexpected<Error> refusal(std::string message) const;
+    [[nodiscard]] tl::unexpected<Error> refusal(MessageId id, std::string message) const;
     [[nodiscard]] tl::unexpected<Error> damaged(const ZipEntry& entry) const;
     explicit ZipReader(std::unique_ptr<ArchiveBytes> bytes);
     static Result<ZipReader> open(std::unique_ptr<ArchiveBytes> bytes);

@@ -83,12 +83,10 @@ Result<BlockSheet> sheet_of(const BlockRelief& relief, int most_texels) {
     sheet.cover_rows = rows_of(relief.covers.size(), sheet.cover_columns);
     if (const int widest = std::max(block_corners * sheet.columns, sheet.cover_columns);
         widest > most_texels) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format(
-                "render: a relief of {} blocks needs textures of {} texels a side; this driver allows "
-                "{}: take a coarser relief, or one that is cast, whose technique has no -gpu",
-                relief.blocks.size(), widest, most_texels));
+        return fail(ErrorKind::BadConfiguration, "render.relief_too_wide",
+                    "render: a relief of {} blocks needs textures of {} texels a side; this driver allows "
+                    "{}: take a coarser relief, or one that is cast, whose technique has no -gpu",
+                    relief.blocks.size(), widest, most_texels);
     }
     return sheet;
 }
@@ -172,7 +170,7 @@ Result<void> BlockUpload::go_on(std::uint64_t most_bytes) {
     }
     if (glGetError() != GL_NO_ERROR) {
         return fail(
-            ErrorKind::BadConfiguration,
+            ErrorKind::BadConfiguration, "render.no_room_for_relief",
             "render: the driver has no memory for the relief; take a coarser one, or one that is cast, whose "
             "technique has no -gpu");
     }

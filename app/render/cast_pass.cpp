@@ -54,7 +54,7 @@ Result<void> CastPass::prepare(std::size_t casts, int width, int height) {
                         memory_.texels.data());
         if (glGetError() != GL_NO_ERROR) {
             return fail(
-                ErrorKind::BadConfiguration,
+                ErrorKind::BadConfiguration, "render.no_room_for_cast",
                 "render: the driver has no memory for a picture that is cast; use a technique of meshes");
         }
         pictures_.push_back(std::move(picture));

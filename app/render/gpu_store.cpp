@@ -107,11 +107,9 @@ Drawable GpuStore::keep(std::shared_ptr<const BlockRelief> relief) {
 Result<TextureId> GpuStore::upload(const Image<std::uint8_t>& coverage) {
     const int limit = most_texels();
     if (coverage.width < 1 || coverage.height < 1 || std::max(coverage.width, coverage.height) > limit) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format(
-                "render: a caption of {} x {} pixels; this driver allows 1 to {}: use smaller letters",
-                coverage.width, coverage.height, limit));
+        return fail(ErrorKind::BadConfiguration, "render.caption_size",
+                    "render: a caption of {} x {} pixels; this driver allows 1 to {}: use smaller letters",
+                    coverage.width, coverage.height, limit);
     }
     return keep(upload_coverage(coverage), 0);
 }
@@ -121,9 +119,8 @@ Result<TextureId> GpuStore::upload_picture(std::span<const Image8> mips) {
     const int height = mips.empty() ? 0 : mips.front().height;
     const int limit = most_texels();
     if (width < 1 || height < 1 || std::max(width, height) > limit) {
-        return fail(ErrorKind::BadConfiguration,
-                    fmt::format("render: a picture of {} x {} texels; this driver allows 1 to {}", width,
-                                height, limit));
+        return fail(ErrorKind::BadConfiguration, "render.picture_size",
+                    "render: a picture of {} x {} texels; this driver allows 1 to {}", width, height, limit);
     }
     return keep(upload_light(mips), 0);
 }

@@ -32,7 +32,7 @@ Result<HitPointRenderer> HitPointRenderer::create(const Renderer& shown) {
                               renderer.depth_stencil_.get());
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
         return fail(
-            ErrorKind::BadConfiguration,
+            ErrorKind::BadConfiguration, "render.no_float_pictures",
             "render: this driver cannot draw into float pictures (EXT_color_buffer_float); leave out --aov");
     }
     return renderer;

@@ -33,7 +33,7 @@ Result<void> LevelUpload::go_on(std::uint64_t most_bytes) {
     }
     done_ = vertices_there_ == data_.vertices.size() && mip_ == data_.mips.size();
     if (glGetError() != GL_NO_ERROR) {
-        return fail(ErrorKind::BadConfiguration,
+        return fail(ErrorKind::BadConfiguration, "render.no_room_for_artifact",
                     "render: the driver has no memory for the artifact; bake a smaller one");
     }
     return {};
@@ -46,11 +46,9 @@ Result<void> LevelUpload::begin() {
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     const int scale = 1 << data_.finest_mip;
     if (std::max(finest.width, finest.height) > limit) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format(
-                "render: a texture of {} x {} texels; this driver allows {}: bake with a smaller --size",
-                finest.width * scale, finest.height * scale, limit));
+        return fail(ErrorKind::BadConfiguration, "render.texture_size",
+                    "render: a texture of {} x {} texels; this driver allows {}: bake with a smaller --size",
+                    finest.width * scale, finest.height * scale, limit);
     }
     vertex_array_ = GlVertexArray::generate();
     vertices_ = GlBuffer::generate();

@@ -39,9 +39,8 @@ void clear(GLbitfield what) {
 Result<Renderer> Renderer::create(int width, int height, const RenderNeeds& needs) {
     for (const std::string_view extension : {"GL_EXT_texture_sRGB_decode", "GL_EXT_sRGB_write_control"}) {
         if (!driver_has(extension)) {
-            return fail(
-                ErrorKind::BadConfiguration,
-                fmt::format("render: this OpenGL ES driver lacks {}; Mesa's drivers have it", extension));
+            return fail(ErrorKind::BadConfiguration, "render.no_extension",
+                        "render: this OpenGL ES driver lacks {}; Mesa's drivers have it", extension);
         }
     }
     Renderer renderer(width, height);

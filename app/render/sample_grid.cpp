@@ -28,8 +28,8 @@ glm::ivec2 SampleGrid::of(int samples) {
 Result<SampleGrid> SampleGrid::create(const PixelSize& picture, const PixelSize& part, int most_samples) {
     const glm::ivec2 grid = of(most_samples);
     if (grid.x == 0) {
-        return fail(ErrorKind::BadConfiguration,
-                    fmt::format("render: {} samples a pixel; allowed are 1, 2, 4, 8 and 16", most_samples));
+        return fail(ErrorKind::BadConfiguration, "render.samples",
+                    "render: {} samples a pixel; allowed are 1, 2, 4, 8 and 16", most_samples);
     }
     SampleGrid made;
     made.picture_ = {picture.width, picture.height};
@@ -44,10 +44,10 @@ Result<void> SampleGrid::make_target() {
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     glGetIntegerv(GL_MAX_VIEWPORT_DIMS, &largest_viewport_.x);
     if (std::max(room_.x, room_.y) > most) {
-        return fail(ErrorKind::BadConfiguration,
-                    fmt::format("render: {} x {} samples; this driver draws up to {} on each side: "
-                                "use fewer samples",
-                                room_.x, room_.y, most));
+        return fail(ErrorKind::BadConfiguration, "render.samples_too_wide",
+                    "render: {} x {} samples; this driver draws up to {} on each side: "
+                    "use fewer samples",
+                    room_.x, room_.y, most);
     }
     framebuffer_ = GlFramebuffer::generate();
     colour_ = GlTexture::generate();
@@ -65,9 +65,8 @@ Result<void> SampleGrid::make_target() {
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
                               depth_stencil_.get());
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE || glGetError() != GL_NO_ERROR) {
-        return fail(ErrorKind::BadConfiguration,
-                    fmt::format("render: the driver cannot hold {} x {} samples; use 1 sample a pixel",
-                                room_.x, room_.y));
+        return fail(ErrorKind::BadConfiguration, "render.no_room_for_samples",
+                    "render: the driver cannot hold {} x {} samples; use 1 sample a pixel", room_.x, room_.y);
     }
     // Averaging reads some samples beside the tiles that a frame clears: none that was never written.
     glDisable(GL_SCISSOR_TEST);

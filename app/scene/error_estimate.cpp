@@ -88,8 +88,9 @@ Result<SeenByEyes> seen_by_eyes(const PackOutline& pack) {
     TRY(const std::vector<ReliefOutline> reliefs, reliefs_of(pack.description));
     TRY(const SeenErrors seen, seen_errors_of(pack.description, pack.levels.size()));
     if (!seen.reliefs.empty() && seen.reliefs.size() != reliefs.size()) {
-        return bad_input(fmt::format("sections.seen_reliefs.data has {} reliefs; allowed are the pack's {}",
-                                     seen.reliefs.size(), reliefs.size()));
+        return bad_input("scene.seen_reliefs",
+                         "sections.seen_reliefs.data has {} reliefs; allowed are the pack's {}",
+                         seen.reliefs.size(), reliefs.size());
     }
     SeenByEyes surfaces;
     for (std::size_t k = 0; k < pack.levels.size(); ++k) {

@@ -22,7 +22,8 @@ template <typename Fields> void require_all(Fields& fields) {
     if constexpr (Fields::reads) {
         const std::vector<std::string> known(fields.known().begin(), fields.known().end());
         for (const std::string& key : known) {
-            fields.require(fields.has(key), key, "is left out; calibrate again, or undo this calibration");
+            fields.require("calibration_file.left_out", fields.has(key), key,
+                           "is left out; calibrate again, or undo this calibration");
         }
     }
 }
@@ -122,7 +123,7 @@ Result<Calibration> parse_calibration(std::string_view text, const std::filesyst
         keys.finish();
     });
     if (state.error) {
-        return bad_input(*std::move(state.error));
+        return tl::unexpected<Error>(*std::move(state.error));
     }
     return calibration;
 }

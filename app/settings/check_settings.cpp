@@ -34,29 +34,32 @@ class Fitness {
 public:
     Fitness(const std::string& file, const KeyLines& lines) : file_(file), lines_(lines) {}
 
-    void require(bool well, std::string_view key, const std::string& what) {
+    void require(MessageId id, bool well, std::string_view key, const std::string& what) {
         if (well || error_) {
             return;
         }
         const auto line = lines_.find(key);
-        error_ = located(file_, line != lines_.end() ? line->second : 0, fmt::format("{} {}", key, what));
+        error_ =
+            Error{ErrorKind::BadConfiguration, id,
+                  located(file_, line != lines_.end() ? line->second : 0, fmt::format("{} {}", key, what))};
     }
     [[nodiscard]] bool names(std::string_view key) const { return lines_.find(key) != lines_.end(); }
-    [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
+    [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
 private:
     const std::string& file_;
     const KeyLines& lines_;
-    std::optional<std::string> error_;
+    std::optional<Error> error_;
 };
 
 void check_prop(const Settings& settings, Fitness& fitness) {
     const PropSettings& prop = settings.prop;
-    fitness.require(prop.kind != PropKind::Frustum || prop.top_m < prop.base_m, "prop.top_m",
+    fitness.require("settings.prop_top", prop.kind != PropKind::Frustum || prop.top_m < prop.base_m,
+                    "prop.top_m",
                     fmt::format("is {}; a frustum's top must be smaller than prop.base_m, {} metres",
                                 prop.top_m, prop.base_m));
     const double shorter = std::fmin(settings.table.width_m, settings.table.depth_m);
-    fitness.require(prop.base_m <= shorter, "prop.base_m",
+    fitness.require("settings.prop_base", prop.base_m <= shorter, "prop.base_m",
                     fmt::format("is {}; the prop must stand on the table, allowed are at most {} metres",
                                 prop.base_m, shorter));
 }
@@ -93,9 +96,10 @@ void check_picture(const Settings& settings, Fitness& fitness) {
         "{:.2f} m; move or aim the projector, or take out a lens shift",
         place.value_or("no bounded place"), -0.5 * table.width_m, 0.5 * table.width_m, -0.5 * table.depth_m,
         0.5 * table.depth_m);
-    fitness.require(!picture_on_table(settings, 0.0).empty(), position_key(fitness),
-                    "throws its picture beside the table: " + there);
-    fitness.require(!picture_on_table(settings, 0.0, 0.5 * settings.prop.base_m).empty(),
+    fitness.require("settings.picture_beside_table", !picture_on_table(settings, 0.0).empty(),
+                    position_key(fitness), "throws its picture beside the table: " + there);
+    fitness.require("settings.prop_outside_picture",
+                    !picture_on_table(settings, 0.0, 0.5 * settings.prop.base_m).empty(),
                     position_key(fitness),
                     fmt::format("throws its picture so that the prop, {} m wide, nowhere stands in it: {}",
                                 settings.prop.base_m, there));
@@ -108,7 +112,7 @@ void check_lens(const Pinhole& pinhole, std::string_view key, Fitness& fitness) 
     const double fold = pinhole.lens.fold_r2();
     const bool folds = !pinhole.lens.undistort({std::sqrt(margin * corner), 0.0}).has_value();
     fitness.require(
-        !folds, key,
+        "settings.lens_folds", !folds, key,
         fmt::format("and k2 fold the picture at {:.2f} focal lengths from its optical axis, and its corners "
                     "lie at {:.2f}; allowed are values that fold it nowhere",
                     std::sqrt(fold), std::sqrt(corner)));
@@ -120,12 +124,12 @@ void check_projector(const Settings& settings, Fitness& fitness) {
     const std::string_view position = position_key(fitness);
     const double least_height = settings.prop.height_m + least_clearance_m;
     fitness.require(
-        pose.translation.z >= least_height, position,
+        "settings.projector_too_low", pose.translation.z >= least_height, position,
         fmt::format("is {} metres above the table; allowed are at least {}, the prop's height and {}",
                     pose.translation.z, least_height, least_clearance_m));
     const double downward = -pose.direction({0, 0, 1}).z;
     fitness.require(
-        downward >= least_downward, position,
+        "settings.projector_looks_up", downward >= least_downward, position,
         fmt::format("looks {:.1f} degrees below the horizon; allowed are 30 to 90, down at the table",
                     glm::degrees(std::asin(std::clamp(downward, -1.0, 1.0)))));
     check_picture(settings, fitness);
@@ -133,11 +137,12 @@ void check_projector(const Settings& settings, Fitness& fitness) {
 
 void check_eye(const Settings& settings, Fitness& fitness) {
     const glm::dvec3& eye = settings.eye.default_m;
-    fitness.require(eye.z > 0.0, "eye.default_m",
+    fitness.require("settings.eye_below_table", eye.z > 0.0, "eye.default_m",
                     fmt::format("is {} metres above the table; allowed are heights above 0", eye.z));
-    fitness.require(!inside(make_prop(settings.prop), eye), "eye.default_m",
+    fitness.require("settings.eye_inside_prop", !inside(make_prop(settings.prop), eye), "eye.default_m",
                     "lies inside the prop; move it to where a visitor's eyes are");
-    fitness.require(settings.eye.nearest_m < settings.eye.farthest_m, "eye.nearest_m",
+    fitness.require("settings.eye_distances", settings.eye.nearest_m < settings.eye.farthest_m,
+                    "eye.nearest_m",
                     fmt::format("is {}; allowed are distances below eye.farthest_m, {} metres",
                                 settings.eye.nearest_m, settings.eye.farthest_m));
 }
@@ -166,7 +171,7 @@ std::string_view used_twice(const std::vector<std::string>& lines,
 /// would be two buttons.
 void check_each_is_used_once(const PanelSettings& panel, Fitness& fitness) {
     const auto require_once = [&](std::string_view again, std::string_view key, std::string_view remedy) {
-        fitness.require(again.empty(), key,
+        fitness.require("settings.named_twice", again.empty(), key,
                         fmt::format("names \"{}\" again; {}", printable(again, 40), remedy));
     };
     require_once(used_twice(panel.lines), "panel.lines", "give each button a line of its own");
@@ -176,31 +181,38 @@ void check_each_is_used_once(const PanelSettings& panel, Fitness& fitness) {
 }
 
 void check_devices(const Settings& settings, Fitness& fitness) {
-    fitness.require(!settings.display.force || settings.display.mode.width > 0, "display.force",
+    fitness.require("settings.force_without_mode", !settings.display.force || settings.display.mode.width > 0,
+                    "display.force",
                     "is true; it needs display.mode, the mode to force, such as \"1280x800@60\"");
-    fitness.require(settings.tracker.kind != TrackerKind::Replay || !settings.tracker.poses.empty(),
+    fitness.require("settings.replay_without_poses",
+                    settings.tracker.kind != TrackerKind::Replay || !settings.tracker.poses.empty(),
                     "tracker.kind",
                     "is \"replay\"; it needs tracker.poses, the pose file or recording to replay");
     fitness.require(
+        "settings.gpio_without_lines",
         settings.panel.kind != PanelKind::Gpio || !settings.panel.lines.empty(), "panel.kind",
         "is \"gpio\"; it needs panel.lines, the names or offsets of the buttons' lines: previous, "
         "next, language");
-    fitness.require(settings.panel.kind != PanelKind::Keys ||
+    fitness.require("settings.keys_without_device",
+                    settings.panel.kind != PanelKind::Keys ||
                         (!settings.panel.device.empty() && !settings.panel.keys.empty()),
                     "panel.kind",
                     "is \"keys\"; it needs panel.device, a path or name of a keyboard in /dev/input, and "
                     "panel.keys, such as [\"KEY_LEFT\", \"KEY_RIGHT\", \"KEY_L\"]: previous, next, language");
-    fitness.require(settings.panel.lamps.size() <= settings.panel.lines.size(), "panel.lamps",
+    fitness.require("settings.lamps", settings.panel.lamps.size() <= settings.panel.lines.size(),
+                    "panel.lamps",
                     fmt::format("names {} lamps; allowed is one for each of the {} lines of panel.lines",
                                 settings.panel.lamps.size(), settings.panel.lines.size()));
     check_each_is_used_once(settings.panel, fitness);
     const auto& script = settings.panel.script;
     fitness.require(
+        "settings.script_order",
         std::is_sorted(script.begin(), script.end(),
                        [](const ScriptedPress& a, const ScriptedPress& b) { return a.at_s < b.at_s; }),
         "panel.script", "goes back in time; sort it by at_s");
     const double last_s = script.empty() ? 0.0 : script.back().at_s;
     fitness.require(
+        "settings.script_repeat",
         script.empty() || settings.panel.repeat_s == 0.0 ||
             (settings.panel.repeat_s > last_s && settings.panel.repeat_s >= least_repeat_s),
         "panel.repeat_s",
@@ -212,9 +224,9 @@ void check_devices(const Settings& settings, Fitness& fitness) {
 /// What asks where things are that a camera sees needs its lens.
 void check_camera_lens(const CameraSettings& camera, std::string_view use, std::string_view sees,
                        Fitness& fitness) {
-    fitness.require(camera.kind == CameraKind::V4l2, use,
+    fitness.require("settings.camera_needed", camera.kind == CameraKind::V4l2, use,
                     fmt::format("is true; it needs camera.kind = \"v4l2\", the camera that sees {}", sees));
-    fitness.require(camera.pinhole.fx > 0.0 && camera.pinhole.fy > 0.0, use,
+    fitness.require("settings.camera_focal_length", camera.pinhole.fx > 0.0 && camera.pinhole.fy > 0.0, use,
                     "is true; it needs camera.fx, the measured focal length in pixels");
     if (camera.pinhole.fx > 0.0 && camera.pinhole.fy > 0.0) {
         check_lens(camera.pinhole, "camera.k1", fitness);
@@ -228,14 +240,15 @@ void check_tags(const CameraSettings& camera, Fitness& fitness) {
     }
     check_camera_lens(camera, "camera.tags", "the tags", fitness);
     const RigidTransform& pose = camera.table_from_camera;
-    fitness.require(pose.translation.z > 0.0 && pose.direction({0, 0, 1}).z < 0.0, "camera.tags",
+    fitness.require("settings.camera_pose", pose.translation.z > 0.0 && pose.direction({0, 0, 1}).z < 0.0,
+                    "camera.tags",
                     "is true; it needs camera.table_from_camera, 16 numbers that place the camera above the "
                     "table and let it look down");
-    fitness.require(!camera.tag.empty(), "camera.tags",
+    fitness.require("settings.no_tags", !camera.tag.empty(), "camera.tags",
                     "is true; it needs [[camera.tag]], one table for each tag on the prop");
     std::set<int> ids;
     for (const TagSettings& tag : camera.tag) {
-        fitness.require(ids.insert(tag.id).second, "camera.tag",
+        fitness.require("settings.tag_twice", ids.insert(tag.id).second, "camera.tag",
                         fmt::format("has the id {} twice; give each tag an id of its own", tag.id));
     }
 }
@@ -250,10 +263,11 @@ void check_visitor(const Settings& settings, Fitness& fitness) {
     const RigidTransform& pose = camera.table_from_camera;
     constexpr double upright = -0.64; // of its picture's down, along the table's up: 50 degrees
     fitness.require(
-        pose.translation.z > 0.0 && pose.direction({0, 1, 0}).z < upright, "camera.visitor",
+        "settings.camera_not_upright", pose.translation.z > 0.0 && pose.direction({0, 1, 0}).z < upright,
+        "camera.visitor",
         "is true; it needs camera.table_from_camera, 16 numbers that place the camera above the table, "
         "upright, and let it look no more than 50 degrees up or down");
-    fitness.require(settings.eye.tracked, "camera.visitor",
+    fitness.require("settings.eye_not_tracked", settings.eye.tracked, "camera.visitor",
                     "is true; eye.tracked is false, a fixed viewer; choose one of the two");
 }
 
@@ -261,21 +275,23 @@ void check_camera(const Settings& settings, Fitness& fitness) {
     const CameraSettings& camera = settings.camera;
     const double frame_ms = 1000.0 / camera.rate_hz;
     fitness.require(
-        camera.exposure_ms <= frame_ms, "camera.exposure_ms",
+        "settings.exposure", camera.exposure_ms <= frame_ms, "camera.exposure_ms",
         fmt::format("is {}; a frame at camera.rate_hz, {} hertz, takes {:.1f} milliseconds, allowed are 0 "
                     "and times up to that",
                     camera.exposure_ms, camera.rate_hz, frame_ms));
     fitness.require(
-        camera.rolling_shutter_ms <= frame_ms, "camera.rolling_shutter_ms",
+        "settings.rolling_shutter", camera.rolling_shutter_ms <= frame_ms, "camera.rolling_shutter_ms",
         fmt::format("is {}; a frame at camera.rate_hz, {} hertz, takes {:.1f} milliseconds, allowed are 0 "
                     "and times up to that",
                     camera.rolling_shutter_ms, camera.rate_hz, frame_ms));
     constexpr int least_kelvin = 2000; // a candle's light
-    fitness.require(camera.white_balance_k == 0 || camera.white_balance_k >= least_kelvin,
+    fitness.require("settings.white_balance",
+                    camera.white_balance_k == 0 || camera.white_balance_k >= least_kelvin,
                     "camera.white_balance_k",
                     fmt::format("is {}; allowed are 0 (the camera's own) and {} to 10000 kelvin",
                                 camera.white_balance_k, least_kelvin));
-    fitness.require(!camera.drift || camera.kind == CameraKind::V4l2, "camera.drift",
+    fitness.require("settings.drift_without_camera", !camera.drift || camera.kind == CameraKind::V4l2,
+                    "camera.drift",
                     "is true; it needs camera.kind = \"v4l2\", a camera that sees the whole picture");
     check_tags(camera, fitness);
     check_visitor(settings, fitness);
@@ -286,14 +302,15 @@ void check_keys(const Settings& settings, Fitness& fitness) {
     std::set<std::string_view> names;
     for (const TrustedKey& key : settings.exhibit.keys) {
         fitness.require(
-            names.insert(key.name).second, "exhibit.keys",
+            "settings.key_twice", names.insert(key.name).second, "exhibit.keys",
             fmt::format("has two keys called \"{}\"; give each a name of its own", printable(key.name, 40)));
     }
 }
 
 void check_sound(const Settings& settings, Fitness& fitness) {
     const auto& hours = settings.sound.hours;
-    fitness.require(std::adjacent_find(hours.begin(), hours.end(),
+    fitness.require("settings.sound_hours",
+                    std::adjacent_find(hours.begin(), hours.end(),
                                        [](const SoundHour& a, const SoundHour& b) {
                                            return a.from_h >= b.from_h;
                                        }) == hours.end(),
@@ -307,7 +324,8 @@ void check_hours(const Settings& settings, Fitness& fitness) {
         const auto open = [&each](const HoursException& other) {
             return other.day == each.day && other.open;
         };
-        fitness.require(each.open || std::none_of(exceptions.begin(), exceptions.end(), open),
+        fitness.require("settings.exception_twice",
+                        each.open || std::none_of(exceptions.begin(), exceptions.end(), open),
                         "hours.exceptions",
                         fmt::format("has \"{}\" and times of that day; take one of the two out",
                                     text_of_exception(each)));
@@ -316,7 +334,7 @@ void check_hours(const Settings& settings, Fitness& fitness) {
 
 } // namespace
 
-std::optional<std::string> unfit(const Settings& settings, const std::string& file, const KeyLines& lines) {
+std::optional<Error> unfit(const Settings& settings, const std::string& file, const KeyLines& lines) {
     Fitness fitness(file, lines);
     check_prop(settings, fitness);
     check_projector(settings, fitness);

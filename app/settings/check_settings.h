@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-[[nodiscard]] std::optional<std::string> unfit(const Settings& settings, const std::string& file,
-                                               const KeyLines& lines);
+[[nodiscard]] std::optional<Error> unfit(const Settings& settings, const std::string& file,
+                                         const KeyLines& lines);
 
 } // namespace frustumscreen

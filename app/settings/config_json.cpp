@@ -93,7 +93,7 @@ public:
             json_[key].push_back(std::move(item.json_));
         }
     }
-    void require(bool, const char*, std::string_view) {}
+    void require(MessageId, bool, const char*, std::string_view) {}
 
     [[nodiscard]] const Json& json() const { return json_; }
 

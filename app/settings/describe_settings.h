@@ -111,7 +111,7 @@ template <typename Fields> void projector_pose_settings(Fields& fields, auto& po
             const auto looking = looking_at(position, aim, roll_deg);
             pose = looking.value_or(pose);
             fields.require(
-                looking.has_value(), "aim_m",
+                "settings.aim", looking.has_value(), "aim_m",
                 "gives no direction that looks down from position_m; allowed is a point on the table");
         }
     }
@@ -213,7 +213,7 @@ template <typename Fields> void tracker_settings(Fields& fields, auto& tracker) 
     fields.number("replay_speed", tracker.replay_speed, {0.01, 100.0, "times as fast as recorded"}, "replay");
     fields.vector("hemisphere", tracker.hemisphere, {-1.0, 1.0, ""},
                   "usb: from the tracker's source to the half space in which the prop moves, in its axes");
-    fields.require(glm::length(tracker.hemisphere) >= shortest_direction, "hemisphere",
+    fields.require("settings.hemisphere", glm::length(tracker.hemisphere) >= shortest_direction, "hemisphere",
                    "gives no direction; allowed are three numbers of which one is not 0");
     registration_settings(fields, tracker.registration);
     fields.number("display_latency_ms", tracker.display_latency_ms, {0.0, 200.0, "milliseconds"},
@@ -353,7 +353,8 @@ template <typename Fields> void key_settings(Fields& fields, auto& key) {
             return std::make_optional<std::optional<std::chrono::sys_days>>(day); // left out, it does not end
         },
         allowed_last_days, "its last day, by the kiosk's clock; left out: it does not end");
-    fields.require(!key.name.empty(), "name", "is left out; allowed is a text that names whose key it is");
+    fields.require("settings.key_name", !key.name.empty(), "name",
+                   "is left out; allowed is a text that names whose key it is");
 }
 
 template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) {

@@ -33,8 +33,8 @@ std::optional<int> number_of(std::string_view name, std::string_view ending) {
 }
 
 tl::unexpected<Error> failed(std::string_view name, const FileFault& fault, std::string_view what) {
-    return fail(ErrorKind::BadInput, fmt::format("the folder of calibrations, {}: {}: {}", name, what,
-                                                 std::strerror(fault.number)));
+    return fail(ErrorKind::BadInput, "kept.folder", "the folder of calibrations, {}: {}: {}", name, what,
+                std::strerror(fault.number));
 }
 
 /// Those with an ending, the newest first.
@@ -97,7 +97,7 @@ Result<KeptCalibration> keep_calibration(WritableTree& folder, const Calibration
 Result<KeptCalibration> undo_calibration(WritableTree& folder) {
     TRY(const std::vector<KeptCalibration> kept, list_calibrations(folder));
     if (kept.empty()) {
-        return fail(ErrorKind::BadInput,
+        return fail(ErrorKind::BadInput, "kept.nothing_to_undo",
                     "there is no calibration to undo; the set-up is as the settings describe it");
     }
     const KeptCalibration& newest = kept.front();

@@ -34,8 +34,11 @@ void read(ReadState& state, std::string_view text, Settings& settings) {
 
 /// Why these settings cannot be used; nothing if all is well.
 std::optional<Error> refusal(const ReadState& state, const Settings& settings) {
-    std::optional<std::string> why = state.error ? state.error : unfit(settings, state.file, state.lines);
-    return why ? std::optional(Error{ErrorKind::BadConfiguration, *std::move(why)}) : std::nullopt;
+    std::optional<Error> why = state.error ? state.error : unfit(settings, state.file, state.lines);
+    if (why) {
+        why->kind = ErrorKind::BadConfiguration;
+    }
+    return why;
 }
 
 /// The settings with this calibration, or why it cannot be used.
@@ -45,8 +48,8 @@ Result<Settings> calibrated(Settings settings, const Result<Calibration>& calibr
     settings.projector.pinhole = calibration->pinhole;
     settings.projector.table_from_projector = calibration->table_from_projector;
     settings.tracker.registration = calibration->registration;
-    if (const std::optional<std::string> why = unfit(settings, state.file, state.lines)) {
-        return bad_input(*why);
+    if (std::optional<Error> why = unfit(settings, state.file, state.lines)) {
+        return as_kind(ErrorKind::BadInput, *std::move(why));
     }
     settings.calibration.used = *calibration;
     return settings;
@@ -125,7 +128,7 @@ Result<CheckedSettings> parse_settings(std::string_view text, const std::filesys
 Result<CheckedSettings> load_settings(const std::filesystem::path& file) {
     const Result<Bytes> bytes = read_file(file, largest_file_bytes);
     if (!bytes) {
-        return fail(ErrorKind::BadConfiguration, bytes.error().message);
+        return as_kind(ErrorKind::BadConfiguration, bytes.error());
     }
     return kiosk_settings(as_text(*bytes), file);
 }

@@ -105,7 +105,7 @@ public:
                              name, sentence);
         describe(*this);
     }
-    void require(bool /*well*/, const char* /*key*/, std::string_view /*what*/) {}
+    void require(MessageId /*id*/, bool /*well*/, const char* /*key*/, std::string_view /*what*/) {}
 
     [[nodiscard]] const std::string& text() const { return text_; }
 

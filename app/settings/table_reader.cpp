@@ -48,9 +48,9 @@ std::uint32_t line_of(const toml::node& node) {
 
 } // namespace
 
-void ReadState::refuse(std::uint32_t line, std::string_view what) {
+void ReadState::refuse(MessageId id, std::uint32_t line, std::string_view what) {
     if (!error) {
-        error = located(file, line, what);
+        error = Error{ErrorKind::BadInput, id, located(file, line, what)};
     }
 }
 
@@ -83,9 +83,9 @@ std::uint32_t TableReader::line_of_key(std::string_view name) const {
     return line != state_->lines.end() ? line->second : line_;
 }
 
-void TableReader::refuse(std::string_view key, std::string_view what) {
+void TableReader::refuse(MessageId id, std::string_view key, std::string_view what) {
     const std::string name = full_name(key);
-    state_->refuse(line_of_key(name), name + " " + std::string(what));
+    state_->refuse(id, line_of_key(name), name + " " + std::string(what));
 }
 
 std::string TableReader::place(std::string_view key) const {
@@ -102,7 +102,7 @@ bool TableReader::number_of(const toml::node& node, const std::string& name, dou
         read = number->get();
     }
     if (!(read >= range.low && read <= range.high)) {
-        state_->refuse(line_of(node),
+        state_->refuse("settings.number", line_of(node),
                        fmt::format("{} is {}; allowed are {}", name, found(node), words_of(range)));
         return false;
     }
@@ -114,8 +114,9 @@ bool TableReader::text_of(const toml::node& node, const std::string& name, std::
     const auto* text = node.as_string();
     if (text == nullptr || text->get().empty() || text->get().size() > longest_text ||
         text->get().find('\0') != std::string::npos) {
-        state_->refuse(line_of(node), fmt::format("{} is {}; allowed is a text in quotes of 1 to {} bytes",
-                                                  name, found(node), longest_text));
+        state_->refuse("settings.long_text", line_of(node),
+                       fmt::format("{} is {}; allowed is a text in quotes of 1 to {} bytes", name,
+                                   found(node), longest_text));
         return false;
     }
     value = text->get();
@@ -130,7 +131,8 @@ const toml::array* TableReader::list_of(std::string_view key, std::size_t least,
     }
     const toml::array* array = node->as_array();
     if (array == nullptr || array->size() < least || array->size() > most) {
-        refuse(key, fmt::format("is {}; allowed is a list of {}", found(*node), allowed_items));
+        refuse("settings.list", key,
+               fmt::format("is {}; allowed is a list of {}", found(*node), allowed_items));
         return nullptr;
     }
     return array;
@@ -151,7 +153,7 @@ void TableReader::flag(std::string_view key, bool& value, std::string_view /*sen
     if (const auto* flag = node->as_boolean()) {
         value = flag->get();
     } else {
-        refuse(key, fmt::format("is {}; allowed are true and false", found(*node)));
+        refuse("settings.flag", key, fmt::format("is {}; allowed are true and false", found(*node)));
     }
 }
 
@@ -163,7 +165,8 @@ void TableReader::integer(std::string_view key, int& value, int low, int high,
     }
     const auto* integer = node->as_integer();
     if (integer == nullptr || integer->get() < low || integer->get() > high) {
-        refuse(key, fmt::format("is {}; allowed are the whole numbers {} to {}", found(*node), low, high));
+        refuse("settings.whole", key,
+               fmt::format("is {}; allowed are the whole numbers {} to {}", found(*node), low, high));
         return;
     }
     value = static_cast<int>(integer->get());
@@ -176,8 +179,9 @@ void TableReader::integer(std::string_view key, std::uint64_t& value, std::strin
     }
     const auto* integer = node->as_integer();
     if (integer == nullptr || integer->get() < 0) {
-        refuse(key, fmt::format("is {}; allowed are the whole numbers from 0 to {}", found(*node),
-                                std::numeric_limits<std::int64_t>::max()));
+        refuse("settings.whole_number", key,
+               fmt::format("is {}; allowed are the whole numbers from 0 to {}", found(*node),
+                           std::numeric_limits<std::int64_t>::max()));
         return;
     }
     value = static_cast<std::uint64_t>(integer->get());
@@ -197,7 +201,7 @@ void TableReader::any_text(std::string_view key, std::string& value) {
     if (const auto* text = node->as_string()) {
         value = text->get();
     } else {
-        refuse(key, fmt::format("is {}; allowed is a text in quotes", found(*node)));
+        refuse("settings.text", key, fmt::format("is {}; allowed is a text in quotes", found(*node)));
     }
 }
 
@@ -209,14 +213,14 @@ void TableReader::named_texts(std::string_view key, std::vector<std::pair<std::s
     }
     const toml::table* table = node->as_table();
     if (table == nullptr || table->size() > most) {
-        refuse(key,
+        refuse("settings.texts", key,
                fmt::format("is {}; allowed is a table {{ ... }} of at most {} texts", found(*node), most));
         return;
     }
     for (const auto& [name, item] : *table) {
         const auto* text = item.as_string();
         if (text == nullptr) {
-            state_->refuse(line_of(item),
+            state_->refuse("settings.text_of_table", line_of(item),
                            fmt::format("{}.{} is {}; allowed is a text in quotes", full_name(key),
                                        printable(name.str(), 60), found(item)));
             return;
@@ -263,11 +267,11 @@ void TableReader::rigid(std::string_view key, RigidTransform& value, const Range
     if (const auto rigid = rigid_from_matrix(matrix)) {
         value = *rigid;
     } else if (rigid_from_matrix(glm::transpose(matrix))) {
-        refuse(key,
+        refuse("settings.row_by_row", key,
                "is written row by row; allowed is column by column: numbers 13 to 15 are the translation in "
                "metres");
     } else {
-        refuse(key,
+        refuse("settings.no_rigid_transform", key,
                "scales, shears, mirrors or has a last row other than 0 0 0 1; allowed is a rotation and a "
                "translation in metres, column by column");
     }
@@ -294,12 +298,13 @@ void TableReader::one_way(std::string_view key, std::initializer_list<std::strin
                           std::string_view words) {
     const bool beside =
         std::any_of(others.begin(), others.end(), [&](std::string_view other) { return has(other); });
-    require(!(has(key) && beside), key,
+    require("settings.two_ways", !(has(key) && beside), key,
             fmt::format("stands beside {}; allowed is one of the two ways", words));
 }
 
 void TableReader::refuse_text(std::string_view key, std::string_view found, std::string_view allowed) {
-    refuse(key, fmt::format("is the text \"{}\"; allowed are {}", printable(found, 40), allowed));
+    refuse("settings.meaning", key,
+           fmt::format("is the text \"{}\"; allowed are {}", printable(found, 40), allowed));
 }
 
 void TableReader::read_matrix(std::string_view key, glm::dmat4& value, const Range& range) {
@@ -326,7 +331,8 @@ std::size_t TableReader::word_of(std::string_view key, std::size_t usual,
     const auto* text = node->as_string();
     const auto word = text != nullptr ? std::find(words.begin(), words.end(), text->get()) : words.end();
     if (word == words.end()) {
-        refuse(key, fmt::format("is {}; allowed are \"{}\"", found(*node), fmt::join(words, "\", \"")));
+        refuse("settings.choice", key,
+               fmt::format("is {}; allowed are \"{}\"", found(*node), fmt::join(words, "\", \"")));
         return usual;
     }
     return static_cast<std::size_t>(word - words.begin());
@@ -336,7 +342,8 @@ TableReader TableReader::table_of(std::string_view key) {
     const toml::node* node = take(key);
     const toml::table* table = node != nullptr ? node->as_table() : nullptr;
     if (node != nullptr && table == nullptr) {
-        refuse(key, fmt::format("is {}; allowed is a table, [{}]", found(*node), full_name(key)));
+        refuse("settings.table", key,
+               fmt::format("is {}; allowed is a table, [{}]", found(*node), full_name(key)));
     }
     return {*state_, table, full_name(key), node != nullptr ? line_of(*node) : 0};
 }
@@ -348,7 +355,7 @@ std::vector<TableReader> TableReader::tables_of(std::string_view key, std::size_
         const toml::node& node = *array->get(i);
         const std::string name = fmt::format("{}[{}]", full_name(key), i);
         if (!node.is_table()) {
-            state_->refuse(line_of(node),
+            state_->refuse("settings.table_of_list", line_of(node),
                            fmt::format("{} is {}; allowed is a table {{ ... }}", name, found(node)));
         }
         readers.emplace_back(*state_, node.as_table(), name, line_of(node));
@@ -378,7 +385,7 @@ void TableReader::finish() {
     const std::string advice = nearest != known_.end()
                                    ? fmt::format("; the nearest allowed key is {}", full_name(*nearest))
                                    : std::string();
-    state_->refuse(static_cast<std::uint32_t>(left_over->source().begin.line),
+    state_->refuse("settings.unknown_key", static_cast<std::uint32_t>(left_over->source().begin.line),
                    fmt::format("{} is not a known key{}", full_name(key), advice));
 }
 

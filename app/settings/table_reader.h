@@ -9,6 +9,7 @@
 
 #include "app/geometry/transform.h"
 #include "app/settings/range.h"
+#include "firmware_host/base/result.h"
 
 #include <glm/glm.hpp>
 #include <toml++/toml.h>
@@ -33,9 +34,9 @@ struct ReadState {
     std::string file;
     std::filesystem::path folder; ///< that paths are relative to
     KeyLines lines;
-    std::optional<std::string> error;
+    std::optional<Error> error;
 
-    void refuse(std::uint32_t line, std::string_view what);
+    void refuse(MessageId id, std::uint32_t line, std::string_view what);
 };
 
 /// `file:line: what`, without a line where there is none.
@@ -125,9 +126,9 @@ public:
         }
     }
     /// Refuses `key` with `what` ("is ...; allowed ...") unless all is well.
-    void require(bool well, std::string_view key, std::string_view what) {
+    void require(MessageId id, bool well, std::string_view key, std::string_view what) {
         if (!well) {
-            refuse(key, what);
+            refuse(id, key, what);
         }
     }
     /// Refuses `key` if one of `others` stands beside it.
@@ -137,7 +138,7 @@ public:
     void finish();
 
     /// Refuses `key` with `what` ("is ...; allowed ..."), at its line.
-    void refuse(std::string_view key, std::string_view what);
+    void refuse(MessageId id, std::string_view key, std::string_view what);
     /// `file:line: name` of a key that was read, for messages about what it names.
     [[nodiscard]] std::string place(std::string_view key) const;
     /// The keys that were asked for so far.

@@ -59,26 +59,29 @@ std::size_t dots_outside_texts(std::string_view text) {
 void read_toml(ReadState& state, std::string_view text, std::uintmax_t most_bytes,
                const std::function<void(const toml::table&)>& read) {
     if (text.size() > most_bytes) {
-        state.refuse(0, fmt::format("is {} bytes; allowed are at most {}", text.size(), most_bytes));
+        state.refuse("toml.too_long", 0,
+                     fmt::format("is {} bytes; allowed are at most {}", text.size(), most_bytes));
         return;
     }
     if (const std::optional<std::size_t> line = line_that_is_not_utf8(text)) {
-        state.refuse(static_cast<std::uint32_t>(*line), "is not UTF-8; save the file as UTF-8");
+        state.refuse("toml.not_utf8", static_cast<std::uint32_t>(*line),
+                     "is not UTF-8; save the file as UTF-8");
         return;
     }
     if (const std::size_t dots = dots_outside_texts(text); dots > most_dots) {
         state.refuse(
-            0, fmt::format("holds {} dots in keys and numbers; allowed are at most {}", dots, most_dots));
+            "toml.too_many_dots", 0,
+            fmt::format("holds {} dots in keys and numbers; allowed are at most {}", dots, most_dots));
         return;
     }
     try {
         read(toml::parse(text));
     } catch (const toml::parse_error& error) {
-        state.refuse(static_cast<std::uint32_t>(error.source().begin.line),
+        state.refuse("toml.syntax", static_cast<std::uint32_t>(error.source().begin.line),
                      fmt::format("is not TOML ({}); write each key once, as key = 1.5 or key = \"text\"",
                                  printable(error.description(), 200)));
     } catch (const std::exception& error) {
-        state.refuse(0, fmt::format("cannot be read: {}", printable(error.what(), 200)));
+        state.refuse("toml.unreadable", 0, fmt::format("cannot be read: {}", printable(error.what(), 200)));
     }
 }
 

@@ -83,12 +83,12 @@ std::string after(const std::string& place, const std::string& what) {
 tl::unexpected<Error> nothing_to_show(const std::vector<PackLeftOut>& left_out,
                                       const std::string& packs_key) {
     if (left_out.empty()) {
-        return fail(ErrorKind::BadConfiguration,
+        return fail(ErrorKind::BadConfiguration, "show.no_pack_named",
                     "no pack is named; name packs under [exhibit] packs in the settings or with --packs, and "
                     "make them with frustumscreen-bake");
     }
     const std::string first = left_out.front().pack + ": " + left_out.front().reason;
-    return fail(ErrorKind::BadConfiguration,
+    return fail(ErrorKind::BadConfiguration, "show.no_pack_shown",
                 after(packs_key, left_out.size() == 1
                                      ? "the pack cannot be shown: " + first
                                      : fmt::format("none of the {} packs can be shown; the first: {}",
@@ -117,7 +117,7 @@ Result<OpenedArtifacts> open_artifacts(const Settings& settings, std::span<const
             break; // no button leads there
         }
         if (!options.goes_on()) {
-            return bad_input("not wanted any more");
+            return bad_input("show.opening_not_wanted", "not wanted any more");
         }
         Result<KnownArtifact> opened = open_pack(settings, options, file);
         if (!opened) {

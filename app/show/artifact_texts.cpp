@@ -135,7 +135,7 @@ public:
 
     [[nodiscard]] Result<void> add(const TableText& text) {
         if (given_up_()) {
-            return bad_input("not wanted any more");
+            return bad_input("show.texts_not_wanted", "not wanted any more");
         }
         TRY(std::vector<CaptionImage> images, setter_.set(text, set_));
         for (CaptionImage& image : images) {
@@ -229,9 +229,9 @@ Result<TextPictures> draw_texts(const TextSource& source, const ArtifactTexts& t
     };
     if (!std::equal(drawing.pictures.begin(), drawing.pictures.end(), sizes.begin(), sizes.end(),
                     as_laid_out)) {
-        return at(source.file.string(),
-                  Error{ErrorKind::BadInput, "the texts are others than when the exhibit was "
-                                             "started; start it again"});
+        return at(source.file.string(), Error{ErrorKind::BadInput, "show.texts_changed",
+                                              "the texts are others than when the exhibit was "
+                                              "started; start it again"});
     }
     return std::move(drawing.pictures);
 }

@@ -18,8 +18,8 @@ Result<LanguageWords> read_house_words(const Settings& settings, std::string_vie
     TRY(LanguageWords words,
         at(place, read_words(file, languages[caption_for(settings.exhibit.language, languages)])));
     if (words.runs.find(key) == nullptr) {
-        return bad_input(
-            fmt::format("{}: has no word '{}'; bake it again with frustumscreen-bake --words", place, key));
+        return bad_input("show.word_missing",
+                         "{}: has no word '{}'; bake it again with frustumscreen-bake --words", place, key);
     }
     return words;
 }

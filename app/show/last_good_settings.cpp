@@ -19,7 +19,7 @@ constexpr std::uintmax_t most_bytes = 1U << 20U;
 Result<UsedSettings> read_from(const std::filesystem::path& file, const std::filesystem::path& as) {
     const Result<Bytes> bytes = read_file(file, most_bytes);
     if (!bytes) {
-        return fail(ErrorKind::BadConfiguration, bytes.error().message);
+        return as_kind(ErrorKind::BadConfiguration, bytes.error());
     }
     std::string text(as_text(*bytes));
     TRY(CheckedSettings settings, kiosk_settings(text, as));

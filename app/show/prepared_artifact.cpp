@@ -17,7 +17,8 @@ namespace {
 Result<VerifiedPack> read_level(const KnownArtifact& known, std::uint32_t level) {
     return load_pack(known.file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
         if (outline != known.outline) {
-            return bad_input("the pack is another one than when the exhibit was started; start it again");
+            return bad_input("show.pack_changed",
+                             "the pack is another one than when the exhibit was started; start it again");
         }
         return std::vector<std::uint32_t>{level};
     });
@@ -63,20 +64,20 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
     };
     for (const std::uint32_t number : plan.levels) {
         if (given_up()) {
-            return bad_input("not wanted any more");
+            return bad_input("show.artifact_not_wanted", "not wanted any more");
         }
         TRY(const VerifiedPack pack, read(number));
         levels.push_back(prepare_level(*pack, number, plan));
     }
     for (const std::uint32_t number : read_beside(known)) {
         if (given_up()) {
-            return bad_input("not wanted any more");
+            return bad_input("show.artifact_not_wanted", "not wanted any more");
         }
         TRY_VOID(without_value(read(number)));
     }
     for (std::size_t place = 0; place < plan.reliefs.size(); ++place) {
         if (given_up()) {
-            return bad_input("not wanted any more");
+            return bad_input("show.artifact_not_wanted", "not wanted any more");
         }
         TRY(BlockRelief relief, load_relief(known.file, plan.reliefs[place]));
         const auto shared = std::make_shared<const BlockRelief>(std::move(relief));

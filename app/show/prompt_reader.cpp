@@ -23,8 +23,8 @@ Result<Prompt> decode(const PromptRecording& recording) {
     }
     TRY(const Bytes opus, load_sound(recording.pack, recording.language, recording.key));
     if (opus.empty()) {
-        return bad_input(
-            fmt::format("{} has no sound of it any more; bake the pack again", recording.pack.string()));
+        return bad_input("show.no_sound", "{} has no sound of it any more; bake the pack again",
+                         recording.pack.string());
     }
     return read_opus(opus);
 }

@@ -93,7 +93,7 @@ public:
         while (!(options_.length && now - start_ >= *options_.length) && !told_to_stop()) {
             TRY_VOID(frame(now));
             if (fault_since_ && now - *fault_since_ >= longest_fault) {
-                return fail(ErrorKind::BadConfiguration,
+                return fail(ErrorKind::BadConfiguration, "show.no_artifact_left",
                             "no artifact can be shown any more; the lines before this "
                             "one say why, and a new start looks for packs again");
             }

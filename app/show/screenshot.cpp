@@ -31,7 +31,7 @@ Result<const Image8*> Screenshot::take(const std::stop_token& stop) {
     }
     ask();
     if (!comes(monotonic_now() + patience, stop)) {
-        return fail(ErrorKind::Internal,
+        return fail(ErrorKind::Internal, "show.no_screenshot",
                     "the exhibit hands out no picture; it hangs, is ending, or shows the "
                     "staff what its camera sees");
     }

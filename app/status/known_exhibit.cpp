@@ -56,8 +56,9 @@ StatusDocument parse_status(std::string_view json, const StatusClock& clock) {
     StatusDocument document;
     pack_format::Refusal refusal{{}, "the file"};
     nlohmann::json fields = pack_format::parse_json(refusal, json, most_depth);
-    if (refusal.message || !fields.is_object()) {
-        document.why = "this is no status: " + printable(refusal.message.value_or("no object { ... }"), 200);
+    if (refusal.error || !fields.is_object()) {
+        document.why = "this is no status: " +
+                       printable(refusal.error ? refusal.error->message : "no object { ... }", 200);
         return document;
     }
     document.fields = std::move(fields);

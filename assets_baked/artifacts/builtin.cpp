@@ -21,8 +21,8 @@ std::vector<std::string_view> builtin_names() {
 
 Result<SourceMesh> make_builtin(std::string_view name, std::int64_t triangles) {
     if (triangles < fewest_triangles || triangles > most_triangles) {
-        return bad_input(fmt::format("{} triangles asked for, {} to {} are possible", triangles,
-                                     fewest_triangles, most_triangles));
+        return bad_input("artifact.triangles", "{} triangles asked for, {} to {} are possible", triangles,
+                         fewest_triangles, most_triangles);
     }
     if (name == "amphora") {
         return make_amphora(triangles);
@@ -30,8 +30,8 @@ Result<SourceMesh> make_builtin(std::string_view name, std::int64_t triangles) {
     if (name == "nautilus-cup") {
         return make_nautilus_cup(triangles);
     }
-    return bad_input(
-        fmt::format("no built-in artifact is named '{}'; there are amphora and nautilus-cup", name));
+    return bad_input("artifact.no_such",
+                     "no built-in artifact is named '{}'; there are amphora and nautilus-cup", name);
 }
 
 } // namespace frustumscreen

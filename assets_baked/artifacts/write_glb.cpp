@@ -191,7 +191,8 @@ private:
 Result<Bytes> write_glb(const SourceMesh& mesh) {
     Bytes bytes = Writer(mesh).write();
     if (bytes.empty()) {
-        return bad_input("the mesh is too large for a GLB file, which ends at 4 GiB; take fewer triangles");
+        return bad_input("artifact.too_large",
+                         "the mesh is too large for a GLB file, which ends at 4 GiB; take fewer triangles");
     }
     return bytes;
 }

@@ -345,7 +345,7 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     options.progress("reading the surface", 0.0);
     Bakery bakery(mesh, frame, options);
     if (!bakery.has_surface()) {
-        return bad_input("every triangle is degenerate; there is no surface to show");
+        return bad_input("bake.degenerate", "every triangle is degenerate; there is no surface to show");
     }
     Pack pack;
     for (const GivenHotspot& given : options.hotspots) {

@@ -89,7 +89,8 @@ glm::dmat3 turn_rotation(double turn_deg) {
 Result<BoxFrame> make_box_frame(const SourceMesh& mesh, const Standing& standing) {
     const std::optional<glm::dmat3> upright = up_rotation(standing.up);
     if (!upright) {
-        return bad_input("the up axis is '" + standing.up + "'; allowed are x, y, z, -x, -y, -z");
+        return bad_input("bake.up_axis",
+                         "the up axis is '" + standing.up + "'; allowed are x, y, z, -x, -y, -z");
     }
     const glm::dmat3 rotation = turn_rotation(standing.turn_deg) * *upright;
     glm::dvec3 low(std::numeric_limits<double>::infinity());
@@ -105,7 +106,8 @@ Result<BoxFrame> make_box_frame(const SourceMesh& mesh, const Standing& standing
     const glm::dvec3 size(extent.x, extent.y, extent.z * (1.0 + standing.lift));
     const double longest = std::max({size.x, size.y, size.z});
     if (!(longest > 1e-30) || !(longest < 1e30)) {
-        return bad_input("the artifact's bounding box has no extent; there is nothing to show");
+        return bad_input("bake.no_extent",
+                         "the artifact's bounding box has no extent; there is nothing to show");
     }
     BoxFrame frame;
     frame.file_units_per_box = longest;

@@ -89,26 +89,26 @@ Result<PackHotspot> put_on_surface(const GivenHotspot& given, const SourceScene&
     const glm::dvec3 wanted(frame.box_from_file * glm::dvec4(given.point_file, 1.0));
     const SurfaceHit nearest = nearest_with_normal(source, glm::vec3(wanted));
     if (!nearest.hit || nearest.normal == glm::vec3(0.0F)) {
-        return bad_input(
-            fmt::format("{} is {}; the surface next to it could not be found, choose another point",
-                        given.place, words_of(given.point_file)));
+        return bad_input("hotspot.no_surface",
+                         "{} is {}; the surface next to it could not be found, choose another point",
+                         given.place, words_of(given.point_file));
     }
     const double distance = glm::distance(glm::dvec3(nearest.point), wanted);
     const glm::dvec3 nearest_file(glm::inverse(frame.box_from_file) * glm::dvec4(nearest.point, 1.0F));
     if (!(distance <= most_hotspot_distance_box)) {
-        return bad_input(
-            fmt::format("{} is {}, which is {} away from its surface; allowed are {:g} % of that size; the "
-                        "nearest point of it is {}",
-                        given.place, words_of(given.point_file), in_sizes(distance),
-                        100.0 * most_hotspot_distance_box, words_of(nearest_file)));
+        return bad_input("hotspot.away_from_surface",
+                         "{} is {}, which is {} away from its surface; allowed are {:g} % of that size; the "
+                         "nearest point of it is {}",
+                         given.place, words_of(given.point_file), in_sizes(distance),
+                         100.0 * most_hotspot_distance_box, words_of(nearest_file));
     }
     const int front = open_directions(source, nearest.point, nearest.normal, zone);
     const int back = open_directions(source, nearest.point, -nearest.normal, zone);
     if (front == 0 && back == 0) {
-        return bad_input(
-            fmt::format("{} is {}, where no visitor can see the artifact's surface; choose a point "
-                        "that is open to the side or to above",
-                        given.place, words_of(given.point_file)));
+        return bad_input("hotspot.hidden",
+                         "{} is {}, where no visitor can see the artifact's surface; choose a point "
+                         "that is open to the side or to above",
+                         given.place, words_of(given.point_file));
     }
     const glm::vec3 outward = back > front ? -nearest.normal : nearest.normal;
     return PackHotspot{glm::dvec3(nearest.point),

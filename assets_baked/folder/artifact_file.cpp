@@ -49,7 +49,7 @@ void read_text(TableReader& table, std::string_view key, std::string& value,
                TextShape shape = TextShape::Line) {
     table.any_text(key, value);
     if (const std::optional<std::string> fault = fault_of_text(value, shape)) {
-        table.refuse(key, *fault);
+        table.refuse("folder.text", key, *fault);
     }
     value = std::string(trimmed(value));
 }
@@ -66,7 +66,8 @@ void read_path(TableReader& table, std::string_view key, std::filesystem::path& 
     if (written.is_absolute() || *written.begin() == ".." || text.size() > 4096 ||
         text.find('\0') != std::string::npos) {
         table.refuse(
-            key, fmt::format("is \"{}\"; allowed is the name of a file in this folder", printable(text, 60)));
+            "folder.file_name", key,
+            fmt::format("is \"{}\"; allowed is the name of a file in this folder", printable(text, 60)));
         return;
     }
     table.path(key, value, {});
@@ -97,8 +98,9 @@ bool read_language(TableReader& table, std::string_view key, std::string& langua
     const std::optional<std::string> usual =
         has_language_form(language) ? parse_language_tag(language) : std::nullopt;
     if (!usual) {
-        table.refuse(key, fmt::format("is for \"{}\"; allowed are {}", printable(language, 40),
-                                      allowed_language_tags));
+        table.refuse(
+            "folder.language", key,
+            fmt::format("is for \"{}\"; allowed are {}", printable(language, 40), allowed_language_tags));
         return false;
     }
     language = *usual;
@@ -119,14 +121,15 @@ void read_caption(TableReader& table, PackCaption& caption, std::set<std::string
     read_path(table, "recording", recording);
     table.finish(); // a misspelt key is said before one that is missing for it
     if (caption.language.empty()) {
-        table.refuse("language", "is missing or empty; every [[texts]] names its language, such as \"en\"");
+        table.refuse("folder.no_language", "language",
+                     "is missing or empty; every [[texts]] names its language, such as \"en\"");
     } else if (read_language(table, "language", caption.language) &&
                !languages.insert(caption.language).second) {
-        table.refuse("language",
+        table.refuse("folder.language_twice", "language",
                      fmt::format("is \"{}\" a second time; allowed is each language once", caption.language));
     }
     if (!recording.empty()) {
-        table.require(!caption.description.empty(), "recording",
+        table.require("folder.no_description", !caption.description.empty(), "recording",
                       "has no description beside it; write its words there, for who does not hear them");
         file.recordings.emplace(caption.language, std::move(recording));
     }
@@ -137,9 +140,11 @@ void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
     std::vector<std::pair<std::string, std::string>> labels;
     table.named_texts("labels", labels, pack_format::most_languages);
     table.finish(); // as for a text
-    table.require(table.has("point"), "point", "is missing; write it as [x, y, z] in the scan's coordinates");
+    table.require("folder.no_point", table.has("point"), "point",
+                  "is missing; write it as [x, y, z] in the scan's coordinates");
     hotspot.place = table.place("point");
-    table.require(!labels.empty(), "labels", "has no text; write one for each language, { en = \"...\" }");
+    table.require("folder.no_labels", !labels.empty(), "labels",
+                  "has no text; write one for each language, { en = \"...\" }");
     for (auto& [written, text] : labels) {
         std::string language = written;
         if (!read_language(table, "labels", language)) {
@@ -147,12 +152,14 @@ void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
         }
         const bool is_second = std::any_of(hotspot.labels.begin(), hotspot.labels.end(),
                                            [&](const PackLabel& each) { return each.language == language; });
-        table.require(!is_second, "labels",
+        table.require("folder.label_twice", !is_second, "labels",
                       fmt::format("has \"{}\" twice; allowed is each language once", language));
         const std::optional<std::string> fault = fault_of_text(text, TextShape::Line);
-        table.require(!fault, "labels", fmt::format("in {} {}", language, fault.value_or("")));
+        table.require("folder.label_text", !fault, "labels",
+                      fmt::format("in {} {}", language, fault.value_or("")));
         text = std::string(trimmed(text));
-        table.require(!text.empty(), "labels", fmt::format("in {} is empty; write what there is", language));
+        table.require("folder.label_empty", !text.empty(), "labels",
+                      fmt::format("in {} is empty; write what there is", language));
         hotspot.labels.push_back({std::move(language), std::move(text)});
     }
 }
@@ -161,7 +168,7 @@ void read_all(TableReader& table, ArtifactFile& file) {
     read_path(table, "scan", file.scan);
     read_path(table, "texture", file.texture);
     table.any_text("id", file.id);
-    table.require(file.id.empty() || is_artifact_id(file.id), "id",
+    table.require("folder.id", file.id.empty() || is_artifact_id(file.id), "id",
                   fmt::format("is \"{}\"; allowed are 1 to {} of a-z 0-9 . _ -, a letter or a digit first",
                               printable(file.id, 40), pack_format::most_id_bytes));
     read_text(table, "licence", file.licence);
@@ -185,7 +192,7 @@ void refuse_single_tables(const toml::table& root, ReadState& state) {
         const toml::node* node = root.get(key);
         if (node != nullptr && node->is_table()) {
             state.refuse(
-                static_cast<std::uint32_t>(node->source().begin.line),
+                "folder.single_brackets", static_cast<std::uint32_t>(node->source().begin.line),
                 fmt::format("[{}] has one bracket too few on each side; write [[{}]], once for each {}", key,
                             key, each));
         }
@@ -199,7 +206,7 @@ void refuse_misspelt_tables(const toml::table& root, ReadState& state) {
         for (const std::string_view known : {"texts", "hotspots"}) {
             const std::size_t apart = letters_apart(name, known);
             if (node.is_array_of_tables() && apart > 0 && 3 * apart <= known.size()) {
-                state.refuse(static_cast<std::uint32_t>(key.source().begin.line),
+                state.refuse("folder.unknown_table", static_cast<std::uint32_t>(key.source().begin.line),
                              fmt::format("[[{}]] is not known; the nearest one is [[{}]]",
                                          printable(name, 60), known));
             }
@@ -231,7 +238,7 @@ void refuse_misplaced_key(const toml::table& root, std::span<const std::string> 
         }
     }
     if (first) {
-        state.refuse(first->first, first->second);
+        state.refuse("folder.key_of_table", first->first, first->second);
     }
 }
 
@@ -247,10 +254,11 @@ Result<ArtifactFile> parse_artifact_file(std::string_view text, const std::files
         read_all(keys, read);
         refuse_misplaced_key(root, keys.known(), state);
         keys.finish();
-        keys.require(!read.scan.empty(), "scan", "is missing; name the file of the scan in this folder");
+        keys.require("folder.no_scan", !read.scan.empty(), "scan",
+                     "is missing; name the file of the scan in this folder");
     });
     if (state.error) {
-        return bad_input(*state.error);
+        return tl::unexpected<Error>(*std::move(state.error));
     }
     return read;
 }
@@ -258,10 +266,10 @@ Result<ArtifactFile> parse_artifact_file(std::string_view text, const std::files
 Result<ArtifactFile> read_artifact_file(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / artifact_file_name;
     if (std::error_code none; !std::filesystem::exists(file, none)) {
-        return bad_input(
-            fmt::format("{}: there is no {} in this folder; frustumscreen-bake --new {} SCAN writes "
-                        "one to start from",
-                        folder.string(), artifact_file_name, folder.string()));
+        return bad_input("folder.no_artifact_file",
+                         "{}: there is no {} in this folder; frustumscreen-bake --new {} SCAN writes "
+                         "one to start from",
+                         folder.string(), artifact_file_name, folder.string());
     }
     TRY(const Bytes bytes, read_file(file, largest_file_bytes));
     return parse_artifact_file(as_text(bytes), file);

@@ -55,10 +55,10 @@ Result<std::vector<std::pair<fs::path, fs::path>>> copies_of(const ScanFacts& sc
         }
         const fs::path relative = side.lexically_relative(scan.file.parent_path());
         if (relative.empty() || relative.is_absolute() || *relative.begin() == "..") {
-            return bad_input(
-                fmt::format("{}: it names {}, which lies outside its folder; put that file beside "
-                            "it and change the name, then try again",
-                            scan.file.string(), printable(side.string(), 200)));
+            return bad_input("folder.side_file_outside",
+                             "{}: it names {}, which lies outside its folder; put that file beside "
+                             "it and change the name, then try again",
+                             scan.file.string(), printable(side.string(), 200));
         }
         copies.emplace_back(side, relative);
     }
@@ -68,10 +68,10 @@ Result<std::vector<std::pair<fs::path, fs::path>>> copies_of(const ScanFacts& sc
 Result<void> copy_into(const fs::path& folder, const std::vector<std::pair<fs::path, fs::path>>& copies) {
     for (const auto& [from, to] : copies) {
         if (std::error_code none; fs::exists(folder / to, none)) {
-            return bad_input(
-                fmt::format("{}: this file is there already and is not replaced; choose an empty "
-                            "folder, or name the scan that lies in it",
-                            (folder / to).string()));
+            return bad_input("folder.there_already",
+                             "{}: this file is there already and is not replaced; choose an empty "
+                             "folder, or name the scan that lies in it",
+                             (folder / to).string());
         }
     }
     for (const auto& [from, to] : copies) {
@@ -79,8 +79,8 @@ Result<void> copy_into(const fs::path& folder, const std::vector<std::pair<fs::p
         fs::create_directories((folder / to).parent_path(), failed);
         fs::copy_file(from, folder / to, failed);
         if (failed) {
-            return bad_input(fmt::format("{}: cannot be copied to {}: {}", from.string(),
-                                         (folder / to).string(), failed.message()));
+            return bad_input("folder.not_copied", "{}: cannot be copied to {}: {}", from.string(),
+                             (folder / to).string(), failed.message());
         }
     }
     return {};
@@ -171,19 +171,20 @@ Result<fs::path> start_folder(const fs::path& folder, const ScanFacts& scan) {
     const fs::path file = folder / artifact_file_name;
     const std::string name = scan.file.filename().string();
     if (const auto fault = fault_of_text(name, TextShape::Line)) {
-        return bad_input(fmt::format("{}: the file's name {}", printable(scan.file.string(), 200), *fault));
+        return bad_input("folder.scan_name", "{}: the file's name {}", printable(scan.file.string(), 200),
+                         *fault);
     }
     std::error_code failed;
     if (fs::exists(file, failed)) {
-        return bad_input(
-            fmt::format("{}: this file is there already; edit it, or choose another folder", file.string()));
+        return bad_input("folder.artifact_file_there",
+                         "{}: this file is there already; edit it, or choose another folder", file.string());
     }
     if (!is_same_folder(folder, scan.file.parent_path())) {
         TRY(const auto copies, copies_of(scan));
         fs::create_directories(folder, failed);
         if (failed) {
-            return bad_input(
-                fmt::format("{}: this folder cannot be made: {}", folder.string(), failed.message()));
+            return bad_input("folder.not_made", "{}: this folder cannot be made: {}", folder.string(),
+                             failed.message());
         }
         TRY_VOID(copy_into(folder, copies));
     }

@@ -52,14 +52,15 @@ Result<std::vector<LanguageToBake>> read_words(const std::string& file) {
             const auto staff =
                 node.as_table() == nullptr ? std::nullopt : (*node.as_table())["staff"].value<std::string>();
             if (!visitors || !staff) {
-                return bad_input(fmt::format("{}:{}: [{}] needs visitors = \"...\" and staff = \"...\"", file,
-                                             node.source().begin.line, language.str()));
+                return bad_input("safe_words.keys",
+                                 "{}:{}: [{}] needs visitors = \"...\" and staff = \"...\"", file,
+                                 node.source().begin.line, language.str());
             }
             languages.push_back({std::string(language.str()), *visitors, *staff, node.source().begin.line});
         }
     } catch (const toml::parse_error& error) {
-        return bad_input(
-            fmt::format("{}:{}: is not TOML: {}", file, error.source().begin.line, error.description()));
+        return bad_input("safe_words.syntax", "{}:{}: is not TOML: {}", file, error.source().begin.line,
+                         error.description());
     }
     std::sort(languages.begin(), languages.end(),
               [](const LanguageToBake& a, const LanguageToBake& b) { return a.line < b.line; });
@@ -118,7 +119,7 @@ private:
                                    const std::string& language, std::vector<std::int32_t> widths) {
         TRY(const ShapedText shaped, at(key, shaper_.shape({text, language, std::move(widths), false})));
         if (!shaped.notes.empty()) {
-            return bad_input(fmt::format("{}: {}", key, shaped.notes.front()));
+            return bad_input("safe_words.letters", "{}: {}", key, shaped.notes.front());
         }
         builder_.add(key, shaped);
         return {};

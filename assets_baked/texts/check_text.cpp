@@ -70,27 +70,27 @@ std::string named_letter(char32_t code) {
 
 Result<void> check_shaped_text(std::string_view text) {
     if (text.size() > most_shaped_bytes) {
-        return bad_input(
-            fmt::format("the text has {} bytes; allowed are {}: shorten it", text.size(), most_shaped_bytes));
+        return bad_input("text.too_long", "the text has {} bytes; allowed are {}: shorten it", text.size(),
+                         most_shaped_bytes);
     }
     if (const auto breaks = std::count(text.begin(), text.end(), '\n');
         breaks >= static_cast<std::ptrdiff_t>(most_written_lines)) {
-        return bad_input(
-            fmt::format("the text has {} lines; allowed are {}: shorten it", breaks + 1, most_written_lines));
+        return bad_input("text.too_many_lines", "the text has {} lines; allowed are {}: shorten it",
+                         breaks + 1, most_written_lines);
     }
     std::size_t line = 1;
     std::size_t letter_number = 1;
     for (std::string_view rest = text; !rest.empty();) {
         const std::size_t bytes = character_bytes(rest);
         if (bytes == 0) {
-            return bad_input(
-                fmt::format("line {}, letter {}: byte {:#04x} is not UTF-8; save the text as UTF-8", line,
-                            letter_number, static_cast<unsigned char>(rest[0])));
+            return bad_input("text.not_utf8",
+                             "line {}, letter {}: byte {:#04x} is not UTF-8; save the text as UTF-8", line,
+                             letter_number, static_cast<unsigned char>(rest[0]));
         }
         const char32_t code = code_point_of(rest);
         if (const std::string_view fault = fault_of(rest.substr(0, bytes), code); !fault.empty()) {
-            return bad_input(
-                fmt::format("line {}, letter {}: {} {}", line, letter_number, named_letter(code), fault));
+            return bad_input("text.letter", "line {}, letter {}: {} {}", line, letter_number,
+                             named_letter(code), fault);
         }
         letter_number = rest[0] == '\n' ? 1 : letter_number + 1;
         line += rest[0] == '\n' ? 1 : 0;

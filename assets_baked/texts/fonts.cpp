@@ -110,7 +110,7 @@ Result<Fonts> Fonts::open() {
                                        FcTrue) == FcTrue &&
         FcConfigBuildFonts(fonts.config_.get()) == FcTrue;
     if (!read) {
-        return fail(ErrorKind::Internal, "typefaces: fontconfig cannot start");
+        return fail(ErrorKind::Internal, "typeface.no_fontconfig", "typefaces: fontconfig cannot start");
     }
     return fonts;
 }
@@ -128,10 +128,9 @@ Result<void> Fonts::check(std::string_view language) const {
     }
     const bool cjk = family.find("CJK") != std::string::npos;
     return fail(
-        ErrorKind::BadConfiguration,
-        fmt::format(
-            "the language '{}' needs the typeface {}, which is not installed; install Debian's package {}",
-            language, family, cjk ? "fonts-noto-cjk" : "fonts-noto-core"));
+        ErrorKind::BadConfiguration, "typeface.not_installed",
+        "the language '{}' needs the typeface {}, which is not installed; install Debian's package {}",
+        language, family, cjk ? "fonts-noto-cjk" : "fonts-noto-core");
 }
 
 std::string Fonts::families_for(std::string_view language) const {

@@ -154,7 +154,7 @@ public:
         GlyphPainter painter;
         FT_Library library = nullptr;
         if (FT_Init_FreeType(&library) != 0) {
-            return fail(ErrorKind::Internal, "typefaces: FreeType cannot start");
+            return fail(ErrorKind::Internal, "typeface.freetype", "typefaces: FreeType cannot start");
         }
         painter.library_.reset(library);
         painter.texels_per_em_ = options.texels_per_em;
@@ -165,9 +165,9 @@ public:
     Result<DrawnGlyph> draw(const FontFace& from, std::uint32_t glyph) {
         const FT_Face face = face_of(from);
         if (face == nullptr || FT_Load_Glyph(face, glyph, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) {
-            return bad_input(
-                fmt::format("{}: glyph {} of this typeface cannot be read; install its package again",
-                            from.file.string(), glyph));
+            return bad_input("typeface.glyph_unreadable",
+                             "{}: glyph {} of this typeface cannot be read; install its package again",
+                             from.file.string(), glyph);
         }
         if (face->glyph->outline.n_contours == 0) {
             return DrawnGlyph();
@@ -175,8 +175,8 @@ public:
         // FreeType 2.12 draws distances itself: wrongly where a letter's strokes overlap or lie inside each other, or a hundred
         // times as slowly.
         if (FT_Render_Glyph(face->glyph, FT_RENDER_MODE_NORMAL) != 0) {
-            return bad_input(
-                fmt::format("{}: glyph {} of this typeface cannot be drawn", from.file.string(), glyph));
+            return bad_input("typeface.glyph_not_drawn", "{}: glyph {} of this typeface cannot be drawn",
+                             from.file.string(), glyph);
         }
         return sampled(LetterMask(*face->glyph), spread_texels_);
     }
@@ -275,10 +275,11 @@ void GlyphAtlasBuilder::add(const std::string& key, const ShapedText& text) {
 Result<GlyphSheet> GlyphAtlasBuilder::finish() {
     using namespace glyph_limits;
     const auto too_many = [&] {
-        return bad_input(fmt::format(
+        return bad_input(
+            "text.too_many_letters",
             "the texts of one language need {} different letters; that is more than an atlas of {} "
             "texels holds: shorten them",
-            glyphs_.size(), most_atlas_texels));
+            glyphs_.size(), most_atlas_texels);
     };
     TRY(GlyphPainter painter, GlyphPainter::open(options_));
     if (glyphs_.size() > most_boxes || texts_.size() > most_texts) {

@@ -82,8 +82,8 @@ Result<std::vector<float>> resampled(std::vector<float> samples, int rate_hz) {
     data.output_frames = static_cast<long>(out.size());
     data.src_ratio = ratio;
     if (const int error = src_simple(&data, SRC_SINC_MEDIUM_QUALITY, 1); error != 0) {
-        return fail(ErrorKind::Internal, fmt::format("the recording cannot be brought to {} Hz: {}",
-                                                     speech_rate_hz, src_strerror(error)));
+        return fail(ErrorKind::Internal, "speech.rate", "the recording cannot be brought to {} Hz: {}",
+                    speech_rate_hz, src_strerror(error));
     }
     out.resize(static_cast<std::size_t>(data.output_frames_gen));
     return out;
@@ -105,8 +105,8 @@ Result<Bytes> encoded(std::span<const float> samples) {
             sf_writef_float(file.get(), samples.data(), static_cast<sf_count_t>(samples.size())) ==
                 static_cast<sf_count_t>(samples.size());
         if (!written) {
-            return fail(ErrorKind::Internal,
-                        fmt::format("the speech cannot be stored as Opus: {}", sf_strerror(file.get())));
+            return fail(ErrorKind::Internal, "speech.opus", "the speech cannot be stored as Opus: {}",
+                        sf_strerror(file.get()));
         }
     }
     set_ogg_serial(bytes.written,
@@ -190,8 +190,8 @@ Result<std::optional<Speech>> level_speech(const Recording& recording) {
         }
         most_db -= over_db + 0.1 * tries;
     }
-    return fail(ErrorKind::Internal,
-                fmt::format("the speech cannot be brought below {} dBTP", most_true_peak_db));
+    return fail(ErrorKind::Internal, "speech.peak", "the speech cannot be brought below {} dBTP",
+                most_true_peak_db);
 }
 
 } // namespace frustumscreen

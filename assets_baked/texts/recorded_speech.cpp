@@ -101,7 +101,7 @@ Result<Speech> read_speech(const std::filesystem::path& file) {
     TRY(const Recording recording, at(name, read_recording(bytes, RecordingSource::File)));
     TRY(std::optional<Speech> speech, at(name, level_speech(recording)));
     return speech ? Result<Speech>(*std::move(speech))
-                  : bad_input(name + ": the recording is silent; record it again, louder");
+                  : bad_input("speech.silent", name + ": the recording is silent; record it again, louder");
 }
 
 } // namespace frustumscreen

@@ -47,16 +47,16 @@ bool is_allowed(int format) {
 
 Result<void> check_kind(const SF_INFO& info) {
     if (!is_allowed(info.format)) {
-        return bad_input("this is no WAV, FLAC or Ogg file; convert it to one of these");
+        return bad_input("recording.format", "this is no WAV, FLAC or Ogg file; convert it to one of these");
     }
     if (info.samplerate < least_rate_hz || info.samplerate > most_rate_hz) {
-        return bad_input(
-            fmt::format("the recording has {} samples a second; allowed are {} to {}: convert it to 48000",
-                        info.samplerate, least_rate_hz, most_rate_hz));
+        return bad_input("recording.rate",
+                         "the recording has {} samples a second; allowed are {} to {}: convert it to 48000",
+                         info.samplerate, least_rate_hz, most_rate_hz);
     }
     if (info.channels < 1 || info.channels > most_channels) {
-        return bad_input(
-            fmt::format("the recording has {} channels; allowed are 1 and 2: mix it down", info.channels));
+        return bad_input("recording.channels",
+                         "the recording has {} channels; allowed are 1 and 2: mix it down", info.channels);
     }
     return {};
 }
@@ -68,7 +68,8 @@ Result<void> append_mixed(std::span<const float> frames, int channels, std::vect
             sum += frames[k + channel];
         }
         if (!std::isfinite(sum)) {
-            return bad_input("the recording has samples that are no numbers; save it again as 16 or 24 bit");
+            return bad_input("recording.not_finite",
+                             "the recording has samples that are no numbers; save it again as 16 or 24 bit");
         }
         samples.push_back(sum / static_cast<float>(channels));
     }
@@ -79,20 +80,22 @@ Result<void> append_mixed(std::span<const float> frames, int channels, std::vect
 
 Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSource source) {
     if (bytes.size() > most_recording_bytes) {
-        return bad_input(
-            fmt::format("the recording has {} bytes; allowed are {}", bytes.size(), most_recording_bytes));
+        return bad_input("recording.size", "the recording has {} bytes; allowed are {}", bytes.size(),
+                         most_recording_bytes);
     }
     if (const std::uint64_t missing = missing_wav_bytes(bytes);
         source == RecordingSource::File && missing > 0) {
-        return bad_input(fmt::format(
-            "the recording is cut off: {} bytes of its sound are missing; copy it again", missing));
+        return bad_input("recording.cut_off",
+                         "the recording is cut off: {} bytes of its sound are missing; copy it again",
+                         missing);
     }
     SoundBytes sound{bytes, {}, false, 0};
     SF_INFO info{};
     const SoundFile file = open_sound(sound, SFM_READ, info);
     if (!file) {
-        return bad_input(fmt::format("this is no recording that can be read ({}); WAV, FLAC and Ogg Opus can",
-                                     printable(sf_strerror(nullptr), 120)));
+        return bad_input("recording.unreadable",
+                         "this is no recording that can be read ({}); WAV, FLAC and Ogg Opus can",
+                         printable(sf_strerror(nullptr), 120));
     }
     TRY_VOID(check_kind(info));
     Recording recording;
@@ -106,12 +109,13 @@ Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSour
         const auto values = static_cast<std::size_t>(count) * static_cast<std::size_t>(info.channels);
         TRY_VOID(append_mixed(std::span(block).first(values), info.channels, recording.samples));
         if (recording.samples.size() > most_frames) {
-            return bad_input(fmt::format("the recording is longer than {} s; allowed is that: shorten it",
-                                         longest_recording_s));
+            return bad_input("recording.too_long",
+                             "the recording is longer than {} s; allowed is that: shorten it",
+                             longest_recording_s);
         }
     }
     if (recording.samples.empty() && source == RecordingSource::File) {
-        return bad_input("the recording has no sound at all; record it again");
+        return bad_input("recording.empty", "the recording has no sound at all; record it again");
     }
     return recording;
 }

@@ -134,10 +134,10 @@ Result<void> check_limits(const TextToShape& text) {
                              return limit >= em_units && limit <= glyph_limits::most_side;
                          });
     return allowed ? Result<void>()
-                   : bad_input(
-                         fmt::format("the widths are {}; allowed are 1 to {} of 1 to {} times the type size",
-                                     fmt::join(text.limits, ", "), glyph_limits::most_settings,
-                                     glyph_limits::most_side / em_units));
+                   : bad_input("text.widths",
+                               "the widths are {}; allowed are 1 to {} of 1 to {} times the type size",
+                               fmt::join(text.limits, ", "), glyph_limits::most_settings,
+                               glyph_limits::most_side / em_units);
 }
 
 /// A single word of so many letters takes Pango a second or two; the time grows with their square.
@@ -146,19 +146,20 @@ Result<void> check_length(std::string_view text) {
         text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
     return letters <= most_shaped_letters
                ? Result<void>()
-               : bad_input(fmt::format("the text has {} letters; allowed are {}: shorten it", letters,
-                                       most_shaped_letters));
+               : bad_input("text.letters", "the text has {} letters; allowed are {}: shorten it", letters,
+                           most_shaped_letters);
 }
 
 Result<void> check_size(const ShapedSetting& setting) {
     using namespace glyph_limits;
     if (setting.lines.size() > most_lines || setting.glyphs.size() > most_glyphs ||
         setting.height > most_side || setting.width > most_side) {
-        return bad_input(fmt::format(
+        return bad_input(
+            "text.setting",
             "the text takes {} lines and {} letters at a width of {} times the type size; allowed are {} "
             "lines, {} letters and a height of {} times the type size: shorten it",
             setting.lines.size(), setting.glyphs.size(), setting.limit / em_units, most_lines, most_glyphs,
-            most_side / em_units));
+            most_side / em_units);
     }
     return {};
 }

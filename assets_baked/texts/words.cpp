@@ -170,42 +170,43 @@ public:
             }
         }
     }
-    [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
+    [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
 private:
     void read_word(const std::string& name, const toml::node& node) {
         const std::string shown = printable(name, 60);
         if (!is_key(name)) {
-            refuse(node,
+            refuse("words.no_word", node,
                    fmt::format("there is no word '{}'; the nearest one is {}", shown, nearest_key(name)));
             return;
         }
         const auto* text = node.as_string();
         if (text == nullptr) {
-            refuse(node, fmt::format("{} is no text; write it between quotation marks", shown));
+            refuse("words.no_text", node,
+                   fmt::format("{} is no text; write it between quotation marks", shown));
         } else if (text->get().empty() || text->get().size() > most_word_bytes) {
-            refuse(node,
+            refuse("words.word_size", node,
                    fmt::format(
                        "{} has {} bytes; allowed are 1 to {}: leave the key out to use the built-in text",
                        shown, text->get().size(), most_word_bytes));
         } else if (const Result<void> checked = check_shaped_text(text->get()); !checked) {
-            refuse(node, fmt::format("{}: {}", shown, checked.error().message));
+            refuse("words.word_text", node, fmt::format("{}: {}", shown, checked.error().message));
         } else {
             words_.emplace(name, text->get());
         }
     }
     /// The keys of a table come in the order of the alphabet; a person reads from the top.
-    void refuse(const toml::node& node, const std::string& what) {
+    void refuse(MessageId id, const toml::node& node, const std::string& what) {
         const auto line = node.source().begin.line;
         if (!error_ || line < line_) {
             line_ = line;
-            error_ = fmt::format("{}:{}: {}", file_, line, what);
+            error_ = Error{ErrorKind::BadInput, id, fmt::format("{}:{}: {}", file_, line, what)};
         }
     }
 
     const std::string& file_;
     WrittenWords& words_;
-    std::optional<std::string> error_;
+    std::optional<Error> error_;
     toml::source_index line_ = 0;
 };
 
@@ -279,7 +280,7 @@ Result<WrittenWords> parse_words(std::string_view toml, const std::string& file)
         state.error = reader.error();
     });
     if (state.error) {
-        return bad_input(*std::move(state.error));
+        return tl::unexpected<Error>(*std::move(state.error));
     }
     return words;
 }
@@ -287,27 +288,30 @@ Result<WrittenWords> parse_words(std::string_view toml, const std::string& file)
 Result<std::vector<CollectedWords>> collect_words(const std::filesystem::path& folder,
                                                   std::span<const std::string> languages) {
     if (languages.empty()) {
-        return bad_input("no language is named; name at least that of the house, such as en");
+        return bad_input("words.no_language_named",
+                         "no language is named; name at least that of the house, such as en");
     }
     const std::string& house = languages.front();
     TRY(const WrittenWords fallback, words_of(folder, house));
     for (const std::string_view key : keys) {
         if (!fallback.contains(key)) {
-            return bad_input(fmt::format(
+            return bad_input(
+                "words.house_lacks",
                 "the house's language '{}' has no text for {}; write it into {}.toml, or name another "
                 "language first (built in: {})",
-                printable(house, 40), key, printable(house, 40), fmt::join(builtin_word_languages(), ", ")));
+                printable(house, 40), key, printable(house, 40), fmt::join(builtin_word_languages(), ", "));
         }
     }
     std::vector<CollectedWords> collected;
     for (const std::string& language : languages) {
         TRY(const WrittenWords own, words_of(folder, language));
         if (own.find("name") == own.end()) {
-            return bad_input(fmt::format("there are no words in '{}'; write {}.toml with at least a line "
-                                         "name = \"...\", the language's "
-                                         "own name (built in: {})",
-                                         printable(language, 40), printable(language, 40),
-                                         fmt::join(builtin_word_languages(), ", ")));
+            return bad_input("words.no_words",
+                             "there are no words in '{}'; write {}.toml with at least a line "
+                             "name = \"...\", the language's "
+                             "own name (built in: {})",
+                             printable(language, 40), printable(language, 40),
+                             fmt::join(builtin_word_languages(), ", "));
         }
         collected.push_back(collect(language, own, house, fallback));
     }

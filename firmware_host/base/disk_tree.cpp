@@ -202,7 +202,7 @@ Result<std::unique_ptr<WritableTree>> open_tree(const std::filesystem::path& fol
         const std::string why = errno == ENOENT
                                     ? "there is no such folder"
                                     : std::string("cannot be opened as a folder: ") + std::strerror(errno);
-        return bad_input(folder.string() + ": " + why);
+        return bad_input("folder.unusable", folder.string() + ": " + why);
     }
     return std::make_unique<DiskTree>(std::move(root));
 }

@@ -98,7 +98,8 @@ Result<Bytes> read_file(const std::filesystem::path& path, std::uintmax_t limit_
     TRY(const OpenFile file, OpenFile::open(path, limit_bytes));
     Bytes bytes(static_cast<std::size_t>(file.bytes()));
     if (!file.read(0, bytes)) {
-        return bad_input(path.string() + ": cannot be read: it became shorter, or its disk fails");
+        return bad_input("file.shortened",
+                         path.string() + ": cannot be read: it became shorter, or its disk fails");
     }
     return bytes;
 }
@@ -106,7 +107,7 @@ Result<Bytes> read_file(const std::filesystem::path& path, std::uintmax_t limit_
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
     TemporaryFile file(path);
     if (!file.is_open() || !file.write(bytes) || !file.keep_as(path)) {
-        return bad_input(path.string() + ": cannot be written: " + system_reason());
+        return bad_input("file.not_written", path.string() + ": cannot be written: " + system_reason());
     }
     return {};
 }
@@ -123,7 +124,7 @@ Result<void> write_file_with(const std::filesystem::path& path,
         TRY_VOID(write(file.descriptor()));
     }
     if (!file.is_open() || !file.sync() || !file.keep_as(path)) {
-        return bad_input(path.string() + ": cannot be written: " + system_reason());
+        return bad_input("file.not_renamed", path.string() + ": cannot be written: " + system_reason());
     }
     return {};
 }

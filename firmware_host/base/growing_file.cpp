@@ -24,10 +24,11 @@ Result<GrowingFile> GrowingFile::create(const std::filesystem::path& wanted) {
             return GrowingFile(descriptor, path);
         }
         if (errno != EEXIST) {
-            return bad_input(path.string() + ": cannot be made: " + std::strerror(errno));
+            return bad_input("file.not_made", path.string() + ": cannot be made: " + std::strerror(errno));
         }
     }
-    return bad_input(wanted.string() + ": there are too many of this name; move them away");
+    return bad_input("file.too_many_of_name",
+                     wanted.string() + ": there are too many of this name; move them away");
 }
 
 GrowingFile::GrowingFile(int descriptor, std::filesystem::path name)
@@ -70,9 +71,9 @@ Result<void> GrowingFile::sync() const {
 
 Result<void> GrowingFile::failure() const {
     if (errno == ENOSPC || errno == EDQUOT) {
-        return bad_input(path_.string() + ": the disk is full");
+        return bad_input("file.disk_full", path_.string() + ": the disk is full");
     }
-    return bad_input(path_.string() + ": cannot be written: " + std::strerror(errno));
+    return bad_input("file.not_grown", path_.string() + ": cannot be written: " + std::strerror(errno));
 }
 
 } // namespace frustumscreen

@@ -47,7 +47,8 @@ Result<OpenFile> OpenFile::open(const std::filesystem::path& path, std::uint64_t
     // A pipe or a device must not hold the program up before it is refused.
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (descriptor < 0) {
-        return bad_input(path.string() + (errno == ENOENT
+        return bad_input("file.not_opened",
+                         path.string() + (errno == ENOENT
                                               ? std::string(": there is no such file")
                                               : std::string(": cannot be read: ") + std::strerror(errno)));
     }
@@ -56,15 +57,16 @@ Result<OpenFile> OpenFile::open(const std::filesystem::path& path, std::uint64_t
     const auto bytes = static_cast<std::uint64_t>(status.st_size);
     OpenFile file(content_of(descriptor, bytes));
     if (failed != 0) {
-        return bad_input(path.string() + ": cannot be read: " + std::strerror(failed));
+        return bad_input("file.unreadable", path.string() + ": cannot be read: " + std::strerror(failed));
     }
     if (!S_ISREG(status.st_mode)) {
-        return bad_input(path.string() + (S_ISDIR(status.st_mode) ? ": this is a folder; name a file"
+        return bad_input("file.not_regular",
+                         path.string() + (S_ISDIR(status.st_mode) ? ": this is a folder; name a file"
                                                                   : ": this is no ordinary file"));
     }
     if (bytes > limit_bytes) {
-        return bad_input(path.string() + ": " + std::to_string(bytes) + " bytes; at most " +
-                         std::to_string(limit_bytes) + " are allowed");
+        return bad_input("file.too_long", path.string() + ": " + std::to_string(bytes) + " bytes; at most " +
+                                              std::to_string(limit_bytes) + " are allowed");
     }
     return file;
 }

@@ -3,14 +3,19 @@
 /// Errors that a person can cause (files, settings, devices) travel as values with one sentence for that
 /// person: what, where, what is allowed, what to do next. Programming errors assert.
 ///
+/// Each sentence has an id, which stays when its wording changes: tests, the guide and other programs go by the id. Programs print it
+/// in brackets behind the sentence.
+///
 /// TRY(const X x, f()); is `const X x` with the value of f(), or ends the function with f()'s error.
 /// TRY_VOID(g()); is the same where there is no value. The compiler refuses a value that holds something, such as a context or
 /// a lock: name it with TRY, or drop it with TRY_VOID(without_value(g())).
 #pragma once
 
+#include <fmt/format.h>
 #include <tl/expected.hpp>
 
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -24,18 +29,59 @@ enum class ErrorKind {
     Internal,         ///< this program cannot go on: the service manager restarts it
 };
 
+/// `subject.problem`, in small letters, digits and `_`; written as a literal beside its sentence, and checked when it is compiled.
+class MessageId {
+public:
+    // NOLINTNEXTLINE(google-explicit-constructor): a literal is an id wherever one is asked for
+    consteval MessageId(const char* id) : id_(id) {
+        if (!is_well_formed(id_)) {
+            throw "a message's id is subject.problem, in small letters, digits and _"; // ends the compilation
+        }
+    }
+    [[nodiscard]] constexpr std::string_view view() const { return id_; }
+    constexpr operator std::string_view() const { return id_; } // NOLINT(google-explicit-constructor): to be printed
+    friend constexpr bool operator==(const MessageId& id, std::string_view other) { return id.id_ == other; }
+
+private:
+    static constexpr bool is_well_formed(std::string_view id) {
+        const std::size_t dot = id.find('.');
+        return dot != std::string_view::npos && dot > 0 && dot + 1 < id.size() &&
+               id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_.") == std::string_view::npos &&
+               id.find('.', dot + 1) == std::string_view::npos;
+    }
+    std::string_view id_;
+};
+
 struct Error {
-    ErrorKind kind = ErrorKind::BadInput;
+    ErrorKind kind;
+    MessageId id;
     std::string message; ///< one line, no trailing full stop or line break
 };
 
 template <typename T> using Result = tl::expected<T, Error>;
 
-[[nodiscard]] inline tl::unexpected<Error> fail(ErrorKind kind, std::string message) {
-    return tl::unexpected<Error>(Error{kind, std::move(message)});
+[[nodiscard]] inline tl::unexpected<Error> fail(ErrorKind kind, MessageId id, std::string message) {
+    return tl::unexpected<Error>(Error{kind, id, std::move(message)});
 }
-[[nodiscard]] inline tl::unexpected<Error> bad_input(std::string message) {
-    return fail(ErrorKind::BadInput, std::move(message));
+template <typename First, typename... Others>
+[[nodiscard]] tl::unexpected<Error> fail(ErrorKind kind, MessageId id,
+                                         fmt::format_string<First, Others...> sentence, First&& first,
+                                         Others&&... others) {
+    return fail(kind, id, fmt::format(sentence, std::forward<First>(first), std::forward<Others>(others)...));
+}
+[[nodiscard]] inline tl::unexpected<Error> bad_input(MessageId id, std::string message) {
+    return fail(ErrorKind::BadInput, id, std::move(message));
+}
+template <typename First, typename... Others>
+[[nodiscard]] tl::unexpected<Error> bad_input(MessageId id, fmt::format_string<First, Others...> sentence,
+                                              First&& first, Others&&... others) {
+    return fail(ErrorKind::BadInput, id, sentence, std::forward<First>(first),
+                std::forward<Others>(others)...);
+}
+/// Another kind of the same error, since another person acts on it here.
+[[nodiscard]] inline tl::unexpected<Error> as_kind(ErrorKind kind, Error error) {
+    error.kind = kind;
+    return tl::unexpected<Error>(std::move(error));
 }
 
 /// Puts `place` (a file, a part of it) in front of an error's message.

@@ -232,15 +232,15 @@ Result<ProgramEnd> follow_program(const std::vector<std::string>& command, std::
     Pipe output = open_pipe();
     Pipe complaints = open_pipe();
     if (command.empty() || given.number() < 0 || output.in.number() < 0 || complaints.in.number() < 0) {
-        return fail(ErrorKind::Internal,
-                    fmt::format("{}: cannot be started: {}", name_of(command), std::strerror(errno)));
+        return fail(ErrorKind::Internal, "program.no_process", "{}: cannot be started: {}", name_of(command),
+                    std::strerror(errno));
     }
     const auto process =
         start(command, {given.number(), output.in.number(), complaints.in.number()}, limits.memory_bytes);
     if (!process) {
-        return fail(ErrorKind::BadConfiguration,
-                    fmt::format("{}: cannot be started: {}; install it, or name another program",
-                                name_of(command), std::strerror(process.error())));
+        return fail(ErrorKind::BadConfiguration, "program.not_started",
+                    "{}: cannot be started: {}; install it, or name another program", name_of(command),
+                    std::strerror(process.error()));
     }
     output.in = Descriptor(); // else the pipes would never end
     complaints.in = Descriptor();
@@ -259,21 +259,23 @@ Result<Bytes> run_program(const std::vector<std::string>& command, std::string_v
     TRY(ProgramEnd end, follow_program(command, input, limits));
     const std::string name = name_of(command);
     if (end.how == ProgramEnd::How::TooMuch) {
-        return bad_input(fmt::format("{}: writes more than {} bytes for one text; it was ended", name,
-                                     limits.output_bytes));
+        return bad_input("program.too_much_output",
+                         "{}: writes more than {} bytes for one text; it was ended", name,
+                         limits.output_bytes);
     }
     if (end.how == ProgramEnd::How::TooLate) {
-        return bad_input(fmt::format("{}: takes longer than {:g} s for one text; it was ended", name,
-                                     std::chrono::duration<double>(limits.time).count()));
+        return bad_input("program.too_slow", "{}: takes longer than {:g} s for one text; it was ended", name,
+                         std::chrono::duration<double>(limits.time).count());
     }
     if (end.how == ProgramEnd::How::GivenUp) {
-        return bad_input(fmt::format("{}: it was ended, as nobody waits for it any more", name));
+        return bad_input("program.cancelled", "{}: it was ended, as nobody waits for it any more", name);
     }
     if (end.status != 0) {
         const std::string why =
             printable(std::string_view(end.complaint).substr(0, end.complaint.find('\n')), 160);
-        return bad_input(fmt::format("{}: ends with {} {}{}{}", name, end.status > 0 ? "status" : "signal",
-                                     std::abs(end.status), why.empty() ? "" : ": ", why));
+        return bad_input("program.failed", "{}: ends with {} {}{}{}", name,
+                         end.status > 0 ? "status" : "signal", std::abs(end.status), why.empty() ? "" : ": ",
+                         why);
     }
     return std::move(end.output);
 }

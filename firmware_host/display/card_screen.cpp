@@ -15,7 +15,8 @@ Result<std::unique_ptr<CardScreen>> CardScreen::create(int card, PixelSize pictu
     Result<PictureCopy> copy = [&]() -> Result<PictureCopy> {
         const CopyingNow now(copying, gpu.context());
         if (!now.current()) {
-            return fail(ErrorKind::Internal, "display: the second OpenGL ES context cannot be made current");
+            return fail(ErrorKind::Internal, "display.second_context",
+                        "display: the second OpenGL ES context cannot be made current");
         }
         return PictureCopy::create();
     }();

@@ -61,7 +61,8 @@ Result<DrawingGpu> DrawingGpu::choose_for(int card) {
         if (own->context_.make_current()) {
             return own;
         }
-        return fail(ErrorKind::Internal, "display: the OpenGL ES context cannot be made current again");
+        return fail(ErrorKind::Internal, "display.context_lost",
+                    "display: the OpenGL ES context cannot be made current again");
     }
     Result<EglContext> context = EglContext::without_screen();
     if (!context) {
@@ -72,7 +73,7 @@ Result<DrawingGpu> DrawingGpu::choose_for(int card) {
 
 Result<DrawingGpu> DrawingGpu::on(Device device, bool shows) {
     if (!device) {
-        return fail(ErrorKind::BadConfiguration,
+        return fail(ErrorKind::BadConfiguration, "display.no_gbm",
                     "display: no memory for pictures on the graphics card (GBM); install libgl1-mesa-dri");
     }
     TRY(EglContext context, EglContext::on_gbm(device.get()));

@@ -35,17 +35,16 @@ private:
 Result<void> DumbScanoutPair::make() {
     const CopyingNow copying(screen_);
     if (!copying.current()) {
-        return fail(ErrorKind::BadConfiguration,
-                    fmt::format("the graphics card lacks the second OpenGL ES context for {} x {} pixels",
-                                size_.width, size_.height));
+        return fail(ErrorKind::BadConfiguration, "display.no_second_context",
+                    "the graphics card lacks the second OpenGL ES context for {} x {} pixels", size_.width,
+                    size_.height);
     }
     TRY(read_back_, ReadBack::create(size_));
     for (int k = 0; k < 2; ++k) {
         std::optional<DumbBuffer> buffer = DumbBuffer::create(screen_.card(), size_);
         if (!buffer || !buffer->map()) {
-            return fail(
-                ErrorKind::BadConfiguration,
-                fmt::format("the graphics card has no memory for {} x {} pixels", size_.width, size_.height));
+            return fail(ErrorKind::BadConfiguration, "display.no_memory",
+                        "the graphics card has no memory for {} x {} pixels", size_.width, size_.height);
         }
         buffers_.push_back(*std::move(buffer));
     }

@@ -13,9 +13,9 @@ namespace frustumscreen {
 namespace {
 
 tl::unexpected<Error> no_display(std::string_view what) {
-    return fail(ErrorKind::BadConfiguration,
-                fmt::format("display: {} (EGL error {:#06x}); install libegl1, libgles2 and libgl1-mesa-dri",
-                            what, static_cast<unsigned>(eglGetError())));
+    return fail(ErrorKind::BadConfiguration, "display.egl",
+                "display: {} (EGL error {:#06x}); install libegl1, libgles2 and libgl1-mesa-dri", what,
+                static_cast<unsigned>(eglGetError()));
 }
 
 bool lists(const char* list, std::string_view name) {

@@ -143,8 +143,8 @@ bool GbmScanoutPair::read(int which, std::span<std::byte> rgba) const {
 Result<std::unique_ptr<ScanoutPair>> make_gbm_scanout(const CardScreen& screen, PixelSize size) {
     auto pair = std::make_unique<GbmScanoutPair>(screen, size);
     if (const char* missing = pair->make()) {
-        return fail(ErrorKind::BadConfiguration, fmt::format("the graphics card lacks {} for {} x {} pixels",
-                                                             missing, size.width, size.height));
+        return fail(ErrorKind::BadConfiguration, "display.scanout_lacks",
+                    "the graphics card lacks {} for {} x {} pixels", missing, size.width, size.height);
     }
     return pair;
 }

@@ -59,8 +59,8 @@ Result<KmsCard> KmsCard::open(std::string_view name, const OutputRequest& reques
     if (!name.empty()) {
         return open_path(name.front() == '/' ? std::string(name) : fmt::format("{}/{}", folder, name));
     }
-    Result<KmsCard> best =
-        fail(ErrorKind::DeviceLost, fmt::format("display: no graphics card in {}; load its driver", folder));
+    Result<KmsCard> best = fail(ErrorKind::DeviceLost, "display.no_card",
+                                "display: no graphics card in {}; load its driver", folder);
     CardRank best_rank{};
     const std::vector<std::string> paths = card_paths(folder);
     for (const std::string& path : paths) {
@@ -83,16 +83,16 @@ Result<KmsCard> KmsCard::open_path(const std::string& path) {
     const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK);
     if (file < 0) {
         const bool refused = errno == EACCES || errno == EPERM;
-        return fail(refused ? ErrorKind::BadConfiguration : ErrorKind::DeviceLost,
-                    fmt::format("display: {} cannot be opened: {}; {}", path, std::strerror(errno),
-                                refused ? "this user must be in the group video"
-                                        : "is it the card's name, and is its driver loaded?"));
+        return fail(refused ? ErrorKind::BadConfiguration : ErrorKind::DeviceLost, "display.card_not_opened",
+                    "display: {} cannot be opened: {}; {}", path, std::strerror(errno),
+                    refused ? "this user must be in the group video"
+                            : "is it the card's name, and is its driver loaded?");
     }
     KmsCard card(file, path);
     const KmsResources resources = resources_of(file);
     if (!resources || resources->count_crtcs == 0 || resources->count_connectors == 0) {
-        return fail(ErrorKind::DeviceLost, // a card with connectors may come later
-                    fmt::format("display: the graphics card {} has no connectors; name another one", path));
+        return fail(ErrorKind::DeviceLost, "display.no_connectors", // a card with connectors may come later
+                    "display: the graphics card {} has no connectors; name another one", path);
     }
     card.atomic_ = drmSetClientCap(file, DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) == 0 &&
                    drmSetClientCap(file, DRM_CLIENT_CAP_ATOMIC, 1) == 0;

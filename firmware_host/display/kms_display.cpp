@@ -19,9 +19,8 @@ Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_nam
     }
     if (!take_screen(card->file())) {
         return fail(
-            ErrorKind::DeviceLost, // it may be free when it is opened again later
-            fmt::format("display: another program holds the screen of {}; end it, or run with --headless",
-                        card->path()));
+            ErrorKind::DeviceLost, "display.screen_held", // it may be free when it is opened again later
+            "display: another program holds the screen of {}; end it, or run with --headless", card->path());
     }
     TRY(std::unique_ptr<CardScreen> screen,
         CardScreen::create(card->file(), {request.picture_width, request.picture_height}));

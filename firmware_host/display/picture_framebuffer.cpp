@@ -13,18 +13,15 @@ Result<PictureFramebuffer> PictureFramebuffer::create(int width, int height) {
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &renderbuffer_limit);
     limit = std::min(limit, renderbuffer_limit);
     if (width < 1 || height < 1 || width > limit || height > limit) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format("display: a picture of {} x {} pixels; this driver draws 1 to {} on each side", width,
-                        height, limit));
+        return fail(ErrorKind::BadConfiguration, "display.picture_size",
+                    "display: a picture of {} x {} pixels; this driver draws 1 to {} on each side", width,
+                    height, limit);
     }
     PictureFramebuffer picture(width, height);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE || glGetError() != GL_NO_ERROR) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format(
-                "display: the driver cannot hold a picture of {} x {} pixels; configure a smaller one", width,
-                height));
+        return fail(ErrorKind::BadConfiguration, "display.no_room_for_picture",
+                    "display: the driver cannot hold a picture of {} x {} pixels; configure a smaller one",
+                    width, height);
     }
     glBindTexture(GL_TEXTURE_2D, 0);
     // A display may copy the picture before the renderer has drawn it: no memory is read that was never written.

@@ -41,12 +41,13 @@ void Presenter::connected(CardSeen seen) {
 
 Result<void> Presenter::check_card() {
     if (seen_.state == CardState::Back) {
-        return fail(ErrorKind::DeviceLost,
+        return fail(ErrorKind::DeviceLost, "display.card_again",
                     "display: the graphics card is there again; the exhibit must be started anew "
                     "to take it up");
     }
     if (seen_.state == CardState::Elsewhere) {
-        return fail(ErrorKind::DeviceLost, fmt::format("display: {}", projector_is_elsewhere));
+        return fail(ErrorKind::DeviceLost, "display.projector_elsewhere", "display: {}",
+                    projector_is_elsewhere);
     }
     return {};
 }
@@ -92,10 +93,10 @@ Result<MonotonicTime> Presenter::present(const PixelRectangle& changed, bool may
     if (stuck_since_ && device_.now() - *stuck_since_ >= stuck_given_up) {
         stuck_since_.reset();
         if (choose_connector(seen_, request_) != nullptr) {
-            return fail(ErrorKind::DeviceLost,
-                        fmt::format("display: the graphics card has taken no picture for {} s; the exhibit "
-                                    "must be started anew",
-                                    stuck_given_up / std::chrono::seconds(1)));
+            return fail(ErrorKind::DeviceLost, "display.stuck",
+                        "display: the graphics card has taken no picture for {} s; the exhibit "
+                        "must be started anew",
+                        stuck_given_up / std::chrono::seconds(1));
         }
     }
     for (PixelRectangle& stale : stale_) {

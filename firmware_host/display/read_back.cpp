@@ -16,9 +16,9 @@ Result<ReadBack> ReadBack::create(PixelSize screen) {
     ReadBack read_back(screen);
     if (!has_gl_extension("GL_EXT_read_format_bgra") ||
         glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        return fail(ErrorKind::BadConfiguration,
-                    fmt::format("the GPU that draws cannot hand over pictures of {} x {} pixels",
-                                screen.width, screen.height));
+        return fail(ErrorKind::BadConfiguration, "display.no_read_back",
+                    "the GPU that draws cannot hand over pictures of {} x {} pixels", screen.width,
+                    screen.height);
     }
     return read_back;
 }

@@ -29,8 +29,9 @@ int set_aside(const std::filesystem::path& folder) {
 Result<void> keep_shaders_in(const std::filesystem::path& folder) {
     if (const int why = set_aside(folder / "mesa_shader_cache"); why != 0) {
         keep_no_shaders();
-        return bad_input(fmt::format("{}: compiled shaders cannot be kept there: {}; each start takes longer",
-                                     folder.string(), std::strerror(why)));
+        return bad_input("display.shader_cache",
+                         "{}: compiled shaders cannot be kept there: {}; each start takes longer",
+                         folder.string(), std::strerror(why));
     }
     ::setenv("MESA_SHADER_CACHE_DIR", folder.c_str(), 1);
     ::setenv("MESA_SHADER_CACHE_MAX_SIZE", "64M", 1);

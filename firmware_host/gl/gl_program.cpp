@@ -15,8 +15,8 @@ constexpr std::string_view prologue = "#version 300 es\n"
                                       "precision highp sampler2D;\n";
 
 tl::unexpected<Error> refused(std::string_view what, std::string_view log) {
-    return fail(ErrorKind::Internal,
-                fmt::format("OpenGL: the driver refuses the {}: {}", what, log.substr(0, log.find('\n'))));
+    return fail(ErrorKind::Internal, "gl.refused", "OpenGL: the driver refuses the {}: {}", what,
+                log.substr(0, log.find('\n')));
 }
 
 Result<void> attach(GLuint program, GLenum stage, std::string_view defines, std::string_view body) {

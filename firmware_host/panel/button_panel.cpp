@@ -101,7 +101,7 @@ Error ButtonPanel::serve(ButtonLines& lines, const std::stop_token& stop) {
         }
     }
     const Result<void> dark = lamps.follow(0, buttons, lines);
-    return dark ? Error{ErrorKind::DeviceLost, {}} : dark.error();
+    return dark ? Error{ErrorKind::DeviceLost, "panel.ended", {}} : dark.error();
 }
 
 } // namespace frustumscreen

@@ -20,8 +20,8 @@ struct CloseChip {
 };
 using Chip = std::unique_ptr<gpiod_chip, CloseChip>;
 
-tl::unexpected<Error> lost(std::string message) {
-    return fail(ErrorKind::DeviceLost, std::move(message));
+tl::unexpected<Error> lost(MessageId id, std::string message) {
+    return fail(ErrorKind::DeviceLost, id, std::move(message));
 }
 
 std::string reason(int error) {
@@ -55,7 +55,8 @@ Result<gpiod_line_bulk> find_all(gpiod_chip* chip, const std::vector<std::string
     for (const std::string& name : names) {
         gpiod_line* const line = find(chip, name);
         if (line == nullptr) {
-            return lost(fmt::format("GPIO chip {} has no line {}; it has {} lines, and gpioinfo lists them",
+            return lost("panel.no_line",
+                        fmt::format("GPIO chip {} has no line {}; it has {} lines, and gpioinfo lists them",
                                     chip_name, name, ::gpiod_chip_num_lines(chip)));
         }
         ::gpiod_line_bulk_add(&lines, line);
@@ -102,7 +103,7 @@ public:
         std::array<int, GPIOD_LINE_BULK_MAX_LINES>
             levels{}; // lines requested together can only be read together
         if (::gpiod_line_get_value_bulk(&lines_, levels.data()) < 0) {
-            return lost(fmt::format("{}: {}", name_, reason(errno)));
+            return lost("panel.chip_lost", fmt::format("{}: {}", name_, reason(errno)));
         }
         std::transform(levels.begin(), levels.begin() + static_cast<std::ptrdiff_t>(down.size()),
                        down.begin(), [](int level) { return level == 1; });
@@ -118,7 +119,7 @@ public:
         std::array<int, GPIOD_LINE_BULK_MAX_LINES> levels{};
         std::copy(lit.begin(), lit.end(), levels.begin());
         if (lamps_.num_lines > 0 && ::gpiod_line_set_value_bulk(&lamps_, levels.data()) < 0) {
-            return lost(fmt::format("{}: its lamps: {}", name_, reason(errno)));
+            return lost("panel.lamps_lost", fmt::format("{}: its lamps: {}", name_, reason(errno)));
         }
         return {};
     }
@@ -138,7 +139,7 @@ private:
 Result<std::unique_ptr<ButtonLines>> open_gpio_lines(const LineRequest& request) {
     Chip chip(::gpiod_chip_open_lookup(request.chip.c_str()));
     if (!chip) {
-        return lost(fmt::format("GPIO chip {}: {}", request.chip, reason(errno)));
+        return lost("panel.chip_not_opened", fmt::format("GPIO chip {}: {}", request.chip, reason(errno)));
     }
     TRY(const auto lines, find_all(chip.get(), request.lines, request.chip));
     TRY(const auto lamps, find_all(chip.get(), request.lamps, request.chip));
@@ -146,13 +147,15 @@ Result<std::unique_ptr<ButtonLines>> open_gpio_lines(const LineRequest& request)
     const gpiod_line_request_config config{"frustumscreen", GPIOD_LINE_REQUEST_DIRECTION_INPUT,
                                            flags_of(request)};
     if (::gpiod_line_request_bulk(&watched, &config, nullptr) < 0) {
-        return lost(fmt::format("GPIO chip {}: its lines cannot be read: {}", request.chip, reason(errno)));
+        return lost("panel.lines_unreadable",
+                    fmt::format("GPIO chip {}: its lines cannot be read: {}", request.chip, reason(errno)));
     }
     gpiod_line_bulk lit = lamps;
     const gpiod_line_request_config output{"frustumscreen", GPIOD_LINE_REQUEST_DIRECTION_OUTPUT, 0};
     const std::array<int, GPIOD_LINE_BULK_MAX_LINES> dark{};
     if (lit.num_lines > 0 && ::gpiod_line_request_bulk(&lit, &output, dark.data()) < 0) {
-        return lost(fmt::format("GPIO chip {}: its lamps cannot be lit: {}", request.chip, reason(errno)));
+        return lost("panel.lamps_unlit",
+                    fmt::format("GPIO chip {}: its lamps cannot be lit: {}", request.chip, reason(errno)));
     }
     std::string remark = cp2112_remark(request.chip, read_cp2112_configuration(::gpiod_chip_name(chip.get())),
                                        offsets_of(watched), offsets_of(lit));

@@ -40,7 +40,7 @@ tl::unexpected<Error> lost(const std::string& name, int error) {
             return std::strerror(error);
         }
     };
-    return fail(ErrorKind::DeviceLost, fmt::format("keyboard {}: {}", name, reason()));
+    return fail(ErrorKind::DeviceLost, "panel.keyboard_lost", "keyboard {}: {}", name, reason());
 }
 
 class File {
@@ -152,16 +152,15 @@ Result<std::unique_ptr<ButtonLines>> open_key_lines(const KeyRequest& request) {
     }
     KeyBits keys{};
     if (::ioctl(file.get(), EVIOCGBIT(EV_KEY, keys.size()), keys.data()) < 0) {
-        return fail(ErrorKind::DeviceLost,
-                    fmt::format("keyboard {}: it is no event device; see {}", request.device, folder));
+        return fail(ErrorKind::DeviceLost, "panel.no_event_device",
+                    "keyboard {}: it is no event device; see {}", request.device, folder);
     }
     KeyLevels there(request.codes);
     there.set(keys); // the same bits, but of the keys that it has
     for (std::size_t k = 0; k < request.codes.size(); ++k) {
         if (!there.down(k)) {
-            return fail(ErrorKind::DeviceLost,
-                        fmt::format("keyboard {}: it has no key {}", request.device,
-                                    libevdev_event_code_get_name(EV_KEY, request.codes[k])));
+            return fail(ErrorKind::DeviceLost, "panel.no_key", "keyboard {}: it has no key {}",
+                        request.device, libevdev_event_code_get_name(EV_KEY, request.codes[k]));
         }
     }
     if (::ioctl(file.get(), EVIOCGRAB, 1) < 0) { // until it is closed
@@ -179,10 +178,10 @@ Result<std::vector<std::uint16_t>> key_codes(std::span<const std::string> names)
     for (const std::string& name : names) {
         const int code = libevdev_event_code_from_name(EV_KEY, name.c_str());
         if (code < 0) {
-            return fail(ErrorKind::BadConfiguration,
-                        fmt::format("panel.keys: there is no key {}; allowed are names such as KEY_LEFT, "
-                                    "KEY_SPACE, KEY_A; evtest shows them",
-                                    name));
+            return fail(ErrorKind::BadConfiguration, "panel.unknown_key",
+                        "panel.keys: there is no key {}; allowed are names such as KEY_LEFT, "
+                        "KEY_SPACE, KEY_A; evtest shows them",
+                        name);
         }
         codes.push_back(static_cast<std::uint16_t>(code));
     }

@@ -45,16 +45,16 @@ Result<Bytes> content_of(Bytes answer) {
     const std::size_t end = text.substr(0, most_head_bytes).find('\n');
     const std::string_view head = text.substr(0, end == std::string_view::npos ? 0 : end);
     if (head.starts_with("no ")) {
-        return bad_input("the exhibit says: " + printable(head.substr(3), 300));
+        return bad_input("staff.exhibit_says", "the exhibit says: " + printable(head.substr(3), 300));
     }
     std::size_t size = 0;
     const char* const head_end = head.data() + head.size();
     if (!head.starts_with("ok ")) {
-        return bad_input("what listens there is no exhibit");
+        return bad_input("staff.no_exhibit", "what listens there is no exhibit");
     }
     const std::from_chars_result read = std::from_chars(head.data() + 3, head_end, size);
     if (read.ec != std::errc{} || read.ptr != head_end || answer.size() - end - 1 != size) {
-        return bad_input("its answer was cut off; ask again");
+        return bad_input("staff.cut_off", "its answer was cut off; ask again");
     }
     answer.erase(answer.begin(), answer.begin() + static_cast<std::ptrdiff_t>(end) + 1);
     return answer;
@@ -81,14 +81,14 @@ Result<Bytes> ask_staff_socket(const std::filesystem::path& path, std::string_vi
     const std::string place = printable(path.string(), 200);
     const std::optional<UnixAddress> address = UnixAddress::of(path);
     if (!address) {
-        return bad_input(place + ": a socket's path has 1 to 107 bytes");
+        return bad_input("staff.socket_path", place + ": a socket's path has 1 to 107 bytes");
     }
     const Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
     // A socket whose queue is full holds the caller up no longer than this.
     const timeval longest{std::chrono::ceil<std::chrono::seconds>(patience).count(), 0};
     static_cast<void>(::setsockopt(socket.number(), SOL_SOCKET, SO_SNDTIMEO, &longest, sizeof(longest)));
     if (::connect(socket.number(), address->get(), address->size()) != 0) {
-        return bad_input(fmt::format("{}: {}", place, why_unreachable()));
+        return bad_input("staff.unreachable", "{}: {}", place, why_unreachable());
     }
     const std::string line = std::string(question) + "\n";
     // Where it was closed already, the answer says why.
@@ -96,7 +96,8 @@ Result<Bytes> ask_staff_socket(const std::filesystem::path& path, std::string_vi
     std::optional<Bytes> answer =
         read_all(socket.number(), most_bytes + most_head_bytes, monotonic_now() + patience);
     if (!answer) {
-        return bad_input(place + ": the exhibit does not answer in time; it hangs, or others ask it too");
+        return bad_input("staff.no_answer",
+                         place + ": the exhibit does not answer in time; it hangs, or others ask it too");
     }
     return at(place, content_of(std::move(*answer)));
 }

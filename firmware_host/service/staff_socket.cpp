@@ -26,8 +26,8 @@ namespace {
 constexpr int most_waiting = 4;
 
 tl::unexpected<Error> cannot_listen(const std::filesystem::path& path, std::string_view reason) {
-    return fail(ErrorKind::BadConfiguration,
-                fmt::format("{}: the staff's socket cannot be made: {}", path.string(), reason));
+    return fail(ErrorKind::BadConfiguration, "staff.no_socket", "{}: the staff's socket cannot be made: {}",
+                path.string(), reason);
 }
 
 /// Removes the socket that an exhibit left which was killed.
@@ -143,7 +143,8 @@ bool StaffSocket::wait_for(int descriptor, short events, MonotonicTime until) co
 }
 
 void StaffSocket::serve(int client, const std::stop_token& stop) const {
-    Result<Bytes> answer = bad_input("this is for the staff: be root, or in the socket's group");
+    Result<Bytes> answer =
+        bad_input("staff.not_allowed", "this is for the staff: be root, or in the socket's group");
     if (may_ask(client, group_)) {
         const Result<std::string> question = question_of(client);
         answer = question ? answer_(*question, stop) : tl::unexpected<Error>(question.error());
@@ -163,11 +164,11 @@ Result<std::string> StaffSocket::question_of(int client) const {
     while (question.size() < most_question_bytes) {
         std::array<char, most_question_bytes> text{};
         if (!wait_for(client, POLLIN, until)) {
-            return bad_input("no question came within a second");
+            return bad_input("staff.no_question_came", "no question came within a second");
         }
         const ssize_t got = ::recv(client, text.data(), most_question_bytes - question.size(), 0);
         if (got <= 0) {
-            return bad_input("the question has no end");
+            return bad_input("staff.question_without_end", "the question has no end");
         }
         question.append(text.data(), static_cast<std::size_t>(got));
         if (const std::size_t end = question.find('\n'); end != std::string::npos) {
@@ -175,7 +176,7 @@ Result<std::string> StaffSocket::question_of(int client) const {
             return question;
         }
     }
-    return bad_input(fmt::format("a question has at most {} bytes", most_question_bytes));
+    return bad_input("staff.question_too_long", "a question has at most {} bytes", most_question_bytes);
 }
 
 void StaffSocket::send(int client, std::span<const std::byte> bytes, MonotonicTime until) const {

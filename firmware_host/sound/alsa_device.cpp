@@ -56,7 +56,7 @@ std::string reason(int error) {
 }
 
 tl::unexpected<Error> lost(const std::string& name, int error) {
-    return fail(ErrorKind::DeviceLost, fmt::format("sound device {}: {}", name, reason(error)));
+    return fail(ErrorKind::DeviceLost, "sound.device", "sound device {}: {}", name, reason(error));
 }
 
 /// The first error of a chain of calls.

@@ -96,7 +96,8 @@ Error DeviceSound::play(PcmDevice& device, const std::stop_token& stop) {
         allowance.use(std::min(*room, allowed));
         moved = *room > 0 ? now : moved;
         if (now - moved > stalls_after) {
-            return {ErrorKind::DeviceLost, "the sound device takes no more samples; it is opened again"};
+            return Error{ErrorKind::DeviceLost, "sound.stalled",
+                    "the sound device takes no more samples; it is opened again"};
         }
         underruns_ = underruns_before + device.underruns();
         report(duration_of(device.queued()), true);
@@ -106,7 +107,7 @@ Error DeviceSound::play(PcmDevice& device, const std::stop_token& stop) {
             device.wait(round);
         }
     }
-    return {ErrorKind::DeviceLost, {}};
+    return Error{ErrorKind::DeviceLost, "sound.ended", {}};
 }
 
 void DeviceSound::rest(Nanoseconds length, const std::stop_token& stop) {

@@ -37,12 +37,12 @@ std::string_view reason(int error) {
 }
 
 tl::unexpected<Error> refused(int error) {
-    return bad_input(fmt::format("{} (libopusfile: {})", reason(error), error));
+    return bad_input("opus.library", "{} (libopusfile: {})", reason(error), error);
 }
 
 tl::unexpected<Error> too_long(const OpusLimits& limits) {
-    return bad_input(fmt::format("the recording is longer than {} s; shorten it, or divide it",
-                                 std::chrono::duration_cast<std::chrono::seconds>(limits.longest).count()));
+    return bad_input("opus.too_long", "the recording is longer than {} s; shorten it, or divide it",
+                     std::chrono::duration_cast<std::chrono::seconds>(limits.longest).count());
 }
 
 /// Pages that begin a stream (RFC 3533, 'Beginning of stream'), wherever they lie. libopusfile 0.12 loses memory
@@ -70,7 +70,8 @@ std::int16_t code_of(float x) {
 
 Result<Prompt> read_opus(std::span<const std::byte> bytes, const OpusLimits& limits) {
     if (streams_in(bytes) > 1) {
-        return bad_input("the file holds more than one recording; store each in a file of its own");
+        return bad_input("opus.several",
+                         "the file holds more than one recording; store each in a file of its own");
     }
     int error = 0;
     const OpusFile file(
@@ -80,7 +81,8 @@ Result<Prompt> read_opus(std::span<const std::byte> bytes, const OpusLimits& lim
     }
     const int channels = ::op_channel_count(file.get(), 0);
     if (channels > most_channels) {
-        return bad_input(fmt::format("the recording has {} channels; store it with one or two", channels));
+        return bad_input("opus.channels", "the recording has {} channels; store it with one or two",
+                         channels);
     }
     const ogg_int64_t claimed = ::op_pcm_total(file.get(), -1);
     if (claimed < 0) {
@@ -111,7 +113,7 @@ Result<Prompt> read_opus(std::span<const std::byte> bytes, const OpusLimits& lim
         }
     }
     if (prompt.samples.empty()) {
-        return bad_input("the recording is empty; record it again");
+        return bad_input("opus.empty", "the recording is empty; record it again");
     }
     return prompt;
 }

@@ -21,21 +21,24 @@ using Row = std::array<double, 8>;
 
 Result<Row> read_row(const TextRows& rows) {
     if (rows.fields().size() != columns.size()) {
-        return bad_input(rows.located(
-            fmt::format("the row has {} fields; allowed are 8: t x y z qx qy qz qw", rows.fields().size())));
+        return bad_input("convert.fields",
+                         rows.located(fmt::format("the row has {} fields; allowed are 8: t x y z qx qy qz qw",
+                                                  rows.fields().size())));
     }
     Row row{};
     for (std::size_t k = 0; k < row.size(); ++k) {
         const auto number = number_in(rows.fields()[k]);
         const double limit = k == 0 ? longest_s : farthest_m;
         if (!number || !(std::abs(*number) <= limit)) {
-            return bad_input(rows.located(fmt::format("{} is {}; allowed are numbers from {} to {}",
+            return bad_input("convert.number",
+                             rows.located(fmt::format("{} is {}; allowed are numbers from {} to {}",
                                                       columns[k], quoted(rows.fields()[k]), -limit, limit)));
         }
         row[k] = *number;
     }
     if (std::hypot(std::hypot(row[4], row[5]), std::hypot(row[6], row[7])) < 1e-6) {
-        return bad_input(rows.located("the quaternion is zero; allowed is a rotation, normally of length 1"));
+        return bad_input("convert.quaternion",
+                         rows.located("the quaternion is zero; allowed is a rotation, normally of length 1"));
     }
     return row;
 }
@@ -99,8 +102,9 @@ Result<ConvertedRecording> convert_recording(std::string_view text, std::string_
         const auto& [t, x, y, z, qx, qy, qz, qw] = row;
         start_s = start_s.value_or(t);
         if (t - *start_s > longest_s) {
-            return bad_input(rows.located(fmt::format(
-                "t is {}, more than {} seconds after the first row's {}", t, longest_s, *start_s)));
+            return bad_input("convert.too_long", rows.located(fmt::format(
+                                                     "t is {}, more than {} seconds after the first row's {}",
+                                                     t, longest_s, *start_s)));
         }
         PoseSample sample;
         sample.time = from_microseconds(std::llround((t - *start_s) * 1e6));
@@ -120,7 +124,8 @@ Result<ConvertedRecording> convert_recording(std::string_view text, std::string_
         result.samples.push_back(sample);
     }
     if (result.samples.empty()) {
-        return bad_input(fmt::format("{}: no pose in it; allowed are rows of t x y z qx qy qz qw", name));
+        return bad_input("convert.no_pose", "{}: no pose in it; allowed are rows of t x y z qx qy qz qw",
+                         name);
     }
     if (options.flat) {
         result.scale = lay_flat(result.samples, options.half_extent_m);

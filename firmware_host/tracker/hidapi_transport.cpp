@@ -45,7 +45,7 @@ public:
                                        buffer.size(), static_cast<int>(std::max<std::int64_t>(ms, 0)))
                     : -1;
         if (count < 0) {
-            return fail(ErrorKind::DeviceLost, "the HID device is gone");
+            return fail(ErrorKind::DeviceLost, "tracker.hid_gone", "the HID device is gone");
         }
         return static_cast<std::size_t>(count);
     }
@@ -53,7 +53,7 @@ public:
     [[nodiscard]] Result<void> write(std::span<const std::byte> bytes, Nanoseconds /*timeout*/) override {
         const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
         if (!device_ || hid_write(device_.get(), data, bytes.size()) < 0) {
-            return fail(ErrorKind::DeviceLost, "the HID device is gone");
+            return fail(ErrorKind::DeviceLost, "tracker.hid_gone_writing", "the HID device is gone");
         }
         return {};
     }

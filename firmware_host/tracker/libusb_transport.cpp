@@ -119,8 +119,8 @@ private:
         return error == LIBUSB_SUCCESS && count != static_cast<int>(bytes.size()) ? LIBUSB_ERROR_IO : error;
     }
     static tl::unexpected<Error> lost(const char* doing, int error) {
-        return fail(ErrorKind::DeviceLost, fmt::format("tracker: {} over USB failed: {}; check its cable",
-                                                       doing, libusb_strerror(error)));
+        return fail(ErrorKind::DeviceLost, "tracker.usb_failed",
+                    "tracker: {} over USB failed: {}; check its cable", doing, libusb_strerror(error));
     }
 
     Handle handle_;

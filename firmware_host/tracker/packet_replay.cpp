@@ -20,7 +20,7 @@ Result<PacketReplay> PacketReplay::open(Bytes file, std::string_view name) {
     TRY(const PacketReader packets, PacketReader::open(file, name));
     PacketReplay replay(std::move(file), packets);
     if (!replay.survey()) {
-        return bad_input(fmt::format("{}: no tracker was found while this was recorded", name));
+        return bad_input("packets.no_tracker", "{}: no tracker was found while this was recorded", name);
     }
     replay.rewind();
     return replay;

@@ -56,20 +56,21 @@ Result<std::vector<PoseSample>> pose_path(std::span<const PoseSample> keys, Nano
     for (const PoseSample& key : keys) {
         std::vector<PoseSample>& of_station = stations[key.station];
         if (!of_station.empty() && key.time <= of_station.back().time) {
-            return bad_input(fmt::format(
+            return bad_input(
+                "poses.order",
                 "a pose of station {} at {:.3f} s follows one at {:.3f} s; put them in the order of "
                 "their times",
-                key.station, seconds_of(key), seconds_of(of_station.back())));
+                key.station, seconds_of(key), seconds_of(of_station.back()));
         }
         of_station.push_back(key);
     }
     const auto earlier = [](const PoseSample& a, const PoseSample& b) { return a.time < b.time; };
     const auto [first, last] = std::minmax_element(keys.begin(), keys.end(), earlier);
     if ((last->time - first->time) / period > most_periods) {
-        return bad_input(
-            fmt::format("its poses span {:.0f} s, more than {} periods; give it fewer poses a second, or a "
-                        "shorter path",
-                        to_seconds(last->time - first->time), most_periods));
+        return bad_input("poses.too_many",
+                         "its poses span {:.0f} s, more than {} periods; give it fewer poses a second, or a "
+                         "shorter path",
+                         to_seconds(last->time - first->time), most_periods);
     }
     for (MonotonicTime time = first->time; time <= last->time; time += period) {
         for (const auto& [station, of_station] : stations) {

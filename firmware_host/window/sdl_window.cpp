@@ -26,7 +26,7 @@ constexpr double turn_of_a_pixel = 0.0087; ///< half a degree
 constexpr double used_share_of_desktop = 0.9;
 
 tl::unexpected<Error> no_window(const char* what) {
-    return fail(ErrorKind::BadConfiguration, fmt::format("window: {}: {}", what, SDL_GetError()));
+    return fail(ErrorKind::BadConfiguration, "window.sdl", "window: {}: {}", what, SDL_GetError());
 }
 
 /// Where there is nothing else, SDL falls back to drivers that show nothing; a person may ask for one by

@@ -2,6 +2,7 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/open_file.h"
 #include "tests/base/temporary_folder.h"
+#include "tests/base/told.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -24,7 +25,7 @@ protected:
     }
     [[nodiscard]] std::string refusal(const std::string& name, std::uint64_t limit = 100) const {
         const Result<OpenFile> file = OpenFile::open(folder / name, limit);
-        return file ? std::string() : file.error().message;
+        return file ? std::string() : test::told(file.error());
     }
 };
 
@@ -74,8 +75,7 @@ TEST_F(OpenFileTest, is_read_whole_though_another_takes_its_place) {
 
 TEST_F(OpenFileTest, says_why_it_cannot_be_had) {
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
-    EXPECT_NE(refusal("pipe").find("this is no ordinary file"), std::string::npos)
-        << "and does not wait for it";
+    EXPECT_NE(refusal("pipe").find("[file.not_regular]"), std::string::npos) << "and does not wait for it";
     EXPECT_NE(refusal(".").find("this is a folder"), std::string::npos);
     EXPECT_NE(refusal("nothing").find("there is no such file"), std::string::npos);
     EXPECT_NE(refusal("digits", 9).find("10 bytes; at most 9 are allowed"), std::string::npos);

@@ -91,12 +91,12 @@ TEST_F(NewFolder, replaces_nothing) {
     const std::string before = text("in/artifact.toml");
     const Result<fs::path> again = start_folder(root / "in", scan);
     ASSERT_FALSE(again);
-    EXPECT_NE(again.error().message.find("this file is there already; edit it"), std::string::npos);
+    EXPECT_EQ(again.error().id, "folder.artifact_file_there") << again.error().message;
     EXPECT_EQ(text("in/artifact.toml"), before);
     put("other/pictures/skin.png", "another picture");
     const Result<fs::path> other = start_folder(root / "other", scan);
     ASSERT_FALSE(other);
-    EXPECT_NE(other.error().message.find("is not replaced"), std::string::npos) << other.error().message;
+    EXPECT_EQ(other.error().id, "folder.there_already") << other.error().message;
     EXPECT_EQ(text("other/pictures/skin.png"), "another picture");
     EXPECT_FALSE(fs::exists(root / "other/scan.obj"));
 }
@@ -106,7 +106,7 @@ TEST_F(NewFolder, a_scan_whose_files_lie_elsewhere_is_refused) {
     scan.side_files.push_back(root / "in/../skin.png");
     const Result<fs::path> file = start_folder(root / "out", scan);
     ASSERT_FALSE(file);
-    EXPECT_NE(file.error().message.find("which lies outside its folder"), std::string::npos);
+    EXPECT_EQ(file.error().id, "folder.side_file_outside") << file.error().message;
     EXPECT_FALSE(fs::exists(root / "out"));
 }
 

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <map>
 #include <regex>
 #include <set>
 #include <string>
@@ -72,6 +74,34 @@ std::set<fs::path> linked_from(const fs::path& page) {
         }
     }
     return targets;
+}
+
+/// The literals that stand for a `MessageId`: first behind what makes an error.
+std::set<std::string> message_ids_in(const fs::path& file) {
+    static const std::regex id(
+        R"re(\b(?:bad_input|refuse|require|refusal|refused|lost|bad|fail|Error|Refusal)\s*[({]+\s*(?:[^"();{}]*,\s*(?://[^\n]*\n\s*)?)?"([a-z0-9_]+\.[a-z0-9_]+)"\s*,)re");
+    std::ifstream stream(fs::path(frustumscreen::source_dir()) / file);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    std::set<std::string> ids;
+    for (std::sregex_iterator match(text.begin(), text.end(), id), end; match != end; ++match) {
+        ids.insert((*match)[1]);
+    }
+    return ids;
+}
+
+TEST(House, AMessageIdBelongsToOneFile) {
+    std::map<std::string, fs::path> owners;
+    for (const fs::path& file : files_ending({".cpp", ".h"})) {
+        if (*file.begin() == "tests") {
+            continue;
+        }
+        for (const std::string& id : message_ids_in(file)) {
+            const auto [owner, is_new] = owners.emplace(id, file);
+            EXPECT_TRUE(is_new) << id << " is in " << owner->second << " and in " << file
+                                << "; give each sentence an id of its own";
+        }
+    }
+    EXPECT_GT(owners.size(), 400U);
 }
 
 /// A path of this clone in a precompiled header would make every file that reads it unknown to ccache in another clone.

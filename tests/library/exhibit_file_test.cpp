@@ -1,5 +1,6 @@
 // exhibit.toml: what it may say, and the sentence for each mistake.
 #include "app/library/exhibit_file.h"
+#include "tests/base/told.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,7 @@ namespace {
 
 std::string refusal_of(std::string_view text) {
     const Result<ExhibitFile> file = parse_exhibit_file(text);
-    return file ? "" : file.error().message;
+    return file ? "" : test::told(file.error());
 }
 
 TEST(ExhibitFile, SaysAllThatASetIs) {
@@ -47,7 +48,7 @@ TEST(ExhibitFile, SaysWhichLineIsWrongAndWhatIsNearest) {
              {"order = [\"Vase\"]", "exhibit.toml:1: order names \"Vase\""},
              {"order = [\"a\", \"a\"]", "names \"a\" twice"},
              {"order = \"a\"", "exhibit.toml:1: order is"},
-             {"only = true", "would remove every pack"},
+             {"only = true", "[exhibit_file.only]"},
              {"order = [\"a\"]\nremove = [\"a\"]",
               "exhibit.toml:2: remove names \"a\", which order names too"},
              {"[attract]\nenglish = \"x\"", "exhibit.toml:1: attract has \"english\""},
@@ -60,7 +61,7 @@ TEST(ExhibitFile, SaysWhichLineIsWrongAndWhatIsNearest) {
               "\"RWQf6LRCGA9i53mlYecO4IzT51TGPpvWucNSCh1CBM0QTaLn73Y7GFO3\"\nuntil "
               "= \"2031-02-30\"",
               "exhibit.toml:4: key[0].until is no day"},
-             {"order = [", "is not TOML"},
+             {"order = [", "[toml.syntax]"},
              {"order = [\"\xff\"]", "is not UTF-8"},
              {std::string(70000, '#'), "allowed are at most 65536"},
              {std::string(6000, '.'), "dots"},

@@ -1,6 +1,7 @@
 #include "tests/loaders/loaders_testing.h"
 
 #include "assets_baked/bake/loaders/load_bytes.h"
+#include "tests/base/told.h"
 #include "tests/folders.h"
 
 #include <fmt/format.h>
@@ -37,7 +38,7 @@ Result<SourceMesh> load_text(const std::string& name, std::string_view text) {
 
 std::string error_of(const Result<SourceMesh>& mesh) {
     EXPECT_FALSE(mesh.has_value()) << "a load succeeded that must fail";
-    return mesh ? std::string() : mesh.error().message;
+    return mesh ? std::string() : test::told(mesh.error());
 }
 
 std::string base64(std::string_view bytes) {

@@ -194,8 +194,8 @@ TEST(Obj, WrongLinesAreRefusedByNumber) {
              {"v 1 2 three", "line 5: a number is expected, not \"three\""},
              {"v 1 2 nan", "line 5: vertex 5 is not a finite point"},
              {"v 1 2 1e999", "line 5: vertex 5 is not a finite point"},
-             {"f 1 2", "a point cloud without faces"},
-             {"p 1\nl 1 2", "a point cloud without faces"}}) {
+             {"f 1 2", "[mesh.point_cloud]"},
+             {"p 1\nl 1 2", "[mesh.point_cloud]"}}) {
         const std::string error = error_of(load_text("model.obj", square + line + "\n"));
         EXPECT_NE(error.find(expected), std::string::npos) << error;
     }

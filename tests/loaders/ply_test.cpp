@@ -119,24 +119,24 @@ TEST(Ply, WrongFilesAreRefusedInOneClearLine) {
     const std::vector<std::pair<std::string, std::string>> cases = {
         {replaced(whole, "4 0 1 2 3", "4 0 1 2 9"), "vertex 9 is out of range"},
         {replaced(whole, "4 0 1 2 3", "4 0 1 2 -3"), "vertex -3 is out of range"},
-        {replaced(whole, "4 0 1 2 3", "4 0 1 2"), "the file ends too early"},
+        {replaced(whole, "4 0 1 2 3", "4 0 1 2"), "[mesh.cut_short]"},
         {replaced(whole, "4 0 1 2 3", "-4 0 1 2"), "length is -4"},
         {replaced(whole, "4 0 1 2 3", "2.5 0 1 2"), "whole number"},
-        {replaced(whole, "4 0 1 2 3", "999999999 0 1 2"), "the file ends too early"},
+        {replaced(whole, "4 0 1 2 3", "999999999 0 1 2"), "[mesh.cut_short]"},
         {replaced(whole, "1 1 0", "1 one 0"), "\"one\""},
         {replaced(whole, "1 1 0", "1 nan 0"), "vertex 2"},
         {replaced(whole, "1 1 0", "1 1e999 0"), "vertex 2"},
         {replaced(whole, "vertex 4", "vertex four"), "line 4"},
-        {replaced(whole, "vertex 4", "vertex 99999999999"), "the file ends too early"},
+        {replaced(whole, "vertex 4", "vertex 99999999999"), "[mesh.cut_short]"},
         {replaced(whole, "float x", "real x"), "line 5"},
         {replaced(whole, "property float y\n", ""), "have no y"},
         {replaced(whole, "ascii", "utf8"), "line 2"},
-        {replaced(whole, "element face 1", "element face 0"), "a point cloud without faces"},
+        {replaced(whole, "element face 1", "element face 0"), "[mesh.point_cloud]"},
         {replaced(whole, "list uchar int", "list float int"), "whole number"},
         {square_header.substr(0, square_header.size() - 12), "end_header"},
         {"ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\n"
          "property float y\nproperty float z\nend_header\n1234",
-         "the file ends too early"},
+         "[mesh.cut_short]"},
     };
     for (const auto& [text, expected] : cases) {
         const std::string error = error_of(load_text("square.ply", text));
@@ -230,12 +230,12 @@ TEST(Ply, WhatIsLostIsSaid) {
         "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 200\n";
     const std::string two = replaced(square_header + square_data, "4 0 1 2 3", "2 0 1\n4 0 1 2 3");
     for (const auto& [text, expected] : std::vector<std::pair<std::string, std::string>>{
-             {wedge, "--texture FILE"},
-             {replaced(wedge, "property int texnumber\n", "property int flags\n"), "--texture FILE"},
+             {wedge, "[mesh.picture_missing]"},
+             {replaced(wedge, "property int texnumber\n", "property int flags\n"), "[mesh.picture_missing]"},
              {faces, "they stand at the faces"},
              {replaced(two, "face 1", "face 2"), "1 face of fewer than three corners"},
              {replaced(square_header + square_data, "comment a square", "comment TextureFile a.png"),
-              "no texture coordinates"}}) {
+              "[mesh.no_texture_coordinates]"}}) {
         const Result<SourceMesh> mesh = load_text("scan.ply", text);
         ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
         expect_sound(*mesh);
@@ -261,7 +261,7 @@ TEST(Ply, TheCuratorsPictureIsForTextureCoordinatesWithoutOne) {
     }
     const std::string error =
         error_of(load_mesh(folder.write("plain.ply", square_header + square_data), {own}));
-    EXPECT_NE(error.find("no texture coordinates"), std::string::npos) << error;
+    EXPECT_NE(error.find("[mesh.no_texture_coordinates]"), std::string::npos) << error;
 }
 
 TEST(Ply, AnElementWithoutPropertiesMayClaimAnyCount) {

@@ -62,9 +62,9 @@ TEST(Stl, UpperCaseWordsAndSeveralSolidsAreRead) {
 
 TEST(Stl, ATruncatedFileIsRefused) {
     const std::string binary = binary_stl({facet, facet});
-    EXPECT_NE(error_of(load_text("part.stl", binary.substr(0, 150))).find("the file ends too early"),
+    EXPECT_NE(error_of(load_text("part.stl", binary.substr(0, 150))).find("[mesh.cut_short]"),
               std::string::npos);
-    EXPECT_NE(error_of(load_text("part.stl", ascii.substr(0, 100))).find("the file ends too early"),
+    EXPECT_NE(error_of(load_text("part.stl", ascii.substr(0, 100))).find("[mesh.cut_short]"),
               std::string::npos);
     EXPECT_NE(error_of(load_text("part.stl", binary.substr(0, 20))).find("84"), std::string::npos);
 }

@@ -1,6 +1,7 @@
 // A pack held against its manifest in little memory: it takes and refuses what reading all of it does, as far as it looks.
 #include "app/pack/binary_parts.h"
 #include "app/pack/check_parts.h"
+#include "tests/base/told.h"
 #include "tests/pack/samples.h"
 
 #include <random>
@@ -11,14 +12,14 @@ namespace {
 std::string fault_of(const Bytes& pack, std::uint64_t* passed = nullptr) {
     Result<pack_format::PackReader> reader = pack_format::PackReader::open(pack);
     if (!reader) {
-        return reader.error().message;
+        return test::told(reader.error());
     }
     std::uint64_t bytes_passed = 0;
     const Result<void> good = check_parts(*reader, [&](std::uint64_t bytes) { bytes_passed += bytes; });
     if (passed != nullptr) {
         *passed = bytes_passed;
     }
-    return good ? "" : good.error().message;
+    return good ? "" : test::told(good.error());
 }
 
 TEST(CheckParts, takes_every_kind_of_part) {

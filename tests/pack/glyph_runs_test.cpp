@@ -1,6 +1,7 @@
 // Glyph runs: the bytes of FORMAT.md, and what a reader refuses.
 #include "app/pack/glyph_runs.h"
 #include "firmware_host/base/byte_reader.h"
+#include "tests/base/told.h"
 #include "tests/folders.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +52,7 @@ template <typename Number> Bytes with(Bytes bytes, std::size_t at, Number number
 
 std::string refusal(const Bytes& bytes) {
     const Result<GlyphRuns> runs = decode_glyph_runs(bytes);
-    return runs ? std::string() : runs.error().message;
+    return runs ? std::string() : test::told(runs.error());
 }
 
 } // namespace

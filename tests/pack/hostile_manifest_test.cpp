@@ -98,19 +98,20 @@ TEST(HostileManifest, what_is_not_json_is_refused) {
 }
 
 TEST(HostileManifest, texts_are_bounded_and_clean) {
-    expect_refused({{"title", [](Json& m) { m["title"] = std::string(1001, 'x'); }},
-                    {"title", [](Json& m) { m["title"] = "clear \x1b[2J"; }},
-                    {"title", [](Json& m) { m["title"] = "two\nlines"; }},
-                    {"title", [](Json& m) { m["title"] = "\xC2\x85"; }},
-                    {"language 0", [](Json& m) { m["languages"][0] = "english please"; }},
-                    {"languages", [](Json& m) { m["languages"] = std::vector<std::string>(65, "en"); }},
-                    {"caption 1", [](Json& m) { m["captions"][1]["text"] = std::string(100001, 'x'); }},
-                    {"caption 0", [](Json& m) { m["captions"][0]["language"] = "../en"; }},
-                    {"source's name", [](Json& m) { m["provenance"]["source_name"] = "../../etc/passwd"; }},
-                    {"sha256", [](Json& m) { m["provenance"]["source_sha256"] = "12"; }},
-                    {"prop_kind", [](Json& m) { m["prop_kind"] = "sphere"; }},
-                    {"samples", [](Json& m) { m["samples"] = 3; }},
-                    {"relief_size", [](Json& m) { m["relief_size"] = 1000000; }}});
+    expect_refused(
+        {{"title", [](Json& m) { m["title"] = std::string(1001, 'x'); }},
+         {"title", [](Json& m) { m["title"] = "clear \x1b[2J"; }},
+         {"title", [](Json& m) { m["title"] = "two\nlines"; }},
+         {"title", [](Json& m) { m["title"] = "\xC2\x85"; }},
+         {"language 0", [](Json& m) { m["languages"][0] = "english please"; }},
+         {"languages", [](Json& m) { m["languages"] = std::vector<std::string>(65, "en"); }},
+         {"caption 1", [](Json& m) { m["captions"][1]["text"] = std::string(100001, 'x'); }},
+         {"caption 0", [](Json& m) { m["captions"][0]["language"] = "../en"; }},
+         {"[pack.source_name]", [](Json& m) { m["provenance"]["source_name"] = "../../etc/passwd"; }},
+         {"sha256", [](Json& m) { m["provenance"]["source_sha256"] = "12"; }},
+         {"prop_kind", [](Json& m) { m["prop_kind"] = "sphere"; }},
+         {"samples", [](Json& m) { m["samples"] = 3; }},
+         {"relief_size", [](Json& m) { m["relief_size"] = 1000000; }}});
 }
 
 TEST(HostileManifest, the_placement_is_a_box_and_a_similarity) {
@@ -158,7 +159,7 @@ TEST(HostileManifest, levels_refer_to_what_is_there) {
                     {"texture", [](Json& m) { m["levels"][0]["texture"] = "textures/9.png"; }},
                     {"texture is 9 x 5", [](Json& m) { m["levels"][1]["texture"] = "textures/0.png"; }},
                     {"twice", [](Json& m) { m["levels"][1]["mesh"] = "levels/0.bin"; }},
-                    {"does not list it", [](Json& m) { m["levels"][1]["mesh"] = "levels/7.bin"; }},
+                    {"[pack.part_not_in_manifest]", [](Json& m) { m["levels"][1]["mesh"] = "levels/7.bin"; }},
                     {"FSLV",
                      [](Json& m) {
                          m["levels"][1]["mesh"] = m["relief"]["charts"];
@@ -190,7 +191,7 @@ TEST(HostileManifest, a_relief_needs_all_of_its_fields) {
     expect_refused({{"texel_box", [](Json& m) { m["relief"]["texel_box"] = 0.0; }},
                     {"texel_box", [](Json& m) { m["relief"]["texel_box"] = 1e-60; }},
                     {"texel_box", [](Json& m) { m["relief"]["texel_box"] = 2.0; }},
-                    {"16-bit grey",
+                    {"[image.png_not_grey16]",
                      [](Json& m) {
                          m["relief"]["atlas"] = "textures/0.png";
                          m["textures"].erase(0);

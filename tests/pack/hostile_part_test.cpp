@@ -1,4 +1,5 @@
 // Parts that somebody wrote, with hashes that are right.
+#include "tests/base/told.h"
 #include "tests/pack/samples.h"
 
 #include <cstring>
@@ -127,8 +128,8 @@ TEST(HostilePart, charts_are_disjoint_and_inside_the_atlas) {
                     {charts, "outside the atlas", [=](Bytes& b) { set(b, first + 6, u16(65535)); }},
                     {charts, "outside the atlas", [=](Bytes& b) { set(b, second + 8, u16(0)); }},
                     {charts, "overlaps", [=](Bytes& b) { set(b, second + 2, u16(5)); }},
-                    {charts, "outside the box", [=](Bytes& b) { set(b, first + 12, not_a_number); }},
-                    {charts, "outside the box", [=](Bytes& b) { set(b, second + 16, 1e30F); }}});
+                    {charts, "[atlas.chart_origin]", [=](Bytes& b) { set(b, first + 12, not_a_number); }},
+                    {charts, "[atlas.chart_origin]", [=](Bytes& b) { set(b, second + 16, 1e30F); }}});
     samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack()));
     Bytes& none = entries.part(charts);
     none.resize(12);
@@ -161,7 +162,7 @@ TEST(HostilePart, the_writer_refuses_what_the_reader_would) {
         Pack pack = samples::pack();
         change(pack);
         const Result<Bytes> bytes = write_pack(pack);
-        return bytes ? std::string() : bytes.error().message;
+        return bytes ? std::string() : test::told(bytes.error());
     };
     EXPECT_NE(refused([](Pack& p) { p.title = "\xFF"; }).find("title"), std::string::npos);
     EXPECT_NE(refused([](Pack& p) { p.levels.clear(); }).find("levels"), std::string::npos);
@@ -178,6 +179,6 @@ TEST(HostilePart, the_writer_refuses_what_the_reader_would) {
     EXPECT_NE(refused([](Pack& p) {
                   p.levels.pop_back();
                   p.default_level = 0;
-              }).find("no level uses"),
+              }).find("[pack.unused_relief]"),
               std::string::npos);
 }

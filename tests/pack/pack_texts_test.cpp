@@ -1,6 +1,7 @@
 // The sections `texts` and `sounds`: what is written, read for one language alone, and refused.
 #include "app/pack/pack_sections.h"
 #include "app/pack/pack_texts.h"
+#include "tests/base/told.h"
 #include "tests/pack/samples.h"
 
 #include <filesystem>
@@ -32,7 +33,7 @@ std::string fault_with(const std::function<void(Pack&)>& change) {
     Pack pack = samples::pack_with_words();
     change(pack);
     const Result<void> checked = check_set_and_spoken(pack);
-    return checked ? std::string() : checked.error().message;
+    return checked ? std::string() : test::told(checked.error());
 }
 
 void expect_fault(const char* words, const std::function<void(Pack&)>& change) {

@@ -1,6 +1,7 @@
 // The section relief_blocks: what was written is read, and what a reader refuses.
 #include "app/pack/block_part.h"
 #include "app/pack/pack_relief.h"
+#include "tests/base/told.h"
 #include "tests/folders.h"
 #include "tests/pack/samples.h"
 
@@ -38,7 +39,7 @@ template <typename Number> Bytes with(Bytes bytes, std::size_t at, Number number
 
 std::string refusal(const Bytes& bytes) {
     const Result<BlockRelief> relief = pack_format::decode_blocks(bytes);
-    return relief ? std::string() : relief.error().message;
+    return relief ? std::string() : test::told(relief.error());
 }
 
 void expect_equal(const BlockRelief& a, const BlockRelief& b) {
@@ -120,13 +121,13 @@ TEST(ReliefBlocks, a_damaged_part_is_refused) {
         {with(good, first_grid, std::uint32_t{4}), "number 4"}, // twice
         {with(good, first_grid + 4, std::uint32_t{4}), "more than"},
         {with(good, first_grid + 4, std::uint32_t{0}), "together"},
-        {with(good, first_grid + 8, 1e30), "begins beyond"},
-        {with(good, columns, std::uint16_t{9}), "outside a grid"},
+        {with(good, first_grid + 8, 1e30), "[blocks.origin]"},
+        {with(good, columns, std::uint16_t{9}), "[blocks.outside_grid]"},
         {with(good, numbers, no_number), "block 0"},
         {with(good, numbers + 4, 2e6F), "block 1"},
-        {with(good, numbers + 4 * 4 * blocks, 0.0F), "a step"},
-        {with(good, numbers + 5 * 4 * blocks, 1.0F), "upside down"},
-        {with(good, masks, std::uint64_t{0}), "no cell"},
+        {with(good, numbers + 4 * 4 * blocks, 0.0F), "[blocks.step]"},
+        {with(good, numbers + 5 * 4 * blocks, 1.0F), "[blocks.step]"},
+        {with(good, masks, std::uint64_t{0}), "[blocks.step]"},
         {with(good, cuts, std::uint64_t{1}), "not there"},
         {with(good, cuts, std::uint64_t{0}), "cut 3 cells"},
         {with(good, 20, std::uint32_t{5}), "need"},
@@ -176,7 +177,7 @@ TEST(ReliefBlocks, a_section_that_contradicts_itself_is_refused) {
         std::string& data = pack.sections.front().data;
         data.replace(data.find(from), from.size(), to);
         const Result<void> good = check_reliefs(pack);
-        return good ? std::string() : good.error().message;
+        return good ? std::string() : test::told(good.error());
     };
     for (const auto& [from, to, words] :
          {std::tuple("\"texels\":32", "\"texels\":64", "finer"),

@@ -9,6 +9,7 @@
 #include "app/pack/sha256.h"
 #include "app/pack/zip_archive.h"
 #include "firmware_host/base/json.h"
+#include "tests/base/told.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -322,7 +323,7 @@ inline void right_hashes(Entries& entries) {
 /// The message with which the bytes are refused; empty if they are not.
 inline std::string refusal_of(const Bytes& bytes) {
     const Result<VerifiedPack> pack = verify_pack(bytes);
-    return pack ? std::string() : pack.error().message;
+    return pack ? std::string() : test::told(pack.error());
 }
 
 /// One line for a person: not empty, not broken, not endless, no control characters.

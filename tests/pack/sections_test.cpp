@@ -1,6 +1,7 @@
 // Sections of a pack: read, passed over, altered, and read alone.
 #include "app/pack/pack_contents.h"
 #include "app/pack/pack_sections.h"
+#include "tests/base/told.h"
 #include "tests/pack/samples.h"
 
 #include <filesystem>
@@ -27,7 +28,7 @@ std::string refusal_to_write(const std::function<void(Pack&)>& change) {
     Pack pack = samples::full_pack();
     change(pack);
     const Result<Bytes> bytes = write_pack(pack);
-    return bytes ? std::string() : bytes.error().message;
+    return bytes ? std::string() : test::told(bytes.error());
 }
 
 /// The full sample in a file of its own, one byte of the part `name` changed if one is named.
@@ -179,9 +180,9 @@ TEST(Sections, have_few_plain_names_and_bounded_depth) {
     });
     expect_refused("twice", [](Json& m) { m["sections"]["sounds"]["parts"].push_back("sounds/en/0.opus"); });
     expect_refused("twice", [](Json& m) { m["sections"]["sounds"]["parts"].push_back("levels/0.bin"); });
-    expect_refused("does not list it",
+    expect_refused("[pack.part_not_in_manifest]",
                    [](Json& m) { m["sections"]["sounds"]["parts"].push_back("sounds/x"); });
-    expect_refused("nothing uses the part", [](Json& m) { m["sections"].erase("sounds"); });
+    expect_refused("[pack.part_unused]", [](Json& m) { m["sections"].erase("sounds"); });
     const auto nested = [](int depth) {
         return [depth](Json& m) {
             Json data = Json::object();
@@ -203,11 +204,12 @@ TEST(Sections, the_writer_refuses_what_the_reader_would) {
     };
     refused("'identity'", [](Pack& p) { p.sections[0].name = "identity"; });
     refused("'sounds'", [](Pack& p) { p.sections[0].name = "sounds"; });
-    refused("no JSON object", [](Pack& p) { p.sections[0].data = "[]"; });
-    refused("no JSON object", [](Pack& p) { p.sections[0].data = R"({"a":1,"a":2})"; });
-    refused("put what is large", [](Pack& p) { p.sections[0].data = '"' + std::string(1 << 20, 'x') + '"'; });
-    refused("which is not there", [](Pack& p) { p.section_parts.clear(); });
-    refused("two parts are called", [](Pack& p) {
+    refused("[sections.data]", [](Pack& p) { p.sections[0].data = "[]"; });
+    refused("[sections.data]", [](Pack& p) { p.sections[0].data = R"({"a":1,"a":2})"; });
+    refused("[sections.too_large]",
+            [](Pack& p) { p.sections[0].data = '"' + std::string(1 << 20, 'x') + '"'; });
+    refused("[pack.section_part]", [](Pack& p) { p.section_parts.clear(); });
+    refused("[pack.parts_of_one_name]", [](Pack& p) {
         p.sections[0].parts = {"levels/0.bin"};
         p.section_parts["levels/0.bin"] = samples::some_bytes("x");
     });

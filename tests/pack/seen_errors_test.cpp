@@ -1,5 +1,6 @@
 // The section `seen_errors`: what is written, read and refused.
 #include "app/pack/seen_errors.h"
+#include "tests/base/told.h"
 #include "tests/pack/samples.h"
 
 #include <gtest/gtest.h>
@@ -91,7 +92,7 @@ TEST(SeenErrors, ThatAreNotWhatTheFormatSaysAreRefused) {
         pack.sections.back().data = data.dump();
         const Result<SeenErrors> seen = seen_errors_of(pack, 2);
         EXPECT_TRUE(seen || samples::is_one_line(seen.error().message));
-        return seen ? std::string() : seen.error().message;
+        return seen ? std::string() : test::told(seen.error());
     };
     EXPECT_EQ(refusal([](Json&) {}), "");
     EXPECT_NE(refusal([](Json& d) { d["more"] = 1; }).find("sections.seen_errors.data.more"),

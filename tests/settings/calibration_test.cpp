@@ -4,6 +4,7 @@
 #include "firmware_host/base/disk_tree.h"
 #include "firmware_host/base/file.h"
 #include "tests/base/temporary_folder.h"
+#include "tests/base/told.h"
 #include "tests/library/volatile_disk.h"
 #include "tests/settings/settings_text.h"
 
@@ -43,7 +44,7 @@ double distance(const RigidTransform& a, const RigidTransform& b) {
 
 std::string refusal_of(const std::string& text) {
     const Result<Calibration> read = parse_calibration(text, "c.toml");
-    return read ? "" : read.error().message;
+    return read ? "" : test::told(read.error());
 }
 
 TEST(Calibration, IsReadAsItWasWritten) {
@@ -124,8 +125,7 @@ TEST_F(Kept, TheLastThreeAreThereAndTheNewestCounts) {
 }
 
 TEST_F(Kept, TheNewestIsUndoneAndTheNextOneGetsANewNumber) {
-    EXPECT_EQ(undo_calibration(disk).error().message,
-              "there is no calibration to undo; the set-up is as the settings describe it");
+    EXPECT_EQ(undo_calibration(disk).error().id, "kept.nothing_to_undo");
     for (int k = 1; k <= 4; ++k) {
         ASSERT_TRUE(keep_calibration(disk, calibration(k)));
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/settings/settings.h"
+#include "tests/base/told.h"
 #include "tests/folders.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +31,7 @@ inline std::string refusal(const std::string& text) {
         return {};
     }
     EXPECT_EQ(settings.error().kind, ErrorKind::BadConfiguration);
-    return settings.error().message;
+    return test::told(settings.error());
 }
 
 } // namespace frustumscreen

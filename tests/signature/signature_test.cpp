@@ -1,6 +1,7 @@
 // Signatures that minisign made, right and altered in every way that there is; whom they are believed from.
 #include "app/pack/signature.h"
 #include "firmware_host/base/file.h"
+#include "tests/base/told.h"
 #include "tests/signature/signature_testing.h"
 #include "tests/signature/vectors.h"
 
@@ -25,9 +26,10 @@ expected<Signer, SignatureRefusal> check(std::string_view text, std::optional<st
 void expect_refused(const expected<Signer, SignatureRefusal>& checked, SignatureFault fault,
                     std::string_view words) {
     ASSERT_FALSE(checked);
-    EXPECT_EQ(checked.error().fault, fault) << checked.error().message;
-    EXPECT_TRUE(samples::is_one_line(checked.error().message)) << checked.error().message;
-    EXPECT_NE(checked.error().message.find(words), std::string::npos) << checked.error().message;
+    const std::string told = test::told(checked.error().error);
+    EXPECT_EQ(checked.error().fault, fault) << told;
+    EXPECT_TRUE(samples::is_one_line(told)) << told;
+    EXPECT_NE(told.find(words), std::string::npos) << told;
 }
 
 std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
@@ -70,7 +72,8 @@ TEST(Signature, MayHaveTheLineEndsOfWindowsAndNoneAtTheEnd) {
 }
 
 TEST(Signature, IsNotThere) {
-    expect_refused(check(vectors::signed_text, std::nullopt), SignatureFault::Unsigned, "not signed");
+    expect_refused(check(vectors::signed_text, std::nullopt), SignatureFault::Unsigned,
+                   "[signature.unsigned]");
 }
 
 TEST(Signature, OfOtherBytesOrWithAnotherCommentIsAltered) {
@@ -81,15 +84,15 @@ TEST(Signature, OfOtherBytesOrWithAnotherCommentIsAltered) {
     }
     expect_refused(
         check(vectors::signed_text, replaced(vectors::of_the_hash, "timestamp:17", "timestamp:18")),
-        SignatureFault::Altered, "trusted comment");
+        SignatureFault::Altered, "[signature.comment_altered]");
     // Lines of another right signature of the same bytes by the same key.
     for (const std::size_t line : {2U, 3U}) {
         expect_refused(
             check(vectors::signed_text, with_line_of(vectors::of_the_hash, vectors::of_the_bytes, line)),
-            SignatureFault::Altered, "trusted comment");
+            SignatureFault::Altered, "[signature.comment_altered]");
     }
     expect_refused(check(vectors::signed_text, with_line_of(vectors::of_the_hash, vectors::of_the_bytes, 1)),
-                   SignatureFault::Altered, "trusted comment");
+                   SignatureFault::Altered, "[signature.comment_altered]");
 }
 
 TEST(Signature, ItsUntrustedCommentSaysNothing) {
@@ -144,7 +147,7 @@ TEST(Signature, HasNoBytesThatAreNoLettersOfBase64) {
 TEST(Signature, OfAnotherKeyIsOfNobody) {
     const TrustedKey other = testing::trusted(SecretKey::make(), "Another");
     expect_refused(check(vectors::signed_text, vectors::of_the_hash, {}), SignatureFault::UnknownKey,
-                   "no key is known here");
+                   "[signature.unknown_key]");
     expect_refused(check(vectors::signed_text, vectors::of_the_hash, {other}), SignatureFault::UnknownKey,
                    "the key E68B78C87897BA2, which is none of those known here (Another)");
     EXPECT_TRUE(check(vectors::signed_text, vectors::of_the_hash, {other, minisigns_key()}));
@@ -214,7 +217,7 @@ TEST(PublicKeys, AreReadAsAFileAndAsALine) {
                                    std::string(vectors::open_public) + "more\n", std::string(10000, 'R')}) {
         const Result<PublicKey> refused = parse_public_key(bad);
         ASSERT_FALSE(refused) << bad;
-        EXPECT_TRUE(samples::is_one_line(refused.error().message));
+        EXPECT_TRUE(samples::is_one_line(refused.error().error.message));
     }
 }
 

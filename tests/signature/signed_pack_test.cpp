@@ -1,6 +1,7 @@
 // What is used of a pack before its signature was right: nothing. And what signing changes of a pack: one entry.
 #include "app/pack/limits.h"
 #include "app/pack/pack_reader.h"
+#include "tests/base/told.h"
 #include "tests/signature/signature_testing.h"
 
 #include <unistd.h>
@@ -30,10 +31,11 @@ protected:
                         UnsignedPacks unsigned_packs = UnsignedPacks::Refuse) const {
         const auto opened = open(bytes, unsigned_packs);
         ASSERT_FALSE(opened) << words;
-        EXPECT_EQ(opened.error().why, why) << opened.error().message;
-        EXPECT_EQ(opened.error().fault, fault) << opened.error().message;
-        EXPECT_TRUE(samples::is_one_line(opened.error().message));
-        EXPECT_NE(opened.error().message.find(words), std::string::npos) << opened.error().message;
+        const std::string told = test::told(opened.error().error);
+        EXPECT_EQ(opened.error().why, why) << told;
+        EXPECT_EQ(opened.error().fault, fault) << told;
+        EXPECT_TRUE(samples::is_one_line(told));
+        EXPECT_NE(told.find(words), std::string::npos) << told;
     }
     void expect_no_pack(const Bytes& bytes, std::string_view words) const {
         for (const UnsignedPacks unsigned_packs : {UnsignedPacks::Refuse, UnsignedPacks::Allow}) {
@@ -57,7 +59,7 @@ Bytes zip_of(const std::vector<std::pair<std::string, std::string>>& entries) {
 TEST_F(SignedPacks, GiveSignerTitleAndParts) {
     const Bytes bytes = signed_pack(samples::full_pack(), key_, 42);
     auto opened = open(bytes);
-    ASSERT_TRUE(opened) << opened.error().message;
+    ASSERT_TRUE(opened) << opened.error().error.message;
     EXPECT_EQ(opened->signer->key, "House");
     EXPECT_EQ(opened->signer->trusted_comment, comment_of(42));
     EXPECT_EQ(opened->serial(), 42U);
@@ -73,7 +75,7 @@ TEST_F(SignedPacks, OfAFileAreTheSame) {
     auto opened =
         open_signed_pack(*OpenFile::open("signed.fspack", std::uint64_t{1} << 31U), {keys_, std::nullopt});
     std::filesystem::remove("signed.fspack");
-    ASSERT_TRUE(opened) << opened.error().message;
+    ASSERT_TRUE(opened) << opened.error().error.message;
     EXPECT_EQ(opened->serial(), 7U);
     EXPECT_TRUE(read_pack(opened->reader)) << "it is open, whatever its name";
 }
@@ -82,12 +84,12 @@ TEST_F(SignedPacks, OfAFileAreTheSame) {
 TEST_F(SignedPacks, HaveTheirSignatureCheckedBeforeTheirManifestIsParsed) {
     const std::string no_manifest = "{\"format\": [[[[";
     expect_refused(zip_of({{"manifest.json", no_manifest}}), Why::Signature, SignatureFault::Unsigned,
-                   "not signed");
+                   "[signature.unsigned]");
     expect_refused(zip_of({{"manifest.json", no_manifest}, {"signature", "hello"}}), Why::Signature,
                    SignatureFault::Malformed, "its signature");
     const std::string of_another = SecretKey::make().sign(as_bytes(no_manifest), comment_of(1));
     expect_refused(zip_of({{"manifest.json", no_manifest}, {"signature", of_another}}), Why::Signature,
-                   SignatureFault::UnknownKey, "none of those known here");
+                   SignatureFault::UnknownKey, "[signature.unknown_key]");
     const std::string right = key_.sign(as_bytes(no_manifest), comment_of(1));
     expect_refused(zip_of({{"manifest.json", no_manifest}, {"signature", right}}), Why::NotAPack,
                    SignatureFault::Unsigned, "manifest.json: ");
@@ -97,26 +99,25 @@ TEST_F(SignedPacks, HaveTheirSignatureCheckedBeforeTheirManifestIsParsed) {
 
 TEST_F(SignedPacks, WithoutASignatureAreAllowedOnlyWhereTheBenchSaysSo) {
     const Bytes bytes = samples::bytes_of(samples::pack());
-    expect_refused(bytes, Why::Signature, SignatureFault::Unsigned, "sign it with frustumscreen-pack sign");
+    expect_refused(bytes, Why::Signature, SignatureFault::Unsigned, "[signature.unsigned]");
     auto opened = open(bytes, UnsignedPacks::Allow);
-    ASSERT_TRUE(opened) << opened.error().message;
+    ASSERT_TRUE(opened) << opened.error().error.message;
     EXPECT_FALSE(opened->signer);
     EXPECT_EQ(opened->serial(), 0U);
     EXPECT_EQ(claim_of(opened->reader).value(), std::nullopt);
     // A signature that is there is right in any case.
     expect_refused(signed_pack(samples::pack(), SecretKey::make(), 1), Why::Signature,
-                   SignatureFault::UnknownKey, "none of those known here", UnsignedPacks::Allow);
+                   SignatureFault::UnknownKey, "[signature.unknown_key]", UnsignedPacks::Allow);
 }
 
 TEST_F(SignedPacks, ThatAreNoPacksAreToldApart) {
-    expect_no_pack({}, "not a ZIP container");
-    expect_no_pack(samples::some_bytes("a text, longer than a directory's end"), "not a ZIP container");
+    expect_no_pack({}, "[zip.not_a_pack]");
+    expect_no_pack(samples::some_bytes("a text, longer than a directory's end"), "[zip.not_a_pack]");
     Bytes cut = signed_pack(samples::pack(), key_, 1);
     cut.resize(cut.size() / 2);
     expect_no_pack(cut, "truncated");
     expect_no_pack(zip_of({{"photo.jpg", "x"}}), "not a pack");
-    expect_no_pack(zip_of({{"photo.jpg", "x"}, {"manifest.json", "{}"}}),
-                   "its first entry is not manifest.json");
+    expect_no_pack(zip_of({{"photo.jpg", "x"}, {"manifest.json", "{}"}}), "[pack.no_manifest]");
 }
 
 TEST_F(SignedPacks, WithMoreThanIsAllowedAreRefusedUnread) {
@@ -135,7 +136,7 @@ TEST_F(SignedPacks, ThatCannotBeReadAnyMoreAreNotCalledDamaged) {
     const auto opened = open_signed_pack(*std::move(file), {keys_, std::nullopt});
     std::filesystem::remove("pulled.fspack");
     ASSERT_FALSE(opened);
-    EXPECT_EQ(opened.error().why, Why::Unreadable) << opened.error().message;
+    EXPECT_EQ(opened.error().why, Why::Unreadable) << opened.error().error.message;
 }
 
 /// Names, sizes and bytes as they are packed, of all entries but the signature; independent of how they are written.

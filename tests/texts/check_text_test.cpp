@@ -1,5 +1,6 @@
 // What a text may hold.
 #include "assets_baked/texts/check_text.h"
+#include "tests/base/told.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +10,7 @@ namespace {
 
 std::string refusal(std::string_view text) {
     const Result<void> checked = check_shaped_text(text);
-    return checked ? std::string() : checked.error().message;
+    return checked ? std::string() : test::told(checked.error());
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // Recordings: what is refused, and how loud the speech is that comes out.
 #include "assets_baked/texts/level_speech.h"
 #include "assets_baked/texts/limit_peaks.h"
+#include "tests/base/told.h"
 #include "tests/texts/wav_bytes.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@ namespace {
 
 std::string refusal(const Bytes& bytes) {
     const Result<Recording> recording = read_recording(bytes, RecordingSource::File);
-    return recording ? std::string() : recording.error().message;
+    return recording ? std::string() : test::told(recording.error());
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -72,10 +73,10 @@ TEST(Recording, two_channels_are_averaged) {
 }
 
 TEST(Recording, what_is_none_is_refused_in_a_sentence) {
-    EXPECT_TRUE(contains(refusal({}), "this is no recording that can be read"));
+    EXPECT_TRUE(contains(refusal({}), "[recording.unreadable]"));
     const std::string text = "The white block is found.";
     const std::span<const std::byte> as = as_bytes(text);
-    EXPECT_TRUE(contains(refusal({as.begin(), as.end()}), "this is no recording that can be read"));
+    EXPECT_TRUE(contains(refusal({as.begin(), as.end()}), "[recording.unreadable]"));
 }
 
 TEST(Recording, rates_and_channels_that_no_speech_has_are_refused) {

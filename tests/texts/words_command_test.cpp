@@ -128,7 +128,7 @@ TEST_F(WordsCommand, only_words_are_replaced_by_words) {
     refused("-o mine/de/attract_line.wav --force", "mine/de/attract_line.wav",
             "would replace the input mine/de/attract_line.wav");
     refused("-o out.fswords --preview notes.txt", "notes.txt", "this file is there and is not a PNG picture");
-    refused("-o new --preview ./new", "new", "the words and their picture have the same name");
+    refused("-o new --preview ./new", "new", "[words.same_name]");
     for (int time = 0; time < 2; ++time) {
         EXPECT_EQ(run(command + "-o out.fswords --preview words.png"), 0) << text("err.txt");
     }

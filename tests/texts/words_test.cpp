@@ -4,6 +4,7 @@
 #include "assets_baked/texts/words.h"
 #include "firmware_host/base/file.h"
 #include "tests/base/temporary_folder.h"
+#include "tests/base/told.h"
 #include "tests/texts/languages.h"
 
 #include <filesystem>
@@ -15,7 +16,7 @@ namespace {
 
 std::string refusal(std::string_view toml) {
     const Result<WrittenWords> words = parse_words(toml, "words/xx.toml");
-    return words ? std::string() : words.error().message;
+    return words ? std::string() : test::told(words.error());
 }
 
 class WordsFolder : public WithTemporaryFolder {

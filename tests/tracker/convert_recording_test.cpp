@@ -1,4 +1,5 @@
 #include "firmware_host/tracker/convert_recording.h"
+#include "tests/base/told.h"
 #include "tests/folders.h"
 
 #include <gtest/gtest.h>
@@ -79,7 +80,7 @@ TEST(ConvertRecording, RefusalsNameTheLine) {
     const auto refusal = [](const std::string& text) {
         const auto result = convert_recording(text, "walk.txt", {});
         EXPECT_FALSE(result);
-        return result ? std::string() : result.error().message;
+        return result ? std::string() : test::told(result.error());
     };
     EXPECT_NE(refusal("0 0 0 0 0 0 0 1\n0 0 0\n").find("walk.txt:2: the row has 3 fields"),
               std::string::npos);

@@ -1,4 +1,5 @@
 #include "firmware_host/tracker/pose_file.h"
+#include "tests/base/told.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ std::string refusal(const std::string& text, PoseOrder order = PoseOrder::AsWrit
     }
     EXPECT_EQ(poses.error().kind, ErrorKind::BadInput);
     EXPECT_EQ(poses.error().message.find_first_of("\n\r"), std::string::npos);
-    return poses.error().message;
+    return test::told(poses.error());
 }
 
 void expect_in(const std::string& message, const std::string& words) {
@@ -92,8 +93,8 @@ TEST(PoseFile, RefusalsNameTheLineAndWhatIsAllowed) {
     expect_in(refusal(header + "\n0,1,0,0,0,1,0,0,0\n"), "walk.csv:3: the row has 9 fields; allowed are 10");
     expect_in(refusal(header + "0,1,0,0,0,1,0,0,0,1,9\n"), "walk.csv:2: the row has 11 fields");
     expect_in(refusal(header + "0.5,1,0,0,0,1,0,0,0,1\n"), "walk.csv:2: t_us is \"0.5\"; allowed are whole");
-    expect_in(refusal(header + "99999999999999999999,1,0,0,0,1,0,0,0,1\n"), "t_us is");
-    expect_in(refusal(header + "9223372036854775807,1,0,0,0,1,0,0,0,1\n"), "t_us is");
+    expect_in(refusal(header + "99999999999999999999,1,0,0,0,1,0,0,0,1\n"), "[poses.time]");
+    expect_in(refusal(header + "9223372036854775807,1,0,0,0,1,0,0,0,1\n"), "[poses.time]");
     expect_in(refusal(header + "0,4,0,0,0,1,0,0,0,1\n"), "station is \"4\"; allowed are 1 (prop), 2 (head)");
     expect_in(refusal(header + "0,1,0,0,0,1,0,0,0,2\n"), "ok is \"2\"; allowed are 0 and 1");
     expect_in(refusal(header + "0,1,0,abc,0,1,0,0,0,1\n"),

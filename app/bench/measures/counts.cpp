@@ -131,8 +131,8 @@ Result<std::vector<CountedPack>> read_counts(std::string_view text) {
             counted.push_back(std::move(one));
         }
     } catch (const nlohmann::json::exception& error) {
-        return bad_input(
-            fmt::format("this is not a file that frustumscreen-bench counts wrote: {}", error.what()));
+        return bad_input("bench.no_counts", "this is not a file that frustumscreen-bench counts wrote: {}",
+                         error.what());
     }
     return counted;
 }

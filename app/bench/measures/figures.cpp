@@ -58,10 +58,10 @@ Result<void> require_true(std::span<const LimitVerdict> figures, const std::stri
     if (false_one == figures.end()) {
         return {};
     }
-    return bad_input(
-        fmt::format("{}: its own error figures are false, so the exhibit would choose its levels "
-                    "wrongly; {}, {}; bake it again",
-                    pack, false_one->what, false_one->found));
+    return bad_input("bench.false_figures",
+                     "{}: its own error figures are false, so the exhibit would choose its levels "
+                     "wrongly; {}, {}; bake it again",
+                     pack, false_one->what, false_one->found);
 }
 
 } // namespace frustumscreen

@@ -261,7 +261,7 @@ Result<void> TechniqueSet::add_finest_relief(const Pack& pack, const PictureOpti
         most_texels = std::max(most_texels, each.texels);
     }
     if (most_texels == 0) {
-        return fail(ErrorKind::BadInput, "the pack has no relief");
+        return fail(ErrorKind::BadInput, "bench.no_relief", "the pack has no relief");
     }
     return add_pack_reliefs(pack, TechniqueKind::PackRelief, options,
                             [most_texels](std::uint32_t texels) { return texels == most_texels; });

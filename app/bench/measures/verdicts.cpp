@@ -195,9 +195,9 @@ Result<void> require_limits(std::span<const SetUpResult> results) {
     if (missed == 0) {
         return {};
     }
-    return fail(ErrorKind::Internal,
-                fmt::format("{} of the limits above are missed, the first: {}; --limits none only measures",
-                            missed, first));
+    return fail(ErrorKind::Internal, "bench.limits_missed",
+                "{} of the limits above are missed, the first: {}; --limits none only measures", missed,
+                first);
 }
 
 } // namespace frustumscreen

@@ -53,7 +53,7 @@ Result<void> draw_tables(const std::filesystem::path& script, const std::vector<
     argv.push_back(nullptr);
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
-        return fail(ErrorKind::Internal, fmt::format("no plots: {}", std::strerror(errno)));
+        return fail(ErrorKind::Internal, "plots.no_process", "no plots: {}", std::strerror(errno));
     }
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
@@ -65,16 +65,15 @@ Result<void> draw_tables(const std::filesystem::path& script, const std::vector<
     const std::string said = read_all(ends[0]);
     ::close(ends[0]);
     if (failed != 0) {
-        return fail(
-            ErrorKind::Internal,
-            fmt::format("no plots: {} does not run ({}); it needs Debian's package python3-matplotlib",
-                        program, std::strerror(failed)));
+        return fail(ErrorKind::Internal, "plots.no_program",
+                    "no plots: {} does not run ({}); it needs Debian's package python3-matplotlib", program,
+                    std::strerror(failed));
     }
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     if (status != 0) {
-        return fail(ErrorKind::Internal,
+        return fail(ErrorKind::Internal, "plots.failed",
                     said.empty() ? fmt::format("no plots: {} failed", program) : last_line(said));
     }
     return {};

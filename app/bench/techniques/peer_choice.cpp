@@ -41,10 +41,11 @@ Result<PeerChoice> parse_peers(std::string_view words) {
         const auto* const found =
             std::find_if(names.begin(), names.end(), [word](const Named& each) { return each.name == word; });
         if (found == names.end()) {
-            return bad_input(fmt::format(
+            return bad_input(
+                "bench.no_peer",
                 "there is no peer '{}'; say none, all, or some of mesh, two-pass, "
                 "ray-cast, lod, two-pass-lod, relief, relief-cast, relief-gpu with commas between them",
-                word));
+                word);
         }
         choice.*found->chosen = true;
         at = comma + 1;

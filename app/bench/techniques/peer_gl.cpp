@@ -32,9 +32,9 @@ Result<OffscreenTarget> make_target(int width, int height, GLenum colour_format)
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
                               target.depth_stencil.get());
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        return fail(ErrorKind::Internal,
-                    fmt::format("the driver cannot draw into a {} x {} picture of format {:#x}", width,
-                                height, colour_format));
+        return fail(ErrorKind::Internal, "bench.no_picture_format",
+                    "the driver cannot draw into a {} x {} picture of format {:#x}", width, height,
+                    colour_format);
     }
     return target;
 }

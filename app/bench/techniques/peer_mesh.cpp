@@ -150,7 +150,8 @@ PeerMesh::upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact, b
     peer->upload_parts(mesh, positions_m);
     glBindVertexArray(0);
     if (glGetError() != GL_NO_ERROR) {
-        return fail(ErrorKind::Internal, "the driver cannot hold the source mesh with its textures");
+        return fail(ErrorKind::Internal, "bench.no_room_for_mesh",
+                    "the driver cannot hold the source mesh with its textures");
     }
     peer->closed_ =
         peer->closed_ || from_outside; // the driver leaves out backs; planes stay as they were found

@@ -94,7 +94,7 @@ Result<std::vector<BenchPose>> draw_poses(const Settings& settings, const PropSh
     for (std::int64_t tries = 0; static_cast<int>(poses.size()) < count; ++tries) {
         if (tries > static_cast<std::int64_t>(count) * most_tries_each) {
             return fail(
-                ErrorKind::BadConfiguration,
+                ErrorKind::BadConfiguration, "bench.no_lit_place",
                 "hardly any place on the table has the prop inside the picture and light on every face that "
                 "is seen; move the projector higher or make the prop smaller");
         }

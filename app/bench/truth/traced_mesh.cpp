@@ -93,6 +93,7 @@ Result<std::shared_ptr<const TracedMesh>>
 TracedMesh::build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop_from_artifact, Sides sides) {
     if (!mesh || mesh->triangles.empty()) {
         return bad_input(
+            "bench.no_triangles",
             "the mesh has no triangles to cast rays at; give the file that the pack was baked from");
     }
     std::shared_ptr<TracedMesh> traced(new TracedMesh());
@@ -112,14 +113,15 @@ TracedMesh::build(std::shared_ptr<const SourceMesh> mesh, const glm::dmat4& prop
     }
     const double size = glm::distance(box.low, box.high);
     if (!std::isfinite(size)) {
-        return bad_input("the pack's placement does not map the mesh to finite points; bake the pack again");
+        return bad_input("bench.placement_not_finite",
+                         "the pack's placement does not map the mesh to finite points; bake the pack again");
     }
     traced->box_ = {box.low - 1e-4 * size, box.high + 1e-4 * size};
     traced->device_.reset(rtcNewDevice(nullptr));
     traced->scene_.reset(rtcNewScene(traced->device_.get()));
     traced->add_triangles();
     if (rtcGetDeviceError(traced->device_.get()) != RTC_ERROR_NONE) {
-        return fail(ErrorKind::Internal,
+        return fail(ErrorKind::Internal, "bench.no_scene",
                     "Embree could not build the scene of the source mesh; free some memory");
     }
     return std::shared_ptr<const TracedMesh>(std::move(traced));

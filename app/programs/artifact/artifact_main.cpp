@@ -22,7 +22,7 @@ namespace frustumscreen {
 namespace {
 
 int report(const Error& error) {
-    fmt::print(stderr, "frustumscreen-artifact: {}\n", error.message);
+    complain("frustumscreen-artifact", error);
     return 1;
 }
 
@@ -56,8 +56,8 @@ Result<void> write_artifact(const std::string& name, std::int64_t triangles,
     std::error_code failed;
     std::filesystem::create_directories(folder, failed);
     if (failed) {
-        return bad_input(
-            fmt::format("{}: this folder cannot be made: {}", folder.string(), failed.message()));
+        return bad_input("artifact.no_folder", "{}: this folder cannot be made: {}", folder.string(),
+                         failed.message());
     }
     return write_file(folder / (name + ".glb"), bytes).and_then([&] {
         return write_file(folder / artifact_file_name, as_bytes(builtin_folder_text(name)));

@@ -38,30 +38,30 @@ Result<void> start(const BakeArguments& arguments) {
 }
 
 /// Exit status.
-int complain(const Error& error) {
-    fmt::print(stderr, "frustumscreen-bake: {}\n", error.message);
+int status_of(const Error& error) {
+    complain("frustumscreen-bake", error);
     return error.kind == ErrorKind::BadConfiguration ? 2 : 1;
 }
 
 int bake_and_report(const BakeArguments& arguments) {
     if (!arguments.new_folder.empty()) {
         const Result<void> started = start(arguments);
-        return started ? 0 : complain(started.error());
+        return started ? 0 : status_of(started.error());
     }
     const Result<BakeRequest> request = request_of(arguments);
     if (!request) {
-        return complain(request.error());
+        return status_of(request.error());
     }
     if (const Result<void> checked = check_preview(*request); !checked) {
-        return complain(checked.error());
+        return status_of(checked.error());
     }
     Result<BakeResult> done = bake_pack(*request);
     if (!done) {
-        return complain(done.error());
+        return status_of(done.error());
     }
     const Result<std::uint64_t> page_bytes = write_preview(*request, *done);
     if (!page_bytes) {
-        return complain(
+        return status_of(
             {page_bytes.error().kind, fmt::format("{} is written, and its preview is not: {}",
                                                   done->file.string(), page_bytes.error().message)});
     }

@@ -38,22 +38,23 @@ Result<void> check_preview(const BakeRequest& request) {
     TRY_VOID(check_output_is_no_input(request.preview, request.inputs));
     if (std::filesystem::absolute(request.preview).lexically_normal() ==
         std::filesystem::absolute(request.output).lexically_normal()) {
-        return bad_input(fmt::format("{}: the pack and its preview have the same name; choose two",
-                                     request.output.string()));
+        return bad_input("preview.same_name", "{}: the pack and its preview have the same name; choose two",
+                         request.output.string());
     }
     TRY_VOID(check_output_place(request.preview, room_for_page));
     std::error_code ignored;
     if (!request.force && std::filesystem::exists(request.preview, ignored) &&
         !begins_as_page(request.preview)) {
-        return bad_input(fmt::format("{}: this file is there and is not a page; choose another name for the "
-                                     "preview, or add --force to replace it",
-                                     request.preview.string()));
+        return bad_input("preview.not_a_page",
+                         "{}: this file is there and is not a page; choose another name for the "
+                         "preview, or add --force to replace it",
+                         request.preview.string());
     }
     if (const auto drawn = SurfacelessDisplay::create(16, 16); !drawn) {
-        return bad_input(
-            fmt::format("{}: the preview cannot be drawn on this computer: {}; bake without --preview "
-                        "here, and draw it on another",
-                        request.preview.string(), drawn.error().message));
+        return bad_input("preview.not_drawn",
+                         "{}: the preview cannot be drawn on this computer: {}; bake without --preview "
+                         "here, and draw it on another",
+                         request.preview.string(), drawn.error().message);
     }
     return {};
 }

@@ -38,8 +38,8 @@ Result<ArtifactFile> file_of(const BakeArguments& arguments) {
 /// A text of the command line would be refused only after the work, when the pack is written.
 Result<void> check_text(const std::string& option, std::string_view text, TextShape shape) {
     if (const auto fault = fault_of_text(text, shape)) {
-        return fail(ErrorKind::BadConfiguration,
-                    fmt::format("{} '{}': it {}", option, printable(text, 40), *fault));
+        return fail(ErrorKind::BadConfiguration, "bake.text", "{} '{}': it {}", option, printable(text, 40),
+                    *fault);
     }
     return {};
 }
@@ -105,7 +105,7 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
     const Result<std::vector<PackCaption>> captions = captions_of(
         {arguments.title, arguments.languages, arguments.captions, file.texts, file.scan.stem().string()});
     if (!captions) {
-        return fail(ErrorKind::BadConfiguration, captions.error().message);
+        return as_kind(ErrorKind::BadConfiguration, captions.error());
     }
     BakeRequest request;
     request.scan = file.scan;

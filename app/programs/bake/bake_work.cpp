@@ -57,8 +57,8 @@ Result<void> tell(const std::vector<SourceNote>& notes, const BakeRequest& reque
         }
     }
     if (request.strict && !lost.empty()) {
-        return bad_input(fmt::format("{}: this would be lost, and --strict forbids it: {}",
-                                     request.scan.string(), fmt::join(lost, "; ")));
+        return bad_input("bake.would_be_lost", "{}: this would be lost, and --strict forbids it: {}",
+                         request.scan.string(), fmt::join(lost, "; "));
     }
     for (const std::string& text : lost) {
         say_line("frustumscreen-bake", fmt::format("{}: lost: {}", request.scan.string(), text));
@@ -123,9 +123,10 @@ Result<void> check_output(const BakeRequest& request) {
     std::error_code ignored;
     if (!request.force && std::filesystem::exists(request.output, ignored) &&
         !begins_as_pack(request.output)) {
-        return bad_input(fmt::format("{}: this file is there and is not a pack; choose another name for the "
-                                     "output, or add --force to replace it",
-                                     request.output.string()));
+        return bad_input("bake.not_a_pack",
+                         "{}: this file is there and is not a pack; choose another name for the "
+                         "output, or add --force to replace it",
+                         request.output.string());
     }
     return {};
 }

@@ -5,6 +5,7 @@
 #include "app/programs/batch/content_hash.h"
 #include "app/programs/batch/run_batch.h"
 #include "app/programs/common/command_line.h"
+#include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/json.h"
@@ -51,8 +52,9 @@ Result<void> check_output_folder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) {
-        return bad_input(fmt::format("{}: cannot be made: {}; choose another folder for the packs",
-                                     folder.string(), error.message()));
+        return bad_input("batch.no_output_folder",
+                         "{}: cannot be made: {}; choose another folder for the packs", folder.string(),
+                         error.message());
     }
     return check_output_place(folder / "report.csv", room_for_reports);
 }
@@ -136,10 +138,10 @@ Result<bool> work(const Arguments& arguments) {
     }
     TRY(const Collection collection, list_collection(arguments.folder, arguments.output));
     if (collection.objects.empty()) {
-        return bad_input(
-            fmt::format("{}: there is no folder with an artifact.toml and no scan in it; frustumscreen-bake "
-                        "--new FOLDER SCAN makes such a folder",
-                        arguments.folder.string()));
+        return bad_input("batch.nothing_to_bake",
+                         "{}: there is no folder with an artifact.toml and no scan in it; frustumscreen-bake "
+                         "--new FOLDER SCAN makes such a folder",
+                         arguments.folder.string());
     }
     TRY_VOID(check_output_folder(arguments.output));
     TRY(const BatchPlan plan, plan_of(arguments, share_of(collection.objects, shard.value_or(Shard()))));
@@ -209,7 +211,7 @@ int batch_command(int argc, char** argv) {
     }
     const Result<bool> done = work(arguments);
     if (!done) {
-        fmt::print(stderr, "{}: {}\n", program, done.error().message);
+        complain(program, done.error());
         return done.error().kind == ErrorKind::BadConfiguration ? 2 : 1;
     }
     return *done ? 0 : 1;

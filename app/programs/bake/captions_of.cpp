@@ -24,11 +24,12 @@ Result<void> add_language(const std::string& written, const std::vector<PackCapt
     const std::string found = fmt::format("--language '{}'", printable(written, 40));
     const std::string language = parse_language_tag(written).value_or("");
     if (language.empty()) {
-        return bad_input(
-            fmt::format("{}: there is no such language; allowed are {}", found, allowed_language_tags));
+        return bad_input("captions.no_language", "{}: there is no such language; allowed are {}", found,
+                         allowed_language_tags);
     }
     if (caption_in(captions, language) != nullptr) {
-        return bad_input(found + ": it is named already; write each language once");
+        return bad_input("captions.language_twice",
+                         found + ": it is named already; write each language once");
     }
     const auto in_file = std::find_if(from_file.begin(), from_file.end(), [&](const PackCaption& caption) {
         return caption.language == language;
@@ -42,7 +43,7 @@ Result<void> add_text(const std::string& written, std::vector<std::string>& seen
     const std::string found = fmt::format("--caption '{}'", printable(written, 40));
     const std::size_t equals = written.find('=');
     if (equals == std::string::npos) {
-        return bad_input(found + ": write LANGUAGE=TEXT, such as \"en=A cat.\"");
+        return bad_input("captions.form", found + ": write LANGUAGE=TEXT, such as \"en=A cat.\"");
     }
     const std::string tag = written.substr(0, equals);
     const std::string language = parse_language_tag(tag).value_or(tag);
@@ -52,12 +53,13 @@ Result<void> add_text(const std::string& written, std::vector<std::string>& seen
         for (const PackCaption& each : captions) {
             languages.push_back(each.language);
         }
-        return bad_input(fmt::format("{}: the languages are {}; add --language {}", found,
-                                     fmt::join(languages, ", "), printable(language, 40)));
+        return bad_input("captions.other_language", "{}: the languages are {}; add --language {}", found,
+                         fmt::join(languages, ", "), printable(language, 40));
     }
     if (std::find(seen.begin(), seen.end(), language) != seen.end()) {
-        return bad_input(fmt::format("{}: there is a caption in {} already; write one for each language",
-                                     found, language));
+        return bad_input("captions.twice",
+                         "{}: there is a caption in {} already; write one for each language", found,
+                         language);
     }
     seen.push_back(language);
     caption->text = std::string(trimmed(std::string_view(written).substr(equals + 1)));

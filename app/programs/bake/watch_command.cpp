@@ -162,8 +162,9 @@ Result<void> check_is_outside(const std::filesystem::path& written, const std::f
         std::filesystem::weakly_canonical(written, none)
             .lexically_relative(std::filesystem::weakly_canonical(folder, none));
     if (!written.empty() && !way.empty() && *way.begin() != "..") {
-        return bad_input(fmt::format("{}: this lies in the folder that is watched; name a place outside {}",
-                                     written.string(), folder.string()));
+        return bad_input("watch.output_inside",
+                         "{}: this lies in the folder that is watched; name a place outside {}",
+                         written.string(), folder.string());
     }
     return {};
 }
@@ -174,9 +175,10 @@ Result<void> work(Arguments arguments) {
         TRY_VOID(check_is_outside(written, arguments.folder));
     }
     if (!std::filesystem::is_directory(arguments.folder, none)) {
-        return bad_input(fmt::format("{}: this is no folder; --watch takes the folder of an artifact, and "
-                                     "frustumscreen-bake --new FOLDER SCAN makes one",
-                                     arguments.folder.string()));
+        return bad_input("watch.no_folder",
+                         "{}: this is no folder; --watch takes the folder of an artifact, and "
+                         "frustumscreen-bake --new FOLDER SCAN makes one",
+                         arguments.folder.string());
     }
     if (!std::filesystem::exists(arguments.folder / artifact_file_name, none)) {
         return without_value(read_artifact_file(arguments.folder));
@@ -185,7 +187,7 @@ Result<void> work(Arguments arguments) {
     arguments.bake.size = arguments.bake.size.value_or(coarse_size);
     const PassingFolder passing;
     if (arguments.pack.empty() && passing.path().empty()) {
-        return fail(ErrorKind::Internal,
+        return fail(ErrorKind::Internal, "watch.no_temporary_place",
                     "there is no place for passing files; set TMPDIR to a folder that can be "
                     "written, or name a pack with -o");
     }

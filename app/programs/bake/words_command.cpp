@@ -41,8 +41,8 @@ struct Arguments {
 
 Result<void> tell(const std::vector<std::string>& notes, bool strict) {
     if (strict && !notes.empty()) {
-        return bad_input(
-            fmt::format("this would be lost, and --strict forbids it: {}", fmt::join(notes, "; ")));
+        return bad_input("words.would_be_lost", "this would be lost, and --strict forbids it: {}",
+                         fmt::join(notes, "; "));
     }
     for (const std::string& note : notes) {
         say_line(program, note);
@@ -53,9 +53,10 @@ Result<void> tell(const std::vector<std::string>& notes, bool strict) {
 Result<void> check_folder(const std::filesystem::path& folder) {
     std::error_code ignored;
     if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
-        return bad_input(fmt::format(
+        return bad_input(
+            "words.no_folder",
             "{}: this is no folder; name one with files such as de.toml, or none for the built-in words",
-            folder.string()));
+            folder.string());
     }
     return {};
 }
@@ -67,10 +68,11 @@ Result<std::vector<std::string>> named_languages(const std::vector<std::string>&
         const std::string found = fmt::format("--languages: '{}'", printable(each, 40));
         const std::optional<std::string> language = parse_language_tag(each);
         if (!language) {
-            return bad_input(fmt::format("{} is no language; allowed are {}", found, allowed_language_tags));
+            return bad_input("words.language", "{} is no language; allowed are {}", found,
+                             allowed_language_tags);
         }
         if (std::find(languages.begin(), languages.end(), *language) != languages.end()) {
-            return bad_input(fmt::format("{} is named twice; write each language once", found));
+            return bad_input("words.language_twice", "{} is named twice; write each language once", found);
         }
         languages.push_back(*language);
     }
@@ -113,10 +115,10 @@ Result<void> check_output(const std::filesystem::path& output, bool is_of_kind, 
     TRY_VOID(check_output_place(output));
     std::error_code ignored;
     if (!force && std::filesystem::exists(output, ignored) && !is_of_kind) {
-        return bad_input(
-            fmt::format("{}: this file is there and is not {}; choose another name for the output, "
-                        "or add --force to replace it",
-                        output.string(), kind));
+        return bad_input("words.not_replaced",
+                         "{}: this file is there and is not {}; choose another name for the output, "
+                         "or add --force to replace it",
+                         output.string(), kind);
     }
     return {};
 }
@@ -139,8 +141,8 @@ Result<void> check_outputs(const Arguments& arguments) {
     }
     if (std::filesystem::absolute(arguments.preview).lexically_normal() ==
         std::filesystem::absolute(arguments.output).lexically_normal()) {
-        return bad_input(fmt::format("{}: the words and their picture have the same name; choose two",
-                                     arguments.output.string()));
+        return bad_input("words.same_name", "{}: the words and their picture have the same name; choose two",
+                         arguments.output.string());
     }
     return check_output(arguments.preview, is_png_file(arguments.preview), "a PNG picture", arguments.force);
 }

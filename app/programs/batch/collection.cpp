@@ -88,10 +88,10 @@ Result<Collection> list_collection(const fs::path& folder, const fs::path& outpu
         }
     }
     if (error) {
-        return bad_input(
-            fmt::format("{}: cannot be read as a folder of objects: {}; name the folder in which they "
-                        "lie",
-                        folder.string(), error.message()));
+        return bad_input("batch.unreadable_folder",
+                         "{}: cannot be read as a folder of objects: {}; name the folder in which they "
+                         "lie",
+                         folder.string(), error.message());
     }
     std::sort(collection.objects.begin(), collection.objects.end(), [](const auto& a, const auto& b) {
         return std::pair(a.name, a.input.string()) < std::pair(b.name, b.input.string());
@@ -107,11 +107,9 @@ Result<Shard> parse_shard(std::string_view text) {
     const auto number = whole_number(text.substr(0, slash));
     const auto of = whole_number(text.substr(std::min(slash + 1, text.size())));
     if (!number || !of || *number < 1 || *number > *of || *of > most_shards) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format(
-                "--shard '{}': allowed are 1/N to N/N, such as 3/8 for the third of eight, N at most {}",
-                printable(text, 40), most_shards));
+        return fail(ErrorKind::BadConfiguration, "batch.shard",
+                    "--shard '{}': allowed are 1/N to N/N, such as 3/8 for the third of eight, N at most {}",
+                    printable(text, 40), most_shards);
     }
     return Shard{*number, *of};
 }

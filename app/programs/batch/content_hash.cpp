@@ -39,7 +39,8 @@ Result<std::vector<NamedFile>> files_of(const fs::path& folder) {
         }
     }
     if (error) {
-        return bad_input(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+        return bad_input("batch.unreadable_object", "{}: cannot be read: {}", folder.string(),
+                         error.message());
     }
     std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
     return files;
@@ -56,7 +57,8 @@ Result<std::string> hash_of_file(const fs::path& file) {
         hash.add(as_bytes({block.data(), static_cast<std::size_t>(stream.gcount())}));
     }
     if (!stream.eof()) {
-        return bad_input(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
+        return bad_input("batch.unreadable_file", "{}: cannot be read: {}", file.string(),
+                         std::strerror(errno));
     }
     return hash.hex();
 }

@@ -83,7 +83,8 @@ Result<void> write_all(const std::filesystem::path& folder, const OutputFiles& f
     std::error_code made;
     std::filesystem::create_directories(folder, made);
     if (made) {
-        return bad_input(folder.string() + ": this folder cannot be made: " + made.message());
+        return bad_input("bench.no_folder",
+                         folder.string() + ": this folder cannot be made: " + made.message());
     }
     for (const auto& [name, text] : files) {
         TRY_VOID(write_file(folder / name, as_bytes(text)));

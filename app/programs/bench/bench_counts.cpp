@@ -50,13 +50,13 @@ Result<std::vector<CountedPack>> load_reference(const std::filesystem::path& fil
 Result<void> require_reference(std::span<const CountedPack> counted, std::span<const CountedPack> reference,
                                std::span<const CountChange> against, const std::filesystem::path& file) {
     if (std::any_of(against.begin(), against.end(), [](const CountChange& one) { return one.grown; })) {
-        return fail(ErrorKind::Internal, fmt::format("a frame takes over {:.0f} % more than {} says",
-                                                     100.0 * (most_count_growth - 1.0), file.string()));
+        return fail(ErrorKind::Internal, "bench.counts_grew", "a frame takes over {:.0f} % more than {} says",
+                    100.0 * (most_count_growth - 1.0), file.string());
     }
     if (const std::vector<std::string> lacking = without_reference(counted, reference); !lacking.empty()) {
-        return bad_input(
-            fmt::format("{} lacks {}; compare with a file that has them, or add them from counts.json",
-                        file.string(), fmt::join(lacking, "; ")));
+        return bad_input("bench.counts_lacking",
+                         "{} lacks {}; compare with a file that has them, or add them from counts.json",
+                         file.string(), fmt::join(lacking, "; "));
     }
     return {};
 }

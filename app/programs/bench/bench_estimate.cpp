@@ -39,9 +39,9 @@ Result<std::vector<NamedCoverage>> measure(const BenchArtifact& named, const std
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     if (arguments.packs.size() != arguments.meshes.size()) {
-        return bad_input(
-            fmt::format("there are {} packs and {} meshes; give each --pack its --mesh, in the same order",
-                        arguments.packs.size(), arguments.meshes.size()));
+        return bad_input("bench.packs_and_meshes",
+                         "there are {} packs and {} meshes; give each --pack its --mesh, in the same order",
+                         arguments.packs.size(), arguments.meshes.size());
     }
     TRY(const std::vector<SetUp> set_ups, load_set_ups(arguments.place));
     std::vector<NamedCoverage> rows;
@@ -56,8 +56,8 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     Result<void> written =
         write_all(arguments.place.out, {{"estimate.csv", coverage_csv(rows)}, {"estimate_poses.csv", poses}});
     if (written && !verdict.held && arguments.limits == "all") {
-        return fail(ErrorKind::Internal,
-                    fmt::format("{} ({}); --limits none only measures", verdict.what, verdict.found));
+        return fail(ErrorKind::Internal, "bench.estimate_limits", "{} ({}); --limits none only measures",
+                    verdict.what, verdict.found);
     }
     return written;
 }

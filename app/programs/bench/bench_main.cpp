@@ -35,7 +35,7 @@ int run(int argc, char** argv) {
         const Result<void> done = command.run(progress);
         if (!done) {
             progress.clear();
-            fmt::print(stderr, "frustumscreen-bench: {}\n", done.error().message);
+            complain("frustumscreen-bench", done.error());
             return 1;
         }
     }

@@ -48,7 +48,7 @@ Result<std::optional<VerifiedPack>> load_if_named(const std::filesystem::path& f
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
     TRY(const CheckedSettings checked, load_settings(arguments.config));
     if (arguments.options.lowest_m > arguments.options.highest_m) {
-        return bad_input("--lowest-m is above --highest-m; no lens can hang there");
+        return bad_input("bench.heights", "--lowest-m is above --highest-m; no lens can hang there");
     }
     const Settings& settings = *checked;
     AdviceOptions options = arguments.options;

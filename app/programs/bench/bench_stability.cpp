@@ -34,8 +34,8 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
                                        {"step_error.csv", step_error_csv(smoothers, program)}}));
     Result<void> drawn = draw_all(arguments.out, {"step_error.csv"});
     if (!all_held(measured)) {
-        return fail(ErrorKind::Internal, fmt::format("a bound was missed; {} says which",
-                                                     (arguments.out / "stability.csv").string()));
+        return fail(ErrorKind::Internal, "bench.bound_missed", "a bound was missed; {} says which",
+                    (arguments.out / "stability.csv").string());
     }
     return drawn;
 }

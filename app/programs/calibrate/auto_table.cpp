@@ -57,11 +57,10 @@ Result<int> calibrate_by_camera(const CalibrateRequest& request) {
     TRY(const Described described, describe(request));
     const Settings& settings = *described.settings;
     if (settings.camera.kind == CameraKind::None) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format("{}: the settings have no camera; set camera.kind = \"v4l2\", or touch crosses "
-                        "(frustumscreen-calibrate table)",
-                        request.config.string()));
+        return fail(ErrorKind::BadConfiguration, "calibrate.no_camera",
+                    "{}: the settings have no camera; set camera.kind = \"v4l2\", or touch crosses "
+                    "(frustumscreen-calibrate table)",
+                    request.config.string());
     }
     TRY(const Board board, board_of(settings));
     TRY(const std::unique_ptr<TableDevices> devices,

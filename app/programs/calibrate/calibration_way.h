@@ -42,7 +42,7 @@ enum class WayEnd {
     if (end) {
         return *end;
     }
-    return fail(ErrorKind::BadInput,
+    return fail(ErrorKind::BadInput, "calibrate.ended_early",
                 problem.empty() ? "it ended before a calibration was kept; the one before counts" : problem);
 }
 

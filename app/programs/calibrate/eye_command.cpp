@@ -89,15 +89,16 @@ Result<int> on_table(const Settings& settings, const CalibrateRequest& request) 
 
 Result<int> from_file(const Settings& settings, const CalibrateRequest& request) {
     if (const std::string why = why_no_eye(settings); request.keep && !why.empty()) {
-        return fail(ErrorKind::BadConfiguration,
-                    fmt::format("{}: {}", settings.calibration.folder.string(), why));
+        return fail(ErrorKind::BadConfiguration, "calibrate.no_kept_table", "{}: {}",
+                    settings.calibration.folder.string(), why);
     }
     TRY(const auto reported, read_points(request, parse_sights));
     const std::optional<EyeFit> fit = fit_reported(reported, settings);
     if (!fit) {
-        return bad_input(fmt::format("{}: the light of a cross does not come down on the table; u_px, v_px "
-                                     "is its pixel in the picture",
-                                     request.from.string()));
+        return bad_input("calibrate.cross_without_light",
+                         "{}: the light of a cross does not come down on the table; u_px, v_px "
+                         "is its pixel in the picture",
+                         request.from.string());
     }
     if (request.json) {
         fmt::print("{}\n", eye_json(*fit).dump(2));

@@ -49,10 +49,10 @@ Result<std::unique_ptr<TableDevices>> TableDevices::open(const CalibrateRequest&
     settings.camera = {};
     const DevicePlan plan = plan_devices(settings, false, false);
     if (plan.tracker == TrackerKind::None || !plan.panel) {
-        return fail(ErrorKind::BadConfiguration,
-                    fmt::format("{}: a calibration on the table needs a tracker and two buttons; set "
-                                "tracker.kind and panel.kind{}",
-                                request.config.string(), instead));
+        return fail(ErrorKind::BadConfiguration, "calibrate.no_devices",
+                    "{}: a calibration on the table needs a tracker and two buttons; set "
+                    "tracker.kind and panel.kind{}",
+                    request.config.string(), instead);
     }
     TRY(std::unique_ptr<Display> display, make_display(settings, request.headless));
     TRY(Typesetter typesetter, Typesetter::open());

@@ -63,11 +63,10 @@ CalibratedTable kept_table_of(const Settings& settings) {
 }
 
 tl::unexpected<Error> none_kept(const Settings& settings) {
-    return fail(
-        ErrorKind::BadConfiguration,
-        fmt::format("{}: no calibration is kept there that could be touched up: keep one first, by touch "
-                    "--keep or table",
-                    settings.calibration.folder.string()));
+    return fail(ErrorKind::BadConfiguration, "calibrate.none_kept",
+                "{}: no calibration is kept there that could be touched up: keep one first, by touch "
+                "--keep or table",
+                settings.calibration.folder.string());
 }
 
 Result<void> keep_touch_up(const Settings& settings, const TouchUp& found) {

@@ -6,16 +6,23 @@
 
 #include "firmware_host/base/result.h"
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <exception>
 #include <new>
 
 namespace frustumscreen {
 
+/// One line on standard error: the program, the sentence, and its id in brackets.
+inline void complain(const char* program, const Error& error) {
+    fmt::print(stderr, "{}: {} [{}]\n", program, error.message, error.id.view());
+}
+
 /// 0; or 1 and the error in one line on standard error.
 [[nodiscard]] inline int exit_status(const char* program, const Result<void>& result) {
     if (!result) {
-        std::fprintf(stderr, "%s: %s\n", program, result.error().message.c_str());
+        complain(program, result.error());
     }
     return result ? 0 : 1;
 }

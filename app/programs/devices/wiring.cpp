@@ -193,11 +193,10 @@ Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool hea
 
 Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind, const std::filesystem::path& path) {
     if (!has_packets(kind)) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format("tracker.kind is \"{}\", which has no packets to record; allowed are \"usb\" and "
-                        "\"spacemouse\"",
-                        name_of(kind)));
+        return fail(ErrorKind::BadConfiguration, "record.no_packets",
+                    "tracker.kind is \"{}\", which has no packets to record; allowed are \"usb\" and "
+                    "\"spacemouse\"",
+                    name_of(kind));
     }
     TRY(GrowingFile file, GrowingFile::create(path));
     const std::string about = fmt::format("FrustumScreen {}, recorded from {:%Y-%m-%d %H:%M:%S} UTC on",

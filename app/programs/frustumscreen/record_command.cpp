@@ -113,9 +113,8 @@ std::vector<PoseSample> for_pose_file(const std::vector<PoseSample>& poses, Mono
 Result<void> write_pose_recording(const Request& request, const Inputs& inputs, const Recording& recording,
                                   MonotonicTime start) {
     if (recording.poses().empty()) {
-        return fail(ErrorKind::DeviceLost,
-                    fmt::format("no pose came, and {} was not written{}{}", request.output.string(),
-                                recording.state().empty() ? "" : "; ", recording.state()));
+        return fail(ErrorKind::DeviceLost, "record.no_pose", "no pose came, and {} was not written{}{}",
+                    request.output.string(), recording.state().empty() ? "" : "; ", recording.state());
     }
     const std::vector<PoseSample> poses = for_pose_file(recording.poses(), start);
     std::array<std::size_t, torch_station + 1> of_station{};
@@ -151,7 +150,8 @@ Result<void> record(const Request& request, Inputs& inputs) {
     DevicePlan devices;
     devices.tracker = settings->tracker.kind;
     if (devices.tracker == TrackerKind::None) {
-        return fail(ErrorKind::BadConfiguration, "tracker.kind is \"none\"; there is nothing to record");
+        return fail(ErrorKind::BadConfiguration, "record.no_tracker",
+                    "tracker.kind is \"none\"; there is nothing to record");
     }
     const MonotonicTime start = monotonic_now();
     std::unique_ptr<PacketRecorder> recorder;

@@ -3,6 +3,7 @@
 #include "app/pack/prop_note.h"
 #include "app/programs/common/argument_checks.h"
 #include "app/programs/common/command_line.h"
+#include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
 #include "app/programs/frustumscreen/pose_input.h"
 #include "app/settings/settings.h"
@@ -141,8 +142,8 @@ Result<void> render(const Request& request) {
     std::error_code failed;
     std::filesystem::create_directories(request.out, failed);
     if (failed) {
-        return bad_input(
-            fmt::format("{}: the folder cannot be made: {}", request.out.string(), failed.message()));
+        return bad_input("render.no_folder", "{}: the folder cannot be made: {}", request.out.string(),
+                         failed.message());
     }
     TRY(const std::unique_ptr<OfflineRenderer> renderer, OfflineRenderer::create(scene));
     const Studio studio{request, *settings, *renderer};
@@ -170,7 +171,7 @@ int render_command(int argc, char** argv) {
         return *end;
     }
     if (const Result<void> rendered = render(request); !rendered) {
-        fmt::print(stderr, "frustumscreen: {}\n", rendered.error().message);
+        complain("frustumscreen", rendered.error());
         return 1;
     }
     return 0;

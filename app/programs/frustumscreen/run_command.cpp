@@ -60,13 +60,14 @@ Result<RunMode> load(RunRequest& request, const Journal& journal) {
         std::error_code failed;
         std::filesystem::create_directories(request.out, failed);
         if (failed) {
-            return bad_input(
-                fmt::format("{}: the folder cannot be made: {}", request.out.string(), failed.message()));
+            return bad_input("run.no_folder", "{}: the folder cannot be made: {}", request.out.string(),
+                             failed.message());
         }
     }
     if (const std::filesystem::path folder = request.status_file.parent_path();
         !folder.empty() && !std::filesystem::is_directory(folder)) {
-        return bad_input(fmt::format("{}: the folder of --status-file is not there", folder.string()));
+        return bad_input("run.no_status_folder", "{}: the folder of --status-file is not there",
+                         folder.string());
     }
     return mode;
 }

@@ -6,6 +6,7 @@
 #include "app/library/stick_settings.h"
 #include "app/library/trusted_keys.h"
 #include "app/pack/key_folder.h"
+#include "app/programs/common/guarded_main.h"
 #include "app/programs/import/import_watcher.h"
 #include "app/programs/import/listed_keys.h"
 #include "app/settings/settings.h"
@@ -37,11 +38,13 @@ public:
     [[nodiscard]] static Result<FolderLock> wait_for(const std::filesystem::path& folder) {
         FolderLock lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
         if (lock.folder_ < 0) {
-            return bad_input(folder.string() + ": cannot be opened as a folder: " + std::strerror(errno));
+            return bad_input("import.library_unopened",
+                             folder.string() + ": cannot be opened as a folder: " + std::strerror(errno));
         }
         while (::flock(lock.folder_, LOCK_EX) != 0) {
             if (errno != EINTR) {
-                return bad_input(folder.string() + ": cannot be locked: " + std::strerror(errno));
+                return bad_input("import.library_locked",
+                                 folder.string() + ": cannot be locked: " + std::strerror(errno));
             }
         }
         return lock;
@@ -93,7 +96,9 @@ Result<void> read_trust(const ImportArguments& arguments, ImportRequest& request
 Result<void> make_folder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    return error ? bad_input(folder.string() + ": cannot be made: " + error.message()) : Result<void>();
+    return error ? bad_input("import.library_not_made",
+                             folder.string() + ": cannot be made: " + error.message())
+                 : Result<void>();
 }
 
 /// What set.txt says, and what an exhibit that is started now would show of it.
@@ -106,11 +111,11 @@ Result<Installed> installed(const std::filesystem::path& folder) {
     TRY(const std::unique_ptr<WritableTree> library, open_tree(folder));
     const tl::expected<SetFile, ImportFailure> file = read_set_file(*library);
     if (!file) {
-        return bad_input(folder.string() + ": " + file.error().reason);
+        return bad_input("import.set_file", folder.string() + ": " + file.error().reason);
     }
     const tl::expected<std::optional<SetVerdict>, ImportFailure> verdict = read_verdict(*library);
     if (!verdict) {
-        return bad_input(folder.string() + ": " + verdict.error().reason);
+        return bad_input("import.verdict_file", folder.string() + ": " + verdict.error().reason);
     }
     return Installed{*file, set_to_show(file->choice, *verdict)};
 }
@@ -157,7 +162,7 @@ std::optional<ImportedPack> take_settings_of(FileTree& stick, WritableTree& libr
     if (told && told->outcome == ImportOutcome::Taken && !arguments.report.empty()) {
         const std::filesystem::path mark = arguments.report.parent_path() / "settings-taken";
         if (const Result<void> marked = write_file(mark, {}); !marked) {
-            fmt::print(stderr, "frustumscreen-import: {}\n", marked.error().message);
+            complain("frustumscreen-import", marked.error());
         }
     }
     return told;

@@ -16,11 +16,6 @@
 namespace frustumscreen {
 namespace {
 
-int complain(const std::string& message) {
-    fmt::print(stderr, "frustumscreen-import: {}\n", message);
-    return 1;
-}
-
 std::string line_of(const ImportedPack& pack) {
     const std::string name =
         pack.title.empty() ? pack.file : fmt::format("{} (\"{}\")", pack.file, pack.title);
@@ -50,13 +45,17 @@ int say(const ImportReport& report, const ImportArguments& arguments) {
         return pack.reason.ends_with(report.reason) ||
                (!pack.reason.empty() && report.reason.ends_with(pack.reason));
     });
-    return is_said ? 1 : complain(report.reason);
+    if (!is_said) {
+        fmt::print(stderr, "frustumscreen-import: {}\n", report.reason);
+    }
+    return 1;
 }
 
 int list(const ImportArguments& arguments) {
     const Result<std::string> text = list_installed(arguments);
     if (!text) {
-        return complain(text.error().message);
+        complain("frustumscreen-import", text.error());
+        return 1;
     }
     fmt::print("{}", *text);
     return 0;

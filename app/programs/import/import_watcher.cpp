@@ -1,5 +1,6 @@
 #include "app/programs/import/import_watcher.h"
 
+#include "app/programs/common/guarded_main.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
@@ -74,7 +75,7 @@ void ImportWatcher::write(const ImportReport& report) {
     const Result<void> written = write_file(file_, as_bytes(write_import_report(report)));
     if (!written && !complained_) {
         complained_ = true;
-        fmt::print(stderr, "frustumscreen-import: {}\n", written.error().message);
+        complain("frustumscreen-import", written.error());
     }
 }
 

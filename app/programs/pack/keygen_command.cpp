@@ -17,14 +17,14 @@ namespace frustumscreen {
 namespace {
 
 tl::unexpected<Error> not_written(const std::string& file) {
-    return bad_input(fmt::format("{}: cannot be written: {}", file, std::strerror(errno)));
+    return bad_input("key.not_written", "{}: cannot be written: {}", file, std::strerror(errno));
 }
 
 Result<void> check_free(const std::string& file) {
     struct stat status {};
     if (::lstat(file.c_str(), &status) == 0) {
-        return bad_input(
-            fmt::format("{}: it is there already, and keys are never replaced; take another name", file));
+        return bad_input("key.there_already",
+                         "{}: it is there already, and keys are never replaced; take another name", file);
     }
     return {};
 }

@@ -33,11 +33,6 @@ struct Request {
     bool table = false; ///< preview: the table's picture
 };
 
-int complain(const Error& error) {
-    fmt::print(stderr, "frustumscreen-pack: {}\n", error.message);
-    return 1;
-}
-
 void print_json(const nlohmann::ordered_json& json) {
     fmt::print("{}\n", json.dump(2));
 }
@@ -50,7 +45,8 @@ PropSettings usual_prop(const Pack& pack) {
 int list(const Request& request) {
     const Result<OpenedPack> opened = open_pack(request.pack);
     if (!opened) {
-        return complain(opened.error());
+        complain("frustumscreen-pack", opened.error());
+        return 1;
     }
     if (request.json) {
         print_json(list_json(*opened, usual_prop(*opened->pack)));
@@ -65,13 +61,15 @@ int explain(const Request& request) {
     if (!request.config.empty()) {
         const Result<CheckedSettings> settings = load_settings(request.config);
         if (!settings) {
-            return complain(settings.error());
+            complain("frustumscreen-pack", settings.error());
+            return 1;
         }
         configured = (*settings)->prop;
     }
     const Result<OpenedPack> opened = open_pack(request.pack);
     if (!opened) {
-        return complain(opened.error());
+        complain("frustumscreen-pack", opened.error());
+        return 1;
     }
     const PropSettings prop = configured.value_or(usual_prop(*opened->pack));
     if (request.json) {
@@ -85,7 +83,8 @@ int explain(const Request& request) {
 Result<Image8> table_picture_of(const std::filesystem::path& file) {
     TRY(PackCard card, load_pack_card(file));
     if (card.table_picture.texels.empty()) {
-        return bad_input(file.string() + ": it has no picture for the table; bake it again");
+        return bad_input("pack.no_table_picture",
+                         file.string() + ": it has no picture for the table; bake it again");
     }
     return std::move(card.table_picture);
 }
@@ -99,7 +98,7 @@ Result<void> write_preview(const Request& request) {
 
 int preview(const Request& request) {
     const Result<void> written = write_preview(request);
-    return written ? 0 : complain(written.error());
+    return exit_status("frustumscreen-pack", written);
 }
 
 int sign(SignRequest request) {

@@ -47,14 +47,16 @@ Result<Password> read_line() {
             continue;
         }
         if (got <= 0 && line.empty()) {
-            return bad_input("no password came; type it, or give it in one line on standard input");
+            return bad_input("password.none",
+                             "no password came; type it, or give it in one line on standard input");
         }
         if (got <= 0 || letter == '\n') {
             return Password(std::move(line));
         }
         if (line.size() == longest_password) {
             sodium_memzero(line.data(), line.size());
-            return bad_input("the password is longer than 1024 bytes; take a shorter one");
+            return bad_input("password.too_long",
+                             "the password is longer than 1024 bytes; take a shorter one");
         }
         line += letter;
     }
@@ -85,7 +87,7 @@ Result<Password> ask_new_password() {
     TRY(Password first, ask_password("Password for the new key (none: it is not encrypted)"));
     TRY(const Password second, ask_password("The same again"));
     if (first.view() != second.view()) {
-        return bad_input("the two passwords are not the same; try again");
+        return bad_input("password.different", "the two passwords are not the same; try again");
     }
     return first;
 }

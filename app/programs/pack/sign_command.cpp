@@ -49,10 +49,10 @@ Result<std::uint64_t> serial_for(const SignRequest& request, const std::optional
     if (before) {
         const Result<SignatureClaim> claim = read_signature_claim(*before);
         if (claim && claim->serial > request.now_s) {
-            return bad_input(
-                fmt::format("its signature has the serial {} already, and this computer's clock gives "
-                            "{}; set the clock right, or name a higher one with --serial",
-                            claim->serial, request.now_s));
+            return bad_input("sign.serial",
+                             "its signature has the serial {} already, and this computer's clock gives "
+                             "{}; set the clock right, or name a higher one with --serial",
+                             claim->serial, request.now_s);
         }
         if (claim && claim->serial == request.now_s) {
             return request.now_s + 1; // it was signed within this second
@@ -141,7 +141,7 @@ int sign_files(const SignRequest& request) {
         const Result<std::uint64_t> serial = sign_file(request, *key, file);
         if (!serial) {
             status = exit_status("frustumscreen-pack", tl::unexpected<Error>(serial.error()));
-            report.push_back({{"file", file}, {"signed", false}, {"reason", serial.error().message}});
+            report.push_back({{"file", file}, {"signed", false}, {"id", serial.error().id.view()}, {"reason", serial.error().message}});
             continue;
         }
         report.push_back({{"file", file}, {"signed", true}, {"key_id", id}, {"serial", *serial}});

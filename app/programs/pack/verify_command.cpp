@@ -48,14 +48,14 @@ Result<std::pair<pack_format::PackReader, std::string>> open_checked(OpenFile fi
     tl::expected<SignedPack, PackRefusal> opened =
         open_signed_pack(std::move(file), {keys, std::nullopt, UnsignedPacks::Refuse});
     if (!opened) {
-        return bad_input(opened.error().message);
+        return tl::unexpected<Error>(std::move(opened.error().error));
     }
     return std::pair(std::move(opened->reader), std::move(opened->signer->key));
 }
 
 Result<SoundPack> check(const std::string& file, std::span<const TrustedKey> keys) {
     if (std::error_code none; std::filesystem::is_directory(file, none)) {
-        return bad_input(file + ": this is a folder; name the *.fspack files in it");
+        return bad_input("verify.folder", file + ": this is a folder; name the *.fspack files in it");
     }
     TRY(OpenFile opened, OpenFile::open(file, pack_format::most_pack_bytes));
     TRY(auto reader, at(file, open_checked(std::move(opened), keys)));
@@ -104,7 +104,7 @@ int verify_packs(const VerifyRequest& request) {
         if (!sound) {
             status = exit_status("frustumscreen-pack", tl::unexpected<Error>(sound.error()));
             report.push_back(
-                {{"file", file}, {"sound", false}, {"signed", false}, {"reason", sound.error().message}});
+                {{"file", file}, {"sound", false}, {"signed", false}, {"id", sound.error().id.view()}, {"reason", sound.error().message}});
             continue;
         }
         report.push_back(report_of(file, *sound));

@@ -83,8 +83,8 @@ Result<void> convert(const ConvertRequest& request) {
         return convert_packets(request, std::move(bytes));
     }
     if (bytes.size() > largest_text_bytes) {
-        return bad_input(fmt::format("{}: {} bytes; at most {} are allowed", request.input, bytes.size(),
-                                     largest_text_bytes));
+        return bad_input("poses.too_long", "{}: {} bytes; at most {} are allowed", request.input,
+                         bytes.size(), largest_text_bytes);
     }
     TRY(const auto converted, convert_recording(as_text(bytes), request.input, request.recording));
     const std::string comment =
@@ -197,7 +197,7 @@ int run(int argc, char** argv) {
                               : app.got_subcommand("path")  ? follow_path(to_follow)
                                                             : simulate(to_simulate);
     if (!done) {
-        fmt::print(stderr, "frustumscreen-poses: {}\n", done.error().message);
+        complain("frustumscreen-poses", done.error());
         return 1;
     }
     return 0;

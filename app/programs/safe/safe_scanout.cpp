@@ -35,9 +35,8 @@ Result<std::unique_ptr<ScanoutPair>> SafeScanout::make(int card, PixelSize size,
     std::optional<DumbBuffer> first = DumbBuffer::create(card, size);
     std::optional<DumbBuffer> second = DumbBuffer::create(card, size);
     if (!first || !second) {
-        return fail(
-            ErrorKind::BadConfiguration,
-            fmt::format("the graphics card has no memory for {} x {} pixels", size.width, size.height));
+        return fail(ErrorKind::BadConfiguration, "safe.no_memory",
+                    "the graphics card has no memory for {} x {} pixels", size.width, size.height);
     }
     return std::unique_ptr<ScanoutPair>(
         new SafeScanout(size, picture, *std::move(first), *std::move(second)));

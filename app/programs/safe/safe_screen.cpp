@@ -14,9 +14,9 @@ Result<std::unique_ptr<SafeScreen>> SafeScreen::open(const std::string& name,
                                                      std::vector<std::string_view> languages) {
     TRY(KmsCard card, KmsCard::open(name, {}));
     if (!take_screen(card.file())) {
-        return fail(ErrorKind::DeviceLost,
-                    fmt::format("another program holds the screen of {}; end it, or wait until it has ended",
-                                card.path()));
+        return fail(ErrorKind::DeviceLost, "safe.screen_held",
+                    "another program holds the screen of {}; end it, or wait until it has ended",
+                    card.path());
     }
     return std::unique_ptr<SafeScreen>(new SafeScreen(std::move(card), name.empty(), std::move(languages)));
 }

@@ -106,7 +106,7 @@ public:
         if (!encoder_ || WebPAnimEncoderAdd(encoder_.get(), nullptr, end_ms, nullptr) == 0 ||
             WebPAnimEncoderAssemble(encoder_.get(), &data) == 0) {
             WebPDataClear(&data);
-            return fail(ErrorKind::Internal, "animation: the WebP encoder failed");
+            return fail(ErrorKind::Internal, "sheet.encoder", "animation: the WebP encoder failed");
         }
         const auto* const begin = reinterpret_cast<const std::byte*>(data.bytes);
         Bytes bytes(begin, begin + data.size);
@@ -155,7 +155,7 @@ Result<Bytes> visitor_animation(const Settings& settings, const std::vector<Shee
         at_ms += duration_ms(frames, k, k - 1);
     }
     if (!sound) {
-        return fail(ErrorKind::Internal, "animation: the WebP encoder failed");
+        return fail(ErrorKind::Internal, "sheet.encoder_end", "animation: the WebP encoder failed");
     }
     return encoder.finish(at_ms);
 }

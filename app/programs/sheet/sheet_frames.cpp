@@ -92,15 +92,17 @@ bool looks_like(const SheetFrame& a, const SheetFrame& b) {
 
 Result<void> check_folder(const std::filesystem::path& folder, const std::filesystem::path& pose_file) {
     if (!std::filesystem::is_directory(folder)) {
-        return bad_input(folder.string() + ": there is no such folder");
+        return bad_input("sheet.no_folder", folder.string() + ": there is no such folder");
     }
     if (const auto cameras = folder / visitor_cameras_name; std::filesystem::exists(cameras)) {
-        return bad_input(fmt::format("{}: these pictures show what the visitor sees; a sheet is made of the "
-                                     "projector's, from render without --view visitor",
-                                     cameras.string()));
+        return bad_input("sheet.visitors_pictures",
+                         "{}: these pictures show what the visitor sees; a sheet is made of the "
+                         "projector's, from render without --view visitor",
+                         cameras.string());
     }
     if (!std::filesystem::exists(pose_file)) {
-        return bad_input(pose_file.string() + ": there is no such file; name it with --poses");
+        return bad_input("sheet.no_pose_file",
+                         pose_file.string() + ": there is no such file; name it with --poses");
     }
     return {};
 }
@@ -126,14 +128,15 @@ Result<std::vector<FrameRecord>> parse_frames_csv(std::string_view text, const s
         if (!columns) {
             columns.emplace(fields);
             if (!columns->has("t_us") || !columns->has("ms")) {
-                return bad_input(fmt::format("{}:{}: the header names no t_us or no ms", name, line_number));
+                return bad_input("sheet.no_time_columns", "{}:{}: the header names no t_us or no ms", name,
+                                 line_number);
             }
             continue;
         }
         const std::optional<double> t_us = number(columns->of(fields, "t_us"));
         const std::optional<double> ms = number(columns->of(fields, "ms"));
         if (!t_us || !ms || std::abs(*t_us) > 1e15) {
-            return bad_input(fmt::format("{}:{}: t_us and ms must be numbers", name, line_number));
+            return bad_input("sheet.times", "{}:{}: t_us and ms must be numbers", name, line_number);
         }
         records.push_back({static_cast<std::int64_t>(*t_us), *ms, columns->of(fields, "technique"),
                            number(columns->of(fields, "estimated_error_mm")),
@@ -170,8 +173,9 @@ Result<FrameFolder> read_frame_folder(const std::filesystem::path& folder, const
             {file, situation, label_of(result.records, to_microseconds(situation.time), otherwise)});
     }
     if (result.frames.empty()) {
-        return bad_input(folder.string() + ": there is no frame_00000.png with a pose in " +
-                         pose_file.string());
+        return bad_input("sheet.no_frames", folder.string() +
+                                                ": there is no frame_00000.png with a pose in " +
+                                                pose_file.string());
     }
     return result;
 }
@@ -208,9 +212,10 @@ Result<Image8> read_picture(const SheetFrame& frame, const Pinhole& projector) {
     TRY(Image8 picture, at(frame.picture.string(), decode_png8(bytes)));
     if (std::abs(picture.width * projector.height - picture.height * projector.width) >
         std::max(projector.width, projector.height)) {
-        return bad_input(fmt::format(
-            "{}: {} x {} pixels do not have the shape of the configured projector's {} x {}",
-            frame.picture.string(), picture.width, picture.height, projector.width, projector.height));
+        return bad_input("sheet.frame_shape",
+                         "{}: {} x {} pixels do not have the shape of the configured projector's {} x {}",
+                         frame.picture.string(), picture.width, picture.height, projector.width,
+                         projector.height);
     }
     return picture;
 }

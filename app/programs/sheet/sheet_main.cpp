@@ -159,7 +159,7 @@ int run(int argc, char** argv) {
         return *end;
     }
     if (const Result<void> made = make(request); !made) {
-        fmt::print(stderr, "frustumscreen-sheet: {}\n", made.error().message);
+        complain("frustumscreen-sheet", made.error());
         return 1;
     }
     return 0;

@@ -39,10 +39,10 @@ bool is_passing_name(std::string_view name) {
 Result<FolderWatch> FolderWatch::open(const std::filesystem::path& folder) {
     FolderWatch watch(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC), folder);
     if (watch.descriptor_ < 0) {
-        return fail(ErrorKind::Internal,
-                    fmt::format("{}: cannot be watched: {}; end other programs that watch "
-                                "folders",
-                                folder.string(), std::strerror(errno)));
+        return fail(ErrorKind::Internal, "watch.no_watches",
+                    "{}: cannot be watched: {}; end other programs that watch "
+                    "folders",
+                    folder.string(), std::strerror(errno));
     }
     TRY_VOID(watch.add(folder));
     return watch;
@@ -69,7 +69,7 @@ Result<void> FolderWatch::add(const std::filesystem::path& folder, std::set<int>
         return {}; // it is gone already, which is told as a change, or a link that leads to no folder
     }
     if (number < 0) {
-        return bad_input(fmt::format("{}: cannot be watched: {}", folder.string(), std::strerror(errno)));
+        return bad_input("watch.folder", "{}: cannot be watched: {}", folder.string(), std::strerror(errno));
     }
     if (!seen.insert(number).second) {
         return {};
@@ -95,8 +95,8 @@ Result<bool> FolderWatch::take() {
             const auto place = watched_.find(event.wd);
             const bool is_itself = (event.mask & (IN_DELETE_SELF | IN_MOVE_SELF)) != 0;
             if (is_itself && place != watched_.end() && place->second == folder_) {
-                return bad_input(
-                    fmt::format("{}: this folder is gone; it was watched until now", folder_.string()));
+                return bad_input("watch.folder_gone", "{}: this folder is gone; it was watched until now",
+                                 folder_.string());
             }
             const bool is_new = (event.mask & (IN_CREATE | IN_MOVED_TO)) != 0;
             std::error_code none;

@@ -29,8 +29,9 @@ struct PixelsFree {
 };
 
 tl::unexpected<Error> damaged(const char* kind, const char* why) {
-    return bad_input(fmt::format(
-        "the {} picture is damaged, or of a kind that cannot be read ({}); save it as PNG", kind, why));
+    return bad_input("picture.bitmap_damaged",
+                     "the {} picture is damaged, or of a kind that cannot be read ({}); save it as PNG", kind,
+                     why);
 }
 
 /// Both the old header of 12 bytes and the later ones of 40 and more.

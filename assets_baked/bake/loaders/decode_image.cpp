@@ -52,19 +52,19 @@ struct PngReader {
 
 Result<Image8> decode_png(ByteView bytes, std::int64_t limit_texels) {
     if (bytes.size() < 8) {
-        return bad_input("the PNG picture is truncated");
+        return bad_input("picture.png_truncated", "the PNG picture is truncated");
     }
     const Bytes essential = essential_png_chunks(bytes);
     PngReader reader;
     if (png_image_begin_read_from_memory(&reader.image, essential.data(), essential.size()) == 0) {
-        return bad_input(fmt::format("the PNG picture is damaged: {}", reader.image.message));
+        return bad_input("picture.png_damaged", "the PNG picture is damaged: {}", reader.image.message);
     }
     reader.image.format = PNG_FORMAT_RGBA;
     reader.image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
     TRY(Image8 picture, blank_image(reader.image.width, reader.image.height, limit_texels));
     png_image_finish_read(&reader.image, nullptr, raw(picture), 0, nullptr);
     if (PNG_IMAGE_FAILED(reader.image) || reader.image.warning_or_error != 0) {
-        return bad_input(fmt::format("the PNG picture is damaged: {}", reader.image.message));
+        return bad_input("picture.png_rows_damaged", "the PNG picture is damaged: {}", reader.image.message);
     }
     return picture;
 }
@@ -81,7 +81,8 @@ bool is_harmless(std::string_view warning) {
 Result<Image8> decode_jpeg(ByteView bytes, std::int64_t limit_texels) {
     const std::unique_ptr<void, JpegCloser> handle(tjInitDecompress());
     const auto damaged = [&] {
-        return bad_input(fmt::format("the JPEG picture is damaged: {}", tjGetErrorStr2(handle.get())));
+        return bad_input("picture.jpeg_damaged", "the JPEG picture is damaged: {}",
+                         tjGetErrorStr2(handle.get()));
     };
     int width = 0;
     int height = 0;
@@ -92,7 +93,7 @@ Result<Image8> decode_jpeg(ByteView bytes, std::int64_t limit_texels) {
         return damaged();
     }
     if (colours == TJCS_CMYK || colours == TJCS_YCCK) {
-        return bad_input("the JPEG picture is CMYK; save it as RGB");
+        return bad_input("picture.jpeg_cmyk", "the JPEG picture is CMYK; save it as RGB");
     }
     TRY(Image8 picture, blank_image(width, height, limit_texels));
     if (tjDecompress2(handle.get(), raw(bytes), size, raw(picture), width, 0, height, TJPF_RGBA,
@@ -106,15 +107,15 @@ Result<Image8> decode_jpeg(ByteView bytes, std::int64_t limit_texels) {
 Result<Image8> decode_webp(ByteView bytes, std::int64_t limit_texels) {
     WebPBitstreamFeatures features;
     if (WebPGetFeatures(raw(bytes), bytes.size(), &features) != VP8_STATUS_OK) {
-        return bad_input("the WebP picture is damaged");
+        return bad_input("picture.webp_damaged", "the WebP picture is damaged");
     }
     if (features.has_animation != 0) {
-        return bad_input("the WebP picture is animated; save it as a still picture");
+        return bad_input("picture.webp_animated", "the WebP picture is animated; save it as a still picture");
     }
     TRY(Image8 picture, blank_image(features.width, features.height, limit_texels));
     if (WebPDecodeRGBAInto(raw(bytes), bytes.size(), raw(picture), picture.texels.size() * 4,
                            features.width * 4) == nullptr) {
-        return bad_input("the WebP picture is damaged or truncated");
+        return bad_input("picture.webp_truncated", "the WebP picture is damaged or truncated");
     }
     return picture;
 }
@@ -140,7 +141,8 @@ Result<Image8> decode_image(ByteView bytes, std::int64_t limit_texels) {
     if (is_tga(bytes)) { // last: it has no certain mark
         return decode_tga(bytes, limit_texels);
     }
-    return bad_input("the picture is neither PNG, JPEG, WebP, TIFF, BMP nor TGA; save it as PNG");
+    return bad_input("picture.unknown_format",
+                     "the picture is neither PNG, JPEG, WebP, TIFF, BMP nor TGA; save it as PNG");
 }
 
 } // namespace frustumscreen

@@ -140,10 +140,10 @@ bool is_tiff(ByteView bytes) {
 Result<Image8> decode_tiff(ByteView bytes, std::int64_t limit_texels) {
     Memory memory{bytes, 0, {}};
     const auto damaged = [&] {
-        return bad_input(
-            fmt::format("the TIFF picture is damaged, or of a kind that cannot be read ({}); save it as "
-                        "PNG",
-                        memory.error.empty() ? "no reason is known" : memory.error));
+        return bad_input("picture.tiff_damaged",
+                         "the TIFF picture is damaged, or of a kind that cannot be read ({}); save it as "
+                         "PNG",
+                         memory.error.empty() ? "no reason is known" : memory.error);
     };
     const Tiff tiff = open_tiff(memory, limit_texels);
     if (!tiff) {

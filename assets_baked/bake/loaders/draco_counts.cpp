@@ -86,7 +86,8 @@ DracoCounts check_draco_stream(ByteView stream, const std::string& place) {
     const auto method = cursor.take<std::uint8_t>();
     const auto flags = cursor.take<std::uint16_t>();
     if (major != 2 || minor != 2) {
-        refuse("it is packed with Draco {1}.{2}, only 2.2 can be read; export it with a newer program, or "
+        refuse("mesh.draco_version",
+               "it is packed with Draco {1}.{2}, only 2.2 can be read; export it with a newer program, or "
                "without "
                "Draco ({0})",
                place, major, minor);

@@ -37,14 +37,15 @@ constexpr std::array known_extensions = {
 void check_header(const JsonPlace& document) {
     const std::string version = document.at("asset").at("version").text();
     if (!version.starts_with("2.")) {
-        refuse("glTF {} cannot be read, only 2.x (asset.version); export it as glTF 2.0",
+        refuse("mesh.gltf_version", "glTF {} cannot be read, only 2.x (asset.version); export it as glTF 2.0",
                version.substr(0, 20));
     }
     const std::optional<JsonPlace> required = document.find("extensionsRequired");
     for (std::size_t i = 0; required && i < required->size(); ++i) {
         const std::string name = (*required)[i].text();
         if (std::find(known_extensions.begin(), known_extensions.end(), name) == known_extensions.end()) {
-            refuse("it needs the extension {} of glTF, which is not supported; export it without that "
+            refuse("mesh.gltf_extension",
+                   "it needs the extension {} of glTF, which is not supported; export it without that "
                    "(extensionsRequired[{}])",
                    name.substr(0, 80), i);
         }

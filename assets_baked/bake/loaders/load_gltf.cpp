@@ -27,13 +27,15 @@ Container split_glb(ByteView file) {
         const bool has_version = file.size() >= 8;
         const std::uint32_t version = has_version ? load_little<std::uint32_t>(file, 4) : 2;
         if (version != 2) {
-            refuse("GLB of version {} cannot be read, only of 2; export it as glTF 2.0", version);
+            refuse("mesh.glb_version", "GLB of version {} cannot be read, only of 2; export it as glTF 2.0",
+                   version);
         }
         refuse_cut_short("GLB header: the file ends after {} bytes", file.size());
     }
     const auto version = load_little<std::uint32_t>(file, 4);
     if (version != 2) {
-        refuse("GLB of version {} cannot be read, only of 2; export it as glTF 2.0", version);
+        refuse("mesh.glb_version", "GLB of version {} cannot be read, only of 2; export it as glTF 2.0",
+               version);
     }
     const auto length = load_little<std::uint32_t>(file, 8);
     if (length > file.size()) {
@@ -108,6 +110,7 @@ private:
         const GltfTexture& source = model_.textures[index];
         if (!source.image) {
             refuse(
+                "mesh.gltf_picture_format",
                 "a picture is neither PNG, JPEG nor WebP; export the model with one of these (textures[{}])",
                 index);
         }
@@ -266,7 +269,8 @@ private:
         for (const std::size_t node : drawn) {
             total += model_.nodes[node].mesh ? triangles[*model_.nodes[node].mesh] : 0;
             if (total > most_triangles) {
-                refuse("it has more than {} triangles; simplify it first, for instance in MeshLab (at "
+                refuse("mesh.gltf_too_many_triangles",
+                       "it has more than {} triangles; simplify it first, for instance in MeshLab (at "
                        "nodes[{}], parts that "
                        "are used again counted again)",
                        most_triangles, node);

@@ -62,19 +62,22 @@ Format format_of(ByteView file, const std::filesystem::path& path) {
         return Format::Obj;
     }
     if (extension == ".ply") {
-        refuse("it is no PLY file, whatever its name says (it does not begin with \"ply\"); export it again");
+        refuse("mesh.no_ply",
+               "it is no PLY file, whatever its name says (it does not begin with \"ply\"); export it again");
     }
     if (extension == ".glb" || extension == ".gltf") {
-        refuse("it is no glTF file, whatever its name says (it begins neither with \"glTF\" nor with a JSON "
+        refuse("mesh.no_gltf",
+               "it is no glTF file, whatever its name says (it begins neither with \"glTF\" nor with a JSON "
                "object); "
                "export it again");
     }
-    refuse("it is neither glTF, OBJ, PLY nor STL; export it as one of these, best as .glb");
+    refuse("mesh.unknown_format",
+           "it is neither glTF, OBJ, PLY nor STL; export it as one of these, best as .glb");
 }
 
 SourceMesh read(ByteView file, const std::filesystem::path& path, ModelFiles& files) {
     if (file.empty()) {
-        refuse("the file is empty; copy it again, or export it again");
+        refuse("mesh.empty_file", "the file is empty; copy it again, or export it again");
     }
     switch (format_of(file, path)) {
     case Format::Gltf:
@@ -94,7 +97,8 @@ void wear_curators_picture(SourceMesh& mesh, PictureStore& pictures) {
         return;
     }
     if (mesh.uvs.empty()) {
-        refuse("it has no texture coordinates, so no picture can be put on it: leave out --texture, or "
+        refuse("mesh.no_texture_coordinates",
+               "it has no texture coordinates, so no picture can be put on it: leave out --texture, or "
                "export it "
                "again with texture coordinates");
     }
@@ -136,25 +140,26 @@ std::string one_line(std::string message) {
 
 Result<SourceMesh> load_mesh_bytes(ByteView file, const std::filesystem::path& path,
                                    const LoadOptions& options) {
-    const auto refused = [&](const std::string& message) {
-        return bad_input(one_line(path.string() + ": " + message));
+    const auto refused = [&](MessageId id, const std::string& message) {
+        return bad_input(id, one_line(path.string() + ": " + message));
     };
     try {
         return load(file, path, options);
     } catch (const Refusal& refusal) {
-        return refused(refusal.message);
+        return refused(refusal.error.id, refusal.error.message);
     } catch (const std::bad_alloc&) {
         return refused(
+            "mesh.no_memory",
             "it does not fit into this computer's memory; simplify it first, for instance in MeshLab");
     } catch (const std::exception& error) { // thrown by a library
-        return refused(std::string("cannot be read: ") + error.what());
+        return refused("mesh.unreadable", std::string("cannot be read: ") + error.what());
     }
 }
 
 Result<SourceMesh> load_mesh(const std::filesystem::path& path, const LoadOptions& options) {
     const Result<Bytes> file = read_file(path);
     return file ? load_mesh_bytes(*file, path, options)
-                : Result<SourceMesh>(bad_input(one_line(file.error().message)));
+                : Result<SourceMesh>(bad_input(file.error().id, one_line(file.error().message)));
 }
 
 } // namespace frustumscreen

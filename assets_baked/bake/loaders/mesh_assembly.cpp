@@ -30,7 +30,8 @@ std::uint32_t MeshAssembly::add_vertex(const glm::dvec3& position, const char* p
         }
     }
     if (mesh_.positions.size() >= most_source_vertices) {
-        refuse("it has more than {} vertices; simplify it first, for instance in MeshLab",
+        refuse("mesh.too_many_vertices",
+               "it has more than {} vertices; simplify it first, for instance in MeshLab",
                most_source_vertices);
     }
     mesh_.positions.push_back(position);
@@ -73,7 +74,8 @@ int MeshAssembly::add_texture(SourceTexture texture) {
 
 void MeshAssembly::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t material) {
     if (mesh_.triangles.size() >= most_triangles) {
-        refuse("it has more than {} triangles; simplify it first, for instance in MeshLab", most_triangles);
+        refuse("mesh.too_many_triangles",
+               "it has more than {} triangles; simplify it first, for instance in MeshLab", most_triangles);
     }
     mesh_.triangles.push_back({a, b, c});
     mesh_.triangle_materials.push_back(material);
@@ -81,10 +83,12 @@ void MeshAssembly::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t 
 
 SourceMesh MeshAssembly::finish(bool has_points) {
     if (mesh_.triangles.empty() && (has_points || !mesh_.positions.empty())) {
-        refuse("it is a point cloud without faces (no triangles): mesh it first, for instance in MeshLab");
+        refuse("mesh.point_cloud",
+               "it is a point cloud without faces (no triangles): mesh it first, for instance in MeshLab");
     }
     if (mesh_.triangles.empty()) {
-        refuse("it has no triangles, so there is nothing to show; export the artifact itself, as a mesh");
+        refuse("mesh.no_triangles",
+               "it has no triangles, so there is nothing to show; export the artifact itself, as a mesh");
     }
     if (mesh_.materials.empty()) {
         mesh_.materials.emplace_back();

@@ -24,9 +24,10 @@ namespace frustumscreen {
 [[nodiscard]] inline Result<Image8> blank_image(std::int64_t width, std::int64_t height,
                                                 std::int64_t limit_texels) {
     if (width < 1 || height < 1 || width > limit_texels / height) {
-        return bad_input(fmt::format(
+        return bad_input(
+            "picture.too_large",
             "the picture has {} x {} texels, at most {} are allowed (all textures of a model together)",
-            width, height, limit_texels));
+            width, height, limit_texels);
     }
     return Image8(static_cast<int>(width), static_cast<int>(height));
 }

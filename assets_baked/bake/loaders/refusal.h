@@ -6,6 +6,8 @@
 /// more, the place and the numbers stand in brackets.
 #pragma once
 
+#include "firmware_host/base/result.h"
+
 #include <fmt/format.h>
 
 #include <string>
@@ -14,13 +16,18 @@
 namespace frustumscreen {
 
 struct Refusal {
-    std::string message;
+    Error error;
 };
+
+/// Another's error as it is, from a place inside the file.
+[[noreturn]] inline void refuse(Error error) {
+    throw Refusal{std::move(error)};
+}
 
 /// The whole sentence.
 template <typename... Arguments>
-[[noreturn]] void refuse(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-    throw Refusal{fmt::format(format, std::forward<Arguments>(arguments)...)};
+[[noreturn]] void refuse(MessageId id, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    throw Refusal{{ErrorKind::BadInput, id, fmt::format(format, std::forward<Arguments>(arguments)...)}};
 }
 
 // For the others the arguments are what stands in the brackets: the place inside the file and what was found.
@@ -28,20 +35,21 @@ template <typename... Arguments>
 /// Each part can be read, but they do not fit together.
 template <typename... Arguments>
 [[noreturn]] void refuse_contradiction(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-    refuse("the file's own numbers contradict each other ({}): export it again",
+    refuse("mesh.contradiction", "the file's own numbers contradict each other ({}): export it again",
            fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 
 /// A part is not what its format has there.
 template <typename... Arguments>
 [[noreturn]] void refuse_damage(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-    refuse("the file is damaged or not written as its format says ({}): copy it again, or export it again",
+    refuse("mesh.damaged",
+           "the file is damaged or not written as its format says ({}): copy it again, or export it again",
            fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 
 template <typename... Arguments>
 [[noreturn]] void refuse_cut_short(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-    refuse("the file ends too early ({}): copy it again, or export it again",
+    refuse("mesh.cut_short", "the file ends too early ({}): copy it again, or export it again",
            fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 

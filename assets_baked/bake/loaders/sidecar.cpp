@@ -124,7 +124,8 @@ std::optional<std::filesystem::path> Sidecars::find(std::string_view name) const
 std::shared_ptr<const Bytes> Sidecars::read(std::string_view name, std::string_view place) {
     const std::optional<std::filesystem::path> path = find(name);
     if (!path) {
-        refuse("it names the file \"{}\", and there is no such file beside it; put it there ({})",
+        refuse("mesh.side_file_missing",
+               "it names the file \"{}\", and there is no such file beside it; put it there ({})",
                printable(last_part(name)), place);
     }
     if (const auto known = read_.find(*path); known != read_.end() && known->second) {
@@ -136,7 +137,7 @@ std::shared_ptr<const Bytes> Sidecars::read(std::string_view name, std::string_v
     }
     Result<Bytes> bytes = read_file(*path);
     if (!bytes) {
-        refuse("{}: {}", place, bytes.error().message);
+        refuse({ErrorKind::BadInput, bytes.error().id, fmt::format("{}: {}", place, bytes.error().message)});
     }
     auto shared = std::make_shared<const Bytes>(std::move(*bytes));
     read_.insert_or_assign(*path, shared);

@@ -100,7 +100,8 @@ Cones cones_of(const ReliefImages& images, int axis, Image16 (*make)(const Image
 
 Result<std::unique_ptr<Technique>> make_cone_march(const Stage& stage, const ReliefImages& images) {
     if (!std::has_single_bit(static_cast<unsigned>(images.texels))) {
-        return bad_input(fmt::format("cone maps need a power of two of texels, not {}", images.texels));
+        return bad_input("bench.cone_texels", "cone maps need a power of two of texels, not {}",
+                         images.texels);
     }
     GlTexture relief = make_relief_array(GL_RGBA16UI, images.texels, 1, 6);
     for (int axis = 0; axis < 3; ++axis) {

@@ -61,8 +61,9 @@ constexpr int coarsest_cells = 16;
 Result<std::unique_ptr<Technique>> make_quadtree_march(const Stage& stage, const ReliefImages& images) {
     const auto texels = static_cast<unsigned>(images.texels);
     if (!std::has_single_bit(texels) || images.texels < coarsest_cells) {
-        return bad_input(fmt::format("maximum mipmaps need a power of two of texels, at least {}, not {}",
-                                     coarsest_cells, images.texels));
+        return bad_input("bench.mipmap_texels",
+                         "maximum mipmaps need a power of two of texels, at least {}, not {}", coarsest_cells,
+                         images.texels);
     }
     const int coarsest = std::bit_width(texels / coarsest_cells) - 1;
     GlTexture relief = make_relief_array(GL_RG16UI, images.texels, coarsest + 1, 3);

@@ -287,7 +287,8 @@ Result<std::unique_ptr<Technique>> make_relief_technique(const Stage& stage, con
     TRY(OffscreenTarget points, make_target(stage.width(), stage.height(), GL_RGBA32F));
     ReliefGl gl{std::move(programs), std::move(search.relief), upload_colours(images)};
     if (glGetError() != GL_NO_ERROR) {
-        return fail(ErrorKind::Internal, "the driver cannot hold the relief images");
+        return fail(ErrorKind::Internal, "bench.no_room_for_relief",
+                    "the driver cannot hold the relief images");
     }
     return std::make_unique<ReliefTechnique>(stage, images.box, std::move(search.name), std::move(gl),
                                              std::move(points));
