@@ -55,7 +55,7 @@ Extent extent_of(const PropNet& net) {
     return extent;
 }
 
-/// The numbers are those of the staff's picture (app/exhibit/pattern.h).
+/// The numbers are those of the staff's picture (app/typography/pattern.h).
 std::string_view words_of(std::string_view face) {
     constexpr std::array<std::pair<std::string_view, std::string_view>, 6> words{{{"+X", "1, right"},
                                                                                   {"-X", "2, left"},

@@ -8,7 +8,7 @@
 /// Threads  pure; any. Placing allocates nothing.
 #pragma once
 
-#include "app/exhibit/captions.h"
+#include "app/typography/captions.h"
 #include "app/guidance/guide.h"
 #include "app/image/image.h"
 

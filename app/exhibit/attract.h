@@ -8,7 +8,7 @@
 /// Threads  values; one caller. Allocates nothing.
 #pragma once
 
-#include "app/exhibit/captions.h"
+#include "app/typography/captions.h"
 #include "app/exhibit/fade.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"

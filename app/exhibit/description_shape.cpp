@@ -1,6 +1,6 @@
 #include "app/exhibit/description_shape.h"
 
-#include "app/exhibit/visitor_side.h"
+#include "app/typography/visitor_side.h"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 /// Threads  pure; any. `portion_place` allocates nothing.
 #pragma once
 
-#include "app/exhibit/captions.h"
+#include "app/typography/captions.h"
 
 #include <glm/glm.hpp>
 

@@ -10,7 +10,7 @@
 /// Errors   none: a prop that is lifted or not known rests nowhere.
 #pragma once
 
-#include "app/exhibit/captions.h"
+#include "app/typography/captions.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
 #include "firmware_host/base/time.h"

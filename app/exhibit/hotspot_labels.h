@@ -9,7 +9,7 @@
 /// Errors   none: a label without room, and one to which no line leads, is not shown.
 #pragma once
 
-#include "app/exhibit/captions.h"
+#include "app/typography/captions.h"
 #include "app/exhibit/leader_line.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"

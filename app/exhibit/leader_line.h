@@ -13,7 +13,7 @@
 /// Threads  pure; any. Allocates nothing.
 #pragma once
 
-#include "app/exhibit/captions.h"
+#include "app/typography/captions.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
 #include "app/geometry/triangle_tree.h"

@@ -1,9 +1,9 @@
 #include "app/exhibit/notice_image.h"
 
-#include "app/exhibit/captions.h"
-#include "app/exhibit/coverage.h"
-#include "app/exhibit/glyph_image.h"
-#include "app/exhibit/ring.h"
+#include "app/typography/captions.h"
+#include "app/typography/coverage.h"
+#include "app/typography/glyph_image.h"
+#include "app/typography/ring.h"
 
 #include <algorithm>
 #include <cmath>

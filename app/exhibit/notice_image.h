@@ -9,9 +9,9 @@
 /// Errors   none: a word that is not there is left out.
 #pragma once
 
-#include "app/exhibit/caption_image.h"
+#include "app/typography/caption_image.h"
 #include "app/exhibit/stick_notice.h"
-#include "app/exhibit/text_image.h"
+#include "app/typography/text_image.h"
 #include "app/pack/glyph_runs.h"
 
 #include <glm/glm.hpp>

@@ -1,6 +1,6 @@
 #include "app/exhibit/notice_place.h"
 
-#include "app/exhibit/visitor_side.h"
+#include "app/typography/visitor_side.h"
 #include "app/geometry/time_curves.h"
 
 #include <algorithm>

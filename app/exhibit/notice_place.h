@@ -12,7 +12,7 @@
 /// Errors   none: without room nothing is shown.
 #pragma once
 
-#include "app/exhibit/captions.h"
+#include "app/typography/captions.h"
 #include "app/exhibit/notice_image.h"
 
 #include <cstddef>

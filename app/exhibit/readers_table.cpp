@@ -1,6 +1,6 @@
 #include "app/exhibit/readers_table.h"
 
-#include "app/exhibit/visitor_side.h"
+#include "app/typography/visitor_side.h"
 #include "app/settings/polygon.h"
 
 #include <limits>

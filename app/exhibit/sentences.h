@@ -8,7 +8,7 @@
 /// Errors   none: a key that is not there, and a sentence without room, are not shown.
 #pragma once
 
-#include "app/exhibit/captions.h"
+#include "app/typography/captions.h"
 
 #include <cstddef>
 #include <optional>

@@ -10,7 +10,7 @@
 /// Errors   none.
 #pragma once
 
-#include "app/exhibit/captions.h"
+#include "app/typography/captions.h"
 #include "app/exhibit/selection.h"
 #include "firmware_host/base/time.h"
 

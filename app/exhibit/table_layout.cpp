@@ -1,7 +1,7 @@
 #include "app/exhibit/table_layout.h"
 
 #include "app/exhibit/table_places.h"
-#include "app/exhibit/visitor_side.h"
+#include "app/typography/visitor_side.h"
 #include "app/geometry/time_curves.h"
 
 #include <utility>

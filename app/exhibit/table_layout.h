@@ -14,7 +14,7 @@
 /// Errors   none: a table without room has no places.
 #pragma once
 
-#include "app/exhibit/captions.h"
+#include "app/typography/captions.h"
 #include "app/geometry/prop_shape.h"
 
 #include <glm/glm.hpp>

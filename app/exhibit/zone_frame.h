@@ -7,7 +7,7 @@
 /// Threads  values; any. Allocates nothing.
 #pragma once
 
-#include "app/exhibit/captions.h"
+#include "app/typography/captions.h"
 #include "app/geometry/transform.h"
 #include "app/settings/lit_zone.h"
 

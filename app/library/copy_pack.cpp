@@ -2,7 +2,7 @@
 
 #include "app/library/library_folder.h"
 #include "app/pack/check_parts.h"
-#include "app/pack/sha256.h"
+#include "app/pack/container/sha256.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/printable.h"
 

@@ -4,8 +4,8 @@
 /// Threads  pure; any.
 #pragma once
 
-#include "app/pack/json_reader.h"
-#include "app/pack/json_writer.h"
+#include "app/pack/json/json_reader.h"
+#include "app/pack/json/json_writer.h"
 #include "firmware_host/base/result.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "app/library/library_folder.h"
 
-#include "app/pack/sha256.h"
+#include "app/pack/container/sha256.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/tree_text.h"
 

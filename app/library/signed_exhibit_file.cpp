@@ -1,7 +1,7 @@
 #include "app/library/signed_exhibit_file.h"
 
 #include "app/library/signed_text.h"
-#include "app/pack/sha256.h"
+#include "app/pack/container/sha256.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "app/library/signed_text.h"
 
-#include "app/pack/limits.h"
+#include "app/pack/container/limits.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/tree_text.h"
 

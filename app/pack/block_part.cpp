@@ -1,6 +1,6 @@
 #include "app/pack/block_part.h"
 
-#include "app/pack/limits.h"
+#include "app/pack/container/limits.h"
 #include "firmware_host/base/byte_reader.h"
 
 #include <fmt/format.h>

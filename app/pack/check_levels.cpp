@@ -1,5 +1,5 @@
 #include "app/pack/check_pack.h"
-#include "app/pack/limits.h"
+#include "app/pack/container/limits.h"
 
 #include <fmt/format.h>
 

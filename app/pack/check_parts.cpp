@@ -3,7 +3,7 @@
 #include "app/image/image.h"
 #include "app/pack/binary_parts.h"
 #include "app/pack/check_pack.h"
-#include "app/pack/limits.h"
+#include "app/pack/container/limits.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 /// Texts that were shaped at the bake: lines of numbered glyphs, and where each glyph lies in a picture of distances. A kiosk
-/// sets them at any size without a shaper and without a typeface (app/exhibit/glyph_image.h).
+/// sets them at any size without a shaper and without a typeface (app/typography/glyph_image.h).
 ///
 /// Frame    a setting: x to the right from the left edge of its box, y down from the top of it. A box: texels of the atlas,
 ///          row 0 at the top.

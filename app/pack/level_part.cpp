@@ -1,6 +1,6 @@
 #include "app/pack/binary_parts.h"
 #include "app/pack/check_pack.h"
-#include "app/pack/limits.h"
+#include "app/pack/container/limits.h"
 #include "app/pack/relief_texel.h"
 #include "firmware_host/base/byte_reader.h"
 

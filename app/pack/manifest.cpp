@@ -1,7 +1,7 @@
 #include "app/pack/manifest.h"
 
-#include "app/pack/json_reader.h"
-#include "app/pack/json_writer.h"
+#include "app/pack/json/json_reader.h"
+#include "app/pack/json/json_writer.h"
 #include "app/pack/manifest_fields.h"
 #include "app/pack/manifest_sections.h"
 #include "firmware_host/base/printable.h"

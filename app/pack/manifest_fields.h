@@ -4,7 +4,7 @@
 /// Threads  pure; any.
 #pragma once
 
-#include "app/pack/limits.h"
+#include "app/pack/container/limits.h"
 #include "app/pack/manifest.h"
 #include "app/pack/pack_file.h"
 

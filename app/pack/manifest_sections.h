@@ -5,7 +5,7 @@
 /// Threads  pure; any.
 #pragma once
 
-#include "app/pack/json_reader.h"
+#include "app/pack/json/json_reader.h"
 #include "app/pack/manifest.h"
 
 #include <string_view>

@@ -1,6 +1,6 @@
 #include "app/pack/binary_parts.h"
 #include "app/pack/check_pack.h"
-#include "app/pack/limits.h"
+#include "app/pack/container/limits.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_reader.h"
 #include "app/pack/picture_part.h"

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "app/pack/manifest.h"
-#include "app/pack/zip_archive.h"
+#include "app/pack/container/zip_archive.h"
 
 #include <filesystem>
 #include <optional>

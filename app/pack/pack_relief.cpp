@@ -1,8 +1,8 @@
 #include "app/pack/pack_relief.h"
 
 #include "app/pack/block_part.h"
-#include "app/pack/json_reader.h"
-#include "app/pack/json_writer.h"
+#include "app/pack/json/json_reader.h"
+#include "app/pack/json/json_writer.h"
 #include "app/pack/manifest_fields.h"
 #include "app/pack/pack_sections.h"
 

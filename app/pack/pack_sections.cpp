@@ -1,7 +1,7 @@
 #include "app/pack/pack_sections.h"
 
 #include "app/pack/check_pack.h"
-#include "app/pack/limits.h"
+#include "app/pack/container/limits.h"
 #include "app/pack/pack_reader.h"
 #include "app/pack/picture_part.h"
 #include "firmware_host/base/printable.h"

@@ -1,6 +1,6 @@
 #include "app/pack/pack_text.h"
 
-#include "app/pack/limits.h"
+#include "app/pack/container/limits.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>

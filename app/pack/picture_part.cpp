@@ -1,7 +1,7 @@
 #include "app/pack/picture_part.h"
 
 #include "app/pack/check_pack.h"
-#include "app/pack/limits.h"
+#include "app/pack/container/limits.h"
 
 namespace frustumscreen::pack_format {
 

@@ -1,6 +1,6 @@
 #include "app/pack/signed_pack.h"
 
-#include "app/pack/sha256.h"
+#include "app/pack/container/sha256.h"
 
 namespace frustumscreen {
 

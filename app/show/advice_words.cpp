@@ -1,6 +1,6 @@
 #include "app/show/advice_words.h"
 
-#include "app/exhibit/caption_image.h"
+#include "app/typography/caption_image.h"
 #include "app/exhibit/languages.h"
 #include "app/pack/words_file.h"
 #include "firmware_host/base/file.h"

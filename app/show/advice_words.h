@@ -7,8 +7,8 @@
 #pragma once
 
 #include "app/exhibit/exhibit.h"
-#include "app/show/artifact_texts.h"
-#include "app/show/prompt_reader.h"
+#include "app/residency/artifact_texts.h"
+#include "app/residency/prompt_reader.h"
 #include "firmware_host/base/result.h"
 
 #include <filesystem>

@@ -9,7 +9,7 @@
 #include "app/exhibit/exhibit.h"
 #include "app/render/gpu_store.h"
 #include "app/settings/settings.h"
-#include "app/show/on_table.h"
+#include "app/residency/on_table.h"
 
 #include <optional>
 

@@ -12,12 +12,12 @@
 
 #include "app/exhibit/exhibit.h"
 #include "app/exhibit/stick_notice.h"
-#include "app/exhibit/visitor_side.h"
+#include "app/typography/visitor_side.h"
 #include "app/render/gpu_store.h"
 #include "app/settings/settings.h"
 #include "app/show/import_watch.h"
-#include "app/show/on_table.h"
-#include "app/show/prompt_reader.h"
+#include "app/residency/on_table.h"
+#include "app/residency/prompt_reader.h"
 #include "firmware_host/base/result.h"
 
 #include <array>

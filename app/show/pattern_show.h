@@ -4,7 +4,7 @@
 /// Errors   the typeface is missing.
 #pragma once
 
-#include "app/exhibit/pattern.h"
+#include "app/typography/pattern.h"
 #include "app/render/picture_upload.h"
 #include "app/settings/settings.h"
 #include "app/show/show.h"

@@ -49,14 +49,6 @@ std::string told_name(const ToldText& told) {
 
 } // namespace
 
-PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
-    const std::string place = pack + ": ";
-    if (message.substr(0, place.size()) == place) {
-        message.remove_prefix(place.size());
-    }
-    return {pack, std::string(message)};
-}
-
 std::string frames_csv(const std::vector<FrameRow>& rows) {
     std::string csv =
         "frame,t_us,ms,technique,estimated_error_mm,drawn,artifact,state,language,told,p95_error_mm\n";

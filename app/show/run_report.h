@@ -66,9 +66,6 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Messages about a pack begin with its file.
-[[nodiscard]] PackLeftOut pack_left_out(const std::string& pack, std::string_view message);
-
 /// What the status file has, and what only the exhibit's own picture, sound and journal need.
 struct RunStatus : StatusReport {
     double hour_of_day = 12.0;               ///< local time

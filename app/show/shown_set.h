@@ -18,9 +18,9 @@
 #include "app/scene/scene_plan.h"
 #include "app/settings/settings.h"
 #include "app/show/advice_words.h"
-#include "app/show/artifact_opener.h"
-#include "app/show/loaded.h"
-#include "app/show/residents.h"
+#include "app/residency/artifact_opener.h"
+#include "app/residency/loaded.h"
+#include "app/residency/residents.h"
 #include "app/show/table_show.h"
 #include "firmware_host/base/result.h"
 

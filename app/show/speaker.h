@@ -12,7 +12,7 @@
 #pragma once
 
 #include "app/exhibit/exhibit.h"
-#include "app/show/prompt_reader.h"
+#include "app/residency/prompt_reader.h"
 #include "app/show/show.h"
 #include "firmware_host/sound/sound.h"
 

@@ -1,8 +1,8 @@
 #include "app/show/table_show.h"
 
 #include "app/exhibit/languages.h"
-#include "app/exhibit/ring.h"
-#include "app/exhibit/table_title.h"
+#include "app/typography/ring.h"
+#include "app/typography/table_title.h"
 #include "app/image/light_mips.h"
 #include "app/pack/pack_sections.h"
 #include "app/pack/pack_texts.h"

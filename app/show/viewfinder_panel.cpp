@@ -1,6 +1,6 @@
 #include "app/show/viewfinder_panel.h"
 
-#include "app/exhibit/canvas.h"
+#include "app/typography/canvas.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "app/status/known_exhibit.h"
 
-#include "app/pack/json_reader.h"
+#include "app/pack/json/json_reader.h"
 #include "app/status/status_fields.h"
 #include "app/status/status_report.h"
 #include "firmware_host/base/file.h"

@@ -6,6 +6,7 @@
 /// Threads  values; any. What is shared never changes.
 #pragma once
 
+#include "app/library/pack_left_out.h"
 #include "app/library/import_report.h"
 #include "app/pack/pack_file.h"
 #include "app/status/set_status.h"
@@ -46,12 +47,6 @@ struct PresentedPicture {
     std::array<double, 4> prop_wxyz{1.0, 0.0, 0.0, 0.0};
     std::array<double, 3> eye_m{};
     bool settled = false; ///< nothing in it fades
-};
-
-/// A pack that was asked for and cannot be shown.
-struct PackLeftOut {
-    std::string pack;
-    std::string reason;
 };
 
 /// It never changes.

@@ -1,6 +1,6 @@
 #include "assets_baked/folder/artifact_file.h"
 
-#include "app/pack/limits.h"
+#include "app/pack/container/limits.h"
 #include "app/pack/pack_text.h"
 #include "app/settings/language_tag.h"
 #include "app/settings/toml_file.h"

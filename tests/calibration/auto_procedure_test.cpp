@@ -1,7 +1,7 @@
 // The way of a technician through a calibration by a camera, with everything ray cast: what the procedure shows lies on the printed board, a camera with
 // noise, latency and rows that are read one after the other looks at it, libapriltag finds the tags, a tracker reports.
-#include "app/bench/table/simulated_board.h"
-#include "app/calibration/auto_procedure.h"
+#include "tests/simulators/table/simulated_board.h"
+#include "app/calibration/procedure/procedure/auto_procedure.h"
 #include "app/programs/calibrate/calibration_way.h"
 #include "app/programs/calibrate/table_pictures.h"
 #include "tests/calibration/expect_sentences.h"

@@ -1,5 +1,5 @@
 // What the automatic calibration is worth, from rests of points whose truth is known: exact without noise, within the limits with it.
-#include "app/bench/table/simulated_rests.h"
+#include "tests/simulators/table/simulated_rests.h"
 #include "app/calibration/calibrate_auto.h"
 #include "tests/calibration/wide_priors.h"
 

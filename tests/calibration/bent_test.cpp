@@ -1,5 +1,5 @@
 // Metal near the tracker: whatever it bends, no verdict promises what does not hold.
-#include "app/bench/table/bent_field.h"
+#include "tests/simulators/table/bent_field.h"
 #include "tests/calibration/simulated_touches.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // From a camera's captures to a calibration: ray cast, with noise, blur, gamma, ambient light and a lens that nobody knows.
-#include "app/bench/table/simulated_camera.h"
+#include "tests/simulators/table/simulated_camera.h"
 #include "app/calibration/calibrate_auto.h"
 #include "app/calibration/tag_pixels.h"
 

@@ -5,7 +5,7 @@
 /// Source   Kay, Fundamentals of Statistical Signal Processing: Estimation Theory, 1993: the Cramer-Rao bound with priors
 #pragma once
 
-#include "app/bench/table/simulated_table.h"
+#include "tests/simulators/table/simulated_table.h"
 #include "app/calibration/priors.h"
 
 #include <Eigen/Core>

@@ -1,7 +1,7 @@
 /// Touches of simulated tables, as a technician makes them on the crosses that the room chooses.
 #pragma once
 
-#include "app/bench/table/simulated_table.h"
+#include "tests/simulators/table/simulated_table.h"
 #include "app/calibration/calibrate_touch.h"
 
 #include <cmath>

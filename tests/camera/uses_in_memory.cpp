@@ -2,8 +2,8 @@
 // drift's marks, which are learned, and what the staff see; prints how many. keeps_nothing_test runs it under strace.
 //
 //   uses_in_memory FOLDER [FILE]     FOLDER: where drift.json comes to lie; FILE: what must not be done: one frame is written there
-#include "app/bench/tags/skirt.h"
-#include "app/bench/tags/tag_scene.h"
+#include "tests/simulators/tags/skirt.h"
+#include "tests/simulators/tags/tag_scene.h"
 #include "app/drift/drift_watch.h"
 #include "app/drift/mark_places.h"
 #include "app/settings/looking_at.h"

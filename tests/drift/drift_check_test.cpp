@@ -1,5 +1,5 @@
 // What is told of many looks at the marks: a move by 2 mm within minutes, and nothing that hands, things on the table and light do.
-#include "app/bench/table/simulated_table.h"
+#include "tests/simulators/table/simulated_table.h"
 #include "app/drift/drift_check.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "app/exhibit/caption_image.h"
-#include "app/exhibit/captions.h"
+#include "app/typography/caption_image.h"
+#include "app/typography/captions.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Glyph runs as pictures, of a letter whose area is known: a square of half an em.
-#include "app/exhibit/caption_image.h"
-#include "app/exhibit/captions.h"
-#include "app/exhibit/glyph_image.h"
+#include "app/typography/caption_image.h"
+#include "app/typography/captions.h"
+#include "app/typography/glyph_image.h"
 
 #include <gtest/gtest.h>
 

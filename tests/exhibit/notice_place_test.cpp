@@ -1,7 +1,7 @@
 // A notice's pictures, set of letters that can be counted, and where they come to lie on the table.
 #include "app/exhibit/notice_place.h"
-#include "app/exhibit/ring.h"
-#include "app/exhibit/visitor_side.h"
+#include "app/typography/ring.h"
+#include "app/typography/visitor_side.h"
 #include "tests/exhibit/block_words.h"
 #include "tests/render/counted_new.h"
 

@@ -1,5 +1,5 @@
-#include "app/exhibit/canvas.h"
-#include "app/exhibit/pattern.h"
+#include "app/typography/canvas.h"
+#include "app/typography/pattern.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The ring beside the prop's shadow: where it lies, which way it fills, and how much of it.
 
-#include "app/exhibit/ring.h"
-#include "app/exhibit/visitor_side.h"
+#include "app/typography/ring.h"
+#include "app/typography/visitor_side.h"
 
 #include <gtest/gtest.h>
 

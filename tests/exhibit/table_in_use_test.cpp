@@ -1,5 +1,5 @@
 // What lies on the table once it is laid out: beside a caption, and while the prop moves over it.
-#include "app/exhibit/captions.h"
+#include "app/typography/captions.h"
 #include "app/exhibit/table_layout.h"
 #include "tests/exhibit/some_tables.h"
 

@@ -1,5 +1,5 @@
 #include "app/exhibit/table_layout.h"
-#include "app/exhibit/visitor_side.h"
+#include "app/typography/visitor_side.h"
 #include "app/settings/lit_zone.h"
 #include "tests/exhibit/some_tables.h"
 #include "tests/folders.h"

@@ -1,7 +1,7 @@
 // Titles below pictures: two lines at most, none wider than a place allows, cut where they would be.
 
-#include "app/exhibit/captions.h"
-#include "app/exhibit/table_title.h"
+#include "app/typography/captions.h"
+#include "app/typography/table_title.h"
 
 #include <gtest/gtest.h>
 

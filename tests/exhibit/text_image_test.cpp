@@ -1,4 +1,4 @@
-#include "app/exhibit/text_image.h"
+#include "app/typography/text_image.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // A caption turns to the side that the visitor reads from.
 
-#include "app/exhibit/captions.h"
+#include "app/typography/captions.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/exhibit/visitor_side.h"
+#include "app/typography/visitor_side.h"
 
 #include <gtest/gtest.h>
 

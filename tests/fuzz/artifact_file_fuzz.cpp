@@ -1,6 +1,6 @@
 // A curator's artifact.toml: refused in one line that begins with the file's name, or everything in it is what a pack
 // may hold.
-#include "app/pack/limits.h"
+#include "app/pack/container/limits.h"
 #include "app/pack/pack_text.h"
 #include "assets_baked/folder/artifact_file.h"
 #include "tests/fuzz/fuzz.h"

@@ -1,5 +1,5 @@
 // Glyph runs: refused in one line, or written again they are the same bytes, and the kiosk can set them.
-#include "app/exhibit/glyph_image.h"
+#include "app/typography/glyph_image.h"
 #include "app/pack/glyph_runs.h"
 #include "tests/fuzz/fuzz.h"
 

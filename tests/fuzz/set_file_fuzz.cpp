@@ -1,7 +1,7 @@
 // set.txt with a right hash, and the exhibit's verdict: refused in one line, or written again they read the same. No file that is
 // named lies elsewhere.
 #include "app/library/set_file.h"
-#include "app/pack/sha256.h"
+#include "app/pack/container/sha256.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 //
 // An input is taken for a file, and for a manifest beside the parts of a small file: else hashes would keep nearly every one
 // from what lies behind them.
-#include "app/pack/zip_archive.h"
+#include "app/pack/container/zip_archive.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/words_file.h"
 

@@ -2,7 +2,7 @@
 //
 //   draw_staff_picture OUT.png
 
-#include "app/exhibit/pattern.h"
+#include "app/typography/pattern.h"
 #include "app/image/image.h"
 #include "app/settings/settings.h"
 #include "app/status/status_lines.h"

@@ -1,5 +1,5 @@
 // Each ailment alone, and months of all of them: the shortest ladder, and never a step for nothing.
-#include "app/bench/museum/museum_report.h"
+#include "tests/simulators/museum/museum_report.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // The reader's thread, with work that the test makes up.
 
 #include "app/pack/pack_relief.h"
-#include "app/show/artifact_reader.h"
-#include "app/show/loaded.h"
+#include "app/residency/artifact_reader.h"
+#include "app/residency/loaded.h"
 #include "firmware_host/display/surfaceless_display.h"
 #include "tests/render/ring_relief.h"
 #include "tests/show/shown_packs.h"

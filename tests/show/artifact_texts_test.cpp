@@ -1,7 +1,7 @@
 // Texts that come and go with their artifacts, from packs in a folder; bytes are asked of OpenGL, pictures are compared with those
 // of an exhibit that had the texts from the start.
 
-#include "app/show/loaded.h"
+#include "app/residency/loaded.h"
 #include "tests/show/comings.h"
 
 namespace frustumscreen::synthetic {

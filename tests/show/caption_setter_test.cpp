@@ -1,5 +1,5 @@
 // Captions from glyph runs where the pack has them, else in the kiosk's typeface.
-#include "app/show/caption_setter.h"
+#include "app/residency/caption_setter.h"
 
 #include <gtest/gtest.h>
 

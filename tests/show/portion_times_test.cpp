@@ -1,5 +1,5 @@
 // When portions begin: in the recording's pauses where there are some nearby, else by their share.
-#include "app/show/portion_times.h"
+#include "app/residency/portion_times.h"
 
 #include <gtest/gtest.h>
 

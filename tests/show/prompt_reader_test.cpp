@@ -1,7 +1,7 @@
 // Prompts that a thread of its own reads: what comes, what is kept, what is silent, and that nobody waits.
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_texts.h"
-#include "app/show/prompt_reader.h"
+#include "app/residency/prompt_reader.h"
 #include "firmware_host/sound/opus_reader.h"
 #include "tests/folders.h"
 #include "tests/pack/samples.h"

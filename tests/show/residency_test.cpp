@@ -1,6 +1,6 @@
 // The policy of what is in memory, held against a search through all sets of artifacts.
 
-#include "app/show/residency.h"
+#include "app/residency/residency.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // An artifact's levels on the display, with frame times that the test makes up.
 
 #include "app/render/read_back.h"
-#include "app/show/run_levels.h"
+#include "app/residency/run_levels.h"
 #include "firmware_host/display/surfaceless_display.h"
 #include "tests/render/counted_new.h"
 #include "tests/render/synthetic_pack.h"

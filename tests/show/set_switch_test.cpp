@@ -1,7 +1,7 @@
 // Sets of packs that are installed while the exhibit runs: real packs, a real library's files, a display without a screen.
 
 #include "app/library/set_file.h"
-#include "app/pack/sha256.h"
+#include "app/pack/container/sha256.h"
 #include "app/render/read_back.h"
 #include "app/scene/device_plan.h"
 #include "app/show/installed_show.h"

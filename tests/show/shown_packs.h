@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/pack/pack_file.h"
-#include "app/show/prepared_artifact.h"
+#include "app/residency/prepared_artifact.h"
 #include "tests/render/synthetic_pack.h"
 #include "tests/settings/steep_table.h"
 

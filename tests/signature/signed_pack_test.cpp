@@ -1,5 +1,5 @@
 // What is used of a pack before its signature was right: nothing. And what signing changes of a pack: one entry.
-#include "app/pack/limits.h"
+#include "app/pack/container/limits.h"
 #include "app/pack/pack_reader.h"
 #include "tests/base/told.h"
 #include "tests/signature/signature_testing.h"

@@ -1,5 +1,5 @@
-#include "app/bench/tags/skirt.h"
-#include "app/bench/tags/tag_scene.h"
+#include "tests/simulators/tags/skirt.h"
+#include "tests/simulators/tags/tag_scene.h"
 #include "app/settings/looking_at.h"
 #include "app/tags/tag_pose.h"
 #include "app/tracking/pose_math.h"

@@ -1,4 +1,4 @@
-#include "app/bench/tags/tag_figures.h"
+#include "tests/simulators/tags/tag_figures.h"
 #include "app/tracking/pose_math.h"
 
 #include <gtest/gtest.h>

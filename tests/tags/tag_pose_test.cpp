@@ -1,4 +1,4 @@
-#include "app/bench/tags/skirt.h"
+#include "tests/simulators/tags/skirt.h"
 #include "app/settings/looking_at.h"
 #include "app/tags/tag_pose.h"
 #include "app/tracking/pose_math.h"

@@ -1,6 +1,6 @@
 // An artifact's texts in all languages: which are set, how wide, and what is said of those that cannot be.
-#include "app/exhibit/caption_image.h"
-#include "app/exhibit/captions.h"
+#include "app/typography/caption_image.h"
+#include "app/typography/captions.h"
 #include "assets_baked/texts/set_artifact.h"
 #include "tests/texts/languages.h"
 

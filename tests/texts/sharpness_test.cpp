@@ -1,5 +1,5 @@
 // The kiosk's picture of a text, from distances, against FreeType's own coverage of the same outlines.
-#include "app/exhibit/glyph_image.h"
+#include "app/typography/glyph_image.h"
 #include "assets_baked/texts/bake_words.h"
 #include "assets_baked/texts/glyph_atlas.h"
 #include "tests/texts/languages.h"

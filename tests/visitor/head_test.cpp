@@ -1,4 +1,4 @@
-#include "app/bench/visitor/simulated_people.h"
+#include "tests/simulators/visitor/simulated_people.h"
 #include "app/tracking/seen_head.h"
 #include "app/visitor/head_fit.h"
 

@@ -1,4 +1,4 @@
-#include "app/bench/visitor/visitor_run.h"
+#include "tests/simulators/visitor/visitor_run.h"
 #include "app/settings/settings.h"
 #include "app/visitor/visitor_tracker.h"
 #include "tests/folders.h"

@@ -1,7 +1,7 @@
 // The calibration by touch: its condition against its error, its noise, and its last step against long double.
 
 #include "app/bench/stability/themes.h"
-#include "app/bench/table/simulated_table.h"
+#include "tests/simulators/table/simulated_table.h"
 #include "app/calibration/agreement.h"
 #include "app/calibration/calibrate_touch.h"
 #include "app/calibration/starts.h"

@@ -1,7 +1,7 @@
 #include "app/programs/bake/artifact_words.h"
 
-#include "app/exhibit/caption_image.h"
-#include "app/exhibit/captions.h"
+#include "app/typography/caption_image.h"
+#include "app/typography/captions.h"
 #include "app/settings/settings.h"
 #include "assets_baked/texts/set_artifact.h"
 

@@ -2,7 +2,7 @@
 
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_magic.h"
-#include "app/pack/sha256.h"
+#include "app/pack/container/sha256.h"
 #include "app/programs/bake/artifact_words.h"
 #include "app/programs/bake/check_hotspots.h"
 #include "app/programs/common/progress_line.h"

@@ -1,6 +1,6 @@
 #include "app/programs/bake/words_preview.h"
 
-#include "app/exhibit/glyph_image.h"
+#include "app/typography/glyph_image.h"
 
 #include <algorithm>
 

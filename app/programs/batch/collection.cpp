@@ -1,6 +1,6 @@
 #include "app/programs/batch/collection.h"
 
-#include "app/pack/sha256.h"
+#include "app/pack/container/sha256.h"
 #include "assets_baked/folder/artifact_file.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/printable.h"

@@ -1,6 +1,6 @@
 #include "app/programs/batch/content_hash.h"
 
-#include "app/pack/sha256.h"
+#include "app/pack/container/sha256.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "app/bench/museum/museum_report.h"
+#include "tests/simulators/museum/museum_report.h"
 #include "app/programs/bench/bench_command.h"
 #include "app/programs/common/command_line.h"
 

@@ -1,5 +1,5 @@
 #include "app/bench/latency/recorded_poses.h"
-#include "app/bench/tags/tag_figures.h"
+#include "tests/simulators/tags/tag_figures.h"
 #include "app/programs/bench/bench_command.h"
 #include "app/programs/common/command_line.h"
 #include "firmware_host/base/file.h"

@@ -1,4 +1,4 @@
-#include "app/bench/visitor/visitor_figures.h"
+#include "tests/simulators/visitor/visitor_figures.h"
 #include "app/programs/bench/bench_command.h"
 #include "app/programs/common/command_line.h"
 #include "firmware_host/base/file.h"

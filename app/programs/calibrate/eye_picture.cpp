@@ -1,4 +1,4 @@
-#include "app/exhibit/canvas.h"
+#include "app/typography/canvas.h"
 #include "app/programs/calibrate/table_pictures.h"
 
 #include <fmt/format.h>

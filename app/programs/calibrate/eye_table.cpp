@@ -1,6 +1,6 @@
 #include "app/programs/calibrate/eye_table.h"
 
-#include "app/calibration/eye_procedure.h"
+#include "app/calibration/procedure/procedure/eye_procedure.h"
 #include "app/calibration/point_files.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/procedure_table.h"

@@ -4,8 +4,8 @@
 /// Threads  the main one, with the display's context current.
 #pragma once
 
-#include "app/calibration/procedure.h"
-#include "app/exhibit/text_image.h"
+#include "app/calibration/procedure/procedure/procedure.h"
+#include "app/typography/text_image.h"
 #include "app/image/image.h"
 #include "app/pack/words_file.h"
 #include "app/programs/calibrate/calibrate_request.h"

@@ -10,11 +10,11 @@
 /// Threads  as Canvas.
 #pragma once
 
-#include "app/calibration/auto_procedure.h"
-#include "app/calibration/eye_procedure.h"
-#include "app/calibration/touch_procedure.h"
+#include "app/calibration/procedure/procedure/auto_procedure.h"
+#include "app/calibration/procedure/procedure/eye_procedure.h"
+#include "app/calibration/procedure/procedure/touch_procedure.h"
 #include "app/calibration/touch_up.h"
-#include "app/exhibit/text_image.h"
+#include "app/typography/text_image.h"
 #include "app/image/image.h"
 #include "app/pack/words_file.h"
 #include "app/programs/calibrate/table_words.h"

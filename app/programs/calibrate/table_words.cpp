@@ -1,7 +1,7 @@
 #include "app/programs/calibrate/table_words.h"
 
-#include "app/exhibit/coverage.h"
-#include "app/exhibit/glyph_image.h"
+#include "app/typography/coverage.h"
+#include "app/typography/glyph_image.h"
 
 #include <algorithm>
 #include <cctype>

@@ -7,8 +7,8 @@
 /// Threads  as Canvas.
 #pragma once
 
-#include "app/exhibit/canvas.h"
-#include "app/exhibit/text_image.h"
+#include "app/typography/canvas.h"
+#include "app/typography/text_image.h"
 #include "app/pack/words_file.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "app/programs/calibrate/uncertainty_picture.h"
 
-#include "app/exhibit/canvas.h"
+#include "app/typography/canvas.h"
 #include "app/geometry/table_plane.h"
 #include "firmware_host/base/file.h"
 

@@ -1,15 +1,15 @@
 /// frustumscreen: the exhibit, and what it shows without devices.
 #include "app/programs/common/guarded_main.h"
-#include "app/programs/frustumscreen/camera_command.h"
-#include "app/programs/frustumscreen/config_command.h"
-#include "app/programs/frustumscreen/drawing_command.h"
-#include "app/programs/frustumscreen/guide_command.h"
-#include "app/programs/frustumscreen/plan_command.h"
-#include "app/programs/frustumscreen/record_command.h"
-#include "app/programs/frustumscreen/render_command.h"
+#include "app/programs/frustumscreen/camera/camera_command.h"
+#include "app/programs/frustumscreen/config/config_command.h"
+#include "app/programs/frustumscreen/drawing/drawing_command.h"
+#include "app/programs/frustumscreen/guide/guide_command.h"
+#include "app/programs/frustumscreen/plan/plan_command.h"
+#include "app/programs/frustumscreen/record/record_command.h"
+#include "app/programs/frustumscreen/render/render_command.h"
 #include "app/programs/frustumscreen/run_command.h"
-#include "app/programs/frustumscreen/states_command.h"
-#include "app/programs/frustumscreen/status_command.h"
+#include "app/programs/frustumscreen/states/states_command.h"
+#include "app/programs/frustumscreen/status/status_command.h"
 
 #include <fmt/format.h>
 

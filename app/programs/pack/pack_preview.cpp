@@ -1,6 +1,6 @@
 #include "app/programs/pack/pack_preview.h"
 
-#include "app/exhibit/canvas.h"
+#include "app/typography/canvas.h"
 #include "app/settings/settings.h"
 #include "app/show/offline_renderer.h"
 

@@ -1,7 +1,7 @@
 #include "app/programs/pack/verify_command.h"
 
-#include "app/pack/key_folder.h"
-#include "app/pack/limits.h"
+#include "app/pack/signature/signature/key_folder.h"
+#include "app/pack/container/limits.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"

@@ -1,6 +1,6 @@
 #include "app/programs/preview/html_parts.h"
 
-#include "app/pack/sha256.h"
+#include "app/pack/container/sha256.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/xml_text.h"
 

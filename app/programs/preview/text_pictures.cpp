@@ -4,7 +4,7 @@
 #include "app/pack/pack_texts.h"
 #include "app/pack/text_portions.h"
 #include "app/settings/settings.h"
-#include "app/show/artifact_texts.h"
+#include "app/residency/artifact_texts.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "app/programs/sheet/room_picture.h"
 
-#include "app/exhibit/canvas.h"
+#include "app/typography/canvas.h"
 #include "app/programs/sheet/sheet_cameras.h"
 #include "app/simulation/room.h"
 

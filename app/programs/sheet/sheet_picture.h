@@ -5,7 +5,7 @@
 /// Errors   a picture that cannot be read.
 #pragma once
 
-#include "app/exhibit/text_image.h"
+#include "app/typography/text_image.h"
 #include "app/image/image.h"
 #include "app/programs/sheet/sheet_frames.h"
 #include "app/settings/settings.h"

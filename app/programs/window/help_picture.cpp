@@ -1,6 +1,6 @@
 #include "app/programs/window/help_picture.h"
 
-#include "app/exhibit/canvas.h"
+#include "app/typography/canvas.h"
 
 #include <array>
 #include <cstring>

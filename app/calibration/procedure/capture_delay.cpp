@@ -1,0 +1,69 @@
+#include "app/calibration/procedure/procedure/capture_delay.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Of a part's change, and in grey levels: noise and flicker leave so much.
+constexpr double near_share = 0.1;
+constexpr double near_levels = 4.0;
+
+} // namespace
+
+CaptureDelay::Parts CaptureDelay::parts_of(const CameraFrame& frame) {
+    constexpr int every = 3; // enough pixels of each part
+    Parts sums{};
+    Parts counts{};
+    for (int y = 0; y < frame.height; y += every) {
+        for (int x = 0; x < frame.width; x += every) {
+            const auto part =
+                static_cast<std::size_t>(y * rows / frame.height * columns + x * columns / frame.width);
+            sums[part] += frame.luma[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
+                                     static_cast<std::size_t>(x)];
+            counts[part] += 1.0;
+        }
+    }
+    for (std::size_t part = 0; part < sums.size(); ++part) {
+        sums[part] /= std::fmax(1.0, counts[part]);
+    }
+    return sums;
+}
+
+void CaptureDelay::step(std::optional<MonotonicTime> lit, const CameraFrame* frame) {
+    if (frame == nullptr || !lit || is_done() || frame->time < *lit) {
+        return;
+    }
+    looks_.push_back({frame->time, parts_of(*frame)});
+    if (frame->time - *lit >= settled) {
+        judge(*lit);
+        before_ = looks_.back().parts;
+        looks_.clear();
+        ++change_;
+    }
+}
+
+void CaptureDelay::judge(MonotonicTime lit) {
+    if (change_ == 0) {
+        return;
+    }
+    const Parts& end = looks_.back().parts;
+    const auto has_settled = [&](const Look& look) {
+        for (std::size_t part = 0; part < end.size(); ++part) {
+            const double limit = std::fmax(near_levels, near_share * std::abs(end[part] - before_[part]));
+            if (std::abs(look.parts[part] - end[part]) > limit) {
+                return false;
+            }
+        }
+        return true;
+    };
+    for (std::size_t part = 0; part < end.size(); ++part) {
+        swing_ = std::fmax(swing_, std::abs(end[part] - before_[part]));
+    }
+    const auto last_other = std::find_if_not(looks_.rbegin(), looks_.rend(), has_settled);
+    delay_ = std::max(delay_, last_other.base()->time - lit); // the end itself has settled
+}
+
+} // namespace frustumscreen

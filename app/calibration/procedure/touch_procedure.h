@@ -1,0 +1,98 @@
+/// The way through a calibration by touch, or the touch-up of one, for one technician with two buttons: which cross the projector
+/// shows, what is said, and which of the tracker's reports become touches.
+///
+/// Steps    The cross is shown; the prop is laid on it; Next; a second of rest is taken, and begins anew if the prop moves; the
+///          next cross.
+/// End      Next keeps it, Back does the touch again that lies farthest off; touches that are to be repeated come again by themselves.
+/// Touch-up Back from its beginning, and Next after a refusal, lead to the whole calibration; Back after a refusal does all touches
+///          again. Where the first touches are too few to check each other, more crosses come.
+/// Frames   tracker K, as the device reports.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/calibration/calibrate_touch.h"
+#include "app/calibration/choose_crosses.h"
+#include "app/calibration/procedure/procedure/procedure.h"
+#include "app/calibration/procedure/procedure/still_reports.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+enum class TouchTask {
+    Anew,   ///< projector, tracker and sensor
+    TouchUp ///< of the kept calibration: what moved
+};
+
+/// What came of the touches, as far as the way through them depends on it.
+struct TouchJudgement {
+    Verdict verdict = Verdict::Refused;
+    std::vector<std::string> told;        ///< what was found, in a technician's words
+    std::vector<std::size_t> repeat;      ///< touches to do again, counted from 0
+    std::vector<TouchResidual> residuals; ///< of each touch; none: nothing is known of them
+    bool nothing_moved = false;           ///< of a touch-up: there is nothing to keep
+};
+
+/// What is said beside the cross.
+enum class TouchWord {
+    None,
+    Moved,     ///< it was not at rest: the second begins anew
+    NotSeen,   ///< the tracker does not see the prop
+    SamePlace, ///< the prop still lies where the touch before was
+    Taken      ///< well done
+};
+
+class TouchProcedure : public Procedure<TouchWord, TouchJudgement> {
+public:
+    static constexpr Nanoseconds rest = std::chrono::seconds(1);
+    static constexpr double same_place_m = 5e-3;
+    static constexpr double same_place_rad = 0.2;
+    static constexpr std::size_t least_reports = 5; ///< in the second of rest
+
+    /// `crosses`: at least one, in the order in which they come.
+    explicit TouchProcedure(std::vector<Cross> crosses, std::string problem = {})
+        : Procedure(std::move(problem)), crosses_(std::move(crosses)), asked_(crosses_.size()),
+          touches_(crosses_.size()) {}
+    /// A touch-up by the first `few` of the crosses; the others are for touches that are too few to check each other.
+    TouchProcedure(std::vector<Cross> crosses, std::size_t few)
+        : Procedure({}), task_(TouchTask::TouchUp), crosses_(std::move(crosses)), asked_(few),
+          touches_(crosses_.size()) {}
+
+    void step(const Input& input);
+
+    [[nodiscard]] TouchTask task() const { return task_; }
+    /// Which cross is shown, counted from 0; in the stages Place and HoldStill.
+    [[nodiscard]] std::size_t at() const { return at_; }
+    [[nodiscard]] const Cross& cross() const { return crosses_[at_]; }
+    [[nodiscard]] const std::vector<Cross>& crosses() const { return crosses_; }
+    /// How many of them are to be touched.
+    [[nodiscard]] std::size_t count() const { return asked_; }
+    /// After the verdict: Next asks for more crosses.
+    [[nodiscard]] bool asks_for_more() const;
+    [[nodiscard]] bool is_taken(std::size_t cross) const { return touches_[cross].has_value(); }
+    /// All of them, in stage Solve and after it.
+    [[nodiscard]] Touches touches() const;
+
+private:
+    void begin(const Input& input);
+    void lay(const Input& input);
+    void hold_still(const Input& input);
+    void take();
+    [[nodiscard]] bool lies_where_another_lay(const RigidTransform& pose) const;
+    void after_judgement(const Input& input);
+    void go_to_next_open();
+    void touch_worst_again();
+
+    TouchTask task_ = TouchTask::Anew;
+    std::vector<Cross> crosses_;
+    std::size_t asked_;
+    std::vector<std::optional<Touch>> touches_; ///< one for each cross
+    std::size_t at_ = 0;
+    StillReports still_{1}; ///< of the rest so far
+    MonotonicTime rest_began_{};
+    MonotonicTime seen_{};
+};
+
+} // namespace frustumscreen

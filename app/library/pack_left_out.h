@@ -1,0 +1,25 @@
+/// A pack that is named or installed and not shown, and why.
+///
+/// Threads  a value.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace frustumscreen {
+
+struct PackLeftOut {
+    std::string pack;
+    std::string reason;
+};
+
+/// The reason without the pack's name, with which an error's message begins.
+[[nodiscard]] inline PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {
+    const std::string place = pack + ": ";
+    if (message.starts_with(place)) {
+        message.remove_prefix(place.size());
+    }
+    return {pack, std::string(message)};
+}
+
+} // namespace frustumscreen

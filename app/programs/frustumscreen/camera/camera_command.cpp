@@ -1,0 +1,117 @@
+#include "app/programs/frustumscreen/camera/camera_command.h"
+
+#include "app/programs/common/argument_checks.h"
+#include "app/programs/common/command_line.h"
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/common/progress_line.h"
+#include "app/programs/devices/wiring.h"
+#include "app/programs/frustumscreen/camera/camera_report.h"
+#include "firmware_host/service/stop_signals.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <thread>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr Nanoseconds between_polls = std::chrono::milliseconds(5);
+constexpr double usual_s = 5.0;
+constexpr double longest_s = 86400.0;
+/// From the report to the program's end: a thread may hang in its device.
+constexpr Nanoseconds longest_stop = std::chrono::milliseconds(450);
+
+struct Request {
+    std::filesystem::path config;
+    double seconds = usual_s;
+    bool json = false;
+    bool is_on = false;
+};
+
+std::optional<int> read_arguments(int argc, char** argv, Request& request) {
+    CommandLine app(
+        "Says which cameras are there, how that of the settings is set, and whether its frames show "
+        "anything. No picture is kept. Exit status: 0 it is well, or the settings have none; 1 it is "
+        "not well.",
+        "frustumscreen camera");
+    app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
+    app.add_option("--seconds", request.seconds, "how long to look")
+        .check(seconds_between(0.01, longest_s))
+        .capture_default_str();
+    const CommandOption json = app.add_flag("--json", request.json, "all that is found, as JSON");
+    app.add_flag("--is-on", request.is_on,
+                 "only whether the settings have a camera, by the exit status; nothing is opened")
+        .excludes(json);
+    return app.end_of_arguments(argc, argv);
+}
+
+/// Takes the camera's frames until the time is over or a stop is asked for; each new state goes to standard error.
+void look(Camera& camera, const Request& request, const StopSignals& stop, CameraReport& report) {
+    ProgressLine progress("watched seconds");
+    CameraFrame frame;
+    MonotonicTime now = report.begun;
+    report.state = camera.state();
+    report.changes.push_back({now, report.state});
+    for (; to_seconds(now - report.begun) < request.seconds && !stop.received(); now = monotonic_now()) {
+        if (camera.poll(frame)) {
+            report.last_look = look_at(frame.luma);
+        }
+        if (const CameraState state = camera.state(); state != report.state) {
+            report.state = state;
+            report.changes.push_back({now, state});
+            fmt::print(stderr, "frustumscreen: {}\n", sentence_of(state));
+        }
+        progress.show(static_cast<std::size_t>(to_seconds(now - report.begun)),
+                      static_cast<std::size_t>(std::ceil(request.seconds)));
+        std::this_thread::sleep_for(between_polls);
+    }
+    report.seconds = to_seconds(now - report.begun);
+    report.set_up = camera.set_up();
+    report.counts = camera.counts();
+    report.rate_hz = camera.rate_hz();
+}
+
+/// The caller ends `camera`: its thread may hang in the device.
+Result<int> run(const Request& request, std::unique_ptr<Camera>& camera) {
+    const StopSignals stop;
+    TRY(const CheckedSettings settings, load_settings(request.config));
+    const CameraSettings& wished = settings->camera;
+    CameraReport report;
+    report.is_on = wished.kind == CameraKind::V4l2;
+    if (request.is_on) {
+        return report.is_on ? 0 : 1;
+    }
+    report.found = list_cameras(*kernel_v4l2_devices(), camera_wish(wished));
+    report.begun = monotonic_now();
+    if (report.is_on) {
+        camera = make_camera(wished);
+        look(*camera, request, stop, report);
+    }
+    const std::string text = request.json ? camera_json(report) : camera_text(report, wished);
+    fmt::print("{}", text);
+    return report.is_on && health_of(report.state) != CameraHealth::Well ? 1 : 0;
+}
+
+} // namespace
+
+int camera_command(int argc, char** argv) {
+    Request request;
+    if (const std::optional<int> end = read_arguments(argc, argv, request)) {
+        return *end;
+    }
+    std::unique_ptr<Camera> camera;
+    const Result<int> ran = run(request, camera);
+    const int status = ran ? *ran : exit_status("frustumscreen", tl::unexpected<Error>(ran.error()));
+    std::fflush(stdout);
+    end_within(longest_stop, status);
+    return status;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,70 @@
+#include "app/programs/frustumscreen/config/config_command.h"
+
+#include "app/programs/common/command_line.h"
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/frustumscreen/drawing/setup_page.h"
+#include "app/settings/config_json.h"
+#include "app/settings/missing_files.h"
+#include "app/settings/settings_page.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Request {
+    std::filesystem::path config;
+    bool json = false; ///< the default
+    bool explain = false;
+    bool describe = false;
+};
+
+std::optional<int> read_arguments(int argc, char** argv, Request& request) {
+    CommandLine app(
+        "Prints the resolved, checked settings, what they mean on the table, or what settings there are.",
+        "frustumscreen config");
+    app.add_option("--config", request.config, "the kiosk's settings, TOML");
+    const CommandOption json = app.add_flag("--json", request.json, "the settings as JSON (the default)");
+    const CommandOption explain = app.add_flag(
+        "--explain", request.explain, "in words: the picture on the table, the light on the prop, the zone");
+    app.add_flag("--describe", request.describe,
+                 "every setting with its default and what it is; needs no --config")
+        .excludes(json)
+        .excludes(explain);
+    explain.excludes(json);
+    return app.end_of_arguments(argc, argv, [&] {
+        if (request.config.empty() && !request.describe) {
+            throw missing("--config");
+        }
+    });
+}
+
+Result<void> print_config(const Request& request) {
+    if (request.describe) {
+        fmt::print("{}", settings_page());
+        return {};
+    }
+    TRY(const CheckedSettings settings, load_settings(request.config));
+    for (const std::string& missing : missing_files(*settings)) {
+        say_line("frustumscreen", missing);
+    }
+    fmt::print("{}", request.explain ? setup_page(*settings) : config_json(settings));
+    return {};
+}
+
+} // namespace
+
+int config_command(int argc, char** argv) {
+    Request request;
+    if (const std::optional<int> end = read_arguments(argc, argv, request)) {
+        return *end;
+    }
+    return exit_status("frustumscreen", print_config(request));
+}
+
+} // namespace frustumscreen

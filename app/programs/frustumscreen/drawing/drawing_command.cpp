@@ -1,0 +1,59 @@
+#include "app/programs/frustumscreen/drawing/drawing_command.h"
+
+#include "app/drawing/drawing.h"
+#include "app/programs/common/command_line.h"
+#include "app/programs/common/guarded_main.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/output_file.h"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Request {
+    std::filesystem::path config;
+    std::filesystem::path output;
+    std::string sheet = "table";
+};
+
+std::optional<int> read_arguments(int argc, char** argv, Request& request) {
+    CommandLine app("Draws, from the settings, what there is to build: SVG, to scale, lengths in mm.",
+                    "frustumscreen drawing");
+    app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
+    app.add_option("-o,--output", request.output, "the drawing, SVG").required();
+    app.add_option(
+           "--sheet", request.sheet,
+           "table: A3, table, projector and eyes (the default); prop: A3, its views, its faces unfolded; "
+           "net: these in true size, to cut along")
+        .one_of({"table", "prop", "net"});
+    return app.end_of_arguments(argc, argv);
+}
+
+Result<void> draw(const Request& request) {
+    const std::array inputs{request.config};
+    TRY_VOID(check_output_is_no_input(request.output, inputs));
+    TRY(const CheckedSettings settings, load_settings(request.config));
+    TRY_VOID(check_output_place(request.output));
+    const std::string name = request.config.filename().string();
+    const std::string drawing = request.sheet == "table"  ? table_sheet(*settings, name)
+                                : request.sheet == "prop" ? prop_sheet(*settings, name)
+                                                          : net_sheet(*settings, name);
+    return write_file(request.output, as_bytes(drawing));
+}
+
+} // namespace
+
+int drawing_command(int argc, char** argv) {
+    Request request;
+    if (const std::optional<int> end = read_arguments(argc, argv, request)) {
+        return *end;
+    }
+    return exit_status("frustumscreen", draw(request));
+}
+
+} // namespace frustumscreen

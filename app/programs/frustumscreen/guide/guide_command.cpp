@@ -1,0 +1,151 @@
+#include "app/programs/frustumscreen/guide/guide_command.h"
+
+#include "app/exhibit/guidance_setup.h"
+#include "app/guidance/advise.h"
+#include "app/programs/common/command_line.h"
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/frustumscreen/render/pose_input.h"
+#include "app/settings/settings.h"
+#include "firmware_host/base/json.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Request {
+    std::filesystem::path config;
+    std::filesystem::path poses;
+    bool json = false;
+};
+
+/// Everything that is said of one pose.
+struct Guided {
+    std::int64_t t_us = 0;
+    FaceSets faces;
+    double unlit_px = 0.0;
+    std::optional<Advice> advice;
+};
+
+std::vector<std::string> names_of(std::uint32_t faces, const PropShape& prop) {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < prop.faces.size(); ++k) {
+        if ((faces >> k & 1U) != 0) {
+            names.emplace_back(prop.faces[k].name);
+        }
+    }
+    return names;
+}
+
+double degrees(double radians) {
+    return radians * 180.0 / std::numbers::pi;
+}
+
+Json advice_json(const std::optional<Advice>& advice) {
+    if (!advice) {
+        return nullptr;
+    }
+    const Move& move = advice->move;
+    return {{"action", name_of(move.action)},
+            {"dx_m", move.by_m.x},
+            {"dy_m", move.by_m.y},
+            {"dz_m", move.by_m.z},
+            {"turn_deg", degrees(move.turn_rad)},
+            {"side", move.action == Action::ComeRound ? Json(name_of(move.side)) : Json(nullptr)},
+            {"steps", advice->steps}};
+}
+
+std::string json_line(const Guided& guided, const PropShape& prop) {
+    return Json{{"t_us", guided.t_us},
+                {"seen", names_of(guided.faces.seen, prop)},
+                {"lit", names_of(guided.faces.lit, prop)},
+                {"valid", guided.faces.valid()},
+                {"unlit_px", guided.unlit_px},
+                {"advice", advice_json(guided.advice)}}
+        .dump();
+}
+
+/// In words, seen from the table's front edge.
+std::string words_of(const Move& move) {
+    switch (move.action) {
+    case Action::Slide:
+        return fmt::format("slide it {:.0f} mm {} and {:.0f} mm {}", 1e3 * std::abs(move.by_m.x),
+                           move.by_m.x < 0.0 ? "to the left" : "to the right", 1e3 * std::abs(move.by_m.y),
+                           move.by_m.y < 0.0 ? "towards the front edge" : "away from the front edge");
+    case Action::Turn:
+        return fmt::format("turn it {} by {:.0f} degrees",
+                           move.turn_rad > 0 ? "counter-clockwise" : "clockwise",
+                           std::abs(degrees(move.turn_rad)));
+    case Action::SetDown:
+        return "set it down";
+    case Action::Upright:
+        return "stand it upright";
+    case Action::ComeRound:
+        return fmt::format("come round to the table's {}", name_of(move.side));
+    case Action::Raise:
+        return fmt::format("raise it by {:.0f} mm", 1e3 * move.by_m.z);
+    case Action::Lower:
+        return fmt::format("lower it by {:.0f} mm", -1e3 * move.by_m.z);
+    case Action::Wait:
+        break;
+    }
+    return "nothing that the visitor can do is known to help";
+}
+
+std::string text_line(const Guided& guided, const PropShape& prop) {
+    const auto unlit = names_of(guided.faces.unlit(), prop);
+    std::string line = fmt::format("{:.3f} s: sees {}", 1e-6 * static_cast<double>(guided.t_us),
+                                   fmt::join(names_of(guided.faces.seen, prop), " "));
+    if (!guided.advice) {
+        return line + "; all of it is lit";
+    }
+    line += fmt::format("; {} {} dark; {}", fmt::join(unlit, " "), unlit.size() == 1 ? "is" : "are",
+                        words_of(guided.advice->move));
+    return guided.advice->steps > 1 ? line + fmt::format(" (the first of {} steps)", guided.advice->steps)
+                                    : line;
+}
+
+/// Advice that stands is kept while it helps, from pose to pose, as in the exhibit.
+Result<void> guide(const Request& request) {
+    TRY(const CheckedSettings settings, load_settings(request.config));
+    TRY(const std::vector<Situation> frames, load_pose_frames(request.poses, settings->eye.default_m));
+    Advisor advisor(guidance_setup(*settings));
+    const FaceReader& reader = advisor.reader();
+    const PropShape& prop = reader.setup().prop;
+    for (const Situation& frame : frames) {
+        const GuidedSituation situation{frame.table_from_prop, frame.eye_m};
+        const Guided guided{to_microseconds(frame.time), reader.read(situation), reader.unlit_px(situation),
+                            advisor.advise(situation)};
+        fmt::print("{}\n", request.json ? json_line(guided, prop) : text_line(guided, prop));
+    }
+    return {};
+}
+
+} // namespace
+
+int guide_command(int argc, char** argv) {
+    Request request;
+    CommandLine app(
+        "For each pose: the faces that the visitor sees, those that the projector lights, and the one move\n"
+        "that lets the visitor see the whole artifact.",
+        "frustumscreen guide");
+    app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
+    app.add_option("--poses", request.poses, "poses, CSV").required();
+    app.add_flag("--json", request.json, "one JSON object a line");
+    if (const auto end = app.end_of_arguments(argc, argv)) {
+        return *end;
+    }
+    return exit_status("frustumscreen", guide(request));
+}
+
+} // namespace frustumscreen

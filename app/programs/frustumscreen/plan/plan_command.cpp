@@ -1,0 +1,64 @@
+#include "app/programs/frustumscreen/plan/plan_command.h"
+
+#include "app/programs/common/argument_checks.h"
+#include "app/programs/common/command_line.h"
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/devices/wiring.h"
+#include "app/programs/frustumscreen/plan/plan_report.h"
+#include "app/scene/device_plan.h"
+#include "app/settings/settings.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <optional>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Request {
+    std::filesystem::path config;
+    std::filesystem::path pack;
+    std::string technique = "auto";
+    bool json = false;
+};
+
+std::optional<int> read_arguments(int argc, char** argv, Request& request) {
+    CommandLine app(
+        "Says what the exhibit needs of a pack and of this machine, what it leaves out and why, and "
+        "measures what that saves.",
+        "frustumscreen plan");
+    app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
+    app.add_option("--pack", request.pack, "the artifact, *.fspack").required();
+    app.add_option("--technique", request.technique,
+                   "auto, finest, level0, level1, ..., relief, relief96, ..., relief-gpu, relief96-gpu, ...")
+        .check(is_technique_word())
+        .capture_default_str();
+    app.add_flag("--json", request.json, "report as JSON");
+    return app.end_of_arguments(argc, argv);
+}
+
+Result<void> plan(const Request& request) {
+    TRY(const CheckedSettings settings, load_settings(request.config));
+    TRY(const std::unique_ptr<Display> display, make_display(*settings, true));
+    const DevicePlan devices = plan_devices(*settings, false, false);
+    TRY(const PlanMeasurement measured,
+        measure_plan(*settings, devices, request.pack, request.technique, *display));
+    const PlanReport report{request.config.string(), request.pack.string(), request.technique, devices,
+                            measured};
+    fmt::print("{}", request.json ? plan_json(report) : plan_text(report));
+    return {};
+}
+
+} // namespace
+
+int plan_command(int argc, char** argv) {
+    Request request;
+    if (const std::optional<int> end = read_arguments(argc, argv, request)) {
+        return *end;
+    }
+    return exit_status("frustumscreen", plan(request));
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,195 @@
+#include "app/programs/frustumscreen/plan/plan_measure.h"
+
+#include "app/programs/common/progress_line.h"
+#include "app/programs/devices/wiring.h"
+#include "app/render/gl_memory.h"
+#include "app/render/read_back.h"
+#include "app/tracking/situation.h"
+#include "firmware_host/base/quantile.h"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::size_t most_poses = 12;
+constexpr int loads = 5;  ///< of each scene
+constexpr int rounds = 9; ///< of all poses and scenes; the first warms up
+
+using Clock = std::chrono::steady_clock;
+
+double microseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+}
+
+/// Bytes that the program holds, as the allocator counts them.
+std::int64_t allocated_bytes() {
+    const struct mallinfo2 info = ::mallinfo2();
+    return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
+}
+
+/// The situations that the plan's devices give, half a second apart.
+Result<std::vector<Situation>> situations(const Settings& settings, const DevicePlan& devices) {
+    const MonotonicTime start;
+    TRY(Inputs inputs, make_inputs(settings, devices, std::nullopt, start));
+    SituationTracker tracker(settings.eye.default_m);
+    if (!inputs.tracker) {
+        Situation standing = tracker.at(start);
+        standing.prop_known = true;
+        return std::vector<Situation>{standing};
+    }
+    std::vector<Situation> all;
+    std::vector<PoseSample> samples;
+    for (std::size_t k = 0; k < most_poses; ++k) {
+        const MonotonicTime now = start + std::chrono::milliseconds(500 * (k + 1));
+        samples.clear();
+        TRY_VOID(inputs.tracker->poll(now, samples));
+        for (const PoseSample& sample : samples) {
+            if (devices.head || sample.station != head_station) {
+                tracker.take(sample);
+            }
+        }
+        all.push_back(tracker.at(now));
+    }
+    return all;
+}
+
+struct Scene {
+    std::unique_ptr<ArtifactShow> show;
+    Exhibit exhibit;
+    SceneCost cost;
+    std::vector<double> us; ///< of each frame drawn
+};
+
+SceneCost saving(const Scene& with, const Scene& without) {
+    std::vector<double> differences;
+    for (std::size_t k = 0; k < with.us.size(); ++k) {
+        differences.push_back(with.us[k] - without.us[k]);
+    }
+    return {with.cost.gpu_bytes - without.cost.gpu_bytes, with.cost.ram_bytes - without.cost.ram_bytes,
+            with.cost.load_ms - without.cost.load_ms, quantile(differences, 0.5),
+            0.5 * (quantile(differences, 0.75) - quantile(differences, 0.25))};
+}
+
+class Measuring {
+public:
+    Measuring(const Settings& settings, const DevicePlan& devices, ArtifactShowOptions options,
+              Display& display)
+        : settings_(settings), devices_(devices), options_(std::move(options)), display_(display) {}
+
+    /// Loads the scene several times, alone each time, and frees it; then loads it to keep it.
+    [[nodiscard]] Result<Scene> load(unsigned economies) {
+        std::vector<double> load_ms;
+        std::vector<double> ram_bytes;
+        for (int k = 0; k < loads; ++k) {
+            TRY(const Scene scene, load_once(economies));
+            load_ms.push_back(scene.cost.load_ms);
+            ram_bytes.push_back(static_cast<double>(scene.cost.ram_bytes));
+        }
+        Result<Scene> stays = load_once(economies);
+        if (stays) {
+            stays->cost.load_ms = quantile(load_ms, 0.5);
+            stays->cost.ram_bytes = static_cast<std::int64_t>(quantile(ram_bytes, 0.5));
+        }
+        return stays;
+    }
+
+    [[nodiscard]] Result<Scene> load_once(unsigned economies) {
+        options_.economies = economies;
+        const std::int64_t before = allocated_bytes();
+        const Clock::time_point start = Clock::now();
+        TRY(std::unique_ptr<ArtifactShow> show,
+            ArtifactShow::create(settings_, devices_, options_, target()));
+        Exhibit exhibit = make_exhibit(settings_, *show, MonotonicTime{});
+        Scene scene{std::move(show), std::move(exhibit), {}, {}};
+        scene.cost.load_ms = 1e-3 * microseconds_since(start);
+        scene.cost.ram_bytes = allocated_bytes() - before;
+        scene.cost.gpu_bytes = static_cast<std::int64_t>(scene.show->use().gpu_bytes);
+        return scene;
+    }
+
+    /// Draws all scenes at each pose, one after the other, each round in another order.
+    [[nodiscard]] Result<std::size_t> draw(std::vector<Scene>& scenes) {
+        TRY(const std::vector<Situation> poses, situations(settings_, devices_));
+        ProgressLine progress("measuring");
+        MonotonicTime now;
+        std::size_t drawn = 0;
+        const std::size_t frames_each = std::max<std::size_t>(poses.size(), 6) * rounds;
+        for (std::size_t frame = 0; frame < frames_each; ++frame) {
+            now += std::chrono::milliseconds(500);
+            for (std::size_t k = 0; k < scenes.size(); ++k) {
+                Scene& scene = scenes[(k + frame) % scenes.size()];
+                const Clock::time_point start = Clock::now();
+                const Situation& situation = poses[frame % poses.size()];
+                const DrawResult result = scene.show->draw(now, scene.exhibit.step(now, {}, situation),
+                                                           situation.eye_m, target(), Redraw::Everything);
+                wait_until_drawn();
+                if (result.drawn && frame >= frames_each / rounds) {
+                    scene.us.push_back(microseconds_since(start));
+                }
+                TRY_VOID(display_.present(now));
+                progress.show(++drawn, frames_each * scenes.size());
+            }
+        }
+        for (Scene& scene : scenes) {
+            scene.cost.frame_us = quantile(scene.us, 0.5);
+        }
+        return poses.size();
+    }
+
+private:
+    [[nodiscard]] RenderTarget target() const { return {display_.framebuffer(), 0}; }
+
+    const Settings& settings_;
+    const DevicePlan& devices_;
+    ArtifactShowOptions options_;
+    Display& display_;
+};
+
+} // namespace
+
+Result<PlanMeasurement> measure_plan(const Settings& settings, const DevicePlan& devices,
+                                     const std::filesystem::path& pack, const std::string& technique,
+                                     Display& display) {
+    Settings unhurried = settings; // no deadline: every scene draws the level that the tolerance asks for
+    unhurried.projector.refresh_hz = 1e-3;
+    Measuring measuring(unhurried, devices, {{pack}, technique, default_samples, AllEconomies}, display);
+    // The first scene also pays for what the driver does only once.
+    TRY_VOID(without_value(measuring.load_once(0)));
+    TRY(Scene planned, measuring.load(AllEconomies));
+    unsigned used = 0;
+    for (const LeftOut& each : planned.show->plan(0).left_out) {
+        used |= each.economy;
+    }
+    std::vector<Scene> scenes;
+    scenes.push_back(std::move(planned));
+    std::vector<unsigned> without{0};
+    for (unsigned economy = 1; economy < AllEconomies; economy <<= 1U) {
+        if ((used & economy) != 0) {
+            without.push_back(AllEconomies & ~economy);
+        }
+    }
+    for (const unsigned economies : without) {
+        TRY(Scene scene, measuring.load(economies));
+        scenes.push_back(std::move(scene));
+    }
+    TRY(const std::size_t poses, measuring.draw(scenes));
+    PlanMeasurement result;
+    result.poses = poses;
+    result.planned = scenes[0].cost;
+    result.everything = scenes[1].cost;
+    result.saved = saving(scenes[1], scenes[0]);
+    for (std::size_t k = 1; k < without.size(); ++k) {
+        result.economies.push_back(
+            {static_cast<Economy>(AllEconomies & ~without[k]), saving(scenes[k + 1], scenes[0])});
+    }
+    result.renderer = renderer_name();
+    result.show = std::move(scenes[0].show);
+    return result;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,180 @@
+#include "app/programs/frustumscreen/render/render_command.h"
+
+#include "app/pack/prop_note.h"
+#include "app/programs/common/argument_checks.h"
+#include "app/programs/common/command_line.h"
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/common/progress_line.h"
+#include "app/programs/frustumscreen/render/pose_input.h"
+#include "app/settings/settings.h"
+#include "app/show/offline_renderer.h"
+#include "app/simulation/visitor_view.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Request {
+    std::filesystem::path config;
+    std::filesystem::path pack;
+    std::filesystem::path poses;
+    std::filesystem::path out;
+    std::string view = "projector";
+    int width = 0; ///< of the pictures that are written; 0 = as the view has it
+    int height = 0;
+    bool no_light = false;
+    OfflineOptions options;
+};
+
+std::optional<int> read_arguments(int argc, char** argv, Request& request) {
+    CommandLine app("Replays a pose file into pictures: DIR/frame_00000.png ... and DIR/frames.csv.",
+                    "frustumscreen render");
+    app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
+    app.add_option("--pack", request.pack, "the artifact, *.fspack").required();
+    app.add_option("--poses", request.poses, "poses, CSV").required();
+    app.add_option("--out", request.out, "folder for the pictures; made if missing").required();
+    app.add_option("--technique", request.options.technique,
+                   "auto, finest, level0, level1, ..., relief, relief96, ..., relief-gpu, relief96-gpu, ...")
+        .check(is_technique_word())
+        .capture_default_str();
+    const CommandOption width =
+        app.add_option("--width", request.width, "picture's width in pixels").within(1, 16384);
+    const CommandOption height =
+        app.add_option("--height", request.height, "picture's height in pixels").within(1, 16384);
+    width.needs(height);
+    height.needs(width);
+    app.add_option("--view", request.view,
+                   "projector: its picture; visitor: what the eye sees of it, half as wide and high as the"
+                   " configured projector's picture, or as --width and --height say")
+        .one_of({"projector", "visitor"})
+        .capture_default_str();
+    app.add_flag("--no-light", request.no_light, "leave out the compensation of the projector's fall-off");
+    app.add_flag("--aov", request.options.hit_points, "also frame_00000.pfm: hit points, prop frame, metres");
+    const std::optional<int> end = app.end_of_arguments(argc, argv);
+    request.options.light = !request.no_light;
+    if (request.view == "projector") {
+        request.options.width = request.width;
+        request.options.height = request.height;
+    }
+    return end;
+}
+
+/// Poses in millimetres, or in a tracker's frame, give dark pictures.
+void say_off_the_table(const std::vector<Situation>& frames, const TableSettings& table) {
+    const glm::dvec2 half_m = 0.5 * glm::dvec2(table.width_m, table.depth_m);
+    const auto off = std::count_if(frames.begin(), frames.end(), [&](const Situation& frame) {
+        const glm::dvec2 place_m(frame.table_from_prop.translation);
+        return glm::any(glm::greaterThan(glm::abs(place_m), half_m));
+    });
+    if (off > 0) {
+        say_line("frustumscreen",
+                 fmt::format("in {} of {} poses the prop is off the table ({} x {} m); positions are metres",
+                             off, frames.size(), table.width_m, table.depth_m));
+    }
+}
+
+/// Everything that is needed to make one picture.
+struct Studio {
+    const Request& request;
+    const Settings& settings;
+    OfflineRenderer& renderer;
+};
+
+VisitorScene visitor_scene(const Studio& studio, const Situation& situation) {
+    return {studio.renderer.projector(),
+            studio.settings.projector.table_from_projector,
+            studio.renderer.prop(),
+            situation.table_from_prop,
+            situation.eye_m,
+            {studio.settings.table.width_m, studio.settings.table.depth_m}};
+}
+
+/// Writes one frame's files; returns its line of frames.csv.
+Result<std::string> make_frame(const Studio& studio, std::size_t frame, const Situation& situation,
+                               std::vector<VisitorFrame>& visitor_frames) {
+    OfflinePicture picture = studio.renderer.draw(situation.table_from_prop, situation.eye_m);
+    const std::int64_t t_us = to_microseconds(situation.time);
+    if (studio.request.view == "visitor") {
+        const VisitorScene scene = visitor_scene(studio, situation);
+        const Request& request = studio.request;
+        const VisitorCamera camera =
+            visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m,
+                           request.width > 0 ? request.width : std::max(1, scene.projector.width / 2),
+                           request.height > 0 ? request.height : std::max(1, scene.projector.height / 2));
+        picture.colour = visitor_view(scene, picture.colour, camera,
+                                      studio.request.no_light ? exact_check() : VisitorViewOptions{});
+        visitor_frames.push_back({static_cast<int>(frame), t_us, situation.eye_m, camera});
+    }
+    const std::filesystem::path stem = studio.request.out / fmt::format("frame_{:05}", frame);
+    TRY_VOID(write_file(stem.string() + ".png", encode_png(picture.colour)));
+    if (picture.hit_points) {
+        TRY_VOID(write_file(stem.string() + ".pfm", encode_pfm(*picture.hit_points)));
+    }
+    return fmt::format("{},{},{:.3f},{},{},{}\n", frame, t_us, picture.ms, studio.renderer.technique(),
+                       picture.error ? fmt::format("{:.4f}", picture.error->mean_mm) : std::string(),
+                       picture.error ? fmt::format("{:.4f}", picture.error->p95_mm) : std::string());
+}
+
+Result<void> render(const Request& request) {
+    TRY(const CheckedSettings settings, load_settings(request.config));
+    TRY(const std::vector<Situation> frames, load_pose_frames(request.poses, settings->eye.default_m));
+    say_off_the_table(frames, settings->table);
+    OfflineSetup setup{settings, request.options};
+    for (const Situation& frame : frames) {
+        setup.options.views.push_back({frame.table_from_prop, frame.eye_m});
+    }
+    TRY(const OfflineScene scene,
+        load_offline(request.pack, [&](const PackOutline& /*outline*/) { return setup; }));
+    if (const auto note = note_other_prop(request.pack.string(), *scene.pack, name_of(settings->prop.kind))) {
+        say_line("frustumscreen", *note);
+    }
+    std::error_code failed;
+    std::filesystem::create_directories(request.out, failed);
+    if (failed) {
+        return bad_input("render.no_folder", "{}: the folder cannot be made: {}", request.out.string(),
+                         failed.message());
+    }
+    TRY(const std::unique_ptr<OfflineRenderer> renderer, OfflineRenderer::create(scene));
+    const Studio studio{request, *settings, *renderer};
+    std::string csv = "frame,t_us,ms,technique,estimated_error_mm,p95_error_mm\n";
+    std::vector<VisitorFrame> visitor_frames;
+    ProgressLine progress("rendering");
+    for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+        TRY(const std::string line, make_frame(studio, frame, frames[frame], visitor_frames));
+        csv += line;
+        progress.show(frame + 1, frames.size());
+    }
+    std::filesystem::remove(request.out / visitor_cameras_name, failed); // of an earlier call
+    if (!visitor_frames.empty()) {
+        TRY_VOID(
+            write_file(request.out / visitor_cameras_name, as_bytes(visitor_cameras_json(visitor_frames))));
+    }
+    return write_file(request.out / "frames.csv", as_bytes(csv));
+}
+
+} // namespace
+
+int render_command(int argc, char** argv) {
+    Request request;
+    if (const std::optional<int> end = read_arguments(argc, argv, request)) {
+        return *end;
+    }
+    if (const Result<void> rendered = render(request); !rendered) {
+        complain("frustumscreen", rendered.error());
+        return 1;
+    }
+    return 0;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,22 @@
+#include "app/programs/frustumscreen/states/states_command.h"
+
+#include "app/exhibit/states_page.h"
+#include "app/programs/common/command_line.h"
+
+#include <fmt/format.h>
+
+namespace frustumscreen {
+
+int states_command(int argc, char** argv) {
+    bool dot = false;
+    CommandLine app("Prints the exhibit's states and what leads from one to the other, in Markdown.",
+                    "frustumscreen states");
+    app.add_flag("--dot", dot, "the same as a graph, in the language of Graphviz");
+    if (const auto end = app.end_of_arguments(argc, argv)) {
+        return *end;
+    }
+    fmt::print("{}", dot ? states_graph() : states_page());
+    return 0;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,77 @@
+#include "app/programs/frustumscreen/status/status_command.h"
+
+#include "app/programs/common/command_line.h"
+#include "app/programs/common/guarded_main.h"
+#include "app/programs/frustumscreen/staff_service.h"
+#include "app/status/exhibit_verdict.h"
+#include "app/status/prometheus_text.h"
+#include "app/status/status_document.h"
+#include "app/status/status_lines.h"
+#include "firmware_host/base/file.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Request {
+    StatusPlaces places;
+    std::filesystem::path staff_socket = usual_staff_socket;
+    std::filesystem::path screenshot;
+    bool json = false;
+    bool prometheus = false;
+};
+
+std::optional<int> read_arguments(int argc, char** argv, Request& request) {
+    CommandLine app(
+        "Says how the exhibit on this machine is. Exit status: 0 it is well, 1 it is not or nothing "
+        "is known.",
+        "frustumscreen status");
+    const CommandOption json = app.add_flag("--json", request.json, "all that is known, as JSON");
+    app.add_flag("--prometheus", request.prometheus, "numbers in Prometheus' text format").excludes(json);
+    app.add_option("--screenshot", request.screenshot, "write the picture that is projected now, as PNG");
+    app.add_option("--status-file", request.places.status_file, "the exhibit's status").capture_default_str();
+    app.add_option("--watchdog-file", request.places.watchdog_file, "its watchdog's status")
+        .capture_default_str();
+    app.add_option("--boot-folder", request.places.boot_folder, "what the start of an appliance has left")
+        .capture_default_str();
+    app.add_option("--crash-folder", request.places.crash_folder, "what the last crashes have left")
+        .capture_default_str();
+    app.add_option("--staff-socket", request.staff_socket, "where the exhibit gives its picture")
+        .capture_default_str();
+    return app.end_of_arguments(argc, argv);
+}
+
+Result<void> write_screenshot(const Request& request) {
+    TRY(const Bytes png, ask_for_screenshot(request.staff_socket));
+    return write_file(request.screenshot, png);
+}
+
+} // namespace
+
+int status_command(int argc, char** argv) {
+    Request request;
+    if (const std::optional<int> status = read_arguments(argc, argv, request)) {
+        return *status;
+    }
+    const KnownExhibit known = read_known_exhibit(request.places, status_clock());
+    const std::string text = request.json         ? status_document(known)
+                             : request.prometheus ? prometheus_text(known)
+                                                  : status_text(known, std::time(nullptr));
+    fmt::print("{}", text);
+    std::fflush(stdout);
+    int status = verdict_of(known).well ? 0 : 1;
+    if (!request.screenshot.empty()) {
+        status |= exit_status("frustumscreen", write_screenshot(request));
+    }
+    return status;
+}
+
+} // namespace frustumscreen

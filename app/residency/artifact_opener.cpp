@@ -1,0 +1,180 @@
+#include "app/residency/artifact_opener.h"
+
+#include "app/exhibit/languages.h"
+#include "app/pack/pack_file.h"
+#include "app/pack/prop_note.h"
+#include "app/scene/prop_outline.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+SceneRequest request_of(const Settings& settings, const OpenerOptions& options, const PackOutline& outline) {
+    SceneRequest request;
+    request.technique = options.technique;
+    request.room = options.samples;
+    request.economies = options.economies;
+    request.most_blocks_on_gpu = options.most_blocks_on_gpu;
+    request.visibility = visibility_of(settings);
+    request.table_pictures = options.table_pictures;
+    std::vector<std::string> languages;
+    for (const PackCaption& caption : outline.description.captions) {
+        request.captions.push_back(languages.size());
+        languages.push_back(caption.language);
+    }
+    if (!options.other_languages && !languages.empty()) {
+        request.captions = {caption_for(settings.exhibit.language, languages)};
+    }
+    return request;
+}
+
+Result<KnownArtifact> open_pack(const Settings& settings, const OpenerOptions& options,
+                                const std::filesystem::path& file) {
+    KnownArtifact opened{file, {}, {}, {}};
+    const Result<VerifiedPack> pack =
+        load_pack(file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+            TRY(ScenePlan plan, plan_scene(settings, outline, request_of(settings, options, outline)));
+            opened.outline = outline;
+            opened.plan = std::move(plan);
+            return std::vector<std::uint32_t>{};
+        });
+    TRY_VOID(pack);
+    TRY(opened.texts,
+        lay_out_texts({file, opened.outline.description, opened.plan.captions}, opened.plan.metres_per_box,
+                      text_style(settings), settings.sound.kind != SoundKind::None));
+    return opened;
+}
+
+/// Whether some texture leaves out texels is known when it is read, and by then the shaders must be there.
+RenderNeeds with_cut_outs(RenderNeeds needs) {
+    for (ShaderKey key : RenderNeeds(needs).draws) {
+        key.cut_out = key.pass == ShaderKey::Pass::Surface && !key.blocks;
+        needs.draws.insert(key);
+    }
+    return needs;
+}
+
+/// Prepares the first artifact, which plans what it needs exactly.
+Result<PreparedArtifact> prepare_first(KnownArtifact& known, const OpenerOptions& options) {
+    Result<PreparedArtifact> first =
+        prepare_artifact(known, options.technique, options.deadline_ms, [] { return false; });
+    if (first) {
+        ScenePlan& plan = known.plan;
+        plan.needs = first->levels.needs();
+        plan.left_out.insert(plan.left_out.end(), first->levels.left_out().begin(),
+                             first->levels.left_out().end());
+    }
+    return first;
+}
+
+/// `what`, behind the place that it is about, where there is one.
+std::string after(const std::string& place, const std::string& what) {
+    return place.empty() ? what : place + ": " + what;
+}
+
+/// The message must be complete: some people do not see the lines on standard error before it.
+tl::unexpected<Error> nothing_to_show(const std::vector<PackLeftOut>& left_out,
+                                      const std::string& packs_key) {
+    if (left_out.empty()) {
+        return fail(ErrorKind::BadConfiguration, "show.no_pack_named",
+                    "no pack is named; name packs under [exhibit] packs in the settings or with --packs, and "
+                    "make them with frustumscreen-bake");
+    }
+    const std::string first = left_out.front().pack + ": " + left_out.front().reason;
+    return fail(ErrorKind::BadConfiguration, "show.no_pack_shown",
+                after(packs_key, left_out.size() == 1
+                                     ? "the pack cannot be shown: " + first
+                                     : fmt::format("none of the {} packs can be shown; the first: {}",
+                                                   left_out.size(), first)));
+}
+
+} // namespace
+
+Catalogue catalogue_of(std::span<const KnownArtifact> artifacts) {
+    Catalogue catalogue;
+    std::transform(artifacts.begin(), artifacts.end(), std::back_inserter(catalogue),
+                   [](const KnownArtifact& artifact) { return artifact.texts.entry; });
+    return catalogue;
+}
+
+Result<OpenedArtifacts> open_artifacts(const Settings& settings, std::span<const std::filesystem::path> packs,
+                                       const OpenerOptions& options) {
+    OpenedArtifacts all;
+    all.left_out.reserve(packs.size());
+    const auto leave_out = [&](const std::filesystem::path& file, const Error& error) {
+        say_line(options.program, after(options.packs_key, fmt::format("left out: {}", error.message)));
+        all.left_out.push_back(pack_left_out(file.string(), error.message));
+    };
+    for (const std::filesystem::path& file : packs) {
+        if (!all.known.empty() && !options.other_packs) {
+            break; // no button leads there
+        }
+        if (!options.goes_on()) {
+            return bad_input("show.opening_not_wanted", "not wanted any more");
+        }
+        Result<KnownArtifact> opened = open_pack(settings, options, file);
+        if (!opened) {
+            leave_out(file, opened.error());
+            continue;
+        }
+        const PackDescription& pack = opened->outline.description;
+        for (const PackCaption& caption : pack.captions) {
+            add_language(all.languages, caption.language);
+        }
+        if (const auto note = note_other_prop(file.string(), pack, name_of(settings.prop.kind))) {
+            all.notes.push_back(*note);
+        }
+        if (!all.first) {
+            Result<PreparedArtifact> first = prepare_first(*opened, options);
+            if (!first) {
+                leave_out(file, first.error());
+                continue;
+            }
+            all.first = std::move(*first);
+        } else {
+            opened->plan.needs = with_cut_outs(opened->plan.needs);
+        }
+        all.needs = united(all.needs, opened->plan.needs);
+        all.known.push_back(std::move(*opened));
+    }
+    if (!all.first) {
+        return nothing_to_show(all.left_out, options.packs_key);
+    }
+    return all;
+}
+
+RenderNeeds needs_of_any_pack(const Settings& settings, int samples, bool reliefs_on_gpu) {
+    RenderNeeds needs;
+    needs.samples = samples;
+    needs.outline = largest_outline(settings, settings.projector.pinhole, visibility_of(settings));
+    needs.bent_by = if_it_bends(settings.projector.pinhole);
+    for (const bool dithered : {false, true}) {
+        ShaderKey key;
+        key.dithered = dithered;
+        key.even_light = true; // as in every live picture
+        needs.draws.insert(key);
+        needs.draws.insert(cast_shader(dithered));
+        if (reliefs_on_gpu) {
+            key.blocks = true;
+            needs.draws.insert(key);
+        }
+    }
+    needs.casts = 2; // in a fade
+    needs.draws.insert({ShaderKey::Pass::EdgeFeather});
+    needs.draws.insert({ShaderKey::Pass::TablePicture});
+    return with_cut_outs(needs);
+}
+
+TextStyle text_style(const Settings& settings) {
+    return {settings.exhibit.caption_height_m,
+            settings.projector.pinhole.fx / settings.projector.table_from_projector.translation.z};
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,239 @@
+#include "app/residency/artifact_texts.h"
+
+#include "app/exhibit/languages.h"
+#include "app/pack/text_portions.h"
+#include "app/scene/scene_level.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr std::string_view description_key = "description";
+constexpr double label_width_m = 0.15;
+
+Nanoseconds reading_time(std::string_view text) {
+    return Nanoseconds(std::llround(1e9 * reading_time_s(text)));
+}
+
+/// None of a description that is too long to be told.
+std::vector<std::string> told_portions(const PackCaption& caption) {
+    std::vector<std::string> portions = portions_of(caption.description);
+    return portions.size() <= most_text_portions ? portions : std::vector<std::string>();
+}
+
+/// Null if the bake could not set it in this language.
+const GlyphText* label_in(const SetLanguage* set, std::size_t hotspot) {
+    return set != nullptr ? set->runs.find(fmt::format("label.{}", hotspot)) : nullptr;
+}
+
+/// Of each hotspot's label in the nearest language.
+std::vector<Nanoseconds> label_times(const PackDescription& pack, const std::string& language) {
+    std::vector<Nanoseconds> times;
+    for (const PackHotspot& hotspot : pack.hotspots) {
+        std::vector<std::string> languages;
+        for (const PackLabel& label : hotspot.labels) {
+            languages.push_back(label.language);
+        }
+        times.push_back(languages.empty()
+                            ? Nanoseconds(0)
+                            : reading_time(hotspot.labels[caption_for(language, languages)].text));
+    }
+    return times;
+}
+
+/// Null if there is no sound of it.
+SharedRecording recording_of(const TextSource& source, std::span<const SpokenText> sounds,
+                             const std::string& language, const std::vector<Nanoseconds>& portions) {
+    const SpokenText wanted{language, std::string(description_key)};
+    if (portions.empty() || std::find(sounds.begin(), sounds.end(), wanted) == sounds.end()) {
+        return nullptr;
+    }
+    return std::make_shared<const PromptRecording>(
+        PromptRecording{fmt::format("{}: the description in '{}'", source.file.string(), language), Bytes(),
+                        source.file, language, std::string(description_key), portions});
+}
+
+Result<void> add_language(const TextSource& source, const PackCaption& caption,
+                          std::span<const SetLanguage> set, std::span<const SpokenText> sounds,
+                          CaptionSetter& setter, ArtifactTexts& made) {
+    TRY(const std::vector<glm::dvec2> sizes, setter.sizes_m(caption_text(caption), set));
+    made.entry.caption_sizes_m.push_back(sizes);
+    Tellable& tellable = made.entry.tellables.emplace_back();
+    tellable.hotspots = label_times(source.pack, caption.language);
+    DescriptionShape& shape = made.entry.descriptions.emplace_back();
+    const SetLanguage* const language = find_language(set, caption.language);
+    const std::vector<std::string> portions = told_portions(caption);
+    for (std::size_t k = 0; k < portions.size(); ++k) {
+        const TableText text = portion_text(caption, k, portions[k]);
+        TRY(const std::vector<glm::dvec2> portion, setter.sizes_m(text, set));
+        shape.sizes_m.push_back(portion);
+        const GlyphText* const glyphs = language != nullptr ? language->runs.find(text.text_key) : nullptr;
+        shape.flush_right =
+            shape.flush_right || (glyphs != nullptr && glyphs->direction == TextDirection::RightToLeft);
+        tellable.portions.push_back(reading_time(portions[k]));
+    }
+    shape.largest_m = largest_sizes(shape.sizes_m);
+    made.recordings.push_back(recording_of(source, sounds, caption.language, tellable.portions));
+    return {};
+}
+
+HotspotSet lay_out_hotspots(const PackDescription& pack, std::span<const std::string> languages,
+                            std::span<const SetLanguage> set, double metres_per_box, const TextStyle& style) {
+    HotspotSet made;
+    made.metres_per_box = metres_per_box;
+    for (std::size_t k = 0; k < pack.hotspots.size(); ++k) {
+        const PackHotspot& hotspot = pack.hotspots[k];
+        LabelledHotspot& labelled = made.hotspots.emplace_back();
+        labelled.at = {metres_per_box * hotspot.point, hotspot.normal};
+        for (const std::string& language : languages) {
+            const SetLanguage* const texts = find_language(set, language);
+            const GlyphText* const text = label_in(texts, k);
+            labelled.label_sizes_m.push_back(text != nullptr
+                                                 ? caption_size_m(texts->runs, nullptr, text, style.em_m,
+                                                                  label_width_m, style.texels_per_m)
+                                                 : glm::dvec2(0.0));
+        }
+    }
+    return made;
+}
+
+/// Of the part's pictures in their order; none where there is no picture.
+std::vector<glm::ivec2> sizes_px(const CatalogueEntry& entry, TextPart part, std::size_t language,
+                                 const TextStyle& style) {
+    std::vector<glm::ivec2> sizes;
+    const auto add = [&](std::span<const glm::dvec2> sizes_m) {
+        for (const glm::dvec2& size_m : sizes_m) {
+            sizes.emplace_back(glm::round(style.texels_per_m * size_m));
+        }
+    };
+    if (part == TextPart::Caption) {
+        add(entry.caption_sizes_m[language]);
+        return sizes;
+    }
+    for (const std::vector<glm::dvec2>& portion : entry.descriptions[language].sizes_m) {
+        add(portion);
+    }
+    for (const LabelledHotspot& hotspot : entry.hotspots.hotspots) {
+        add(std::span(&hotspot.label_sizes_m[language], 1));
+    }
+    return sizes;
+}
+
+/// Draws one picture after the other.
+class Drawing {
+public:
+    Drawing(const TextStyle& style, std::span<const SetLanguage> set, const std::function<bool()>& given_up)
+        : style_(style), set_(set), given_up_(given_up), setter_(style) {}
+
+    [[nodiscard]] Result<void> add(const TableText& text) {
+        if (given_up_()) {
+            return bad_input("show.texts_not_wanted", "not wanted any more");
+        }
+        TRY(std::vector<CaptionImage> images, setter_.set(text, set_));
+        for (CaptionImage& image : images) {
+            pictures.push_back(std::move(image.coverage));
+        }
+        return {};
+    }
+    void add_label(const std::string& language, std::size_t hotspot) {
+        const SetLanguage* const texts = find_language(set_, language);
+        const GlyphText* const text = label_in(texts, hotspot);
+        pictures.push_back(text != nullptr ? make_caption(texts->runs, texts->atlas, nullptr, text,
+                                                          style_.em_m, label_width_m, style_.texels_per_m)
+                                                 .coverage
+                                           : Image<std::uint8_t>());
+    }
+
+    TextPictures pictures;
+
+private:
+    TextStyle style_;
+    std::span<const SetLanguage> set_;
+    const std::function<bool()>& given_up_;
+    CaptionSetter setter_;
+};
+
+Result<void> draw(const PackDescription& pack, const PackCaption& caption, TextPart part, Drawing& drawing) {
+    if (part == TextPart::Caption) {
+        return drawing.add(caption_text(caption));
+    }
+    const std::vector<std::string> portions = told_portions(caption);
+    for (std::size_t k = 0; k < portions.size(); ++k) {
+        TRY_VOID(drawing.add(portion_text(caption, k, portions[k])));
+    }
+    for (std::size_t k = 0; k < pack.hotspots.size(); ++k) {
+        drawing.add_label(caption.language, k);
+    }
+    return {};
+}
+
+} // namespace
+
+Result<ArtifactTexts> lay_out_texts(const TextSource& source, double metres_per_box, const TextStyle& style,
+                                    bool spoken) {
+    ArtifactTexts made;
+    for (const std::size_t each : source.captions) {
+        made.entry.languages.push_back(source.pack.captions[each].language);
+    }
+    const std::vector<std::string>& languages = made.entry.languages;
+    TRY(const std::vector<SetLanguage> set, languages.empty()
+                                                ? std::vector<SetLanguage>()
+                                                : load_set_texts(source.file, languages, Atlases::LeftOut));
+    const Result<std::vector<SpokenText>> sounds =
+        spoken ? list_sounds(source.pack) : std::vector<SpokenText>();
+    CaptionSetter setter(style);
+    for (const std::size_t each : source.captions) {
+        TRY_VOID(
+            at(source.file.string(), add_language(source, source.pack.captions[each], set,
+                                                  sounds.value_or(std::vector<SpokenText>()), setter, made)));
+    }
+    made.entry.hotspots = lay_out_hotspots(source.pack, languages, set, metres_per_box, style);
+    return made;
+}
+
+std::size_t portion_picture(std::size_t portion, std::size_t shape) {
+    return caption_widths_m.size() * portion + shape;
+}
+
+std::size_t label_picture(const CatalogueEntry& entry, std::size_t language, std::size_t hotspot) {
+    return portion_picture(entry.descriptions[language].sizes_m.size(), hotspot);
+}
+
+std::uint64_t text_bytes(const CatalogueEntry& entry, TextPart part, std::size_t language,
+                         const TextStyle& style) {
+    std::uint64_t bytes = 0;
+    for (const glm::ivec2& size : sizes_px(entry, part, language, style)) {
+        bytes += caption_gpu_bytes(size.x, size.y);
+    }
+    return bytes;
+}
+
+Result<TextPictures> draw_texts(const TextSource& source, const ArtifactTexts& texts, TextPart part,
+                                std::size_t language, const TextStyle& style,
+                                const std::function<bool()>& given_up) {
+    const PackCaption& caption = source.pack.captions[source.captions[language]];
+    TRY(const std::vector<SetLanguage> set, load_set_texts(source.file, std::span(&caption.language, 1)));
+    Drawing drawing(style, set, given_up);
+    TRY_VOID(at(source.file.string(), draw(source.pack, caption, part, drawing)));
+    const std::vector<glm::ivec2> sizes = sizes_px(texts.entry, part, language, style);
+    const auto as_laid_out = [](const Image<std::uint8_t>& picture, const glm::ivec2& size) {
+        return glm::ivec2(picture.width, picture.height) == size;
+    };
+    if (!std::equal(drawing.pictures.begin(), drawing.pictures.end(), sizes.begin(), sizes.end(),
+                    as_laid_out)) {
+        return at(source.file.string(), Error{ErrorKind::BadInput, "show.texts_changed",
+                                              "the texts are others than when the exhibit was "
+                                              "started; start it again"});
+    }
+    return std::move(drawing.pictures);
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,38 @@
+/// An artifact's hotspots on the table: a label and the thin line that leads to it.
+///
+/// Frames   table T, metres.
+/// Threads  the render thread, with the display's context current. `place` allocates nothing.
+/// Errors   the driver has no memory.
+#pragma once
+
+#include "app/exhibit/exhibit.h"
+#include "app/pack/pack.h"
+#include "app/render/gpu_store.h"
+#include "app/residency/on_table.h"
+#include "firmware_host/base/result.h"
+
+#include <cstdint>
+
+namespace frustumscreen {
+
+/// What says which points a level hides, in the box frame.
+[[nodiscard]] ArtifactTriangles hiding_triangles(const PackLevel& level, const glm::dvec3& box_size,
+                                                 double metres_per_box);
+
+/// Lays labels and lines on the table.
+class HotspotShow {
+public:
+    HotspotShow() = default; ///< draws no lines
+    [[nodiscard]] static Result<HotspotShow> create(GpuStore& store);
+
+    /// `label`: its picture. `brightness`: of its texts.
+    void place(const PresentedHotspot& hotspot, TextureId label, double brightness, const Pinhole& projector,
+               const RigidTransform& table_from_projector, OnTable& on_table) const;
+    [[nodiscard]] std::uint64_t planned_gpu_bytes() const { return planned_gpu_bytes_; }
+
+private:
+    TextureId line_ = TextureId::None; ///< soft on all sides
+    std::uint64_t planned_gpu_bytes_ = 0;
+};
+
+} // namespace frustumscreen

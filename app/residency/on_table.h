@@ -1,0 +1,42 @@
+/// What lies on the table in one frame, collected in the order of drawing, and how rectangles of the table become pictures.
+///
+/// Frames   table T, metres.
+/// Threads  values; one caller. Allocates nothing; what is more than `most_on_table` is left out.
+#pragma once
+
+#include "app/typography/captions.h"
+#include "app/geometry/pinhole.h"
+#include "app/geometry/transform.h"
+#include "app/scene/frame_plan.h"
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace frustumscreen {
+
+class OnTable {
+public:
+    void clear() { count_ = 0; }
+    /// What is dark is not drawn.
+    void add(const TablePicture& picture);
+    [[nodiscard]] std::span<const TablePicture> pictures() const {
+        return std::span(pictures_).first(count_);
+    }
+
+private:
+    std::array<TablePicture, most_on_table> pictures_{};
+    std::size_t count_ = 0;
+};
+
+/// Moves a rectangle by less than a pixel so that its top left corner falls on a corner of the projector's pixels: letters that
+/// were set pixel for pixel stay crisp.
+[[nodiscard]] TableRectangle on_pixels(TableRectangle rectangle, const Pinhole& projector,
+                                       const RigidTransform& table_from_projector);
+
+/// A picture's corners, as a reader of the rectangle sees it.
+[[nodiscard]] std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle);
+/// The same of corners in the order of a picture.
+[[nodiscard]] std::array<glm::dvec3, 4> flat_corners(const std::array<glm::dvec2, 4>& corners_m);
+
+} // namespace frustumscreen

@@ -1,0 +1,123 @@
+#include "app/residency/prepared_artifact.h"
+
+#include "app/pack/pack_file.h"
+#include "app/pack/pack_relief.h"
+#include "app/scene/exposure.h"
+#include "app/residency/hotspot_show.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+/// The level alone, of a pack that is still the one that is known.
+Result<VerifiedPack> read_level(const KnownArtifact& known, std::uint32_t level) {
+    return load_pack(known.file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+        if (outline != known.outline) {
+            return bad_input("show.pack_changed",
+                             "the pack is another one than when the exhibit was started; start it again");
+        }
+        return std::vector<std::uint32_t>{level};
+    });
+}
+
+/// What hides hotspots; a mesh, where reliefs alone are drawn too.
+std::uint32_t coarsest_of(const ScenePlan& plan) {
+    return plan.levels.empty() ? 0 : *std::min_element(plan.levels.begin(), plan.levels.end());
+}
+
+/// Where reliefs alone are drawn: what is read for the exposure and for what hides hotspots, and is not drawn.
+std::vector<std::uint32_t> read_beside(const KnownArtifact& known) {
+    const ScenePlan& plan = known.plan;
+    if (!plan.levels.empty()) {
+        return {};
+    }
+    std::vector<std::uint32_t> levels{plan.exposure_level};
+    if (!known.outline.description.hotspots.empty() && coarsest_of(plan) != plan.exposure_level) {
+        levels.push_back(coarsest_of(plan));
+    }
+    return levels;
+}
+
+} // namespace
+
+Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std::string& technique,
+                                          double deadline_ms, const std::function<bool()>& given_up) {
+    const ScenePlan& plan = known.plan;
+    std::vector<PreparedLevel> levels;
+    double exposure = 1.0;
+    ArtifactTriangles triangles;
+    const auto read = [&](std::uint32_t number) {
+        Result<VerifiedPack> pack = read_level(known, number);
+        if (pack && number == plan.exposure_level) {
+            const PackLevel& level = (*pack)->levels[number];
+            exposure =
+                exposure_of(level, (*pack)->box_size, (*pack)->textures[level.texture], plan.highlight_code);
+        }
+        if (pack && number == coarsest_of(plan) && !(*pack)->hotspots.empty()) {
+            triangles = hiding_triangles((*pack)->levels[number], (*pack)->box_size, plan.metres_per_box);
+        }
+        return pack;
+    };
+    for (const std::uint32_t number : plan.levels) {
+        if (given_up()) {
+            return bad_input("show.artifact_not_wanted", "not wanted any more");
+        }
+        TRY(const VerifiedPack pack, read(number));
+        levels.push_back(prepare_level(*pack, number, plan));
+    }
+    for (const std::uint32_t number : read_beside(known)) {
+        if (given_up()) {
+            return bad_input("show.artifact_not_wanted", "not wanted any more");
+        }
+        TRY_VOID(without_value(read(number)));
+    }
+    for (std::size_t place = 0; place < plan.reliefs.size(); ++place) {
+        if (given_up()) {
+            return bad_input("show.artifact_not_wanted", "not wanted any more");
+        }
+        TRY(BlockRelief relief, load_relief(known.file, plan.reliefs[place]));
+        const auto shared = std::make_shared<const BlockRelief>(std::move(relief));
+        for (const bool on_gpu : {false, true}) {
+            if (draws_relief(plan, place, on_gpu)) {
+                levels.push_back(prepare_relief(known.outline.description, place, shared, on_gpu, plan));
+            }
+        }
+    }
+    PreparedArtifact made{
+        RunLevels(technique, plan, deadline_ms, levels), {}, exposure, std::move(triangles)};
+    for (PreparedLevel& level : levels) {
+        made.data.push_back(std::move(level.data));
+    }
+    return made;
+}
+
+Result<TextPictures> prepare_texts(const KnownArtifact& known, TextPart part, std::size_t language,
+                                   const TextStyle& style, const std::function<bool()>& given_up) {
+    return draw_texts({known.file, known.outline.description, known.plan.captions}, known.texts, part,
+                      language, style, given_up);
+}
+
+std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_bytes) {
+    constexpr std::uint64_t per_vertex = sizeof(PackVertex) + sizeof(glm::vec3);
+    constexpr std::uint64_t per_triangle = 3 * sizeof(std::uint32_t) + 4 * sizeof(float); // indices and plane
+    std::uint64_t bytes = 0;
+    for (const std::uint32_t number : known.plan.levels) {
+        const LevelOutline& level = known.outline.levels[number];
+        bytes += level.vertices * per_vertex + level.triangles * per_triangle + texture_bytes;
+    }
+    for (std::size_t place = 0; place < known.plan.reliefs.size(); ++place) {
+        const std::uint64_t relief = known.plan.reliefs[place].bytes;
+        constexpr std::uint64_t more_in_memory = 2; // a cell's corners lie together there
+        bytes += more_in_memory * relief + (draws_relief(known.plan, place, true) ? relief : 0);
+    }
+    if (!known.outline.description.hotspots.empty()) {
+        bytes += TriangleTree::most_bytes(known.outline.levels[coarsest_of(known.plan)].triangles);
+    }
+    return bytes;
+}
+
+} // namespace frustumscreen

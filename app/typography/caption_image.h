@@ -1,0 +1,50 @@
+/// A caption's text as a picture to lay on the table.
+///
+/// Units    metres on the table. Coverage is linear light, 255 = white; row 0 at the text's top.
+/// Threads  as Typesetter; made once for each text, language and size.
+#pragma once
+
+#include "app/typography/text_image.h"
+#include "app/image/image.h"
+#include "app/pack/glyph_runs.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <string>
+
+namespace frustumscreen {
+
+/// Widths that a caption is wrapped to, in falling preference.
+inline constexpr std::array<double, 3> caption_widths_m{0.30, 0.16, 0.075};
+/// A title's type size, in those of the text.
+inline constexpr double caption_title_em = 1.35;
+/// Share of the title's light, linear: a little behind it.
+inline constexpr double caption_text_brightness = 0.8;
+
+struct CaptionImage {
+    Image<std::uint8_t> coverage;
+    glm::dvec2 size_m{0.0}; ///< along X and Y of the table
+};
+
+/// The title, larger and bold, over the text, wrapped to `width_m`. `em_m` is the text's type size; less than
+/// 24 pt (`least_caption_em_m`) becomes 24 pt.
+[[nodiscard]] CaptionImage make_caption(const Typesetter& typesetter, const std::string& title,
+                                        const std::string& text, double em_m, double width_m,
+                                        double texels_per_m);
+
+/// The same of texts that were shaped at the bake: without a typeface, in any script. A paragraph that runs to the left is flush
+/// right. `title` and `text` are texts of `runs`, or null; each is set in the widest of its settings that fits `width_m`, else in
+/// the narrowest.
+[[nodiscard]] CaptionImage make_caption(const GlyphRuns& runs, const DistanceAtlas& atlas,
+                                        const GlyphText* title, const GlyphText* text, double em_m,
+                                        double width_m, double texels_per_m);
+
+/// The `size_m` that each of these makes, without drawing anything.
+[[nodiscard]] glm::dvec2 caption_size_m(const Typesetter& typesetter, const std::string& title,
+                                        const std::string& text, double em_m, double width_m,
+                                        double texels_per_m);
+[[nodiscard]] glm::dvec2 caption_size_m(const GlyphRuns& runs, const GlyphText* title, const GlyphText* text,
+                                        double em_m, double width_m, double texels_per_m);
+
+} // namespace frustumscreen

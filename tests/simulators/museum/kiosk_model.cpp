@@ -1,0 +1,176 @@
+#include "tests/simulators/museum/kiosk_model.h"
+
+#include <algorithm>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr MuseumTime ends_after_s = 3;     ///< from the picture on, with a set that ends it
+constexpr MuseumTime hangs_after_s = 5;    ///< from the picture on, by a device
+constexpr MuseumTime gives_up_after_s = 8; ///< from the start on, where the driver gives no picture
+
+} // namespace
+
+bool KioskModel::has(Ailment ailment) const {
+    return std::any_of(attacks_.begin(), attacks_.end(),
+                       [&](const Attack& each) { return each.ailment == ailment; });
+}
+
+void KioskModel::end_by(unsigned remedies) {
+    std::erase_if(attacks_,
+                  [&](const Attack& each) { return (kind_of(each.ailment).remedies & remedies) != 0; });
+}
+
+void KioskModel::begin_process(MuseumTime now) {
+    began_ = now;
+    ++process_;
+    is_lit_ = false;
+    hangs_since_.reset();
+    pictures_ = 0;
+    memory_ = 0.2;
+}
+
+void KioskModel::end_process(MuseumTime now, bool failed) {
+    began_.reset();
+    is_lit_ = false;
+    hangs_since_.reset();
+    failures_ += failed ? 1 : 0;
+    begins_at_ = now + restart_s;
+    end_by(ByRestart);
+}
+
+void KioskModel::boot(MuseumTime now, MuseumTime after_s) {
+    boots_until_ = now + after_s + boot_s;
+    began_.reset();
+    is_lit_ = false;
+    hangs_since_.reset();
+    begins_at_ = boots_until_;
+    failures_ = 0;
+    end_by(ByReboot | ByRestart);
+}
+
+void KioskModel::attack(const Attack& attack, MuseumTime now) {
+    attacks_.push_back(attack);
+    switch (attack.ailment) {
+    case Ailment::Crash:
+        end_process(now, true);
+        break;
+    case Ailment::Hang:
+        hangs_since_ = now;
+        break;
+    case Ailment::KernelHang:
+        boot(now, hardware_watchdog_s);
+        break;
+    case Ailment::PowerCut:
+        boot(now, 5);
+        break;
+    case Ailment::GpuWedged:
+    case Ailment::MachineBroken:
+        is_lit_ = false;
+        break;
+    default:
+        break;
+    }
+}
+
+bool KioskModel::ends_soon_after_start() const {
+    return has(Ailment::BadSet) && mode_ == Mode::Normal;
+}
+
+bool KioskModel::gives_no_picture() const {
+    return (has(Ailment::GpuWedged) && mode_ != Mode::Plain) || has(Ailment::MachineBroken);
+}
+
+/// The exhibit's process, a second on.
+void KioskModel::live(MuseumTime now) {
+    const MuseumTime age = now - *began_;
+    memory_ += has(Ailment::Leak) ? 0.8 / static_cast<double>(leak_s) : 0.0;
+    if (has(Ailment::BadSettings) && mode_ != Mode::BuiltIn) {
+        return end_process(now, true);
+    }
+    if (has(Ailment::DriverCrash) && mode_ != Mode::Plain) {
+        return end_process(now, true);
+    }
+    if (memory_ >= 1.0) {
+        return end_process(now, true);
+    }
+    if (hangs_since_) {
+        is_lit_ = false;
+        return now - *hangs_since_ >= systemd_watchdog_s ? end_process(now, true) : void();
+    }
+    if (gives_no_picture()) {
+        is_lit_ = false;
+        return age >= gives_up_after_s ? end_process(now, true) : void();
+    }
+    is_lit_ = age >= start_s;
+    if (!is_lit_) {
+        return;
+    }
+    if (ends_soon_after_start() && age >= start_s + ends_after_s) {
+        return end_process(now, true);
+    }
+    if (has(Ailment::DeviceThread) && age >= start_s + hangs_after_s) {
+        hangs_since_ = now;
+        return;
+    }
+    heard_ = now;
+    pictures_ += has(Ailment::Freeze) ? 0 : 1;
+}
+
+std::optional<Outcome> KioskModel::pass(MuseumTime now) {
+    std::erase_if(attacks_, [&](const Attack& each) { return each.mended_at <= now; });
+    if (is_booting(now)) {
+        return std::nullopt;
+    }
+    if (mode_ == Mode::Safe) {
+        ++safe_pictures_;
+    } else if (began_) {
+        live(now);
+    } else if (now >= begins_at_) {
+        begin_process(now);
+    }
+    Outcome outcome;
+    outcome.process = began_ ? process_ : 0;
+    outcome.failures = failures_;
+    outcome.exhibit_memory = began_ ? memory_ : 0.0;
+    outcome.safe_pictures = safe_pictures_;
+    if (pictures_ > 0) {
+        outcome.exhibit = ExhibitSays{.age = std::chrono::seconds(now - heard_),
+                                      .well = true,
+                                      .pictures = pictures_,
+                                      .artifacts = 1,
+                                      .device_hangs = has(Ailment::TrackerHung) || has(Ailment::TrackerDead)};
+    }
+    return outcome;
+}
+
+void KioskModel::take(Step step, Mode mode, MuseumTime now) {
+    mode_ = mode;
+    switch (step) {
+    case Step::ResetDevice:
+        end_by(ByReset);
+        break;
+    case Step::Reboot:
+        boot(now, 0);
+        break;
+    default:
+        end_process(now, false);
+        break; // told to: no failure
+    }
+}
+
+VisibleState KioskModel::shown() const {
+    if (mode_ == Mode::Safe) {
+        return VisibleState::Words;
+    }
+    if (!is_lit_ || hangs_since_ || has(Ailment::Freeze)) {
+        return VisibleState::Dark;
+    }
+    if (has(Ailment::TrackerHung) || has(Ailment::TrackerDead)) {
+        return VisibleState::Untracked;
+    }
+    return mode_ == Mode::BuiltIn ? VisibleState::BuiltIn : VisibleState::Whole;
+}
+
+} // namespace frustumscreen

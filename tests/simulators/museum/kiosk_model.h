@@ -1,0 +1,72 @@
+/// A kiosk as a watchdog meets it, second by second: the exhibit's process with systemd's restart and watchdog, the machine, and
+/// the ailments that it has.
+///
+/// Times    in whole seconds; those of a PC with a GPU: 15 s from reset to the service manager, 4 s from the exhibit's start to its
+///          picture, 1 s before systemd starts a process that ended, 10 s before its watchdog ends one that hangs.
+/// Threads  values; one caller.
+#pragma once
+
+#include "tests/simulators/museum/ailment.h"
+#include "app/watch/outcome.h"
+#include "app/watch/step.h"
+
+#include <optional>
+#include <vector>
+
+namespace frustumscreen {
+
+/// What the visitors see.
+enum class VisibleState : std::uint8_t {
+    Whole,     ///< the museum's own exhibit, as it should be
+    Untracked, ///< the same, and it does not follow the prop
+    BuiltIn,   ///< another object
+    Words,     ///< for the staff
+    Dark,      ///< nothing, or a picture that is frozen
+};
+inline constexpr std::size_t visible_state_count = 5;
+
+class KioskModel {
+public:
+    static constexpr MuseumTime boot_s = 15;
+    static constexpr MuseumTime start_s = 4;
+    static constexpr MuseumTime restart_s = 1;
+    static constexpr MuseumTime systemd_watchdog_s = 10;
+    static constexpr MuseumTime hardware_watchdog_s = 20;
+    static constexpr MuseumTime leak_s = 7200;
+
+    void attack(const Attack& attack, MuseumTime now);
+    /// A second passes. `Outcome` is what can be seen after it; nothing while the machine boots.
+    std::optional<Outcome> pass(MuseumTime now);
+    void take(Step step, Mode mode, MuseumTime now);
+    /// As a watchdog says after a boot.
+    void show(Mode mode) { mode_ = mode; }
+
+    [[nodiscard]] VisibleState shown() const;
+    [[nodiscard]] bool is_booting(MuseumTime now) const { return now < boots_until_; }
+    [[nodiscard]] bool is_ill() const { return !attacks_.empty(); }
+    [[nodiscard]] bool has(Ailment ailment) const;
+
+private:
+    void begin_process(MuseumTime now);
+    void end_process(MuseumTime now, bool failed);
+    void boot(MuseumTime now, MuseumTime after_s);
+    void end_by(unsigned remedies);
+    void live(MuseumTime now);
+    [[nodiscard]] bool ends_soon_after_start() const;
+    [[nodiscard]] bool gives_no_picture() const;
+
+    std::vector<Attack> attacks_;
+    Mode mode_ = Mode::Normal;
+    MuseumTime boots_until_ = 0;
+    std::optional<MuseumTime> began_; ///< the exhibit's process
+    MuseumTime begins_at_ = 0;        ///< systemd starts it
+    bool is_lit_ = false;
+    std::optional<MuseumTime> hangs_since_;
+    std::int32_t process_ = 1;
+    std::uint32_t failures_ = 0;
+    std::uint64_t pictures_ = 0, safe_pictures_ = 0;
+    MuseumTime heard_ = 0; ///< its latest status
+    double memory_ = 0.2;
+};
+
+} // namespace frustumscreen

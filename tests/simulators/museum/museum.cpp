@@ -1,0 +1,220 @@
+#include "tests/simulators/museum/museum.h"
+
+#include "app/watch/judge.h"
+
+#include <algorithm>
+#include <optional>
+#include <random>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr MuseumTime between_reboots_s = 120;
+constexpr MuseumTime well_for_s = 60; ///< before a step that is a false alarm
+constexpr double loads_a_day = 4.0;
+constexpr MuseumTime load_s = 600;
+
+MonotonicTime monotonic(MuseumTime time) {
+    return MonotonicTime(std::chrono::seconds(time));
+}
+Awake awake(MuseumTime time) {
+    return std::chrono::seconds(time);
+}
+
+/// Other programs take the machine for ten minutes: looks and statuses come late.
+class Load {
+public:
+    explicit Load(std::uint64_t seed) : chance_(seed) {}
+    /// Whether the watchdog gets its turn in this second.
+    bool lets_look(MuseumTime now) {
+        if (now >= next_ + load_s) {
+            next_ = now + 1 +
+                    static_cast<MuseumTime>(
+                        std::exponential_distribution<double>(loads_a_day / museum_day)(chance_));
+        }
+        is_on_ = now >= next_;
+        return !is_on_ || chance_() % 3 == 0;
+    }
+    Nanoseconds status_age() { return std::chrono::milliseconds(is_on_ ? chance_() % 3500 : 0); }
+
+private:
+    std::mt19937_64 chance_;
+    MuseumTime next_ = 0;
+    bool is_on_ = false;
+};
+
+/// What decides: the judge with one of the policies. It loses all but the ladder's memory at a boot.
+class Keeper {
+public:
+    explicit Keeper(Policy policy) : policy_(policy) {}
+
+    void boot(MuseumTime now) {
+        ladder_ = Ladder(ladder_.memory(), true);
+        judge_ = Judge(Patience{}, monotonic(now));
+    }
+    [[nodiscard]] Mode mode() const { return ladder_.memory().mode; }
+
+    std::optional<Act> look(MuseumTime now, const Outcome& outcome) {
+        if (policy_ == Policy::SystemdAlone) {
+            return std::nullopt;
+        }
+        const Seen seen = judge_.look(monotonic(now), mode(), outcome);
+        const std::optional<Act> act = policy_ == Policy::Ladder
+                                           ? ladder_.look(awake(now), seen, {true, true, true})
+                                           : reboot_at(now, seen);
+        if (act) {
+            judge_.step_taken(monotonic(now));
+        }
+        return act;
+    }
+
+private:
+    std::optional<Act> reboot_at(MuseumTime now, const Seen& seen) {
+        if (!seen.trouble || now - rebooted_ < between_reboots_s) {
+            return std::nullopt;
+        }
+        rebooted_ = now;
+        return Act{Step::Reboot, seen.trouble};
+    }
+
+    Policy policy_;
+    Ladder ladder_{LadderMemory{}, true};
+    Judge judge_{Patience{}, monotonic(0)};
+    MuseumTime rebooted_ = -between_reboots_s;
+};
+
+class Life {
+public:
+    Life(Policy policy, std::span<const Attack> attacks, std::uint64_t seed)
+        : attacks_(attacks), keeper_(policy), load_(seed) {
+        run_.policy = policy;
+    }
+
+    void pass(MuseumTime now) {
+        for (; next_ < attacks_.size() && attacks_[next_].at <= now; ++next_) {
+            kiosk_.attack(attacks_[next_], now);
+            latest_ailment_ = attacks_[next_].ailment;
+        }
+        if (now % museum_day == opens_s || now % museum_day == second_round_s) {
+            make_the_round(now);
+        }
+        std::optional<Outcome> outcome = kiosk_.pass(now);
+        if (outcome && was_booting_) {
+            keeper_.boot(now);
+            kiosk_.show(keeper_.mode());
+        }
+        was_booting_ = !outcome;
+        note_health(now);
+        if (outcome && load_.lets_look(now)) {
+            look(now, *outcome);
+        }
+        account(now);
+    }
+    MuseumRun end() {
+        for (std::size_t k = 0; k < reboots_.size(); ++k) {
+            const auto within =
+                std::upper_bound(reboots_.begin(), reboots_.end(), reboots_[k] + museum_day - 1);
+            run_.most_reboots_in_day =
+                std::max(run_.most_reboots_in_day, static_cast<std::size_t>(within - reboots_.begin()) - k);
+        }
+        return std::move(run_);
+    }
+
+private:
+    /// Staff come by, and switch off and on what does not look well.
+    void make_the_round(MuseumTime now) {
+        if (kiosk_.shown() != VisibleState::Whole && kiosk_.shown() != VisibleState::BuiltIn) {
+            kiosk_.attack({now, Ailment::PowerCut, now}, now);
+        }
+    }
+
+    void note_health(MuseumTime now) {
+        const VisibleState shown = kiosk_.shown();
+        const bool is_well =
+            !kiosk_.is_ill() && (shown == VisibleState::Whole || shown == VisibleState::BuiltIn);
+        well_since_ = is_well ? well_since_.value_or(now) : std::optional<MuseumTime>{};
+    }
+
+    void look(MuseumTime now, Outcome& outcome) {
+        const MuseumTime hour_s = now % museum_day;
+        if (outcome.exhibit) {
+            outcome.exhibit->asleep = hour_s >= sleeps_s || hour_s < wakes_s;
+            outcome.exhibit->age += load_.status_age();
+        }
+        const std::optional<Act> act = keeper_.look(now, outcome);
+        if (!act) {
+            return;
+        }
+        const bool is_well = well_since_ && now - *well_since_ >= well_for_s;
+        run_.steps.push_back({now, *act, is_well && act->step != Step::Return});
+        if (act->step == Step::Reboot) {
+            reboots_.push_back(now);
+        }
+        kiosk_.take(act->step, keeper_.mode(), now);
+    }
+
+    void account(MuseumTime now) {
+        const MuseumTime hour_s = now % museum_day;
+        const bool is_asleep = hour_s >= sleeps_s || hour_s < wakes_s;
+        const VisibleState shown = is_asleep ? VisibleState::Whole : kiosk_.shown();
+        if (hour_s >= opens_s && hour_s < closes_s) {
+            ++run_.open.at(static_cast<std::size_t>(shown));
+        }
+        if (shown != VisibleState::Dark) {
+            if (dark_since_) {
+                run_.dark_times.push_back(now - *dark_since_);
+                dark_since_.reset();
+            }
+            return;
+        }
+        if (!dark_since_) {
+            dark_since_ = now;
+            dark_by_ = latest_ailment_;
+        }
+        const MuseumTime dark_s = now - *dark_since_ + 1;
+        if (dark_by_) {
+            MuseumTime& longest = run_.longest.at(static_cast<std::size_t>(*dark_by_));
+            longest = std::max(longest, dark_s);
+        }
+        if (dark_s > run_.longest_dark_s) {
+            run_.longest_dark_s = dark_s;
+            run_.longest_dark_at = *dark_since_;
+        }
+    }
+
+    std::span<const Attack> attacks_;
+    std::size_t next_ = 0;
+    KioskModel kiosk_;
+    Keeper keeper_;
+    Load load_;
+    MuseumRun run_;
+    bool was_booting_ = true;
+    std::optional<Ailment> latest_ailment_, dark_by_;
+    std::optional<MuseumTime> dark_since_, well_since_;
+    std::vector<MuseumTime> reboots_;
+};
+
+} // namespace
+
+std::string_view name_of(Policy policy) {
+    switch (policy) {
+    case Policy::Ladder:
+        return "ladder";
+    case Policy::SystemdAlone:
+        return "systemd alone";
+    case Policy::RebootAtEveryTrouble:
+        return "reboot at every trouble";
+    }
+    return "";
+}
+
+MuseumRun simulate(Policy policy, std::span<const Attack> attacks, int days, std::uint64_t seed) {
+    Life life(policy, attacks, seed);
+    for (MuseumTime now = 0; now < days * museum_day; ++now) {
+        life.pass(now);
+    }
+    return life.end();
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,50 @@
+/// A kiosk's life under a policy: what was shown, which steps were taken, which of them for nothing.
+///
+/// Policies the ladder; systemd's restart and watchdog alone; a reboot at every trouble that the same judge sees, two minutes
+///          apart at least. All meet the same attacks, the same nights and the same load.
+/// False    a step is a false alarm if nothing was wrong for a minute before it and an exhibit was shown; a return after ten good
+///          minutes is none.
+/// Threads  pure; any.
+#pragma once
+
+#include "tests/simulators/museum/ailment.h"
+#include "tests/simulators/museum/kiosk_model.h"
+#include "app/watch/ladder.h"
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace frustumscreen {
+
+enum class Policy : std::uint8_t { Ladder, SystemdAlone, RebootAtEveryTrouble };
+inline constexpr std::array all_policies{Policy::Ladder, Policy::SystemdAlone, Policy::RebootAtEveryTrouble};
+[[nodiscard]] std::string_view name_of(Policy policy);
+
+/// The museum is open from ten to six; the exhibit sleeps from eight to eight, and is not dark then. At ten and at two staff look
+/// at it, under every policy alike, and switch it off and on where there is no exhibit, or one that does not follow the prop.
+inline constexpr MuseumTime opens_s = 10 * 3600, closes_s = 18 * 3600;
+inline constexpr MuseumTime second_round_s = 14 * 3600;
+inline constexpr MuseumTime sleeps_s = 20 * 3600, wakes_s = 8 * 3600;
+
+struct TakenStep {
+    MuseumTime at = 0;
+    Act act;
+    bool is_false_alarm = false;
+};
+struct MuseumRun {
+    Policy policy = Policy::Ladder;
+    std::array<MuseumTime, visible_state_count> open{}; ///< seconds of opening hours
+    MuseumTime longest_dark_s = 0;                      ///< by day or night, in one piece
+    MuseumTime longest_dark_at = 0;
+    std::array<MuseumTime, ailment_count> longest{}; ///< dark, in one piece that began with this ailment
+    std::vector<MuseumTime> dark_times;              ///< seconds of each piece
+    std::vector<TakenStep> steps;
+    std::size_t most_reboots_in_day = 0;
+};
+
+[[nodiscard]] MuseumRun simulate(Policy policy, std::span<const Attack> attacks, int days,
+                                 std::uint64_t seed);
+
+} // namespace frustumscreen
