@@ -4,7 +4,6 @@
 #include "assets_baked/bake/box_frame.h"
 #include "assets_baked/bake/level.h"
 #include "assets_baked/bake/measured_reliefs.h"
-#include "assets_baked/bake/relief.h"
 #include "assets_baked/bake/simplify.h"
 #include "assets_baked/bake/table_picture.h"
 #include "assets_baked/bake/texture_bake.h"
@@ -28,7 +27,6 @@ namespace {
 constexpr std::size_t most_finest_triangles = 600'000;
 constexpr float finest_tolerance = 5e-5F;
 constexpr std::array<float, 6> mesh_tolerances{1e-4F, 2.2e-4F, 3.6e-4F, 5.5e-4F, 9e-4F, 2e-3F};
-constexpr std::array<float, 4> relief_tolerances{5e-4F, 1e-3F, 2e-3F, 4e-3F};
 
 /// The axis that each face looks along most.
 std::vector<ReliefDirection> directions_of(const PropShape& prop) {
@@ -115,45 +113,13 @@ public:
                             lit(all, texels, bake_colour(all, texels, source_, reach), reach,
                                 bake_coverage(all, texels, source_, reach))};
         for (std::size_t k = 0; k < surfaces.size(); ++k) {
-            PackLevel level = make_level(charted[k], frame_.box_size, LevelTechnique::Mesh);
+            PackLevel level = make_level(charted[k], frame_.box_size);
             level.error = surfaces[k].error;
             if (options_.unlit) {
                 level.error.colour_rmse = measure_colour(level, made.texture, frame_.box_size, samples_);
             }
             made.levels.push_back(std::move(level));
         }
-        return made;
-    }
-
-    /// Relief takes long to make, and no level of it was ever better than a mesh that can be simplified.
-    [[nodiscard]] static bool may_need_relief(const std::vector<Surface>& surfaces) {
-        constexpr std::size_t many_triangles = 20'000;
-        const std::size_t most = surfaces.front().mesh.triangle_count();
-        return most > many_triangles && 2 * surfaces.back().mesh.triangle_count() > most;
-    }
-
-    /// `relief` receives the atlas that its levels share.
-    TexturedLevels relief_levels(ReliefAtlas& atlas) {
-        options_.progress("layered relief", 0.7);
-        std::optional<BakedRelief> relief = bake_relief(source_, visible_, frame_.box_size,
-                                                        directions_of(options_.prop.shape), options_.size);
-        if (!relief) {
-            return {};
-        }
-        const Image<AtlasTexel> texels = rasterise(relief->grid);
-        TexturedLevels made{{}, lit(relief->grid, texels, std::move(relief->colour), 2.0F * texel_box_)};
-        for (std::size_t k = 0; k < relief_tolerances.size(); ++k) {
-            options_.progress("relief levels",
-                              0.8 + 0.18 * static_cast<double>(k) / relief_tolerances.size());
-            const ChartedMesh fewer = simplify_grid(*relief, relief_tolerances[k]);
-            if (fewer.indices.empty()) {
-                continue;
-            }
-            PackLevel level = make_level(fewer, frame_.box_size, LevelTechnique::Relief);
-            level.error = measure(level, made.texture, frame_.box_size, source_, samples_, options_.unlit);
-            made.levels.push_back(std::move(level));
-        }
-        atlas = std::move(relief->atlas);
         return made;
     }
 
@@ -189,17 +155,11 @@ private:
     /// How far a surface may lie from the source where its colours are looked up.
     static float reach_of(float tolerance_box) { return 4.0F * tolerance_box + 1e-3F; }
 
-    /// The texture in the museum's light: baked on the meshes, looked up from there for the relief.
+    /// The texture in the museum's light.
     Image8 lit(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, ImageFloat colour, float reach,
-               const Image<float>& coverage = {}) {
+               const Image<float>& coverage) {
         if (!options_.unlit) {
-            if (light_.texels.empty()) {
-                light_mesh_ = mesh;
-                light_ = bake_light(mesh, texels, source_, reach);
-                multiply(colour, light_);
-            } else {
-                multiply(colour, transfer_light(mesh, texels, light_mesh_, light_, reach));
-            }
+            multiply(colour, bake_light(mesh, texels, source_, reach));
         }
         return finish(colour, texels, coverage);
     }
@@ -219,8 +179,6 @@ private:
     TriangleMesh finest_;
     TriangleMesh visible_;
     SourceSamples samples_;
-    ChartedMesh light_mesh_;
-    ImageFloat light_;
 };
 
 double mm_per_box(const Pack& pack, const BakedProp& prop) {
@@ -270,30 +228,18 @@ bool betters(const LevelError& dearer, const LevelError& cheaper) {
            dearer.colour_rmse < scatter * cheaper.colour_rmse + least_rmse;
 }
 
-/// Moves the levels on the front into the pack, and the textures and the relief that these need.
-void keep(Pack& pack, TexturedLevels meshes, TexturedLevels reliefs, ReliefAtlas atlas) {
-    std::vector<PackLevel> levels = std::move(meshes.levels);
-    levels.insert(levels.end(), reliefs.levels.begin(), reliefs.levels.end());
+/// Moves the levels on the front into the pack, and their texture.
+void keep(Pack& pack, TexturedLevels meshes) {
     std::vector<LevelOutline> outlines;
-    outlines.reserve(levels.size());
-    for (const PackLevel& level : levels) {
+    outlines.reserve(meshes.levels.size());
+    for (const PackLevel& level : meshes.levels) {
         outlines.push_back(
             {level.technique, level.error, level.indices.size() / 3, level.vertices.size(), 0});
     }
-    std::array<std::optional<std::uint32_t>, 2> textures;
     for (const std::size_t k : measured_front(outlines)) {
-        const bool is_relief = levels[k].technique == LevelTechnique::Relief;
-        std::optional<std::uint32_t>& texture = textures[is_relief ? 1 : 0];
-        if (!texture) {
-            texture = static_cast<std::uint32_t>(pack.textures.size());
-            pack.textures.push_back(std::move(is_relief ? reliefs.texture : meshes.texture));
-        }
-        levels[k].texture = *texture;
-        pack.levels.push_back(std::move(levels[k]));
+        pack.levels.push_back(std::move(meshes.levels[k]));
     }
-    if (textures[1]) {
-        pack.relief = std::move(atlas);
-    }
+    pack.textures.push_back(std::move(meshes.texture));
 }
 
 } // namespace
@@ -353,11 +299,8 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
         pack.hotspots.push_back(std::move(hotspot));
     }
     std::vector<Surface> surfaces = bakery.surfaces();
-    const bool may_need_relief = Bakery::may_need_relief(surfaces);
     keep_front(surfaces);
     TexturedLevels meshes = bakery.mesh_levels(surfaces);
-    ReliefAtlas atlas;
-    TexturedLevels reliefs = may_need_relief ? bakery.relief_levels(atlas) : TexturedLevels{};
     const std::vector<MeasuredRelief> cast =
         options.relief ? bakery.reliefs(meshes) : std::vector<MeasuredRelief>{};
     put_reliefs(pack, cast);
@@ -378,7 +321,7 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
         used.emplace_back(0.0); // the box's bottom, above which the artifact stands
     }
     pack.extremes = profile_extremes(used);
-    keep(pack, std::move(meshes), std::move(reliefs), std::move(atlas));
+    keep(pack, std::move(meshes));
     options.progress("choice of the level", 0.98);
     pack.samples = samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop),
                                   options.prop.zone, options.measuring);

@@ -1,5 +1,5 @@
-/// Bakes a source mesh into a pack: makes levels of relief and of simplified mesh, measures them, keeps the
-/// front.
+/// Bakes a source mesh into a pack: makes levels of simplified mesh, measures them, keeps the front; and layered
+/// relief, to be cast.
 ///
 /// Frame    in: the file's; out: the box (pack.h).
 /// Errors   one line for the curator.

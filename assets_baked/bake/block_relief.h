@@ -7,7 +7,7 @@
 #pragma once
 
 #include "app/relief/block_relief.h"
-#include "assets_baked/bake/relief_layers.h"
+#include "assets_baked/bake/direction_frame.h"
 #include "assets_baked/bake/source_scene.h"
 
 namespace frustumscreen {

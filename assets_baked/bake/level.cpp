@@ -123,9 +123,8 @@ constexpr float search_reach = 0.2F;
 
 } // namespace
 
-PackLevel make_level(const ChartedMesh& mesh, const glm::dvec3& box_size, LevelTechnique technique) {
+PackLevel make_level(const ChartedMesh& mesh, const glm::dvec3& box_size) {
     PackLevel level;
-    level.technique = technique;
     level.vertices.reserve(mesh.positions.size());
     for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
         PackVertex vertex;

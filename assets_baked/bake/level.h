@@ -19,8 +19,7 @@
 namespace frustumscreen {
 
 /// Level with vertices, indices and clusters; texture and error are left to the caller.
-[[nodiscard]] PackLevel make_level(const ChartedMesh& mesh, const glm::dvec3& box_size,
-                                   LevelTechnique technique);
+[[nodiscard]] PackLevel make_level(const ChartedMesh& mesh, const glm::dvec3& box_size);
 
 /// The mesh as a level would hold it: with its positions rounded to the pack's codes.
 [[nodiscard]] TriangleMesh on_codes(TriangleMesh mesh, const glm::dvec3& box_size);

@@ -10,7 +10,6 @@
 
 #include "app/pack/pack_relief.h"
 #include "assets_baked/bake/level.h"
-#include "assets_baked/bake/relief_layers.h"
 
 #include <vector>
 

@@ -270,32 +270,6 @@ ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, 
     return light;
 }
 
-ImageFloat transfer_light(const ChartedMesh& to, const Image<AtlasTexel>& to_texels, const ChartedMesh& from,
-                          const ImageFloat& from_light, float reach_box) {
-    // The two sides of a sheet share positions and differ in light: each is moved a little to its own side.
-    constexpr float lift = 1e-4F;
-    TriangleMesh lifted{from.positions, from.indices};
-    for (std::size_t k = 0; k < lifted.positions.size(); ++k) {
-        lifted.positions[k] += from.normals[k] * lift;
-    }
-    const SourceMesh from_source = as_source(lifted);
-    const std::vector<glm::dvec3> points(lifted.positions.begin(), lifted.positions.end());
-    const SourceScene from_scene(from_source, points);
-    ImageFloat light(to_texels.width, to_texels.height, glm::vec3(1.0F));
-    for_each_texel(to_texels, [&](int x, int y, const AtlasTexel& texel) {
-        const SurfacePoint at = surface_at(to, texel);
-        const SurfaceHit hit = from_scene.facing(at.position, at.normal, reach_box);
-        if (!hit.hit) {
-            return;
-        }
-        const glm::vec2 uv = blend(from.uv_texels, from, AtlasTexel{hit.triangle, hit.u, hit.v});
-        const glm::ivec2 texel_there = glm::clamp(glm::ivec2(uv), glm::ivec2(0),
-                                                  glm::ivec2(from_light.width - 1, from_light.height - 1));
-        light.at(x, y) = from_light.at(texel_there.x, texel_there.y);
-    });
-    return light;
-}
-
 Image8 finish(const ImageFloat& colour, const Image<AtlasTexel>& texels, const Image<float>& coverage) {
     ImageFloat filled = colour;
     Image<std::uint8_t> known(texels.width, texels.height, 0);

@@ -38,11 +38,6 @@ struct AtlasTexel {
 [[nodiscard]] ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
                                     const SourceScene& source, float reach_box);
 
-/// The light of one baked level, looked up from another.
-[[nodiscard]] ImageFloat transfer_light(const ChartedMesh& to, const Image<AtlasTexel>& to_texels,
-                                        const ChartedMesh& from, const ImageFloat& from_light,
-                                        float reach_box);
-
 /// Converts to sRGB. Texels that no triangle covers, or that alpha cuts, take their neighbours' colour, so
 /// that mipmaps and the filter do not bleed. `coverage` becomes alpha; empty = nothing is cut.
 [[nodiscard]] Image8 finish(const ImageFloat& colour, const Image<AtlasTexel>& texels,

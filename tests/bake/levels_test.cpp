@@ -61,7 +61,7 @@ TEST(Levels, MeasuredErrorOfACoarseSphereIsItsSagitta) {
     test::add_sphere(coarse, {0, 0, 0.5}, 0.5, rows);
     const SourceScene source(fine, fine.positions);
     const TriangleMesh surface = weld(coarse, coarse.positions);
-    const PackLevel level = make_level(chart(surface, 1.0F / 64.0F), glm::dvec3(1.0), LevelTechnique::Mesh);
+    const PackLevel level = make_level(chart(surface, 1.0F / 64.0F), glm::dvec3(1.0));
     const SourceSamples samples = sample_source(source, weld(fine, fine.positions), 0.1F);
     const LevelError error = measure(level, Image8(4, 4), glm::dvec3(1.0), source, samples, false);
     // A quad spans 180/16 degrees each way; its centre lies r (1 - cos(half)^2) below the sphere.
@@ -74,8 +74,7 @@ TEST(Levels, MeasuredErrorOfACoarseSphereIsItsSagitta) {
 TEST(Levels, ClustersCoverAllTrianglesOnceAndBoundThem) {
     SourceMesh mesh = test::empty_mesh();
     test::add_sphere(mesh, {0, 0, 0.5}, 0.5, 48);
-    const PackLevel level =
-        make_level(chart(weld(mesh, mesh.positions), 1.0F / 64.0F), glm::dvec3(1.0), LevelTechnique::Mesh);
+    const PackLevel level = make_level(chart(weld(mesh, mesh.positions), 1.0F / 64.0F), glm::dvec3(1.0));
     const TriangleMesh surface = surface_of(level, glm::dvec3(1.0));
     std::uint32_t next = 0;
     for (const PackCluster& cluster : level.clusters) {
@@ -91,8 +90,7 @@ TEST(Levels, ClustersCoverAllTrianglesOnceAndBoundThem) {
 TEST(Levels, AConeCulledClusterFacesAwayFromTheEye) {
     SourceMesh mesh = test::empty_mesh();
     test::add_sphere(mesh, {0, 0, 0.5}, 0.5, 48);
-    const PackLevel level =
-        make_level(chart(weld(mesh, mesh.positions), 1.0F / 64.0F), glm::dvec3(1.0), LevelTechnique::Mesh);
+    const PackLevel level = make_level(chart(weld(mesh, mesh.positions), 1.0F / 64.0F), glm::dvec3(1.0));
     const TriangleMesh surface = surface_of(level, glm::dvec3(1.0));
     std::mt19937 random(5);
     std::normal_distribution<float> normal;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace frustumscreen {
 namespace {
@@ -59,6 +60,38 @@ TEST(Reliefs, OfASphereLieOnItAndSayByHowMuchTheyMissIt) {
         EXPECT_LT(outline.error.colour_rmse, 2.0F);
     }
     EXPECT_LT(reliefs[1].error.mean_box, reliefs[0].error.mean_box);
+}
+
+/// Triangles that share no vertex and overlap their neighbours: no level has fewer of them, and the reliefs are what a slow machine draws.
+TEST(Reliefs, OfATriangleSoupAreSmallWhereItsLevelsAreNot) {
+    SourceMesh sphere = test::empty_mesh();
+    test::add_sphere(sphere, {0, 0, 0.5}, 0.5, 86);
+    SourceMesh soup = test::empty_mesh();
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> jitter(-2e-4, 2e-4);
+    for (const auto& triangle : sphere.triangles) {
+        const auto first = static_cast<std::uint32_t>(soup.positions.size());
+        const glm::dvec3 centre =
+            (sphere.positions[triangle[0]] + sphere.positions[triangle[1]] + sphere.positions[triangle[2]]) /
+            3.0;
+        for (const std::uint32_t vertex : triangle) {
+            const glm::dvec3 grown = centre + 1.2 * (sphere.positions[vertex] - centre);
+            soup.positions.push_back(grown + glm::dvec3(jitter(random), jitter(random), jitter(random)));
+        }
+        test::add_triangle(soup, first, first + 1, first + 2);
+    }
+    BakeOptions options;
+    options.size = 96;
+    options.unlit = true;
+    options.measuring = 0.1;
+    options.up = "z";
+    const Pack pack = bake(soup, options).value();
+    const std::vector<ReliefOutline> reliefs = reliefs_of(pack).value();
+    ASSERT_FALSE(reliefs.empty());
+    EXPECT_GT(pack.levels.front().indices.size() / 3, soup.triangles.size() / 2);
+    EXPECT_LT(reliefs.front().blocks, soup.triangles.size() / 8);
+    EXPECT_LT(reliefs.front().error.mean_box, 3e-3F);
+    EXPECT_TRUE(pack.relief.charts.empty()) << "no relief as a mesh";
 }
 
 /// A sheet without thickness, of which both sides are kept: its cells lie at the same place, and each shows to one side. A ray that passes the

@@ -22,8 +22,7 @@ Pack pack_of(const SourceMesh& mesh) {
     Pack pack;
     pack.box_size = glm::dvec3(1.0);
     pack.textures = {Image8(4, 4, glm::u8vec4(255))};
-    pack.levels = {
-        make_level(chart(weld(mesh, mesh.positions), 1.0F / 64.0F), pack.box_size, LevelTechnique::Mesh)};
+    pack.levels = {make_level(chart(weld(mesh, mesh.positions), 1.0F / 64.0F), pack.box_size)};
     return pack;
 }
 

@@ -33,7 +33,7 @@ protected:
         pack.hotspots = {{{}, {0, 0, 1}, {{"en", hostile}}}};
         facts.pack_name = hostile;
         facts.stands = facts.program = hostile;
-        facts.levels = {{"mesh", 12, 3456, 0.1234, 0.2, 0.3, 4.5}, {"relief", 7, 100, 0.01, 0.02, 0.03, 1.0}};
+        facts.levels = {{12, 3456, 0.1234, 0.2, 0.3, 4.5}, {7, 100, 0.01, 0.02, 0.03, 1.0}};
         facts.lost = facts.silent = facts.guessed = {hostile};
         media.turn.columns = 2;
         media.turn.rows = 2;

@@ -55,8 +55,7 @@ std::uint64_t bytes_of(const BakeResult& result, std::size_t level) {
     const PackLevel& of = result.pack.levels[level];
     std::uint64_t bytes = 0;
     for (const PackPart& part : result.parts) {
-        const bool relief = of.technique == LevelTechnique::Relief && part.name.starts_with("relief/");
-        if (relief || part.name == fmt::format("levels/{}.bin", level) ||
+        if (part.name == fmt::format("levels/{}.bin", level) ||
             part.name.starts_with(fmt::format("textures/{}.", of.texture))) {
             bytes += part.stored_bytes;
         }
@@ -84,16 +83,15 @@ std::string standing_text(const BakeResult& result) {
 }
 
 std::string levels_text(const BakeResult& result) {
-    std::string text = fmt::format("  {:<8}{:<10}{:>10}{:>10}{:>10}{:>9}\n", "level", "kind", "triangles",
-                                   "size", "mean mm", "95 % mm");
+    std::string text =
+        fmt::format("  {:<8}{:>10}{:>10}{:>10}{:>9}\n", "level", "triangles", "size", "mean mm", "95 % mm");
     const double mm = metres_per_box(result) * mm_per_m;
     for (std::size_t k = 0; k < result.pack.levels.size(); ++k) {
         const PackLevel& level = result.pack.levels[k];
-        text += fmt::format("  {:<8}{:<10}{:>10}{:>10}{:>10.3f}{:>9.3f}{}\n", k,
-                            level.technique == LevelTechnique::Relief ? "relief" : "mesh",
-                            level.indices.size() / 3, in_units(bytes_of(result, k)),
-                            level.error.mean_box * mm, level.error.p95_box * mm,
-                            k == result.pack.default_level ? "  shown unless the machine needs another" : "");
+        text +=
+            fmt::format("  {:<8}{:>10}{:>10}{:>10.3f}{:>9.3f}{}\n", k, level.indices.size() / 3,
+                        in_units(bytes_of(result, k)), level.error.mean_box * mm, level.error.p95_box * mm,
+                        k == result.pack.default_level ? "  shown unless the machine needs another" : "");
     }
     return text;
 }
@@ -161,8 +159,7 @@ PreviewFacts preview_facts(const BakeResult& result) {
     const double mm = metres_per_box(result) * mm_per_m;
     for (std::size_t k = 0; k < result.pack.levels.size(); ++k) {
         const PackLevel& level = result.pack.levels[k];
-        facts.levels.push_back({level.technique == LevelTechnique::Relief ? "relief" : "mesh",
-                                level.indices.size() / 3, bytes_of(result, k), level.error.mean_box * mm,
+        facts.levels.push_back({level.indices.size() / 3, bytes_of(result, k), level.error.mean_box * mm,
                                 level.error.p95_box * mm, level.error.max_box * mm,
                                 static_cast<double>(level.error.colour_rmse)});
     }
@@ -192,7 +189,7 @@ Json report_json(const BakeResult& result) {
     Json levels = Json::array();
     for (std::size_t k = 0; k < result.pack.levels.size(); ++k) {
         const PackLevel& level = result.pack.levels[k];
-        levels.push_back({{"technique", level.technique == LevelTechnique::Relief ? "relief" : "mesh"},
+        levels.push_back({{"technique", "mesh"},
                           {"triangles", level.indices.size() / 3},
                           {"bytes", bytes_of(result, k)},
                           {"mean_mm", level.error.mean_box * mm},

@@ -215,18 +215,18 @@ std::string levels_part(const PackDescription& pack, const PreviewFacts& facts) 
     std::string rows;
     for (std::size_t k = 0; k < facts.levels.size(); ++k) {
         const PreviewLevel& level = facts.levels[k];
-        rows += fmt::format("<tr{}><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.3f}</td><td>{:.3f}</td>"
+        rows += fmt::format("<tr{}><td>{}</td><td>{}</td><td>{}</td><td>{:.3f}</td><td>{:.3f}</td>"
                             "<td>{:.3f}</td><td>{:.1f}</td></tr>\n",
-                            k == pack.default_level ? " class=\"usual\"" : "", k, xml_text(level.kind),
-                            level.triangles, bytes_in_words(level.bytes), level.mean_mm, level.p95_mm,
-                            level.largest_mm, level.colour_rmse);
+                            k == pack.default_level ? " class=\"usual\"" : "", k, level.triangles,
+                            bytes_in_words(level.bytes), level.mean_mm, level.p95_mm, level.largest_mm,
+                            level.colour_rmse);
     }
     return fmt::format("<h2>How exact it is</h2>\n<p class=\"soft\">Distances between each level of detail "
                        "and your scan, over what a "
                        "visitor can see, in millimetres on the usual {}; colour in steps of 255. The bold "
                        "level is shown unless the "
                        "machine needs another.</p>\n<div class=\"scroll\"><table "
-                       "id=\"levels\"><tr><th>level</th><th>kind</th>"
+                       "id=\"levels\"><tr><th>level</th>"
                        "<th>triangles</th><th>size</th><th>mean mm</th><th>95 % mm</th><th>largest "
                        "mm</th><th>colour</th></tr>\n{}"
                        "</table></div>\n",

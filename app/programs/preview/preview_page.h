@@ -20,7 +20,6 @@ namespace frustumscreen {
 
 /// One level of detail, on the usual prop.
 struct PreviewLevel {
-    std::string kind; ///< "relief" or "mesh"
     std::uint64_t triangles = 0;
     std::uint64_t bytes = 0;
     double mean_mm = 0.0, p95_mm = 0.0, largest_mm = 0.0;
