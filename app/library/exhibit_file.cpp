@@ -1,7 +1,7 @@
 #include "app/library/exhibit_file.h"
 
 #include "app/pack/pack_text.h"
-#include "app/pack/signature/signature/signature.h"
+#include "app/pack/signature/signature.h"
 #include "app/settings/language_tag.h"
 #include "app/settings/toml_file.h"
 #include "firmware_host/base/calendar_day.h"

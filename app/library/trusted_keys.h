@@ -9,7 +9,7 @@
 #pragma once
 
 #include "app/library/set_file.h"
-#include "app/pack/signature/signature/signature.h"
+#include "app/pack/signature/signature.h"
 
 #include <chrono>
 #include <cstdint>

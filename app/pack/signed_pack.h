@@ -8,7 +8,7 @@
 #pragma once
 
 #include "app/pack/pack_reader.h"
-#include "app/pack/signature/signature/signature.h"
+#include "app/pack/signature/signature.h"
 
 #include <chrono>
 #include <cstdint>

@@ -170,34 +170,56 @@ void choose_captions(const Settings& settings, const PackOutline& pack, const Sc
     plan.left_out.push_back({UnusedCaptions, "captions and the typeface", std::string(why)});
 }
 
-void choose_shaders(const SceneRequest& request, bool signs, ScenePlan& plan) {
-    const bool all = (plan.economies & UnusedShaders) == 0;
+/// Each way to draw a rung, in each light and, where levels fade, dithered too. A cast relief has its light from the processor.
+void choose_rung_shaders(bool plain_light, bool even_light, bool fades, ScenePlan& plan) {
     const auto any = [&](const auto& is) { return std::any_of(plan.rungs.begin(), plan.rungs.end(), is); };
-    const bool fades = all || any([&](const Rung& rung) { return !rung.shows_as(plan.rungs.front()); });
     const bool casts = any([](const Rung& rung) { return rung.relief && !rung.on_gpu; });
     const bool blocks = any([](const Rung& rung) { return rung.on_gpu; });
+    std::vector<ShaderKey> keys;
+    for (const bool dithered : {false, true}) {
+        if (dithered && !fades) {
+            continue;
+        }
+        if (plain_light) {
+            keys.push_back({.dithered = dithered, .even_light = false});
+        }
+        if (even_light) {
+            keys.push_back({.dithered = dithered, .even_light = true});
+        }
+        if (casts) {
+            plan.needs.draws.insert(cast_shader(dithered));
+        }
+    }
+    for (ShaderKey key : keys) {
+        if (!plan.levels.empty()) {
+            plan.needs.draws.insert(key);
+        }
+        if (blocks) {
+            key.blocks = true;
+            plan.needs.draws.insert(key);
+        }
+    }
+    plan.needs.casts = casts ? std::min<std::size_t>(plan.reliefs.size(), 2) : 0; // a fade shows two
+}
+
+/// Samples a pixel of the picture that meshes are drawn into. A cast relief takes its samples where it is cast.
+int samples_of(const SceneRequest& request, const Rung& rung) {
+    if (rung.relief && !rung.on_gpu) {
+        return 1;
+    }
+    const bool has_headroom = request.live && request.room > 1;
+    return has_headroom ? request.room : std::max(rung.samples, request.room);
+}
+
+void choose_shaders(const SceneRequest& request, bool signs, ScenePlan& plan) {
+    const bool all = (plan.economies & UnusedShaders) == 0;
+    const bool fades = all || std::any_of(plan.rungs.begin(), plan.rungs.end(), [&](const Rung& rung) {
+                           return !rung.shows_as(plan.rungs.front());
+                       });
     const bool plain = all || !request.light;
     const bool even = all || request.light;
     RenderNeeds& needs = plan.needs;
-    for (const bool even_light : {false, true}) {
-        for (const bool dithered : {false, true}) {
-            if ((even_light ? even : plain) && (fades || !dithered)) {
-                ShaderKey key;
-                key.dithered = dithered;
-                key.even_light = even_light;
-                if (!plan.levels.empty()) {
-                    needs.draws.insert(key);
-                }
-                if (blocks) {
-                    key.blocks = true;
-                    needs.draws.insert(key);
-                }
-                if (casts) { // in any light, which the processor gives them
-                    needs.draws.insert(cast_shader(dithered));
-                }
-            }
-        }
-    }
+    choose_rung_shaders(plain, even, fades, plan);
     if (even) {
         needs.draws.insert({ShaderKey::Pass::EdgeFeather});
     }
@@ -205,12 +227,8 @@ void choose_shaders(const SceneRequest& request, bool signs, ScenePlan& plan) {
         needs.draws.insert({ShaderKey::Pass::TablePicture});
     }
     for (const Rung& rung : plan.rungs) {
-        needs.samples = rung.relief && !rung.on_gpu ? needs.samples // it takes its samples where it is cast
-                        : request.live && request.room > 1
-                            ? std::max(needs.samples, request.room)
-                            : std::max({needs.samples, rung.samples, request.room});
+        needs.samples = std::max(needs.samples, samples_of(request, rung));
     }
-    needs.casts = casts ? std::min<std::size_t>(plan.reliefs.size(), 2) : 0; // a fade shows two
     if (!plain) {
         plan.left_out.push_back({UnusedShaders, "the shader without light compensation",
                                  "the projector's light is evened out in every picture"});

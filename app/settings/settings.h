@@ -14,7 +14,7 @@
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/registration.h"
 #include "app/geometry/transform.h"
-#include "app/pack/signature/signature/signature.h"
+#include "app/pack/signature/signature.h"
 #include "app/settings/calibration.h"
 #include "app/settings/display_mode.h"
 #include "app/settings/hours_settings.h"

@@ -1,10 +1,10 @@
 // The way of a technician through a calibration by a camera, with everything ray cast: what the procedure shows lies on the printed board, a camera with
 // noise, latency and rows that are read one after the other looks at it, libapriltag finds the tags, a tracker reports.
-#include "tests/simulators/table/simulated_board.h"
-#include "app/calibration/procedure/procedure/auto_procedure.h"
+#include "app/calibration/procedure/auto_procedure.h"
 #include "app/programs/calibrate/calibration_way.h"
 #include "app/programs/calibrate/table_pictures.h"
 #include "tests/calibration/expect_sentences.h"
+#include "tests/simulators/table/simulated_board.h"
 
 #include <gtest/gtest.h>
 

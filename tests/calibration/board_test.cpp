@@ -1,6 +1,6 @@
 // The board of the automatic calibration, and the sheet that is printed of it.
 #include "app/calibration/board.h"
-#include "app/calibration/procedure/procedure/board_view.h"
+#include "app/calibration/procedure/board_view.h"
 #include "app/drawing/board/board_sheet.h"
 
 #include <gtest/gtest.h>

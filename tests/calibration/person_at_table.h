@@ -4,7 +4,7 @@
 /// Frames   table T as it really is; what is kept of it is half a millimetre beside.
 #pragma once
 
-#include "app/calibration/procedure/procedure/eye_procedure.h"
+#include "app/calibration/procedure/eye_procedure.h"
 #include "tests/calibration/simulated_sights.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // How the board stands, whether it rests, and where it is wanted next: by the tracker alone.
+#include "app/calibration/procedure/rest_wish.h"
+#include "app/calibration/procedure/still_reports.h"
 #include "tests/simulators/table/simulated_rests.h"
-#include "app/calibration/procedure/procedure/rest_wish.h"
-#include "app/calibration/procedure/procedure/still_reports.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A technician at the table, played by the second: what is taken, what is not, and that nothing is lost on the way.
-#include "app/calibration/procedure/procedure/touch_procedure.h"
+#include "app/calibration/procedure/touch_procedure.h"
 #include "tests/calibration/simulated_touches.h"
 
 #include <gtest/gtest.h>

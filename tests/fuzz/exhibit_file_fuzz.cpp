@@ -1,7 +1,7 @@
 // A stick's exhibit.toml: refused in one line that begins with the file's name, or everything in it is what a set may hold.
 #include "app/library/exhibit_file.h"
 #include "app/pack/pack_text.h"
-#include "app/pack/signature/signature/signature.h"
+#include "app/pack/signature/signature.h"
 #include "firmware_host/base/calendar_day.h"
 #include "tests/fuzz/fuzz.h"
 

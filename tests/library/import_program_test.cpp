@@ -1,5 +1,5 @@
 // frustumscreen-import on real folders: what it says, what it leaves, and that it may be killed.
-#include "app/pack/signature/signature/signature.h"
+#include "app/pack/signature/signature.h"
 #include "firmware_host/base/json.h"
 #include "tests/folders.h"
 #include "tests/library/museum.h"

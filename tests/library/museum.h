@@ -3,10 +3,10 @@
 
 #include "app/library/import_stick.h"
 #include "app/library/library_folder.h"
-#include "app/pack/signature/signature/secret_key.h"
 #include "app/pack/container/sha256.h"
-#include "app/pack/sign_pack.h"
 #include "app/pack/container/zip_archive.h"
+#include "app/pack/sign_pack.h"
+#include "app/pack/signature/secret_key.h"
 #include "tests/library/volatile_disk.h"
 #include "tests/pack/samples.h"
 

@@ -1,5 +1,5 @@
 // Public keys as files in a folder.
-#include "app/pack/signature/signature/key_folder.h"
+#include "app/pack/signature/key_folder.h"
 #include "tests/signature/signature_testing.h"
 #include "tests/signature/vectors.h"
 

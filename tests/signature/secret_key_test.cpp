@@ -1,6 +1,6 @@
 // Secret keys: minisign's own, ours with and without a password, and damaged ones.
-#include "app/pack/signature/signature/minisign_text.h"
-#include "app/pack/signature/signature/secret_key.h"
+#include "app/pack/signature/minisign_text.h"
+#include "app/pack/signature/secret_key.h"
 #include "tests/pack/samples.h"
 #include "tests/signature/vectors.h"
 

@@ -1,5 +1,5 @@
 // Signatures that minisign made, right and altered in every way that there is; whom they are believed from.
-#include "app/pack/signature/signature/signature.h"
+#include "app/pack/signature/signature.h"
 #include "firmware_host/base/file.h"
 #include "tests/base/told.h"
 #include "tests/signature/signature_testing.h"

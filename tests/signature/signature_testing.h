@@ -1,8 +1,8 @@
 /// Signed packs and what is said of them.
 #pragma once
 
-#include "app/pack/signature/signature/secret_key.h"
 #include "app/pack/sign_pack.h"
+#include "app/pack/signature/secret_key.h"
 #include "app/pack/signed_pack.h"
 #include "tests/pack/samples.h"
 

@@ -1,4 +1,4 @@
-#include "app/calibration/procedure/procedure/auto_procedure.h"
+#include "app/calibration/procedure/auto_procedure.h"
 
 #include "app/geometry/rotation_angle.h"
 

@@ -11,13 +11,13 @@
 /// Threads  one caller. A step may take some tenths of a second: it looks for tags and decodes.
 #pragma once
 
-#include "app/calibration/procedure/procedure/board_view.h"
 #include "app/calibration/calibrate_auto.h"
-#include "app/calibration/procedure/procedure/capture_delay.h"
-#include "app/calibration/procedure/procedure/procedure.h"
-#include "app/calibration/procedure/procedure/rest_wish.h"
-#include "app/calibration/procedure/procedure/still_reports.h"
-#include "app/calibration/procedure/procedure/stripe_capture.h"
+#include "app/calibration/procedure/board_view.h"
+#include "app/calibration/procedure/capture_delay.h"
+#include "app/calibration/procedure/procedure.h"
+#include "app/calibration/procedure/rest_wish.h"
+#include "app/calibration/procedure/still_reports.h"
+#include "app/calibration/procedure/stripe_capture.h"
 
 #include <tl/expected.hpp>
 

@@ -1,4 +1,4 @@
-#include "app/calibration/procedure/procedure/board_view.h"
+#include "app/calibration/procedure/board_view.h"
 
 #include "app/calibration/quadrilateral.h"
 #include "app/calibration/tag_pixels.h"

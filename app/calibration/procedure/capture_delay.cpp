@@ -1,4 +1,4 @@
-#include "app/calibration/procedure/procedure/capture_delay.h"
+#include "app/calibration/procedure/capture_delay.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/calibration/procedure/procedure/eye_procedure.h"
+#include "app/calibration/procedure/eye_procedure.h"
 
 #include <algorithm>
 #include <array>

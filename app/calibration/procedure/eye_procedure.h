@@ -11,9 +11,9 @@
 #pragma once
 
 #include "app/calibration/eye_fit.h"
-#include "app/calibration/procedure/procedure/procedure.h"
-#include "app/calibration/procedure/procedure/sight_plan.h"
-#include "app/calibration/procedure/procedure/still_reports.h"
+#include "app/calibration/procedure/procedure.h"
+#include "app/calibration/procedure/sight_plan.h"
+#include "app/calibration/procedure/still_reports.h"
 #include "app/geometry/registration.h"
 
 #include <optional>

@@ -1,4 +1,4 @@
-#include "app/calibration/procedure/procedure/rest_posture.h"
+#include "app/calibration/procedure/rest_posture.h"
 
 #include "app/calibration/dense_solvers.h"
 #include "app/geometry/rotation_angle.h"

@@ -1,4 +1,4 @@
-#include "app/calibration/procedure/procedure/rest_wish.h"
+#include "app/calibration/procedure/rest_wish.h"
 
 #include <algorithm>
 #include <array>

@@ -4,8 +4,8 @@
 /// Threads  pure; any.
 #pragma once
 
+#include "app/calibration/procedure/rest_posture.h"
 #include "app/calibration/rest.h"
-#include "app/calibration/procedure/procedure/rest_posture.h"
 
 #include <span>
 

@@ -1,4 +1,4 @@
-#include "app/calibration/procedure/procedure/sight_plan.h"
+#include "app/calibration/procedure/sight_plan.h"
 
 #include "app/geometry/table_plane.h"
 

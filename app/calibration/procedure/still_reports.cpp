@@ -1,4 +1,4 @@
-#include "app/calibration/procedure/procedure/still_reports.h"
+#include "app/calibration/procedure/still_reports.h"
 
 #include "app/geometry/rotation_angle.h"
 

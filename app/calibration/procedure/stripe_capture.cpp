@@ -1,4 +1,4 @@
-#include "app/calibration/procedure/procedure/stripe_capture.h"
+#include "app/calibration/procedure/stripe_capture.h"
 
 #include <cassert>
 

@@ -1,4 +1,4 @@
-#include "app/calibration/procedure/procedure/touch_procedure.h"
+#include "app/calibration/procedure/touch_procedure.h"
 
 #include <algorithm>
 

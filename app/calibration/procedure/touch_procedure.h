@@ -12,8 +12,8 @@
 
 #include "app/calibration/calibrate_touch.h"
 #include "app/calibration/choose_crosses.h"
-#include "app/calibration/procedure/procedure/procedure.h"
-#include "app/calibration/procedure/procedure/still_reports.h"
+#include "app/calibration/procedure/procedure.h"
+#include "app/calibration/procedure/still_reports.h"
 
 #include <optional>
 #include <string>

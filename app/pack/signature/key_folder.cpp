@@ -1,4 +1,4 @@
-#include "app/pack/signature/signature/key_folder.h"
+#include "app/pack/signature/key_folder.h"
 
 #include "firmware_host/base/file.h"
 

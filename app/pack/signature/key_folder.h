@@ -4,7 +4,7 @@
 /// Errors   one sentence: no such folder, a file that is no public key, more than `most_trusted_keys`.
 #pragma once
 
-#include "app/pack/signature/signature/signature.h"
+#include "app/pack/signature/signature.h"
 #include "firmware_host/base/result.h"
 
 #include <filesystem>

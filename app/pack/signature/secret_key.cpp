@@ -1,6 +1,6 @@
-#include "app/pack/signature/signature/secret_key.h"
+#include "app/pack/signature/secret_key.h"
 
-#include "app/pack/signature/signature/minisign_text.h"
+#include "app/pack/signature/minisign_text.h"
 
 #include <fmt/format.h>
 

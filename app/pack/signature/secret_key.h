@@ -10,7 +10,7 @@
 /// Library  libsodium.
 #pragma once
 
-#include "app/pack/signature/signature/signature.h"
+#include "app/pack/signature/signature.h"
 #include "firmware_host/base/result.h"
 
 #include <array>

@@ -1,7 +1,7 @@
-#include "app/pack/signature/signature/signature.h"
+#include "app/pack/signature/signature.h"
 
 #include "app/pack/container/limits.h"
-#include "app/pack/signature/signature/minisign_text.h"
+#include "app/pack/signature/minisign_text.h"
 #include "firmware_host/base/calendar_day.h"
 #include "firmware_host/base/printable.h"
 

@@ -61,9 +61,9 @@ int bake_and_report(const BakeArguments& arguments) {
     }
     const Result<std::uint64_t> page_bytes = write_preview(*request, *done);
     if (!page_bytes) {
-        return status_of(
-            {page_bytes.error().kind, fmt::format("{} is written, and its preview is not: {}",
-                                                  done->file.string(), page_bytes.error().message)});
+        return status_of({page_bytes.error().kind, page_bytes.error().id,
+                          fmt::format("{} is written, and its preview is not: {}", done->file.string(),
+                                      page_bytes.error().message)});
     }
     done->page = request->preview;
     done->page_bytes = *page_bytes;

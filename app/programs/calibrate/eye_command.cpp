@@ -1,7 +1,7 @@
 #include "app/programs/calibrate/eye_command.h"
 
-#include "app/calibration/procedure/procedure/eye_procedure.h"
 #include "app/calibration/point_files.h"
+#include "app/calibration/procedure/eye_procedure.h"
 #include "app/programs/calibrate/eye_table.h"
 #include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/touch_command.h"

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "app/calibration/eye_fit.h"
-#include "app/calibration/procedure/procedure/sight_plan.h"
+#include "app/calibration/procedure/sight_plan.h"
 #include "app/programs/calibrate/calibrate_request.h"
 #include "app/programs/calibrate/calibration_way.h"
 #include "app/programs/calibrate/table_devices.h"

@@ -4,8 +4,7 @@
 /// Threads  the main one, with the display's context current.
 #pragma once
 
-#include "app/calibration/procedure/procedure/procedure.h"
-#include "app/typography/text_image.h"
+#include "app/calibration/procedure/procedure.h"
 #include "app/image/image.h"
 #include "app/pack/words_file.h"
 #include "app/programs/calibrate/calibrate_request.h"
@@ -13,6 +12,7 @@
 #include "app/render/picture_upload.h"
 #include "app/settings/settings.h"
 #include "app/show/inputs.h"
+#include "app/typography/text_image.h"
 #include "firmware_host/display/display.h"
 #include "firmware_host/service/service_manager.h"
 #include "firmware_host/service/stop_signals.h"

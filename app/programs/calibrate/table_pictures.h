@@ -10,14 +10,14 @@
 /// Threads  as Canvas.
 #pragma once
 
-#include "app/calibration/procedure/procedure/auto_procedure.h"
-#include "app/calibration/procedure/procedure/eye_procedure.h"
-#include "app/calibration/procedure/procedure/touch_procedure.h"
+#include "app/calibration/procedure/auto_procedure.h"
+#include "app/calibration/procedure/eye_procedure.h"
+#include "app/calibration/procedure/touch_procedure.h"
 #include "app/calibration/touch_up.h"
-#include "app/typography/text_image.h"
 #include "app/image/image.h"
 #include "app/pack/words_file.h"
 #include "app/programs/calibrate/table_words.h"
+#include "app/typography/text_image.h"
 
 namespace frustumscreen {
 

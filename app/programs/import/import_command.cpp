@@ -5,7 +5,7 @@
 #include "app/library/library_folder.h"
 #include "app/library/stick_settings.h"
 #include "app/library/trusted_keys.h"
-#include "app/pack/signature/signature/key_folder.h"
+#include "app/pack/signature/key_folder.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/import/import_watcher.h"
 #include "app/programs/import/listed_keys.h"

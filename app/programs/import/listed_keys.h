@@ -4,7 +4,7 @@
 #pragma once
 
 #include "app/library/set_file.h"
-#include "app/pack/signature/signature/signature.h"
+#include "app/pack/signature/signature.h"
 
 #include <nlohmann/json_fwd.hpp>
 

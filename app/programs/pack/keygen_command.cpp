@@ -1,6 +1,6 @@
 #include "app/programs/pack/keygen_command.h"
 
-#include "app/pack/signature/signature/secret_key.h"
+#include "app/pack/signature/secret_key.h"
 #include "app/programs/pack/password_prompt.h"
 
 #include <fcntl.h>

@@ -6,7 +6,7 @@
 
 #include "app/pack/pack_contents.h"
 #include "app/pack/pack_file.h"
-#include "app/pack/signature/signature/signature.h"
+#include "app/pack/signature/signature.h"
 #include "app/settings/settings.h"
 
 #include <nlohmann/json_fwd.hpp>

@@ -3,15 +3,15 @@
 #include "app/library/exhibit_file.h"
 #include "app/library/stick_settings.h"
 #include "app/pack/container/limits.h"
+#include "app/pack/container/zip_archive.h"
 #include "app/pack/manifest.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_magic.h"
 #include "app/pack/pack_reader.h"
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
-#include "app/pack/signature/signature/secret_key.h"
 #include "app/pack/sign_pack.h"
-#include "app/pack/container/zip_archive.h"
+#include "app/pack/signature/secret_key.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/pack/password_prompt.h"
 #include "app/settings/settings.h"
@@ -141,7 +141,10 @@ int sign_files(const SignRequest& request) {
         const Result<std::uint64_t> serial = sign_file(request, *key, file);
         if (!serial) {
             status = exit_status("frustumscreen-pack", tl::unexpected<Error>(serial.error()));
-            report.push_back({{"file", file}, {"signed", false}, {"id", serial.error().id.view()}, {"reason", serial.error().message}});
+            report.push_back({{"file", file},
+                              {"signed", false},
+                              {"id", serial.error().id.view()},
+                              {"reason", serial.error().message}});
             continue;
         }
         report.push_back({{"file", file}, {"signed", true}, {"key_id", id}, {"serial", *serial}});

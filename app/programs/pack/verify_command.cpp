@@ -1,10 +1,10 @@
 #include "app/programs/pack/verify_command.h"
 
-#include "app/pack/signature/signature/key_folder.h"
 #include "app/pack/container/limits.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
+#include "app/pack/signature/key_folder.h"
 #include "app/pack/signed_pack.h"
 #include "app/programs/common/guarded_main.h"
 #include "firmware_host/base/json.h"
@@ -103,8 +103,11 @@ int verify_packs(const VerifyRequest& request) {
         const Result<SoundPack> sound = check(file, *keys);
         if (!sound) {
             status = exit_status("frustumscreen-pack", tl::unexpected<Error>(sound.error()));
-            report.push_back(
-                {{"file", file}, {"sound", false}, {"signed", false}, {"id", sound.error().id.view()}, {"reason", sound.error().message}});
+            report.push_back({{"file", file},
+                              {"sound", false},
+                              {"signed", false},
+                              {"id", sound.error().id.view()},
+                              {"reason", sound.error().message}});
             continue;
         }
         report.push_back(report_of(file, *sound));
