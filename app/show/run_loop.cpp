@@ -1,11 +1,7 @@
 #include "app/show/run_loop.h"
 
 #include "app/render/probe.h"
-#include "app/render/read_back.h"
-#include "app/tracking/live_situation.h"
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include "app/show/device_intake.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,37 +17,11 @@ constexpr std::size_t most_rows = 1U << 20U;
 constexpr Nanoseconds between_statuses = std::chrono::seconds(1);
 constexpr Nanoseconds between_probes = std::chrono::seconds(1);
 
-/// Above it something is drawn: what is asleep draws nothing, and is silent.
+/// The smallest light that still draws; 0 means asleep.
 constexpr double least_light = 1e-6;
-
-std::optional<Command> command_of(const PanelEvent& event) {
-    switch (event.kind) {
-    case PressKind::Press:
-        return command_of_button(event.button);
-    case PressKind::Chord:
-        return Command::StaffMode;
-    default:
-        return std::nullopt;
-    }
-}
 
 std::string_view shown_artifact(const ShowState& state) {
     return state.state != State::Fault ? state.artifact : std::string_view{};
-}
-
-/// Empty: nothing.
-std::string camera_uses(const Inputs& inputs) {
-    std::vector<std::string_view> uses;
-    if (inputs.tags) {
-        uses.emplace_back("the prop's tags");
-    }
-    if (inputs.visitor) {
-        uses.emplace_back("the visitor's eye");
-    }
-    if (inputs.drift) {
-        uses.emplace_back("the picture's place");
-    }
-    return fmt::format("{}", fmt::join(uses, ", "));
 }
 
 double milliseconds_since(MonotonicTime start) {
@@ -65,24 +35,15 @@ public:
         : display_(display), inputs_(inputs), show_(show), options_(options), status_file_(status_file),
           watch_(watch), hours_(options.fast || !show.sleeps() ? nullptr : options.hours), start_(start),
           period_(static_cast<Nanoseconds::rep>(std::llround(1e9 / settings.projector.refresh_hz))),
-          head_is_followed_(settings.eye.tracked), looks_for_drift_(settings.camera.drift),
           light_delay_(Nanoseconds(std::llround(1e6 * settings.tracker.display_latency_ms))),
-          situation_(settings.eye.default_m, 0.5 * settings.prop.height_m), times_(window_frames),
-          presented_(start), artifact_since_(start) {
+          intake_(settings, inputs), stills_(options.stills, options.length, start, display),
+          times_(window_frames), presented_(start), artifact_since_(start) {
         result_.status.calibrates = static_cast<bool>(options.calibrate);
         result_.status.camera_for = camera_uses(inputs);
-        samples_.reserve(1024);
-        tag_poses_.reserve(64);
-        heads_.reserve(64);
-        events_.reserve(64);
-        commands_.reserve(64);
         if (options.keep_rows && options.length) {
             rows_expected_ =
                 std::min<std::size_t>(most_rows, static_cast<std::size_t>(*options.length / period_) + 2);
             result_.rows.reserve(rows_expected_);
-        }
-        for (int k = 0; k < options.stills; ++k) {
-            result_.stills.push_back({Image8(display.width(), display.height()), {}, {}});
         }
     }
 
@@ -104,10 +65,10 @@ public:
             now = next_display_time(now);
         }
         post_status(now);
-        if (stills_taken_ == 0 && options_.stills > 0 && result_.status.frames > 0 && !shows_camera_) {
-            keep_still(now); // a short run leaves its last picture
+        if (stills_.lacks_all() && result_.status.frames > 0 && !shows_camera_) {
+            stills_.keep(now, shown_); // a short run leaves its last picture
         }
-        result_.stills.resize(stills_taken_);
+        result_.stills = std::move(stills_).finish();
         return std::move(result_);
     }
 
@@ -115,56 +76,84 @@ private:
     [[nodiscard]] Result<void> frame(MonotonicTime now) {
         const MonotonicTime begin = monotonic_now();
         watch_.enters("asks its devices");
-        poll(now);
+        intake_.poll(now);
         follow_hours(now);
         follow_viewfinder(now);
         watch_.enters("draws");
-        situation_.tracker_is(tracker_health());
-        Situation situation = situation_.at(now + light_delay_.from_now());
-        situation.prop_known = situation.prop_known || (!inputs_.tracker && !inputs_.tags);
-        // Visitors do not meet the tracker while the tags stand in for it.
-        situation.tracker = situation.by_tags ? TrackerHealth::Well : tracker_health();
+        const Situation situation = intake_.situation_at(now + light_delay_.from_now());
         show_.set_mark(mark(now));
-        show_.step(now, commands_, situation);
+        const std::vector<Command>& commands = intake_.commands();
+        show_.step(now, commands, situation);
         if (inputs_.sound) {
             const SoundReport heard = inputs_.sound->poll(now, show_.wish());
             show_.hear(heard);
             result_.status.sound_underruns = heard.underruns;
         }
-        if (std::find(commands_.begin(), commands_.end(), Command::StaffMode) != commands_.end()) {
+        if (std::find(commands.begin(), commands.end(), Command::StaffMode) != commands.end()) {
             renew_status(now);
             show_.tell(result_.status);
         }
         if (asleep_) {
             return sleep(now, situation, begin);
         }
+        TRY(const Drawn drawn, draw(now, situation));
+        const double ms = milliseconds_since(begin);
+        watch_.enters("reports its status");
+        if (drawn.presented) {
+            watch_.presented(now, display_, drawn.coded);
+        }
+        watch_.look(now, display_, inputs_);
+        count(drawn.presented, drawn.changed, now, ms);
+        result_.status.prop_known = situation.prop_known;
+        result_.status.head_known = situation.head_known;
+        const ShowState state = show_.state();
+        follow_state(now, state);
+        if (result_.rows.size() < rows_expected_) {
+            result_.rows.push_back({to_microseconds(MonotonicTime(now - start_)), static_cast<float>(ms),
+                                    state.levels.error, drawn.changed, state.artifact, state.levels.level,
+                                    name_of(state.state), state.language, state.told});
+        }
+        shown_ = situation;
+        shown_.table_from_prop = state.stands.value_or(situation.table_from_prop);
+        if (options_.screenshot != nullptr && !shows_camera_) { // a screenshot may become a file
+            watch_.enters("reads its picture back for the staff");
+            options_.screenshot->serve(display_);
+        }
+        watch_.enters("rests until the next display time");
+        if (!shows_camera_) {
+            stills_.take(now, shown_, state.settled);
+        }
+        return {};
+    }
+
+    struct Drawn {
+        bool presented = false;
+        bool changed = false; ///< the picture is another one than before
+        bool coded = false;   ///< it has its code for the watchdog
+    };
+    /// Draws what changed, or the same picture again where none was presented for a second.
+    [[nodiscard]] Result<Drawn> draw(MonotonicTime now, const Situation& situation) {
         const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
         const bool probe =
             options_.redraw == Redraw::Changes && (now - presented_ >= between_probes || !watch_.ready());
         const DrawResult drawn = show_.draw(now, situation, target, probe ? Redraw::Again : options_.redraw);
-        bool coded = false;
-        if (drawn.drawn) {
-            coded = write_probe(target.framebuffer, ++probe_code_, drawn.lit);
-            for (const PixelRectangle& part : {drawn.redrawn, PixelRectangle{0, 0, probe_pixels, 1}}) {
-                display_.changed(part);
-            }
-            watch_.enters("waits for the display");
-            TRY(const MonotonicTime shown, display_.present(now));
-            light_delay_.flipped(now, shown);
-            presented_ = now;
-            result_.status.presented.code = coded ? std::optional(probe_code_) : std::nullopt;
+        if (!drawn.drawn) {
+            return Drawn{};
         }
-        const double ms = milliseconds_since(begin);
-        watch_.enters("reports its status");
-        if (drawn.drawn) {
-            watch_.presented(now, display_, coded);
+        const bool coded = write_probe(target.framebuffer, ++probe_code_, drawn.lit);
+        for (const PixelRectangle& part : {drawn.redrawn, PixelRectangle{0, 0, probe_pixels, 1}}) {
+            display_.changed(part);
         }
-        watch_.look(now, display_, inputs_);
-        const bool changed = drawn.drawn && !drawn.redrawn.empty();
-        count(drawn.drawn, changed, now, ms);
-        result_.status.prop_known = situation.prop_known;
-        result_.status.head_known = situation.head_known;
-        const ShowState state = show_.state();
+        watch_.enters("waits for the display");
+        TRY(const MonotonicTime shown, display_.present(now));
+        light_delay_.flipped(now, shown);
+        presented_ = now;
+        result_.status.presented.code = coded ? std::optional(probe_code_) : std::nullopt;
+        return Drawn{.presented = true, .changed = !drawn.redrawn.empty(), .coded = coded};
+    }
+
+    /// What the exhibit decided in this frame, for the next one and for the staff.
+    void follow_state(MonotonicTime now, const ShowState& state) {
         used_ = state.used;
         attracts_ = state.state == State::Attract;
         staff_ = state.state == State::Staff;
@@ -179,30 +168,16 @@ private:
         if (inputs_.panel) {
             inputs_.panel->light(state.lamps);
         }
-        if (result_.rows.size() < rows_expected_) {
-            result_.rows.push_back({to_microseconds(MonotonicTime(now - start_)), static_cast<float>(ms),
-                                    state.levels.error, changed, state.artifact, state.levels.level,
-                                    name_of(state.state), state.language, state.told});
-        }
-        shown_ = situation;
-        shown_.table_from_prop = state.stands.value_or(situation.table_from_prop);
         result_.status.presented.settled = state.settled;
-        if (options_.screenshot != nullptr && !shows_camera_) { // a screenshot may become a file
-            watch_.enters("reads its picture back for the staff");
-            options_.screenshot->serve(display_);
-        }
-        watch_.enters("rests until the next display time");
-        take_still(now, state);
-        return {};
     }
 
-    /// Marks of light are for nobody's eyes but the camera's.
+    /// The drift marks are shown only while no visitor is present.
     [[nodiscard]] std::optional<ShownMark> mark(MonotonicTime now) {
         if (!inputs_.drift) {
             return std::nullopt;
         }
         const bool is_seen = !inputs_.camera || health_of(inputs_.camera->state()) == CameraHealth::Well;
-        return inputs_.drift->step(now, attracts_ && !asleep_ && commands_.empty() && is_seen);
+        return inputs_.drift->step(now, attracts_ && !asleep_ && intake_.commands().empty() && is_seen);
     }
 
     /// What the camera sees is for the staff alone, and only while they hold both of their buttons.
@@ -222,9 +197,10 @@ private:
             return;
         }
         const bool was_dark = hours_->asleep();
-        hours_->step(now, {std::chrono::system_clock::now(), !commands_.empty(), used_, watch_.ready()});
+        hours_->step(now,
+                     {std::chrono::system_clock::now(), !intake_.commands().empty(), used_, watch_.ready()});
         if (was_dark) {
-            commands_.clear();
+            intake_.drop_commands();
         }
         asleep_ = was_dark && hours_->asleep(); // the last picture before is drawn, and black
         show_.set_light(asleep_ ? 0.0 : std::max(hours_->light(), least_light));
@@ -260,70 +236,6 @@ private:
             status.missed_deadlines += ms > 1e3 * to_seconds(period_) ? 1 : 0;
             show_.record_time(now, ms);
         }
-    }
-
-    void poll(MonotonicTime now) {
-        samples_.clear();
-        tag_poses_.clear();
-        heads_.clear();
-        events_.clear();
-        commands_.clear();
-        if (inputs_.tracker) {
-            result_.status.device_errors += inputs_.tracker->poll(now, samples_) ? 0 : 1;
-        }
-        if (inputs_.panel) {
-            result_.status.device_errors += inputs_.panel->poll(now, events_) ? 0 : 1;
-        }
-        for (const PoseSample& sample : samples_) {
-            if (head_is_followed_ || sample.station != head_station) {
-                result_.status.device_errors += situation_.take(sample) ? 0 : 1;
-            }
-        }
-        if (inputs_.tags) {
-            inputs_.tags->poll(now, tag_poses_);
-        }
-        for (const UncertainPose& pose : tag_poses_) {
-            result_.status.device_errors += situation_.take_tags(pose) ? 0 : 1;
-        }
-        if (inputs_.visitor) {
-            inputs_.visitor->poll(now, heads_);
-        }
-        for (const SeenHead& head : heads_) {
-            result_.status.device_errors += situation_.take_visitor(head) ? 0 : 1;
-        }
-        for (const PanelEvent& event : events_) {
-            const std::optional<Command> command = command_of(event);
-            if (command) {
-                commands_.push_back(*command);
-            }
-        }
-    }
-
-    [[nodiscard]] TrackerHealth tracker_health() const {
-        return inputs_.tracker ? inputs_.tracker->health() : TrackerHealth::Well;
-    }
-
-    /// Keeps the picture at the middle of each part of the run, or soon after it if a fade goes on at that
-    /// time.
-    void take_still(MonotonicTime now, const ShowState& state) {
-        if (stills_taken_ >= result_.stills.size() || !options_.length || shows_camera_) {
-            return;
-        }
-        const auto part = *options_.length / (2 * static_cast<Nanoseconds::rep>(result_.stills.size()));
-        const auto number = static_cast<Nanoseconds::rep>(stills_taken_);
-        if (now - start_ < (2 * number + 1) * part ||
-            (!state.settled && now - start_ < (2 * number + 2) * part)) {
-            return;
-        }
-        keep_still(now);
-    }
-
-    void keep_still(MonotonicTime now) {
-        Still& still = result_.stills[stills_taken_++];
-        still.situation = shown_;
-        still.time = MonotonicTime(now - start_);
-        read_colour_into(display_.framebuffer(), still.picture);
-        erase_probe(still.picture); // the code is for a watchdog and no part of the picture
     }
 
     void post_status(MonotonicTime now) {
@@ -374,56 +286,11 @@ private:
         status.presented.eye_m = {shown_.eye_m.x, shown_.eye_m.y, shown_.eye_m.z};
         status.shown_code = watch_.shown_code();
         status.health = word_of(watch_.health());
-        status.tracker_counts = inputs_.tracker ? inputs_.tracker->counts() : TrackerCounts{};
         status.display = Sentence(display_.state());
         status.mode = options_.mode;
         status.settings = options_.settings;
-        status.tracker_hangs = inputs_.tracker && inputs_.tracker->hangs();
-        status.tracker = Sentence(inputs_.tracker ? inputs_.tracker->state() : std::string_view{});
-        renew_camera(status);
-        status.prop_by = shown_.by_tags ? "tags" : inputs_.tracker ? "tracker" : "";
-        status.eye_by = shown_.head_known ? "sensor" : shown_.head_seen ? "camera" : "settings";
-        status.eye_sd_m = status.eye_by == "camera" ? std::optional(shown_.eye_sd_m) : std::nullopt;
-        status.hand_overs = situation_.hand_overs();
-        status.panel = Sentence(inputs_.panel ? inputs_.panel->state() : std::string_view{});
-        status.sound = Sentence(inputs_.sound ? inputs_.sound->state() : std::string_view{});
         status.hour_of_day = local_hour();
-        status.recording = inputs_.recorder ? Sentence(inputs_.recorder->state()) : inputs_.why_not_recorded;
-    }
-
-    /// In one plain sentence; empty: there is none.
-    [[nodiscard]] std::string_view camera_state() const {
-        if (!inputs_.camera) {
-            return {};
-        }
-        const CameraState state = inputs_.camera->state();
-        if (health_of(state) == CameraHealth::Well && inputs_.tags && !inputs_.tags->trouble().empty()) {
-            return inputs_.tags->trouble();
-        }
-        if (health_of(state) == CameraHealth::Well && inputs_.visitor &&
-            !inputs_.visitor->trouble().empty()) {
-            return inputs_.visitor->trouble();
-        }
-        return sentence_of(state);
-    }
-
-    void renew_camera(RunStatus& status) {
-        status.camera = Sentence(camera_state());
-        status.camera_hz = inputs_.camera ? inputs_.camera->rate_hz() : 0.0;
-        if (inputs_.viewfinder && inputs_.camera) {
-            const std::optional<CameraSetUp> set_up = inputs_.camera->set_up();
-            status.camera_width = set_up ? set_up->mode.width : 0;
-            status.camera_height = set_up ? set_up->mode.height : 0;
-        }
-        if (inputs_.drift) {
-            const DriftVerdict& verdict = inputs_.drift->verdict();
-            status.drift = sentence_of(verdict);
-            status.drifted = verdict.state == DriftState::Moved;
-            status.drift_m = verdict.off_m;
-        } else if (looks_for_drift_) {
-            status.drift =
-                Sentence("no calibration is kept that marks could be held against; measure the table");
-        }
+        intake_.tell(shown_, status);
     }
 
     [[nodiscard]] bool told_to_stop() const {
@@ -459,25 +326,18 @@ private:
     bool shows_camera_ = false; ///< the staff hold their buttons and see what the camera sees
     MonotonicTime start_;
     Nanoseconds period_;
-    bool head_is_followed_;
-    bool looks_for_drift_;
     LightDelay light_delay_;
-    LiveSituation situation_;
+    DeviceIntake intake_;
+    StillTaker stills_;
     Situation shown_; ///< of the latest frame, as it was drawn
     RecentFrameTimes times_;
-    std::vector<PoseSample> samples_;
-    std::vector<UncertainPose> tag_poses_;
-    std::vector<SeenHead> heads_;
-    std::vector<PanelEvent> events_;
-    std::vector<Command> commands_; ///< of this frame
-    MonotonicTime presented_;       ///< when the picture on show was
-    Sentence artifact_;             ///< that is shown
+    MonotonicTime presented_; ///< when the picture on show was
+    Sentence artifact_;       ///< that is shown
     MonotonicTime artifact_since_;
     std::optional<MonotonicTime> fault_since_; ///< nothing can be shown
     std::optional<MonotonicTime> used_;        ///< when somebody used the exhibit last
     std::uint8_t probe_code_ = 0;
     std::size_t rows_expected_ = 0;
-    std::size_t stills_taken_ = 0;
     LoopResult result_;
 };
 

@@ -14,6 +14,7 @@
 #include "app/show/run_watch.h"
 #include "app/show/screenshot.h"
 #include "app/show/show.h"
+#include "app/show/still_taker.h"
 #include "app/tracking/situation.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/display/display.h"
@@ -42,12 +43,6 @@ struct LoopOptions {
     std::function<bool()> ends = {};      ///< asked in each frame: yes ends it too
     std::function<void()> calibrate = {}; ///< the staff ask for the table's calibration; none: they cannot
     RunHours* hours = nullptr; ///< by which it sleeps; none: never, like a fast run and an alignment pattern
-};
-
-struct Still {
-    Image8 picture;
-    Situation situation;
-    MonotonicTime time;
 };
 
 struct LoopResult {

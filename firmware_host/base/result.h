@@ -32,14 +32,14 @@ enum class ErrorKind {
 /// `subject.problem`, in small letters, digits and `_`; written as a literal beside its sentence, and checked when it is compiled.
 class MessageId {
 public:
-    // NOLINTNEXTLINE(google-explicit-constructor): a literal is an id wherever one is asked for
+    /// Implicit: a literal is an id wherever one is asked for.
     consteval MessageId(const char* id) : id_(id) {
         if (!is_well_formed(id_)) {
             throw "a message's id is subject.problem, in small letters, digits and _"; // ends the compilation
         }
     }
     [[nodiscard]] constexpr std::string_view view() const { return id_; }
-    constexpr operator std::string_view() const { return id_; } // NOLINT(google-explicit-constructor): to be printed
+    constexpr operator std::string_view() const { return id_; }
     friend constexpr bool operator==(const MessageId& id, std::string_view other) { return id.id_ == other; }
 
 private:

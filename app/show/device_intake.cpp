@@ -1,0 +1,153 @@
+#include "app/show/device_intake.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace frustumscreen {
+
+namespace {
+
+std::optional<Command> command_of(const PanelEvent& event) {
+    switch (event.kind) {
+    case PressKind::Press:
+        return command_of_button(event.button);
+    case PressKind::Chord:
+        return Command::StaffMode;
+    default:
+        return std::nullopt;
+    }
+}
+
+/// In one plain sentence; empty: there is none.
+std::string_view camera_state(const Inputs& inputs) {
+    if (!inputs.camera) {
+        return {};
+    }
+    const CameraState state = inputs.camera->state();
+    const bool is_well = health_of(state) == CameraHealth::Well;
+    if (is_well && inputs.tags && !inputs.tags->trouble().empty()) {
+        return inputs.tags->trouble();
+    }
+    if (is_well && inputs.visitor && !inputs.visitor->trouble().empty()) {
+        return inputs.visitor->trouble();
+    }
+    return sentence_of(state);
+}
+
+} // namespace
+
+std::string camera_uses(const Inputs& inputs) {
+    std::vector<std::string_view> uses;
+    if (inputs.tags) {
+        uses.emplace_back("the prop's tags");
+    }
+    if (inputs.visitor) {
+        uses.emplace_back("the visitor's eye");
+    }
+    if (inputs.drift) {
+        uses.emplace_back("the picture's place");
+    }
+    return fmt::format("{}", fmt::join(uses, ", "));
+}
+
+DeviceIntake::DeviceIntake(const Settings& settings, Inputs& inputs)
+    : inputs_(inputs), head_is_followed_(settings.eye.tracked), looks_for_drift_(settings.camera.drift),
+      situation_(settings.eye.default_m, 0.5 * settings.prop.height_m) {
+    samples_.reserve(1024);
+    tag_poses_.reserve(64);
+    heads_.reserve(64);
+    events_.reserve(64);
+    commands_.reserve(64);
+}
+
+void DeviceIntake::poll(MonotonicTime now) {
+    take_poses(now);
+    events_.clear();
+    commands_.clear();
+    if (inputs_.panel) {
+        errors_ += inputs_.panel->poll(now, events_) ? 0 : 1;
+    }
+    for (const PanelEvent& event : events_) {
+        if (const std::optional<Command> command = command_of(event)) {
+            commands_.push_back(*command);
+        }
+    }
+}
+
+void DeviceIntake::take_poses(MonotonicTime now) {
+    samples_.clear();
+    tag_poses_.clear();
+    heads_.clear();
+    if (inputs_.tracker) {
+        errors_ += inputs_.tracker->poll(now, samples_) ? 0 : 1;
+    }
+    if (inputs_.tags) {
+        inputs_.tags->poll(now, tag_poses_);
+    }
+    if (inputs_.visitor) {
+        inputs_.visitor->poll(now, heads_);
+    }
+    for (const PoseSample& sample : samples_) {
+        if (head_is_followed_ || sample.station != head_station) {
+            errors_ += situation_.take(sample) ? 0 : 1;
+        }
+    }
+    for (const UncertainPose& pose : tag_poses_) {
+        errors_ += situation_.take_tags(pose) ? 0 : 1;
+    }
+    for (const SeenHead& head : heads_) {
+        errors_ += situation_.take_visitor(head) ? 0 : 1;
+    }
+}
+
+TrackerHealth DeviceIntake::tracker_health() const {
+    return inputs_.tracker ? inputs_.tracker->health() : TrackerHealth::Well;
+}
+
+Situation DeviceIntake::situation_at(MonotonicTime lit) {
+    situation_.tracker_is(tracker_health());
+    Situation situation = situation_.at(lit);
+    situation.prop_known = situation.prop_known || (!inputs_.tracker && !inputs_.tags);
+    // Visitors do not meet the tracker while the tags stand in for it.
+    situation.tracker = situation.by_tags ? TrackerHealth::Well : tracker_health();
+    return situation;
+}
+
+void DeviceIntake::tell(const Situation& shown, RunStatus& status) const {
+    status.device_errors = errors_;
+    status.tracker_counts = inputs_.tracker ? inputs_.tracker->counts() : TrackerCounts{};
+    status.tracker_hangs = inputs_.tracker && inputs_.tracker->hangs();
+    status.tracker = Sentence(inputs_.tracker ? inputs_.tracker->state() : std::string_view{});
+    status.prop_by = shown.by_tags ? "tags" : inputs_.tracker ? "tracker" : "";
+    status.eye_by = shown.head_known ? "sensor" : shown.head_seen ? "camera" : "settings";
+    status.eye_sd_m = status.eye_by == "camera" ? std::optional(shown.eye_sd_m) : std::nullopt;
+    status.hand_overs = situation_.hand_overs();
+    status.panel = Sentence(inputs_.panel ? inputs_.panel->state() : std::string_view{});
+    status.sound = Sentence(inputs_.sound ? inputs_.sound->state() : std::string_view{});
+    status.recording = inputs_.recorder ? Sentence(inputs_.recorder->state()) : inputs_.why_not_recorded;
+    tell_of_camera(status);
+}
+
+void DeviceIntake::tell_of_camera(RunStatus& status) const {
+    status.camera = Sentence(camera_state(inputs_));
+    status.camera_hz = inputs_.camera ? inputs_.camera->rate_hz() : 0.0;
+    if (inputs_.viewfinder && inputs_.camera) {
+        const std::optional<CameraSetUp> set_up = inputs_.camera->set_up();
+        status.camera_width = set_up ? set_up->mode.width : 0;
+        status.camera_height = set_up ? set_up->mode.height : 0;
+    }
+    if (inputs_.drift) {
+        const DriftVerdict& verdict = inputs_.drift->verdict();
+        status.drift = sentence_of(verdict);
+        status.drifted = verdict.state == DriftState::Moved;
+        status.drift_m = verdict.off_m;
+    } else if (looks_for_drift_) {
+        status.drift = Sentence("no calibration is kept that marks could be held against; measure the table");
+    }
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,56 @@
+/// What the devices of a run say, frame by frame: poses and heads become the situation, presses become commands.
+///
+/// Frames   table T, metres.
+/// Time     `now` never goes back.
+/// Threads  the render thread. `poll` and `situation_at` allocate nothing.
+/// Errors   a device that fails is counted, and asked again in the next frame.
+#pragma once
+
+#include "app/exhibit/exhibit.h"
+#include "app/settings/settings.h"
+#include "app/show/inputs.h"
+#include "app/show/run_report.h"
+#include "app/tracking/live_situation.h"
+#include "app/tracking/situation.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// What the camera is used for, in words; empty: nothing.
+[[nodiscard]] std::string camera_uses(const Inputs& inputs);
+
+class DeviceIntake {
+public:
+    DeviceIntake(const Settings& settings, Inputs& inputs);
+
+    /// Asks every device once.
+    void poll(MonotonicTime now);
+    /// What was pressed in this frame.
+    [[nodiscard]] const std::vector<Command>& commands() const { return commands_; }
+    void drop_commands() { commands_.clear(); }
+    /// Prop, eye and tracker at the time at which the picture is lit.
+    [[nodiscard]] Situation situation_at(MonotonicTime lit);
+    /// The devices' part of the status. `shown`: the situation of the latest picture.
+    void tell(const Situation& shown, RunStatus& status) const;
+
+private:
+    void take_poses(MonotonicTime now);
+    [[nodiscard]] TrackerHealth tracker_health() const;
+    void tell_of_camera(RunStatus& status) const;
+
+    Inputs& inputs_;
+    bool head_is_followed_;
+    bool looks_for_drift_;
+    LiveSituation situation_;
+    std::uint64_t errors_ = 0;
+    std::vector<PoseSample> samples_; ///< these four: of this frame
+    std::vector<UncertainPose> tag_poses_;
+    std::vector<SeenHead> heads_;
+    std::vector<PanelEvent> events_;
+    std::vector<Command> commands_;
+};
+
+} // namespace frustumscreen
