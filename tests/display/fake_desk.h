@@ -76,7 +76,7 @@ public:
         for (std::optional<DumbBuffer>& buffer : pair->buffers_) {
             buffer = DumbBuffer::create(card, size);
             if (!buffer || !buffer->map()) {
-                return fail(ErrorKind::BadConfiguration, "the graphics card has no memory");
+                return fail(ErrorKind::BadConfiguration, "test.device", "the graphics card has no memory");
             }
         }
         return pair;

@@ -198,7 +198,7 @@ struct FakeMemory {
     MakeScanout maker() {
         return [this](PixelSize size) -> Result<std::unique_ptr<ScanoutPair>> {
             if (none_left) {
-                return fail(ErrorKind::BadConfiguration, "no memory");
+                return fail(ErrorKind::BadConfiguration, "test.device", "no memory");
             }
             return std::make_unique<Pair>(*this, size, ++pairs);
         };

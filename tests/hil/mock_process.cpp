@@ -76,14 +76,14 @@ public:
         const ssize_t count =
             ::recv(connection_.get(), buffer.data(), buffer.size(), reports_ ? MSG_WAITALL : 0);
         if (count <= 0) {
-            return fail(ErrorKind::DeviceLost, "the mock has closed the socket");
+            return fail(ErrorKind::DeviceLost, "test.device", "the mock has closed the socket");
         }
         return static_cast<std::size_t>(count);
     }
     [[nodiscard]] Result<void> write(std::span<const std::byte> bytes, Nanoseconds /*timeout*/) override {
         const ssize_t count = ::send(connection_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
         if (count != static_cast<ssize_t>(bytes.size())) {
-            return fail(ErrorKind::DeviceLost, "the mock has closed the socket");
+            return fail(ErrorKind::DeviceLost, "test.device", "the mock has closed the socket");
         }
         return {};
     }

@@ -50,7 +50,7 @@ TEST(ChosenLevels, are_chosen_from_the_whole_outline) {
     EXPECT_EQ(seen, pack.levels.size());
     const Result<VerifiedPack> refused =
         verify_pack(samples::bytes_of(pack), [](const PackOutline&) -> Result<std::vector<std::uint32_t>> {
-            return bad_input("none of them");
+            return bad_input("test.refusal", "none of them");
         });
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().message, "none of them");

@@ -30,7 +30,7 @@ public:
     explicit FakeLines(FakeChip& chip) : chip_(chip) {}
     [[nodiscard]] Result<void> read(std::span<bool> down) override {
         if (!chip_.plugged) {
-            return fail(ErrorKind::DeviceLost, "unplugged");
+            return fail(ErrorKind::DeviceLost, "test.device", "unplugged");
         }
         for (std::size_t k = 0; k < down.size(); ++k) {
             down[k] = chip_.down.at(k);
@@ -57,7 +57,7 @@ private:
 OpenLines opener(FakeChip& chip) {
     return [&chip]() -> Result<std::unique_ptr<ButtonLines>> {
         if (!chip.plugged) {
-            return fail(ErrorKind::DeviceLost, "not there");
+            return fail(ErrorKind::DeviceLost, "test.device", "not there");
         }
         ++chip.opened;
         return std::make_unique<FakeLines>(chip);

@@ -141,7 +141,7 @@ struct PipeKeyboard {
 
     [[nodiscard]] Result<std::unique_ptr<ButtonLines>> open() {
         if (::pipe(ends.data()) != 0) {
-            return fail(ErrorKind::DeviceLost, "no pipe");
+            return fail(ErrorKind::DeviceLost, "test.device", "no pipe");
         }
         return key_lines_over(ends[0], "pipe", {left, right});
     }

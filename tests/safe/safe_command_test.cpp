@@ -46,7 +46,8 @@ protected:
         const ProgramEnd end = run(std::move(arguments));
         EXPECT_EQ(end.status, 0) << end.complaint;
         const Result<Bytes> bytes = read_file(png);
-        const Result<Image8> read = bytes ? decode_png8(*bytes) : bad_input("nothing was written");
+        const Result<Image8> read =
+            bytes ? decode_png8(*bytes) : bad_input("test.refusal", "nothing was written");
         EXPECT_TRUE(read);
         return read.value_or(Image8(1, 1));
     }

@@ -42,7 +42,7 @@ protected:
                     return Bytes(std::size_t{8} << 20, std::byte{7});
                 }
                 return question == "hello" ? Result<Bytes>(Bytes{std::byte{42}})
-                                           : bad_input("no\nsuch question");
+                                           : bad_input("test.refusal", "no\nsuch question");
             });
         ASSERT_TRUE(opened) << opened.error().message;
         server = std::move(*opened);

@@ -30,7 +30,7 @@ std::unique_ptr<ArtifactReader::Answer> await(ArtifactReader& reader) {
 }
 
 Result<ArtifactReader::Prepared> numbered(std::size_t artifact) {
-    return bad_input(std::to_string(artifact)); // the answer that is made quickest
+    return bad_input("test.refusal", std::to_string(artifact)); // the answer that is made quickest
 }
 
 TEST(ArtifactReader, AnswersWhatIsAskedFor) {

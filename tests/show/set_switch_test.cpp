@@ -351,7 +351,7 @@ TEST_F(SetSwitching, AStartAtWhichNothingCanBeShownCondemnsNoSet) {
     InstalledShow none =
         show_installed_set(settings, options, Trust::Newest,
                            [](const ArtifactShowOptions&) -> Result<std::unique_ptr<ArtifactShow>> {
-                               return fail(ErrorKind::DeviceLost, "the driver has no memory");
+                               return fail(ErrorKind::DeviceLost, "test.device", "the driver has no memory");
                            });
     EXPECT_FALSE(none.show);
     EXPECT_EQ(verdict(), (SetVerdict{2, TrialState::Trying, 1, ""}));

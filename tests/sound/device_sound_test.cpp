@@ -43,13 +43,13 @@ public:
 
     [[nodiscard]] Result<std::size_t> room() override {
         if (fails()) {
-            return fail(ErrorKind::DeviceLost, "unplugged");
+            return fail(ErrorKind::DeviceLost, "test.device", "unplugged");
         }
         return capacity - queued();
     }
     [[nodiscard]] Result<void> write(std::span<const std::int16_t> samples) override {
         if (fails()) {
-            return fail(ErrorKind::DeviceLost, "unplugged");
+            return fail(ErrorKind::DeviceLost, "test.device", "unplugged");
         }
         EXPECT_LE(samples.size(), capacity - queued());
         const std::lock_guard lock(card_.mutex);
@@ -79,7 +79,7 @@ private:
 OpenPcm opener(FakeCard& card) {
     return [&card]() -> Result<std::unique_ptr<PcmDevice>> {
         if (!card.plugged) {
-            return fail(ErrorKind::DeviceLost, "not there");
+            return fail(ErrorKind::DeviceLost, "test.device", "not there");
         }
         ++card.opened;
         return std::make_unique<FakePcm>(card);
@@ -192,7 +192,7 @@ TEST(DeviceSound, ADeviceThatTakesLongToSayNoIsAskedSeldom) {
     DeviceSound sound([&asked]() -> Result<std::unique_ptr<PcmDevice>> {
         ++asked;
         std::this_thread::sleep_for(takes);
-        return fail(ErrorKind::DeviceLost, "not there");
+        return fail(ErrorKind::DeviceLost, "test.device", "not there");
     });
     SoundWish wish;
     wish.say(level(60 * 48'000, 1));
@@ -267,7 +267,9 @@ TEST(DeviceSound, WishesAndLossesInAnyOrderLeaveNoPromptStuck) {
     FakeCard card;
     card.fails_every = 7;
     DeviceSound sound([&card, open = opener(card)]() -> Result<std::unique_ptr<PcmDevice>> {
-        return card.opened % 3 == 1 && card.opened++ > 0 ? fail(ErrorKind::DeviceLost, "not now") : open();
+        return card.opened % 3 == 1 && card.opened++ > 0
+                   ? fail(ErrorKind::DeviceLost, "test.device", "not now")
+                   : open();
     });
     SoundWish wish;
     std::mt19937 random(32);

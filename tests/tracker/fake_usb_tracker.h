@@ -230,7 +230,7 @@ public:
     explicit FakeTransport(FakeUsbTracker& device) : device_(device) {}
     [[nodiscard]] Result<std::size_t> read(std::span<std::byte> buffer, Nanoseconds timeout) override {
         if (gone()) {
-            return fail(ErrorKind::DeviceLost, "unplugged");
+            return fail(ErrorKind::DeviceLost, "test.device", "unplugged");
         }
         device_.run();
         if (device_.to_host.empty()) {
@@ -248,7 +248,7 @@ public:
     }
     [[nodiscard]] Result<void> write(std::span<const std::byte> bytes, Nanoseconds) override {
         if (gone()) {
-            return fail(ErrorKind::DeviceLost, "unplugged");
+            return fail(ErrorKind::DeviceLost, "test.device", "unplugged");
         }
         device_.now += std::chrono::microseconds(100);
         device_.run();

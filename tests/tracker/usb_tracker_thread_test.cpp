@@ -16,7 +16,7 @@ public:
     [[nodiscard]] Result<std::size_t> read(std::span<std::byte> buffer, Nanoseconds) override {
         std::this_thread::sleep_for(std::chrono::microseconds(100));
         if (engine_() % 2000 == 0) {
-            return fail(ErrorKind::DeviceLost, "unplugged");
+            return fail(ErrorKind::DeviceLost, "test.device", "unplugged");
         }
         wire::Wire bytes = std::exchange(reply_, {});
         if (bytes.empty() && streaming_) {

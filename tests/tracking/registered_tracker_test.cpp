@@ -18,7 +18,7 @@ public:
         samples.push_back(sample);
         sample.ok = false;
         samples.push_back(sample);
-        return fail(ErrorKind::DeviceLost, "the cable was cut after these");
+        return fail(ErrorKind::DeviceLost, "test.device", "the cable was cut after these");
     }
     [[nodiscard]] std::string name() const override { return "fake"; }
     [[nodiscard]] bool reports_table_frame() const override { return table_frame_; }

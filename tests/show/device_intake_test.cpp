@@ -1,0 +1,91 @@
+#include "app/show/device_intake.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <utility>
+
+namespace frustumscreen {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// Answers each poll with these samples, and with an error every other time.
+class FalteringTracker final : public Tracker {
+public:
+    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override {
+        PoseSample sample;
+        sample.time = now;
+        sample.position_m = {0.1, 0.2, 0.0};
+        samples.push_back(sample);
+        sample.station = head_station;
+        sample.position_m = {0.0, -0.5, 0.6};
+        samples.push_back(sample);
+        return ++polls_ % 2 == 0 ? fail(ErrorKind::DeviceLost, "test.device", "unplugged") : Result<void>();
+    }
+    [[nodiscard]] std::string name() const override { return "faltering"; }
+    [[nodiscard]] bool reports_table_frame() const override { return true; }
+
+private:
+    int polls_ = 0;
+};
+
+class OnePress final : public Panel {
+public:
+    [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PanelEvent>& events) override {
+        if (std::exchange(left_, false)) {
+            events.push_back({now, 1, PressKind::Press});
+            events.push_back({now, 1, PressKind::LongPress});
+            events.push_back({now, 0, PressKind::Chord});
+        }
+        return {};
+    }
+    [[nodiscard]] std::string name() const override { return "one press"; }
+
+private:
+    bool left_ = true;
+};
+
+TEST(DeviceIntake, APressAndAChordAreCommandsOfOneFrame) {
+    Inputs inputs;
+    inputs.panel = std::make_unique<OnePress>();
+    DeviceIntake intake(Settings{}, inputs);
+    intake.poll(MonotonicTime{});
+    EXPECT_EQ(intake.commands(), (std::vector{Command::NextArtifact, Command::StaffMode}));
+    intake.poll(MonotonicTime{} + milliseconds(16));
+    EXPECT_TRUE(intake.commands().empty());
+}
+
+TEST(DeviceIntake, WithoutATrackerThePropStandsWhereItIs) {
+    Inputs inputs;
+    DeviceIntake intake(Settings{}, inputs);
+    intake.poll(MonotonicTime{});
+    EXPECT_TRUE(intake.situation_at(MonotonicTime{}).prop_known);
+}
+
+TEST(DeviceIntake, AnErrorIsCountedAndTheSamplesBeforeItAreTaken) {
+    for (const bool followed : {true, false}) {
+        Settings settings;
+        settings.eye.tracked = followed;
+        Inputs inputs;
+        inputs.tracker =
+            std::make_unique<RegisteredTracker>(std::make_unique<FalteringTracker>(), Registration{});
+        DeviceIntake intake(settings, inputs);
+        MonotonicTime now{};
+        for (int k = 0; k < 60; ++k, now += milliseconds(16)) {
+            intake.poll(now);
+        }
+        const Situation situation = intake.situation_at(now);
+        EXPECT_NEAR(situation.table_from_prop.translation.x, 0.1, 1e-6);
+        EXPECT_EQ(situation.head_known, followed) << "a fixed viewer's head is not asked for";
+        RunStatus status;
+        intake.tell(situation, status);
+        EXPECT_EQ(status.device_errors, 30U);
+        EXPECT_EQ(status.prop_by, "tracker");
+        EXPECT_EQ(status.eye_by, followed ? "sensor" : "settings");
+    }
+}
+
+} // namespace
+} // namespace frustumscreen
