@@ -3,8 +3,10 @@
 /// Threads  a value.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -12,6 +14,9 @@ struct PackLeftOut {
     std::string pack;
     std::string reason;
 };
+
+/// It never changes.
+using PacksLeftOut = std::shared_ptr<const std::vector<PackLeftOut>>;
 
 /// The reason without the pack's name, with which an error's message begins.
 [[nodiscard]] inline PackLeftOut pack_left_out(const std::string& pack, std::string_view message) {

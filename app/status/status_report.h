@@ -49,9 +49,6 @@ struct PresentedPicture {
     bool settled = false; ///< nothing in it fades
 };
 
-/// It never changes.
-using PacksLeftOut = std::shared_ptr<const std::vector<PackLeftOut>>;
-
 /// What the timetable says, and whether the exhibit follows it (app/show/run_hours.h).
 struct HoursStatus {
     std::string state{"always"};                   ///< always, open, closed, clock_wrong
