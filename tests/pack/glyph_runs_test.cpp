@@ -119,6 +119,6 @@ TEST(GlyphRuns, the_atlas_must_be_theirs) {
     const Result<DistanceAtlas> coloured =
         decode_distance_atlas(encode_webp(Image8(32, 36, {1, 2, 3, 255})), runs);
     ASSERT_FALSE(coloured);
-    EXPECT_EQ(coloured.error().message, "it is not grey; distances are");
+    EXPECT_EQ(coloured.error().id, "glyphs.picture_not_grey");
     EXPECT_FALSE(decode_distance_atlas({}, runs));
 }

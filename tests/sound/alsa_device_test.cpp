@@ -200,9 +200,9 @@ TEST_F(AlsaDevice, ADeviceThatIsNotThereIsSaidInOneSentence) {
     const Result<std::unique_ptr<PcmDevice>> device = open_alsa("no_such_device");
     ASSERT_FALSE(device);
     EXPECT_EQ(device.error().kind, ErrorKind::DeviceLost);
-    EXPECT_EQ(device.error().message,
-              "sound device no_such_device: it is not there; is it plugged in, and its driver loaded? 'aplay "
-              "-L' lists the names");
+    EXPECT_EQ(device.error().id, "sound.device");
+    EXPECT_EQ(device.error().message.find("sound device no_such_device: it is not there"), 0U)
+        << device.error().message;
 }
 
 } // namespace

@@ -107,6 +107,5 @@ TEST(WordsFile, another_format_is_told_apart) {
     ASSERT_TRUE(file);
     const Result<std::vector<WordsLanguage>> list = list_words(*file);
     ASSERT_FALSE(list);
-    EXPECT_EQ(list.error().message,
-              "this is not a file of the exhibit's words (its manifest names another format)");
+    EXPECT_EQ(list.error().id, "words.not_words");
 }

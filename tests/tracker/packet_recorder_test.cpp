@@ -129,7 +129,7 @@ TEST_F(RecorderTest, AFullDiskEndsTheRecordingWithOneSentenceAndHoldsUpNobody) {
     }
     const Result<void> finished = recorder.finish();
     ASSERT_FALSE(finished);
-    EXPECT_EQ(finished.error().message, "stick/a: the disk is full");
+    EXPECT_EQ(finished.error().id, "file.disk_full") << finished.error().message;
 }
 
 /// A pipe stands for a disk: it hangs until somebody reads it.
