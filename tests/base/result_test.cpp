@@ -1,5 +1,6 @@
 // TRY gives the value of a result; TRY_VOID drops it. Both return from the function with its error.
 #include "firmware_host/base/result.h"
+#include "tests/base/told.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,7 @@
 namespace frustumscreen {
 namespace {
 
-const Error torn{ErrorKind::DeviceLost, "cable: torn; put in another"};
+const Error torn{ErrorKind::DeviceLost, "cable.torn", "cable: torn; put in another"};
 
 Result<int> number(bool good) {
     return good ? Result<int>(7) : tl::unexpected(torn);
@@ -26,6 +27,7 @@ Result<std::unique_ptr<int>> owned(bool good) {
 template <typename T> void expect_torn(const Result<T>& result) {
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().kind, torn.kind);
+    EXPECT_EQ(result.error().id, "cable.torn");
     EXPECT_EQ(result.error().message, torn.message);
 }
 
@@ -162,7 +164,20 @@ TEST(Result, AtPutsThePlaceBeforeAnErrorOnly) {
     const Result<int> lost = at("stand", number(false));
     ASSERT_FALSE(lost);
     EXPECT_EQ(lost.error().kind, torn.kind);
+    EXPECT_EQ(lost.error().id, "cable.torn") << "the id stays";
     EXPECT_EQ(lost.error().message, "stand: cable: torn; put in another");
+}
+
+TEST(Result, ASentenceIsFormattedBesideItsId) {
+    const Result<int> lost = fail(ErrorKind::Internal, "cable.count", "{} of {} cables", 3, "nine");
+    ASSERT_FALSE(lost);
+    EXPECT_EQ(test::told(lost.error()), "3 of nine cables [cable.count]");
+    EXPECT_EQ(lost.error().kind, ErrorKind::Internal);
+    const Result<int> braces = bad_input("cable.braces", "an object { ... }");
+    EXPECT_EQ(braces.error().message, "an object { ... }") << "without arguments nothing is formatted";
+    const Result<int> moved = as_kind(ErrorKind::BadConfiguration, braces.error());
+    EXPECT_EQ(moved.error().id, "cable.braces");
+    EXPECT_EQ(moved.error().kind, ErrorKind::BadConfiguration);
 }
 
 } // namespace
