@@ -18,6 +18,9 @@ namespace frustumscreen {
 
 namespace {
 
+/// Beyond, a sheet was scaled by its printer's driver and not by damp air.
+constexpr double most_print_off = 5e-3;
+
 AutoCalibration refused(std::string reason) {
     AutoCalibration calibration;
     calibration.found.reason = std::move(reason);
@@ -112,6 +115,29 @@ void count_wrong_points(AutoCalibration& calibration, const RestWeights& weights
     }
 }
 
+/// Why rests contradict each other: the mistake without which they agree.
+std::string cause_of(std::span<const Rest> rests, const AutoSetup& setup, const RestFitSetup& fit_setup) {
+    Rests mirrored(rests.begin(), rests.end());
+    std::vector<std::optional<PlaneView>> views;
+    for (Rest& rest : mirrored) {
+        for (PropPoint& point : rest.points) {
+            point.prop_m.x = -point.prop_m.x;
+        }
+        views.push_back(plane_view(rest));
+    }
+    if (find_agreement(mirrored, views, fit_setup,
+                       starting_rest_models(mirrored, views, setup.width, setup.height))
+            .agreement != Agreement::None) {
+        return "the rests contradict each other as given, and agree if the points are mirrored: is the board "
+               "printed from "
+               "behind, or does the camera turn its picture round?";
+    }
+    return "the rests contradict each other, and no single mistake explains it: points of another prop, "
+           "metal near the "
+           "tracker, or a projector that moved meanwhile; begin again without metal, and with the projector "
+           "fixed";
+}
+
 /// Rests that agree, judged; refused where they leave something open.
 AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, const AgreeingRests& found) {
     const Fit fit = touch_part(found.fit);
@@ -127,18 +153,29 @@ AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, cons
     if (!table.table) {
         return refused("the light of the picture's middle does not come down on the table");
     }
+    if (const double off = found.fit.model.print - 1.0; std::abs(off) > most_print_off) {
+        return refused(fmt::format(
+            "the board is printed {:.1f} % too {}: print it at 100 %, without fitting it to the page",
+            100.0 * std::abs(off), off > 0.0 ? "large" : "small"));
+    }
     calibration.sensor_from_prop = found.fit.model.prop_in_sensor();
     calibration.pixel_noise = found.pixel_noise;
     calibration.print = found.fit.model.print;
     count_wrong_points(calibration, found.weights);
     const std::vector<ZonePlace> places = zone_places(fit.model, fit.middle, zone);
-    table.uncertainty =
-        picture_uncertainty(places, found.scatter * found.scatter * inverse_of(fit.information()));
+    const Covariance covariance = found.scatter * found.scatter * inverse_of(fit.information());
+    table.uncertainty = picture_uncertainty(places, covariance);
     table.zone = by_place(places, table.uncertainty.each_m);
     table.hidden_error_m = hidden_error_of(found, places);
     table.prior_shares = prior_shares(fit);
     table.residuals = residuals_of(rests, found);
+    double highest_m = 0.0;
+    for (const Rest& rest : rests) {
+        highest_m = std::fmax(highest_m, rest.block_m.value_or(0.0));
+    }
+    table.boards = boards_of(fit.model, covariance, highest_m);
     judge(table, prop_rests, found, names_of(found.wrong, rests));
+    table.reason += in_words(table.boards);
     return calibration;
 }
 
@@ -159,9 +196,7 @@ AutoCalibration calibrate_auto(std::span<const Rest> rests, const AutoSetup& set
     const AgreeingRests found = find_agreement(rests, views, fit_setup,
                                                starting_rest_models(rests, views, setup.width, setup.height));
     if (found.agreement == Agreement::None) {
-        return refused(
-            "the rests contradict each other, and no few of them are to blame: do points and prop belong "
-            "together, is metal near the tracker, or did the projector move?");
+        return refused(cause_of(rests, setup, fit_setup));
     }
     return judged(rests, setup, found);
 }

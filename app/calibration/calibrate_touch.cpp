@@ -44,7 +44,7 @@ std::vector<TouchResidual> residuals_of(std::span<const Touch> touches, std::spa
         weights[k] = 0.0;
         const TouchModel others = fit_touches(touches, weights, setup, model).model;
         residuals.push_back(residual_of(others, others.touched(touches[k].tracker_from_sensor),
-                                        touches[k].block_m, touches[k].pixel));
+                                        others.raised(touches[k].block_m), touches[k].pixel));
     }
     return residuals;
 }
@@ -116,6 +116,28 @@ std::string in_words(const PictureUncertainty& uncertainty) {
         1e3 * uncertainty.mean_m, 1e3 * uncertainty.worst_m);
 }
 
+bool BoardsHeight::differ() const {
+    constexpr double least_m = 5e-4; // what a ruler tells
+    constexpr double sure_sd = 3.0;
+    const double off_m = std::abs(found_m - given_m);
+    return off_m > least_m && off_m > sure_sd * sd_m;
+}
+
+std::string in_words(const std::optional<BoardsHeight>& boards) {
+    return boards && boards->differ() ? fmt::format("; the boards are {:.1f} mm high, not {:.4g}",
+                                                    1e3 * boards->found_m, 1e3 * boards->given_m)
+                                      : std::string();
+}
+
+std::optional<BoardsHeight> boards_of(const TouchModel& model, const Covariance& covariance, double given_m) {
+    if (!(given_m > 0.0)) {
+        return std::nullopt;
+    }
+    return BoardsHeight{.given_m = given_m,
+                        .found_m = model.raised(given_m),
+                        .sd_m = given_m * std::sqrt(covariance(boards_share, boards_share))};
+}
+
 std::vector<std::string> row_names(std::span<const std::size_t> rows) {
     std::vector<std::string> names;
     for (const std::size_t row : rows) {
@@ -181,6 +203,56 @@ std::string in_words(const Undetermined& open, const MeasuredKind& kind) {
                        kind.many, 1e3 * open.picture_m);
 }
 
+namespace {
+
+/// The touches with one mistake undone, and the half sentence that names it.
+struct Mistake {
+    Touches undone;
+    std::string_view what;
+};
+
+/// Mistakes that spoil all touches at once. A single wrong touch, or two exchanged ones, are found by the agreement itself.
+std::vector<Mistake> mistakes_in(std::span<const Touch> touches, int width) {
+    const Touches as_given(touches.begin(), touches.end());
+    const auto by_pixels = [&](const auto& pixel_of) {
+        Touches undone = as_given;
+        for (std::size_t k = 0; k < undone.size(); ++k) {
+            undone[k].pixel = pixel_of(k);
+        }
+        return undone;
+    };
+    const std::size_t count = as_given.size();
+    return {
+        {by_pixels(
+             [&](std::size_t k) { return glm::dvec2(width - as_given[k].pixel.x, as_given[k].pixel.y); }),
+         "the projector's picture is mirrored: switch its ceiling or rear projection off, and touch the "
+         "crosses again"},
+        {by_pixels([&](std::size_t k) { return as_given[(k + 1) % count].pixel; }),
+         "each touch belongs to the next cross: one was left out, or the list begins too late"},
+        {by_pixels([&](std::size_t k) { return as_given[(k + count - 1) % count].pixel; }),
+         "each touch belongs to the cross before: one was taken twice, or the list begins too early"},
+        {by_pixels([&](std::size_t k) { return as_given[count - 1 - k].pixel; }),
+         "the crosses were touched in the opposite order"},
+    };
+}
+
+/// Why touches contradict each other: the mistake without which they agree.
+std::string cause_of(std::span<const Touch> touches, const TouchSetup& setup, const FitSetup& fit_setup) {
+    for (const Mistake& mistake : mistakes_in(touches, setup.width)) {
+        const Fit fit =
+            best_fit(mistake.undone, fit_setup, starting_models(mistake.undone, setup.width, setup.height));
+        if (fit.chi2 < chi2_limit(fit.freedom)) {
+            return fmt::format("the touches contradict each other as given, and agree if {}", mistake.what);
+        }
+    }
+    return "the touches contradict each other, and no single mistake explains it: metal near the tracker, a "
+           "projector "
+           "that moved meanwhile, or several slips; take metal away, fix the projector, and touch the "
+           "crosses again";
+}
+
+} // namespace
+
 TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetup& setup) {
     if (auto reason = refusal_of(touches, setup.width, setup.height)) {
         return refused(std::move(*reason));
@@ -197,9 +269,7 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
         return refused(in_words(*open, crosses));
     }
     if (found.agreement == Agreement::None || too_few_left(found, touches, fit_setup, zone)) {
-        return refused(
-            "the touches contradict each other, and no few of them are to blame: were the crosses touched "
-            "in another order, is metal near the tracker, or did the projector move?");
+        return refused(cause_of(touches, setup, fit_setup));
     }
     TouchCalibration calibration;
     calibration.table = in_table_frame(found.fit.model);
@@ -213,7 +283,11 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
     calibration.hidden_error_m = hidden_error_of(touches, fit_setup, found.fit, zone);
     calibration.prior_shares = prior_shares(found.fit);
     calibration.residuals = residuals_of(touches, found.wrong, fit_setup, found.fit.model);
+    const auto highest = std::max_element(
+        touches.begin(), touches.end(), [](const Touch& a, const Touch& b) { return a.block_m < b.block_m; });
+    calibration.boards = boards_of(found.fit.model, covariance, highest->block_m);
     judge(calibration, crosses, found, row_names(found.wrong));
+    calibration.reason += in_words(calibration.boards);
     return calibration;
 }
 

@@ -41,6 +41,20 @@ struct TouchResidual {
 [[nodiscard]] TouchResidual residual_of(const TouchModel& model, const glm::dvec3& place, double height_m,
                                         const glm::dvec2& pixel);
 
+/// How high the boards are, as the tracker measured them.
+struct BoardsHeight {
+    double given_m = 0.0;
+    double found_m = 0.0;
+    double sd_m = 0.0;
+    /// They are not as high as they were said to be.
+    [[nodiscard]] bool differ() const;
+};
+/// A half sentence with a semicolon before it; empty: they are as high as they were said to be.
+[[nodiscard]] std::string in_words(const std::optional<BoardsHeight>& boards);
+/// `given_m`: the highest boards of the points; none without boards.
+[[nodiscard]] std::optional<BoardsHeight> boards_of(const TouchModel& model, const Covariance& covariance,
+                                                    double given_m);
+
 struct TouchCalibration {
     Verdict verdict = Verdict::Refused;
     std::string reason;                   ///< one sentence
@@ -54,6 +68,7 @@ struct TouchCalibration {
     PictureUncertainty uncertainty; ///< of the picture over the zone, one standard deviation
     double hidden_error_m = 0.0;    ///< what one wrong touch could do to it and yet agree with the others
     PriorShares prior_shares;
+    std::optional<BoardsHeight> boards; ///< none: nothing lay on boards
     std::vector<PlaceUncertainty> zone; ///< zone_columns x zone_rows of each height, from the table up
 };
 

@@ -32,7 +32,7 @@ struct Residuals {
 
     template <typename T> Eigen::Matrix<T, 3, 1> raw(const ChangedModel<T>& model, const Touch& touch) const {
         return model.pixel_and_height(model.touched(touch)) -
-               Eigen::Vector3d(touch.pixel.x, touch.pixel.y, touch.block_m).cast<T>();
+               Eigen::Matrix<T, 3, 1>(T(touch.pixel.x), T(touch.pixel.y), model.boards * touch.block_m);
     }
     /// The sensor above the touched place, in touches that stand upright; less what was given.
     template <typename T> T height_off(const ChangedModel<T>& model) const {
@@ -50,7 +50,7 @@ struct Residuals {
             Eigen::Map<Eigen::Matrix<T, 3, 1>>(out + 3 * k) = whitening[k].cast<T>() * raw(model, touches[k]);
         }
         T* const rest = out + 3 * touches.size();
-        prior_residuals(setup.priors, base.pinhole, change, rest);
+        prior_residuals(setup.priors, base, change, rest);
         if (setup.sensor_height_m) {
             rest[prior_count] = height_off(model) / setup.priors.sensor_height_m;
         }

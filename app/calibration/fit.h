@@ -3,7 +3,7 @@
 /// A touch has three residuals: its pixel (2) and its height above the table. The tracker's noise enters all three, through the model; so
 /// they are divided by their joint standard deviation at the current model, which is found anew a few times.
 /// Robust   weights fall with a touch's own residual by Cauchy's function, where `robust` is asked for.
-/// Solver   ceres::TinySolver: it is headers alone, so that a kiosk needs no library for it. 18 unknowns and dense rows are what it is made for.
+/// Solver   ceres::TinySolver: it is headers alone, so that a kiosk needs no library for it. 19 unknowns and dense rows are what it is made for.
 /// Threads  pure; any.
 #pragma once
 

@@ -1,4 +1,4 @@
-/// The residuals of what is known beforehand of any projector, whichever points are fitted.
+/// The residuals of what is known beforehand of any projector and any boards, whichever points are fitted.
 ///
 /// Numbers  templates over T: double, or numbers that carry derivatives (ceres::Jet).
 /// Threads  pure; any.
@@ -12,17 +12,19 @@
 
 namespace frustumscreen {
 
-inline constexpr int prior_count = 5;
+inline constexpr int prior_count = 6;
 
 /// prior_count residuals in units of their standard deviations; `change`: unknown_count numbers.
 template <typename T>
-void prior_residuals(const Priors& priors, const Pinhole& base, const T* change, T* out) {
+void prior_residuals(const Priors& priors, const TouchModel& model, const T* change, T* out) {
+    const Pinhole& base = model.pinhole;
     const double width = base.width;
     out[0] = (change[aspect_log] + std::log(base.fx / base.fy)) / priors.aspect;
     out[1] = (change[centre_u] + (base.cx / width - 0.5)) / priors.centre_u;
     out[2] = (change[centre_v] + (base.cy - 0.5 * base.height) / width) / priors.centre_v;
     out[3] = (change[lens_k1] + base.lens.k1) / priors.k1;
     out[4] = (change[lens_k2] + base.lens.k2) / priors.k2;
+    out[5] = (change[boards_share] + (model.boards - 1.0)) / priors.boards;
 }
 
 /// How high the sensor is above the touched place, on average over rotations of the sensor in K; there is one at least.

@@ -13,7 +13,8 @@ struct Priors {
         0.40; ///< of cy, in widths: the vertical shift, or an offset as large as the picture's height
     double k1 = 0.2;
     double k2 = 0.05;
-    double print = 2e-3;           ///< of a printed sheet's size: printers, and damp paper
+    double boards = 0.05; ///< of the boards' height: stacks of boards that are said to be 18 mm thick
+    double print = 2e-3;  ///< of a printed sheet's size: printers, and damp paper
     double sensor_height_m = 5e-4; ///< how well a ruler or a drawing knows it
 };
 

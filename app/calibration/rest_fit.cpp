@@ -55,7 +55,7 @@ Eigen::Matrix<T, Eigen::Dynamic, 1> raw_residuals(const ChangedRestModel<T>& mod
         if (rest.block_m) {
             out[row++] =
                 model.touch.pixel_and_height(sensor + model.arm(turn, place.template cast<T>())).z() -
-                *rest.block_m;
+                model.touch.boards * *rest.block_m;
         }
     }
     return out;
@@ -149,7 +149,7 @@ private:
             from = put_block<T>(raw, &covariances[k], residuals, from, put);
         }
         Eigen::Matrix<T, Eigen::Dynamic, 1> rest(rest_prior_count + (setup.sensor_height_m ? 1 : 0));
-        prior_residuals(setup.priors, base.touch.pinhole, change, rest.data());
+        prior_residuals(setup.priors, base.touch, change, rest.data());
         rest[prior_count] = (change[print_log] + std::log(base.print)) / setup.priors.print;
         if (setup.sensor_height_m) {
             rest[rest_prior_count] = (sensor_height(model.touch, standing) - *setup.sensor_height_m) /

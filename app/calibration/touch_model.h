@@ -16,6 +16,10 @@ struct TouchModel {
     glm::dvec3 sensor_offset_m{0.0};    ///< the touched place in the sensor's frame
     glm::dvec3 table_up{0.0, 0.0, 1.0}; ///< unit, in K
     double table_offset_m = 0.0;        ///< height above the table = dot(table_up, x) + table_offset_m
+    double boards = 1.0;                ///< the boards' true height over the one that was given
+
+    /// The true height of what lies on boards that are said to be so high.
+    [[nodiscard]] double raised(double block_m) const { return boards * block_m; }
 
     [[nodiscard]] glm::dvec3 touched(const RigidTransform& tracker_from_sensor) const {
         return tracker_from_sensor.point(sensor_offset_m);

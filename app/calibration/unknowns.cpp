@@ -24,6 +24,7 @@ TouchModel changed(const TouchModel& base, const glm::dvec3& middle, const Chang
     model.sensor_offset_m = glm_vector(now.offset);
     model.table_up = glm::normalize(glm_vector(now.up));
     model.table_offset_m = now.middle_height - glm::dot(model.table_up, middle);
+    model.boards = now.boards;
     return model;
 }
 

@@ -1,4 +1,4 @@
-/// The 18 unknowns of a calibration by touch, as small changes of a model: what the solver moves, and what covariances are of.
+/// The 19 unknowns of a calibration by touch, as small changes of a model: what the solver moves, and what covariances are of.
 ///
 /// Each is near 1 in size where it matters: shares of the focal length and of the picture's width, radians, metres. Turns are about the touches'
 /// middle, so that where the tracker's origin is does not matter to the arithmetic.
@@ -32,6 +32,7 @@ enum Unknown {
     tilt_a,
     tilt_b, ///< of the table, about two axes in it
     table_height,
+    boards_share, ///< by which the boards are higher than they are said to be
     unknown_count
 };
 
@@ -56,6 +57,7 @@ template <typename T> struct ChangedModel {
     Vector offset;
     Vector up;
     T middle_height;
+    T boards;
     Eigen::Vector3d middle;
 };
 
@@ -113,6 +115,7 @@ ChangedModel<T>::ChangedModel(const TouchModel& base, const glm::dvec3& about, c
          axes.col(1).cast<T>() * change[tilt_b];
     up /= up.norm();
     middle_height = change[table_height] + base.height(about);
+    boards = change[boards_share] + base.boards;
 }
 
 template <typename T> auto ChangedModel<T>::touched(const Touch& touch) const -> Vector {

@@ -94,9 +94,9 @@ def by_scipy(rests, truth, pixel_noise):
         m = model_of(v)
         prop = Rotation.from_rotvec(v[18:21]) * near_turn
         out = [(v[0] - v[1]) / PRIOR["aspect"], (v[2] / WIDTH - 0.5) / PRIOR["centre_u"],
-               (v[3] - 0.5 * HEIGHT) / WIDTH / PRIOR["centre_v"], v[4] / PRIOR["k1"], v[5] / PRIOR["k2"], v[21] / PRINT]
+               (v[3] - 0.5 * HEIGHT) / WIDTH / PRIOR["centre_v"], v[4] / PRIOR["k1"], v[5] / PRIOR["k2"], v[21] / PRINT, v[22] / PRIOR["boards"]]
         size = [np.exp(v[21]), np.exp(v[21]), 1]
-        for rest, error in zip(rests, v[22:].reshape(-1, 6)):
+        for rest, error in zip(rests, v[23:].reshape(-1, 6)):
             turn = Rotation.from_rotvec(NOISE["rotation"] * error[3:]) * rest.turn
             t = rest.t + NOISE["position"] * error[:3]
             off = seen(m, turn.apply(m["offset"] + prop.apply(rest.points * size)) + t, frame)[:, :2] - rest.pixels
@@ -104,13 +104,13 @@ def by_scipy(rests, truth, pixel_noise):
             out.extend(error)
             if rest.block is not None:
                 height = seen(m, turn.apply(m["offset"] + prop.apply(BOTTOM)) + t, frame)[:, 2]
-                out.extend((height - rest.block) / NOISE["block"])
+                out.extend((height - (1 + v[22]) * rest.block) / NOISE["block"])
         return np.array(out)
 
     turn = truth.table_from_j.inv() * truth.k_from_table.inv()
     shift = -turn.apply(truth.k_from_table.apply(truth.lens) + truth.k_origin)
     v = np.concatenate([np.log([truth.fx, truth.fx]), [truth.cx, truth.cy, 0, 0], turn.as_rotvec(), shift,
-                        truth.offset, [0, 0, -truth.k_origin @ frame[:, 2]], np.zeros(4 + 6 * len(rests))])
+                        truth.offset, [0, 0, -truth.k_origin @ frame[:, 2]], np.zeros(5 + 6 * len(rests))])
     v = least_squares(residuals, v, x_scale="jac", xtol=1e-13, ftol=1e-13, gtol=1e-13).x
     m = model_of(v)
     t = np.array([rest.t for rest in rests])

@@ -22,7 +22,7 @@ WIDTH, HEIGHT = 1920, 1200
 SENSOR_HEIGHT = 0.06
 HEADER = "tx_m,ty_m,tz_m,qw,qx,qy,qz,u_px,v_px,block_m\n"
 NOISE = {"position": 3e-4, "rotation": 2.6e-3, "pixel": 0.5, "block": 1e-4}
-PRIOR = {"aspect": 1e-2, "centre_u": 0.10, "centre_v": 0.40, "k1": 0.2, "k2": 0.05, "sensor_height": 5e-4}
+PRIOR = {"aspect": 1e-2, "centre_u": 0.10, "centre_v": 0.40, "k1": 0.2, "k2": 0.05, "sensor_height": 5e-4, "boards": 0.05}
 
 
 class Truth:
@@ -97,7 +97,7 @@ def pixels_by(found, t, rotation):
 
 
 def model_of(v):
-    """The 18 unknowns as SciPy moves them: focal lengths, centre, lens, pose of J from K, offset, table's normal and offset."""
+    """What SciPy moves: focal lengths, centre, lens, pose of J from K, offset, table's normal and offset."""
     normal = np.array([v[15], v[16], 1.0])
     return {"f": np.exp(v[0:2]), "c": v[2:4], "k": v[4:6], "turn": Rotation.from_rotvec(v[6:9]), "shift": v[9:12],
             "offset": v[12:15], "normal": normal / np.linalg.norm(normal), "table": v[17]}
@@ -135,19 +135,19 @@ def by_scipy(rows, truth):
     def residuals(v, white):
         m = model_of(v)
         arm = rotation.apply(m["offset"])
-        off = seen(m, t + arm, frame) - goal
+        off = seen(m, t + arm, frame) - goal * [1, 1, 1 + v[18]]  # the boards are higher than they are said to be
         up = frame @ m["normal"]
         return np.concatenate([np.concatenate([w @ r for w, r in zip(white, off)]),
                                [(v[0] - v[1]) / PRIOR["aspect"],
                                 (v[2] / WIDTH - 0.5) / PRIOR["centre_u"],
                                 (v[3] - 0.5 * HEIGHT) / WIDTH / PRIOR["centre_v"],
-                                v[4] / PRIOR["k1"], v[5] / PRIOR["k2"],
+                                v[4] / PRIOR["k1"], v[5] / PRIOR["k2"], v[18] / PRIOR["boards"],
                                 (-np.mean(arm @ up) - SENSOR_HEIGHT) / PRIOR["sensor_height"]]])
 
     turn = truth.table_from_j.inv() * truth.k_from_table.inv()
     shift = -turn.apply(truth.k_from_table.apply(truth.lens) + truth.k_origin)
     v = np.concatenate([np.log([truth.fx, truth.fx]), [truth.cx, truth.cy, 0, 0], turn.as_rotvec(), shift,
-                        truth.offset, [0, 0, -truth.k_origin @ frame[:, 2]]])
+                        truth.offset, [0, 0, -truth.k_origin @ frame[:, 2], 0]])
     for _ in range(4):
         white = whitening(v)
         v = least_squares(residuals, v, args=(white,), x_scale="jac", xtol=1e-14, ftol=1e-14, gtol=1e-14).x

@@ -9,7 +9,8 @@ namespace frustumscreen {
 namespace {
 
 constexpr int unknowns =
-    21; ///< three more than are determined: the table's frame may turn and slide in its plane
+    22; ///< three more than are determined: the table's frame may turn and slide in its plane
+constexpr int boards = 21; ///< the share by which the boards are higher than they are said to be
 using Unknowns = Eigen::Matrix<double, unknowns, 1>;
 using Squares = Eigen::Matrix<double, unknowns, unknowns>;
 constexpr double difference = 1e-6;
@@ -72,8 +73,8 @@ double height_of_sensor(const CalibratedTable& table, const std::vector<Touch>& 
 
 /// A row for each prior, over its standard deviation; `off`: how far the prior's value lies from the truth, likewise.
 struct PriorRows {
-    Eigen::Matrix<double, 6, unknowns> rows = Eigen::Matrix<double, 6, unknowns>::Zero();
-    Eigen::Matrix<double, 6, 1> off = Eigen::Matrix<double, 6, 1>::Zero();
+    Eigen::Matrix<double, 7, unknowns> rows = Eigen::Matrix<double, 7, unknowns>::Zero();
+    Eigen::Matrix<double, 7, 1> off = Eigen::Matrix<double, 7, 1>::Zero();
 };
 PriorRows prior_rows(const SimulatedTable& table, const Priors& priors) {
     const Pinhole& p = table.truth.pinhole;
@@ -89,6 +90,7 @@ PriorRows prior_rows(const SimulatedTable& table, const Priors& priors) {
     known.off[3] = -p.lens.k1 / priors.k1;
     known.rows(4, 5) = 1.0 / priors.k2;
     known.off[4] = -p.lens.k2 / priors.k2;
+    known.rows(5, boards) = 1.0 / priors.boards;
     return known; // the last row is that of the sensor's height
 }
 
@@ -122,10 +124,12 @@ PropagatedTouches propagated_touches(const SimulatedTable& table, const std::vec
         const CalibratedTable changed = changed_truth(table.truth, difference * Unknowns::Unit(k));
         for (std::size_t touch = 0; touch < touches.size(); ++touch) {
             const RigidTransform& pose = touches[touch].tracker_from_sensor;
+            const double raised = k == boards ? touches[touch].block_m : 0.0;
             by_unknown.block<3, 1>(3 * static_cast<Eigen::Index>(touch), k) =
-                whitening[touch] * (predicted(changed, pose) - predicted(table.truth, pose)) / difference;
+                whitening[touch] * ((predicted(changed, pose) - predicted(table.truth, pose)) / difference -
+                                    raised * Eigen::Vector3d::UnitZ());
         }
-        known.rows(5, k) = (height_of_sensor(changed, touches) - table.sensor_height_m) / difference /
+        known.rows(6, k) = (height_of_sensor(changed, touches) - table.sensor_height_m) / difference /
                            priors.sensor_height_m;
     }
     const Squares loose =

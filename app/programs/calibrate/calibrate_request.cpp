@@ -46,11 +46,32 @@ void check_request(const CalibrateRequest& request) {
     }
 }
 
+Result<void> check_sensor_height(std::optional<double> height_m, std::optional<double> top_m) {
+    constexpr double most_above_m = 0.1; // a sensor on a holder
+    if (height_m && *height_m < 0.0) {
+        return fail(ErrorKind::BadConfiguration, "calibrate.sensor_below_table",
+                    "the sensor's height above the prop's bottom is {} m, which is below the table; measure "
+                    "it upwards from "
+                    "the table to the sensor's middle",
+                    *height_m);
+    }
+    if (height_m && top_m && *height_m > *top_m + most_above_m) {
+        return fail(ErrorKind::BadConfiguration, "calibrate.sensor_above_prop",
+                    "the sensor's height above the prop's bottom is {} m, and the prop is {} m high; measure "
+                    "it from the table "
+                    "to the sensor's middle",
+                    *height_m, *top_m);
+    }
+    return {};
+}
+
 Result<Described> describe(const CalibrateRequest& request) {
     if (!request.picture.empty()) {
+        TRY_VOID(check_sensor_height(request.sensor_height_m, std::nullopt));
         return Described{std::nullopt, request.picture[0], request.picture[1]};
     }
     TRY(const CheckedSettings settings, load_settings(request.config));
+    TRY_VOID(check_sensor_height(request.sensor_height_m, settings->prop.height_m));
     return described_by(*settings);
 }
 

@@ -58,6 +58,8 @@ void add_touch_options(CommandLine& command, CalibrateRequest& request);
 void check_request(const CalibrateRequest& request);
 [[nodiscard]] Result<Described> describe(const CalibrateRequest& request);
 [[nodiscard]] Described described_by(const Settings& settings);
+/// Refuses a sensor below the prop's bottom, or above its top by more than a hand's breadth. `top_m`: the prop's height, where it is known.
+[[nodiscard]] Result<void> check_sensor_height(std::optional<double> height_m, std::optional<double> top_m);
 
 /// The points of --from; `parse` is one of point_files.h.
 template <typename Points>

@@ -200,6 +200,7 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     TRY(const std::unique_ptr<TableDevices> devices, TableDevices::open(request, settings, ""));
     CalibrateRequest known = request;
     known.sensor_height_m = sensor_height(settings, request);
+    TRY_VOID(check_sensor_height(known.sensor_height_m, settings.prop.height_m));
     return take_first_wanted({.devices = *devices,
                               .settings = settings,
                               .request = request,

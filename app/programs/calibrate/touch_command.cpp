@@ -70,12 +70,11 @@ nlohmann::ordered_json rows_json(std::span<const TouchResidual> residuals) {
 }
 
 nlohmann::ordered_json touch_json(const TouchCalibration& c) {
-    Json json{{"projector", nullptr},       {"table_from_tracker", nullptr},
-              {"sensor_offset_m", nullptr}, {"residual_mm", nullptr},
-              {"residual_px", nullptr},     {"uncertainty_mm", nullptr},
-              {"hidden_error_mm", nullptr}, {"prior_share", nullptr},
-              {"rows", Json::array()},      {"verdict", name_of(c.verdict)},
-              {"reason", c.reason},         {"repeat", Json::array()}};
+    Json json{{"projector", nullptr},       {"table_from_tracker", nullptr}, {"sensor_offset_m", nullptr},
+              {"residual_mm", nullptr},     {"residual_px", nullptr},        {"uncertainty_mm", nullptr},
+              {"hidden_error_mm", nullptr}, {"prior_share", nullptr},        {"boards_mm", nullptr},
+              {"rows", Json::array()},      {"verdict", name_of(c.verdict)}, {"reason", c.reason},
+              {"repeat", Json::array()}};
     for (const std::size_t row : c.repeat) {
         json["repeat"].push_back(row + 1);
     }
@@ -93,6 +92,11 @@ nlohmann::ordered_json touch_json(const TouchCalibration& c) {
                                {"cy", c.prior_shares.centre_v},
                                {"k1", c.prior_shares.k1},
                                {"k2", c.prior_shares.k2}};
+        if (c.boards) {
+            json["boards_mm"] = {{"given", 1e3 * c.boards->given_m},
+                                 {"found", 1e3 * c.boards->found_m},
+                                 {"sd", 1e3 * c.boards->sd_m}};
+        }
         json["rows"] = rows_json(c.residuals);
     }
     return json;

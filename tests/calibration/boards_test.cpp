@@ -1,0 +1,83 @@
+// Boards that are not as high as they are said to be: the tracker measures them, and the calibration is as good as with right ones.
+#include "tests/calibration/simulated_touches.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace frustumscreen {
+namespace {
+
+constexpr double said_m = 0.12;
+
+/// Touches on boards of `true_m`, of which the file says `said_m`.
+Touches on_boards(const SimulatedTable& table, std::vector<Cross> crosses, double true_m,
+                  SeededNumbers& numbers) {
+    for (Cross& cross : crosses) {
+        cross.block_m *= true_m / said_m;
+    }
+    Touches touches = touches_of(table, crosses, {}, numbers);
+    for (Touch& touch : touches) {
+        touch.block_m *= said_m / true_m;
+    }
+    return touches;
+}
+
+TEST(Boards, OfAnotherHeightAreMeasured) {
+    ChosenCrosses crosses;
+    for (const double off_mm : {-20.0, -5.0, -2.0, -1.0, 1.0, 2.0, 5.0, 10.0}) {
+        const double true_m = said_m + 1e-3 * off_mm;
+        double right_mm = 0.0;
+        double wrong_mm = 0.0;
+        for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+            const SimulatedTable table = some_table(seed);
+            SeededNumbers numbers(300 + seed);
+            SeededNumbers same_numbers(300 + seed);
+            const TouchCalibration found =
+                calibrate_touch(on_boards(table, crosses.of(table, 9), true_m, numbers), setup_for(table));
+            const TouchCalibration right = calibrate_touch(
+                on_boards(table, crosses.of(table, 9), said_m, same_numbers), setup_for(table));
+            ASSERT_TRUE(found.table && right.table)
+                << off_mm << " mm, table " << seed << ": " << found.reason;
+            ASSERT_TRUE(found.boards);
+            EXPECT_NEAR(found.boards->found_m, true_m, 4.0 * found.boards->sd_m) << seed;
+            EXPECT_LT(found.boards->sd_m, 1e-3) << seed;
+            wrong_mm += 1e3 * registration_error(table, *found.table, said_m).mean_m;
+            right_mm += 1e3 * registration_error(table, *right.table, said_m).mean_m;
+        }
+        EXPECT_LT(wrong_mm, 1.1 * right_mm) << off_mm;
+    }
+}
+
+TEST(Boards, AreToldOnlyWhereTheyDiffer) {
+    ChosenCrosses crosses;
+    int told_of_right = 0;
+    int told_of_wrong = 0;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        const SimulatedTable table = some_table(seed);
+        SeededNumbers numbers(500 + seed);
+        const std::vector<Cross>& chosen = crosses.of(table, 9);
+        const TouchCalibration right =
+            calibrate_touch(on_boards(table, chosen, said_m, numbers), setup_for(table));
+        const TouchCalibration wrong =
+            calibrate_touch(on_boards(table, chosen, 0.117, numbers), setup_for(table));
+        told_of_right += right.reason.find("; the boards are 1") != std::string::npos ? 1 : 0;
+        told_of_wrong += wrong.reason.find("; the boards are 11") != std::string::npos ? 1 : 0;
+    }
+    EXPECT_LE(told_of_right, 1);
+    EXPECT_GE(told_of_wrong, 38);
+}
+
+TEST(Boards, WithoutAnyNothingIsSaidOfThem) {
+    ChosenCrosses crosses;
+    const SimulatedTable table = some_table(3);
+    SeededNumbers numbers(3);
+    std::vector<Cross> flat = crosses.of(table, 15);
+    for (Cross& cross : flat) {
+        cross.block_m = 0.0;
+    }
+    EXPECT_FALSE(calibrate_touch(touches_of(table, flat, {}, numbers), setup_for(table)).boards);
+}
+
+} // namespace
+} // namespace frustumscreen
