@@ -73,6 +73,7 @@ private:
     ImportReport report_;
     std::vector<ImportedPack> refused_on_the_way_; ///< of which nothing is known but the name
     std::optional<ImportedPack> misnamed_;         ///< what may be meant as set file
+    std::optional<ImportedPack> misnamed_settings_;
     std::vector<StickPack> packs_;
     std::vector<InstalledPack> removed_;
     std::optional<ImportedPack> exhibit_line_;
@@ -104,6 +105,9 @@ void Import::tell(ImportStage stage) {
     report_.packs.insert(report_.packs.end(), refused_on_the_way_.begin(), refused_on_the_way_.end());
     if (misnamed_) {
         report_.packs.push_back(*misnamed_);
+    }
+    if (misnamed_settings_ && request_.takes_settings && !request_.settings) {
+        report_.packs.push_back(*misnamed_settings_);
     }
     for (const InstalledPack& pack : removed_) {
         report_.packs.push_back(removed_line(pack));
@@ -211,6 +215,7 @@ Outcome Import::look() {
     TRY(StickFiles files, walk_stick(stick_, request_.limits, [this] { return is_too_late(); }));
     refused_on_the_way_ = std::move(files.refused);
     misnamed_ = std::move(files.misnamed);
+    misnamed_settings_ = std::move(files.misnamed_settings);
     return read_exhibit_file(files.has_exhibit_file).and_then([&] { return look_at_packs(files.packs); });
 }
 

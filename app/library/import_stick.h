@@ -29,6 +29,7 @@ struct ImportRequest {
     std::vector<TrustedKey> keys; ///< of the settings; those that sets brought come from set.txt
     std::optional<std::chrono::sys_days> today; ///< for the ends of keys alone
     UnsignedPacks unsigned_packs = UnsignedPacks::Refuse;
+    bool takes_settings = false;          ///< the kiosk takes its settings from sticks
     std::optional<ImportedPack> settings; ///< what became of the stick's settings: the report's first line
     ImportLimits limits;
 };

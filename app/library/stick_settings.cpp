@@ -111,6 +111,21 @@ FileResult<void> keep_before(WritableTree& folder, const Own& own) {
     });
 }
 
+/// What a stick that was pulled out too early leaves of a file. A signature vouches for the rest of it, and its end.
+std::optional<std::string> fault_of_copy(const SignedText& file) {
+    const std::string& text = *file.text;
+    if (text.find_first_not_of(" \t\r\n\0\xef\xbb\xbf", 0, 8) == std::string::npos) {
+        return fmt::format("{}: it is empty; copy it to the stick again", settings_file_name);
+    }
+    if (!file.signature && !text.ends_with('\n')) {
+        return fmt::format(
+            "{}: its last line has no end, as after a copy that was cut off; look at it, press Enter behind "
+            "the last line, and copy it again",
+            settings_file_name);
+    }
+    return std::nullopt;
+}
+
 Outcome<ImportOutcome> take(const SignedText& file, WritableTree& folder,
                             std::optional<std::chrono::sys_days> today) {
     const std::string& text = *file.text;
@@ -118,6 +133,9 @@ Outcome<ImportOutcome> take(const SignedText& file, WritableTree& folder,
     const Outcome<std::uint64_t> serial = believe(file, own, today);
     if (!serial && own.text != text) {
         return tl::unexpected<ImportFailure>(serial.error());
+    }
+    if (std::optional<std::string> fault = fault_of_copy(file)) {
+        return failed(ImportRefusal::NotAPack, *std::move(fault));
     }
     const Result<CheckedSettings> settings = parse_settings(text, settings_file_name);
     if (!settings) {

@@ -2,6 +2,7 @@
 
 #include "app/library/exhibit_file.h"
 #include "app/library/stick_pack.h"
+#include "app/library/stick_settings.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -28,10 +29,15 @@ std::string in_small_letters(std::string_view name) {
     return small;
 }
 
-/// exhibit.toml.txt, Exhibit.toml, exhibit (1).toml, and signatures of such.
-bool looks_like_set_file(std::string_view name) {
+/// Of "exhibit": exhibit.toml.txt, Exhibit.toml, exhibit (1).toml, and signatures of such.
+bool looks_like(std::string_view stem, std::string_view name) {
     const std::string small = in_small_letters(name);
-    return small.starts_with("exhibit") && small.find(".toml") != std::string::npos;
+    return small.starts_with(stem) && small.find(".toml") != std::string::npos;
+}
+
+/// Keeps the first by name.
+void keep_first(std::string& kept, const std::string& path) {
+    kept = kept.empty() || path < kept ? path : kept;
 }
 
 class Walk {
@@ -53,6 +59,8 @@ private:
     StickFiles found_;
     std::vector<std::string> folders_;
     std::string misnamed_; ///< path; empty: none
+    std::string misnamed_settings_;
+    bool has_settings_ = false;
     std::size_t entries_ = 0;
     std::optional<ImportFailure> failure_;
 };
@@ -77,8 +85,12 @@ void Walk::look_at(const std::string& folder, const FolderEntry& entry) {
         }
     } else if (folder.empty() && entry.name == exhibit_file_name) {
         found_.has_exhibit_file = true;
-    } else if (looks_like_set_file(entry.name) && (misnamed_.empty() || path < misnamed_)) {
-        misnamed_ = path;
+    } else if (folder.empty() && entry.name == settings_file_name) {
+        has_settings_ = true;
+    } else if (looks_like("exhibit", entry.name)) {
+        keep_first(misnamed_, path);
+    } else if (looks_like("kiosk", entry.name)) {
+        keep_first(misnamed_settings_, path);
     }
 }
 
@@ -134,6 +146,14 @@ tl::expected<StickFiles, ImportFailure> Walk::all() {
                            fmt::format("it is not looked at; a set file is called {}, with its signature {} "
                                        "beside it, and both lie in the stick's root",
                                        exhibit_file_name, exhibit_signature_name)};
+    }
+    if (!misnamed_settings_.empty() && !has_settings_) {
+        found_.misnamed_settings = {printable(misnamed_settings_), "", ImportOutcome::Refused,
+                                    ImportRefusal::NotAPack,
+                                    fmt::format("it is not looked at; a kiosk's settings are called {} and "
+                                                "lie in the stick's root: rename it, and "
+                                                "look that no .txt is hidden behind the name",
+                                                settings_file_name)};
     }
     return std::move(found_);
 }

@@ -23,6 +23,7 @@ struct StickFiles {
     std::vector<ImportedPack> refused; ///< folders that cannot be read, packs that are no files
     std::optional<ImportedPack>
         misnamed; ///< of what may be meant as set file, the first by name; none if there is one
+    std::optional<ImportedPack> misnamed_settings; ///< the same of a kiosk's settings
     bool has_exhibit_file = false;
 };
 

@@ -146,6 +146,41 @@ TEST_F(SettingsProgram, RefusesWhatIsNoSmallFile) {
     expect_refused(ImportRefusal::NotAPack, "no ordinary file");
 }
 
+/// What a stick that was pulled from the office computer too early leaves of a file.
+TEST_F(SettingsProgram, RefusesAnEmptyFileAndOneThatIsCutOff) {
+    const std::string whole = "[table]\nwidth_m = 0.7\n# the end of a comment\n";
+    for (const std::string& empty : {std::string(), std::string("\r\n \n"), std::string(300, '\0')}) {
+        fill(empty, key, 0);
+        expect_refused(ImportRefusal::NotAPack, "it is empty");
+    }
+    fill(whole.substr(0, whole.size() - 8), key, 0);
+    expect_refused(ImportRefusal::NotAPack, "its last line has no end");
+    fill(whole.substr(0, whole.size() - 8), key, 7);
+    EXPECT_EQ(put_in().outcome, ImportOutcome::Taken) << "a signature vouches for the file's end";
+}
+
+TEST_F(SettingsProgram, TellsOfNearlyRightNames) {
+    for (const std::string name : {"kiosk.toml.txt", "Kiosk.toml", "kiosk (1).toml", "set/kiosk.toml"}) {
+        std::filesystem::remove_all(folder / "stick");
+        std::filesystem::create_directories(folder / "stick/set");
+        put("stick/" + name, "[table]\nwidth_m = 0.7\n");
+        static_cast<void>(run(command()));
+        const Result<ImportReport> report = parse_import_report(text("report/report.json"));
+        ASSERT_TRUE(report) << text("err.txt");
+        ASSERT_EQ(report->packs.size(), 1U) << name;
+        EXPECT_EQ(report->packs[0].file, name);
+        EXPECT_EQ(report->packs[0].outcome, ImportOutcome::Refused);
+        EXPECT_NE(report->packs[0].reason.find("are called kiosk.toml"), std::string::npos)
+            << report->packs[0].reason;
+        EXPECT_EQ(text("settings/kiosk.toml"), shipped);
+    }
+    fill("[table]\nwidth_m = 0.7\n", key, 0);
+    put("stick/kiosk.toml.txt", "no settings");
+    EXPECT_EQ(put_in().outcome, ImportOutcome::Taken);
+    EXPECT_EQ(parse_import_report(text("report/report.json"))->packs.size(), 1U)
+        << "where there is one, others are no matter";
+}
+
 TEST_F(SettingsProgram, ThePacksOfTheSameStickAreSignedWithTheKeyThatItBrings) {
     const testing_disk::Museum museum;
     fill(naming(museum.key), key, 0);

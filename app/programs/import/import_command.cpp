@@ -197,7 +197,8 @@ ImportReport import_from(const ImportArguments& arguments) {
     const Result<FolderLock> lock =
         make_folder(arguments.into).and_then([&] { return FolderLock::wait_for(arguments.into); });
     const Result<std::unique_ptr<WritableTree>> library = open_tree(arguments.into);
-    if (stick && lock && library && !arguments.settings.empty()) {
+    request.takes_settings = !arguments.settings.empty();
+    if (stick && lock && library && request.takes_settings) {
         request.settings = take_settings_of(**stick, **library, arguments, *request.today);
     }
     const Result<void> trusted = read_trust(arguments, request);
