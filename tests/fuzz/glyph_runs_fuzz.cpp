@@ -1,6 +1,6 @@
 // Glyph runs: refused in one line, or written again they are the same bytes, and the kiosk can set them.
-#include "app/typography/glyph_image.h"
 #include "app/pack/glyph_runs.h"
+#include "app/typography/glyph_image.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <algorithm>

@@ -19,8 +19,9 @@ void check_name(std::string_view name) {
         static_cast<void>(sidecars.read(name, "images[0]"));
         fuzz::require(false, "nothing is read where nothing is");
     } catch (const Refusal& refusal) {
-        fuzz::require(refusal.message.ends_with(" (images[0])"), "a refusal says where", refusal.message);
-        fuzz::require_one_line(refusal.message);
+        fuzz::require(refusal.error.message.ends_with(" (images[0])"), "a refusal says where",
+                      refusal.error.message);
+        fuzz::require_one_line(refusal.error.message);
     }
 }
 
@@ -45,8 +46,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         fuzz::require(plain.size() <= text.size(), "decoding adds nothing");
         check_name(plain);
     } catch (const Refusal& refusal) {
-        fuzz::require(refusal.message.find("(uri: ") != std::string::npos, "a refusal says where",
-                      refusal.message);
+        fuzz::require(refusal.error.message.find("(uri: ") != std::string::npos, "a refusal says where",
+                      refusal.error.message);
     }
     return 0;
 }

@@ -18,7 +18,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::vector<TrustedKey> keys{{"House", *parse_public_key(vectors::open_public), std::nullopt}};
     const auto checked = check_signature(as_bytes(vectors::signed_text), text, keys, std::nullopt);
     if (!checked) {
-        fuzz::require_one_line(checked.error().message);
+        fuzz::require_one_line(checked.error().error.message);
         return 0;
     }
     fuzz::require(claim.has_value(), "what is right can be read");

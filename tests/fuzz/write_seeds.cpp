@@ -1,8 +1,8 @@
 // Writes small inputs for every fuzz target: FOLDER/TARGET/NAME. The corpora grew from these by fuzzing.
 #include "app/pack/block_part.h"
+#include "app/pack/container/zip_archive.h"
 #include "app/pack/glyph_runs.h"
 #include "app/pack/manifest.h"
-#include "app/pack/container/zip_archive.h"
 #include "assets_baked/artifacts/builtin.h"
 #include "assets_baked/folder/new_folder.h"
 #include "firmware_host/tracker/packet_file.h"
