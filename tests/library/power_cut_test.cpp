@@ -274,7 +274,7 @@ TEST_F(PowerCut, OrAStickThatChangesBetweenTwoReads) {
                 const Content content = *disk->content(pack.file);
                 const auto opened = open_signed_pack(std::span(*content),
                                                      {request.keys, std::nullopt, UnsignedPacks::Refuse});
-                ASSERT_TRUE(opened) << opened.error().message;
+                ASSERT_TRUE(opened) << opened.error().error.message;
                 EXPECT_EQ(opened->serial(), pack.serial);
                 EXPECT_TRUE(pack.id != "a" || pack.serial >= 2) << pack.serial;
                 EXPECT_TRUE(verify_pack(*content));

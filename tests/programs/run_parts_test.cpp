@@ -27,8 +27,8 @@ Result<LoopResult> lasted(Nanoseconds length) {
     result.status.uptime_s = to_seconds(length);
     return result;
 }
-const Error no_pack{ErrorKind::BadConfiguration, "there is no pack"};
-const Error no_display{ErrorKind::DeviceLost, "the display is gone"};
+const Error no_pack{ErrorKind::BadConfiguration, "test.no_pack", "there is no pack"};
+const Error no_display{ErrorKind::DeviceLost, "test.no_display", "the display is gone"};
 const Result<LoopResult> failed = tl::unexpected<Error>(no_display);
 
 TEST(RunEnd, ARunThatShowsSomethingIsDoneWhenItIsTold) {
@@ -85,7 +85,7 @@ protected:
     [[nodiscard]] std::unique_ptr<Show> excuse_for(const std::string& message) {
         ::testing::internal::CaptureStderr();
         Result<std::unique_ptr<Show>> excuse =
-            make_excuse(settings, Journal("test"), {ErrorKind::BadInput, message});
+            make_excuse(settings, Journal("test"), {ErrorKind::BadInput, "test.excuse", message});
         said = ::testing::internal::GetCapturedStderr();
         EXPECT_TRUE(excuse);
         return excuse ? std::move(*excuse) : nullptr;

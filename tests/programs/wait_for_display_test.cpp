@@ -64,8 +64,8 @@ struct Machine {
     }
 };
 
-const Error no_card{ErrorKind::DeviceLost, "there is no card"};
-const Error no_permission{ErrorKind::BadConfiguration, "this user may not open it"};
+const Error no_card{ErrorKind::DeviceLost, "test.no_card", "there is no card"};
+const Error no_permission{ErrorKind::BadConfiguration, "test.no_permission", "this user may not open it"};
 
 class WaitForDisplay : public ::testing::Test {
 protected:
