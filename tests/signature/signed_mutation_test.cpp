@@ -236,7 +236,7 @@ TEST(SignedMutants, AreRefusedOrUnpackToWhatWasSigned) {
         const Bytes mutant = mutator.mutant();
         auto opened = open_signed_pack(mutant, {keys, std::nullopt});
         if (!opened) {
-            ASSERT_TRUE(samples::is_one_line(opened.error().message)) << opened.error().message;
+            ASSERT_TRUE(samples::is_one_line(opened.error().error.message)) << opened.error().error.message;
             continue;
         }
         ++opened_count;
