@@ -13,6 +13,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -115,22 +116,44 @@ void count_wrong_points(AutoCalibration& calibration, const RestWeights& weights
     }
 }
 
-/// Why rests contradict each other: the mistake without which they agree.
-std::string cause_of(std::span<const Rest> rests, const AutoSetup& setup, const RestFitSetup& fit_setup) {
+/// The rests with one mistake undone, and the half sentence that names it.
+struct Mistake {
+    Rests undone;
+    std::string_view what;
+};
+
+/// Mistakes that spoil all rests at once.
+std::vector<Mistake> mistakes_in(std::span<const Rest> rests) {
+    const std::size_t count = rests.size();
     Rests mirrored(rests.begin(), rests.end());
-    std::vector<std::optional<PlaneView>> views;
-    for (Rest& rest : mirrored) {
-        for (PropPoint& point : rest.points) {
+    Rests next = mirrored;
+    Rests before = mirrored;
+    for (std::size_t k = 0; k < count; ++k) {
+        for (PropPoint& point : mirrored[k].points) {
             point.prop_m.x = -point.prop_m.x;
         }
-        views.push_back(plane_view(rest));
+        next[k].tracker_from_sensor = rests[(k + 1) % count].tracker_from_sensor;
+        before[k].tracker_from_sensor = rests[(k + count - 1) % count].tracker_from_sensor;
     }
-    if (find_agreement(mirrored, views, fit_setup,
-                       starting_rest_models(mirrored, views, setup.width, setup.height))
-            .agreement != Agreement::None) {
-        return "the rests contradict each other as given, and agree if the points are mirrored: is the board "
-               "printed from "
-               "behind, or does the camera turn its picture round?";
+    return {{std::move(mirrored), "the points are mirrored: is the board printed from behind, or does the "
+                                  "camera turn its picture round?"},
+            {std::move(next), "each rest's points belong to the report of the next one"},
+            {std::move(before), "each rest's points belong to the report of the one before"}};
+}
+
+/// Why rests contradict each other: the mistake without which most of them agree.
+std::string cause_of(std::span<const Rest> rests, const AutoSetup& setup, const RestFitSetup& fit_setup) {
+    for (const Mistake& mistake : mistakes_in(rests)) {
+        std::vector<std::optional<PlaneView>> views;
+        for (const Rest& rest : mistake.undone) {
+            views.push_back(plane_view(rest));
+        }
+        const AgreeingRests found =
+            find_agreement(mistake.undone, views, fit_setup,
+                           starting_rest_models(mistake.undone, views, setup.width, setup.height));
+        if (found.agreement != Agreement::None) {
+            return fmt::format("the rests contradict each other as given, and agree if {}", mistake.what);
+        }
     }
     return "the rests contradict each other, and no single mistake explains it: points of another prop, "
            "metal near the "

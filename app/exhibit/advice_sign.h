@@ -8,9 +8,9 @@
 /// Threads  pure; any. Placing allocates nothing.
 #pragma once
 
-#include "app/typography/captions.h"
 #include "app/guidance/guide.h"
 #include "app/image/image.h"
+#include "app/typography/captions.h"
 
 #include <array>
 #include <cstdint>

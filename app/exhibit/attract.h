@@ -8,10 +8,10 @@
 /// Threads  values; one caller. Allocates nothing.
 #pragma once
 
-#include "app/typography/captions.h"
 #include "app/exhibit/fade.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
+#include "app/typography/captions.h"
 
 #include <optional>
 

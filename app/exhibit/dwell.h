@@ -10,9 +10,9 @@
 /// Errors   none: a prop that is lifted or not known rests nowhere.
 #pragma once
 
-#include "app/typography/captions.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
+#include "app/typography/captions.h"
 #include "firmware_host/base/time.h"
 
 #include <glm/glm.hpp>

@@ -20,7 +20,6 @@
 #include "app/exhibit/advice_sign.h"
 #include "app/exhibit/artifact_state.h"
 #include "app/exhibit/attract.h"
-#include "app/typography/captions.h"
 #include "app/exhibit/description_shape.h"
 #include "app/exhibit/hotspot_labels.h"
 #include "app/exhibit/notice_place.h"
@@ -32,11 +31,12 @@
 #include "app/exhibit/states.h"
 #include "app/exhibit/table_browser.h"
 #include "app/exhibit/teller.h"
-#include "app/typography/visitor_side.h"
 #include "app/exhibit/zone_frame.h"
 #include "app/geometry/prop_shape.h"
 #include "app/settings/command.h"
 #include "app/tracking/situation.h"
+#include "app/typography/captions.h"
+#include "app/typography/visitor_side.h"
 
 #include <array>
 #include <cstddef>

@@ -1,8 +1,8 @@
 #include "app/exhibit/hotspot_labels.h"
 
-#include "app/typography/visitor_side.h"
 #include "app/geometry/time_curves.h"
 #include "app/settings/lit_zone.h"
+#include "app/typography/visitor_side.h"
 
 #include <algorithm>
 #include <array>

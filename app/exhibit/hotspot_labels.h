@@ -9,11 +9,11 @@
 /// Errors   none: a label without room, and one to which no line leads, is not shown.
 #pragma once
 
-#include "app/typography/captions.h"
 #include "app/exhibit/leader_line.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
 #include "app/geometry/triangle_tree.h"
+#include "app/typography/captions.h"
 #include "firmware_host/base/time.h"
 
 #include <glm/glm.hpp>

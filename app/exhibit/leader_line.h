@@ -13,10 +13,10 @@
 /// Threads  pure; any. Allocates nothing.
 #pragma once
 
-#include "app/typography/captions.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
 #include "app/geometry/triangle_tree.h"
+#include "app/typography/captions.h"
 
 #include <glm/glm.hpp>
 

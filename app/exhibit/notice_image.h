@@ -9,10 +9,10 @@
 /// Errors   none: a word that is not there is left out.
 #pragma once
 
-#include "app/typography/caption_image.h"
 #include "app/exhibit/stick_notice.h"
-#include "app/typography/text_image.h"
 #include "app/pack/glyph_runs.h"
+#include "app/typography/caption_image.h"
+#include "app/typography/text_image.h"
 
 #include <glm/glm.hpp>
 

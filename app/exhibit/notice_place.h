@@ -12,8 +12,8 @@
 /// Errors   none: without room nothing is shown.
 #pragma once
 
-#include "app/typography/captions.h"
 #include "app/exhibit/notice_image.h"
+#include "app/typography/captions.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "app/exhibit/readers_table.h"
 
-#include "app/typography/visitor_side.h"
 #include "app/settings/polygon.h"
+#include "app/typography/visitor_side.h"
 
 #include <limits>
 #include <numbers>

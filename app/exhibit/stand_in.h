@@ -10,8 +10,8 @@
 /// Errors   none.
 #pragma once
 
-#include "app/typography/captions.h"
 #include "app/exhibit/selection.h"
+#include "app/typography/captions.h"
 #include "firmware_host/base/time.h"
 
 #include <cstddef>

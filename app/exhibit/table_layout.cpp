@@ -1,8 +1,8 @@
 #include "app/exhibit/table_layout.h"
 
 #include "app/exhibit/table_places.h"
-#include "app/typography/visitor_side.h"
 #include "app/geometry/time_curves.h"
+#include "app/typography/visitor_side.h"
 
 #include <utility>
 

@@ -14,8 +14,8 @@
 /// Errors   none: a table without room has no places.
 #pragma once
 
-#include "app/typography/captions.h"
 #include "app/geometry/prop_shape.h"
+#include "app/typography/captions.h"
 
 #include <glm/glm.hpp>
 

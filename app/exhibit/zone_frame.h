@@ -7,9 +7,9 @@
 /// Threads  values; any. Allocates nothing.
 #pragma once
 
-#include "app/typography/captions.h"
 #include "app/geometry/transform.h"
 #include "app/settings/lit_zone.h"
+#include "app/typography/captions.h"
 
 #include <array>
 

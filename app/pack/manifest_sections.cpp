@@ -1,7 +1,7 @@
 #include "app/pack/manifest_sections.h"
 
-#include "app/pack/json/json_writer.h"
 #include "app/pack/container/limits.h"
+#include "app/pack/json/json_writer.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>

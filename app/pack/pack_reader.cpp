@@ -1,8 +1,8 @@
 #include "app/pack/pack_reader.h"
 
 #include "app/pack/container/limits.h"
-#include "app/pack/pack_contents.h"
 #include "app/pack/container/sha256.h"
+#include "app/pack/pack_contents.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>

@@ -4,8 +4,8 @@
 /// Threads  one caller.
 #pragma once
 
-#include "app/pack/manifest.h"
 #include "app/pack/container/zip_archive.h"
+#include "app/pack/manifest.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,8 +1,8 @@
 #include "app/pack/pack_texts.h"
 
+#include "app/pack/container/limits.h"
 #include "app/pack/json/json_reader.h"
 #include "app/pack/json/json_writer.h"
-#include "app/pack/container/limits.h"
 #include "app/pack/pack_sections.h"
 #include "firmware_host/base/printable.h"
 

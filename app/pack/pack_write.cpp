@@ -1,10 +1,10 @@
 #include "app/pack/binary_parts.h"
 #include "app/pack/check_pack.h"
 #include "app/pack/container/limits.h"
-#include "app/pack/manifest.h"
-#include "app/pack/pack_file.h"
 #include "app/pack/container/sha256.h"
 #include "app/pack/container/zip_archive.h"
+#include "app/pack/manifest.h"
+#include "app/pack/pack_file.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>

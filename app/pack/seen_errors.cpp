@@ -1,8 +1,8 @@
 #include "app/pack/seen_errors.h"
 
+#include "app/pack/container/limits.h"
 #include "app/pack/json/json_reader.h"
 #include "app/pack/json/json_writer.h"
-#include "app/pack/container/limits.h"
 
 #include <fmt/format.h>
 

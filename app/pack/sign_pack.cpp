@@ -1,7 +1,7 @@
 #include "app/pack/sign_pack.h"
 
-#include "app/pack/manifest.h"
 #include "app/pack/container/zip_archive.h"
+#include "app/pack/manifest.h"
 #include "firmware_host/base/streamed_file.h"
 
 namespace frustumscreen {

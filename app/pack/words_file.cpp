@@ -1,10 +1,10 @@
 #include "app/pack/words_file.h"
 
-#include "app/pack/json/json_reader.h"
-#include "app/pack/json/json_writer.h"
 #include "app/pack/container/limits.h"
 #include "app/pack/container/sha256.h"
 #include "app/pack/container/zip_archive.h"
+#include "app/pack/json/json_reader.h"
+#include "app/pack/json/json_writer.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>

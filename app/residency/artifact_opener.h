@@ -8,8 +8,8 @@
 #pragma once
 
 #include "app/library/pack_left_out.h"
-#include "app/settings/settings.h"
 #include "app/residency/prepared_artifact.h"
+#include "app/settings/settings.h"
 #include "firmware_host/base/result.h"
 
 #include <filesystem>

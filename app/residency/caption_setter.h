@@ -6,9 +6,9 @@
 /// Errors   no typeface where one is needed.
 #pragma once
 
-#include "app/typography/caption_image.h"
 #include "app/pack/pack.h"
 #include "app/pack/pack_texts.h"
+#include "app/typography/caption_image.h"
 #include "firmware_host/base/result.h"
 
 #include <optional>

@@ -4,10 +4,10 @@
 /// Threads  values; one caller. Allocates nothing; what is more than `most_on_table` is left out.
 #pragma once
 
-#include "app/typography/captions.h"
 #include "app/geometry/pinhole.h"
 #include "app/geometry/transform.h"
 #include "app/scene/frame_plan.h"
+#include "app/typography/captions.h"
 
 #include <array>
 #include <cstddef>

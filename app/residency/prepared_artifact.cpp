@@ -2,8 +2,8 @@
 
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_relief.h"
-#include "app/scene/exposure.h"
 #include "app/residency/hotspot_show.h"
+#include "app/scene/exposure.h"
 
 #include <algorithm>
 #include <optional>

@@ -9,11 +9,11 @@
 
 #include "app/exhibit/hotspot_labels.h"
 #include "app/pack/pack_outline.h"
+#include "app/residency/artifact_texts.h"
+#include "app/residency/run_levels.h"
 #include "app/scene/frame_time_model.h"
 #include "app/scene/level_data.h"
 #include "app/scene/scene_plan.h"
-#include "app/residency/artifact_texts.h"
-#include "app/residency/run_levels.h"
 #include "firmware_host/base/result.h"
 
 #include <filesystem>

@@ -14,8 +14,8 @@
 ///          bad are left out alone.
 #pragma once
 
-#include "app/library/pack_left_out.h"
 #include "app/exhibit/artifact_state.h"
+#include "app/library/pack_left_out.h"
 #include "app/pack/container/limits.h"
 #include "app/render/gpu_store.h"
 #include "app/residency/artifact_reader.h"

@@ -1,8 +1,8 @@
 #include "app/show/advice_words.h"
 
-#include "app/typography/caption_image.h"
 #include "app/exhibit/languages.h"
 #include "app/pack/words_file.h"
+#include "app/typography/caption_image.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>

@@ -8,8 +8,8 @@
 #include "app/drift/drift_watch.h"
 #include "app/exhibit/exhibit.h"
 #include "app/render/gpu_store.h"
-#include "app/settings/settings.h"
 #include "app/residency/on_table.h"
+#include "app/settings/settings.h"
 
 #include <optional>
 

@@ -1,13 +1,13 @@
 #include "app/show/notice_show.h"
 
 #include "app/exhibit/languages.h"
-#include "app/typography/ring.h"
 #include "app/pack/words_file.h"
+#include "app/residency/artifact_opener.h"
 #include "app/scene/scene_plan.h"
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
-#include "app/residency/artifact_opener.h"
 #include "app/show/house_words.h"
+#include "app/typography/ring.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/standard_error.h"
 

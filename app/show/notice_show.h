@@ -12,12 +12,12 @@
 
 #include "app/exhibit/exhibit.h"
 #include "app/exhibit/stick_notice.h"
-#include "app/typography/visitor_side.h"
 #include "app/render/gpu_store.h"
-#include "app/settings/settings.h"
-#include "app/show/import_watch.h"
 #include "app/residency/on_table.h"
 #include "app/residency/prompt_reader.h"
+#include "app/settings/settings.h"
+#include "app/show/import_watch.h"
+#include "app/typography/visitor_side.h"
 #include "firmware_host/base/result.h"
 
 #include <array>

@@ -4,11 +4,11 @@
 /// Errors   the typeface is missing.
 #pragma once
 
-#include "app/typography/pattern.h"
 #include "app/render/picture_upload.h"
 #include "app/settings/settings.h"
 #include "app/show/show.h"
 #include "app/show/viewfinder_panel.h"
+#include "app/typography/pattern.h"
 
 #include <memory>
 #include <optional>

@@ -12,15 +12,15 @@
 
 #include "app/exhibit/exhibit.h"
 #include "app/render/gpu_store.h"
+#include "app/residency/artifact_opener.h"
+#include "app/residency/loaded.h"
+#include "app/residency/residents.h"
 #include "app/scene/device_plan.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/frame_time_model.h"
 #include "app/scene/scene_plan.h"
 #include "app/settings/settings.h"
 #include "app/show/advice_words.h"
-#include "app/residency/artifact_opener.h"
-#include "app/residency/loaded.h"
-#include "app/residency/residents.h"
 #include "app/show/table_show.h"
 #include "firmware_host/base/result.h"
 

@@ -1,13 +1,13 @@
 #include "app/show/table_show.h"
 
 #include "app/exhibit/languages.h"
-#include "app/typography/ring.h"
-#include "app/typography/table_title.h"
 #include "app/image/light_mips.h"
 #include "app/pack/pack_sections.h"
 #include "app/pack/pack_texts.h"
 #include "app/scene/scene_level.h"
 #include "app/settings/lit_zone.h"
+#include "app/typography/ring.h"
+#include "app/typography/table_title.h"
 
 #include <algorithm>
 #include <utility>

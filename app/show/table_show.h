@@ -11,8 +11,8 @@
 
 #include "app/exhibit/exhibit.h"
 #include "app/render/gpu_store.h"
-#include "app/settings/settings.h"
 #include "app/residency/on_table.h"
+#include "app/settings/settings.h"
 #include "firmware_host/base/result.h"
 
 #include <cstdint>

@@ -6,10 +6,10 @@
 /// Threads  the render thread, with the display's context current. Only `set_line` allocates.
 #pragma once
 
-#include "app/typography/text_image.h"
 #include "app/render/picture_upload.h"
 #include "app/show/run_report.h"
 #include "app/show/viewfinder.h"
+#include "app/typography/text_image.h"
 
 #include <string>
 

@@ -6,8 +6,8 @@
 /// Threads  values; any. What is shared never changes.
 #pragma once
 
-#include "app/library/pack_left_out.h"
 #include "app/library/import_report.h"
+#include "app/library/pack_left_out.h"
 #include "app/pack/pack_file.h"
 #include "app/status/set_status.h"
 #include "firmware_host/base/json.h"

@@ -5,8 +5,8 @@
 /// Threads  one; offline, or where a frame may take long.
 #pragma once
 
-#include "app/typography/text_image.h"
 #include "app/image/image.h"
+#include "app/typography/text_image.h"
 
 #include <glm/glm.hpp>
 

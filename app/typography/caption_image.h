@@ -4,9 +4,9 @@
 /// Threads  as Typesetter; made once for each text, language and size.
 #pragma once
 
-#include "app/typography/text_image.h"
 #include "app/image/image.h"
 #include "app/pack/glyph_runs.h"
+#include "app/typography/text_image.h"
 
 #include <glm/glm.hpp>
 

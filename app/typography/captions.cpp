@@ -1,7 +1,7 @@
 #include "app/typography/captions.h"
 
-#include "app/typography/visitor_side.h"
 #include "app/geometry/time_curves.h"
+#include "app/typography/visitor_side.h"
 
 #include <algorithm>
 #include <cassert>

@@ -9,11 +9,11 @@
 /// Errors   none: what is behind the projector is left out.
 #pragma once
 
-#include "app/typography/text_image.h"
 #include "app/geometry/pinhole.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
 #include "app/image/image.h"
+#include "app/typography/text_image.h"
 
 #include <glm/glm.hpp>
 

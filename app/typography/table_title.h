@@ -5,9 +5,9 @@
 /// Method   What does not fit into two lines is cut off, and the last letters before that fade out.
 #pragma once
 
+#include "app/pack/glyph_runs.h"
 #include "app/typography/caption_image.h"
 #include "app/typography/text_image.h"
-#include "app/pack/glyph_runs.h"
 
 #include <string>
 

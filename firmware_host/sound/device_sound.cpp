@@ -97,7 +97,7 @@ Error DeviceSound::play(PcmDevice& device, const std::stop_token& stop) {
         moved = *room > 0 ? now : moved;
         if (now - moved > stalls_after) {
             return Error{ErrorKind::DeviceLost, "sound.stalled",
-                    "the sound device takes no more samples; it is opened again"};
+                         "the sound device takes no more samples; it is opened again"};
         }
         underruns_ = underruns_before + device.underruns();
         report(duration_of(device.queued()), true);

@@ -1,7 +1,7 @@
 // What the automatic calibration is worth, from rests of points whose truth is known: exact without noise, within the limits with it.
-#include "tests/simulators/table/simulated_rests.h"
 #include "app/calibration/calibrate_auto.h"
 #include "tests/calibration/wide_priors.h"
+#include "tests/simulators/table/simulated_rests.h"
 
 #include <gtest/gtest.h>
 
@@ -193,7 +193,7 @@ std::vector<Fault> all_faults() {
                  std::swap(rests[k].tracker_from_sensor, rests[k + 1].tracker_from_sensor);
              }
          },
-         "?"},
+         "belong to the report of the"},
         {"mirrored",
          [](Rests& rests, const Table& table, Numbers&) {
              each_point(rests,

@@ -1,6 +1,6 @@
 // Metal near the tracker: whatever it bends, no verdict promises what does not hold.
-#include "tests/simulators/table/bent_field.h"
 #include "tests/calibration/simulated_touches.h"
+#include "tests/simulators/table/bent_field.h"
 
 #include <gtest/gtest.h>
 

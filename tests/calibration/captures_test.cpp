@@ -1,7 +1,7 @@
 // From a camera's captures to a calibration: ray cast, with noise, blur, gamma, ambient light and a lens that nobody knows.
-#include "tests/simulators/table/simulated_camera.h"
 #include "app/calibration/calibrate_auto.h"
 #include "app/calibration/tag_pixels.h"
+#include "tests/simulators/table/simulated_camera.h"
 
 #include <gtest/gtest.h>
 

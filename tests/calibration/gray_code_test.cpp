@@ -1,6 +1,6 @@
 // Striped pictures and what is read from them: exact where nothing spoils it, within tenths of a pixel where a camera does.
-#include "tests/simulators/table/simulated_table.h"
 #include "app/calibration/gray_code.h"
+#include "tests/simulators/table/simulated_table.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 /// Source   Kay, Fundamentals of Statistical Signal Processing: Estimation Theory, 1993: the Cramer-Rao bound with priors
 #pragma once
 
-#include "tests/simulators/table/simulated_table.h"
 #include "app/calibration/priors.h"
+#include "tests/simulators/table/simulated_table.h"
 
 #include <Eigen/Core>
 #include <vector>

@@ -1,8 +1,8 @@
 /// A person with a sensor on the head who sights over the prop, with noise. Its arithmetic shares nothing with the fit but the structs.
 #pragma once
 
-#include "tests/simulators/table/simulated_table.h"
 #include "app/calibration/eye_fit.h"
+#include "tests/simulators/table/simulated_table.h"
 
 #include <array>
 #include <cmath>

@@ -1,8 +1,8 @@
 /// Touches of simulated tables, as a technician makes them on the crosses that the room chooses.
 #pragma once
 
-#include "tests/simulators/table/simulated_table.h"
 #include "app/calibration/calibrate_touch.h"
+#include "tests/simulators/table/simulated_table.h"
 
 #include <cmath>
 #include <map>

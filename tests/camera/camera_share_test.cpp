@@ -3,8 +3,6 @@
 //
 // No place of a camera suits all uses: tags and marks are looked for on a table seen from above, heads in a room seen from the table's far edge.
 // The figures of docs/measurements.md: `ctest -C long -R camera_share`.
-#include "tests/simulators/tags/skirt.h"
-#include "tests/simulators/visitor/room_scene.h"
 #include "app/drift/drift_watch.h"
 #include "app/drift/mark_places.h"
 #include "app/programs/devices/wiring.h"
@@ -13,6 +11,8 @@
 #include "firmware_host/camera/camera_driver.h"
 #include "tests/camera/fake_v4l2.h"
 #include "tests/drift/table_scene.h"
+#include "tests/simulators/tags/skirt.h"
+#include "tests/simulators/visitor/room_scene.h"
 
 #include <gtest/gtest.h>
 #include <linux/videodev2.h>

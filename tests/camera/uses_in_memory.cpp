@@ -2,8 +2,6 @@
 // drift's marks, which are learned, and what the staff see; prints how many. keeps_nothing_test runs it under strace.
 //
 //   uses_in_memory FOLDER [FILE]     FOLDER: where drift.json comes to lie; FILE: what must not be done: one frame is written there
-#include "tests/simulators/tags/skirt.h"
-#include "tests/simulators/tags/tag_scene.h"
 #include "app/drift/drift_watch.h"
 #include "app/drift/mark_places.h"
 #include "app/settings/looking_at.h"
@@ -11,6 +9,8 @@
 #include "app/tags/tag_tracker.h"
 #include "app/visitor/visitor_tracker.h"
 #include "tests/drift/table_scene.h"
+#include "tests/simulators/tags/skirt.h"
+#include "tests/simulators/tags/tag_scene.h"
 
 #include <cstdio>
 #include <filesystem>

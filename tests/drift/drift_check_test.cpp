@@ -1,6 +1,6 @@
 // What is told of many looks at the marks: a move by 2 mm within minutes, and nothing that hands, things on the table and light do.
-#include "tests/simulators/table/simulated_table.h"
 #include "app/drift/drift_check.h"
+#include "tests/simulators/table/simulated_table.h"
 
 #include <gtest/gtest.h>
 

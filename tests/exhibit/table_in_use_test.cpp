@@ -1,6 +1,6 @@
 // What lies on the table once it is laid out: beside a caption, and while the prop moves over it.
-#include "app/typography/captions.h"
 #include "app/exhibit/table_layout.h"
+#include "app/typography/captions.h"
 #include "tests/exhibit/some_tables.h"
 
 #include <gtest/gtest.h>

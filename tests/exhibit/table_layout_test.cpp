@@ -1,6 +1,6 @@
 #include "app/exhibit/table_layout.h"
-#include "app/typography/visitor_side.h"
 #include "app/settings/lit_zone.h"
+#include "app/typography/visitor_side.h"
 #include "tests/exhibit/some_tables.h"
 #include "tests/folders.h"
 #include "tests/render/counted_new.h"

@@ -2,10 +2,10 @@
 //
 //   draw_staff_picture OUT.png
 
-#include "app/typography/pattern.h"
 #include "app/image/image.h"
 #include "app/settings/settings.h"
 #include "app/status/status_lines.h"
+#include "app/typography/pattern.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>

@@ -128,7 +128,7 @@ TEST_F(SettingsProgram, SaysWhichLineIsWrong) {
 }
 
 TEST_F(SettingsProgram, RefusesWhatIsNoSmallFile) {
-    fill(std::string(64U << 10U, '#'), key, 0);
+    fill(std::string((64U << 10U) - 1, '#') + "\n", key, 0);
     EXPECT_EQ(put_in().outcome, ImportOutcome::Taken);
     fill(std::string((64U << 10U) + 1, '#'), key, 0);
     expect_refused(ImportRefusal::NotAPack, "65536");

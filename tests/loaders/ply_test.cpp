@@ -230,12 +230,12 @@ TEST(Ply, WhatIsLostIsSaid) {
         "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 200\n";
     const std::string two = replaced(square_header + square_data, "4 0 1 2 3", "2 0 1\n4 0 1 2 3");
     for (const auto& [text, expected] : std::vector<std::pair<std::string, std::string>>{
-             {wedge, "[mesh.picture_missing]"},
-             {replaced(wedge, "property int texnumber\n", "property int flags\n"), "[mesh.picture_missing]"},
+             {wedge, "--texture FILE"},
+             {replaced(wedge, "property int texnumber\n", "property int flags\n"), "--texture FILE"},
              {faces, "they stand at the faces"},
              {replaced(two, "face 1", "face 2"), "1 face of fewer than three corners"},
              {replaced(square_header + square_data, "comment a square", "comment TextureFile a.png"),
-              "[mesh.no_texture_coordinates]"}}) {
+              "no texture coordinates"}}) {
         const Result<SourceMesh> mesh = load_text("scan.ply", text);
         ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
         expect_sound(*mesh);

@@ -2,12 +2,12 @@
 /// hashes.
 #pragma once
 
+#include "app/pack/container/sha256.h"
+#include "app/pack/container/zip_archive.h"
 #include "app/pack/manifest.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
-#include "app/pack/container/sha256.h"
-#include "app/pack/container/zip_archive.h"
 #include "firmware_host/base/json.h"
 #include "tests/base/told.h"
 

@@ -271,7 +271,7 @@ TEST_F(PackFile, what_is_read_of_a_file_is_what_is_read_of_its_bytes) {
         ASSERT_TRUE(write_file(file, std::span(bytes).first(size)));
         const Result<VerifiedPack> read = load_pack(file);
         ASSERT_FALSE(read);
-        EXPECT_EQ(read.error().message,
+        EXPECT_EQ(test::told(read.error()),
                   "sections.fspack: " +
                       samples::refusal_of(Bytes(bytes.begin(), bytes.begin() + std::ptrdiff_t(size))));
         EXPECT_FALSE(load_pack_card(file));

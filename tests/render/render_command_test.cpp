@@ -1,6 +1,7 @@
 // `frustumscreen render` end to end, on a pack made in memory.
 
 #include "app/pack/pack_relief.h"
+#include "tests/base/told.h"
 #include "tests/folders.h"
 #include "tests/programs/kiosk_folder.h"
 #include "tests/render/rig.h"
@@ -139,13 +140,14 @@ TEST_F(RenderCommand, ASheetIsMadeOfTheProjectorsPicturesAlone) {
                         folder.string(), bin_dir(), source_dir(), arguments);
         return std::system(command.c_str()) == 0 ? std::string() : text("err.txt");
     };
-    EXPECT_EQ(sheet("--frames nowhere"), "frustumscreen-sheet: nowhere: there is no such folder\n");
+    EXPECT_TRUE(
+        test::tells(sheet("--frames nowhere"), {"frustumscreen-sheet: nowhere: ", "[sheet.no_folder]\n"}));
     ASSERT_EQ(run(usual("v") + "--width 320 --height 200 --view visitor"), 0) << text("err.txt");
     EXPECT_EQ(sheet("--frames v --poses poses.csv").rfind("frustumscreen-sheet: v/visitor_cameras.json: ", 0),
               0U);
     ASSERT_EQ(run(usual("v") + "--width 320 --height 200"), 0) << text("err.txt");
-    EXPECT_EQ(sheet("--frames v"),
-              "frustumscreen-sheet: v/poses.csv: there is no such file; name it with --poses\n");
+    EXPECT_TRUE(
+        test::tells(sheet("--frames v"), {"frustumscreen-sheet: v/poses.csv: ", "[sheet.no_pose_file]\n"}));
     EXPECT_EQ(sheet("--frames v --poses poses.csv"), "");
     EXPECT_TRUE(fs::exists(folder / "sheet.png"));
 }

@@ -1,9 +1,9 @@
-#include "tests/simulators/tags/skirt.h"
-#include "tests/simulators/tags/tag_scene.h"
 #include "app/settings/looking_at.h"
 #include "app/tags/tag_pose.h"
 #include "app/tracking/pose_math.h"
 #include "firmware_host/tags/tag_detector.h"
+#include "tests/simulators/tags/skirt.h"
+#include "tests/simulators/tags/tag_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "tests/simulators/tags/tag_figures.h"
 #include "app/tracking/pose_math.h"
+#include "tests/simulators/tags/tag_figures.h"
 
 #include <gtest/gtest.h>
 

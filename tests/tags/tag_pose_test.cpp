@@ -1,7 +1,7 @@
-#include "tests/simulators/tags/skirt.h"
 #include "app/settings/looking_at.h"
 #include "app/tags/tag_pose.h"
 #include "app/tracking/pose_math.h"
+#include "tests/simulators/tags/skirt.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "tests/simulators/tags/skirt.h"
-#include "tests/simulators/tags/tag_scene.h"
 #include "app/settings/looking_at.h"
 #include "app/settings/settings.h"
 #include "app/tags/tag_tracker.h"
 #include "app/tracking/pose_math.h"
 #include "tests/folders.h"
+#include "tests/simulators/tags/skirt.h"
+#include "tests/simulators/tags/tag_scene.h"
 
 #include <gtest/gtest.h>
 

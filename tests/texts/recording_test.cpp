@@ -87,11 +87,10 @@ TEST(Recording, rates_and_channels_that_no_speech_has_are_refused) {
         EXPECT_FALSE(refusal(wav(header, sound)).empty()) << rate_hz;
     }
     header.rate_hz = 192000;
-    EXPECT_EQ(refusal(wav(header, sound)),
-              "the recording has 192000 samples a second; allowed are 8000 to 96000: convert it to 48000");
+    EXPECT_TRUE(test::tells(refusal(wav(header, sound)), {"192000", "8000 to 96000", "[recording.rate]"}));
     header.rate_hz = 48000;
     header.channels = 32;
-    EXPECT_EQ(refusal(wav(header, sound)), "the recording has 32 channels; allowed are 1 and 2: mix it down");
+    EXPECT_TRUE(test::tells(refusal(wav(header, sound)), {"32", "[recording.channels]"}));
     header.channels = 0;
     EXPECT_FALSE(refusal(wav(header, sound)).empty());
 }
@@ -100,8 +99,7 @@ TEST(Recording, a_file_that_claims_more_than_it_has_is_cut_off) {
     WavHeader header;
     header.claimed_bytes = 0xfffffff0U;
     const Bytes bomb = wav(header, Bytes(1000, std::byte{1}));
-    EXPECT_EQ(refusal(bomb),
-              "the recording is cut off: 4294966280 bytes of its sound are missing; copy it again");
+    EXPECT_TRUE(test::tells(refusal(bomb), {"4294966280 bytes", "[recording.cut_off]"}));
     const Result<Recording> stream = read_recording(bomb, RecordingSource::Stream);
     ASSERT_TRUE(stream) << "a program that writes into a pipe does not know the length before; "
                         << stream.error().message;
@@ -109,20 +107,19 @@ TEST(Recording, a_file_that_claims_more_than_it_has_is_cut_off) {
 }
 
 TEST(Recording, without_sound_with_too_much_or_with_no_numbers_it_is_refused) {
-    EXPECT_EQ(refusal(wav({}, {})), "the recording has no sound at all; record it again");
+    EXPECT_TRUE(test::tells(refusal(wav({}, {})), {"[recording.empty]"}));
     WavHeader slow;
     slow.rate_hz = 8000;
     slow.bits = 8;
-    EXPECT_EQ(refusal(wav(slow, Bytes(8000 * 181, std::byte{1}))),
-              "the recording is longer than 180 s; allowed is that: shorten it");
+    EXPECT_TRUE(
+        test::tells(refusal(wav(slow, Bytes(8000 * 181, std::byte{1}))), {"180 s", "[recording.too_long]"}));
     WavHeader floating;
     floating.format = 3;
     floating.bits = 32;
     Bytes sound;
     append(sound, 0.5F);
     append(sound, std::numeric_limits<float>::quiet_NaN());
-    EXPECT_EQ(refusal(wav(floating, sound)),
-              "the recording has samples that are no numbers; save it again as 16 or 24 bit");
+    EXPECT_TRUE(test::tells(refusal(wav(floating, sound)), {"[recording.not_finite]"}));
 }
 
 // ITU-R BS.1770-4, annex 1: a sine of 997 Hz at full scale in one channel has -3.01 LUFS, so one of -23 LUFS has an amplitude

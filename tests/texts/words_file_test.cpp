@@ -1,6 +1,6 @@
 // The file of the exhibit's own words.
-#include "app/pack/words_file.h"
 #include "app/pack/container/zip_archive.h"
+#include "app/pack/words_file.h"
 #include "tests/pack/zip_dates.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-#include "tests/simulators/visitor/simulated_people.h"
 #include "app/tracking/seen_head.h"
 #include "app/visitor/head_fit.h"
+#include "tests/simulators/visitor/simulated_people.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
-#include "tests/simulators/visitor/visitor_run.h"
 #include "app/settings/settings.h"
 #include "app/visitor/visitor_tracker.h"
 #include "tests/folders.h"
+#include "tests/simulators/visitor/visitor_run.h"
 
 #include <gtest/gtest.h>
 

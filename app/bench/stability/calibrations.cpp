@@ -1,10 +1,10 @@
 // The calibration by touch: its condition against its error, its noise, and its last step against long double.
 
 #include "app/bench/stability/themes.h"
-#include "tests/simulators/table/simulated_table.h"
 #include "app/calibration/agreement.h"
 #include "app/calibration/calibrate_touch.h"
 #include "app/calibration/starts.h"
+#include "tests/simulators/table/simulated_table.h"
 
 #include <fmt/format.h>
 

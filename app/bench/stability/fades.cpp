@@ -4,9 +4,9 @@
 #include "app/bench/stability/sweep.h"
 #include "app/bench/stability/themes.h"
 #include "app/exhibit/attract.h"
-#include "app/typography/captions.h"
 #include "app/exhibit/selection.h"
 #include "app/geometry/time_curves.h"
+#include "app/typography/captions.h"
 
 #include <fmt/format.h>
 

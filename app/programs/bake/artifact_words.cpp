@@ -1,8 +1,8 @@
 #include "app/programs/bake/artifact_words.h"
 
+#include "app/settings/settings.h"
 #include "app/typography/caption_image.h"
 #include "app/typography/captions.h"
-#include "app/settings/settings.h"
 #include "assets_baked/texts/set_artifact.h"
 
 #include <cmath>

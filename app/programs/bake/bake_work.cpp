@@ -1,8 +1,8 @@
 #include "app/programs/bake/bake_work.h"
 
+#include "app/pack/container/sha256.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_magic.h"
-#include "app/pack/container/sha256.h"
 #include "app/programs/bake/artifact_words.h"
 #include "app/programs/bake/check_hotspots.h"
 #include "app/programs/common/progress_line.h"

@@ -1,8 +1,8 @@
 #include "app/programs/bench/bench_command.h"
 
 #include "app/bench/plots/draw_tables.h"
-#include "app/pack/pack_file.h"
 #include "app/pack/container/sha256.h"
+#include "app/pack/pack_file.h"
 #include "app/programs/common/command_line.h"
 #include "app/settings/settings.h"
 #include "assets_baked/bake/load_mesh.h"

@@ -1,6 +1,6 @@
-#include "tests/simulators/museum/museum_report.h"
 #include "app/programs/bench/bench_command.h"
 #include "app/programs/common/command_line.h"
+#include "tests/simulators/museum/museum_report.h"
 
 #include <memory>
 

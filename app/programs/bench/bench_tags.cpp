@@ -1,9 +1,9 @@
 #include "app/bench/latency/recorded_poses.h"
-#include "tests/simulators/tags/tag_figures.h"
 #include "app/programs/bench/bench_command.h"
 #include "app/programs/common/command_line.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/standard_error.h"
+#include "tests/simulators/tags/tag_figures.h"
 
 #include <cmath>
 #include <memory>

@@ -1,7 +1,7 @@
-#include "tests/simulators/visitor/visitor_figures.h"
 #include "app/programs/bench/bench_command.h"
 #include "app/programs/common/command_line.h"
 #include "firmware_host/base/file.h"
+#include "tests/simulators/visitor/visitor_figures.h"
 
 #include <memory>
 

@@ -1,5 +1,5 @@
-#include "app/typography/canvas.h"
 #include "app/programs/calibrate/table_pictures.h"
+#include "app/typography/canvas.h"
 
 #include <fmt/format.h>
 

@@ -7,9 +7,9 @@
 /// Threads  as Canvas.
 #pragma once
 
+#include "app/pack/words_file.h"
 #include "app/typography/canvas.h"
 #include "app/typography/text_image.h"
-#include "app/pack/words_file.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "app/programs/calibrate/uncertainty_picture.h"
 
-#include "app/typography/canvas.h"
 #include "app/geometry/table_plane.h"
+#include "app/typography/canvas.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>

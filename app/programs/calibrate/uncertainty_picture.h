@@ -9,8 +9,8 @@
 #include "app/calibration/corner_uncertainty.h"
 #include "app/calibration/rest.h"
 #include "app/calibration/touch_up.h"
-#include "app/typography/text_image.h"
 #include "app/image/image.h"
+#include "app/typography/text_image.h"
 #include "firmware_host/base/result.h"
 
 #include <filesystem>

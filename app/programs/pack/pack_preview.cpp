@@ -1,8 +1,8 @@
 #include "app/programs/pack/pack_preview.h"
 
-#include "app/typography/canvas.h"
 #include "app/settings/settings.h"
 #include "app/show/offline_renderer.h"
+#include "app/typography/canvas.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>

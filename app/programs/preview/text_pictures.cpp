@@ -3,8 +3,8 @@
 #include "app/image/image.h"
 #include "app/pack/pack_texts.h"
 #include "app/pack/text_portions.h"
-#include "app/settings/settings.h"
 #include "app/residency/artifact_texts.h"
+#include "app/settings/settings.h"
 
 #include <algorithm>
 #include <utility>

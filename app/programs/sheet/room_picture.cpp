@@ -1,8 +1,8 @@
 #include "app/programs/sheet/room_picture.h"
 
-#include "app/typography/canvas.h"
 #include "app/programs/sheet/sheet_cameras.h"
 #include "app/simulation/room.h"
+#include "app/typography/canvas.h"
 
 #include <array>
 

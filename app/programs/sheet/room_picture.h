@@ -4,10 +4,10 @@
 /// Errors   a picture that cannot be read.
 #pragma once
 
-#include "app/typography/text_image.h"
 #include "app/image/image.h"
 #include "app/programs/sheet/sheet_frames.h"
 #include "app/settings/settings.h"
+#include "app/typography/text_image.h"
 #include "firmware_host/base/result.h"
 
 namespace frustumscreen {

@@ -1,8 +1,8 @@
 #include "app/programs/sheet/sheet_picture.h"
 
-#include "app/typography/canvas.h"
 #include "app/programs/sheet/sheet_cameras.h"
 #include "app/simulation/visitor_view.h"
+#include "app/typography/canvas.h"
 
 #include <fmt/format.h>
 

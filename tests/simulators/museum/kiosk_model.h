@@ -6,9 +6,9 @@
 /// Threads  values; one caller.
 #pragma once
 
-#include "tests/simulators/museum/ailment.h"
 #include "app/watch/outcome.h"
 #include "app/watch/step.h"
+#include "tests/simulators/museum/ailment.h"
 
 #include <optional>
 #include <vector>

@@ -7,9 +7,9 @@
 /// Threads  pure; any.
 #pragma once
 
+#include "app/watch/ladder.h"
 #include "tests/simulators/museum/ailment.h"
 #include "tests/simulators/museum/kiosk_model.h"
-#include "app/watch/ladder.h"
 
 #include <array>
 #include <span>

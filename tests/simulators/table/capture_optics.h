@@ -3,8 +3,8 @@
 /// Threads  values; any.
 #pragma once
 
-#include "tests/simulators/table/simulated_table.h"
 #include "app/calibration/gray_code.h"
+#include "tests/simulators/table/simulated_table.h"
 
 #include <span>
 

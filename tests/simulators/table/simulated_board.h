@@ -8,10 +8,10 @@
 /// Threads  values; any.
 #pragma once
 
-#include "tests/simulators/table/simulated_camera.h"
 #include "app/calibration/board.h"
 #include "app/image/image.h"
 #include "firmware_host/camera/camera.h"
+#include "tests/simulators/table/simulated_camera.h"
 
 #include <functional>
 #include <list>

@@ -5,9 +5,9 @@
 /// Threads  values; any.
 #pragma once
 
+#include "app/calibration/gray_code.h"
 #include "tests/simulators/table/capture_optics.h"
 #include "tests/simulators/table/simulated_rests.h"
-#include "app/calibration/gray_code.h"
 
 namespace frustumscreen {
 

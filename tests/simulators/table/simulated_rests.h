@@ -5,8 +5,8 @@
 /// Threads  values; any.
 #pragma once
 
-#include "tests/simulators/table/simulated_table.h"
 #include "app/calibration/rest.h"
+#include "tests/simulators/table/simulated_table.h"
 
 namespace frustumscreen {
 

@@ -8,8 +8,8 @@
 /// Threads  pure; any. The same seed gives the same picture with the same C++ library.
 #pragma once
 
-#include "tests/simulators/tags/scene_surfaces.h"
 #include "app/geometry/pinhole.h"
+#include "tests/simulators/tags/scene_surfaces.h"
 
 #include <cstdint>
 #include <functional>

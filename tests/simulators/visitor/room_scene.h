@@ -9,10 +9,10 @@
 /// Threads  pure; any. The same seed gives the same picture with the same C++ library.
 #pragma once
 
-#include "tests/simulators/visitor/simulated_people.h"
 #include "app/geometry/pinhole.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
+#include "tests/simulators/visitor/simulated_people.h"
 
 #include <array>
 #include <functional>

@@ -1,9 +1,9 @@
 #include "app/programs/frustumscreen/drawing/setup_page.h"
 
-#include "app/typography/caption_image.h"
-#include "app/typography/captions.h"
 #include "app/settings/light_range.h"
 #include "app/settings/lit_zone.h"
+#include "app/typography/caption_image.h"
+#include "app/typography/captions.h"
 
 #include <fmt/format.h>
 
