@@ -141,24 +141,24 @@ std::vector<Mistake> mistakes_in(std::span<const Rest> rests) {
             {std::move(before), "each rest's points belong to the report of the one before"}};
 }
 
-/// Why rests contradict each other: the mistake without which most of them agree.
-std::string cause_of(std::span<const Rest> rests, const AutoSetup& setup, const RestFitSetup& fit_setup) {
+/// The mistake without which most rests agree; nothing: none of those that are tried.
+std::optional<std::string> cause_of(std::span<const Rest> rests, const AutoSetup& setup) {
     for (const Mistake& mistake : mistakes_in(rests)) {
         std::vector<std::optional<PlaneView>> views;
         for (const Rest& rest : mistake.undone) {
             views.push_back(plane_view(rest));
         }
+        if (refusal_of(mistake.undone, setup.width, setup.height) || refusal_of(mistake.undone, views)) {
+            continue;
+        }
         const AgreeingRests found =
-            find_agreement(mistake.undone, views, fit_setup,
+            find_agreement(mistake.undone, views, {setup.noise, setup.priors, setup.sensor_height_m},
                            starting_rest_models(mistake.undone, views, setup.width, setup.height));
         if (found.agreement != Agreement::None) {
             return fmt::format("the rests contradict each other as given, and agree if {}", mistake.what);
         }
     }
-    return "the rests contradict each other, and no single mistake explains it: points of another prop, "
-           "metal near the "
-           "tracker, or a projector that moved meanwhile; begin again without metal, and with the projector "
-           "fixed";
+    return std::nullopt;
 }
 
 /// Rests that agree, judged; refused where they leave something open.
@@ -206,20 +206,25 @@ AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, cons
 
 AutoCalibration calibrate_auto(std::span<const Rest> rests, const AutoSetup& setup) {
     if (auto reason = refusal_of(rests, setup.width, setup.height)) {
-        return refused(std::move(*reason));
+        return refused(cause_of(rests, setup).value_or(std::move(*reason)));
     }
     std::vector<std::optional<PlaneView>> views;
     for (const Rest& rest : rests) {
         views.push_back(plane_view(rest));
     }
     if (auto reason = refusal_of(rests, views)) {
-        return refused(std::move(*reason));
+        return refused(cause_of(rests, setup).value_or(std::move(*reason)));
     }
     const RestFitSetup fit_setup{setup.noise, setup.priors, setup.sensor_height_m};
     const AgreeingRests found = find_agreement(rests, views, fit_setup,
                                                starting_rest_models(rests, views, setup.width, setup.height));
     if (found.agreement == Agreement::None) {
-        return refused(cause_of(rests, setup, fit_setup));
+        return refused(
+            cause_of(rests, setup)
+                .value_or(
+                    "the rests contradict each other, and no single mistake explains it: points of another "
+                    "prop, metal near the tracker, or a projector that moved meanwhile; begin again without "
+                    "metal, and with the projector fixed"));
     }
     return judged(rests, setup, found);
 }

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -213,53 +214,58 @@ struct Mistake {
 
 /// Mistakes that spoil all touches at once. A single wrong touch, or two exchanged ones, are found by the agreement itself.
 std::vector<Mistake> mistakes_in(std::span<const Touch> touches, int width) {
-    const Touches as_given(touches.begin(), touches.end());
-    const auto by_pixels = [&](const auto& pixel_of) {
-        Touches undone = as_given;
-        for (std::size_t k = 0; k < undone.size(); ++k) {
-            undone[k].pixel = pixel_of(k);
+    const std::size_t count = touches.size();
+    const auto with_pose_of = [&](const auto& number_of) {
+        Touches undone(touches.begin(), touches.end());
+        for (std::size_t k = 0; k < count; ++k) {
+            undone[k].tracker_from_sensor = touches[number_of(k)].tracker_from_sensor;
         }
         return undone;
     };
-    const std::size_t count = as_given.size();
+    Touches mirrored(touches.begin(), touches.end());
+    for (Touch& touch : mirrored) {
+        touch.pixel.x = width - touch.pixel.x;
+    }
     return {
-        {by_pixels(
-             [&](std::size_t k) { return glm::dvec2(width - as_given[k].pixel.x, as_given[k].pixel.y); }),
+        {std::move(mirrored),
          "the projector's picture is mirrored: switch its ceiling or rear projection off, and touch the "
          "crosses again"},
-        {by_pixels([&](std::size_t k) { return as_given[(k + 1) % count].pixel; }),
+        {with_pose_of([&](std::size_t k) { return (k + count - 1) % count; }),
          "each touch belongs to the next cross: one was left out, or the list begins too late"},
-        {by_pixels([&](std::size_t k) { return as_given[(k + count - 1) % count].pixel; }),
+        {with_pose_of([&](std::size_t k) { return (k + 1) % count; }),
          "each touch belongs to the cross before: one was taken twice, or the list begins too early"},
-        {by_pixels([&](std::size_t k) { return as_given[count - 1 - k].pixel; }),
+        {with_pose_of([&](std::size_t k) { return count - 1 - k; }),
          "the crosses were touched in the opposite order"},
     };
 }
 
-/// Why touches contradict each other: the mistake without which they agree.
-std::string cause_of(std::span<const Touch> touches, const TouchSetup& setup, const FitSetup& fit_setup) {
+FitSetup fit_setup_for(std::span<const Touch> touches, const TouchSetup& setup, const TouchModel& start) {
+    return {setup.noise, setup.priors, setup.sensor_height_m, upright_ones(touches, start.table_up)};
+}
+
+/// The mistake without which the touches agree; nothing: none of those that are tried.
+std::optional<std::string> cause_of(std::span<const Touch> touches, const TouchSetup& setup) {
     for (const Mistake& mistake : mistakes_in(touches, setup.width)) {
-        const Fit fit =
-            best_fit(mistake.undone, fit_setup, starting_models(mistake.undone, setup.width, setup.height));
+        if (refusal_of(mistake.undone, setup.width, setup.height)) {
+            continue;
+        }
+        const std::vector<TouchModel> starts = starting_models(mistake.undone, setup.width, setup.height);
+        const Fit fit = best_fit(mistake.undone, fit_setup_for(mistake.undone, setup, starts[0]), starts);
         if (fit.chi2 < chi2_limit(fit.freedom)) {
             return fmt::format("the touches contradict each other as given, and agree if {}", mistake.what);
         }
     }
-    return "the touches contradict each other, and no single mistake explains it: metal near the tracker, a "
-           "projector "
-           "that moved meanwhile, or several slips; take metal away, fix the projector, and touch the "
-           "crosses again";
+    return std::nullopt;
 }
 
 } // namespace
 
 TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetup& setup) {
     if (auto reason = refusal_of(touches, setup.width, setup.height)) {
-        return refused(std::move(*reason));
+        return refused(cause_of(touches, setup).value_or(std::move(*reason)));
     }
     const std::vector<TouchModel> starts = starting_models(touches, setup.width, setup.height);
-    FitSetup fit_setup{setup.noise, setup.priors, setup.sensor_height_m,
-                       upright_ones(touches, starts[0].table_up)};
+    const FitSetup fit_setup = fit_setup_for(touches, setup, starts[0]);
     const AgreeingTouches found = find_agreement(touches, fit_setup, starts);
     const auto some_upright = std::find(fit_setup.upright.begin(), fit_setup.upright.end(), true);
     const ZoneSetup zone{setup.top_m,
@@ -269,7 +275,12 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
         return refused(in_words(*open, crosses));
     }
     if (found.agreement == Agreement::None || too_few_left(found, touches, fit_setup, zone)) {
-        return refused(cause_of(touches, setup, fit_setup));
+        return refused(
+            cause_of(touches, setup)
+                .value_or(
+                    "the touches contradict each other, and no single mistake explains it: metal near the "
+                    "tracker, a projector that moved meanwhile, or several slips; take metal away, fix "
+                    "the projector, and touch the crosses again"));
     }
     TouchCalibration calibration;
     calibration.table = in_table_frame(found.fit.model);
