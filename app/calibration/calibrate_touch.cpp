@@ -271,16 +271,20 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
     const ZoneSetup zone{setup.top_m,
                          touches[static_cast<std::size_t>(some_upright - fit_setup.upright.begin())]
                              .tracker_from_sensor.rotation};
+    const bool contradict =
+        found.agreement == Agreement::None || too_few_left(found, touches, fit_setup, zone);
+    if (const auto cause = contradict ? cause_of(touches, setup) : std::nullopt) {
+        return refused(*cause);
+    }
     if (const auto open = undetermined(found.fit, zone)) {
         return refused(in_words(*open, crosses));
     }
-    if (found.agreement == Agreement::None || too_few_left(found, touches, fit_setup, zone)) {
+    if (contradict) {
         return refused(
-            cause_of(touches, setup)
-                .value_or(
-                    "the touches contradict each other, and no single mistake explains it: metal near the "
-                    "tracker, a projector that moved meanwhile, or several slips; take metal away, fix "
-                    "the projector, and touch the crosses again"));
+            "the touches contradict each other, and no single mistake explains it: metal near the tracker, a "
+            "projector that moved meanwhile, or several slips; take metal away, fix the projector, and touch "
+            "the "
+            "crosses again");
     }
     TouchCalibration calibration;
     calibration.table = in_table_frame(found.fit.model);
