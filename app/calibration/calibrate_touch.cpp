@@ -125,9 +125,11 @@ bool BoardsHeight::differ() const {
 }
 
 std::string in_words(const std::optional<BoardsHeight>& boards) {
-    return boards && boards->differ() ? fmt::format("; the boards are {:.1f} mm high, not {:.4g}",
-                                                    1e3 * boards->found_m, 1e3 * boards->given_m)
-                                      : std::string();
+    if (!boards || !boards->differ()) {
+        return {};
+    }
+    return fmt::format("; the boards are {:.1f} mm high, not {:.4g}: set calibration.block_m to {:.4f}",
+                       1e3 * boards->found_m, 1e3 * boards->given_m, boards->found_m);
 }
 
 std::optional<BoardsHeight> boards_of(const TouchModel& model, const Covariance& covariance, double given_m) {
@@ -282,9 +284,8 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
     if (contradict) {
         return refused(
             "the touches contradict each other, and no single mistake explains it: metal near the tracker, a "
-            "projector that moved meanwhile, or several slips; take metal away, fix the projector, and touch "
-            "the "
-            "crosses again");
+            "projector that moved meanwhile, or several slips; take metal away, fix the projector, and "
+            "touch the crosses again");
     }
     TouchCalibration calibration;
     calibration.table = in_table_frame(found.fit.model);

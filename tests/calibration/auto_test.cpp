@@ -194,6 +194,27 @@ std::vector<Fault> all_faults() {
              }
          },
          "belong to the report of the"},
+        {"a board printed from behind",
+         [](Rests& rests, const Table&, Numbers&) {
+             each_point(rests, [](PropPoint& point) { point.prop_m.x = -point.prop_m.x; });
+         },
+         "mirrored"},
+        {"a board printed 3 % too large",
+         [](Rests& rests, const Table&, Numbers&) {
+             each_point(rests, [](PropPoint& point) {
+                 point.prop_m.x /= 1.03;
+                 point.prop_m.y /= 1.03;
+             });
+         },
+         "% too large: print it at 100 %"},
+        {"a board printed 1 % too small",
+         [](Rests& rests, const Table&, Numbers&) {
+             each_point(rests, [](PropPoint& point) {
+                 point.prop_m.x /= 0.99;
+                 point.prop_m.y /= 0.99;
+             });
+         },
+         "% too small: print it at 100 %"},
         {"mirrored",
          [](Rests& rests, const Table& table, Numbers&) {
              each_point(rests,

@@ -212,6 +212,8 @@ def test_command_line(programs):
     assert run(programs, rows, status=2).stdout == ""
     assert "--picture" in run(programs, rows, status=2).stderr
     run(programs, rows, "--picture", "0", "1200", status=2)
+    below = run(programs, rows, "--picture", str(WIDTH), str(HEIGHT), "--sensor-height", "-0.085", status=1)
+    assert below.stderr.endswith("[calibrate.sensor_below_table]\n"), below.stderr
 
 
 def test_corners(programs):
