@@ -495,9 +495,6 @@ std::size_t occurrences(const std::vector<std::uint8_t>& needle) {
         for (unsigned long at = begin; at < end; at += part.size() - needle.size()) {
             const auto size = std::min<unsigned long>(part.size(), end - at);
             const auto from = reinterpret_cast<unsigned long>(part.data());
-            if (at < from + part.size() && from < at + size) {
-                continue; // its own copies
-            }
             const ssize_t read = ::pread(memory, part.data(), size, static_cast<off_t>(at));
             const std::size_t got = read > 0 ? static_cast<std::size_t>(read) : 0;
             for (std::size_t k = 0; k + needle.size() <= got; ++k) {
@@ -506,7 +503,8 @@ std::size_t occurrences(const std::vector<std::uint8_t>& needle) {
                        part[k + same] == static_cast<std::uint8_t>(needle[same] ^ disguise)) {
                     ++same;
                 }
-                found += same == needle.size() ? 1 : 0;
+                const bool is_own_copy = at + k < from + part.size() && from < at + k + needle.size();
+                found += same == needle.size() && !is_own_copy ? 1 : 0;
             }
         }
         std::fill(part.begin(), part.end(), std::uint8_t{0});
