@@ -104,8 +104,8 @@ Result<DriftReference> parse_drift_reference(std::string_view text, std::string_
         return reference_of(Json::parse(text));
     } catch (const std::exception& error) {
         return bad_input("drift.unreadable_reference",
-                         "{}: no places of marks can be read from it: {}; they are learned anew", file,
-                         error.what());
+                         "{}: the positions of the marks cannot be read: {}; the camera learns them again",
+                         file, error.what());
     }
 }
 

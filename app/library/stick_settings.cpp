@@ -111,7 +111,7 @@ FileResult<void> keep_before(WritableTree& folder, const Own& own) {
     });
 }
 
-/// What a stick that was pulled out too early leaves of a file. A signature vouches for the rest of it, and its end.
+/// Detects a copy that was interrupted: an empty file, or a last line without its end. A signed file needs no such check of its end.
 std::optional<std::string> fault_of_copy(const SignedText& file) {
     const std::string& text = *file.text;
     if (text.find_first_not_of(" \t\r\n\0\xef\xbb\xbf", 0, 8) == std::string::npos) {

@@ -29,7 +29,7 @@ std::string in_small_letters(std::string_view name) {
     return small;
 }
 
-/// Of "exhibit": exhibit.toml.txt, Exhibit.toml, exhibit (1).toml, and signatures of such.
+/// Whether a name is nearly STEM.toml. For "exhibit": exhibit.toml.txt, Exhibit.toml, exhibit (1).toml, and their signatures.
 bool looks_like(std::string_view stem, std::string_view name) {
     const std::string small = in_small_letters(name);
     return small.starts_with(stem) && small.find(".toml") != std::string::npos;

@@ -109,11 +109,12 @@ TrackerHealth DeviceIntake::tracker_health() const {
 }
 
 Situation DeviceIntake::situation_at(MonotonicTime lit) {
-    situation_.tracker_is(tracker_health());
+    const TrackerHealth health = tracker_health();
+    situation_.tracker_is(health);
     Situation situation = situation_.at(lit);
     situation.prop_known = situation.prop_known || (!inputs_.tracker && !inputs_.tags);
     // Visitors do not meet the tracker while the tags stand in for it.
-    situation.tracker = situation.by_tags ? TrackerHealth::Well : tracker_health();
+    situation.tracker = situation.by_tags ? TrackerHealth::Well : health;
     return situation;
 }
 

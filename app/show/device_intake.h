@@ -1,4 +1,4 @@
-/// What the devices of a run say, frame by frame: poses and heads become the situation, presses become commands.
+/// Polls the devices of a run once a frame: turns poses and heads into the situation, presses into commands.
 ///
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
@@ -19,7 +19,7 @@
 
 namespace frustumscreen {
 
-/// What the camera is used for, in words; empty: nothing.
+/// The uses of the camera, in words; empty: none.
 [[nodiscard]] std::string camera_uses(const Inputs& inputs);
 
 class DeviceIntake {
@@ -28,7 +28,7 @@ public:
 
     /// Asks every device once.
     void poll(MonotonicTime now);
-    /// What was pressed in this frame.
+    /// The commands of this frame.
     [[nodiscard]] const std::vector<Command>& commands() const { return commands_; }
     void drop_commands() { commands_.clear(); }
     /// Prop, eye and tracker at the time at which the picture is lit.

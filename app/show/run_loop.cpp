@@ -152,7 +152,7 @@ private:
         return Drawn{.presented = true, .changed = !drawn.redrawn.empty(), .coded = coded};
     }
 
-    /// What the exhibit decided in this frame, for the next one and for the staff.
+    /// Applies the exhibit's decisions of this frame: lamps, the request to calibrate, and what the next frame needs.
     void follow_state(MonotonicTime now, const ShowState& state) {
         used_ = state.used;
         attracts_ = state.state == State::Attract;

@@ -268,7 +268,7 @@ Result<Bytes> run_program(const std::vector<std::string>& command, std::string_v
                          std::chrono::duration<double>(limits.time).count());
     }
     if (end.how == ProgramEnd::How::GivenUp) {
-        return bad_input("program.cancelled", "{}: it was ended, as nobody waits for it any more", name);
+        return bad_input("program.cancelled", "{}: cancelled before it ended", name);
     }
     if (end.status != 0) {
         const std::string why =

@@ -15,7 +15,7 @@ namespace {
 constexpr Nanoseconds soon = std::chrono::milliseconds(50);
 constexpr std::string_view sleeps = "the projector is dark on purpose";
 constexpr std::string_view projector_is_elsewhere =
-    "a projector is at another graphics card; the exhibit must be started anew to take it up";
+    "a projector is at another graphics card; the exhibit must be restarted to take it up";
 
 } // namespace
 
@@ -42,7 +42,7 @@ void Presenter::connected(CardSeen seen) {
 Result<void> Presenter::check_card() {
     if (seen_.state == CardState::Back) {
         return fail(ErrorKind::DeviceLost, "display.card_again",
-                    "display: the graphics card is there again; the exhibit must be started anew "
+                    "display: the graphics card is there again; the exhibit must be restarted "
                     "to take it up");
     }
     if (seen_.state == CardState::Elsewhere) {
@@ -95,7 +95,7 @@ Result<MonotonicTime> Presenter::present(const PixelRectangle& changed, bool may
         if (choose_connector(seen_, request_) != nullptr) {
             return fail(ErrorKind::DeviceLost, "display.stuck",
                         "display: the graphics card has taken no picture for {} s; the exhibit "
-                        "must be started anew",
+                        "must be restarted",
                         stuck_given_up / std::chrono::seconds(1));
         }
     }

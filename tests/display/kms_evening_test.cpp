@@ -205,7 +205,7 @@ TEST_P(KmsEvening, ACardThatIsPulledOutAndBackAsksForANewStart) {
     desk.card.gone = false;
     kernel.fail(kernel.calls().size() + 1, ENODEV);
     evening.frames(1);
-    EXPECT_TRUE(holds(evening.end(), "must be started anew")) << evening.end();
+    EXPECT_TRUE(holds(evening.end(), "must be restarted")) << evening.end();
 }
 
 /// No time passes but the test's.

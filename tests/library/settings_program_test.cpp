@@ -146,7 +146,7 @@ TEST_F(SettingsProgram, RefusesWhatIsNoSmallFile) {
     expect_refused(ImportRefusal::NotAPack, "no ordinary file");
 }
 
-/// What a stick that was pulled from the office computer too early leaves of a file.
+/// A stick that is pulled from the office computer too early holds such files.
 TEST_F(SettingsProgram, RefusesAnEmptyFileAndOneThatIsCutOff) {
     const std::string whole = "[table]\nwidth_m = 0.7\n# the end of a comment\n";
     for (const std::string& empty : {std::string(), std::string("\r\n \n"), std::string(300, '\0')}) {

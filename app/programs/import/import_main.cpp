@@ -54,8 +54,7 @@ int say(const ImportReport& report, const ImportArguments& arguments) {
 int list(const ImportArguments& arguments) {
     const Result<std::string> text = list_installed(arguments);
     if (!text) {
-        complain("frustumscreen-import", text.error());
-        return 1;
+        return exit_status("frustumscreen-import", tl::unexpected<Error>(text.error()));
     }
     fmt::print("{}", *text);
     return 0;

@@ -45,8 +45,7 @@ PropSettings usual_prop(const Pack& pack) {
 int list(const Request& request) {
     const Result<OpenedPack> opened = open_pack(request.pack);
     if (!opened) {
-        complain("frustumscreen-pack", opened.error());
-        return 1;
+        return exit_status("frustumscreen-pack", tl::unexpected<Error>(opened.error()));
     }
     if (request.json) {
         print_json(list_json(*opened, usual_prop(*opened->pack)));
@@ -61,15 +60,13 @@ int explain(const Request& request) {
     if (!request.config.empty()) {
         const Result<CheckedSettings> settings = load_settings(request.config);
         if (!settings) {
-            complain("frustumscreen-pack", settings.error());
-            return 1;
+            return exit_status("frustumscreen-pack", tl::unexpected<Error>(settings.error()));
         }
         configured = (*settings)->prop;
     }
     const Result<OpenedPack> opened = open_pack(request.pack);
     if (!opened) {
-        complain("frustumscreen-pack", opened.error());
-        return 1;
+        return exit_status("frustumscreen-pack", tl::unexpected<Error>(opened.error()));
     }
     const PropSettings prop = configured.value_or(usual_prop(*opened->pack));
     if (request.json) {
