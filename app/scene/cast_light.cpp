@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Codes are multiplied by what light is multiplied by to this power: sRGB's own, away from black.
+/// A factor of light to this power is the factor of codes: sRGB's own power, away from black.
 constexpr float code_power = 1.0F / 2.4F;
 constexpr float code_offset = 0.055F * 255.0F;
 
@@ -26,12 +26,12 @@ FRUSTUMSCREEN_INLINE Floats root_of(Floats values) {
     return roots;
 }
 
-/// What the lens takes of a pixel's light: it packs pixels more densely by its area factor.
+/// Factors for the lens: it packs pixels more densely by its area factor, which divides each pixel's light.
 struct Share {
     float linear = 1.0F, code = 1.0F;
 };
 
-/// Over eight pixels it changes by a tenth of a code at most.
+/// One value for eight pixels: it changes by at most a tenth of a code across them.
 FRUSTUMSCREEN_INLINE Share share_of(const PixelLens& lens, const PixelLanes& ideal) {
     const float r2 = squared_radius(lens, ideal)[lanes / 2];
     const float area =
@@ -39,7 +39,7 @@ FRUSTUMSCREEN_INLINE Share share_of(const PixelLens& lens, const PixelLanes& ide
     return {1.0F / area, std::pow(area, -code_power)};
 }
 
-/// Eight ideal pixels; a texel each, red in the lowest byte.
+/// Eight ideal pixels, one texel each, red in the lowest byte.
 FRUSTUMSCREEN_INLINE Ints lit(const CastLight::Gain& gain, const PixelLanes& at, const Share& share,
                               Ints texels) {
     const Floats ray_x = at.x * gain.ray_per_pixel.x + gain.first_ray.x;
@@ -69,7 +69,7 @@ FRUSTUMSCREEN_INLINE Floats at_pixels(const glm::vec3& linear, const PixelLanes&
     return linear.x * at.x + linear.y * at.y + linear.z;
 }
 
-/// Which of the pixels lie within the face: those on an edge too, and the first face of two takes them.
+/// The pixels within the face, including those on an edge, which go to the first of two faces.
 FRUSTUMSCREEN_INLINE Ints inside(const std::array<glm::vec3, 4>& edges, const PixelLanes& at) {
     Ints in = Ints{} - 1;
     for (const glm::vec3& edge : edges) {
@@ -95,7 +95,7 @@ FRUSTUMSCREEN_INLINE Ints softened(const CastLight::Feather& feather, const Pixe
     return texels;
 }
 
-/// Whether a part may have some of the eight pixels from `x` on.
+/// True if a part may contain some of the eight pixels from `x` on.
 FRUSTUMSCREEN_INLINE bool may_have(const PixelRectangle& part, int x, int y) {
     return y >= part.y && y < part.y + part.height && x + lanes > part.x && x < part.x + part.width;
 }
@@ -109,7 +109,7 @@ FRUSTUMSCREEN_INLINE Ints shown(const CastLight::Parts& parts, int x, int y, Int
         at = unbent(parts.lens, at);
         share = share_of(parts.lens, at);
     }
-    Ints left = Ints{} - 1; // what no face has taken
+    Ints left = Ints{} - 1; // pixels that no face has taken yet
     Ints result{};
     for (const CastLight::Face& face : parts.faces) {
         const Ints own = may_have(face.lit, x, y) ? left & inside(face.edges, at) : Ints{};
@@ -157,7 +157,7 @@ CastLight::Gain gain_of(const FacePlan& face, const Pinhole& pinhole, bool even_
     return gain;
 }
 
-/// From the first point, where it is 0, to the second, where it is 1.
+/// The linear function that is 0 at the first point and 1 at the second.
 glm::dvec3 linear_between(const glm::dvec2& from, const glm::dvec2& to) {
     const glm::dvec2 slope = (to - from) / glm::dot(to - from, to - from);
     return {slope, -glm::dot(slope, from)};

@@ -1,10 +1,13 @@
-/// The projector's light on a relief that is cast: the codes that the shaders give a mesh (app/render/shader_source.cpp), made a row
-/// at a time while the painter has it at hand. Feathered edges are in them.
+/// The projector's light on a relief that is rasterized on the processor: the codes that the shaders give a
+/// mesh (app/render/shader_source.cpp), computed row by row while the row is in the cache, including
+/// feathered edges.
 ///
-/// Colour   sRGB codes in and out; linear light is multiplied, by sRGB's power law, as the shaders do.
-/// Pixels   one belongs to the face of the prop that its middle lies on, and goes dark if the plan shows the cast on none there. Lines are
-///          straight in those of the ideal pinhole: a lens that distorts is taken back for each pixel.
-/// Threads  `begin`, which allocates nothing for a plan as large as one before: one; then `light`: any, several at once.
+/// Colour   sRGB codes in and out; linear light is multiplied, by sRGB's power law, as in the shaders.
+/// Pixels   a pixel belongs to the face of the prop under its centre, and goes dark if the plan does not show
+///          the relief on that face. Lines are straight in the pixels of the ideal pinhole: a lens that
+///          distorts is undone for each pixel.
+/// Threads  `begin` on one thread; it allocates nothing for a plan no larger than an earlier one. Then
+///          `light` on any, several at once.
 /// SIMD     as relief/cast_blocks.h.
 #pragma once
 
@@ -23,11 +26,11 @@ class CastLight final : public RowLight {
 public:
     explicit CastLight(Instructions instructions = best_instructions()) : instructions_(instructions) {}
 
-    /// Of one of the plan's casts.
+    /// Prepares the light for one of the plan's reliefs.
     void begin(const FramePlan& plan, std::size_t cast);
     void light(int y, int first, std::span<glm::u8vec4> codes) const override;
 
-    /// What a face's pixels are multiplied by, as FaceLight; `..._code`: to the power of 1 / 2.4, with which codes are multiplied.
+    /// Factors for a face's pixels, as FaceLight; `..._code`: to the power of 1 / 2.4, for multiplying codes.
     struct Gain {
         glm::vec2 ray_per_pixel{0.0F}, first_ray{0.0F}; ///< of an ideal pixel
         glm::vec3 inverse_depth{0.0F, 0.0F, 1.0F};
@@ -38,11 +41,11 @@ public:
 
     struct Face {
         int face = 0;                     ///< index into FramePlan::faces
-        PixelRectangle lit;               ///< no other pixels are its own
+        PixelRectangle lit;               ///< the face has no pixels outside this
         std::array<glm::vec3, 4> edges{}; ///< as CastFace
         Gain gain;
     };
-    /// An EdgeFeather in ideal pixels: what is linear in (x, y, 1) goes from 0 to 1 over it.
+    /// An EdgeFeather in ideal pixels: functions linear in (x, y, 1) that go from 0 to 1 across it.
     struct Feather {
         int face = 0;
         PixelRectangle lit;

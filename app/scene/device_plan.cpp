@@ -13,7 +13,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// What the camera's reader does with each frame.
+/// The tasks of the camera's reader, for its name in the list of threads.
 std::string camera_uses(const DevicePlan& plan) {
     std::vector<std::string_view> uses;
     if (plan.tags) {

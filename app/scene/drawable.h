@@ -1,4 +1,4 @@
-/// What a renderer holds, by the numbers that it gave out at upload, and how a mesh looks. A plan names both.
+/// Handles of the data in a renderer, given out at upload, and the look of a mesh. A plan names both.
 ///
 /// Threads  values; any.
 #pragma once
@@ -7,14 +7,14 @@
 
 namespace frustumscreen {
 
-/// Numbers of one renderer, which never gives a number out twice.
+/// Numbers of one renderer, which never reuses a number.
 enum class MeshId : std::uint32_t { None };
 enum class TextureId : std::uint32_t { None };
 
 struct Material {
     TextureId texture = TextureId::None;
     double texels_per_box = 0.0; ///< along one box unit of the mesh (pack.h)
-    bool cut_out = false;        ///< texels whose alpha is below one half are left out
+    bool cut_out = false;        ///< texels whose alpha is below one half are not drawn
 };
 
 struct Drawable {

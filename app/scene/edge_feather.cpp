@@ -15,7 +15,7 @@ constexpr double shared_px = 1.0;
 /// An outer strip is dark over its first third and then becomes bright over one pixel.
 constexpr double outer_px = 1.5;
 constexpr float outer_share = -0.5F;
-constexpr float hardly_dimmer = 0.99F; ///< no code changes
+constexpr float hardly_dimmer = 0.99F; ///< changes no code
 
 /// An edge of a face in the picture; the face lies where `inward` points.
 struct PictureEdge {
@@ -35,7 +35,7 @@ glm::vec4 clip_of(const glm::dvec2& pixel, const Pinhole& pinhole) {
     return {glm::vec2(2.0 * pixel / glm::dvec2(pinhole.width, pinhole.height) - 1.0), 0.0F, 1.0F};
 }
 
-/// From corner `k` to the next; nothing if it is not in front of the projector or has no length.
+/// The edge from corner `k` to the next; nullopt if it is not in front of the projector or has no length.
 std::optional<PictureEdge> edge_of(const FacePlan& face, std::size_t k, const Pinhole& pinhole) {
     const std::optional<glm::dvec2> a = pixel_of(face.corners_clip.at(k), pinhole);
     const std::optional<glm::dvec2> b = pixel_of(face.corners_clip.at((k + 1) % 4), pinhole);
@@ -48,7 +48,7 @@ std::optional<PictureEdge> edge_of(const FacePlan& face, std::size_t k, const Pi
     return PictureEdge{{*a, *b}, glm::dot(aside, *inside - *a) < 0.0 ? -aside : aside};
 }
 
-/// Does something of the rectangle lie within the strip?
+/// True if the rectangle reaches into the strip.
 bool touches(const PictureEdge& edge, const PixelRectangle& bounds, double width_px) {
     const glm::dvec2 low(bounds.x, bounds.y);
     const glm::dvec2 high = low + glm::dvec2(bounds.width, bounds.height);
@@ -65,7 +65,7 @@ const FacePlan* plan_of(const PropShape& prop, const PropFace& face, const Frame
     return nullptr;
 }
 
-/// How much dimmer the neighbour is at the edge's ends; 1 where it is not.
+/// The neighbour's gain over the face's own at the edge's ends; 1 where the neighbour is not dimmer.
 glm::vec2 share_between(const FaceLight& own, const FaceLight& neighbour, const PictureEdge& edge,
                         const Pinhole& pinhole) {
     const auto share_at = [&](const glm::dvec2& pixel) {
@@ -90,13 +90,14 @@ EdgeFeather strip(std::size_t face, const PictureEdge& edge, double width_px, co
 
 void feather_edges(const PropShape& prop, const glm::dvec3& projector, FramePlan& plan) {
     plan.feathers.clear();
-    const Pinhole ideal = plan.projector.ideal(); // what is drawn is bent later
+    const Pinhole ideal = plan.projector.ideal(); // the lens bends the draws later
     for (std::size_t face = 0; face < plan.faces.size(); ++face) {
         const FacePlan& own = plan.faces[face];
         const PropFace& shape = prop.faces[static_cast<std::size_t>(own.face)];
         for (std::size_t k = 0; k < 4; ++k) {
             const std::optional<PictureEdge> edge = edge_of(own, k, ideal);
-            // Bounds lie where the lens brings what is drawn, edges where it comes from: behind a lens the scissor alone decides.
+            // Bounds are in bent pixels, edges in ideal ones. Behind a lens only the scissor clips the
+            // strips.
             if (!edge || (plan.projector.lens.is_plain() && !touches(*edge, own.bounds, outer_px))) {
                 continue;
             }

@@ -12,13 +12,13 @@ namespace frustumscreen {
 
 namespace {
 
-/// Of the weights, radians: half of the angle between neighbouring eyes of the bake.
+/// Width of the weights, radians: half of the angle between neighbouring eyes of the bake.
 constexpr double spread = 0.15;
 constexpr double rounding_px = 0.00015;
 /// The 95th percentile of a length in two directions, over its mean: sqrt(ln 20 / (pi / 4)).
 constexpr double p95_of_rounding = 1.95;
 
-/// The face of the plan through which the eye sees a point in the prop; null: it is dark.
+/// The face of the plan through which the eye sees a point in the prop; null if that face is dark.
 const FacePlan* seen_through(const PropShape& prop, const FramePlan& plan, const glm::dvec3& eye,
                              const glm::dvec3& point) {
     double farthest = -std::numeric_limits<double>::infinity();
@@ -38,11 +38,11 @@ const FacePlan* seen_through(const PropShape& prop, const FramePlan& plan, const
     return found != plan.faces.end() ? &*found : nullptr;
 }
 
-/// What one eye of the bake saw, by the pixels that show it now.
+/// Errors seen by one eye of the bake, weighted by the pixels that show them now.
 struct Seen {
     double mean_box = 0.0;
-    double over_even = 1.0; ///< the mean over the one of even rays
-    double pixel_mm = 0.0;  ///< as it lands on the artifact
+    double over_even = 1.0; ///< this mean over the mean of evenly spaced rays
+    double pixel_mm = 0.0;  ///< size of a pixel where it lands on the artifact
 };
 
 Seen shown(const SeenEye& seen, const SeenError& error, const PropShape& prop, double metres_per_box,
@@ -63,7 +63,7 @@ Seen shown(const SeenEye& seen, const SeenError& error, const PropShape& prop, d
             sum.pixel_mm += share * 1e3 / face->pixels_per_m;
         }
     }
-    if (!(pixels > 0.0)) { // all that this eye saw is dark from here, or edge-on
+    if (!(pixels > 0.0)) { // everything that this eye saw is dark from here, or edge-on
         return {static_cast<double>(error.mean_box), 1.0, 0.0};
     }
     sum.mean_box /= pixels;
@@ -106,7 +106,7 @@ Result<SeenByEyes> seen_by_eyes(const PackOutline& pack) {
 
 SeenError worst_of(const SeenLevel& seen) {
     SeenError worst;
-    for (const SeenError& each : seen.errors) { // what is no number stays so, where there is one eye
+    for (const SeenError& each : seen.errors) { // keeps NaN if there is only one eye
         worst.mean_box = std::max(each.mean_box, worst.mean_box);
         worst.p95_box = std::max(each.p95_box, worst.p95_box);
         worst.outline_shift_box = std::max(each.outline_shift_box, worst.outline_shift_box);

@@ -9,9 +9,9 @@ namespace frustumscreen {
 namespace {
 
 constexpr double share_below = 0.98;
-constexpr int opaque_from = 128; ///< alpha, as the shaders cut out
+constexpr int opaque_from = 128; ///< alpha threshold of the shaders' cut-out
 
-/// Places within a triangle, each for a quarter of its area: barycentric weights.
+/// Sample points in a triangle, each for a quarter of its area; barycentric weights.
 constexpr std::array<glm::dvec3, 4> places_in_triangle{
     glm::dvec3(1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0), glm::dvec3(2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0),
     glm::dvec3(1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0), glm::dvec3(1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0)};
@@ -23,7 +23,7 @@ const glm::u8vec4& texel(const Image8& texture, const glm::dvec2& uv) {
     return texture.at(along(uv.x, texture.width), along(uv.y, texture.height));
 }
 
-/// Area of the surface by the largest code of its colour.
+/// Surface area per largest channel code.
 std::array<double, 256> areas_by_code(const PackLevel& level, const glm::dvec3& box_size,
                                       const Image8& texture) {
     std::array<double, 256> areas{};

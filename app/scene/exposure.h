@@ -1,7 +1,7 @@
-/// How bright an artifact is shown: its brightest places use what the projector has, whatever the scanner's
-/// exposure was.
+/// Exposure of an artifact: a factor that brings its brightest places to a set code, whatever the scanner's
+/// exposure.
 ///
-/// Units    sRGB codes; the factor is one of linear light.
+/// Units    sRGB codes; the factor applies to linear light.
 /// Threads  pure; any.
 /// Errors   none: a level without triangles has the factor 1.
 /// Source   IEC 61966-2-1 for the codes.
@@ -12,12 +12,12 @@
 
 namespace frustumscreen {
 
-/// Of an artifact so dark that its brightest places cannot be told from noise.
+/// Limit for artifacts so dark that noise hides their brightest places.
 inline constexpr double most_exposure = 8.0;
 
 /// The factor that brings the level's brightest places to `highlight_code` where the compensation's gain is
-/// 1: 98 % of its surface, by area, have no channel above that code. 1 for a code of 0. `box_size`: as
-/// Pack::box_size.
+/// 1: 98 % of its surface, by area, have no channel above that code. 1 if `highlight_code` is 0. `box_size`:
+/// as Pack::box_size.
 [[nodiscard]] double exposure_of(const PackLevel& level, const glm::dvec3& box_size, const Image8& texture,
                                  int highlight_code);
 

@@ -34,7 +34,7 @@ std::array<glm::vec3, 8> corners_of(const LevelTriangles::Extent& extent) {
     return corners;
 }
 
-/// Clip coordinates around everything that the lens brings into the picture; -1 and 1 if it does not distort.
+/// Clip coordinates around everything that the lens maps into the picture; -1 and 1 without distortion.
 std::pair<glm::dvec2, glm::dvec2> ideal_edges(const Pinhole& pinhole) {
     glm::dvec2 low(-1.0);
     glm::dvec2 high(1.0);
@@ -117,7 +117,7 @@ FaceVolume volume_of(const PropFace& face, const glm::dvec3& eye_in_prop, double
 PixelRectangle light_tiles(const LevelTriangles& level, std::size_t cluster,
                            std::span<const std::uint32_t> visible, const glm::mat4& clip_from_box,
                            const PixelRectangle& face, const Pinhole& pinhole, LitTiles& tiles) {
-    constexpr int pixels_per_triangle = 100; // a closer look costs more than fewer pixels
+    constexpr int pixels_per_triangle = 100; // below this a test per triangle costs more than it saves
     const PixelRectangle box =
         intersected(face, pixels_of(corners_of(level.extents[cluster]), clip_from_box, pinhole));
     const std::size_t triangles = visible.size() / 3;

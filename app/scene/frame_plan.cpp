@@ -13,10 +13,10 @@ namespace frustumscreen {
 
 namespace {
 
-/// More faces than any prop has; keeps the frame free of allocation.
+/// More faces than any prop has; a fixed limit avoids allocation per frame.
 constexpr std::size_t most_faces = 16;
 
-/// Everything of one frame that faces and parts share.
+/// Values of one frame that faces and parts share.
 struct Shared {
     const PropShape& prop;
     const PlanView& view;
@@ -32,7 +32,7 @@ struct Shared {
     }
 };
 
-/// Prop frame.
+/// The level's box in the prop frame.
 Box box_of(const PlacedLevel& level) {
     const glm::dvec3 extent = level.box_size * level.metres_per_box;
     return {{-0.5 * extent.x, -0.5 * extent.y, 0.0}, {0.5 * extent.x, 0.5 * extent.y, extent.z}};
@@ -53,7 +53,7 @@ Shared shared_by_all(const PropShape& prop, std::span<const Part> parts, const P
     return shared;
 }
 
-/// Nothing where no eye looks through the face, or no light meets it.
+/// nullopt if no eye looks through the face, or no light meets it.
 std::optional<FaceView> look_through(std::size_t index, const Shared& shared) {
     const PropFace& face = shared.prop.faces[index];
     const glm::dvec3 middle = 0.5 * (face.corners[0] + face.corners[2]);
@@ -88,7 +88,7 @@ PixelRectangle show_triangles(const LevelTriangles& level, const FaceVolume& vol
     return bounds;
 }
 
-/// What is the same for a mesh and a relief.
+/// The fields common to a mesh and a relief.
 Draw draw_level(const Part& part, const FaceView& through, const glm::dmat4& clip_from_box,
                 const Shared& shared) {
     const PlacedLevel& level = part.level;
@@ -111,7 +111,7 @@ Draw draw_level(const Part& part, const FaceView& through, const glm::dmat4& cli
     return draw;
 }
 
-/// The draw of what a face shows of a part; nothing if it shows nothing.
+/// The draw of a part on a face; nullopt if the face shows nothing of it.
 std::optional<Draw> draw_part(const Part& part, const PropFace& face, const FaceView& through,
                               const Shared& shared, FramePlan& plan) {
     const PlacedLevel& level = part.level;
@@ -141,7 +141,7 @@ std::optional<Draw> draw_part(const Part& part, const PropFace& face, const Face
     return draw.range.count > 0 ? std::optional(draw) : std::nullopt;
 }
 
-/// False if the plan has no room for it.
+/// Returns false if the plan has no room for it.
 bool plan_cast(const PlacedLevel& level, const Shared& shared, FramePlan& plan) {
     if (plan.cast_count == plan.casts.size()) {
         return false;
@@ -165,8 +165,7 @@ bool plan_cast(const PlacedLevel& level, const Shared& shared, FramePlan& plan) 
     return true;
 }
 
-/// Goes part by part: the triangles that look towards the eye are found once for all faces that share the
-/// eye.
+/// Part by part, because the triangles that face the eye are found once for all faces that share the eye.
 void plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& plan) {
     const std::size_t faces = std::min(shared.prop.faces.size(), most_faces);
     std::array<std::optional<FaceView>, most_faces> through{};
@@ -211,7 +210,7 @@ double pixel_density(const Shared& shared, const FramePlan& plan) {
     return density.share(glm::distance(middle, shared.projector_in_prop), shared.view.projector);
 }
 
-/// Those of the first part that the GPU draws; 1 where all is cast.
+/// Samples of the first part that the GPU draws; 1 if every part is rasterized on the processor.
 int samples_on_gpu(std::span<const Part> parts) {
     const auto drawn = std::find_if(parts.begin(), parts.end(),
                                     [](const Part& part) { return !part.level.relief || part.level.on_gpu; });
@@ -231,7 +230,8 @@ Draw draw_flat(const std::array<glm::dvec3, 4>& outline, const glm::dmat4& clip,
     return draw;
 }
 
-/// Draws the pictures, and then the prop's faces in black: no picture lights them.
+/// Draws the pictures, and then the prop's faces in black, so that no picture lights them; pictures with
+/// `on_prop` follow.
 void plan_table(const Shared& shared, FramePlan& plan) {
     const glm::dmat4 clip_from_table =
         shared.view.projector.clip_from_point() * shared.view.table_from_projector.inverse().matrix();
@@ -275,11 +275,11 @@ void plan_table(const Shared& shared, FramePlan& plan) {
     }
 }
 
-/// All of the prop's faces count, whether or not the artifact shows on them: the first triangle that comes to
-/// show on a face must not change the others' brightness.
+/// All of the prop's faces count, also those without the artifact: the first triangle that comes to show on a
+/// face must not change the brightness of the others.
 void compensate(const Shared& shared, const LightCompensation& compensation, FramePlan& plan) {
     if (plan.faces.empty()) {
-        return; // the eye or the lens may lie in the prop
+        return; // the eye or the lens may be inside the prop
     }
     const std::size_t faces = std::min(shared.prop.faces.size(), most_faces);
     std::array<SeenFace, most_faces> seen{};
@@ -324,7 +324,7 @@ FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t part
     plan.faces.reserve(faces);
     plan.draws.reserve(parts * faces + most_on_table + 1 + faces);
     plan.feathers.reserve(4 * faces);
-    // A triangle may show on every face. Memory that is never written is never used.
+    // A triangle may show on every face. Reserved memory costs nothing until it is written.
     plan.indices.reserve(faces * indices);
     plan.front.reserve(indices);
     plan.casts.resize(parts);

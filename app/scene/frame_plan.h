@@ -1,13 +1,13 @@
-/// One picture as plain data: a list of draws, on the faces of the prop and on the table. The renderer
-/// decides nothing.
+/// One picture as plain data: a list of draws, on the faces of the prop and on the table. The renderer makes
+/// no decisions.
 ///
-/// The pack meets the configuration here. A plan is a pure function of its inputs, in 64-bit until the last
-/// step.
+/// The pack and the configuration are combined here. A plan is a pure function of its inputs, in 64-bit
+/// arithmetic until the last step.
 ///
 /// Frames   as named; clip coordinates as `Pinhole::clip_from_point`: y = -1 is the picture's top.
 /// Units    metres, pixels.
 /// Threads  pure; any. `plan_frame` allocates nothing into a plan that `make_plan` made for the same inputs.
-/// Errors   none: an eye inside the prop, a prop off the picture or a face without light give an emptier
+/// Errors   none: an eye inside the prop, a prop outside the picture or a face without light give an emptier
 ///          picture.
 #pragma once
 
@@ -35,16 +35,17 @@
 
 namespace frustumscreen {
 
-/// An artifact at one level, or a part of one, placed in the configured prop.
+/// An artifact at one quality level, or a part of one, placed in the configured prop.
 struct PlacedLevel {
-    std::shared_ptr<const LevelTriangles> triangles; ///< none: nothing shows
+    std::shared_ptr<const LevelTriangles> triangles; ///< null and no `relief`: nothing is drawn
     glm::dvec3 box_size{1.0};                        ///< extents of the pack's box
     double metres_per_box = 1.0;                     ///< Placement::metres_per_box
     Drawable drawable;
-    int samples = 0; ///< Pack::samples, or what a governor allows; 0 = as many as the renderer takes
-    std::uint32_t faces = ~std::uint32_t{0};     ///< of the prop, bits: those that it may show on
-    std::shared_ptr<const BlockRelief> relief{}; ///< is drawn in the triangles' stead; `drawable` names it
-    bool on_gpu = false;                         ///< the GPU draws the relief; else it is cast
+    int samples = 0; ///< Pack::samples, or the governor's choice; 0 = as many as the renderer takes
+    std::uint32_t faces = ~std::uint32_t{0};     ///< of the prop, bits: the faces that it may show on
+    std::shared_ptr<const BlockRelief> relief{}; ///< drawn instead of the triangles; `drawable` names it
+    bool on_gpu = false;                         ///< the GPU draws the relief; otherwise it is rasterized on
+                                                 ///< the processor
 
     [[nodiscard]] bool is_empty() const { return !triangles && !relief; }
 };
@@ -55,20 +56,19 @@ struct PlacedLevel {
 [[nodiscard]] PlacedLevel placed(const Pack& pack, std::shared_ptr<const BlockRelief> relief,
                                  double metres_per_box, const Drawable& drawable);
 
-/// Which of the picture's pixels a draw takes, with all their samples: an ordered pattern. A draw with a
-/// share and one with its complement take each pixel exactly once together: no pixel is a mixture and none is
-/// left out.
+/// The picture's pixels that a draw takes, with all their samples: an ordered pattern. A draw with a share
+/// and one with its complement take each pixel exactly once together: no pixel is mixed and none is left out.
 struct Dither {
     float share = 1.0F;      ///< 0..1
     bool complement = false; ///< the pixels that the share leaves
 };
 
-/// What is drawn into the prop.
+/// A level to draw in the prop.
 struct Part {
     PlacedLevel level;
-    std::optional<Dither> dither; ///< nothing: every pixel
+    std::optional<Dither> dither; ///< nullopt: every pixel
 };
-/// A fade from one level to another. `share`: of the pixels that have arrived, 0..1.
+/// A fade from one level to another. `share`: of the pixels that show `to`, 0..1.
 [[nodiscard]] std::array<Part, 2> fade(const PlacedLevel& from, const PlacedLevel& to, double share);
 
 /// A picture that lies flat on the table: a caption, a line, an artifact to choose. Table frame, metres.
@@ -76,26 +76,26 @@ struct TablePicture {
     std::array<glm::dvec3, 4> corners_m{}; ///< of the picture: top left, top right, bottom right, bottom left
     double brightness = 1.0;               ///< 0..1, linear light
     TextureId texture = TextureId::None;
-    bool on_prop = false; ///< shines on the prop too; else that hides it
+    bool on_prop = false; ///< drawn on the prop too; otherwise the prop covers it
 };
 
-/// Where the projector, the prop and the eyes are.
+/// The poses of projector and prop, the eyes, and the light of one frame.
 struct PlanView {
     Pinhole projector;
     RigidTransform table_from_projector;
     RigidTransform table_from_prop;
-    /// Table frame. One eye for all faces, or one for each.
+    /// Table frame. One eye for all faces, or one per face.
     std::span<const glm::dvec3> eyes_m;
-    /// Nothing = colours stay as they are in the texture.
+    /// nullopt: colours stay as they are in the texture.
     std::optional<LightCompensation> light = std::nullopt;
-    /// Of the artifact, linear light: fades, exposure; 0 leaves the prop dark. Above 1, what would be brighter than the
-    /// projector can make it is cut off.
+    /// Factor of the artifact's linear light: fades and exposure; 0 leaves the prop dark. Above 1, values
+    /// beyond the projector's maximum are clipped.
     double brightness = 1.0;
     std::optional<TablePicture> caption = std::nullopt;
     std::span<const TablePicture> on_table = {}; ///< drawn before the caption, at most most_on_table
 };
-/// A page of pictures with their titles, the ring around the prop, a hotspot, the zone's frame, signs and words; a notice and its
-/// ring.
+/// Enough for a page of pictures with their titles, the ring around the prop, a hotspot, the zone's frame,
+/// signs and words, a notice and its ring.
 inline constexpr std::size_t most_on_table = 96;
 
 /// A run of FramePlan::indices.
@@ -109,12 +109,12 @@ struct FacePlan {
     int face = 0;                            ///< index into PropShape::faces
     std::array<glm::vec4, 4> corners_clip{}; ///< the face's outline; depth 0
     FaceLight light;
-    PixelRectangle bounds; ///< around those of its draws
-    /// At the artifact's middle, across the eye's ray; the mean of two directions, by area.
+    PixelRectangle bounds; ///< around the bounds of its draws
+    /// At the artifact's middle, perpendicular to the eye's ray; the mean of two directions, by area.
     double pixels_per_m = 0.0;
 };
 
-/// A relief as the frame's eye sees it, to be cast into a picture of the processor's memory, or to be drawn by the GPU.
+/// A relief as the frame's eye sees it, to be rasterized into a picture in main memory or drawn by the GPU.
 struct CastPlan {
     MeshId relief = MeshId::None; ///< in the renderer's store
     bool on_gpu = false;
@@ -124,7 +124,8 @@ struct CastPlan {
     bool even_light = false; ///< evens out the projector's light
 };
 
-/// A mesh or a relief seen through one face of the prop, what was cast of a relief there, or a quadrilateral beside the prop.
+/// A mesh or a relief seen through one face of the prop, a relief's rasterized picture there, or a
+/// quadrilateral on the table.
 struct Draw {
     static constexpr int on_table = -1;
 
@@ -134,33 +135,33 @@ struct Draw {
     /// PackVertex::position / 65535 -> clip. A quadrilateral's columns are its corners, depth 0: top left,
     /// top right, bottom right, bottom left of its picture.
     glm::mat4 clip_from_unit{1.0F};
-    glm::dmat4 clip_from_box{1.0};             ///< of a relief that the GPU draws, for its grids
+    glm::dmat4 clip_from_box{1.0};             ///< for a relief drawn by the GPU, for its grids
     std::array<glm::vec3, 2> prop_from_unit{}; ///< metres: prop point = [0] * (position / 65535) + [1]
     IndexRange range;
-    PixelRectangle bounds;       ///< holds every pixel that it can light
+    PixelRectangle bounds;       ///< contains every pixel that it can light
     double pixels_per_box = 0.0; ///< as FacePlan::pixels_per_m, in box units at the mesh's middle
     float brightness = 1.0F;     ///< linear light
-    Dither dither;               ///< if the shader dithers
-    std::size_t cast = 0;        ///< index into FramePlan::casts, of a relief, which shows on the face
+    Dither dither;               ///< used if the shader dithers
+    std::size_t cast = 0;        ///< for a relief: index into FramePlan::casts
 };
 
 struct FramePlan {
     Pinhole projector;
-    /// Samples a pixel of what the GPU draws in the prop, 1 without any; 0 = as many as the renderer takes. Where a face is seen or lit so
-    /// slantingly that few pixels show much of the artifact, each pixel takes more samples than the level
-    /// asked for, so that each place of the artifact keeps its samples.
+    /// Samples a pixel of the GPU's draws in the prop, 1 without any; 0 = as many as the renderer takes.
+    /// Where a face is seen or lit so slantingly that few pixels show much of the artifact, each pixel takes
+    /// more samples than the level asked for, so that each place of the artifact keeps its samples.
     int samples = 0;
     std::vector<FacePlan> faces;
     std::vector<EdgeFeather> feathers; ///< drawn after the draws in the prop
     std::vector<Draw> draws; ///< in the order of drawing: on the table, then part by part in the prop
     std::vector<std::uint32_t> indices; ///< of the triangles that the draws show
-    LitTiles lit;                       ///< hold every pixel that the draws in the prop can light
-    PixelRectangle prop_bounds;         ///< around the prop, whatever it shows
+    LitTiles lit;                       ///< contain every pixel that the draws in the prop can light
+    PixelRectangle prop_bounds;         ///< around the prop, also its dark parts
     std::uint64_t hash = 0;             ///< equal for equal pictures (of one renderer)
-    std::uint64_t prop_hash = 0;        ///< the same of what stands in the prop alone
-    FrontTriangles front;               ///< of the part and the eye planned for last; not drawn
+    std::uint64_t prop_hash = 0;        ///< as `hash`, only for the draws in the prop
+    FrontTriangles front;               ///< of the part and the eye planned last; not drawn
     std::vector<CastPlan>
-        casts; ///< one for each part that may be a relief; the first `cast_count` are the frame's
+        casts; ///< one per part that may be a relief; the first `cast_count` belong to the frame
     std::size_t cast_count = 0;
 };
 
@@ -168,15 +169,15 @@ struct FramePlan {
 [[nodiscard]] FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t parts);
 [[nodiscard]] FramePlan make_plan(const PropShape& prop, const PlacedLevel& artifact);
 
-/// The first part that the GPU draws says how many samples a pixel takes; a relief that is cast takes its own. With one eye for
-/// each face a relief shows where the first eye looks.
+/// The first part that the GPU draws sets the samples a pixel; a relief rasterized on the processor has its
+/// own. With one eye per face a relief is drawn for the first eye.
 void plan_frame(const PropShape& prop, std::span<const Part> parts, const PlanView& view, FramePlan& plan);
-/// The same for one part; without triangles the prop stays dark.
+/// As above, for one part; without triangles the prop stays dark.
 void plan_frame(const PropShape& prop, const PlacedLevel& artifact, const PlanView& view, FramePlan& plan);
 
 /// Every pixel that the plan can light.
 [[nodiscard]] PixelRectangle lit_bounds(const FramePlan& plan);
-/// Every pixel that what stands in the prop can light.
+/// Every pixel that the draws in the prop can light.
 [[nodiscard]] PixelRectangle bounds_in_prop(const FramePlan& plan);
 
 } // namespace frustumscreen

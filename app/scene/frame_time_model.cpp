@@ -12,14 +12,15 @@ namespace frustumscreen {
 
 namespace {
 
-/// No GPU is further from its start than this; the limit keeps a run of bad values from ending in infinity.
+/// Limit of |log|: larger than any real change of a GPU's speed. It keeps a run of bad values from ending in
+/// infinity.
 constexpr double most_log = 7.0;
 
 double bounded(double logarithm) {
     return std::clamp(logarithm, -most_log, most_log);
 }
 
-/// A frame that draws hardly anything says little about the others, so relative work is held within a factor
+/// A frame that draws hardly anything says little about the others, so relative work is limited to a factor
 /// of 20.
 double relative(double work, double at_start) {
     constexpr double most = 20.0;
@@ -50,7 +51,8 @@ double RungCost::ms(const FrameWork& work, int samples) const {
 
 namespace {
 
-/// Of those alone that are drawn in this way. A small ridge term helps where the rungs cannot separate the terms.
+/// Fit over the levels that are drawn in this way. A small ridge term helps where they cannot separate the
+/// terms.
 RungCost cost_of(const std::vector<RungTime>& rungs, bool relief, bool on_gpu) {
     const auto is_alike = [=](const RungTime& rung) {
         return rung.relief == relief && rung.on_gpu == on_gpu;
@@ -133,7 +135,7 @@ bool FrameTimeModel::observe(std::size_t rung, const FrameWork& work, double ms,
     const double weight = follow_share(dt, time_constant_s);
     triangles_ += weight * (triangles - triangles_);
     pixels_ += weight * (pixels - pixels_);
-    if (!std::isfinite(r.start.ms)) { // never measured before: this is its start
+    if (!std::isfinite(r.start.ms)) { // never measured before: this is its start time
         r.start.ms = ms / (relative_work(r, triangles, pixels) * std::exp(r.log_own + log_load_));
         return true;
     }

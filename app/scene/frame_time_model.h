@@ -1,23 +1,23 @@
-/// How long a frame takes on this GPU, for each way (a rung) in which an artifact can be drawn.
+/// Predicts the time of a frame on this GPU for each quality level of an artifact.
 ///
-/// Each rung is measured at the start, at one pose. From there a frame's time is
+/// Each quality level is measured at the start, at one pose. From there a frame's time is
 ///   ms(rung) = start_ms(rung) * (fixed + triangles' share * their number + samples' share * their number)
 ///              * own(rung) * load
 /// with the numbers relative to those at the start: on the shipped set-up triangles and pixels explain half
-/// of the spread that poses make (17 -> 8 % of the mean, four scans on llvmpipe). `load` is common: a GPU
-/// that is throttled or shared is slow for every rung, also for those that are not being drawn. Right after a
-/// change of rung an unexpected time changes only the new rung's `own`: its proportion was measured wrong. If
-/// in fact the load changed at that moment, the mistake wears off: `own` of the rung that is drawn flows into
-/// `load` within some `forgetting_s`, and the proportions return to those of the start. Both are kept as
-/// logarithms and follow log(measured / expected) by
+/// of the variation between poses (17 -> 8 % of the mean, four scans on llvmpipe). `load` is common to all
+/// levels: a GPU that is throttled or shared is slow for every quality level, also for those that are not
+/// being drawn. Right after a change of level an unexpected time changes only the new level's `own`: its
+/// proportion was measured wrong. If in fact the load changed at that moment, the mistake wears off: `own` of
+/// the level that is drawn flows into `load` within about `forgetting_s`, and the proportions return to those
+/// of the start. Both are kept as logarithms and follow log(measured / expected) by
 ///   x += (1 - exp(-dt / time_constant)) * log(measured / expected),
-/// the exact solution over a frame: stable for every dt, and split frames give what one frame gives. A single
-/// outlier counts by its logarithm: at 60 Hz one frame of ten times the usual time moves the estimate by a
-/// fifth, and that is forgotten in some tenths of a second.
+/// the exact solution over a frame: it is stable for every dt, and the result does not depend on how an
+/// interval is split into frames. A single outlier counts by its logarithm: at 60 Hz one frame of ten times
+/// the usual time moves the estimate by a fifth, and the effect decays within some tenths of a second.
 ///
 /// Units    milliseconds of wall time.
-/// Time     a parameter; time that goes back changes nothing. At most `most_dt_s` counts for one frame: after
-///          an hour of rest the next frame's time must not decide alone.
+/// Time     a parameter; time that goes back changes nothing. At most `most_dt_s` counts for one frame, so
+///          that the first frame after a long pause does not decide alone.
 /// Threads  values; one caller. `observe` allocates nothing.
 /// Errors   none: a value that is not a time (NaN, infinite, zero, negative, above `longest_ms`) is refused,
 ///          and `observe` returns false.
@@ -31,40 +31,42 @@
 
 namespace frustumscreen {
 
-/// What one frame draws of the artifact.
+/// The work of one frame for the artifact.
 struct FrameWork {
-    double triangles = 0.0; ///< of a relief its blocks
+    double triangles = 0.0; ///< for a relief, its blocks
     double pixels = 0.0;    ///< of the rectangle that the artifact can light
 };
 
-/// A rung as measured at the start.
+/// A quality level as measured at the start.
 struct RungTime {
     int samples = 1; ///< a pixel
     FrameWork work;
-    double ms = 0.0; ///< median of some frames; not a time = never measured: infinite until it is observed
-    bool relief = false; ///< this and `on_gpu`: as Rung
+    double ms = 0.0;     ///< median of some frames; not a time if never measured: infinite until the first
+                         ///< observation
+    bool relief = false; ///< `relief`, `on_gpu`: as in Rung
     bool on_gpu = false;
 };
 
-/// What frames cost on this GPU, from the rungs measured on one artifact; good for another one whose frames' work
-/// is known and whose times are not.
+/// Cost of frames on this GPU, fitted to the quality levels measured on one artifact. It predicts the times
+/// of another artifact whose work per frame is known.
 struct RungCost {
     double fixed_ms = 0.0;
     double ms_per_triangle = 0.0;
-    double ms_per_sample = 0.0; ///< of a pixel
+    double ms_per_sample = 0.0; ///< per sample of a pixel
     [[nodiscard]] double ms(const FrameWork& work, int samples) const;
 };
-/// Meshes, reliefs that are cast and reliefs that the GPU draws are drawn in different ways and cost apart.
+/// Meshes, reliefs rasterized on the processor and reliefs drawn by the GPU are drawn in different ways, with
+/// separate costs.
 struct FrameCost {
     RungCost mesh, cast, on_gpu;
     [[nodiscard]] const RungCost& of(const RungTime& rung) const {
         return rung.on_gpu ? on_gpu : rung.relief ? cast : mesh;
     }
-    /// Of a rung's work and samples.
+    /// For the level's work and samples.
     [[nodiscard]] double ms(const RungTime& rung) const;
 };
-/// Least squares, each rung weighed by 1 / ms^2; no term is negative. Rungs that are no times are left out; without any
-/// all terms are 0, which is no time either.
+/// Least squares, each level weighted by 1 / ms^2; no term is negative. Levels without a valid time are
+/// skipped; if none is valid, all terms are 0, which is not a valid time either.
 [[nodiscard]] FrameCost cost_of(const std::vector<RungTime>& rungs);
 
 class FrameTimeModel {
@@ -72,7 +74,7 @@ public:
     static constexpr double time_constant_s = 0.2;
     static constexpr double most_dt_s = 0.1;
     static constexpr double longest_ms = 10e3; ///< a longer time is a fault, not a frame time
-    static constexpr double learning_s = 0.5;  ///< of frames after a change of rung, which change `own`
+    static constexpr double learning_s = 0.5;  ///< length of frames after a change of level that adjust `own`
     static constexpr double forgetting_s = 10.0;
 
     explicit FrameTimeModel(const std::vector<RungTime>& rungs);
@@ -83,10 +85,10 @@ public:
     /// The time of the next frames, if their work is that of the latest ones.
     [[nodiscard]] double expected_ms(std::size_t rung) const;
 
-    /// As it was measured at the start.
+    /// The level as measured at the start.
     [[nodiscard]] const RungTime& start(std::size_t rung) const { return rungs_[rung].start; }
 
-    /// Common to all artifacts of one GPU: pass it on when another is shown.
+    /// Common to all artifacts of one GPU: pass it on when another artifact is shown.
     [[nodiscard]] double load() const;
     void set_load(double load);
 
@@ -95,7 +97,7 @@ public:
 private:
     struct Rung {
         RungTime start;
-        double triangle_share = 0.0; ///< of `start.ms`
+        double triangle_share = 0.0; ///< share of `start.ms`
         double sample_share = 0.0;
         double log_own = 0.0;
     };
@@ -108,7 +110,7 @@ private:
     double pixels_ = 1.0;
     std::optional<std::size_t> last_rung_;
     MonotonicTime last_time_;
-    double learned_s_ = 0.0; ///< of frames since the last change of rung
+    double learned_s_ = 0.0; ///< time of frames since the last change of level
 };
 
 } // namespace frustumscreen

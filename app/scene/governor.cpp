@@ -8,7 +8,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Two rungs of nearly equal time are not worth a change.
+/// A change must save at least this share of the time.
 constexpr double worth_saving = 0.85;
 
 } // namespace
@@ -27,7 +27,7 @@ double pixel_on_prop_m(const PropShape& prop, const Pinhole& projector,
 bool within_tolerance(const LevelError& error, const SeenError& worst, double mm_per_box,
                       double tolerance_mm) {
     constexpr double outline_share = 0.5;
-    constexpr double most_over_mean = 4.0;                     // two pixels for half a one
+    constexpr double most_over_mean = 4.0;                     // two pixels for half a pixel
     const auto within = [mm_per_box](float box, double most) { // false for NaN
         return static_cast<double>(box) * mm_per_box <= most;
     };
@@ -82,7 +82,7 @@ std::vector<Rung> ladder(std::span<const LevelOutline> levels, const std::vector
 
 Governor::Governor(std::vector<Rung> rungs, const std::vector<RungTime>& times, double deadline_ms)
     : rungs_(std::move(rungs)), model_(times), deadline_ms_(deadline_ms) {
-    current_ = rungs_.size(); // none: no rung is favoured
+    current_ = rungs_.size(); // no current level, so that none is favoured
     current_ = wanted();
 }
 
@@ -125,7 +125,7 @@ std::optional<std::size_t> Governor::doubted() const {
 void Governor::change_to(std::size_t rung, MonotonicTime now) {
     const bool relief = !fits(current_);
     if (relief && entered_for_quality_) {
-        // A rung that was entered for quality and did not last is tried again later and later.
+        // A level that was entered for quality and did not last is tried again after an ever longer time.
         const bool lasted = now - changed_ >= 4 * patience_;
         patience_ = lasted ? least_patience : std::min(2 * patience_, most_patience);
     }
@@ -147,7 +147,7 @@ void Governor::observe(MonotonicTime now, const FrameWork& work, double ms) {
     }
     if (now - changed_ >= dwell && current_ == tried_) {
         if (model_.expected_ms(current_) < worth_saving * tried_at_ms_) {
-            try_patience_ = least_patience; // the try was right: the next one may come as soon
+            try_patience_ = least_patience; // the try succeeded: the next one may follow as soon
         }
         tried_at_ms_ = 0.0;
     }

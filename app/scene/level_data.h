@@ -1,8 +1,8 @@
-/// What the GPU's memory takes of a level, ready to be copied there: vertices and the texture's mip levels.
+/// A level's data for the GPU's memory, ready to copy: vertices and the texture's mip levels.
 ///
-/// Colour   sRGB codes as they are stored; mip levels are averaged in linear light, here and not by the driver:
-///          so they are the same everywhere, and the finest need not be there to make the others.
-/// Threads  pure; any: all of the work is done here, and uploading is copying.
+/// Colour   sRGB codes as stored. Mip levels are averaged in linear light here, not by the driver: the result
+///          is equal on every driver, and coarse levels do not need the finest one.
+/// Threads  pure; any: all of the work is done here; the upload only copies.
 /// Errors   none.
 #pragma once
 
@@ -19,13 +19,13 @@ namespace frustumscreen {
 
 struct LevelData {
     std::vector<PackVertex> vertices;
-    std::vector<Image8> mips; ///< finest first, those that are uploaded
-    int finest_mip = 0;       ///< of the whole texture: which one `mips` begins with
+    std::vector<Image8> mips; ///< finest first; only the levels to upload
+    int finest_mip = 0;       ///< level of the whole texture that `mips` begins with
     double texels_per_box = 0.0;
     bool cut_out = false;
-    /// In the stead of all that: it stays in main memory.
+    /// Replaces all of the above: a relief, which stays in main memory.
     std::shared_ptr<const BlockRelief> relief{};
-    bool on_gpu = false; ///< the relief, which goes into the GPU's memory too, for it to draw
+    bool on_gpu = false; ///< the GPU draws the relief, so it goes into the GPU's memory too
 };
 /// `texture`: the level's whole texture.
 [[nodiscard]] LevelData level_data(const SceneLevel& level, const Image8& texture);

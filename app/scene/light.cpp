@@ -12,14 +12,14 @@ namespace frustumscreen {
 
 namespace {
 
-/// Sine of the eye's elevation above a face at which the face counts in full.
+/// Sine of the eye's elevation above a face at which the face counts fully.
 constexpr double full_sine_of_sight = 0.5;
 
 double sine_above(const PropFace& face, const glm::dvec3& from) {
     return face.plane.distance(from) / glm::distance(from, face.middle());
 }
 
-/// h is the same all over a face and d is convex: the least light is at a corner.
+/// h is constant on a face and d is convex, so the least light is at a corner.
 double least_light(const PropFace& face, const glm::dvec3& projector) {
     double least = std::numeric_limits<double>::infinity();
     for (const glm::dvec3& corner : face.corners) {

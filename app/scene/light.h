@@ -1,18 +1,18 @@
 /// The projector's light on the prop, and how the picture is dimmed to make it even.
 ///
-/// A small surface at distance d whose normal makes the angle theta with the light gets cos(theta) / d^2. On
-/// a plane with the projector h above it cos(theta) = h / d: the light is h / d^3, a steep face gets a part
-/// of the top's. The picture is dimmed, in linear light, by reference / light. The reference is one number of
-/// the set-up (even_light in light_range.h), so that the artifact sends back the same from every place of every face, in
-/// every pose and to every eye: nothing can jump. Within a face only d changes, so the gain of a pixel is
-/// scale * d^3, exact.
+/// A small surface at distance d whose normal makes the angle theta with the light receives cos(theta) / d^2.
+/// On a plane with the projector h above it cos(theta) = h / d, so the light is h / d^3, and a steep face
+/// receives a fraction of the top's light. The picture is dimmed, in linear light, by reference / light. The
+/// reference is one number of the set-up (even_light in light_range.h), so that the artifact has equal
+/// brightness at every place of every face, in every pose and for every eye, and never jumps. Within a face
+/// only d changes, so the gain of a pixel is scale * d^3, exactly.
 ///
-/// Where a face that the eye sees gets less than the reference, no gain can help: the projector has no more.
-/// Then the whole artifact dims with that face, by as much as the eye sees of the face, but not below
-/// `least_share`; a face that gets even less dims alone. A face that is lit at a grazing angle fades out,
+/// Where a face that the eye sees gets less than the reference, no gain can help: the projector is at its
+/// maximum. Then the whole artifact dims with that face, weighted by how much of the face the eye sees, but
+/// not below `least_share`; a face that gets even less dims alone. A face lit at a grazing angle fades out,
 /// because there a pixel becomes a long stripe.
 ///
-/// Frames   prop P, metres. Light in units of a surface square to the projector at 1 m.
+/// Frames   prop P, metres. Light in units of the light on a surface square to the projector at 1 m.
 /// Threads  pure; any.
 #pragma once
 
@@ -29,15 +29,15 @@ namespace frustumscreen {
 struct LightCompensation {
     /// The light that every place is dimmed to.
     double reference = 0.25;
-    /// How far the artifact dims as a whole, 0..1; 1: never.
+    /// Lower limit for dimming the artifact as a whole, 0..1; 1: it never dims.
     double least_share = 0.3;
 };
 
-/// What the exhibit does in this set-up. In the hand no artifact dims as a whole: a face that looks away from the
-/// projector is nothing that a visitor should mend.
+/// The exhibit's compensation in this set-up. In the hand an artifact never dims as a whole, because a
+/// visitor need not correct a face that is turned away from the projector.
 [[nodiscard]] LightCompensation light_compensation(const Settings& settings);
 
-/// Sine of the light's elevation above a face's middle: from this on it counts as lit in full, and down to
+/// Sine of the light's elevation above a face's middle: from here on a face counts as fully lit; down to
 /// least_sine_of_light (lit_zone.h) it fades out. At 0.12, a pixel of 0.42 mm makes a stripe of 3.5 mm.
 inline constexpr double full_sine_of_light = 0.3;
 
@@ -46,15 +46,16 @@ struct SeenFace {
     const PropFace* face = nullptr;
     glm::dvec3 eye{0.0};
 };
-/// The light that the faces are dimmed to. All of the prop's faces are given: one that the eye does not see
-/// counts for nothing, and one that comes in sight counts by degrees, whether or not the artifact shows on
+/// The light that the faces are dimmed to. `faces` are all of the prop's faces: one that the eye does not see
+/// has no effect, and one that comes into view takes effect gradually, whether or not the artifact shows on
 /// it.
 [[nodiscard]] double reference_light(std::span<const SeenFace> faces, const glm::dvec3& projector,
                                      const LightCompensation& compensation);
 
-/// Gain of the pixel (u, v), in linear light, for a face: min(most, per_cubic_metre * d^3), where the lit point's
-/// distance is d = |ray| / dot(inverse_depth, ray), and ray = ((u - cx) / fx, (v - cy) / fy, 1). Behind a lens that distorts
-/// the ray is the one that goes through the pixel, and the gain is less where the lens packs pixels more densely.
+/// Gain of the pixel (u, v), in linear light, for a face: min(most, per_cubic_metre * d^3), where the lit
+/// point's distance is d = |ray| / dot(inverse_depth, ray), and ray = ((u - cx) / fx, (v - cy) / fy, 1).
+/// Behind a lens that distorts, the ray is the one through the pixel, and the gain is less where the lens
+/// packs pixels more densely.
 struct FaceLight {
     glm::vec3 inverse_depth{0.0F, 0.0F, 1.0F}; ///< 1/m, of the face's plane along the optical axis
     float per_cubic_metre = 0.0F;

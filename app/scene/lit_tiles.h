@@ -1,7 +1,7 @@
 /// The part of the picture that an artifact may light, as rectangles of whole tiles.
 ///
-/// Besides its triangles a picture costs clearing and averaging; a thin artifact lights only a small part of
-/// the rectangle around it.
+/// Besides its triangles a picture costs clearing and averaging, and a thin artifact lights only a small part
+/// of the rectangle around it.
 ///
 /// Units    pixels, row 0 at the top.
 /// Threads  values; any. Allocates nothing.
@@ -21,7 +21,7 @@ class LitTiles {
 public:
     static constexpr std::size_t most_rectangles = 96;
 
-    /// Begins a picture in which nothing is lit yet.
+    /// Begins a picture without lit tiles.
     void begin(int picture_width, int picture_height);
     void light(const PixelRectangle& part);
     /// Makes the rectangles from what was lit: disjoint, inside the picture.

@@ -1,4 +1,4 @@
-/// A number for a plan's picture.
+/// Hash of a plan's picture.
 ///
 /// Threads  pure; any. Allocates nothing.
 /// Method   FNV-1a over 64-bit words.
@@ -10,11 +10,11 @@
 
 namespace frustumscreen {
 
-/// The number is equal for equal pictures of one renderer; it is FramePlan::hash.
+/// Equal for equal pictures of one renderer; stored in FramePlan::hash.
 [[nodiscard]] std::uint64_t hash_of(const FramePlan& plan);
-/// The same for what stands in the prop; it is FramePlan::prop_hash.
+/// As above, only for the draws in the prop; stored in FramePlan::prop_hash.
 [[nodiscard]] std::uint64_t hash_of_prop(const FramePlan& plan);
-/// The same for one draw.
+/// Hash of one draw.
 [[nodiscard]] std::uint64_t hash_of(const Draw& draw);
 
 } // namespace frustumscreen

@@ -22,7 +22,7 @@ PixelRectangle prop_bounds(const PropShape& prop, const Pinhole& projector,
 
 std::optional<PixelSize> largest_outline(const Settings& settings, const Pinhole& projector,
                                          const Visibility& visibility) {
-    constexpr int places = 13; // along each side of the table; with its middle and its corners
+    constexpr int places = 13; // along each side of the table, including its middle and its corners
     constexpr int yaws = 32;   // over a quarter of a turn
     constexpr int margin = 16;
     const PropShape prop = make_prop(settings.prop);

@@ -14,13 +14,13 @@ namespace frustumscreen {
 
 namespace {
 
-/// More views than this are not planned one by one.
+/// With more views than this, views are not planned one by one.
 constexpr std::size_t most_planned_views = 64;
 
-/// Whether some eye of the zone may see each triangle.
+/// For each triangle, whether some eye of the zone may see it.
 std::vector<bool> seen_triangles(const LevelTriangles& triangles, const PointZone& eyes,
                                  double metres_per_box) {
-    // Twice what a frame allows for single precision (visible_triangles.h).
+    // Twice a frame's tolerance for single precision (visible_triangles.h).
     const double epsilon = std::numeric_limits<float>::epsilon();
     const double slack = 2.0 * (edge_on_box + 4.0 * epsilon * (1.0 + eyes.farthest() / metres_per_box));
     std::vector<bool> seen(triangles.distance.size());
@@ -32,7 +32,7 @@ std::vector<bool> seen_triangles(const LevelTriangles& triangles, const PointZon
     return seen;
 }
 
-/// The triangles marked, the vertices that they use and the clusters that keep some of them, in order.
+/// The marked triangles, the vertices that they use and the clusters that keep some of them, in order.
 PackLevel part_of(const PackLevel& level, const std::vector<bool>& marked) {
     PackLevel part{level.technique, level.error, level.texture, {}, {}, {}};
     constexpr auto none = std::numeric_limits<std::uint32_t>::max();
@@ -63,7 +63,7 @@ PackLevel part_of(const PackLevel& level, const std::vector<bool>& marked) {
     return part;
 }
 
-/// What the views take of a level's detail, planned with the most samples that a rung has.
+/// Detail that the views need of a level, planned with the most samples of any quality level.
 void measure_detail(const Pack& pack, const ScenePlan& plan, SceneLevel& level) {
     PlacedLevel placed{std::make_shared<LevelTriangles>(triangles_of(level.mesh, pack.box_size)),
                        pack.box_size,
@@ -117,10 +117,10 @@ double texels_per_box(const PackLevel& level, const Image8& texture, const glm::
 
 int mip_level(double texels_per_box, double samples_per_box) {
     const double texels_per_sample = texels_per_box / samples_per_box;
-    if (!(texels_per_sample > 1.0)) { // NaN too
+    if (!(texels_per_sample > 1.0)) { // also for NaN
         return 0;
     }
-    // A tie goes to the finer level, as OpenGL has it.
+    // A tie goes to the finer level, as in OpenGL.
     const double level = std::ceil(std::log2(texels_per_sample));
     return static_cast<int>(std::fmin(level, coarsest_mip_level));
 }

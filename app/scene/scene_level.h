@@ -1,11 +1,11 @@
-/// A level as one scene needs it: without what no pose of the plan can show. The second half of the scene's
-/// plan, made when the level has been read.
+/// A mesh level as one scene needs it, without the parts that no pose of the plan can show. Second half of
+/// the scene plan, made once the level has been read.
 ///
-/// Triangles  a triangle is left out if the zone of the eyes does not reach over its plane, with the same
-///            slack as in each frame's own culling: it would have been left out in every frame. The order
-///            stays, so that equal depths are resolved as before.
-/// Detail     where all views are known, each is planned, and the finest mip level and the most samples that
-///            any of them takes are known exactly. A prop that may be turned always has faces that are nearly
+/// Triangles  a triangle is left out if the zone of the eyes does not reach above its plane, with the same
+///            slack as in each frame's own culling, which would cull it in every frame. The order stays, so
+///            that equal depths are resolved in the same way.
+/// Detail     if all views are known, each is planned, and the finest mip level and the most samples that any
+///            of them takes are known exactly. A prop that may be turned always has faces that are nearly
 ///            edge-on to the eye and stretched by the projector without bound: then all detail stays.
 ///
 /// Frames   box (pack.h).
@@ -27,16 +27,16 @@ namespace frustumscreen {
 /// The mip level whose texels are as large as a sample, so that no sample skips a texel; 0 = the finest.
 /// `samples_per_box` as Draw::pixels_per_box, times the samples along a pixel's side.
 [[nodiscard]] int mip_level(double texels_per_box, double samples_per_box);
-/// Coarser levels mix charts that lie side by side in the atlas.
+/// Coarser mip levels would mix neighbouring charts of the atlas.
 inline constexpr int coarsest_mip_level = 4;
 
 struct SceneLevel {
     std::uint32_t level = 0;
-    PackLevel mesh;              ///< what may be seen
+    PackLevel mesh;              ///< the triangles that may be seen
     double texels_per_box = 0.0; ///< of the whole level
-    bool cut_out = false;        ///< the texture leaves out texels (alpha below one half)
-    int finest_mip = 0;          ///< finer ones are never sampled
-    int samples = 0;             ///< a pixel, the most that a view takes; 0 = not known
+    bool cut_out = false;        ///< the texture has cut-out texels (alpha below one half)
+    int finest_mip = 0;          ///< finer mip levels are never sampled
+    int samples = 0;             ///< a pixel, the most that a view takes; 0 = unknown
     std::size_t unseen_triangles = 0;
     std::size_t unseen_clusters = 0;
     std::size_t unseen_vertices = 0;
@@ -45,20 +45,20 @@ struct SceneLevel {
 [[nodiscard]] SceneLevel whole_level(const Pack& pack, std::uint32_t level);
 [[nodiscard]] SceneLevel scene_level(const Pack& pack, std::uint32_t level, const ScenePlan& plan);
 
-/// What was left out of the level, in words.
+/// Describes the parts of the level that were left out.
 [[nodiscard]] std::vector<LeftOut> left_out_of(const ScenePlan& plan, const SceneLevel& level,
                                                const Image8& texture);
 
-/// The plan's needs, with no more room for samples than the level takes. The room is never made larger: a
-/// view that takes more samples than fit is drawn elsewhere in the larger picture and rounds differently.
+/// The plan's needs, with no more samples than the level takes. They are never increased: a view that takes
+/// more samples than fit is drawn elsewhere in the larger picture and rounds differently.
 [[nodiscard]] RenderNeeds needs_of(const ScenePlan& plan, const SceneLevel& level);
 
-/// Bytes of GPU memory: vertices and mip levels of a level; the larger picture of several samples a pixel; a
+/// Bytes of GPU memory: vertices and mip levels of a level; the larger picture for several samples a pixel; a
 /// caption with its mip levels.
 [[nodiscard]] std::uint64_t gpu_bytes(const SceneLevel& level, const Image8& texture);
 [[nodiscard]] std::uint64_t gpu_bytes(const RenderNeeds& needs, int width, int height);
 [[nodiscard]] std::uint64_t caption_gpu_bytes(int width, int height);
-/// A picture for the table with its mip levels.
+/// A picture on the table with its mip levels.
 [[nodiscard]] inline std::uint64_t picture_gpu_bytes(int width, int height) {
     return 4 * caption_gpu_bytes(width, height);
 }

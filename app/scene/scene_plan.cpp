@@ -39,7 +39,7 @@ std::vector<bool> good_levels(const PackOutline& pack, const ScenePlan& plan, do
     return good;
 }
 
-/// Of reliefs that were read of the pack's description.
+/// Looks up a relief of the pack's description by its texels.
 std::optional<ReliefOutline> relief_of(const std::vector<ReliefOutline>& reliefs, std::uint32_t texels) {
     const auto found = std::find_if(reliefs.begin(), reliefs.end(), [texels](const ReliefOutline& relief) {
         return relief.texels == texels;
@@ -47,7 +47,7 @@ std::optional<ReliefOutline> relief_of(const std::vector<ReliefOutline>& reliefs
     return found != reliefs.end() ? std::optional(*found) : std::nullopt;
 }
 
-/// The coarsest of those that are wanted whose texel is a pixel, or not clearly more; else the finest.
+/// The coarsest of the wanted reliefs whose texel is at most about a pixel; otherwise the finest of them.
 template <typename Wanted>
 std::optional<ReliefOutline> relief_for(const std::vector<ReliefOutline>& reliefs, double pixel_box,
                                         const Wanted& wanted) {
@@ -64,7 +64,7 @@ std::optional<ReliefOutline> relief_for(const std::vector<ReliefOutline>& relief
     return found;
 }
 
-/// A pack's, and what eyes see of each.
+/// A pack's reliefs, and the error of each as eyes see it.
 struct PackReliefs {
     std::vector<ReliefOutline> outlines;
     std::vector<SeenLevel> seen;
@@ -75,7 +75,7 @@ struct PackReliefs {
     }
 };
 
-/// What the rungs draw, each once.
+/// Collects the levels and reliefs that the quality levels draw, each once.
 void choose_what_is_read(const PackReliefs& reliefs, ScenePlan& plan) {
     for (const Rung& rung : plan.rungs) {
         if (!rung.relief && !in(plan.levels, rung.level)) {
@@ -88,7 +88,7 @@ void choose_what_is_read(const PackReliefs& reliefs, ScenePlan& plan) {
     }
 }
 
-/// Levels that no rung draws: read all the same, or said to be left out.
+/// Handles levels that no quality level draws: they are read anyway, or reported as left out.
 void leave_out_levels(const PackOutline& pack, const SceneRequest& request, double tolerance_mm,
                       bool governed, ScenePlan& plan) {
     std::vector<std::string> finer;
@@ -100,7 +100,7 @@ void leave_out_levels(const PackOutline& pack, const SceneRequest& request, doub
         }
         unused.push_back(level);
         if (plan.levels.empty() && level == plan.exposure_level) {
-            continue; // it is not drawn, and read all the same
+            continue; // not drawn, but read
         }
         (governed && !plan.levels.empty() && level > plan.levels.front() ? finer : others)
             .push_back(fmt::format("{}", level));
@@ -170,7 +170,8 @@ void choose_captions(const Settings& settings, const PackOutline& pack, const Sc
     plan.left_out.push_back({UnusedCaptions, "captions and the typeface", std::string(why)});
 }
 
-/// Each way to draw a rung, in each light and, where levels fade, dithered too. A cast relief has its light from the processor.
+/// Shaders for each quality level, in each light and, if levels fade, dithered too. A relief rasterized on
+/// the processor gets its light there.
 void choose_rung_shaders(bool plain_light, bool even_light, bool fades, ScenePlan& plan) {
     const auto any = [&](const auto& is) { return std::any_of(plan.rungs.begin(), plan.rungs.end(), is); };
     const bool casts = any([](const Rung& rung) { return rung.relief && !rung.on_gpu; });
@@ -202,7 +203,8 @@ void choose_rung_shaders(bool plain_light, bool even_light, bool fades, ScenePla
     plan.needs.casts = casts ? std::min<std::size_t>(plan.reliefs.size(), 2) : 0; // a fade shows two
 }
 
-/// Samples a pixel of the picture that meshes are drawn into. A cast relief takes its samples where it is cast.
+/// Samples a pixel of the picture that the GPU draws into. A relief rasterized on the processor takes its
+/// samples there.
 int samples_of(const SceneRequest& request, const Rung& rung) {
     if (rung.relief && !rung.on_gpu) {
         return 1;
@@ -269,7 +271,7 @@ void choose_faces(ScenePlan& plan) {
     }
 }
 
-/// The number behind the prefix, and nothing else.
+/// The number after the prefix; nullopt if anything else follows or the prefix is missing.
 std::optional<std::uint32_t> number_behind(std::string_view prefix, std::string_view name) {
     if (!name.starts_with(prefix)) {
         return std::nullopt;
@@ -283,7 +285,7 @@ std::optional<std::uint32_t> number_behind(std::string_view prefix, std::string_
 constexpr std::string_view level_prefix = "level";
 constexpr std::string_view relief_prefix = "relief";
 
-/// What a relief's name says without who draws it; other names stay as they are.
+/// A relief's name without the suffix for the GPU; other names are unchanged.
 std::string_view without_gpu(std::string_view name) {
     const bool named = name.starts_with(relief_prefix) && name.ends_with(on_gpu_suffix);
     return named ? name.substr(0, name.size() - on_gpu_suffix.size()) : name;

@@ -1,14 +1,14 @@
-/// What a scene needs, decided before anything of it is loaded: a pure function of the settings, a pack's
-/// outline and what can be seen. Nothing outside the plan is read, compiled, allocated or opened.
+/// The needs of a scene, decided before anything of it is loaded: a pure function of the settings, a pack's
+/// outline and the possible views. Nothing outside the plan is read, compiled, allocated or opened.
 ///
-/// The plan leaves things out by kinds (Economy), each with its reason. A scene with or without them draws
-/// the same picture, pixel for pixel, at every pose that the plan was made for: the tests check this, and
-/// `frustumscreen plan` measures what each kind saves by drawing with and without it.
+/// The plan leaves out things by cull kind (`Economy`), each with its reason. With or without them a scene
+/// draws the same picture, pixel for pixel, at every pose that the plan was made for: the tests check this,
+/// and `frustumscreen plan` measures the saving of each kind by drawing with and without it.
 ///
-/// Decisions that need a level's own triangles are made level by level as they are read: scene_level.h.
+/// Decisions that need a level's own triangles follow level by level as they are read: scene_level.h.
 ///
 /// Threads  pure; any.
-/// Errors   a technique that the pack does not have; a pack's section that is not what FORMAT.md says.
+/// Errors   a technique that the pack does not have; a pack's section that violates FORMAT.md.
 #pragma once
 
 #include "app/pack/pack_outline.h"
@@ -30,25 +30,27 @@
 
 namespace frustumscreen {
 
-/// The form of a technique's name: "auto", "finest", "relief", or "level" or "relief" and a number that some pack may have; behind the
-/// name of a relief may stand "-gpu".
+/// True for a well-formed technique name: "auto", "finest", "relief", or "level" or "relief" and a number,
+/// whether or not a pack has it; a relief's name may end in "-gpu".
 inline constexpr std::string_view on_gpu_suffix = "-gpu";
 [[nodiscard]] bool is_technique(std::string_view name);
 /// "level0", "relief96", "relief96-gpu".
 [[nodiscard]] std::string name_of(const Rung& rung);
-/// The way to draw that a technique's name means, without its samples: "auto" the pack's default level, "finest", "level0", "level1",
-/// ...; "relief96", "relief192", ... by texels; "relief" the coarsest whose texel is not clearly larger than a pixel of `pixel_box`
-/// on the prop, else the finest. A relief is cast on the processor; "relief-gpu", "relief96-gpu", ... are drawn by the GPU.
+/// The way to draw for a technique's name, without its samples. "auto": the pack's default level; "finest";
+/// "level0", "level1", ...; "relief96", "relief192", ...: by texels; "relief": the coarsest relief whose
+/// texel is not clearly larger than a pixel of `pixel_box` on the prop, otherwise the finest. A relief is
+/// rasterized on the processor; "relief-gpu", "relief96-gpu", ... are drawn by the GPU.
 [[nodiscard]] Result<Rung> rung_of(const PackOutline& pack, std::string_view technique, double pixel_box);
 
-/// A kind of things that a scene may do without; bits.
+/// A cull kind: one kind of thing that a scene plan leaves out; bits.
 enum Economy : unsigned {
-    UnusedLevels = 1,     ///< levels that neither the technique nor the governor can choose, their textures
+    UnusedLevels = 1,     ///< levels that neither the technique nor the governor can choose, and their
+                          ///< textures
     UnusedCaptions = 2,   ///< texts, the typeface, the caption's pass
     UnusedShaders = 4,    ///< shaders that no draw names
     UnseenFaces = 8,      ///< faces of the prop that are never both seen and lit
-    UnseenTriangles = 16, ///< triangles, and clusters of them, that always look away
-    UnusedDetail = 32,    ///< mip levels finer than any pose takes; samples that no pose takes
+    UnseenTriangles = 16, ///< triangles, and clusters of them, that always face away
+    UnusedDetail = 32,    ///< mip levels finer than any pose needs; samples that no pose takes
     AllEconomies = 63
 };
 [[nodiscard]] std::string_view name_of(Economy economy);
@@ -59,34 +61,36 @@ struct LeftOut {
     std::string why;
 };
 
-/// What the command line adds to the settings.
+/// The command line's additions to the settings.
 struct SceneRequest {
     std::string technique = "auto";
-    bool live = true; ///< the governor may choose among levels; else a technique is one level
-    /// The governor may also let the GPU draw a relief of so many blocks. None where the driver draws on the processor: to cast them is
-    /// many times quicker there.
+    bool live = true; ///< the governor may choose among levels; otherwise a technique is one level
+    /// The governor may also let the GPU draw a relief of up to this many blocks. 0 where the driver draws on
+    /// the processor: there this program rasterizes them many times more quickly.
     std::uint32_t most_blocks_on_gpu = 0;
     bool light = true;
     int samples = 0; ///< a pixel; 0 = what the pack asks for
-    /// Samples a pixel that the renderer has room for wherever the prop stands; a smaller part of the picture may take more. Pictures
-    /// from poses have room for all that the pack asks for, and so has a room of 1.
+    /// Sample headroom: samples a pixel that the render target can hold wherever the prop stands; a smaller
+    /// part of the picture may take more. Without headroom (1), and for pictures from poses, the target holds
+    /// what the pack asks for.
     int room = 1;
     unsigned economies = AllEconomies;
-    std::vector<std::size_t> captions; ///< of Pack::captions: those that a visitor can come to see
+    std::vector<std::size_t> captions; ///< of Pack::captions: those that a visitor can reach
     bool table_pictures = false;       ///< other artifacts lie on the table
     Visibility visibility;
 };
 
 struct ScenePlan {
-    std::vector<Rung> rungs;            ///< the ways in which the artifact may be drawn, best first
+    std::vector<Rung> rungs;            ///< the quality levels of the artifact, best first
     std::vector<std::uint32_t> levels;  ///< of the pack, to read and upload; those of `rungs` first
     std::vector<ReliefOutline> reliefs; ///< of the pack, to read: those of `rungs`
-    /// Of the pack, for exposure_of: the first of `levels`; where reliefs alone are drawn, the pack's default one, read for it and not
-    /// uploaded, so that meshes and reliefs of one artifact are equally bright.
+    /// Of the pack, for exposure_of: the first of `levels`. If only reliefs are drawn, it is the pack's
+    /// default level, which is read for this purpose but not uploaded, so that meshes and reliefs of one
+    /// artifact are equally bright.
     std::uint32_t exposure_level = 0;
     std::vector<std::size_t> captions; ///< of the pack
     std::uint32_t faces = 0;           ///< of the prop, bits: those that may show
-    /// As if all textures were opaque: an outline does not say which leave texels out.
+    /// As if all textures were opaque: an outline does not tell which of them have cut-out texels.
     RenderNeeds needs;
     unsigned economies = AllEconomies;
     std::vector<LeftOut> left_out;
@@ -98,7 +102,7 @@ struct ScenePlan {
     std::vector<SeenLevel> seen;         ///< of each of the pack's levels
     std::vector<SeenLevel> seen_reliefs; ///< of each of `reliefs`
     Visibility visibility;
-    std::optional<LightCompensation> light; ///< nothing: it was not asked for
+    std::optional<LightCompensation> light; ///< nullopt: not requested
     int highlight_code = 0;                 ///< for exposure_of; 0 without light
 };
 

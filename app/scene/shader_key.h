@@ -1,5 +1,4 @@
-/// Names a shader by what it does and not by how: a plan makes keys, a renderer compiles one program for
-/// each.
+/// Names a shader by what it does, not how: a plan makes keys, a renderer compiles one program for each key.
 ///
 /// Threads  values; any.
 #pragma once
@@ -20,16 +19,16 @@ struct ShaderKey {
     enum class Pass : std::uint8_t {
         Outline,         ///< marks a face of the prop
         Surface,         ///< draws a mesh, or a relief's blocks
-        Cast,            ///< shows what was cast into memory
+        Cast,            ///< shows a relief that was rasterized into memory
         EdgeFeather,     ///< dims a strip of a face
-        TablePicture,    ///< draws a flat picture beside the prop
-        TileClear,       ///< blackens tiles of the larger picture that several samples a pixel need
+        TablePicture,    ///< draws a flat picture on the table
+        TileClear,       ///< blackens tiles of the larger picture that holds several samples a pixel
         TileAverage,     ///< averages these samples, up to 2 x 2 a pixel
-        TileAverageMany, ///< the same of more
+        TileAverageMany, ///< averages more samples than that
     };
     Pass pass = Pass::Surface;
-    // Of surfaces alone, but the third, of casts too:
-    bool places : 1 = false;     ///< gives each pixel's place in the prop and not its colour
+    // For Surface only, except `dithered`, which Cast uses too:
+    bool places : 1 = false;     ///< outputs each pixel's position in the prop instead of its colour
     bool cut_out : 1 = false;    ///< leaves out texels whose alpha is below one half
     bool dithered : 1 = false;   ///< draws a share of the pixels
     bool even_light : 1 = false; ///< evens out the projector's light
@@ -41,27 +40,26 @@ struct ShaderKey {
 /// The bits are equal only for equal keys.
 [[nodiscard]] std::uint32_t bits_of(const ShaderKey& key);
 
-/// The shader that gives the places of what `key` draws.
+/// The shader that outputs positions for the draws of `key`.
 [[nodiscard]] ShaderKey places_of(ShaderKey key);
 
-/// The shader of what was cast.
+/// The shader for reliefs that are rasterized on the processor.
 [[nodiscard]] ShaderKey cast_shader(bool dithered);
 
-/// What a renderer must be able to do.
+/// Capabilities and memory that a renderer must provide.
 struct RenderNeeds {
-    int samples = 1;           ///< a pixel, that there is room for wherever the prop may stand
+    int samples = 1;           ///< samples a pixel that the target must hold wherever the prop stands
     std::set<ShaderKey> draws; ///< the shaders that the draws of its plans name
-    std::size_t casts = 0;     ///< pictures that one plan may cast into memory
-    /// The largest rectangle around the prop in the picture (prop_outline.h); none: all of the picture.
+    std::size_t casts = 0;     ///< pictures that one plan may rasterize into memory
+    /// Largest rectangle around the prop in the picture (prop_outline.h); nullopt: the whole picture.
     std::optional<PixelSize> outline = std::nullopt;
     std::optional<Pinhole> bent_by =
-        std::nullopt; ///< a projector whose lens distorts: every shader bends what it draws
+        std::nullopt; ///< set for a projector whose lens distorts: every shader bends what it draws
 };
-/// The projector, if its lens distorts: RenderNeeds::bent_by.
+/// The value of RenderNeeds::bent_by: the projector if its lens distorts, otherwise nullopt.
 [[nodiscard]] std::optional<Pinhole> if_it_bends(const Pinhole& projector);
 [[nodiscard]] RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b);
-/// Every shader that a renderer with these needs compiles: those of the draws, and those that it brings
-/// itself.
+/// Every shader that a renderer with these needs compiles: those of the draws and the renderer's own.
 [[nodiscard]] std::set<ShaderKey> shaders_of(const RenderNeeds& needs);
 
 } // namespace frustumscreen

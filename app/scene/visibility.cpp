@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The part of a ball between two radii and above an elevation, as a profile that holds it.
+/// Profile around the part of a ball that lies between two radii and above an elevation.
 std::vector<glm::dvec2> shell(double nearest, double farthest, double lowest_elevation) {
     constexpr int tangents = 32;
     const double step = (std::numbers::pi / 2.0 - lowest_elevation) / tangents;
@@ -19,13 +19,14 @@ std::vector<glm::dvec2> shell(double nearest, double farthest, double lowest_ele
     std::vector<glm::dvec2> profile{at(nearest, lowest_elevation), at(farthest, lowest_elevation),
                                     at(nearest, std::numbers::pi / 2.0),
                                     at(farthest, std::numbers::pi / 2.0)};
-    for (int k = 0; k < tangents; ++k) { // where the tangents at both ends of a piece of the arc meet
+    for (int k = 0; k < tangents; ++k) { // intersections of the tangents at both ends of each piece of the
+                                         // arc
         profile.push_back(at(farthest / std::cos(step / 2.0), lowest_elevation + (k + 0.5) * step));
     }
     return profile;
 }
 
-/// A point of the table's frame as seen from a prop that stands somewhere on the table, turned in any way.
+/// A point of the table frame, relative to a prop that stands anywhere on the table at any yaw.
 PointZone seen_from_the_table(const TableSettings& table, const glm::dvec3& point) {
     const glm::dvec2 half(table.width_m / 2.0, table.depth_m / 2.0);
     const glm::dvec2 farthest = glm::abs(glm::dvec2(point)) + half;
@@ -89,7 +90,7 @@ Visibility visibility_of(const Settings& settings) {
     Visibility visibility;
     visibility.eyes = seen_from_the_table(settings.table, eye.default_m);
     if (eye.tracked) {
-        // While no head is tracked the eye is the default one, which need not lie in the zone.
+        // Without a tracked head the eye is the default one, which need not lie in the zone.
         const std::vector<glm::dvec2> zone =
             shell(eye.nearest_m, eye.farthest_m, glm::radians(eye.lowest_elevation_deg));
         visibility.eyes.rings.insert(visibility.eyes.rings.end(), zone.begin(), zone.end());

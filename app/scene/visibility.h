@@ -1,16 +1,16 @@
-/// The places from which the prop may be seen and lit, as the settings allow. They prove which faces and
+/// The places of eyes and lens that the settings allow, relative to the prop. They prove which faces and
 /// triangles never show.
 ///
-/// An upright prop that may be turned can have an eye or the lens at any azimuth. So such a zone is a profile
-/// turned about the prop's axis, and the farthest that it reaches along a direction n is
+/// An upright prop that may be turned can have an eye or the lens at any azimuth. The zone of such a point is
+/// a profile turned about the prop's axis, and the farthest that it reaches along a direction n is
 ///     max over the profile's points of  |(n.x, n.y)| distance + n.z height,
-/// a plane test that is exact for its convex hull: nothing is sampled. A profile's arc is replaced by the
-/// tangents around it, which is farther out by 0.02 % at most, never nearer.
+/// a plane test that is exact for the zone's convex hull, without sampling. Tangents replace a profile's arc:
+/// they are farther out by at most 0.02 %, never nearer.
 ///
 /// Frames   prop P, metres.
 /// Threads  pure; any.
-/// Errors   none. What cannot be bounded (a prop in the hand, a recording in which the prop may be lifted and
-///          tilted) may be anywhere, and then nothing is proved.
+/// Errors   none. Zones that cannot be bounded (a prop in the hand; a recording, in which the prop may be
+///          lifted and tilted) are `anywhere`, which proves nothing.
 #pragma once
 
 #include "app/geometry/transform.h"
@@ -22,7 +22,7 @@
 
 namespace frustumscreen {
 
-/// Where one point (the eye, the lens) may be.
+/// The possible places of one point (an eye or the lens).
 struct PointZone {
     bool anywhere = true;
     std::vector<glm::dvec3> points;
@@ -42,13 +42,13 @@ struct KnownView {
 
 struct Visibility {
     PointZone eyes, lens;
-    std::vector<KnownView> views; ///< all views, if they are known; else empty
+    std::vector<KnownView> views; ///< all views, if they are known; otherwise empty
 };
 
-/// For the live exhibit: the eye's zone (EyeSettings, seen from the prop's foot) or the fixed eye, the prop
-/// anywhere in its zone or fixed in the table's middle.
+/// For the live exhibit: eyes in their zone (EyeSettings, relative to the prop's foot) or a fixed eye; the
+/// prop anywhere in its zone or fixed in the table's middle.
 [[nodiscard]] Visibility visibility_of(const Settings& settings);
-/// For a list of poses and no others.
+/// For a fixed list of poses.
 [[nodiscard]] Visibility visibility_of(const Settings& settings, std::vector<KnownView> views);
 
 } // namespace frustumscreen

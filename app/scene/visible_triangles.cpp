@@ -10,13 +10,13 @@ namespace {
 
 bool looks_away(const glm::dvec3& eye, const PackCluster& cluster) {
     const glm::dvec3 to_apex = glm::dvec3(cluster.cone_apex) - eye;
-    // A hair's breadth keeps float-stored cones on the safe side.
+    // A small tolerance keeps cones that are stored as floats on the safe side.
     constexpr double hair = 1e-5;
     const double cutoff = static_cast<double>(cluster.cone_cutoff) + hair;
     return cutoff <= 1.0 && glm::dot(to_apex, glm::dvec3(cluster.cone_axis)) > cutoff * glm::length(to_apex);
 }
 
-/// The half spaces whose border runs through one cluster.
+/// The half spaces whose boundary crosses one cluster.
 struct Crossed {
     std::array<glm::vec4, 9> half_spaces{};
     std::size_t count = 0;
@@ -116,7 +116,7 @@ void FaceVolume::add(const glm::dvec4& half_space) {
 
 void FrontTriangles::reserve(std::size_t indices) {
     indices_.reserve(indices);
-    first_.reserve(indices / 3 + 1); // a cluster has a triangle at least
+    first_.reserve(indices / 3 + 1); // a cluster has at least one triangle
 }
 
 void FrontTriangles::update(const LevelTriangles& level, const glm::dvec3& eye_box) {
@@ -126,7 +126,7 @@ void FrontTriangles::update(const LevelTriangles& level, const glm::dvec3& eye_b
     level_ = &level;
     eye_box_ = eye_box;
     const glm::vec3 eye(eye_box);
-    // The most that the products' rounding can be, for an eye at any distance.
+    // Upper bound of the products' rounding error, for an eye at any distance.
     const float slack =
         edge_on_box + 4.0F * std::numeric_limits<float>::epsilon() * (1.0F + glm::length(eye));
     indices_.resize(level.indices.size());
@@ -144,7 +144,8 @@ void FrontTriangles::update(const LevelTriangles& level, const glm::dvec3& eye_b
             out[0] = level.indices[3 * t];
             out[1] = level.indices[3 * t + 1];
             out[2] = level.indices[3 * t + 2];
-            out += in_front < -slack ? 0 : 3; // a branch would be guessed wrong every other time
+            out += in_front < -slack ? 0 : 3; // without a branch, which would be mispredicted half of the
+                                              // time
         }
     }
     first_.push_back(static_cast<std::size_t>(out - indices_.data()));

@@ -1,7 +1,9 @@
-/// Which of a level's triangles may show on one face of the prop: clusters first, then triangle by triangle.
+/// Selects the triangles of a level that may show on one face of the prop: clusters first, then triangle by
+/// triangle.
 ///
-/// A software or small GPU spends more on a triangle that it throws away than this code spends on finding it:
-/// about half of a level looks away from the eye, and each face of the prop shows its own part of the rest.
+/// A software renderer or a small GPU spends more on a triangle that it discards than this code spends on
+/// finding it: about half of a level faces away from the eye, and each face of the prop shows a different
+/// part of the rest.
 ///
 /// Frames   box (pack.h).
 /// Threads  pure; any. Allocates nothing if `indices` has room.
@@ -18,7 +20,7 @@
 
 namespace frustumscreen {
 
-/// A triangle this near to edge-on is kept, because the planes are single precision and the positions
+/// A triangle this close to edge-on is kept, because the planes are in single precision and the positions
 /// quantised.
 inline constexpr float edge_on_box = 1e-5F;
 
@@ -31,11 +33,11 @@ struct LevelTriangles {
     std::vector<Extent> extents; ///< of the clusters
     std::vector<std::uint32_t> indices;
     std::vector<glm::vec3> positions; ///< of the vertices
-    /// Of each triangle: n.X = d, n a unit vector outward, as four arrays. A triangle without area counts as
-    /// facing everywhere.
+    /// For each triangle: n.X = d, with n the outward unit normal, as four arrays. A triangle without area
+    /// counts as facing everywhere.
     std::vector<float> normal_x, normal_y, normal_z, distance;
 };
-/// Of main memory.
+/// Bytes of main memory.
 [[nodiscard]] std::uint64_t bytes_of(const LevelTriangles& level);
 /// Computes the planes from indices and positions.
 void find_planes(LevelTriangles& level);
@@ -43,25 +45,25 @@ void find_planes(LevelTriangles& level);
 void find_extents(LevelTriangles& level);
 [[nodiscard]] LevelTriangles triangles_of(const PackLevel& level, const glm::dvec3& box_size);
 
-/// What one face shows: the half spaces a.X + d >= 0 (a unit) of the face's pyramid and the picture's four
-/// edges.
+/// The volume that one face shows: the half spaces a.X + d >= 0 (a unit) of the face's pyramid and the
+/// picture's four edges.
 struct FaceVolume {
     std::array<glm::dvec4, 9> half_spaces{};
     std::size_t count = 0;
 
-    /// Scales to a unit normal; a degenerate or non-finite half space is left out.
+    /// Normalises the half space; a degenerate or non-finite one is skipped.
     void add(const glm::dvec4& half_space);
 };
 
-/// A level's triangles that look towards one eye, cluster by cluster: found once for all faces that share it.
+/// A level's triangles that face one eye, cluster by cluster: found once for all faces that share the eye.
 class FrontTriangles {
 public:
-    /// Makes room for levels of up to `indices` indices.
+    /// Reserves memory for levels of up to `indices` indices.
     void reserve(std::size_t indices);
-    /// Forgets what was found before.
+    /// Discards the triangles found so far.
     void forget() { level_ = nullptr; }
-    /// Finds them again if the eye or the level is another one. A triangle within rounding of edge-on counts
-    /// as looking towards the eye.
+    /// Finds the triangles again if the eye or the level has changed. A triangle within rounding of edge-on
+    /// counts as facing the eye.
     void update(const LevelTriangles& level, const glm::dvec3& eye_box);
     [[nodiscard]] std::span<const std::uint32_t> of(std::size_t cluster) const {
         return std::span(indices_).subspan(first_[cluster], first_[cluster + 1] - first_[cluster]);
@@ -71,12 +73,12 @@ private:
     const LevelTriangles* level_ = nullptr;
     glm::dvec3 eye_box_{0.0};
     std::vector<std::uint32_t> indices_;
-    std::vector<std::size_t> first_; ///< of each cluster, in indices_; one more for the end
+    std::vector<std::size_t> first_; ///< start of each cluster in `indices_`, and the end
 };
 
-/// Appends the indices of the cluster's triangles that may show; returns how many triangles that were.
-/// Conservative: a triangle of `front` that is left out has no point inside the volume, with `margin_box` to
-/// spare for the rasterizer's rounding.
+/// Appends the indices of the cluster's triangles that may show; returns the number of triangles appended.
+/// Conservative: a triangle of `front` that is left out has no point inside the volume widened by
+/// `margin_box`, which covers the rasterizer's rounding.
 std::size_t append_visible(const FaceVolume& volume, const LevelTriangles& level, const FrontTriangles& front,
                            std::size_t cluster, std::vector<std::uint32_t>& indices,
                            double margin_box = 1e-3);
