@@ -52,7 +52,7 @@ Result<KnownArtifact> open_pack(const Settings& settings, const OpenerOptions& o
     return opened;
 }
 
-/// Whether some texture leaves out texels is known when it is read, and by then the shaders must be there.
+/// Cut-out texels are only known once the textures are read, and by then the shaders must exist.
 RenderNeeds with_cut_outs(RenderNeeds needs) {
     for (ShaderKey key : RenderNeeds(needs).draws) {
         key.cut_out = key.pass == ShaderKey::Pass::Surface && !key.blocks;
@@ -61,7 +61,7 @@ RenderNeeds with_cut_outs(RenderNeeds needs) {
     return needs;
 }
 
-/// Prepares the first artifact, which plans what it needs exactly.
+/// Prepares the first artifact; its needs are then known exactly.
 Result<PreparedArtifact> prepare_first(KnownArtifact& known, const OpenerOptions& options) {
     Result<PreparedArtifact> first =
         prepare_artifact(known, options.technique, options.deadline_ms, [] { return false; });
@@ -74,12 +74,12 @@ Result<PreparedArtifact> prepare_first(KnownArtifact& known, const OpenerOptions
     return first;
 }
 
-/// `what`, behind the place that it is about, where there is one.
+/// `what`, preceded by the place that it concerns, if there is one.
 std::string after(const std::string& place, const std::string& what) {
     return place.empty() ? what : place + ": " + what;
 }
 
-/// The message must be complete: some people do not see the lines on standard error before it.
+/// The message must be complete by itself: the lines on standard error may not be visible to its reader.
 tl::unexpected<Error> nothing_to_show(const std::vector<PackLeftOut>& left_out,
                                       const std::string& packs_key) {
     if (left_out.empty()) {

@@ -1,10 +1,10 @@
-/// Opens packs for the show: of each its manifest is read, what is needed of it is planned, and its texts are laid out. Levels,
-/// textures and pictures of texts are left for later (residents.h), but for the levels of the first pack that is good.
+/// Opens packs for the show: reads each pack's manifest, plans its scene and lays out its texts. Levels,
+/// textures and pictures of texts follow later (residents.h), except for the levels of the first usable pack.
 ///
 /// Threads  any, never in a frame; needs no context.
-/// Errors   as load_pack, as far as manifest and texts go; a technique that the pack does not have; no typeface where one
-///          is needed. Messages begin with the file's name. Such a pack is left out with a line on standard error; if none is
-///          left, BadConfiguration.
+/// Errors   as load_pack, as far as manifest and texts are concerned; a technique that the pack does not
+///          have; no typeface where one is needed. Messages begin with the file's name. Such a pack is left
+///          out with a line on standard error; if none is left, BadConfiguration.
 #pragma once
 
 #include "app/library/pack_left_out.h"
@@ -25,36 +25,36 @@ namespace frustumscreen {
 [[nodiscard]] Catalogue catalogue_of(std::span<const KnownArtifact> artifacts);
 
 struct OpenerOptions {
-    std::string technique = "auto"; ///< this, `samples` and `economies`: as ArtifactShowOptions
+    std::string technique = "auto"; ///< `technique`, `samples`, `economies`: as ArtifactShowOptions
     int samples = 1;
     unsigned economies = AllEconomies;
-    bool other_languages = false; ///< a visitor can come to see them
-    bool other_packs = false;     ///< the same of packs
-    bool table_pictures = false;  ///< this and `most_blocks_on_gpu`: as SceneRequest
+    bool other_languages = false; ///< a visitor can change the language
+    bool other_packs = false;     ///< a visitor can change the artifact
+    bool table_pictures = false;  ///< `table_pictures`, `most_blocks_on_gpu`: as SceneRequest
     std::uint32_t most_blocks_on_gpu = 0;
     double deadline_ms = 16.0;
-    std::string_view program = "frustumscreen"; ///< this and `packs_key`: as ArtifactShowOptions
+    std::string_view program = "frustumscreen"; ///< `program`, `packs_key`: as ArtifactShowOptions
     std::string packs_key = {};
-    std::function<bool()> goes_on = [] { return true; }; ///< asked before each pack; no: all is given up
+    std::function<bool()> goes_on = [] { return true; }; ///< asked before each pack; false: stop opening
 };
 
-/// What there is of the packs that can be shown.
+/// The packs that can be shown, and the renderer's needs for them.
 struct OpenedArtifacts {
     std::vector<KnownArtifact> known;
-    std::optional<PreparedArtifact> first; ///< of `known`; it is there
+    std::optional<PreparedArtifact> first; ///< levels of the first of `known`; set on success
     std::vector<PackLeftOut> left_out;
     RenderNeeds needs;
     std::vector<std::string> languages; ///< of all captions of the packs opened, shown or not
-    std::vector<std::string> notes;     ///< sentences about what a person may not have meant
+    std::vector<std::string> notes;     ///< sentences about settings that may be unintended
 };
 [[nodiscard]] Result<OpenedArtifacts> open_artifacts(const Settings& settings,
                                                      std::span<const std::filesystem::path> packs,
                                                      const OpenerOptions& options);
-/// What any pack that may come later needs of a renderer with room for so many samples a pixel. `reliefs_on_gpu`: the GPU may come to draw
-/// reliefs.
+/// The needs of any pack that may come later, for a renderer that holds `samples` samples a pixel.
+/// `reliefs_on_gpu`: the GPU may draw reliefs.
 [[nodiscard]] RenderNeeds needs_of_any_pack(const Settings& settings, int samples, bool reliefs_on_gpu);
 
-/// How texts are set on the settings' table.
+/// Size and resolution of texts on the settings' table.
 [[nodiscard]] TextStyle text_style(const Settings& settings);
 
 } // namespace frustumscreen

@@ -37,7 +37,7 @@ void ArtifactReader::work() {
         if (item == nothing) {
             continue;
         }
-        bool gave_up = false; // for good: the same wish may have come back in between
+        bool gave_up = false; // permanent: an equal request may have returned in between
         auto answer = std::make_unique<Answer>(Answer{item, prepare_(item, [&] {
                                                           gave_up = gave_up || wanted_ != item;
                                                           return gave_up;
@@ -47,7 +47,7 @@ void ArtifactReader::work() {
         }
         delete answer_.exchange(answer.release());
         std::uint32_t still = item;
-        wanted_.compare_exchange_strong(still, nothing); // it is done, unless there is another wish by now
+        wanted_.compare_exchange_strong(still, nothing); // done, unless another request has arrived
     }
 }
 

@@ -1,11 +1,11 @@
-/// A thread that reads and prepares one thing after the other, an artifact or some of its texts, so that the render thread
-/// never does.
+/// A thread that reads and prepares one item at a time, an artifact or some of its texts, so that the render
+/// thread does not.
 ///
-/// The render thread says which one it wants, by a number, and finds it ready some frames later. Neither waits for the other:
-/// a lock that a thread of low priority holds could stop the picture.
+/// The render thread requests an item by number, and finds it ready some frames later. Neither thread waits
+/// for the other: a lock held by a thread of low priority could stop the picture.
 ///
-/// Threads  `request` and `take` from one thread; they neither wait nor read a file. `prepare` runs on the reader's
-///          own, which has a low priority: it takes what the picture leaves.
+/// Threads  `request` and `take` from one thread; they neither wait nor read a file. `prepare` runs on the
+///          reader's own thread, which has a low priority and uses the time that the picture leaves.
 /// Errors   those of `prepare`, as an answer.
 #pragma once
 
@@ -26,7 +26,7 @@ namespace frustumscreen {
 class ArtifactReader {
 public:
     using Prepared = std::variant<TextPictures, PreparedArtifact>;
-    /// Whether it is no longer wanted: then `prepare` may return anything, soon.
+    /// True if the item is no longer wanted: `prepare` should then return soon, with any result.
     using GivenUp = std::function<bool()>;
     using Prepare = std::function<Result<Prepared>(std::size_t item, const GivenUp& given_up)>;
     struct Answer {
@@ -36,27 +36,27 @@ public:
 
     /// Starts the thread.
     explicit ArtifactReader(Prepare prepare);
-    /// Gives up what is being read, and waits for that.
+    /// Cancels the item in progress and waits for the thread.
     ~ArtifactReader();
     ArtifactReader(const ArtifactReader&) = delete;
     ArtifactReader& operator=(const ArtifactReader&) = delete;
 
-    /// What to prepare, or nothing; anything else is given up. Asked for again after its answer was taken, it is prepared
-    /// again.
+    /// Requests an item, or nothing; any other item in progress is cancelled. An item requested again after
+    /// its answer was taken is prepared again.
     void request(std::optional<std::size_t> item);
-    /// What was prepared, once; perhaps of a request before the latest.
+    /// Returns the prepared item, once; it may answer a request before the latest.
     [[nodiscard]] std::unique_ptr<Answer> take();
 
 private:
     void work();
 
-    /// What is wanted, or one of these.
+    /// `wanted_` is an item or one of these values.
     static constexpr std::uint32_t nothing = ~std::uint32_t{0};
     static constexpr std::uint32_t the_end = nothing - 1;
 
     Prepare prepare_;
     std::atomic<std::uint32_t> wanted_{nothing};
-    std::atomic<Answer*> answer_{nullptr}; ///< owned by who takes it out
+    std::atomic<Answer*> answer_{nullptr}; ///< owned by whichever thread exchanges it out
     std::jthread thread_;                  ///< last: it uses the others
 };
 

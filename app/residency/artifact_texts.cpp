@@ -23,18 +23,18 @@ Nanoseconds reading_time(std::string_view text) {
     return Nanoseconds(std::llround(1e9 * reading_time_s(text)));
 }
 
-/// None of a description that is too long to be told.
+/// The portions of a description; empty if it is too long to be narrated.
 std::vector<std::string> told_portions(const PackCaption& caption) {
     std::vector<std::string> portions = portions_of(caption.description);
     return portions.size() <= most_text_portions ? portions : std::vector<std::string>();
 }
 
-/// Null if the bake could not set it in this language.
+/// Null if the bake could not set the label in this language.
 const GlyphText* label_in(const SetLanguage* set, std::size_t hotspot) {
     return set != nullptr ? set->runs.find(fmt::format("label.{}", hotspot)) : nullptr;
 }
 
-/// Of each hotspot's label in the nearest language.
+/// Reading times of the hotspots' labels in the nearest language.
 std::vector<Nanoseconds> label_times(const PackDescription& pack, const std::string& language) {
     std::vector<Nanoseconds> times;
     for (const PackHotspot& hotspot : pack.hotspots) {
@@ -49,7 +49,7 @@ std::vector<Nanoseconds> label_times(const PackDescription& pack, const std::str
     return times;
 }
 
-/// Null if there is no sound of it.
+/// Null if the pack has no sound of the description.
 SharedRecording recording_of(const TextSource& source, std::span<const SpokenText> sounds,
                              const std::string& language, const std::vector<Nanoseconds>& portions) {
     const SpokenText wanted{language, std::string(description_key)};
@@ -105,7 +105,7 @@ HotspotSet lay_out_hotspots(const PackDescription& pack, std::span<const std::st
     return made;
 }
 
-/// Of the part's pictures in their order; none where there is no picture.
+/// Sizes of the part's pictures in their order; 0 for a missing picture.
 std::vector<glm::ivec2> sizes_px(const CatalogueEntry& entry, TextPart part, std::size_t language,
                                  const TextStyle& style) {
     std::vector<glm::ivec2> sizes;
@@ -127,7 +127,7 @@ std::vector<glm::ivec2> sizes_px(const CatalogueEntry& entry, TextPart part, std
     return sizes;
 }
 
-/// Draws one picture after the other.
+/// Draws pictures in order.
 class Drawing {
 public:
     Drawing(const TextStyle& style, std::span<const SetLanguage> set, const std::function<bool()>& given_up)

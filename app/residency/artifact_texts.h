@@ -1,10 +1,12 @@
-/// What is said of an artifact, in each language that is shown. It is laid out when the pack is opened, as the exhibit must know
-/// how large everything is; it is drawn only when it is about to be shown, in parts that come and go by themselves.
+/// An artifact's texts, in each language that is shown. They are laid out when the pack is opened, because
+/// the exhibit must know all sizes; they are drawn shortly before they are shown, in parts that are loaded
+/// and released independently.
 ///
 /// Units    metres on the table; coverage as in caption_image.h.
-/// Threads  pure but for the file; any. Never in a frame.
-/// Errors   as load_set_texts; no typeface where one is needed; a pack that is no longer the one that was laid out. Messages
-///          begin with the file's name. A label that the bake could not set has no size, and no picture.
+/// Threads  pure except for reading the file; any. Never in a frame.
+/// Errors   as load_set_texts; no typeface where one is needed; a pack that has changed since the layout.
+///          Messages begin with the file's name. A label that the bake could not set has size 0 and no
+///          picture.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
@@ -21,36 +23,38 @@
 
 namespace frustumscreen {
 
-/// Where an artifact's texts are.
+/// The source of an artifact's texts.
 struct TextSource {
     const std::filesystem::path& file;
     const PackDescription& pack;
-    std::span<const std::size_t> captions; ///< of the pack, one for each language that is shown
+    std::span<const std::size_t> captions; ///< of the pack, one per language that is shown
 };
 
-/// Laid out.
+/// The layout of an artifact's texts.
 struct ArtifactTexts {
     CatalogueEntry entry;
-    std::vector<SharedRecording> recordings{}; ///< of the descriptions, by language; none: it is silent
+    std::vector<SharedRecording> recordings{}; ///< of the descriptions, by language; null: silent
 };
-/// `spoken`: recordings can be heard.
+/// `spoken`: sound is on.
 [[nodiscard]] Result<ArtifactTexts> lay_out_texts(const TextSource& source, double metres_per_box,
                                                   const TextStyle& style, bool spoken);
 
-/// Captions are small, and are there before the artifact is. What is told of it can only be asked for once it is chosen.
+/// Captions are small and are loaded before the artifact. The narration can only be requested once the
+/// artifact is chosen.
 enum class TextPart : std::uint8_t { Caption, Telling };
 inline constexpr std::size_t text_parts = 2;
 
-/// The part's pictures: of a caption by width; of what is told by portion and width, then the hotspots' labels.
+/// Index of a picture in its part: captions by width; the narration by portion and width, followed by the
+/// hotspots' labels.
 [[nodiscard]] std::size_t portion_picture(std::size_t portion, std::size_t shape);
 [[nodiscard]] std::size_t label_picture(const CatalogueEntry& entry, std::size_t language,
                                         std::size_t hotspot);
-/// The GPU's memory that they take.
+/// GPU memory of a part's pictures.
 [[nodiscard]] std::uint64_t text_bytes(const CatalogueEntry& entry, TextPart part, std::size_t language,
                                        const TextStyle& style);
 
 using TextPictures = std::vector<Image<std::uint8_t>>;
-/// `texts`: laid out in this style. `given_up`: asked between two pictures; where it says yes, they are not drawn.
+/// `texts`: laid out in this style. `given_up`: asked between two pictures; true cancels the drawing.
 [[nodiscard]] Result<TextPictures> draw_texts(const TextSource& source, const ArtifactTexts& texts,
                                               TextPart part, std::size_t language, const TextStyle& style,
                                               const std::function<bool()>& given_up);

@@ -8,7 +8,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Null if a part of the text could not be set at the bake: then all of it is in one typeface, the kiosk's.
+/// Null if the bake could not set a part of the text: then all of it is set in the kiosk's typeface.
 const SetLanguage* whole_in(std::span<const SetLanguage> set, const TableText& text) {
     const SetLanguage* const found = find_language(set, text.language);
     if (found == nullptr) {

@@ -1,5 +1,5 @@
-/// Sets a pack's texts as pictures: from the glyph runs that the bake made, in any script; without them in the kiosk's own
-/// typeface.
+/// Sets a pack's texts as pictures: from the bake's glyph runs, in any script; without them, in the kiosk's
+/// own typeface.
 ///
 /// Units    metres on the table.
 /// Threads  one caller, never in a frame.
@@ -18,13 +18,13 @@
 
 namespace frustumscreen {
 
-/// How texts are set on this table.
+/// Size and resolution of texts on this table.
 struct TextStyle {
     double em_m = 0.010;
     double texels_per_m = 2400.0;
 };
 
-/// What is set as one picture. The keys are those of the glyph runs (pack_texts.h).
+/// The texts of one picture. The keys are those of the glyph runs (pack_texts.h).
 struct TableText {
     std::string language; ///< BCP 47
     std::string title_key, title;
@@ -35,17 +35,18 @@ struct TableText {
 [[nodiscard]] TableText portion_text(const PackCaption& caption, std::size_t portion,
                                      const std::string& text);
 
-/// Null if there is none in this language.
+/// Null if the set does not contain this language.
 [[nodiscard]] const SetLanguage* find_language(std::span<const SetLanguage> set, const std::string& language);
 
 class CaptionSetter {
 public:
     explicit CaptionSetter(const TextStyle& style) : style_(style) {}
 
-    /// One for each of `caption_widths_m`. `set`: the pack's own, which need not hold the text's language.
+    /// One picture for each of `caption_widths_m`. `set`: the pack's own, which need not contain the text's
+    /// language.
     [[nodiscard]] Result<std::vector<CaptionImage>> set(const TableText& text,
                                                         std::span<const SetLanguage> set);
-    /// Of these pictures, without drawing them: the atlases of `set` are not looked at.
+    /// The sizes of these pictures, without drawing them; the atlases of `set` are not used.
     [[nodiscard]] Result<std::vector<glm::dvec2>> sizes_m(const TableText& text,
                                                           std::span<const SetLanguage> set);
 

@@ -11,10 +11,10 @@ namespace frustumscreen {
 namespace {
 
 constexpr double line_width_m = 0.0015;
-constexpr double soft_m = 0.0005;      ///< on each side of a line, in which its light ends
+constexpr double soft_m = 0.0005;      ///< width of the soft edge on each side of a line
 constexpr double from_label_m = 0.002; ///< between the line and the letters
 
-/// Across a line: bright in its middle, and nothing left at its sides.
+/// Profile across a line: bright in the middle, dark at the edges.
 Image<std::uint8_t> line_picture() {
     constexpr std::array<std::uint8_t, 8> across{0, 130, 255, 255, 255, 255, 130, 0};
     Image<std::uint8_t> picture(1, static_cast<int>(across.size()));
@@ -22,7 +22,7 @@ Image<std::uint8_t> line_picture() {
     return picture;
 }
 
-/// In the box frame.
+/// The level's triangles in the box frame.
 TriangleTree tree_of(const PackLevel& level, const glm::dvec3& box_size) {
     constexpr double most_code = 65535.0;
     std::vector<glm::vec3> positions;

@@ -15,7 +15,7 @@
 
 namespace frustumscreen {
 
-/// What says which points a level hides, in the box frame.
+/// The triangles that decide which points a level hides, in the box frame.
 [[nodiscard]] ArtifactTriangles hiding_triangles(const PackLevel& level, const glm::dvec3& box_size,
                                                  double metres_per_box);
 
@@ -25,13 +25,13 @@ public:
     HotspotShow() = default; ///< draws no lines
     [[nodiscard]] static Result<HotspotShow> create(GpuStore& store);
 
-    /// `label`: its picture. `brightness`: of its texts.
+    /// `label`: the label's picture. `brightness`: of the texts.
     void place(const PresentedHotspot& hotspot, TextureId label, double brightness, const Pinhole& projector,
                const RigidTransform& table_from_projector, OnTable& on_table) const;
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const { return planned_gpu_bytes_; }
 
 private:
-    TextureId line_ = TextureId::None; ///< soft on all sides
+    TextureId line_ = TextureId::None; ///< transparent towards its edges
     std::uint64_t planned_gpu_bytes_ = 0;
 };
 

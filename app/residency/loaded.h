@@ -1,9 +1,9 @@
-/// What is in memory of an artifact, or on its way into the GPU's memory: its levels, or some of its texts.
+/// An artifact's data in memory, or on its way to the GPU's memory: its levels, or some of its texts.
 ///
 /// Units    bytes.
-/// Threads  made on any; the render thread, with the display's context current, for all else. After `upload` said that it is
-///          ready nothing allocates.
-/// Errors   the driver has no memory.
+/// Threads  constructed on any thread; everything else on the render thread, with the display's context
+///          current. Once `ready` is true, nothing allocates.
+/// Errors   the driver is out of memory.
 #pragma once
 
 #include "app/render/gpu_store.h"
@@ -19,12 +19,12 @@ class LoadedLevels {
 public:
     explicit LoadedLevels(PreparedArtifact prepared);
 
-    /// So many bytes more, or a little more than that.
+    /// Uploads about `most_bytes` more; it may exceed them slightly.
     [[nodiscard]] Result<void> upload(GpuStore& store, std::uint64_t most_bytes);
     [[nodiscard]] bool ready() const { return uploaded_ == uploads_.size(); }
-    /// Takes all of it out of the store.
+    /// Removes all of it from the store.
     void release(GpuStore& store) { artifact.levels.release(store); }
-    /// Of the GPU's memory and of main memory.
+    /// GPU memory and main memory.
     [[nodiscard]] std::uint64_t bytes() const;
 
     PreparedArtifact artifact;
@@ -36,24 +36,24 @@ private:
 
 class LoadedTexts {
 public:
-    LoadedTexts() = default; ///< none
+    LoadedTexts() = default; ///< no texts
     explicit LoadedTexts(TextPictures pictures);
 
-    /// As above; a picture is never cut.
+    /// As above, but pictures are uploaded whole.
     [[nodiscard]] Result<void> upload(GpuStore& store, std::uint64_t most_bytes);
     [[nodiscard]] bool ready() const { return textures_.size() == pictures_.size(); }
     void release(GpuStore& store);
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
-    /// Of those, what the pictures take that are in the store.
+    /// The part of `bytes` for pictures that are in the store.
     [[nodiscard]] std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }
 
-    /// None if it is not in the store.
+    /// None if the picture is not in the store.
     [[nodiscard]] TextureId texture(std::size_t picture) const {
         return picture < textures_.size() ? textures_[picture] : TextureId::None;
     }
 
 private:
-    TextPictures pictures_; ///< empty, once they are in the store
+    TextPictures pictures_; ///< emptied as they go into the store
     std::vector<TextureId> textures_;
     std::uint64_t bytes_ = 0;
     std::uint64_t uploaded_bytes_ = 0;

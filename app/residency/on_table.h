@@ -1,7 +1,8 @@
-/// What lies on the table in one frame, collected in the order of drawing, and how rectangles of the table become pictures.
+/// Collects the pictures that lie on the table in one frame, in the order of drawing, and converts rectangles
+/// of the table to pictures.
 ///
 /// Frames   table T, metres.
-/// Threads  values; one caller. Allocates nothing; what is more than `most_on_table` is left out.
+/// Threads  values; one caller. Allocates nothing; pictures beyond `most_on_table` are left out.
 #pragma once
 
 #include "app/geometry/pinhole.h"
@@ -18,7 +19,7 @@ namespace frustumscreen {
 class OnTable {
 public:
     void clear() { count_ = 0; }
-    /// What is dark is not drawn.
+    /// Dark pictures are skipped.
     void add(const TablePicture& picture);
     [[nodiscard]] std::span<const TablePicture> pictures() const {
         return std::span(pictures_).first(count_);
@@ -29,14 +30,14 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Moves a rectangle by less than a pixel so that its top left corner falls on a corner of the projector's pixels: letters that
-/// were set pixel for pixel stay crisp.
+/// Moves a rectangle by less than a pixel so that its top left corner falls on a corner of the projector's
+/// pixels: letters set pixel for pixel stay crisp.
 [[nodiscard]] TableRectangle on_pixels(TableRectangle rectangle, const Pinhole& projector,
                                        const RigidTransform& table_from_projector);
 
-/// A picture's corners, as a reader of the rectangle sees it.
+/// A picture's corners, for a reader of the rectangle.
 [[nodiscard]] std::array<glm::dvec3, 4> picture_corners(const TableRectangle& rectangle);
-/// The same of corners in the order of a picture.
+/// As above, for corners already in a picture's order.
 [[nodiscard]] std::array<glm::dvec3, 4> flat_corners(const std::array<glm::dvec2, 4>& corners_m);
 
 } // namespace frustumscreen

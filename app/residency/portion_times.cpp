@@ -9,18 +9,19 @@ namespace frustumscreen {
 
 namespace {
 
-/// The share of the letters tells a sentence's length to about this part of it: numbers and names take longer than they look.
+/// Relative uncertainty of a sentence's length, if predicted by its letters: numbers and names take longer
+/// than they look.
 constexpr double uncertain_share = 0.3;
 constexpr double least_uncertain_s = 1.2;
-/// A pause that is longer by a tenth of a second may be farther by so much more: pauses between sentences are longer than those
-/// at commas.
+/// A pause longer by some time may be farther away by this multiple of it: pauses between sentences are
+/// longer than those at commas.
 constexpr double pause_is_worth = 4.0;
 
 double seconds_of(std::uint32_t sample) {
     return static_cast<double>(sample) / sample_rate_hz;
 }
 
-/// The middle of the best pause near `expected_s`, or that itself.
+/// The middle of the best pause near `expected_s`; `expected_s` if there is none.
 double nearest_pause(const Prompt& prompt, double expected_s, double begin_s, double uncertain_s) {
     double best = expected_s;
     double least_cost = std::numeric_limits<double>::infinity();

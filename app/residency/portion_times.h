@@ -1,7 +1,8 @@
-/// When the portions of a text begin in its recording.
+/// Times at which the portions of a text begin in its recording.
 ///
-/// Where nobody has marked them, each takes the share of the speech that it has of the text; and as sentences end in pauses, its
-/// end is moved to the pause nearby that is longest and nearest. What comes after it is measured from there.
+/// Unless a text has marks, each portion takes its share of the text as its share of the speech. Because
+/// sentences end in pauses, a portion's end is then moved to a nearby pause, preferring long and near ones;
+/// later portions are measured from there.
 ///
 /// Threads  pure; any.
 #pragma once

@@ -13,7 +13,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The level alone, of a pack that is still the one that is known.
+/// Reads one level, and fails if the pack has changed since it was opened.
 Result<VerifiedPack> read_level(const KnownArtifact& known, std::uint32_t level) {
     return load_pack(known.file, [&](const PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
         if (outline != known.outline) {
@@ -24,12 +24,13 @@ Result<VerifiedPack> read_level(const KnownArtifact& known, std::uint32_t level)
     });
 }
 
-/// What hides hotspots; a mesh, where reliefs alone are drawn too.
+/// The mesh level that decides which hotspots are hidden, also when only reliefs are drawn.
 std::uint32_t coarsest_of(const ScenePlan& plan) {
     return plan.levels.empty() ? 0 : *std::min_element(plan.levels.begin(), plan.levels.end());
 }
 
-/// Where reliefs alone are drawn: what is read for the exposure and for what hides hotspots, and is not drawn.
+/// The levels to read without drawing them, when only reliefs are drawn: for the exposure and for the
+/// visibility of hotspots.
 std::vector<std::uint32_t> read_beside(const KnownArtifact& known) {
     const ScenePlan& plan = known.plan;
     if (!plan.levels.empty()) {
@@ -111,7 +112,7 @@ std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_b
     }
     for (std::size_t place = 0; place < known.plan.reliefs.size(); ++place) {
         const std::uint64_t relief = known.plan.reliefs[place].bytes;
-        constexpr std::uint64_t more_in_memory = 2; // a cell's corners lie together there
+        constexpr std::uint64_t more_in_memory = 2; // in memory a cell's corners are stored together
         bytes += more_in_memory * relief + (draws_relief(known.plan, place, true) ? relief : 0);
     }
     if (!known.outline.description.hotspots.empty()) {

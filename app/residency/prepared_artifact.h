@@ -1,9 +1,8 @@
-/// An artifact read from its pack, verified, culled and made ready in main memory: nothing of it is in the GPU's memory
-/// yet.
+/// An artifact read from its pack, verified, culled and ready in main memory, before any upload to the GPU.
 ///
-/// Memory   a pack is read level by level, so that no more than one level lies there twice.
-/// Threads  pure but for the file; any.
-/// Errors   as load_pack; a pack that is no longer the one that the plan was made for. Messages begin with the file's
+/// Memory   a pack is read level by level, so that at most one level is in memory twice.
+/// Threads  pure except for reading the file; any.
+/// Errors   as load_pack; a pack that has changed since its plan was made. Messages begin with the file's
 ///          name.
 #pragma once
 
@@ -23,7 +22,7 @@
 
 namespace frustumscreen {
 
-/// What is known of an artifact as long as the exhibit runs.
+/// Data of an artifact that stay in memory while the exhibit runs.
 struct KnownArtifact {
     std::filesystem::path file;
     PackOutline outline;
@@ -33,22 +32,23 @@ struct KnownArtifact {
 
 struct PreparedArtifact {
     RunLevels levels;
-    std::vector<LevelData> data; ///< of its levels, to upload
+    std::vector<LevelData> data; ///< of the levels, to upload
     double exposure = 1.0;       ///< factor of linear light
-    ArtifactTriangles triangles; ///< none where it has no hotspots
+    ArtifactTriangles triangles; ///< none without hotspots
 };
 
-/// `given_up`: asked between two levels; where it says yes, the artifact is not prepared.
+/// `given_up`: asked between two levels; true cancels the preparation.
 [[nodiscard]] Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known,
                                                         const std::string& technique, double deadline_ms,
                                                         const std::function<bool()>& given_up);
 
-/// Of some of its texts, as draw_texts.
+/// Prepares some of the texts; as draw_texts.
 [[nodiscard]] Result<TextPictures> prepare_texts(const KnownArtifact& known, TextPart part,
                                                  std::size_t language, const TextStyle& style,
                                                  const std::function<bool()>& given_up);
 
-/// About so many bytes will be taken by its levels and what hides its hotspots; `texture_bytes`: of a level's texture, as other artifacts have them.
+/// Estimated bytes of the artifact's levels and of the triangles that hide its hotspots; `texture_bytes`: of
+/// one level's texture, estimated from other artifacts.
 [[nodiscard]] std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_bytes);
 
 } // namespace frustumscreen

@@ -84,7 +84,7 @@ SharedRecording PromptReader::next() const {
     return nullptr;
 }
 
-/// What it takes the place of is freed by the worker, and what was read in vain too.
+/// The worker frees the replaced entry, and also a recording that is no longer wanted.
 void PromptReader::keep(const SharedRecording& recording, SharedReading reading) {
     Kept old{recording, std::move(reading), 0};
     const std::scoped_lock lock(mutex_);

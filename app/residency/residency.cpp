@@ -27,7 +27,7 @@ public:
     }
 
 private:
-    /// Calls `place` with each item that is to be there, in order of urgency.
+    /// Calls `place` with each item that should be in memory, in order of urgency.
     template <typename Place> void choose(const Place& place) const {
         std::uint64_t bytes = 0;
         for (std::size_t k = 0; k < needed_.size() + wanted_.size(); ++k) {
@@ -43,7 +43,7 @@ private:
     [[nodiscard]] std::size_t at(std::size_t k) const {
         return k < needed_.size() ? needed_[k] : wanted_[k - needed_.size()];
     }
-    /// It was named already.
+    /// True if the item was named before position `k`.
     [[nodiscard]] bool is_before(std::size_t k) const {
         for (std::size_t before = 0; before < k; ++before) {
             if (at(before) == at(k)) {

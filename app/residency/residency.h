@@ -1,8 +1,9 @@
-/// Which artifacts, and which of their texts, are in memory: a pure decision, one step at a time.
+/// Decides which artifacts, and which of their texts, are in memory: a pure function, one step at a time.
 ///
-/// What is needed and what is wanted, in order of urgency, is gone through once: each item that fits into what the budget
-/// has left is to be there. What is needed always is, as it is shown or somebody waits for it: it alone may exceed the
-/// budget. Whatever else is loaded stays as long as there is room, and what was shown least recently goes first.
+/// Needed and then wanted items are visited once in order of urgency: each item that fits the rest of the
+/// budget should be in memory. Needed items are always loaded, because they are shown or a visitor waits for
+/// them; only they may exceed the budget. Other loaded items stay while the budget allows, and the least
+/// recently shown is released first.
 ///
 /// Units    bytes.
 /// Threads  pure; allocates nothing.
@@ -17,20 +18,20 @@
 namespace frustumscreen {
 
 struct ResidentItem {
-    std::uint64_t bytes = 0;      ///< that it takes, or would take
-    bool loaded = false;          ///< takes them, or part of them
+    std::uint64_t bytes = 0;      ///< bytes that it takes, or would take
+    bool loaded = false;          ///< takes its bytes, or part of them
     bool left_out = false;        ///< cannot be loaded
     std::uint64_t last_shown = 0; ///< larger = later; 0 = never
 };
 
-/// At most one of the two. Ask again when it has been done; neither: all is as it should be.
+/// At most one field is set. Call again after the step; neither is set: nothing is left to do.
 struct ResidencyStep {
-    std::optional<std::size_t> release; ///< first: room is needed
-    std::optional<std::size_t> load;    ///< there is room
+    std::optional<std::size_t> release; ///< set first if bytes must be freed
+    std::optional<std::size_t> load;    ///< it fits
     [[nodiscard]] bool operator==(const ResidencyStep&) const = default;
 };
 
-/// Both: the most urgent first; they may name an item twice.
+/// `needed`, `wanted`: the most urgent first; they may name an item twice.
 [[nodiscard]] ResidencyStep next_step(std::span<const ResidentItem> items,
                                       std::span<const std::size_t> needed,
                                       std::span<const std::size_t> wanted, std::uint64_t budget);

@@ -15,7 +15,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Of a level's texture, the mean of an artifact's levels.
+/// Mean size of an artifact's level textures.
 std::uint64_t texture_bytes_of(const PreparedArtifact& artifact) {
     std::uint64_t bytes = 0;
     for (const LevelData& level : artifact.data) {
@@ -87,7 +87,8 @@ void Residents::add_text(Queue& queue, std::size_t artifact, TextPart part, std:
     }
 }
 
-/// What is shown, and what somebody waits for: captions first, as they are small and are shown before their artifact.
+/// The artifacts shown and waited for. Captions come first, because they are small and are shown before their
+/// artifact.
 Residents::Queue Residents::needed(const ResidentsWish& wish) const {
     Queue needed;
     needed.add(levels_item(wish.shown));
@@ -103,7 +104,8 @@ Residents::Queue Residents::needed(const ResidentsWish& wish) const {
     return needed;
 }
 
-/// Last the chosen one's captions in the other languages, so that the button for the language is answered at once.
+/// The chosen artifact's captions in the other languages come last; they let the language button respond at
+/// once.
 Residents::Queue Residents::wanted(const ResidentsWish& wish) const {
     Queue wanted;
     for (std::size_t k = 1; k < wish.wanted.size(); ++k) {
@@ -238,7 +240,7 @@ bool Residents::arrives(std::size_t item) const {
     return loaded_[item] && !std::visit([](const auto& each) { return each.ready(); }, *loaded_[item]);
 }
 
-/// The most urgent one that has come and is not ready; what nobody wants any more goes on last.
+/// Uploads the most urgent item that is prepared but not ready; items no longer wanted come last.
 void Residents::upload(GpuStore& store, std::span<const std::size_t> needed,
                        std::span<const std::size_t> wanted) {
     const auto first_of = [&](std::span<const std::size_t> items) {
@@ -270,7 +272,7 @@ Result<void> Residents::upload(GpuStore& store, std::size_t item, std::uint64_t 
     return {};
 }
 
-/// With its levels an artifact loses its texts.
+/// Releasing an artifact's levels also releases its texts.
 void Residents::release(GpuStore& store, std::size_t item) {
     const std::size_t artifact = items_[item].artifact;
     std::size_t end = item + 1;

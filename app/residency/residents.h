@@ -1,17 +1,20 @@
-/// The artifacts that are in memory, with their texts: loaded ahead of the visitor, in pieces, within a budget.
+/// The artifact cache: artifacts in memory, with their texts, loaded ahead of the visitor, in pieces, within
+/// a budget.
 ///
-///     wish -> next_step (residency.h) -> ArtifactReader -> prepared -> some bytes a frame (loaded.h) -> ready
+///     request -> next_step (residency.h) -> ArtifactReader -> prepared -> some bytes a frame (loaded.h) ->
+///     ready
 ///
-/// Texts    The chosen artifact's caption comes before the artifact, as it is smaller; what is told of it comes after it, in the
-///          chosen language alone. What may be chosen next brings its caption; last come the chosen one's captions in the other
-///          languages. Texts stay while they are shown and while there is room, and no longer than their artifact.
-/// Budget   counts what an artifact takes of the GPU's memory and of main memory from the moment that it is prepared.
-///          While one is read, its file's parts and one level of it come on top.
-/// Threads  made on any; the render thread, with the display's context current, for all else, and to destroy what is not all
-///          released; the reader is a thread of
-///          its own, there only where there is more to come. A step reads no file and waits for nothing.
-/// Errors   an artifact that turns out bad is left out, with a line on standard error; the others stay. Texts that turn out
-///          bad are left out alone.
+/// Texts    The chosen artifact's caption comes before the artifact, because it is smaller; its narration
+///          comes after it, only in the chosen language. Artifacts that may be chosen next bring their
+///          captions; the chosen one's captions in the other languages come last. Texts stay while they are
+///          shown and while the budget allows, and no longer than their artifact.
+/// Budget   counts an artifact's GPU memory and main memory from the moment that it is prepared. While one is
+///          read, its file's parts and one level of it are needed in addition.
+/// Threads  constructed on any thread; everything else on the render thread, with the display's context
+///          current, including destruction unless everything was released. The reader has a thread of its
+///          own, which exists only if there is more to load. A step reads no file and waits for nothing.
+/// Errors   an artifact that proves unusable is left out, with a line on standard error; the others stay. If
+///          only its texts are unusable, only they are left out.
 #pragma once
 
 #include "app/exhibit/artifact_state.h"
@@ -42,72 +45,76 @@ struct ResidentsSetUp {
     std::uint64_t budget_bytes = 0;
     TextStyle style = {};
     std::string language = "en"; ///< of the first caption, BCP 47
-    bool waits = false; ///< a step ends when all is there, so that a run of simulated time is repeatable
-    std::string_view program = "frustumscreen"; ///< whose lines on standard error they are
-    std::vector<PackLeftOut> left_out = {};     ///< before
+    bool waits = false; ///< `step` returns once loading is complete, so that a run of simulated time is
+                        ///< repeatable
+    std::string_view program = "frustumscreen"; ///< prefix of its lines on standard error
+    std::vector<PackLeftOut> left_out = {};     ///< left out before
 };
 
-/// What is shown, and what may be shown next.
+/// The cache request: the shown artifact, and those that may be shown next.
 struct ResidentsWish {
     std::size_t shown = 0;
-    std::string_view shown_language;     ///< BCP 47; of its texts
-    std::span<const std::size_t> wanted; ///< most urgent first: the chosen one; as WantedArtifacts
-    std::string_view language;           ///< the chosen one
+    std::string_view shown_language;     ///< of the shown artifact's texts, BCP 47
+    std::span<const std::size_t> wanted; ///< most urgent first, beginning with the chosen one; as
+                                         ///< WantedArtifacts
+    std::string_view language;           ///< the chosen language
 };
 
 class Residents {
 public:
-    /// Bytes that one frame uploads of what the visitor waits for, and of what is loaded ahead.
+    /// Bytes uploaded per frame for an artifact that the visitor waits for, and for one loaded ahead.
     static constexpr std::uint64_t urgent_bytes = std::uint64_t{4} << 20U;
     static constexpr std::uint64_t early_bytes = std::uint64_t{1} << 20U;
 
-    /// `first`: of the first artifact; nothing is in the store yet. Needs no context.
+    /// `first`: the first artifact, not yet uploaded. Needs no context.
     Residents(ResidentsSetUp set_up, PreparedArtifact first);
-    /// Waits for the reader, if there is one. What is in the store stays there: release it first.
+    /// Waits for the reader, if there is one. Does not empty the store: release everything first.
     ~Residents();
     Residents(const Residents&) = delete;
     Residents& operator=(const Residents&) = delete;
 
-    /// Uploads the first artifact at once, and its caption with it. On failure nothing stays in the store.
+    /// Uploads the first artifact and its caption at once. On failure nothing stays in the store.
     [[nodiscard]] Result<void> upload_first(GpuStore& store);
-    /// From now on the others may come; needs no context. `cost`: of frames on this GPU; `prop`, `view`: what a rung's time is expected for,
-    /// `eye_m` its eye.
+    /// Starts loading the other artifacts; needs no context. `cost`: of frames on this GPU; `prop`, `view`,
+    /// `eye_m`: the pose and eye for the expected times of quality levels.
     void start(const FrameCost& cost, const PropShape& prop, const PlanView& view, const glm::dvec3& eye_m);
     /// Once a frame.
     void step(GpuStore& store, const ResidentsWish& wish);
-    /// All that is shown, and what somebody waits for, is there as far as it can be.
+    /// True if everything shown and waited for is in memory, except for items that were left out.
     [[nodiscard]] bool has(const ResidentsWish& wish) const;
-    /// Takes some more out of the store, and asks for nothing any more; false: nothing was left.
+    /// Releases one more artifact or text from the store and stops requesting; false: nothing was left.
     bool release_some(GpuStore& store);
 
-    /// Null if it is not ready.
+    /// Null if the artifact is not ready.
     [[nodiscard]] RunLevels* find(std::size_t artifact);
     [[nodiscard]] const RunLevels* find(std::size_t artifact) const;
     [[nodiscard]] double exposure(std::size_t artifact) const;
-    /// None if it is not ready, or has no hotspots.
+    /// None if the artifact is not ready, or has no hotspots.
     [[nodiscard]] ArtifactTriangles triangles(std::size_t artifact) const;
-    /// Null if none of it is there.
+    /// Null if none of the part is loaded.
     [[nodiscard]] const LoadedTexts* texts(std::size_t artifact, TextPart part, std::size_t language) const;
     [[nodiscard]] const KnownArtifact& known(std::size_t artifact) const {
         return set_up_.artifacts[artifact];
     }
     [[nodiscard]] std::size_t size() const { return set_up_.artifacts.size(); }
     [[nodiscard]] std::span<const ArtifactState> states() const { return states_; }
-    /// With those of before. A list never changes, for who reports it on another thread; there is another one instead.
+    /// Includes those of the set-up. A list is immutable, so that another thread can report it; a change
+    /// makes a new list.
     [[nodiscard]] const PacksLeftOut& left_out() const { return left_out_; }
 
-    [[nodiscard]] std::size_t ready() const;                 ///< how many artifacts can be drawn at once
-    [[nodiscard]] std::uint64_t bytes() const;               ///< of all that is loaded or being uploaded
+    [[nodiscard]] std::size_t ready() const;                 ///< artifacts that can be drawn at once
+    [[nodiscard]] std::uint64_t bytes() const;               ///< of everything loaded or being uploaded
     [[nodiscard]] std::uint64_t uploaded_text_bytes() const; ///< of texts in the store
-    [[nodiscard]] std::uint64_t switches() const;            ///< of levels, of artifacts here or gone
+    [[nodiscard]] std::uint64_t switches() const;            ///< of quality levels, including those of
+                                                             ///< released artifacts
     [[nodiscard]] std::uint64_t ignored_times() const;
 
 private:
     using Loaded = std::variant<LoadedLevels, LoadedTexts>;
-    /// What comes and goes as one.
+    /// A unit that is loaded and released as a whole.
     struct Item {
         std::size_t artifact = 0;
-        std::optional<TextPart> part; ///< none: the levels
+        std::optional<TextPart> part; ///< nullopt: the levels
         std::size_t language = 0;     ///< of the part
     };
     /// Items in order of urgency.
@@ -123,7 +130,7 @@ private:
 
     [[nodiscard]] std::size_t levels_item(std::size_t artifact) const { return first_items_[artifact]; }
     [[nodiscard]] std::size_t text_item(std::size_t artifact, TextPart part, std::size_t language) const;
-    /// Nothing where the artifact has no such text.
+    /// Adds nothing if the artifact has no such text.
     void add_text(Queue& queue, std::size_t artifact, TextPart part, std::string_view language) const;
     [[nodiscard]] Queue needed(const ResidentsWish& wish) const;
     [[nodiscard]] Queue wanted(const ResidentsWish& wish) const;
@@ -144,14 +151,14 @@ private:
 
     ResidentsSetUp set_up_;
     std::vector<Item> items_;
-    std::vector<std::size_t> first_items_;        ///< by artifact: its levels; its texts are the next ones
-    std::vector<std::unique_ptr<Loaded>> loaded_; ///< by item; none: it is not there
+    std::vector<std::size_t> first_items_;        ///< by artifact: its levels; its texts follow
+    std::vector<std::unique_ptr<Loaded>> loaded_; ///< by item; null: not loaded
     std::vector<ResidentItem> records_;           ///< by item
     std::vector<ArtifactState> states_;
     PacksLeftOut left_out_;
     std::optional<std::size_t> shown_;
-    std::uint64_t shows_ = 0; ///< how often another one was shown
-    bool steady_ = false;     ///< nothing was left to do at the latest step
+    std::uint64_t shows_ = 0; ///< number of changes of the shown artifact
+    bool steady_ = false;     ///< the latest step left nothing to do
     std::uint64_t past_switches_ = 0, past_ignored_times_ = 0;
     std::unique_ptr<ArtifactReader> reader_; ///< last: its thread uses `set_up_`
 };

@@ -15,17 +15,19 @@ namespace frustumscreen {
 
 namespace {
 
-/// A pack has no more levels than this (app/pack/container/limits.h). Reports keep the names longer than a level lives.
+/// Literals, because reports keep the names longer than a level exists. A pack has no more levels than this
+/// (app/pack/container/limits.h).
 constexpr std::array<std::string_view, 32> level_names{
     "level0",  "level1",  "level2",  "level3",  "level4",  "level5",  "level6",  "level7",
     "level8",  "level9",  "level10", "level11", "level12", "level13", "level14", "level15",
     "level16", "level17", "level18", "level19", "level20", "level21", "level22", "level23",
     "level24", "level25", "level26", "level27", "level28", "level29", "level30", "level31"};
 
-/// Of one rung, each of the two times. A start waits for it, and where a frame takes long, few say enough: the governor goes on learning.
+/// Limit for each of the two measurements of a quality level. The start waits for them, and slow frames need
+/// few samples, because the governor continues to learn.
 constexpr double longest_measurement_ms = 50.0;
 
-/// The bake's resolutions, cast and drawn by the GPU; others have no number of their own here.
+/// The bake's resolutions, for both ways of drawing; other resolutions are named without a number here.
 struct ReliefName {
     std::uint32_t texels;
     std::string_view cast, on_gpu;
@@ -160,7 +162,7 @@ std::uint64_t RunLevels::bytes() const {
         bytes += bytes_of(*placed.triangles);
         most_indices = std::max<std::uint64_t>(most_indices, placed.triangles->indices.size());
     }
-    // The plan of a frame lists the triangles that look towards the eye, and those that a face shows.
+    // The plan of a frame lists the triangles that face the eye, and those that a face shows.
     return bytes + 2 * sizeof(std::uint32_t) * most_indices;
 }
 
@@ -202,7 +204,8 @@ double RunLevels::median_ms(const Rung& rung, const PropShape& prop, const PlanV
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         spent_ms += ms[drawn++];
     }
-    // The first two warm up, of only two the first: shaders are compiled, buffers come into the GPU's memory.
+    // The first two frames (of only two, the first) are warm-up: shaders are compiled and buffers move to the
+    // GPU's memory.
     return quantile_in(std::span(ms).first(drawn).subspan(std::min<std::size_t>(2, drawn - 1)), 0.5);
 }
 
@@ -213,15 +216,15 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
         const double ms = median_ms(rungs_[k], prop, view, renderer, target);
         times[k] = {rungs_[k].samples, work(rungs_[k]), ms, rungs_[k].relief, rungs_[k].on_gpu};
     }
-    // Once more, the other way round: what else the machine did meanwhile slowed some rungs and not others. Where two frames take
-    // long, a start waits for no more.
+    // Repeat in reverse order: other load on the machine may have slowed some levels and not others. Levels
+    // whose frames are slow are not measured again, to keep the start short.
     for (std::size_t k = rungs_.size(); k-- > 0;) {
         if (2.0 * times[k].ms < longest_measurement_ms) {
             times[k].ms = std::min(times[k].ms, median_ms(rungs_[k], prop, view, renderer, target));
         }
     }
-    // The driver makes its own programs at the first draw with a shader: now, and not in the middle of a fade or with the first
-    // artifact that leaves out texels.
+    // The driver compiles its own programs at the first draw with a shader. Draw with each now, rather than
+    // in the middle of a fade or at the first artifact with cut-out texels.
     for (const ShaderKey& key : renderer.shaders()) {
         const bool casts = key.pass == ShaderKey::Pass::Cast;
         const auto level = std::find_if(levels_.begin(), levels_.end(), [&](const Level& one) {
@@ -297,7 +300,7 @@ DrawResult RunLevels::draw(MonotonicTime now, const PropShape& prop, const PlanV
         plan_frame(prop, placed(shown_), view, plan_);
     }
     const DrawResult result = renderer.draw(plan_, target, redraw);
-    if (result.drawn) { // else the picture before stays on show, and its error with it
+    if (result.drawn) { // otherwise the earlier picture and its error stay
         error_ = estimate(prop, view);
     }
     return result;
@@ -305,7 +308,7 @@ DrawResult RunLevels::draw(MonotonicTime now, const PropShape& prop, const PlanV
 
 void RunLevels::record_time(MonotonicTime now, double ms) {
     if (coming_ || plan_.faces.empty()) {
-        return; // two levels, or nothing, were drawn: the time says little about one
+        return; // two levels, or none, were drawn: the time does not tell about one level
     }
     governor_.observe(now, work(governor_.rung()), ms);
     if (const std::size_t slot = slot_of(governor_.rung()); slot != shown_) {

@@ -1,13 +1,13 @@
-/// One artifact on the display: its levels in the GPU's memory, the governor that picks one, and the fade
-/// from one to the next.
+/// One artifact on the display: its levels in memory, the governor that chooses one, and the fade from one to
+/// the next.
 ///
-/// Only what the scene's plan has is uploaded. A change of level fades over `level_fade_s`, pixel by
-/// pixel; a change of samples alone does not: on each of six scans, at each step, it altered the picture less
-/// than moving the prop by a quarter of a pixel did (RMSE 3 to 69 codes against 5 to 83), and a governor only
-/// decides while pictures change.
+/// Only the levels of the scene plan are uploaded. A change of level fades over `level_fade_s`, pixel by
+/// pixel. A change of samples alone does not fade: on each of six scans, at each step, it altered the picture
+/// less than moving the prop by a quarter of a pixel did (RMSE 3 to 69 codes against 5 to 83), and a governor
+/// only decides while pictures change.
 ///
 /// Threads  the render thread, with the display's context current. `draw` and `record_time` allocate nothing.
-/// Errors   a technique that the pack does not have, a driver without memory.
+/// Errors   a technique that the pack does not have; a driver without memory.
 #pragma once
 
 #include "app/pack/pack_file.h"
@@ -41,13 +41,14 @@ struct LevelUse {
     int finest_mip = 0;
     std::uint64_t planned_gpu_bytes = 0;
     std::uint64_t gpu_bytes = 0; ///< as the driver says
-    std::size_t blocks = 0;      ///< of a relief, which has of the above GPU memory alone; else 0
-    bool on_gpu = false;         ///< the relief, drawn by the GPU
+    std::size_t blocks = 0;      ///< as the driver reports
+    bool on_gpu = false;         ///< of a relief, for which only the fields of GPU memory above apply;
+                                 ///< otherwise 0
 };
 
-/// What is being drawn.
+/// The level that is being drawn.
 struct LevelState {
-    std::string_view technique; ///< as asked for
+    std::string_view technique; ///< as requested
     std::string_view
         level; ///< "level0", "relief96", "relief96-gpu", ...: during a fade the one that comes in; a literal
     int samples = 0;
@@ -57,58 +58,60 @@ struct LevelState {
     std::uint64_t ignored_times = 0;
 };
 
-/// A level read and culled, and what of it goes into the GPU's memory.
+/// A level after reading and culling, and its data to upload.
 struct PreparedLevel {
-    LevelUse use; ///< the driver has said nothing yet
+    LevelUse use; ///< `gpu_bytes` is not known yet
     SeenLevel seen;
     glm::dvec3 box_size{1.0};
     int samples = 0;                                 ///< Pack::samples
-    std::shared_ptr<const LevelTriangles> triangles; ///< none: it is a relief, and lies in `data`
+    std::shared_ptr<const LevelTriangles> triangles; ///< null for a relief, which is in `data`
     RenderNeeds needs;
     std::vector<LeftOut> left_out;
     LevelData data;
 };
-/// `level`: one of the plan's. Pure; takes long.
+/// `level`: one of the plan's. Pure; slow.
 [[nodiscard]] PreparedLevel prepare_level(const Pack& pack, std::uint32_t level, const ScenePlan& plan);
-/// Whether a rung of the plan draws the relief at this place of them in this way.
+/// True if a quality level of the plan draws the relief with index `place` in this way.
 [[nodiscard]] bool draws_relief(const ScenePlan& plan, std::size_t place, bool on_gpu);
-/// `place`: of one of the plan's reliefs; `relief`: what was read of it; `on_gpu`: the GPU draws it.
+/// `place`: index into the plan's reliefs; `relief`: its data; `on_gpu`: the GPU draws it.
 [[nodiscard]] PreparedLevel prepare_relief(const PackDescription& pack, std::size_t place,
                                            std::shared_ptr<const BlockRelief> relief, bool on_gpu,
                                            const ScenePlan& plan);
 
 class RunLevels {
 public:
-    /// The plan's levels in its order, then its reliefs, each in each way that a rung draws it. Nothing can be drawn before each has its drawable. Needs no context.
+    /// The plan's levels in its order, then its reliefs, once for each way that a quality level draws them.
+    /// Drawing requires a drawable for each. Needs no context.
     RunLevels(std::string technique, const ScenePlan& plan, double deadline_ms,
               std::span<const PreparedLevel> levels);
-    /// The level at this place of them is in the store.
+    /// Sets the drawable of the level with index `place`, which is in the store.
     void give(std::size_t place, const Drawable& drawable, const GpuStore& store);
 
-    /// All at once. `technique`: as asked for. `pack` need not outlive the call. On failure nothing stays in the store.
+    /// Prepares and uploads all levels at once. `technique`: as requested. `pack` need not outlive the call.
+    /// On failure nothing stays in the store.
     [[nodiscard]] static Result<RunLevels> upload(const Pack& pack, const ScenePlan& plan,
                                                   std::string technique, double deadline_ms, GpuStore& store);
-    /// Takes all levels that it was given out of the store; nothing can be drawn any more.
+    /// Removes all given levels from the store; drawing is no longer possible.
     void release(GpuStore& store);
 
     [[nodiscard]] const std::vector<LevelUse>& uses() const { return uses_; }
     [[nodiscard]] const std::vector<LeftOut>& left_out() const { return left_out_; }
-    /// What a renderer for it must be able to do.
+    /// The needs of a renderer for this artifact.
     [[nodiscard]] const RenderNeeds& needs() const { return needs_; }
 
-    /// Draws every rung two to seven times for the view, fewer where a frame takes long, twice over where it does not, and starts the
-    /// governor with the lesser medians.
-    /// `target` then holds some picture, which must not be presented.
+    /// Draws every quality level two to seven times for the view, fewer if a frame takes long; if frames are
+    /// quick, repeats this, and starts the governor with the smaller of the two medians. Afterwards `target`
+    /// holds an arbitrary picture, which must not be presented.
     void measure(const PropShape& prop, const PlanView& view, Renderer& renderer, const RenderTarget& target);
 
-    /// Starts the governor with times that were measured: one for each rung, finest first.
+    /// Starts the governor with measured times: one for each quality level, best first.
     void start(const std::vector<RungTime>& times);
-    /// Starts the governor with times that are expected for the view. Needs no context.
+    /// Starts the governor with predicted times for the view. Needs no context.
     void start(const FrameCost& cost, const PropShape& prop, const PlanView& view);
-    /// Those that it was started with; none before.
+    /// The times at the start; empty before.
     [[nodiscard]] const std::vector<RungTime>& times() const { return times_; }
 
-    /// Bytes that it takes of the GPU's memory and of main memory, by the plan.
+    /// GPU memory and main memory, by the plan.
     [[nodiscard]] std::uint64_t bytes() const;
 
     /// The artifact comes on while the GPU is under `load` (see Governor).
@@ -117,7 +120,7 @@ public:
 
     [[nodiscard]] DrawResult draw(MonotonicTime now, const PropShape& prop, const PlanView& view,
                                   Renderer& renderer, const RenderTarget& target, Redraw redraw);
-    /// The latest `draw` took `ms`, until its picture was done.
+    /// The latest `draw` took `ms` until its picture was complete.
     void record_time(MonotonicTime now, double ms);
 
     [[nodiscard]] LevelState state() const;
@@ -128,12 +131,12 @@ private:
         SeenLevel seen;
         PlacedLevel placed;
     };
-    /// With the samples that the governor chose.
+    /// The level with the samples that the governor chose.
     [[nodiscard]] PlacedLevel placed(std::size_t slot) const;
-    /// Of the plan.
+    /// Error of the planned frame.
     [[nodiscard]] std::optional<ErrorEstimate> estimate(const PropShape& prop, const PlanView& view) const;
     [[nodiscard]] std::size_t slot_of(const Rung& rung) const;
-    /// The plan's work, for a rung.
+    /// The planned frame's work, at this quality level.
     [[nodiscard]] FrameWork work(const Rung& rung) const;
     [[nodiscard]] double median_ms(const Rung& rung, const PropShape& prop, const PlanView& view,
                                    Renderer& renderer, const RenderTarget& target);
@@ -148,7 +151,7 @@ private:
     double deadline_ms_;
     Governor governor_;
     FramePlan plan_;
-    std::size_t shown_ = 0; ///< of `levels_`
+    std::size_t shown_ = 0; ///< index into `levels_`
     std::optional<std::size_t> coming_;
     std::optional<ErrorEstimate> error_;
     MonotonicTime fade_start_;
