@@ -24,7 +24,7 @@ std::array<std::uint16_t, indices_of_block> indices() {
     return made;
 }
 
-/// From each direction's grid, set up in 64-bit.
+/// Sets the matrices of each direction's grid, computed in 64-bit arithmetic.
 void set_grids(const BlockRelief& relief, const Draw& draw, double metres_per_box, const Shader& shader) {
     std::array<glm::mat4, most_directions> clip{};
     std::array<glm::mat4, most_directions> prop{};

@@ -1,7 +1,9 @@
-/// The vertex stage of a relief that the GPU draws: its blocks' cells as micropolygons (Cook 1987), the triangles that the cast meets.
+/// The vertex stage of a relief that the GPU draws: its blocks' cells as micropolygons (Cook 1987), the same
+/// triangles as on the processor.
 ///
-/// An instance is a block, four vertices are a cell's corners (block_instances.h); all else is fetched from block_upload.h's textures. What
-/// comes after it is a mesh's: a colour is fetched by `texel`, and a cell that is cut leaves out what lies beside its cover.
+/// An instance is a block, and four vertices are a cell's corners (block_instances.h); everything else is
+/// fetched from the textures of block_upload.h. The fragment stage is that of a mesh: a colour is fetched by
+/// `texel`, and a cut cell discards fragments outside its cover.
 ///
 /// Threads  values; any.
 #pragma once
@@ -10,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// Of 8 x 8 bits; in both stages.
+/// Tests a bit of an 8 x 8 mask; in both stages.
 inline constexpr std::string_view block_bits = R"(
 bool has(uvec2 bits, ivec2 at) {
     uint half_of_bits = at.y < 4 ? bits.x : bits.y;
@@ -18,7 +20,7 @@ bool has(uvec2 bits, ivec2 at) {
 }
 )";
 
-/// Behind `bent` of shader_source.cpp.
+/// Follows `bent` of shader_source.cpp.
 inline constexpr std::string_view block_vertex = R"(
 layout(location = 0) in uvec2 block_and_direction; // of an instance
 uniform highp usampler2D blocks; // three texels a block
@@ -91,7 +93,7 @@ void main() {
 }
 )";
 
-/// In the fragment stage, before its `main`.
+/// For the fragment stage, before its `main`.
 inline constexpr std::string_view block_cover = R"(
 #ifdef BLOCKS
 flat in uvec2 cover;

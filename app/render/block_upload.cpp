@@ -20,7 +20,7 @@ constexpr std::size_t cells = std::size_t{block_cells} * block_cells;
 constexpr std::uint64_t bytes_of_block =
     corners * sizeof(glm::u8vec4) + numbers_of_block * sizeof(glm::uvec4);
 
-/// So many along the sides of the smallest square that holds `count`, one at least.
+/// Side of the smallest square with room for `count` elements; at least 1.
 int side_of(std::size_t count) {
     return std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))));
 }
@@ -46,7 +46,8 @@ std::array<glm::uvec4, numbers_of_block> numbers_of(const ReliefBlock& block) {
         glm::uvec4(lower(block.mask), upper(block.mask), lower(block.cut), upper(block.cut))};
 }
 
-/// Neighbouring cells share corners, and the last column's and row's corners are the last cells'.
+/// Residual code of a block's corner. Neighbouring cells share corners; the corners of the last column and
+/// row come from the last cells.
 std::uint8_t residual_code(const BlockRelief& relief, std::size_t block, std::size_t column,
                            std::size_t row) {
     const std::size_t x = std::min(column, std::size_t{block_cells} - 1);
@@ -55,7 +56,7 @@ std::uint8_t residual_code(const BlockRelief& relief, std::size_t block, std::si
     return static_cast<std::uint8_t>(codes >> 8U * (column - x + 2 * (row - y)));
 }
 
-/// Along a texture's side, that the driver allows.
+/// The driver's limit for a texture's side.
 int most_texels() {
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
@@ -100,13 +101,13 @@ std::uint64_t gpu_bytes(const BlockRelief& relief) {
            texels(sheet.cover_columns, sheet.cover_rows) * sizeof(glm::uvec2);
 }
 
-/// A block has at most 64 covers, so that their square is never the wider one.
+/// A block has at most 64 covers, so the covers' texture is never the wider one.
 std::uint32_t most_blocks_on_gpu() {
     const auto along = static_cast<std::uint32_t>(most_texels() / block_corners);
     return along * along;
 }
 
-/// Makes the textures with room for everything, and uploads the covers, a small part of it.
+/// Allocates the textures and uploads the covers, which are a small part of the data.
 Result<void> BlockUpload::begin() {
     TRY(sheet_, sheet_of(*relief_, most_texels()));
     textures_.colours =

@@ -1,13 +1,14 @@
-/// A relief's blocks on their way into the GPU's memory, in pieces, as block_shader.h reads them: three textures, of which block k lies
-/// at column k % columns and row k / columns.
+/// A relief's blocks on their way to the GPU's memory, in pieces, as block_shader.h reads them: three
+/// textures, in which block k is at column k % columns and row k / columns.
 ///
-/// colours  9 x 9 texels a block, RGBA8: the sRGB codes at its corners, and in alpha the code of the corner's residual.
-/// numbers  3 x 1 texels a block, RGBA32UI: u0, v0, w0, w_u; w_v, residual_low, residual_step, first_cover; mask, cut. All but
-///          the last five words are the bits of 32-bit numbers (block_relief.h).
-/// covers   a texel a cut cell, RG32UI, row by row: the lower and the upper half of its bits.
+/// colours  9 x 9 texels a block, RGBA8: the sRGB codes at its corners, and in alpha the code of the corner's
+///          residual.
+/// numbers  3 x 1 texels a block, RGBA32UI: u0, v0, w0, w_u; w_v, residual_low, residual_step, first_cover;
+///          mask, cut. All but the last five words are the bits of 32-bit floats (block_relief.h).
+/// covers   one texel per cut cell, RG32UI, row by row: the lower and the upper half of its bits.
 ///
-/// Threads  the render thread, with the display's context current; also where it is destroyed.
-/// Errors   the driver has no memory, or allows no textures so large.
+/// Threads  the render thread, with the display's context current, including destruction.
+/// Errors   the driver is out of memory, or does not allow textures of this size.
 #pragma once
 
 #include "app/relief/block_relief.h"
@@ -20,32 +21,33 @@
 
 namespace frustumscreen {
 
-/// How many blocks, and covers, lie side by side and one below the other.
+/// The layout of blocks, and of covers, in their textures.
 struct BlockSheet {
     int columns = 1, rows = 1;
     int cover_columns = 1, cover_rows = 1;
 };
-/// `most_texels`: along a texture's side, that the driver allows.
+/// `most_texels`: the driver's limit for a texture's side.
 [[nodiscard]] Result<BlockSheet> sheet_of(const BlockRelief& relief, int most_texels);
 
-/// Blocks of a relief that the driver's textures have room for.
+/// The most blocks that fit the driver's textures.
 [[nodiscard]] std::uint32_t most_blocks_on_gpu();
 
-/// Bytes of GPU memory that a relief takes.
+/// GPU memory of a relief, bytes.
 [[nodiscard]] std::uint64_t gpu_bytes(const BlockRelief& relief);
 
 class BlockUpload {
 public:
     explicit BlockUpload(std::shared_ptr<const BlockRelief> relief) : relief_(std::move(relief)) {}
 
-    /// Uploads `most_bytes` more, or the rest; a row of blocks is never cut, so it may be a little more.
+    /// Uploads `most_bytes` more, or the rest; a row of blocks is uploaded whole, so it may exceed them
+    /// slightly.
     [[nodiscard]] Result<void> go_on(std::uint64_t most_bytes);
     [[nodiscard]] bool done() const { return begun_ && row_ == sheet_.rows; }
 
     struct Textures {
         GlTexture colours, numbers, covers;
     };
-    /// It must be done.
+    /// Only once `done` is true.
     [[nodiscard]] Textures take() { return std::move(textures_); }
 
 private:
@@ -56,7 +58,7 @@ private:
     std::shared_ptr<const BlockRelief> relief_;
     Textures textures_;
     BlockSheet sheet_;
-    int row_ = 0; ///< of blocks, the next one
+    int row_ = 0; ///< the next row of blocks
     bool begun_ = false;
 };
 

@@ -13,8 +13,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// Whether nothing stands there before the relief comes: no fade, no mesh, no picture that lies on the table. What blackens the faces
-/// under such a picture leaves what the relief does not light as the relief has it.
+/// True if the relief can be copied there: no fade, no mesh, no picture on the table. A face drawn in black
+/// under such a picture does not matter, because the relief's unlit pixels are black too.
 bool stands_alone(const FramePlan& plan, const PixelRectangle& part) {
     return plan.cast_count == 1 && std::none_of(plan.draws.begin(), plan.draws.end(), [&](const Draw& draw) {
                const bool black =
@@ -25,7 +25,7 @@ bool stands_alone(const FramePlan& plan, const PixelRectangle& part) {
            });
 }
 
-/// The colour of the framebuffer that is drawn into.
+/// The colour texture of the framebuffer that is drawn into.
 GLuint texture_of_framebuffer() {
     const auto ask = [](GLenum what) {
         GLint answer = 0;
@@ -49,7 +49,7 @@ Result<void> CastPass::prepare(std::size_t casts, int width, int height) {
         glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, width, height);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-        // The driver's pages are touched here, and not when a shader first reads them.
+        // Touches the driver's pages now, instead of when a shader first reads them.
         glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE,
                         memory_.texels.data());
         if (glGetError() != GL_NO_ERROR) {
@@ -108,7 +108,7 @@ int CastPass::show(const FramePlan& plan, const ShaderCache& shaders) const {
             glBindTexture(GL_TEXTURE_2D, texture_of_framebuffer());
             upload(copied);
         }
-        // On whatever face, it is drawn in the same way: the faces' pixels are apart, and each has its light.
+        // One draw serves all faces: their pixels are disjoint, and the light is already applied.
         const auto shown = std::find_if(plan.draws.begin(), plan.draws.end(), [k](const Draw& draw) {
             return draw.shader.pass == ShaderKey::Pass::Cast && draw.cast == k;
         });

@@ -1,12 +1,12 @@
-/// Reliefs cast on the processor, as pictures in the GPU's memory: what a plan's casts see, for the draws that name them.
+/// Reliefs rasterized on the processor, as pictures in the GPU's memory, for the draws that name them.
 ///
-/// What is lit is copied into the picture where nothing else may stand, and drawn, a pixel for a pixel, over what stands there elsewhere
-/// and in a fade. State as FacePass.
+/// Lit rectangles without other content are copied into the picture; elsewhere, and in a fade, they are
+/// drawn, pixel by pixel, over it. GL state as in FacePass.
 ///
-/// Colour   sRGB codes, in the projector's light (scene/cast_light.h); alpha 0 where nothing was met.
-/// Threads  the render thread, with as many more of its own as there are further cores; `paint` allocates nothing once a picture as
-///          full was painted, and makes no GL object.
-/// Errors   the driver has no memory.
+/// Colour   sRGB codes, in the projector's light (scene/cast_light.h); alpha 0 where no surface was hit.
+/// Threads  the render thread, with one thread of its own for each further core. `paint` allocates nothing
+///          once it has painted a picture as full, and makes no GL object.
+/// Errors   the driver is out of memory.
 #pragma once
 
 #include "app/image/image.h"
@@ -29,30 +29,31 @@ namespace frustumscreen {
 
 class CastPass {
 public:
-    /// Has room for so many casts a plan, of the whole picture each.
+    /// Allocates `casts` pictures, each as large as the whole picture.
     [[nodiscard]] Result<void> prepare(std::size_t casts, int width, int height);
 
-    /// Casts all of the plan's. Those whose relief is not in the store, and those that the GPU draws, stay out.
+    /// Rasterizes the plan's reliefs, except those that are not in the store or that the GPU draws.
     void paint(const FramePlan& plan, const GpuStore& store);
-    /// Shows what was painted for this plan in the framebuffer that is bound, whose colour is a texture; returns the number of draw
-    /// calls.
+    /// Shows the painted reliefs of this plan in the bound framebuffer, whose colour must be a texture;
+    /// returns the number of draw calls.
     int show(const FramePlan& plan, const ShaderCache& shaders) const;
 
-    /// Bytes of GPU memory, as the driver says.
+    /// Bytes of GPU memory, as the driver reports.
     [[nodiscard]] std::uint64_t bytes() const;
 
 private:
     struct Picture {
-        GlTexture texels;                    ///< of what is drawn; what lies outside is of another frame
-        std::vector<PixelRectangle> painted; ///< first what is copied, then what is drawn
+        GlTexture texels;                    ///< valid in the rectangles that are drawn; the rest is from
+                                             ///< earlier frames
+        std::vector<PixelRectangle> painted; ///< first the rectangles to copy, then those to draw
         std::size_t copied = 0;
     };
-    /// The memory's texels go into the texture that is bound.
+    /// Uploads from main memory into the bound texture.
     void upload(std::span<const PixelRectangle> parts) const;
 
-    std::unique_ptr<ReliefPainter> painter_; ///< none: no cast was prepared
+    std::unique_ptr<ReliefPainter> painter_; ///< null: no picture was prepared
     CastLight light_;
-    Image8 memory_; ///< main memory that all are painted in, one after the other
+    Image8 memory_; ///< main memory that each relief is rasterized in, one after another
     std::vector<Picture> pictures_;
     GlVertexArray no_attributes_ = GlVertexArray::generate();
 };

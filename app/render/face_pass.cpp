@@ -14,7 +14,7 @@ GLuint stencil_value(std::size_t face) {
     return static_cast<GLuint>(face) + 1U;
 }
 
-/// Codes are multiplied by what light is multiplied by to this power: sRGB's own, away from black.
+/// A factor of light to this power is the factor of codes: sRGB's own power, away from black.
 constexpr float code_power = 1.0F / 2.4F;
 
 void set_uniform(const Shader& shader, Uniform uniform, const glm::dvec2& scale, const glm::dvec2& offset) {
@@ -45,8 +45,8 @@ void set_draw(const Shader& shader, const Draw& draw) {
                        glm::value_ptr(draw.clip_from_unit));
 }
 
-/// The uploaded level that ::mip_level asks for, one for the whole draw: a software or small GPU spends more
-/// on finding and mixing two levels for each pixel than on the rest of the pixel.
+/// The uploaded mip level for ::mip_level, one for the whole draw: choosing and mixing two levels for each
+/// pixel costs a software or small GPU more than the rest of the pixel.
 int mip_of(const Draw& draw, const GpuStore::Texture& texture, const Raster& raster) {
     const double samples_along = std::sqrt(static_cast<double>(raster.fragments.x * raster.fragments.y));
     const int mip = mip_level(draw.drawable.material.texels_per_box, samples_along * draw.pixels_per_box);
@@ -73,7 +73,7 @@ int FacePass::draw(const FramePlan& plan, const GpuStore& store, const ShaderCac
     blocks_.list(plan, store);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
-    // A face is lit from the side that it is seen from, so nothing is mirrored but y (row 0 is the top).
+    // A face is lit from the side that it is seen from, so only y is mirrored (row 0 is the top).
     glEnable(GL_CULL_FACE);
     glCullFace(GL_BACK);
     glFrontFace(GL_CW);

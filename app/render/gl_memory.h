@@ -1,7 +1,7 @@
-/// How much memory the driver gave an object, as the driver says: sizes and bits are queried, not computed
-/// from what was asked for.
+/// Memory that the driver has allocated for an object: sizes and bits are queried from the driver instead of
+/// computed from the request.
 ///
-/// Units    bytes; what a driver adds for its own purposes (alignment, tiling) is not in it.
+/// Units    bytes; a driver's overhead (alignment, tiling) is not included.
 /// Threads  the render thread.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace frustumscreen {
 [[nodiscard]] std::uint64_t bytes_of_buffer(const GlBuffer& buffer);
 /// Two-dimensional, all mip levels.
 [[nodiscard]] std::uint64_t bytes_of_texture(const GlTexture& texture);
-/// What the driver calls the GPU.
+/// The driver's name of the GPU.
 [[nodiscard]] std::string renderer_name();
 
 [[nodiscard]] std::uint64_t bytes_of_renderbuffer(const GlRenderbuffer& renderbuffer);

@@ -12,7 +12,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The most texels along a texture's side that the driver allows.
+/// The driver's limit for a texture's side.
 int most_texels() {
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
@@ -42,7 +42,7 @@ GlTexture upload_coverage(const Image<std::uint8_t>& coverage) {
     return texture;
 }
 
-/// The sampler decodes it, so that what is between texels is mixed in linear light.
+/// The sampler decodes the codes, so that it filters in linear light.
 GlTexture upload_light(std::span<const Image8> mips) {
     GlTexture texture = GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texture.get());

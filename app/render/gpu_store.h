@@ -1,10 +1,10 @@
-/// Meshes, pictures and reliefs in the GPU's memory, and reliefs that are cast on the processor, by the numbers that plans name them
-/// with.
+/// Meshes, pictures and reliefs in the GPU's memory, and reliefs that are rasterized on the processor, by the
+/// numbers that plans name them with.
 ///
-/// Colour   an artifact's texture gives sRGB codes as they are stored (level_data.h). A caption is coverage
-///          0..255, white light. A picture for the table gives its colours over black, as light.
+/// Colour   an artifact's texture gives sRGB codes as stored (level_data.h). A caption is coverage 0..255,
+///          white light. A picture on the table gives its colours over black, as light.
 /// Threads  the render thread; `find` allocates nothing.
-/// Errors   the driver has no memory, or a texture is larger than it allows.
+/// Errors   the driver is out of memory, or a texture exceeds its limit.
 #pragma once
 
 #include "app/image/image.h"
@@ -24,21 +24,21 @@ namespace frustumscreen {
 
 class GpuStore {
 public:
-    /// Uploads what a scene needs of a level; `texture` is the level's whole texture.
+    /// Uploads the part of a level that a scene needs; `texture` is the level's whole texture.
     [[nodiscard]] Result<Drawable> upload(const SceneLevel& level, const Image8& texture);
-    /// Takes a level or a relief that has been uploaded piece by piece; it must be done.
+    /// Takes over a level or a relief that has been uploaded piece by piece; its upload must be done.
     [[nodiscard]] Drawable keep(LevelUpload upload);
-    /// Takes a relief that is cast, of which nothing is uploaded.
+    /// Takes over a relief that is rasterized on the processor; nothing is uploaded.
     [[nodiscard]] Drawable keep(std::shared_ptr<const BlockRelief> relief);
     /// Uploads a relief that the GPU draws.
     [[nodiscard]] Result<Drawable> upload(std::shared_ptr<const BlockRelief> relief);
-    /// Uploads all of a level.
+    /// Uploads a whole level.
     [[nodiscard]] Result<Drawable> upload(const Pack& pack, std::uint32_t level);
     /// Uploads a caption's coverage, row 0 at the text's top.
     [[nodiscard]] Result<TextureId> upload(const Image<std::uint8_t>& coverage);
-    /// Uploads a picture for the table, row 0 at its top: light_mips of it.
+    /// Uploads a picture on the table, row 0 at its top: `mips` from light_mips.
     [[nodiscard]] Result<TextureId> upload_picture(std::span<const Image8> mips);
-    /// Draws that name it show nothing from now on.
+    /// From now on, draws that name it show nothing.
     void release(const Drawable& drawable);
     void release(TextureId texture);
 
@@ -48,22 +48,22 @@ public:
     };
     struct Texture {
         GlTexture texels;
-        int finest_mip = 0; ///< the whole texture's mip level that is uploaded as level 0
+        int finest_mip = 0; ///< mip level of the whole texture that is uploaded as level 0
     };
-    /// As block_upload.h; the colours are the drawable's texture.
+    /// As in block_upload.h; the colours are the drawable's texture.
     struct Blocks {
         std::shared_ptr<const BlockRelief> relief; ///< in main memory, where blocks are listed
         GlTexture numbers, covers;
     };
-    /// Null if it was not uploaded, or released.
+    /// Null if it was not uploaded, or was released.
     [[nodiscard]] const Mesh* find(MeshId mesh) const;
-    /// The same for a relief as it lies in main memory, whatever draws it.
+    /// As above, for a relief's data in main memory, whichever way it is drawn.
     [[nodiscard]] const BlockRelief* find_relief(MeshId relief) const;
-    /// The same for a relief that the GPU draws.
+    /// As above, for a relief that the GPU draws.
     [[nodiscard]] const Blocks* find_blocks(MeshId relief) const;
     [[nodiscard]] const Texture* find(TextureId texture) const;
 
-    /// Bytes of GPU memory, as the driver says.
+    /// Bytes of GPU memory, as the driver reports.
     [[nodiscard]] std::uint64_t bytes() const;
     [[nodiscard]] std::uint64_t bytes(const Drawable& drawable) const;
     [[nodiscard]] std::uint64_t bytes(TextureId texture) const;
@@ -72,7 +72,7 @@ private:
     [[nodiscard]] TextureId keep(GlTexture texels, int finest_mip);
 
     std::map<MeshId, Mesh> meshes_;
-    std::map<MeshId, std::shared_ptr<const BlockRelief>> reliefs_; ///< that are cast
+    std::map<MeshId, std::shared_ptr<const BlockRelief>> reliefs_; ///< rasterized on the processor
     std::map<MeshId, Blocks> blocks_;
     std::map<TextureId, Texture> textures_;
     std::uint32_t last_ = 0; ///< last number given out

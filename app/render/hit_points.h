@@ -1,4 +1,4 @@
-/// The second picture of a plan: it holds the place that each pixel shows and not the colour. For measuring.
+/// A second picture of a plan for measuring: each pixel's position on the artifact instead of its colour.
 ///
 /// One sample at the pixel's centre. Never in the exhibit's frame.
 #pragma once
@@ -16,14 +16,15 @@ namespace frustumscreen {
 
 class HitPointRenderer {
 public:
-    /// Errors: the driver cannot draw into float pictures. It draws what the renderer can draw at this time.
+    /// Errors: the driver cannot draw into float pictures. It has the shaders that `renderer` has at this
+    /// time.
     [[nodiscard]] static Result<HitPointRenderer> create(const Renderer& renderer);
     /// Hit points in prop coordinates, metres; NaN = no hit. Row 0 at the picture's top. `store`: the same
     /// renderer's.
     [[nodiscard]] ImageFloat draw(const FramePlan& plan, const GpuStore& store);
 
 private:
-    /// Where the meshes show nothing.
+    /// Adds the rasterized reliefs where the meshes show nothing.
     void add_casts(const FramePlan& plan, const GpuStore& store, ImageFloat& points);
     HitPointRenderer(int width, int height) : width_(width), height_(height) {}
 

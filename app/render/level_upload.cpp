@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 Result<void> LevelUpload::go_on(std::uint64_t most_bytes) {
     if (data_.relief && !data_.on_gpu) {
-        done_ = true; // it is cast from main memory
+        done_ = true; // the processor rasterizes it from main memory
         return {};
     }
     if (data_.relief) {
@@ -39,7 +39,7 @@ Result<void> LevelUpload::go_on(std::uint64_t most_bytes) {
     return {};
 }
 
-/// Makes the objects with room for everything; that copies nothing yet.
+/// Creates the objects and allocates their memory, without copying data.
 Result<void> LevelUpload::begin() {
     const Image8& finest = data_.mips.front();
     GLint limit = 0;
@@ -67,7 +67,7 @@ Result<void> LevelUpload::begin() {
     glBindTexture(GL_TEXTURE_2D, texels_.get());
     glTexStorage2D(GL_TEXTURE_2D, static_cast<GLsizei>(data_.mips.size()), GL_SRGB8_ALPHA8, finest.width,
                    finest.height);
-    // Each draw takes one level, its GL_TEXTURE_BASE_LEVEL: a filter that may choose costs more.
+    // Each draw uses one mip level, its GL_TEXTURE_BASE_LEVEL: a filter that chooses costs more.
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

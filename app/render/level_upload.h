@@ -1,8 +1,9 @@
-/// A level, or a relief that the GPU draws, on its way into the GPU's memory, in pieces: so that no frame waits for a whole artifact.
+/// A level, or a relief that the GPU draws, on its way to the GPU's memory, in pieces, so that no frame waits
+/// for a whole artifact.
 ///
-/// Main memory  a mip level is freed once it has been uploaded.
-/// Threads  the render thread, with the display's context current; also where it is destroyed.
-/// Errors   the driver has no memory, or the texture is larger than it allows.
+/// Main memory  a mip level is freed once it is uploaded.
+/// Threads  the render thread, with the display's context current, including destruction.
+/// Errors   the driver is out of memory, or the texture exceeds its limit.
 #pragma once
 
 #include "app/render/block_upload.h"
@@ -21,9 +22,10 @@ class LevelUpload {
 public:
     explicit LevelUpload(LevelData data) : data_(std::move(data)) {}
 
-    /// Uploads `most_bytes` more, or the rest; a row of texels is never cut, so it may be a little more.
+    /// Uploads `most_bytes` more, or the rest; a row of texels is uploaded whole, so it may exceed them
+    /// slightly.
     [[nodiscard]] Result<void> go_on(std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max());
-    /// All of it is uploaded.
+    /// True once everything is uploaded.
     [[nodiscard]] bool done() const { return done_; }
 
 private:
@@ -33,15 +35,15 @@ private:
     [[nodiscard]] std::uint64_t upload_texels(std::uint64_t most_bytes);
 
     LevelData data_;
-    std::optional<BlockUpload> blocks_; ///< of a relief that the GPU draws
+    std::optional<BlockUpload> blocks_; ///< for a relief that the GPU draws
     GlVertexArray vertex_array_;
     GlBuffer vertices_;
     GlTexture texels_;
     bool begun_ = false;
     bool done_ = false;
     std::size_t vertices_there_ = 0;
-    std::size_t mip_ = 0; ///< of `data_.mips`, the next one
-    int row_ = 0;         ///< of it
+    std::size_t mip_ = 0; ///< the next one of `data_.mips`
+    int row_ = 0;         ///< the next row of that mip level
 };
 
 } // namespace frustumscreen

@@ -1,5 +1,5 @@
-/// Puts a picture made on the CPU into a display's framebuffer as it is. For test pictures, not for the
-/// exhibit.
+/// Copies a picture made on the processor unchanged into a display's framebuffer. For test pictures, not for
+/// the exhibit.
 ///
 /// Threads  the render thread.
 #pragma once
@@ -17,9 +17,9 @@ public:
         put(picture);
         show_again(framebuffer);
     }
-    /// The same in two steps: the picture is kept, and shown as often as need be.
+    /// The same in two steps: the picture is stored, and shown as often as needed.
     void put(const Image8& picture);
-    /// `place`: of its upper left corner in the framebuffer.
+    /// `place`: position of its upper left corner in the framebuffer.
     void show_again(unsigned framebuffer, const glm::ivec2& place = glm::ivec2(0));
 
 private:

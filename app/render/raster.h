@@ -1,4 +1,4 @@
-/// How the plan's pixels lie in a framebuffer: the fragments of each pixel, and the first pixel.
+/// The layout of the plan's pixels in a framebuffer: the fragments of each pixel, and the first pixel.
 ///
 /// Threads  values; the setters, the render thread.
 #pragma once

@@ -7,10 +7,10 @@ namespace frustumscreen {
 
 /// Colour of a framebuffer as sRGB codes, alpha 255; row 0 at the picture's top.
 [[nodiscard]] Image8 read_colour(unsigned framebuffer, int width, int height);
-/// The same into an image of the framebuffer's size.
+/// As above, into an image of the framebuffer's size.
 void read_colour_into(unsigned framebuffer, Image8& image);
 
-/// Waits until the GPU has done everything it was asked to do. For measuring.
+/// Waits until the GPU has completed all its commands. For measuring.
 void wait_until_drawn();
 
 } // namespace frustumscreen

@@ -97,7 +97,7 @@ Renderer::Repaint Renderer::to_redraw(const Picture& picture, const RenderTarget
     const Picture& held = history_[age - 1];
     Repaint repaint{{}, held.prop_hash != picture.prop_hash};
     if (held.hash == picture.hash) {
-        return {{}, false}; // the buffer holds this picture
+        return {{}, false}; // the buffer already holds this picture
     }
     held.add_changes(picture, repaint.part);
     picture.add_changes(held, repaint.part);
@@ -125,9 +125,9 @@ DrawResult Renderer::draw(const FramePlan& plan, const RenderTarget& target, Red
     return result;
 }
 
-/// The larger picture comes first, so that a tiling GPU goes to the display's framebuffer once. Codes are
-/// written as they are throughout; passes that compute in linear light (captions, averages) turn the encoding
-/// on themselves.
+/// The larger picture comes first, so that a tiling GPU visits the display's framebuffer once. Codes are
+/// written unchanged throughout; passes that compute in linear light (captions, averages) enable the encoding
+/// themselves.
 void Renderer::paint(const FramePlan& plan, const RenderTarget& target, const Repaint& repaint,
                      DrawResult& result) {
     const int samples = plan.samples > 0 ? plan.samples : needs_.samples;

@@ -1,10 +1,9 @@
-/// Draws a plan into a display's framebuffer: only what changed, and nothing if nothing changed. Owns the
+/// Draws a plan into a display's framebuffer: only the changes, and nothing if nothing changed. Owns the
 /// meshes and textures that plans name, and a program for each of their shaders.
 ///
 /// Colour   the framebuffer is sRGB (display.h); shaders work in linear light.
 /// Threads  the render thread; `draw` allocates nothing and makes no GL object.
-/// Errors   when something is created, prepared or uploaded: shaders, buffers or textures that the driver
-///          refuses.
+/// Errors   on creation, preparation or upload: shaders, buffers or textures that the driver refuses.
 #pragma once
 
 #include "app/render/cast_pass.h"
@@ -23,14 +22,15 @@
 
 namespace frustumscreen {
 
-/// Samples a pixel lie on a regular grid and are averaged in linear light: 1, 2, 4, 8 or 16. More smooth the
-/// outlines and the texture. The artifact's rectangle alone is drawn larger and averaged down: on llvmpipe
-/// that takes half the time of the driver's own multisampling.
+/// Samples a pixel lie on a regular grid and are averaged in linear light: 1, 2, 4, 8 or 16. More samples
+/// smooth the outlines and the texture. Only the artifact's rectangle is drawn larger and averaged down: on
+/// llvmpipe this takes half the time of the driver's own multisampling.
 ///
-/// The live exhibit has room for this many on each pixel of the prop. An artifact that asks for more gets them where it takes less of
-/// the picture than the prop; a picture that there is no room for takes half as many, until there is.
+/// The live exhibit has room for this many on each pixel of the prop. An artifact that asks for more gets
+/// them if it covers less of the picture than the prop; otherwise the samples are halved until the picture
+/// fits.
 inline constexpr int default_samples = 4;
-/// For the finest level, where the cost does not matter.
+/// For the finest level, if the cost does not matter.
 inline constexpr int finest_samples = 16;
 
 /// Display::framebuffer, whose colour is a texture, and Display::buffer_age.
@@ -40,27 +40,28 @@ struct RenderTarget {
 };
 
 struct DrawResult {
-    bool drawn = false;     ///< false: the picture on show is still right; do not present
-    PixelRectangle redrawn; ///< what was cleared and drawn
+    bool drawn = false;     ///< false: the picture on show is still valid; do not present
+    PixelRectangle redrawn; ///< the part that was cleared and drawn
     PixelRectangle lit;     ///< every pixel that the picture may light
     int draw_calls = 0;
 };
 
 enum class Redraw {
     Changes,
-    Again,      ///< to present it once more: as Changes, but `drawn` is true in any case
-    Everything, ///< the whole picture, whether it changed or not
+    Again,      ///< to present it again: as Changes, but `drawn` is always true
+    Everything, ///< the whole picture, even if unchanged
 };
 
 class Renderer {
 public:
-    /// Makes a renderer for pictures of that size.
+    /// Makes a renderer for pictures of this size.
     [[nodiscard]] static Result<Renderer> create(int width, int height, const RenderNeeds& needs = {});
-    /// Compiles and allocates what these needs add to the earlier ones, so that no frame compiles anything.
+    /// Compiles and allocates whatever these needs add to the earlier ones, so that no frame compiles
+    /// anything.
     [[nodiscard]] Result<void> prepare(const RenderNeeds& needs);
 
     /// The meshes and textures that plans name. A picture counts as unchanged until its plan names something
-    /// else; what is released is missing from the next picture that is drawn.
+    /// else; a released object is missing from the next picture that is drawn.
     [[nodiscard]] GpuStore& store() { return store_; }
     [[nodiscard]] const GpuStore& store() const { return store_; }
 
@@ -69,15 +70,15 @@ public:
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
-    /// The shaders that were compiled.
+    /// The compiled shaders.
     [[nodiscard]] std::set<ShaderKey> shaders() const { return shaders_.keys(); }
-    /// Whose lens they bend what they draw for.
+    /// The projector whose lens distortion the shaders apply, if any.
     [[nodiscard]] const std::optional<Pinhole>& bent_by() const { return needs_.bent_by; }
-    /// Bytes of GPU memory, as the driver says, without the indices that come with each picture.
+    /// Bytes of GPU memory, as the driver reports, without the indices that come with each picture.
     [[nodiscard]] std::uint64_t bytes() const;
 
 private:
-    /// What lies on the table is told apart by its draws, so that one that changes alone is drawn alone.
+    /// Each draw on the table is tracked by itself, so that a change of one redraws only that one.
     struct Picture {
         struct OnTable {
             std::uint64_t hash = 0;
@@ -86,14 +87,14 @@ private:
         std::uint64_t hash = 0;
         std::uint64_t prop_hash = 0;
         PixelRectangle prop_bounds;
-        std::array<OnTable, most_on_table + 16> on_table{}; ///< with the prop's faces, in black
+        std::array<OnTable, most_on_table + 16> on_table{}; ///< including the prop's faces in black
         std::size_t count = 0;
         [[nodiscard]] bool lies(const OnTable& draw) const;
         void add_changes(const Picture& other, PixelRectangle& changes) const;
     };
     struct Repaint {
         PixelRectangle part;
-        bool prop = true; ///< else the part does not meet it
+        bool prop = true; ///< false: the part does not touch the prop
     };
     [[nodiscard]] static Picture picture_of(const FramePlan& plan);
     Renderer(int width, int height) : width_(width), height_(height) {}
@@ -101,14 +102,14 @@ private:
     [[nodiscard]] Repaint to_redraw(const Picture& picture, const RenderTarget& target, Redraw redraw) const;
 
     int width_, height_;
-    /// There is room for so many samples; a plan may ask for fewer, and for more in a smaller part.
+    /// Room for the largest number of samples; a plan may ask for fewer, and for more in a smaller part.
     RenderNeeds needs_;
     GpuStore store_;
     ShaderCache shaders_;
     CastPass casts_;
     FacePass faces_;
     TablePass table_;
-    std::optional<SampleGrid> sample_grid_; ///< for more than one sample
+    std::optional<SampleGrid> sample_grid_; ///< for more than one sample a pixel
     std::array<Picture, 4> history_{};      ///< [0] is the last picture presented
     std::size_t pictures_ = 0;              ///< valid entries of history_
 };

@@ -68,7 +68,7 @@ Result<void> SampleGrid::make_target() {
         return fail(ErrorKind::BadConfiguration, "render.no_room_for_samples",
                     "render: the driver cannot hold {} x {} samples; use 1 sample a pixel", room_.x, room_.y);
     }
-    // Averaging reads some samples beside the tiles that a frame clears: none that was never written.
+    // Averaging also reads some samples next to the tiles that a frame clears, so all are written once here.
     glDisable(GL_SCISSOR_TEST);
     glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
     glClear(GL_COLOR_BUFFER_BIT);

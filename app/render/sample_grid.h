@@ -1,11 +1,11 @@
-/// Makes several samples a pixel: it draws the artifact's part of the picture larger, then averages.
+/// Several samples a pixel: the artifact's part of the picture is drawn larger, then averaged.
 ///
-/// On a software GPU that takes half the time of the driver's own multisampling, and it smooths the texture
+/// On a software GPU this takes half the time of the driver's own multisampling, and it smooths the texture
 /// as well as the outlines.
 ///
 /// Colour   averaged in linear light.
-/// Threads  the render thread; `begin` and `average` allocate nothing. Their shaders have been prepared.
-/// Errors   a number of samples that has no grid; a picture larger than the driver draws.
+/// Threads  the render thread; `begin` and `average` allocate nothing. Their shaders must be prepared.
+/// Errors   a number of samples without a grid; a picture beyond the driver's limit.
 #pragma once
 
 #include "app/render/raster.h"
@@ -20,24 +20,25 @@ namespace frustumscreen {
 
 class SampleGrid {
 public:
-    /// Has room for `most_samples` a pixel, 2, 4, 8 or 16, in a part of the picture of that size; a smaller part may have more,
-    /// a larger one has fewer.
+    /// Allocates memory for `most_samples` a pixel, 2, 4, 8 or 16, in a part of the picture of this size; a
+    /// smaller part may have more, a larger one has fewer.
     [[nodiscard]] static Result<SampleGrid> create(const PixelSize& picture, const PixelSize& part,
                                                    int most_samples);
 
-    /// Samples along a pixel's sides; zero for a number that has no grid.
+    /// Samples along a pixel's sides; zero for a number without a grid.
     [[nodiscard]] static glm::ivec2 of(int samples);
 
-    /// How what is lit lies in the larger picture, with `samples` a pixel or as many as there is room for; one, and then nothing is
-    /// to be drawn larger, if there is no room at all. `around`: what the place is taken from if there is room for all of it, since
-    /// fragments elsewhere round differently, and pictures of one pose shall not depend on what a level lights.
+    /// The layout of the lit part in the larger picture, with `samples` a pixel or as many as fit; 1 x 1 if
+    /// not even two fit, and then nothing is drawn larger. `around`: if all of it fits, the layout is based
+    /// on it instead of on `lit`. Fragments round differently at other positions, and pictures of one pose
+    /// must not depend on what a level lights.
     [[nodiscard]] Raster raster(const PixelRectangle& lit, const PixelRectangle& around, int samples) const;
     /// Binds the larger picture and clears the tiles in it: black, far, stencil 0.
     void begin(const LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const;
-    /// Averages the tiles into the framebuffer that is bound, which encodes linear light.
+    /// Averages the tiles into the bound framebuffer, which encodes linear light.
     void average(const LitTiles& tiles, const Raster& raster, const ShaderCache& shaders) const;
 
-    /// Bytes of GPU memory, as the driver says.
+    /// Bytes of GPU memory, as the driver reports.
     [[nodiscard]] std::uint64_t bytes() const;
 
 private:
@@ -46,7 +47,7 @@ private:
     void draw_tiles(const LitTiles& tiles, const Shader& shader) const;
 
     glm::ivec2 picture_{0, 0};
-    glm::ivec2 room_{0, 0}; ///< of the larger picture, in fragments
+    glm::ivec2 room_{0, 0}; ///< size of the larger picture, in fragments
     glm::ivec2 largest_viewport_{0, 0};
     GlFramebuffer framebuffer_;
     GlTexture colour_;

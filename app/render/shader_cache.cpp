@@ -21,7 +21,7 @@ constexpr std::array<const char*, static_cast<std::size_t>(Uniform::Count)> unif
 /// In the order of the texture units that they read (GpuStore::Texture, then GpuStore::Blocks).
 constexpr std::array<const char*, 3> sampler_names{"image", "blocks", "covers"};
 
-/// The lens never changes while a program lives, so its uniforms are set once.
+/// The lens is constant during a program's lifetime, so its uniforms are set once.
 void set_lens(GLuint program, const Pinhole& pinhole) {
     const glm::dvec2 half = 0.5 * glm::dvec2(pinhole.width, pinhole.height);
     const glm::dvec2 focal(pinhole.fx, pinhole.fy);

@@ -44,11 +44,12 @@ class Shader {
 public:
     [[nodiscard]] static Result<Shader> compile(const ShaderKey& key, const std::optional<Pinhole>& bent_by);
     void use() const { glUseProgram(program_.get()); }
-    /// Draws the quadrilateral of Uniform::Corners, in cells if it bends; `use` it first.
+    /// Draws the quadrilateral of Uniform::Corners, in cells if the shader bends; call `use` first.
     void draw_quad() const;
-    /// Draws rectangles of a picture of that size: Uniform::Rectangles. `use` it first, with a vertex array without attributes.
+    /// Draws rectangles of a picture of this size: Uniform::Rectangles. Call `use` first, and bind a vertex
+    /// array without attributes.
     void draw_rectangles(const glm::ivec2& picture, std::span<const PixelRectangle> rectangles) const;
-    /// -1, which OpenGL ignores, for one that the shader does not have.
+    /// -1, which OpenGL ignores, if the shader does not have the uniform.
     [[nodiscard]] GLint location(Uniform uniform) const {
         return locations_[static_cast<std::size_t>(uniform)];
     }
@@ -61,10 +62,10 @@ private:
 
 class ShaderCache {
 public:
-    /// Compiles the shaders that are not there yet. `bent_by`: as RenderNeeds; shaders that were made for another lens go.
+    /// Compiles the missing shaders. `bent_by`: as RenderNeeds; shaders for another lens are deleted.
     [[nodiscard]] Result<void> prepare(const std::set<ShaderKey>& keys,
                                        const std::optional<Pinhole>& bent_by);
-    /// Null if it was not prepared.
+    /// Null if the shader was not prepared.
     [[nodiscard]] const Shader* find(const ShaderKey& key) const;
     [[nodiscard]] std::set<ShaderKey> keys() const;
 

@@ -9,14 +9,14 @@ namespace frustumscreen {
 
 namespace {
 
-// The projector's lens; in both stages of shaders that bend.
+// The projector's lens; for both stages of shaders that bend.
 constexpr std::string_view lens = R"(
 #define BENT
 uniform vec4 lens_from_clip; // scale, offset: clip coordinates to a direction's (x / z, y / z)
 uniform vec3 distortion;     // k1, k2, the r^2 up to which they hold
 )";
 
-/// What is bent keeps its depth and its w.
+/// Bending keeps depth and w.
 constexpr std::string_view bent_vertex = R"(
 #ifdef BENT
 vec4 bent(vec4 clip) {
@@ -33,7 +33,7 @@ vec4 bent(vec4 clip) { return clip; }
 #endif
 )";
 
-/// A quadrilateral: four corners of a fan, or bent, strips of cells, one an instance.
+/// A quadrilateral: a fan of four corners; or, if bent, strips of cells, one strip per instance.
 constexpr std::string_view quad_vertex = R"(
 uniform vec4 corners[4]; // top left, top right, bottom right, bottom left
 #ifdef BENT
@@ -78,7 +78,7 @@ void main() {
 }
 )";
 
-// Of shaders that fade.
+// For shaders that fade.
 constexpr std::string_view dither = R"(
 #ifdef DITHERED
 uniform vec4 pixel_from_fragment; // scale, offset
@@ -170,7 +170,7 @@ void main() {
 }
 )";
 
-// The quadrilateral's corners: the edge's ends, then the inner ones.
+// The quadrilateral's corners: the edge's ends, then the inner corners.
 constexpr std::string_view feather_vertex = R"(
 uniform vec2 edge_share; // factor of linear light at the ends
 out float share;
@@ -180,7 +180,7 @@ void main() {
     share = mix(mix(edge_share.x, edge_share.y, at.x), 1.0, at.y);
 }
 )";
-// Codes are multiplied, so the factor goes through sRGB's power law.
+// Codes are multiplied, so the factor is raised to sRGB's power.
 constexpr std::string_view feather_fragment = R"(
 in float share;
 out vec4 result;
@@ -214,7 +214,7 @@ void main() {
     gl_Position = vec4(2.0 * pixel / picture - 1.0, 1.0, 1.0);
 }
 )";
-// Pixels that were cast, at their places.
+// Pixels of a rasterized relief, at their positions.
 constexpr std::string_view cast_fragment = R"(
 uniform sampler2D image;
 out vec4 result;
@@ -232,8 +232,9 @@ constexpr std::string_view black_fragment = R"(
 out vec4 result;
 void main() { result = vec4(0.0, 0.0, 0.0, 1.0); }
 )";
-// A bilinear fetch where texels meet is their average; the sampler decodes sRGB before it. A pixel of more than 2 x 2 samples takes
-// one for each 2 x 2: a program of its own, since a software GPU spends more on a loop of one turn than on the fetch in it.
+// A bilinear fetch where texels meet is their average; the sampler decodes sRGB before it. A pixel of more
+// than 2 x 2 samples takes one fetch for each 2 x 2, in a separate program: a software GPU spends more on a
+// loop of one iteration than on the fetch in it.
 constexpr std::string_view average_fragment = R"(
 uniform sampler2D image;
 uniform ivec4 raster; // samples along a pixel's sides, the pixel at the larger picture's corner

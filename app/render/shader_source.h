@@ -1,5 +1,5 @@
-/// The GLSL of each shader key. Vertices of outlines, pictures and tiles are made from gl_VertexID: they need
-/// no buffer.
+/// The GLSL of each shader key. Vertices of outlines, pictures and tiles are computed from gl_VertexID,
+/// without a buffer.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -10,8 +10,8 @@
 
 namespace frustumscreen {
 
-/// Along each side of a quadrilateral that is bent. Between a cell's corners its edges are straight: over a face that fills the
-/// picture's half, behind a lens of k1 = 0.1, at most 0.02 pixels beside their place.
+/// Cells along each side of a quadrilateral that is bent. Between a cell's corners its edges are straight:
+/// over a face that fills half of the picture, behind a lens of k1 = 0.1, they are at most 0.02 pixels off.
 inline constexpr int quad_cells = 16;
 
 struct ShaderSource {
@@ -19,7 +19,8 @@ struct ShaderSource {
     std::string vertex;
     std::string fragment;
 };
-/// `bends`: what it draws is bent as the projector's lens bends it, and quadrilaterals are drawn in cells (Shader::draw_quad).
+/// `bends`: draws are distorted like the projector's lens, and quadrilaterals are drawn in cells
+/// (Shader::draw_quad).
 [[nodiscard]] ShaderSource source_of(const ShaderKey& key, bool bends = false);
 
 } // namespace frustumscreen

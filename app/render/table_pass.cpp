@@ -27,7 +27,7 @@ int TablePass::draw(const FramePlan& plan, const PixelRectangle& within, const G
         }
         (picture != TextureId::None ? glEnable : glDisable)(GL_BLEND);
         shader->use();
-        // Black takes no texture: with whatever was bound before, a driver would compile for its format.
+        // Black uses no texture: a driver would compile for the format of whichever was bound before.
         glBindTexture(GL_TEXTURE_2D, texture != nullptr ? texture->texels.get() : 0);
         set_scissor(part, raster);
         glUniform1f(shader->location(Uniform::Brightness), draw.brightness);

@@ -1,7 +1,8 @@
-/// Draws what lies flat on the table: the plan's quadrilaterals, in order. Captions and pictures come first, then the
-/// prop's faces in black, because nothing of them lies on the prop. Of two pictures that overlap the brighter one shows.
+/// Draws the plan's quadrilaterals on the table, in order: first captions and pictures, then the prop's faces
+/// in black, which hide them on the prop, then the pictures with `on_prop`. Where pictures overlap, the
+/// brighter one shows.
 ///
-/// It draws into the framebuffer that is bound, and leaves the scissor test and GL_FRAMEBUFFER_SRGB_EXT off.
+/// It draws into the bound framebuffer, and leaves the scissor test and GL_FRAMEBUFFER_SRGB_EXT off.
 ///
 /// Colour   linear light, which the framebuffer encodes.
 /// Threads  the render thread; allocates nothing in `draw`.
@@ -17,8 +18,8 @@ namespace frustumscreen {
 
 class TablePass {
 public:
-    /// Returns the number of draw calls. `within`: nothing outside it is drawn. It leaves out draws whose
-    /// shader was not prepared, or whose texture is not in the store.
+    /// Returns the number of draw calls. `within`: nothing outside it is drawn. It skips draws whose shader
+    /// was not prepared, or whose texture is not in the store.
     int draw(const FramePlan& plan, const PixelRectangle& within, const GpuStore& store,
              const ShaderCache& shaders, const Raster& raster = {}) const;
 

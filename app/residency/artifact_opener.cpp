@@ -114,7 +114,7 @@ Result<OpenedArtifacts> open_artifacts(const Settings& settings, std::span<const
     };
     for (const std::filesystem::path& file : packs) {
         if (!all.known.empty() && !options.other_packs) {
-            break; // no button leads there
+            break; // no button leads to further packs
         }
         if (!options.goes_on()) {
             return bad_input("show.opening_not_wanted", "not wanted any more");

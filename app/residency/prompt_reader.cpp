@@ -120,7 +120,7 @@ void PromptReader::work(const std::stop_token& stop) {
     begin_device_thread("prompts");
     while (!stop.stop_requested()) {
         SharedRecording recording;
-        Kept unwanted; // freed when the lock is gone
+        Kept unwanted; // freed after the lock is released
         {
             std::unique_lock lock(mutex_);
             const auto is_unwanted = [&] {

@@ -156,7 +156,7 @@ std::uint64_t RunLevels::bytes() const {
         bytes += uses_[place].planned_gpu_bytes;
         if (placed.relief) {
             const bool counted = place > 0 && levels_[place - 1].placed.relief == placed.relief;
-            bytes += counted ? 0 : bytes_of(*placed.relief); // the cast and the GPU's list share it
+            bytes += counted ? 0 : bytes_of(*placed.relief); // both ways of drawing share the relief
             continue;
         }
         bytes += bytes_of(*placed.triangles);
@@ -176,7 +176,7 @@ FrameWork RunLevels::work(const Rung& rung) const {
     const auto pixels = static_cast<double>(plan_.lit.pixels());
     const auto more = [&](int samples) {
         return pixels * samples / rung.samples;
-    }; // a slanting view takes more
+    }; // a slanting view takes more samples
     if (rung.relief) {
         const BlockRelief& relief = *levels_[slot_of(rung)].placed.relief;
         return {static_cast<double>(relief.blocks.size()), rung.on_gpu ? more(plan_.samples)

@@ -32,27 +32,28 @@ namespace frustumscreen {
 
 inline constexpr double level_fade_s = 0.4;
 
-/// The mesh of a level and what the scene kept of it, or a relief, for reports.
+/// A mesh level and the parts of it that the scene kept, or a relief; for reports.
 struct LevelUse {
-    std::uint32_t level = 0; ///< of Pack::levels; of a relief its texels
+    std::uint32_t level = 0; ///< index into Pack::levels; for a relief, its texels
     std::size_t triangles = 0;
     std::size_t unseen_triangles = 0, unseen_clusters = 0;
     glm::ivec2 texture{0, 0}; ///< texels of the finest mip level kept
     int finest_mip = 0;
     std::uint64_t planned_gpu_bytes = 0;
-    std::uint64_t gpu_bytes = 0; ///< as the driver says
-    std::size_t blocks = 0;      ///< as the driver reports
-    bool on_gpu = false;         ///< of a relief, for which only the fields of GPU memory above apply;
+    std::uint64_t gpu_bytes = 0; ///< as the driver reports
+    std::size_t blocks = 0;      ///< of a relief, for which only the fields of GPU memory above apply;
                                  ///< otherwise 0
+    bool on_gpu = false;         ///< the GPU draws the relief
 };
 
 /// The level that is being drawn.
 struct LevelState {
     std::string_view technique; ///< as requested
     std::string_view
-        level; ///< "level0", "relief96", "relief96-gpu", ...: during a fade the one that comes in; a literal
+        level; ///< a string literal, "level0", "relief96-gpu", ...; during a fade the incoming level
     int samples = 0;
-    /// Of the frame that was drawn last; during a fade the larger of the two levels'. Nothing: it shows nothing.
+    /// Error of the last frame drawn; during a fade the larger of the two levels' errors. nullopt: the
+    /// artifact does not show.
     std::optional<ErrorEstimate> error;
     std::uint64_t switches = 0;
     std::uint64_t ignored_times = 0;

@@ -19,8 +19,7 @@ std::vector<glm::dvec2> shell(double nearest, double farthest, double lowest_ele
     std::vector<glm::dvec2> profile{at(nearest, lowest_elevation), at(farthest, lowest_elevation),
                                     at(nearest, std::numbers::pi / 2.0),
                                     at(farthest, std::numbers::pi / 2.0)};
-    for (int k = 0; k < tangents; ++k) { // intersections of the tangents at both ends of each piece of the
-                                         // arc
+    for (int k = 0; k < tangents; ++k) { // where tangents to the arc meet
         profile.push_back(at(farthest / std::cos(step / 2.0), lowest_elevation + (k + 0.5) * step));
     }
     return profile;

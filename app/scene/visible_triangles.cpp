@@ -144,8 +144,7 @@ void FrontTriangles::update(const LevelTriangles& level, const glm::dvec3& eye_b
             out[0] = level.indices[3 * t];
             out[1] = level.indices[3 * t + 1];
             out[2] = level.indices[3 * t + 2];
-            out += in_front < -slack ? 0 : 3; // without a branch, which would be mispredicted half of the
-                                              // time
+            out += in_front < -slack ? 0 : 3; // a branch would be mispredicted often
         }
     }
     first_.push_back(static_cast<std::size_t>(out - indices_.data()));
