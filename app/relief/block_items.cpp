@@ -20,7 +20,8 @@ GridView grid_view(const ReliefGrid& grid, double texel_box, const CastFace& fac
         const int axis = grid.axis[static_cast<std::size_t>(k)];
         view.eye[k] = static_cast<float>(signs[k] / texel_box * (eye_box[axis] - grid.origin_box[axis]));
     }
-    // The ray t D (x, y, 1) from the eye lights w (x, y, 1): the two matrices' product is that of w / t and nothing.
+    // The ray t D (x, y, 1) from the eye lights w (x, y, 1): the product of the two matrices only scales, by
+    // w / t.
     const double w_per_t = (glm::dmat3(face.pixel_from_box) * face.direction)[2][2];
     for (int row = 0; row < 3; ++row) {
         double constant = face.pixel_from_box[3][row];
@@ -35,15 +36,15 @@ GridView grid_view(const ReliefGrid& grid, double texel_box, const CastFace& fac
     return view;
 }
 
-/// Whether any of the block's cells may face the eye: along an eye ray, as long as one from the eye to the block's middle, the height
-/// above the surface then falls somewhere.
+/// True if any of the block's cells may face the eye: along an eye ray as long as the distance from the eye
+/// to the block's middle, the height above the surface decreases somewhere.
 FRUSTUMSCREEN_INLINE bool may_face(const ReliefBlock& block, const glm::vec3& eye) {
     constexpr float half = 0.5F * block_cells;
     const float du = block.u0 + half - eye.x;
     const float dv = block.v0 + half - eye.y;
     const float dw = block.w0 + half * (block.w_u + block.w_v) - eye.z;
     const float plane = dw - block.w_u * du - block.w_v * dv;
-    // The ray turns by about 8 cells / distance over the block; 1 % of what lies across covers that.
+    // The ray turns by about 8 cells / distance across the block; 1 % of the lateral distance covers that.
     const float margin = 0.01F * std::sqrt(du * du + dv * dv);
     return plane - std::max(block.gradient_u.x * du, block.gradient_u.y * du) -
                std::max(block.gradient_v.x * dv, block.gradient_v.y * dv) - margin <=
@@ -59,9 +60,9 @@ FRUSTUMSCREEN_INLINE Sides sides_of(const PixelLanes& at) {
     return {least_of(at.x), most_of(at.x), least_of(at.y), most_of(at.y)};
 }
 
-/// Around what the lens makes of the pixels between the corners. The second derivative of a pixel that it moves is at most
-/// 6 |k1| r + 20 |k2| r^3, a focal length being 1. So what lies between corners that are D apart comes at most a quarter of that times D^2
-/// beside what lies between their new places.
+/// Bounds of the corners' pixels after distortion. The second derivative of a distorted pixel is at most 6
+/// |k1| r + 20 |k2| r^3, in units of the focal length. So a point between corners that are D apart is
+/// displaced by at most a quarter of that times D^2 from its place between their distorted positions.
 FRUSTUMSCREEN_INLINE Sides lit_sides(const PixelLens& lens, const PixelLanes& corners, const Sides& ideal) {
     const float r2 = most_of(squared_radius(lens, corners));
     if (!(r2 <= lens.most_r2)) {
@@ -81,11 +82,11 @@ struct Bounds {
     Sides ideal;   ///< pixels
     Sides lit;     ///< of the projector's picture
     float nearest; ///< 1 / t
-    bool in_front; ///< all of the block; else the others say nothing
-    bool outside;  ///< of an edge of the face
+    bool in_front; ///< the whole block; otherwise the other bounds are invalid
+    bool outside;  ///< beyond an edge of the face
 };
 
-/// Of the eight corners of the block's slab, in pixels.
+/// Bounds of the eight corners of the block's slab, in pixels.
 FRUSTUMSCREEN_INLINE Bounds bounds_of(const ReliefBlock& block, const GridView& grid, const CastFace& face,
                                       const PixelLens& lens) {
     const float i0 = block.cells[0];
@@ -115,7 +116,7 @@ FRUSTUMSCREEN_INLINE Bounds bounds_of(const ReliefBlock& block, const GridView& 
         return {ideal, lens.bends ? lit_sides(lens, corners, ideal) : ideal, rounding / shortest, true,
                 false};
     }
-    // An edge and the eye span a plane of the box's frame, on whose sides the corners are also where they have no pixel.
+    // An edge and the eye span a plane in the box frame. Its test also works for corners without a pixel.
     bool outside = false;
     for (const glm::dvec3& edge : face.edges) {
         const Floats inside = static_cast<float>(edge.x) * xt + static_cast<float>(edge.y) * yt +
@@ -147,9 +148,9 @@ FRUSTUMSCREEN_INLINE Place place_of(const Bounds& bounds, const CastFace& face) 
     return place;
 }
 
-/// False: none of the face's pixels.
+/// Returns false if the area has none of the face's pixels.
 FRUSTUMSCREEN_INLINE bool set_area(BlockItem& item, const Sides& sides, const PixelRectangle& lit) {
-    constexpr float slack = 0.05F; // pixels: cells are drawn wider than they are by `grown` (cell_row.h)
+    constexpr float slack = 0.05F; // pixels: cells are drawn wider by `grown` (cell_row.h)
     const auto first = [](float at, float least) {
         return static_cast<int>(std::floor(std::max(at - slack, least)));
     };
@@ -168,7 +169,7 @@ FRUSTUMSCREEN_INLINE bool set_area(BlockItem& item, const Sides& sides, const Pi
     return true;
 }
 
-/// Nearest to farthest of the box, in texels.
+/// The box's range of distances from the eye, in texels.
 struct Range {
     float near = 0.0F, bins_per_texel = 0.0F;
 };
@@ -188,7 +189,7 @@ FRUSTUMSCREEN_INLINE std::uint8_t bin_of(const ReliefBlock& block, const glm::ve
     return static_cast<std::uint8_t>(std::clamp(bin, 0.0F, static_cast<float>(bins - 1)));
 }
 
-/// Of one block, in the pixels of every face that may show it.
+/// Lists one block, in the pixels of every face that may show it.
 FRUSTUMSCREEN_INLINE void list_block(std::vector<BlockItem>& list, const BlockItems& items,
                                      const CastView& view, const ReliefBlock& block, BlockItem item) {
     for (std::size_t f = 0; f < view.faces.size(); ++f) {
@@ -206,7 +207,7 @@ FRUSTUMSCREEN_INLINE void list_block(std::vector<BlockItem>& list, const BlockIt
     }
 }
 
-/// Bands of rows that the item's area meets: first, one past the last.
+/// The bands of rows that the item's area meets: first, and one past the last.
 std::array<std::size_t, 2> bands_of(const BlockItem& item) {
     return {item.area.top / std::size_t{rows_of_band},
             (item.area.bottom + std::size_t{rows_of_band} - 1) / rows_of_band};
@@ -283,7 +284,7 @@ void list_part(BlockItems& items, const BlockRelief& relief, const CastView& vie
     run_with<list>(instructions, items, relief, view, part);
 }
 
-/// By bins; in a bin as the blocks are.
+/// Sorts by bins; within a bin the order of the blocks stays.
 void end_list(BlockItems& items) {
     std::array<std::uint32_t, bins + 1> first{};
     for (const std::vector<BlockItem>& part : items.parts) {

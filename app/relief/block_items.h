@@ -1,9 +1,10 @@
-/// Which blocks a frame casts, and where: culled by their gradients, projected through each face's collineation, sorted front to
-/// back.
+/// The blocks that a frame rasterizes, and their pixels: culled by their gradients, projected through each
+/// face's collineation, sorted front to back.
 ///
-/// Frames   a direction's grid (block_relief.h), texels; pixels as in cast_view.h. 64-bit to the matrices, 32-bit from there on.
+/// Frames   a direction's grid (block_relief.h), texels; pixels as in cast_view.h. The matrices are computed
+///          in 64 bits, everything after them in 32.
 /// Threads  pure; any.
-/// SIMD     as cast_blocks.h; the lists are equal.
+/// SIMD     as cast_blocks.h; every instruction set makes equal lists.
 #pragma once
 
 #include "app/relief/block_relief.h"
@@ -17,11 +18,13 @@
 
 namespace frustumscreen {
 
-inline constexpr int rows_of_band = 64; ///< of pixels: small enough that threads end together
+inline constexpr int rows_of_band = 64; ///< rows of pixels; small, so that the threads finish at about the
+                                        ///< same time
 
-/// A face's pixels as one direction's grid knows them.
+/// Maps one direction's grid to a face's pixels.
 struct GridView {
-    /// (x t, y t, t) from the grid's (u, v, w, 1): the ideal pixel that lights a point, and the length of its ray (cast_view.h).
+    /// (x t, y t, t) from the grid's (u, v, w, 1): the ideal pixel that lights a point, and the length of its
+    /// ray (cast_view.h).
     std::array<glm::vec4, 3> pixel{};
     glm::vec3 eye{0.0F};
 };
@@ -34,32 +37,33 @@ struct PixelSpan {
 
 struct BlockItem {
     std::uint32_t block = 0;
-    PixelSpan area; ///< of the projector's pixels: may show some of it
+    PixelSpan area; ///< the projector's pixels that may show a part of it
     std::uint8_t face = 0, direction = 0;
-    bool inside = false; ///< no edge of the face comes near, and all of it lies in front of the eye
+    bool inside = false; ///< far from all edges of the face, and wholly in front of the eye
     std::uint8_t bin = 0;
-    float nearest = 0.0F; ///< no ray meets it at a greater 1 / t
+    float nearest = 0.0F; ///< upper bound of 1 / t along rays that hit it
     [[nodiscard]] bool operator==(const BlockItem&) const = default;
 };
 
-/// Lists are kept from frame to frame: nothing is allocated once they are large enough.
+/// The lists keep their memory from frame to frame: nothing is allocated once they are large enough.
 struct BlockItems {
     PixelLens lens;
     std::vector<std::array<GridView, 6>> grids; ///< [face][direction]
-    std::vector<std::vector<BlockItem>> parts;  ///< of some thousand blocks each
-    std::vector<BlockItem> sorted;              ///< front to back, roughly
+    std::vector<std::vector<BlockItem>> parts;  ///< of about a thousand blocks each
+    std::vector<BlockItem> sorted;              ///< roughly front to back
     std::vector<std::uint32_t>
-        banded; ///< of `sorted`: those whose area meets band 0, in their order, band 1, ...
-    std::vector<std::uint32_t> first_of_band; ///< in `banded`; one more at the end
+        banded; ///< indices into `sorted`: those whose area meets band 0, in their order, then band 1, ...
+    std::vector<std::uint32_t> first_of_band; ///< start of each band in `banded`, and the end
 };
 
-/// A list in three steps, of which the middle one may be made for several parts at once: as many as `begin_list` leaves.
+/// Makes a list in three steps. `list_part` may run for several parts at once; `begin_list` sets their
+/// number.
 void begin_list(BlockItems& items, const BlockRelief& relief, const CastView& view);
 void list_part(BlockItems& items, const BlockRelief& relief, const CastView& view, std::size_t part,
                Instructions instructions = best_instructions());
 void end_list(BlockItems& items);
 
-/// All three: of `relief` as `view` shows it.
+/// All three steps, for `relief` as seen in `view`.
 void list_blocks(BlockItems& items, const BlockRelief& relief, const CastView& view,
                  Instructions instructions = best_instructions());
 

@@ -1,12 +1,14 @@
-/// Layered relief as blocks, for casting: 8 x 8 cells of one connected layer each, as a plane with 8-bit residuals at the
-/// corners.
+/// Layered relief as blocks for rasterization: each has 8 x 8 cells of one connected layer, as a plane with
+/// 8-bit residuals at the corners.
 ///
 /// Frames   box (pack.h). Grid of a direction: u and v across it, w along it and outward, in texels:
 ///          coordinate k of X is sign_k (X[axis[k]] - origin_box[k]) / texel_box, with sign 1 for u and v.
-/// Surface  inside the cells of `mask`, at local place (i, j) = (u - u0, v - v0), 0..8: w = w0 + w_u i + w_v j + residual, which
-///          is bilinear between the corners' codes: residual_low + residual_step * code. It is seen from outward alone.
+/// Surface  inside the cells of `mask`, at local position (i, j) = (u - u0, v - v0), 0..8: w = w0 + w_u i +
+///          w_v j + residual, with the residual bilinear between the corners' codes: residual_low +
+///          residual_step * code. It is visible only from the outward side.
 /// Threads  values; any.
-/// Source   layered depth images (Shade 1998) as relief textures (Oliveira 2000; Kim 2008); blocks: docs/relief.md.
+/// Source   layered depth images (Shade 1998) as relief textures (Oliveira 2000; Kim 2008); blocks:
+///          docs/relief.md.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -31,11 +33,11 @@ struct ReliefBlock {
     float u0 = 0.0F, v0 = 0.0F;
     float w0 = 0.0F, w_u = 0.0F, w_v = 0.0F;
     float residual_low = 0.0F, residual_step = 0.0F;
-    glm::vec2 gradient_u{0.0F}; ///< least and largest of the residual's, over all cells
+    glm::vec2 gradient_u{0.0F}; ///< smallest and largest gradient of the residual, over all cells
     glm::vec2 gradient_v{0.0F};
     std::array<std::uint8_t, 4> cells{}; ///< first column, one past the last, first row, one past the last
-    std::uint64_t mask = 0;              ///< bit 8 row + column: the cell is there, whole or in part
-    std::uint64_t cut = 0;               ///< of these: the surface ends in it, and `covers` says where it is
+    std::uint64_t mask = 0;              ///< bit 8 row + column: the cell exists, whole or in part
+    std::uint64_t cut = 0;               ///< those of `mask` in which the surface ends; `covers` tells where
     std::uint32_t first_cover = 0;       ///< of the block's cut cells, in the order of their bits
 
     [[nodiscard]] float residual_high() const { return residual_low + 255.0F * residual_step; }
@@ -44,20 +46,20 @@ struct ReliefBlock {
 struct BlockRelief {
     float texel_box = 0.0F;
     std::vector<ReliefGrid> grids;          ///< one for each direction
-    std::vector<std::uint32_t> first_block; ///< of each direction; one more at the end
+    std::vector<std::uint32_t> first_block; ///< start of each direction, and the end
     std::vector<ReliefBlock> blocks;
-    /// 64 a block: the codes of a cell's corners (0, 0), (1, 0), (0, 1), (1, 1), from the lowest byte on.
+    /// 64 per block: the codes of a cell's corners (0, 0), (1, 0), (0, 1), (1, 1), from the lowest byte up.
     std::vector<std::uint32_t> corner_codes;
-    /// One a cut cell: bit 8 row + column of its 8 x 8 parts is set where the surface is.
+    /// One per cut cell: bit 8 row + column of its 8 x 8 parts is set where the surface exists.
     std::vector<std::uint64_t> covers;
-    /// 81 a block, row by row: sRGB codes at the corners.
+    /// 81 per block, row by row: sRGB codes at the corners.
     std::vector<glm::u8vec4> colours;
 };
 
-/// From places (u, v, w) of the grid, in texels, to the box.
+/// Maps grid coordinates (u, v, w), in texels, to the box.
 [[nodiscard]] glm::dmat4 box_from_grid(const ReliefGrid& grid, double texel_box);
 
-/// Where corner 0..3, in the order of `corner_codes`, of a block's cell 8 row + column lies in the box.
+/// Position in the box of corner 0..3, in the order of `corner_codes`, of the block's cell 8 row + column.
 [[nodiscard]] glm::dvec3 corner_in_box(const BlockRelief& relief, const ReliefGrid& grid, std::size_t block,
                                        std::size_t cell, unsigned corner);
 

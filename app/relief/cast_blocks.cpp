@@ -12,7 +12,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// An item, ready for its rows of cells.
+/// An item with everything that its rows of cells need.
 struct ReadyItem {
     const BlockItem& item;
     const ReliefBlock& block;
@@ -21,7 +21,7 @@ struct ReadyItem {
     const PixelLens& lens;
     std::array<glm::vec3, 4> edges; ///< the face's, as CastFace
     CornerMap map;
-    float outward; ///< the sign of a cell's area in the picture, where it faces the eye
+    float outward; ///< sign of the picture area of a cell that faces the eye
 };
 
 FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const CastView& view, const BlockItems& items,
@@ -41,7 +41,7 @@ FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const CastView& 
             turn > 0.0F ? -1.0F : 1.0F};
 }
 
-/// Whether a place of the block is where its surface is.
+/// True if the surface exists at this position of the block.
 FRUSTUMSCREEN_INLINE bool is_covered(const ReadyItem& ready, std::uint32_t place) {
     constexpr std::uint32_t unit = CastSamples::places_per_cell;
     const std::uint32_t u = place & 0xFFFFU;
@@ -54,8 +54,9 @@ FRUSTUMSCREEN_INLINE bool is_covered(const ReadyItem& ready, std::uint32_t place
     return (cover >> (v % unit / (unit / 8) * 8 + u % unit / (unit / 8)) & 1U) != 0;
 }
 
-/// Meetings on their way into the picture. To take them at once, a lane each, would be a branch for each that nobody foresees: they
-/// are kept in eights, `list_` names those that count, and all are taken in one loop.
+/// Fragments on their way into the picture. Taking each at once, lane by lane, would need a branch per
+/// fragment that cannot be predicted. So they are stored in eights, `list_` names the valid ones, and one
+/// loop takes them all.
 class Meetings {
 public:
     FRUSTUMSCREEN_INLINE bool full() const { return eights_ == most_eights; }
@@ -68,9 +69,9 @@ public:
         store(&sample_[at], sample);
         row_[eights_] = row;
         bits_[eights_] = static_cast<std::uint8_t>(bits);
-        eights_ += bits != 0 ? 1U : 0U; // half of them have none: the next ones are written over them
+        eights_ += bits != 0 ? 1U : 0U; // half of the eights have no valid lane: the next one overwrites them
     }
-    /// Those that are nearer than what was met before.
+    /// Stores the fragments that are nearer than the samples' earlier hits.
     FRUSTUMSCREEN_INLINE void take(CastSamples& samples, const ReadyItem& ready) {
         const std::size_t count = list();
         for (std::size_t k = 0; k < count; ++k) {
@@ -93,7 +94,7 @@ private:
     using Bytes = std::uint8_t __attribute__((vector_size(lanes)));
     using Halves = std::uint16_t __attribute__((vector_size(2 * lanes)));
 
-    /// Finds the places, and lists what counts; returns how many.
+    /// Computes the positions and lists the valid fragments; returns their number.
     FRUSTUMSCREEN_INLINE std::size_t list() {
         constexpr auto unit = static_cast<std::int32_t>(CastSamples::places_per_cell);
         const auto part = [](Floats at) FRUSTUMSCREEN_INLINED {
@@ -116,14 +117,14 @@ private:
     }
 
     static constexpr std::size_t most_eights = 64;
-    static constexpr std::size_t room = (most_eights + 1) * lanes; ///< with one that is written over
+    static constexpr std::size_t room = (most_eights + 1) * lanes; ///< including an eight that is overwritten
     std::size_t eights_ = 0;
     std::array<float, room> u_, v_, nearness_;
     std::array<std::int32_t, room> sample_;
     std::array<std::uint32_t, room> place_;
     std::array<std::int32_t, most_eights + 1> row_;
-    std::array<std::uint8_t, most_eights + 1> bits_; ///< which lanes count
-    std::array<std::uint16_t, room> list_;           ///< eight are written, however many count
+    std::array<std::uint8_t, most_eights + 1> bits_; ///< which lanes are valid
+    std::array<std::uint16_t, room> list_;           ///< eight elements are written, however many are valid
 };
 
 FRUSTUMSCREEN_INLINE Ints in_face(const ReadyItem& ready, const PixelLanes& pixels) {
@@ -140,7 +141,7 @@ template <typename Meet> FRUSTUMSCREEN_INLINE void for_each_row(const ReadyItem&
     constexpr Floats columns = {0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F};
     constexpr Ints lane_bits = {1, 2, 4, 8, 16, 32, 64, 128};
     CellCorners at{};
-    bool known = false; // the row before has this one's corners
+    bool known = false; // the previous row has computed this row's corners
     for (int row = ready.block.cells[2]; row < ready.block.cells[3]; ++row) {
         const auto here = static_cast<std::int32_t>(ready.block.mask >> (row * block_cells) & 255U);
         if (here == 0) {
@@ -173,7 +174,7 @@ template <typename Meet> FRUSTUMSCREEN_INLINE void for_each_row(const ReadyItem&
     }
 }
 
-/// What eight cells of a row show in the samples of the pixels within `limits`.
+/// Rasterizes eight cells of a row into the samples of the pixels within `limits`.
 FRUSTUMSCREEN_INLINE void cast_cells(CastSamples& samples, Meetings& meetings, const ReadyItem& ready,
                                      const CellCorners& corners, Ints cells, int row,
                                      const PixelSpan& limits) {
@@ -207,7 +208,7 @@ FRUSTUMSCREEN_INLINE void cast_cells(CastSamples& samples, Meetings& meetings, c
     }
 }
 
-/// Of the item's area what lies in the rows.
+/// The part of the item's area that lies in the band's rows.
 FRUSTUMSCREEN_INLINE PixelSpan within(const PixelSpan& area, const PixelRectangle& pixels, int k) {
     const int first = std::max(pixels.y, k * rows_of_band);
     const int end = std::min(pixels.y + pixels.height, (k + 1) * rows_of_band);
@@ -217,7 +218,7 @@ FRUSTUMSCREEN_INLINE PixelSpan within(const PixelSpan& area, const PixelRectangl
     return span;
 }
 
-/// Whether all of the area's samples show something nearer.
+/// True if all of the area's samples already have a nearer hit.
 FRUSTUMSCREEN_INLINE bool is_hidden(const CastSamples& samples, const PixelSpan& area, float nearest) {
     for (int y = area.top; y < area.bottom; ++y) {
         for (std::size_t k = 0; k < samples.places().size(); ++k) {
@@ -247,7 +248,7 @@ FRUSTUMSCREEN_INLINE void cast_item(CastSamples& samples, const ReadyItem& ready
     meetings.take(samples, ready);
 }
 
-/// The list's items that may meet its band `k`, front to back.
+/// The list's items that may meet band `k`, front to back.
 std::span<const std::uint32_t> items_of(const BlockItems& items, int k) {
     const auto band = static_cast<std::size_t>(k);
     if (band + 1 >= items.first_of_band.size()) {
@@ -270,8 +271,8 @@ FRUSTUMSCREEN_INLINE void cast_all(CastSamples& samples, const BlockRelief& reli
     }
 }
 
-/// Sample k of n: the k-th column and a row of its own in a grid of n x n, rows in the order of reversed bits (Hammersley 1960), so
-/// that every edge of whatever slope passes one after another.
+/// Sample k of n: column k and a row of its own in a grid of n x n, rows in the order of reversed bits
+/// (Hammersley 1960), so that an edge of any slope crosses the samples one at a time.
 glm::vec2 sample_place(int k, int n) {
     int reversed = 0;
     for (int bit = 1, of = n / 2; bit < n; bit *= 2, of /= 2) {
@@ -314,7 +315,8 @@ void cast(CastSamples& samples, const BlockRelief& relief, const CastView& view,
 
 namespace {
 
-/// Two channels at once, in the lower bytes of two halves: the mean of `from` and `to` with weights 256 - share and share.
+/// Two channels at once, in the lower bytes of two halves: the mean of `from` and `to` with weights 256 -
+/// share and share.
 std::uint32_t blend(std::uint32_t from, std::uint32_t to, std::uint32_t share) {
     constexpr std::uint32_t half = 0x00800080U;
     return (from * (256 - share) + to * share + half) >> 8U & 0x00FF00FFU;

@@ -1,10 +1,11 @@
-/// A block relief as the eye sees it: for each sample of each pixel the nearest block that its ray meets, where, and how near.
+/// Rasterizes a block relief for the eye: for each sample of each pixel the nearest block that its ray hits,
+/// the position in it, and the nearness.
 ///
-/// Units    nearness: 1 / t of the pixel's ray (cast_view.h), 0 where nothing is met; place: 1 / 4096 of a cell, column in the
-///          lower half, row in the upper.
-/// Threads  the samples of one call are its own: `cast` may be called for several rectangles at once.
-/// SIMD     eight lanes by the compiler's vectors, for each of instructions.h; the pictures are equal, since nothing is contracted,
-///          approximated or summed in another order.
+/// Units    nearness: 1 / t of the pixel's ray (cast_view.h), 0 without a hit; position (`place`): 1 / 4096
+///          of a cell, column in the lower half, row in the upper.
+/// Threads  each call has its own samples: `cast` may run for several rectangles at once.
+/// SIMD     eight lanes by the compiler's vectors, for each of instructions.h. All make equal pictures, since
+///          nothing is contracted, approximated or summed in another order.
 #pragma once
 
 #include "app/relief/block_items.h"
@@ -19,28 +20,30 @@
 
 namespace frustumscreen {
 
-/// The samples of a rectangle of pixels, row by row: first those of all of a row's pixels that are their first, then the second ones,
-/// and so on, so that neighbours' lie side by side. Behind the last, `lanes` more may be read.
+/// The samples of a rectangle of pixels, row by row: first the first sample of each pixel of the row, then
+/// the second ones, and so on, so that samples of neighbouring pixels are adjacent. `lanes` elements after
+/// the end may be read.
 class CastSamples {
 public:
     static constexpr std::uint32_t places_per_cell = 4096;
-    static constexpr std::uint32_t most = 16; ///< of a pixel
+    static constexpr std::uint32_t most = 16; ///< a pixel
 
-    /// For so many pixels of so many samples: what is begun after it and is no larger allocates nothing.
+    /// Reserves memory: a later `begin` that needs no more allocates nothing.
     void make_room(int width, int height, int count);
-    /// Of `count` samples a pixel, a power of two; nothing is met. Keeps its memory.
+    /// Resets to `count` samples a pixel, a power of two, without hits. Keeps its memory.
     void begin(const PixelRectangle& pixels, int count);
 
     [[nodiscard]] const PixelRectangle& pixels() const { return pixels_; }
-    /// Of each pixel, from its corner: one is at its centre; of more each has a column and a row of its own.
+    /// The samples' positions from each pixel's corner: a single one is at the centre; several have a column
+    /// and a row each.
     [[nodiscard]] const std::vector<glm::vec2>& places() const { return places_; }
-    /// A pixel's sample `k`.
+    /// Index of a pixel's sample `k`.
     [[nodiscard]] std::size_t at(int x, int y, std::size_t k = 0) const {
         return (static_cast<std::size_t>(y - pixels_.y) * places_.size() + k) *
                    static_cast<std::size_t>(pixels_.width) +
                static_cast<std::size_t>(x - pixels_.x);
     }
-    /// Columns of a row that may have met something, the last one excluded.
+    /// Columns of a row that may have hits, the last one excluded.
     struct Extent {
         int first = 0, end = 0;
     };
@@ -53,15 +56,15 @@ public:
     }
 
     std::vector<float> nearness;
-    std::vector<std::uint32_t> block, place; ///< where something is met
+    std::vector<std::uint32_t> block, place; ///< valid where there is a hit
 
 private:
     PixelRectangle pixels_;
     std::vector<glm::vec2> places_;
-    std::vector<Extent> extents_; ///< of the rows
+    std::vector<Extent> extents_; ///< per row
 };
 
-/// Adds what `items` show in the samples' pixels.
+/// Rasterizes `items` into the samples.
 void cast(CastSamples& samples, const BlockRelief& relief, const CastView& view, const BlockItems& items,
           Instructions instructions = best_instructions());
 

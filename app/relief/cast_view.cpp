@@ -15,7 +15,7 @@ glm::dvec3 corner_of_box(const glm::dvec3& size, unsigned k) {
             (k & 4U) != 0 ? size.z : 0.0};
 }
 
-/// Around the artifact's box, in the prop's frame.
+/// Bounding box of the artifact's box, in the prop frame.
 Box placed_box(const CastScene& scene) {
     Box box{glm::dvec3(std::numeric_limits<double>::infinity()),
             glm::dvec3(-std::numeric_limits<double>::infinity())};
@@ -27,7 +27,7 @@ Box placed_box(const CastScene& scene) {
     return box;
 }
 
-/// Of the projector's picture, around what the lens brings between two ideal pixels.
+/// The projector's pixels around everything between two ideal pixels.
 PixelRectangle pixels_between(glm::dvec2 low, glm::dvec2 high, const Pinhole& projector) {
     projector.bend_around(low, high);
     const auto clamped = [](double value, int most) {
@@ -39,7 +39,7 @@ PixelRectangle pixels_between(glm::dvec2 low, glm::dvec2 high, const Pinhole& pr
             clamped(std::ceil(high.y), projector.height) - top};
 }
 
-/// The pixels around the box's corners; all, if a corner is not in front of the eye.
+/// The pixels around the box's corners; the whole picture if a corner is not in front of the eye.
 PixelRectangle pixels_around(const CastFace& face, const glm::dvec3& size, const Pinhole& projector) {
     glm::dvec2 low(std::numeric_limits<double>::infinity());
     glm::dvec2 high = -low;
@@ -54,7 +54,7 @@ PixelRectangle pixels_around(const CastFace& face, const glm::dvec3& size, const
     return pixels_between(low, high, projector);
 }
 
-/// The pixels around what the projector lights of a face; all, if a corner is not in front of it.
+/// The pixels around a face as the projector lights it; the whole picture if a corner is not in front of it.
 PixelRectangle pixels_of(const PropFace& face, const CastScene& scene) {
     const RigidTransform projector_from_prop = scene.prop_from_projector.inverse();
     const Pinhole ideal = scene.projector.ideal();
@@ -71,7 +71,7 @@ PixelRectangle pixels_of(const PropFace& face, const CastScene& scene) {
     return pixels_between(low, high, scene.projector);
 }
 
-/// Turned so that the inside is positive, and as long as one pixel is wide.
+/// Oriented so that the inside is positive, and scaled so that its value changes by 1 per pixel.
 glm::dvec3 inward_edge(const glm::dvec3& edge) {
     return -edge / glm::length(glm::dvec2(edge));
 }

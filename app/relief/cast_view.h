@@ -1,8 +1,11 @@
-/// What a frame's casting starts from: the eye, the rays through each visible face, and where the box's points are lit.
+/// Input of a frame's rasterization: the eye, the rays through each visible face, and the pixels that light
+/// the box's points.
 ///
-/// Frames   box; pixels as in geometry/face_rays.h, of the ideal pinhole where nothing else is said: a lens that distorts lights others.
+/// Frames   box; pixels as in geometry/face_rays.h, of the ideal pinhole unless noted: a lens that distorts
+///          lights other pixels.
 /// Threads  pure; any.
-/// Errors   a face that the eye or the projector sees at less than `least_sine` is left out (geometry/collineation.h).
+/// Errors   a face that the eye or the projector sees at less than `least_sine` is left out
+///          (geometry/collineation.h).
 #pragma once
 
 #include "app/geometry/face_rays.h"
@@ -18,7 +21,7 @@
 namespace frustumscreen {
 
 struct CastFace {
-    int face = 0;                      ///< of the prop
+    int face = 0;                      ///< index into the prop's faces
     glm::dmat3 direction{1.0};         ///< of the eye's ray, from (x, y, 1); box, not unit
     std::array<glm::dvec3, 4> edges{}; ///< times (x, y, 1): pixels inside the edge
     /// (x w, y w, w) of the pixel that lights a box point on this face; w > 0.
@@ -33,13 +36,13 @@ struct CastView {
     Pinhole projector;
 };
 
-/// How the artifact stands in the prop, and who looks.
+/// The artifact's placement in the prop, the projector and the eye.
 struct CastScene {
     glm::dmat4 prop_from_box{1.0}; ///< a rotation, one scale, a translation
     glm::dvec3 box_size{1.0};
     Pinhole projector;
     RigidTransform prop_from_projector;
-    glm::dvec3 eye_m{0.0}; ///< prop
+    glm::dvec3 eye_m{0.0}; ///< prop frame
 };
 
 /// `view` keeps its memory from frame to frame.

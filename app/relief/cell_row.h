@@ -1,10 +1,11 @@
-/// A row of a block's eight cells as a face's picture shows them: which pixels they cover, where, and how near.
+/// A row of a block's eight cells in a face's picture: the pixels that they cover, with positions and
+/// nearness.
 ///
-/// Frames   pixels of the projector's picture; places in cells of the block.
-/// Method   micropolygons (Cook 1987): a cell is smaller than a few pixels, so its two triangles are tested at the pixels around it;
-///          eight cells at once, a cell a lane. Places and nearness are linear over a triangle: within a cell, perspective does
-///          not show.
-/// Threads  pure; any. Inlined into one function for each instruction set; other files have no use for it than cast_blocks.cpp.
+/// Frames   pixels of the projector's picture; positions in cells of the block.
+/// Method   micropolygons (Cook 1987): a cell is smaller than a few pixels, so its two triangles are tested
+///          at the pixels around it, eight cells at once, one per lane. Position and nearness are linear over
+///          a triangle: perspective is negligible within a cell.
+/// Threads  pure; any. Inlined into one function for each instruction set; only cast_blocks.cpp uses it.
 #pragma once
 
 #include "app/relief/block_items.h"
@@ -19,7 +20,8 @@ namespace frustumscreen {
 
 static_assert(lanes == block_cells);
 
-/// The block's corners, in pixels of the ideal pinhole, are (x t, y t, t) = origin + column * i + row * j + code * residual code.
+/// The block's corners, in pixels of the ideal pinhole: (x t, y t, t) = origin + column * i + row * j + code
+/// * residual code.
 struct CornerMap {
     std::array<float, 3> origin{}, column{}, row{}, code{};
 };
@@ -39,7 +41,7 @@ FRUSTUMSCREEN_INLINE CornerMap corner_map(const ReliefBlock& block, const GridVi
 /// One corner of each cell.
 struct Corners {
     Floats x, y;     ///< pixel
-    Floats nearness; ///< 1 / t; not positive: not in front of the eye
+    Floats nearness; ///< 1 / t; not positive if not in front of the eye
 };
 
 FRUSTUMSCREEN_INLINE Corners corners_at(const CornerMap& map, Floats column, int row, Ints code) {
@@ -57,8 +59,8 @@ struct CellCorners {
     Corners a, b, c, d;
 };
 
-/// Where a point lies in a cell's two triangles: in units of the edges that leave corner a towards b and c, and of those that leave d
-/// towards c and b.
+/// Coordinates of a point in a cell's two triangles: along the edges from corner a towards b and c, and along
+/// those from d towards c and b.
 struct Weights {
     Floats to_b, to_c;
     Floats from_d_to_c, from_d_to_b;
@@ -71,11 +73,11 @@ struct Weights {
 
 struct CellRow {
     Ints there;                     ///< cells that face the eye
-    Ints first_faces, second_faces; ///< of the triangles at a and at d
+    Ints first_faces, second_faces; ///< the triangle at a, and the one at d, faces the eye
     Floats left, right, top, bottom;
 };
 
-/// Of the `cells`. `outward` is 1 or -1, for how the grid lies to the picture.
+/// For the cells in `cells`. `outward` is 1 or -1: the grid's orientation in the picture.
 FRUSTUMSCREEN_INLINE CellRow cell_row(const CellCorners& at, Ints cells, float outward) {
     const auto& [a, b, c, d] = at;
     const Floats first_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -92,7 +94,7 @@ FRUSTUMSCREEN_INLINE CellRow cell_row(const CellCorners& at, Ints cells, float o
             most(most(a.y, b.y), most(c.y, d.y))};
 }
 
-/// What weights change by from pixel to pixel.
+/// Change of the weights from pixel to pixel.
 struct CellSteps {
     Weights along_x, along_y;
 };
@@ -107,17 +109,17 @@ FRUSTUMSCREEN_INLINE CellSteps cell_steps(const CellCorners& at) {
             {-ac_x * first, ab_x * first, -db_x * second, dc_x * second}};
 }
 
-/// Cells are drawn wider by this, so that blocks whose residuals have other steps leave no gap.
+/// Cells are drawn wider by this, so that blocks with different residual steps leave no gap.
 constexpr float seam = 0.04F;  // cells
 constexpr float grown = 0.02F; // pixels at most
 
-/// Pixels [left, right) x [top, bottom) whose sample each cell may have.
+/// Pixels [left, right) x [top, bottom) whose sample each cell may cover.
 struct CellPixels {
-    Ints there; ///< cells that have any
+    Ints there; ///< cells that have any pixels
     Ints left, right, top, bottom;
 };
 
-/// `sample` from a pixel's corner.
+/// `sample` is relative to a pixel's corner.
 FRUSTUMSCREEN_INLINE CellPixels cell_pixels(const CellRow& row, const PixelSpan& limits,
                                             const glm::vec2& sample) {
     constexpr float before = 1.0F - grown;
@@ -144,7 +146,8 @@ struct Meeting {
 FRUSTUMSCREEN_INLINE Meeting meeting_at(const CellRow& row, const CellCorners& at, const Weights& weights) {
     const auto& [to_b, to_c, from_d_to_c, from_d_to_b] = weights;
     const Ints first = row.first_faces & (to_b >= -seam) & (to_c >= -seam) & (to_b + to_c <= 1.0F);
-    constexpr float diagonal = 1.001F; // so that no rounding parts the two
+    constexpr float diagonal = 1.001F; // a small overlap, so that rounding leaves no gap between the two
+                                       // triangles
     const Ints second = row.second_faces & (from_d_to_c >= -seam) & (from_d_to_b >= -seam) &
                         (from_d_to_c + from_d_to_b <= diagonal);
     const Floats a = at.a.nearness, b = at.b.nearness, c = at.c.nearness, d = at.d.nearness;
@@ -152,8 +155,9 @@ FRUSTUMSCREEN_INLINE Meeting meeting_at(const CellRow& row, const CellCorners& a
             first ? a + to_b * (b - a) + to_c * (c - a) : d + from_d_to_c * (c - d) + from_d_to_b * (b - d)};
 }
 
-/// Calls visit(weights, lanes, column, row) for the `sample` of the pixels (left + column, top + row) of all cells. How many there are is
-/// found first, since a loop that asks in every step whether any lane goes on waits for the answer.
+/// Calls visit(weights, lanes, column, row) for the `sample` of the pixels (left + column, top + row) of all
+/// cells. The number of steps is found first, because a loop that asks in every step whether any lane
+/// continues stalls on the answer.
 template <typename Visit>
 FRUSTUMSCREEN_INLINE void for_each_pixel(const CellPixels& pixels, const CellCorners& at,
                                          const CellSteps& steps, const glm::vec2& sample,

@@ -1,7 +1,8 @@
-/// The code of lanes.h, compiled once for each set of vector instructions that our processors have: which one runs is chosen at run time.
+/// The code of lanes.h, compiled once for each supported set of vector instructions; the choice is made at
+/// run time.
 ///
-/// Both sets make the same numbers: nothing is contracted or approximated in either. SSE4.1 between the two would gain nothing: what GCC 12
-/// makes of eight lanes for it compares and chooses them one by one (docs/relief.md).
+/// Both sets compute equal numbers: nothing is contracted or approximated in either. SSE4.1, between the two,
+/// would gain nothing: GCC 12 compares and selects its eight lanes one by one (docs/relief.md).
 /// Threads  any.
 #pragma once
 
@@ -11,7 +12,7 @@ namespace frustumscreen {
 
 enum class Instructions : std::uint8_t { Plain, Avx2 };
 
-/// The widest that this processor has.
+/// The widest set that this processor has.
 [[nodiscard]] inline Instructions best_instructions() {
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx2")) {
@@ -27,7 +28,7 @@ template <auto run, typename... Given> [[gnu::target("avx2")]] void run_with_avx
 }
 #endif
 
-/// `run`, which must be FRUSTUMSCREEN_INLINE, with instructions that this processor has.
+/// Runs `run`, which must be FRUSTUMSCREEN_INLINE, with these instructions, which the processor must have.
 template <auto run, typename... Given>
 void run_with([[maybe_unused]] Instructions instructions, Given&... given) {
 #if defined(__x86_64__)

@@ -1,6 +1,6 @@
-/// Eight numbers at once, by the compiler's vectors: whatever the processor has for them makes the same numbers.
+/// Eight numbers at once, by the compiler's vectors, with equal results on every processor.
 ///
-/// Threads  values; any. Vectors are passed between inlined functions alone.
+/// Threads  values; any. Vectors are passed between inlined functions only.
 #pragma once
 
 #include <algorithm>
@@ -16,9 +16,9 @@ using Ints = std::int32_t __attribute__((vector_size(4 * lanes)));
 
 inline constexpr Ints lane_numbers = {0, 1, 2, 3, 4, 5, 6, 7};
 
-/// For what is inlined into one function for each instruction set.
+/// For functions that are inlined into one function for each instruction set.
 #define FRUSTUMSCREEN_INLINE [[gnu::always_inline]] inline
-/// The same of a lambda, after its parameters.
+/// As above for a lambda, after its parameters.
 #define FRUSTUMSCREEN_INLINED __attribute__((always_inline))
 
 FRUSTUMSCREEN_INLINE Floats all(float value) {
@@ -32,7 +32,7 @@ FRUSTUMSCREEN_INLINE Floats most(Floats a, Floats b) {
 }
 /// Bit k for lane k of a mask.
 FRUSTUMSCREEN_INLINE unsigned bits_of(Ints mask) {
-#if defined(__x86_64__) // an instruction that all of them have, where the compiler makes a dozen
+#if defined(__x86_64__) // one instruction that every x86-64 processor has; the compiler makes a dozen
     std::array<float __attribute__((vector_size(16))), 2> halves;
     std::memcpy(halves.data(), &mask, sizeof mask);
     return static_cast<unsigned>(__builtin_ia32_movmskps(halves[0]) | __builtin_ia32_movmskps(halves[1])
@@ -48,7 +48,8 @@ FRUSTUMSCREEN_INLINE unsigned bits_of(Ints mask) {
 FRUSTUMSCREEN_INLINE bool any(Ints mask) {
     return bits_of(mask) != 0;
 }
-/// Of each mask of eight bits: the places of those that are set, from the lowest on. What lies behind them says nothing.
+/// For each mask of eight bits, the indices of its set bits, lowest first. The elements after them are
+/// unspecified.
 inline constexpr auto set_bits = [] {
     std::array<std::array<std::uint8_t, lanes>, 256> places{};
     for (unsigned mask = 0; mask < places.size(); ++mask) {

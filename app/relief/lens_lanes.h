@@ -1,4 +1,5 @@
-/// Eight pixels at once through the projector's lens: from those of its ideal pinhole to those that it lights, and back.
+/// Eight pixels at once through the projector's lens: from pixels of its ideal pinhole to those that it
+/// lights, and back.
 ///
 /// Threads  pure; any. Inlined into one function for each instruction set, as lanes.h.
 #pragma once
@@ -25,8 +26,8 @@ FRUSTUMSCREEN_INLINE PixelLanes bent(const PixelLens& lens, const PixelLanes& id
     return {ideal.x + (ideal.x - lens.centre.x) * more, ideal.y + (ideal.y - lens.centre.y) * more};
 }
 
-/// Of pixels in the picture, by Newton's steps for the factor that takes the real direction to the ideal one: with k1 = -0.3 and a pixel that
-/// is moved by 190, three leave a hundred thousandth of one.
+/// From pixels in the picture to ideal ones, by Newton's method for the factor from the real direction to the
+/// ideal one: with k1 = -0.3 and a pixel displaced by 190, three steps leave an error of 0.00001 pixel.
 FRUSTUMSCREEN_INLINE PixelLanes unbent(const PixelLens& lens, const PixelLanes& real) {
     const Floats r2 = squared_radius(lens, real);
     const Floats first = lens.k1 * r2;

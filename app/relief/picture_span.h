@@ -1,4 +1,4 @@
-/// Texels of someone else's memory.
+/// A view of texels in memory that it does not own.
 ///
 /// Shape    row 0 at the top; `stride` texels from row to row.
 /// Threads  values; any.

@@ -1,4 +1,5 @@
-/// The projector's lens (geometry/lens.h) between pixels of its ideal pinhole and those that it lights, in 32-bit.
+/// The projector's lens (geometry/lens.h), between pixels of its ideal pinhole and those that it lights, in
+/// 32-bit arithmetic.
 ///
 /// Threads  values; any.
 #pragma once
@@ -10,7 +11,7 @@ namespace frustumscreen {
 struct PixelLens {
     glm::vec2 centre{0.0F}, focal{1.0F}, per_focal{1.0F};
     float k1 = 0.0F, k2 = 0.0F;
-    float most_r2 = 0.0F; ///< beyond, the factor stays as it is (Pinhole::bends_to_r2)
+    float most_r2 = 0.0F; ///< beyond this, the factor stays constant (Pinhole::bends_to_r2)
     bool bends = false;
 
     PixelLens() = default;

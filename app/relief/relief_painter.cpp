@@ -10,11 +10,11 @@ namespace frustumscreen {
 
 namespace {
 
-/// What is painted is told in strips, which leave out more of what lies beside the artifact than one rectangle would.
+/// The painted area is returned in strips, which enclose less of the surroundings than one rectangle would.
 constexpr int strips_of_band = 4;
 constexpr int rows_of_strip = rows_of_band / strips_of_band;
 
-/// Bands of `rows_of_band` rows, counted from the first that meets `lit`.
+/// Number of bands of `rows_of_band` rows, counted from the first that meets `lit`.
 int bands_of(const PixelRectangle& lit) {
     return (lit.y + lit.height + rows_of_band - 1) / rows_of_band - lit.y / rows_of_band;
 }
@@ -23,7 +23,7 @@ PixelRectangle band_of(const PixelRectangle& lit, int k) {
     return intersected(lit, {lit.x, (lit.y / rows_of_band + k) * rows_of_band, lit.width, rows_of_band});
 }
 
-/// Of the ideal pinhole, for (x, y, 1): where the middle of one of the projector's comes from.
+/// The pixel of the ideal pinhole, as (x, y, 1), that the lens maps to the centre of a projector pixel.
 glm::dvec3 ideal_pixel(const Pinhole& projector, int x, int y) {
     const glm::dvec3 ray = projector.ray({x + 0.5, y + 0.5});
     return {projector.fx * ray.x + projector.cx, projector.fy * ray.y + projector.cy, 1.0};
@@ -89,7 +89,7 @@ std::span<const PixelRectangle> ReliefPainter::paint(const BlockRelief& relief, 
         return {};
     }
     list(relief, view);
-    for (CastSamples& each : samples_) { // which thread gets the widest band is chance
+    for (CastSamples& each : samples_) { // any thread may get the widest band
         each.make_room(view.lit.width, rows_of_band, samples);
     }
     painted_.resize(static_cast<std::size_t>(bands_of(view.lit) * strips_of_band));

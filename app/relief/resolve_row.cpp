@@ -14,22 +14,23 @@ namespace {
 constexpr std::int32_t unit = CastSamples::places_per_cell;
 using Words = std::uint32_t __attribute__((vector_size(4 * lanes)));
 
-/// Two channels at once, in the lower bytes of two halves: the mean of `from` and `to` with weights 256 - share and share.
+/// Two channels at once, in the lower bytes of two halves: the mean of `from` and `to` with weights 256 -
+/// share and share.
 FRUSTUMSCREEN_INLINE Words blend(Words from, Words to, Words share) {
     return (from * (256 - share) + to * share + 0x00800080U) >> 8 & 0x00FF00FFU;
 }
 
-/// Eight places of blocks: what shows one pixel or one sample each.
+/// Eight positions in blocks, one for each pixel or sample.
 struct Shown {
     Ints block, place;
 };
 
-/// As colour_at, of eight places.
+/// As colour_at, for eight positions.
 FRUSTUMSCREEN_INLINE Words colours_at(const BlockRelief& relief, const Shown& shown) {
     const Ints u = shown.place & 0xFFFF;
     const Ints v = shown.place >> 16;
     const Ints corners = shown.block * (block_corners * block_corners) + v / unit * block_corners + u / unit;
-    // A corner and the one beside it lie in one word of 64 bits.
+    // A corner and its right neighbour are one word of 64 bits.
     using Pairs = std::uint64_t __attribute__((vector_size(4 * lanes)));
     struct Row {
         Words left, right;
@@ -57,10 +58,11 @@ FRUSTUMSCREEN_INLINE Words colours_at(const BlockRelief& relief, const Shown& sh
     return mean(0) | mean(8) << 8;
 }
 
-/// What the samples of eight pixels met. Within a cell the codes are nearly even: their mean is the one in the middle.
+/// The hits of the samples of eight pixels. Within a cell the codes are nearly linear, so their mean is the
+/// code at the mean position.
 struct Met {
-    Ints one;     ///< a place of one block, `shown`
-    Ints several; ///< more than that
+    Ints one;     ///< pixels with a single position in one block, `shown`
+    Ints several; ///< pixels with several positions
     Shown shown;
 };
 
@@ -97,8 +99,9 @@ FRUSTUMSCREEN_INLINE Met met_by(const CastSamples& samples, int x, int y, Ints p
     return {one, pixels & any_met & ~one, {one & block, one & (sum_u / of | sum_v / of << 16)}};
 }
 
-/// Pixels whose samples show several places, each the mean light of what they show; a sample that met nothing is black. They are kept
-/// until there are some, so that eight samples' colours are looked up at once, of whatever pixels.
+/// Pixels whose samples hit several positions; each becomes the mean light of its hits, and a sample without
+/// a hit is black. They are collected, so that the colours of eight samples, of any pixels, are looked up at
+/// once.
 template <std::size_t count> class Several {
 public:
     FRUSTUMSCREEN_INLINE bool full() const { return pixels_ == most_pixels; }
@@ -112,7 +115,7 @@ public:
         code_[pixels_] = &code;
         end_[pixels_++] = shown_;
     }
-    /// Writes the codes of all that were added.
+    /// Writes the codes of all added pixels.
     FRUSTUMSCREEN_INLINE void resolve(const BlockRelief& relief, const SampleLight& light) {
         for (std::size_t k = 0; k < shown_; k += lanes) {
             Shown shown;
@@ -138,7 +141,7 @@ private:
     static constexpr std::size_t most_shown =
         most_pixels * count + lanes; ///< eights are read and written whole
     std::size_t pixels_ = 0, shown_ = 0;
-    std::array<std::uint32_t, most_shown> block_, place_; ///< of the samples that met something
+    std::array<std::uint32_t, most_shown> block_, place_; ///< of the samples with a hit
     std::array<glm::u8vec4, most_shown> colour_;
     std::array<glm::u8vec4*, most_pixels> code_;
     std::array<std::size_t, most_pixels> end_; ///< one past the pixel's last sample

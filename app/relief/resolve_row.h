@@ -1,9 +1,10 @@
-/// The codes of a row of pixels, from what their samples met.
+/// The codes of a row of pixels, from the hits of their samples.
 ///
-/// Colour   bilinear between the corners' codes: once for all of a pixel's samples where they lie within a cell of one block, else
-///          once for each, and averaged in linear light, where a sample that met nothing counts as black.
+/// Colour   bilinear between the corners' codes: once for all of a pixel's samples if they lie within a cell
+///          of one block; otherwise once for each, averaged in linear light, where a sample without a hit
+///          counts as black.
 /// Threads  pure; any.
-/// SIMD     as cast_blocks.h; the codes are equal.
+/// SIMD     as cast_blocks.h; every instruction set makes equal codes.
 #pragma once
 
 #include "app/relief/cast_blocks.h"
@@ -15,7 +16,7 @@
 
 namespace frustumscreen {
 
-/// Of row `y`, from pixel `first` on; alpha 0 where nothing was met.
+/// For row `y`, from pixel `first` on; alpha 0 without a hit.
 void resolve_row(const CastSamples& samples, const BlockRelief& relief, const SampleLight& light, int y,
                  int first, std::span<glm::u8vec4> codes, Instructions instructions = best_instructions());
 

@@ -1,6 +1,7 @@
 /// Mean light of a pixel's samples.
 ///
-/// Colour   sRGB codes; averages in linear light, where nothing is met black. Integers, so that every machine makes the same.
+/// Colour   sRGB codes; averages in linear light, black without a hit. Integers, so that every machine gets
+///          equal results.
 /// Threads  const; any.
 #pragma once
 
@@ -14,7 +15,7 @@ namespace frustumscreen {
 class SampleLight {
 public:
     SampleLight();
-    /// Of `count` codes, the missing ones black. Alpha is 255.
+    /// The mean of `count` samples whose light adds up to `sum`, as codes. Alpha is 255.
     [[nodiscard]] glm::u8vec4 mean(const glm::uvec3& sum, unsigned count) const {
         const auto code = [&](unsigned light) { return code_[light / count / 4]; };
         return {code(sum.x), code(sum.y), code(sum.z), 255};
