@@ -28,7 +28,7 @@ std::optional<glm::dmat4> collineation(const Plane& plane, const glm::dvec3& eye
     }
     glm::dmat4 clip = projector_clip_from_frame * eye_onto_plane(plane, eye);
 
-    // w over the box's corners; w <= 0 lies above the eye or behind the projector, where nothing is drawn.
+    // w over the box's corners; w <= 0 is above the eye or behind the projector, where nothing is drawn.
     double least = std::numeric_limits<double>::infinity();
     double greatest = 0.0;
     for (int corner = 0; corner < 8; ++corner) {

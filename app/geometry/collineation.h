@@ -1,16 +1,14 @@
-/// The picture's one transform: eye -> face plane -> projector, a single 4x4 matrix for each face of the
-/// prop.
+/// The picture's single transform, eye -> face plane -> projector: one 4x4 matrix for each face of the prop.
 ///
 /// For the plane n.S = d (unit outward n), the eye E and its height above the plane e = n.E - d, the ray from
 /// E through X meets the plane in
 ///     S(X) = (e X - (n.X - d) E) / (e - (n.X - d)),
-/// which is linear in homogeneous X. The projector's matrix times it takes artifact points straight to the
-/// projector's pixels: one pass, no image in between, exact for points and for straight edges.
+/// which is linear in homogeneous X. The product with the projector's matrix takes artifact points directly
+/// to the projector's pixels: one pass, no image in between, exact for points and for straight edges.
 ///
 /// Its denominator e - (n.X - d) is the depth of X below the eye measured along n: positive for everything
-/// that a visitor sees, and clip w is that depth times the depth of S from the projector. Along one eye ray S
-/// is fixed, so w grows with the distance from the eye: depth = a w + b, divided by w, is monotone along it.
-///
+/// that a visitor sees. Clip w is that depth times the depth of S from the projector. Along one eye ray S is
+/// fixed, so w grows with the distance from the eye: depth = a w + b, divided by w, is monotone along it.
 /// Frames   all arguments in one frame (the prop's). Metres.
 /// Threads  pure; any.
 /// Source   derived here; a plane-induced homology followed by a pinhole (Hartley & Zisserman, ch. 2.4
@@ -37,16 +35,15 @@ struct Box {
 /// Sine of the elevation above a face, of the eye or of the projector, below which the face is left dark:
 /// 0.057 degrees. At this angle a face 0.16 m wide, seen from 0.35 m, is 1.6 minutes of arc across, which
 /// good eyes just resolve; and the light smears one pixel of 0.6 mm over 0.6 m. The picture's condition
-/// number is 1 / sine: at this limit clip w spans three decades of the 32-bit matrix's seven; below it the
-/// GPU's rounding would show.
+/// number is 1 / sine: at this limit clip w spans three of the seven decades of the 32-bit matrix; below it
+/// the GPU's rounding would become visible.
 inline constexpr double least_sine = 1e-3;
 
 /// Clip coordinates (OpenGL) of points X as they must be drawn on `plane` for the eye; the depth row is
 /// fitted so that the part of `box` in front of the eye's own plane fills the depth range. Scaled so that w
 /// is about 1.
 ///
-/// Nothing is returned if the eye is not above the plane by `least_sine` times its distance from the box's
-/// centre.
+/// nullopt if the eye is not above the plane by `least_sine` times its distance from the box's centre.
 [[nodiscard]] std::optional<glm::dmat4> collineation(const Plane& plane, const glm::dvec3& eye,
                                                      const glm::dmat4& projector_clip_from_frame,
                                                      const Box& box);

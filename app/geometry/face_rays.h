@@ -1,10 +1,12 @@
-/// The eye's rays through a face of the prop, as the projector's pixels know them.
+/// The eye's rays through a face of the prop, as functions of the projector's pixels.
 ///
-/// Pixels   (x, y) from the picture's corner; a pixel's centre is at + 0.5. What is linear in (x, y, 1) is exact for every pixel.
+/// Pixels   (x, y) from the picture's corner; a pixel's centre is at + 0.5. Functions linear in (x, y, 1) are
+///          exact for every pixel.
 /// Frame    the prop's, metres.
 /// Threads  pure; any.
-/// Source   derived here: S = P + (d - n.P) / (n.L) L for the light's ray L from the projector P onto the plane n.S = d; n.L < 0
-///          where the face is lit, so that -n.L (S - E) looks as S - E does, and is linear in L.
+/// Source   derived here: S = P + (d - n.P) / (n.L) L for the light's ray L from the projector P onto the
+///          plane n.S = d; n.L < 0 where the face is lit, so that -n.L (S - E) has the direction of S - E,
+///          and is linear in L.
 #pragma once
 
 #include "app/geometry/pinhole.h"
@@ -19,7 +21,7 @@ namespace frustumscreen {
 
 struct FaceRays {
     std::array<glm::dvec3, 4> edges{}; ///< times (x, y, 1): not positive inside the face
-    glm::dmat3 direction{1.0};         ///< times (x, y, 1): S - E, lengthened by -n.L
+    glm::dmat3 direction{1.0};         ///< times (x, y, 1): S - E, scaled by -n.L
 };
 
 [[nodiscard]] FaceRays face_rays(const PropFace& face, const Pinhole& projector,

@@ -6,7 +6,7 @@
 namespace frustumscreen {
 
 double Lens::fold_r2() const {
-    // 1 + 3 k1 q + 5 k2 q^2 = 0, by 1/q, so that k2 = 0 is no special case.
+    // 1 + 3 k1 q + 5 k2 q^2 = 0, solved for 1/q, so that k2 = 0 is no special case.
     const double discriminant = 9.0 * k1 * k1 - 20.0 * k2;
     if (discriminant < 0.0) {
         return std::numeric_limits<double>::infinity();
@@ -33,7 +33,8 @@ std::optional<glm::dvec2> Lens::undistort(const glm::dvec2& real) const {
     if (goal == 0.0) {
         return real;
     }
-    // The function rises from 0 to the fold: Newton's steps stay in a bracket that halves where they would leave it.
+    // The function rises from 0 to the fold: Newton's steps stay in a bracket, which is halved when they
+    // would leave it.
     double low = 0.0;
     double high = std::isfinite(fold) ? fold : goal;
     while (bent(high) < goal) {

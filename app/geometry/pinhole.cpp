@@ -46,7 +46,7 @@ void Pinhole::bend_around(glm::dvec2& low, glm::dvec2& high) const {
     high = (high - centre) / focal;
     const glm::dvec2 far = glm::max(glm::abs(low), glm::abs(high));
     const auto [below, most] = lens.factors_within(glm::dot(far, far));
-    const double least = std::fmax(below, 0.0); // none is drawn with such a factor
+    const double least = std::fmax(below, 0.0); // a negative factor is never drawn
     low = glm::min(low * least, low * most) * focal + centre;
     high = glm::max(high * least, high * most) * focal + centre;
 }

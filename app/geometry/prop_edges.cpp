@@ -6,7 +6,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Both were computed from the same numbers, so that a shared corner is equal.
+/// Exact comparison: both faces computed the shared corner from equal numbers.
 bool has_corner(const PropFace& face, const glm::dvec3& corner) {
     return std::find(face.corners.begin(), face.corners.end(), corner) != face.corners.end();
 }

@@ -12,7 +12,7 @@ PropFace face_of(std::string_view name, const std::array<glm::dvec3, 4>& corners
     return {name, {normal, glm::dot(normal, corners[0])}, corners};
 }
 
-/// Everything but the bottom.
+/// All faces except the bottom.
 PropShape make_faces(const FrustumSize& size) {
     const double b = size.base_m / 2.0;
     const double t = size.top_m / 2.0;

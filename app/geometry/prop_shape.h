@@ -22,8 +22,8 @@ struct Plane {
 
 /// One face that can be lit; corners counter-clockwise seen from outside.
 struct PropFace {
-    std::string_view name; ///< a literal: the axis that it looks along most, "+X"
-    Plane plane;           ///< outward
+    std::string_view name; ///< a literal: the axis that its normal is closest to, e.g. "+X"
+    Plane plane;           ///< normal points outward
     std::array<glm::dvec3, 4> corners{};
     [[nodiscard]] glm::dvec3 middle() const {
         return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
@@ -31,41 +31,41 @@ struct PropFace {
 };
 
 struct PropShape {
-    std::vector<PropFace> faces; ///< those of +X, -X, +Y, -Y, +Z, -Z that it has
-    /// Bounding planes of the solid, outward: those of the faces first, then what is never lit.
+    std::vector<PropFace> faces; ///< the existing ones of +X, -X, +Y, -Y, +Z, -Z, in this order
+    /// Bounding planes of the solid, outward: those of the faces first, then those that are never lit.
     std::vector<Plane> bounds;
-    std::vector<glm::dvec3> corners; ///< of the solid; those of the bottom first
+    std::vector<glm::dvec3> corners; ///< of the solid; the bottom's first
     glm::dvec3 middle{0.0};
 };
 
-/// A frustum between two squares; its sides look along +-X and +-Y.
+/// A frustum between two squares; its sides face +-X and +-Y.
 struct FrustumSize {
     double base_m = 0.16; ///< side of the bottom square
     double top_m = 0.09;  ///< side of the top square
     double height_m = 0.12;
 };
 
-/// The one of the shipped set-up (config/kiosk.toml).
+/// The frustum of the shipped set-up (config/kiosk.toml).
 inline constexpr FrustumSize shipped_frustum{0.30, 0.08, 0.155};
 /// Five faces; the bottom stands on the table and is never lit.
 [[nodiscard]] PropShape make_frustum(FrustumSize size);
-/// Six faces: it is held in the hand and turned in any way.
+/// Six faces: it is held in the hand at any orientation.
 [[nodiscard]] PropShape make_cube(double edge_m);
 
-/// Where a ray enters the prop.
+/// The point where a ray enters the prop.
 struct PropHit {
     double t = 0.0; ///< point = origin + t * direction
     int face = 0;   ///< index into `bounds`; for a face that can be lit, also into `faces`
 };
-/// Where a ray whose origin is outside enters the solid; false if it misses.
+/// Finds where a ray whose origin is outside enters the solid; false if it misses.
 [[nodiscard]] bool enter(const PropShape& prop, const glm::dvec3& origin, const glm::dvec3& direction,
                          PropHit& hit);
-/// The same, but only through one of `faces`; false also if the ray enters through a plane that is never lit.
+/// As above, but only through one of `faces`; also false if the ray enters through a plane that is never lit.
 [[nodiscard]] bool intersect(const PropShape& prop, const glm::dvec3& origin, const glm::dvec3& direction,
                              PropHit& hit);
 
-/// The largest uniform scale about the origin that keeps every point inside the prop; the points' lowest is
-/// at z = 0 and they are centred on the prop's axis. Infinite for no points.
+/// The largest uniform scale about the origin that keeps every point inside the prop. The points' lowest must
+/// be at z = 0, and they must be centred on the prop's axis. Infinite without points.
 [[nodiscard]] double largest_scale_inside(const PropShape& prop, std::span<const glm::dvec3> points);
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-/// The registration of a tracker: where the device stands, and where its sensors sit in what they follow.
+/// The registration of a tracker: the pose of the device, and of its sensors on the prop and on the head.
 ///
 /// Frames   tracker K, the device's own; table T; prop P; sensor S, whose pose in K the device reports.
 ///          table_from_prop = table_from_tracker * tracker_from_sensor * sensor_from_prop.

@@ -1,8 +1,8 @@
-/// Where rays and the projector's light come down on the table, the plane z = 0.
+/// Intersections of rays and of the projector's light with the table, the plane z = 0.
 ///
 /// Frames   table T, +Z up.
 /// Units    metres; pixels of the projector's picture.
-/// Errors   none: what does not come down, and what is no number, meets nothing.
+/// Errors   none: nullopt for a ray that does not go down, or is not a number.
 /// Threads  pure; any.
 #pragma once
 
@@ -22,7 +22,7 @@ namespace frustumscreen {
     return glm::dvec2(origin - direction * (origin.z / direction.z));
 }
 
-/// Where the light of a pixel comes down.
+/// The point of the table that a pixel lights.
 [[nodiscard]] inline std::optional<glm::dvec2>
 lights_table(const Pinhole& projector, const RigidTransform& table_from_projector, const glm::dvec2& pixel) {
     return meets_table(table_from_projector.translation,

@@ -25,11 +25,11 @@ struct RigidTransform {
 /// a_from_c = a_from_b * b_from_c.
 [[nodiscard]] RigidTransform operator*(const RigidTransform& a_from_b, const RigidTransform& b_from_c);
 
-/// The rigid transform of `matrix`; nothing if it is not finite, scales, shears, mirrors or projects
-/// (beyond 1e-6).
+/// The rigid transform of `matrix`; nullopt if it is not finite, scales, shears, mirrors or projects (beyond
+/// 1e-6).
 [[nodiscard]] std::optional<RigidTransform> rigid_from_matrix(const glm::dmat4& matrix);
 
-/// A unit quaternion from any finite, non-zero one; nothing otherwise.
+/// A unit quaternion from any finite, non-zero one; otherwise nullopt.
 [[nodiscard]] std::optional<glm::dquat> normalised(const glm::dquat& q);
 
 } // namespace frustumscreen

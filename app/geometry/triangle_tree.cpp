@@ -9,14 +9,16 @@ namespace frustumscreen {
 namespace {
 
 constexpr std::size_t leaf_triangles = 4;
-/// A balanced tree of 2^32 triangles is no deeper, and each level leaves one node to look at later.
+/// A balanced tree of 2^32 triangles is no deeper, and each level leaves one node pending.
 constexpr std::size_t deepest = 40;
-/// A ray through the common edge of two triangles meets one of them, whatever the rounding.
+/// A ray through the common edge of two triangles hits one of them despite rounding.
 constexpr double on_edge = 1e-9;
 
-/// Boxes are larger by this share of the mesh's extent: a ray that runs along a box's side is in it, whatever the rounding.
+/// Boxes are enlarged by this share of the mesh's extent, so that a ray along a box's side is inside it
+/// despite rounding.
 constexpr float box_margin = 1e-6F;
-/// Twice the area over the longest edge's square: a thinner triangle is one of single precision's roundings.
+/// Twice the area over the longest edge's square: a thinner triangle is a rounding artifact of single
+/// precision.
 constexpr double thinnest = 1e-7;
 /// Sine of the angle between ray and triangle below which it is edge-on.
 constexpr double edge_on = 1e-12;
@@ -35,8 +37,8 @@ bool has_area(const std::array<glm::vec3, 3>& corners) {
     return glm::length(glm::cross(a, b)) > thinnest * longest;
 }
 
-/// Of the segment's parameters 0..1, some lie between the box's slabs. A segment along a slab gives infinities, and NaN where
-/// it runs in the slab's border; fmin and fmax pass over NaN.
+/// True if some of the segment's parameters 0..1 lie between the box's slabs. A segment parallel to a slab
+/// gives infinities, and NaN if it lies in the slab's boundary; fmin and fmax ignore NaN.
 bool passes(const glm::vec3& low, const glm::vec3& high, const glm::dvec3& from, const glm::dvec3& inverse) {
     double first = 0.0;
     double last = 1.0;
