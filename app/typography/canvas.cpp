@@ -8,7 +8,7 @@ namespace frustumscreen {
 namespace {
 
 struct PixelBox {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0; ///< x1, y1 not included
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0; ///< x1, y1 excluded
 };
 
 PixelBox around(const glm::dvec2& low, const glm::dvec2& high, const Image8& image) {

@@ -17,8 +17,8 @@ namespace frustumscreen {
 
 using Colour = glm::u8vec3;
 
-/// Which point of a text's box lies at the position given: 0 = left or top, 0.5 = middle, 1 = right or
-/// bottom.
+/// The point of a text's box that is placed at the given position: 0 = left or top, 0.5 = middle, 1 = right
+/// or bottom.
 struct Anchor {
     double x = 0.0;
     double y = 0.0;
@@ -34,7 +34,7 @@ public:
 
     void fill(const glm::dvec2& low, const glm::dvec2& high, Colour colour, double opacity = 1.0);
     void line(const glm::dvec2& a, const glm::dvec2& b, double width_px, Colour colour, double opacity = 1.0);
-    /// Joins the points, and the last with the first.
+    /// Closed polygon through the points.
     void outline(std::span<const glm::dvec2> points, double width_px, Colour colour, double opacity = 1.0);
     void circle(const glm::dvec2& centre, double radius_px, double width_px, Colour colour,
                 double opacity = 1.0);
@@ -42,8 +42,8 @@ public:
     void text(const Typesetter& typesetter, std::string_view text, const glm::dvec2& position, double em_px,
               Colour colour, Anchor anchor = {}, bool bold = false);
     void coverage(const Image<std::uint8_t>& coverage, const glm::ivec2& corner, Colour colour);
-    /// `picture`'s rectangle [from, from + size) scaled to the canvas rectangle at `corner`: averaged by area
-    /// in linear light where it shrinks, bilinear where it grows. Outside the picture is black.
+    /// Scales `picture`'s rectangle [from, from + size) to the canvas rectangle at `corner`: averaged by area
+    /// in linear light when it shrinks, bilinear when it grows. Outside the picture is black.
     void picture(const Image8& picture, const glm::dvec2& from, const glm::dvec2& size,
                  const glm::ivec2& corner, const glm::ivec2& target);
 

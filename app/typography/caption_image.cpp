@@ -13,7 +13,7 @@ namespace {
 
 constexpr double text_gap_em = 0.3; ///< between title and text
 
-/// Title or text.
+/// A title or a text.
 struct SetPart {
     const GlyphSetting* setting = nullptr;
     double em_px = 0.0;
@@ -22,10 +22,10 @@ struct SetPart {
     GlyphExtent extent;
 };
 
-/// One part below the other.
+/// Parts, one below the other.
 struct SetParts {
     std::vector<SetPart> parts;
-    int gap_px = 0; ///< between two
+    int gap_px = 0; ///< between two parts
     int width_px = 1, height_px = 0;
 };
 

@@ -15,11 +15,11 @@
 
 namespace frustumscreen {
 
-/// Widths that a caption is wrapped to, in falling preference.
+/// Widths that a caption is wrapped to, preferred ones first.
 inline constexpr std::array<double, 3> caption_widths_m{0.30, 0.16, 0.075};
-/// A title's type size, in those of the text.
+/// A title's type size, relative to the text's.
 inline constexpr double caption_title_em = 1.35;
-/// Share of the title's light, linear: a little behind it.
+/// Brightness of the text relative to the title's, linear: slightly dimmer.
 inline constexpr double caption_text_brightness = 0.8;
 
 struct CaptionImage {
@@ -27,20 +27,20 @@ struct CaptionImage {
     glm::dvec2 size_m{0.0}; ///< along X and Y of the table
 };
 
-/// The title, larger and bold, over the text, wrapped to `width_m`. `em_m` is the text's type size; less than
-/// 24 pt (`least_caption_em_m`) becomes 24 pt.
+/// The title, larger and bold, above the text, wrapped to `width_m`. `em_m` is the text's type size, at least
+/// 24 pt (`least_caption_em_m`).
 [[nodiscard]] CaptionImage make_caption(const Typesetter& typesetter, const std::string& title,
                                         const std::string& text, double em_m, double width_m,
                                         double texels_per_m);
 
-/// The same of texts that were shaped at the bake: without a typeface, in any script. A paragraph that runs to the left is flush
-/// right. `title` and `text` are texts of `runs`, or null; each is set in the widest of its settings that fits `width_m`, else in
-/// the narrowest.
+/// As above, for texts that the bake has shaped: without a typeface, in any script. A paragraph that runs
+/// from right to left is flush right. `title` and `text` are texts of `runs`, or null; each uses the widest
+/// of its settings that fits `width_m`, otherwise the narrowest.
 [[nodiscard]] CaptionImage make_caption(const GlyphRuns& runs, const DistanceAtlas& atlas,
                                         const GlyphText* title, const GlyphText* text, double em_m,
                                         double width_m, double texels_per_m);
 
-/// The `size_m` that each of these makes, without drawing anything.
+/// The `size_m` of each of these, without drawing.
 [[nodiscard]] glm::dvec2 caption_size_m(const Typesetter& typesetter, const std::string& title,
                                         const std::string& text, double em_m, double width_m,
                                         double texels_per_m);

@@ -12,16 +12,16 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double comfortable_m = 0.035; ///< from the shadow, where there is room
+constexpr double comfortable_m = 0.035; ///< preferred distance from the shadow
 constexpr double least_m = 0.02;        ///< no place is chosen closer than this
-constexpr double near_m = 0.015;        ///< closer than this, the caption goes elsewhere
-constexpr double dimming_m = 0.012;     ///< closer than this, it dims; it is gone at 0
+constexpr double near_m = 0.015;        ///< closer than this, the caption moves
+constexpr double dimming_m = 0.012;     ///< closer than this, the caption dims; it is dark at 0
 constexpr double grid_m = 0.01;
-constexpr double beside_m = 0.008; ///< between a caption and what else lies on the table
+constexpr double beside_m = 0.008; ///< between a caption and other things on the table
 constexpr Nanoseconds fade = std::chrono::milliseconds(250);
 constexpr Nanoseconds between_searches = std::chrono::milliseconds(200);
 
-/// Costs in metres away from the preferred place.
+/// Costs, in metres of distance from the preferred place.
 constexpr double cost_of_being_hidden = 1.0;
 constexpr double cost_of_later_shape = 0.15;
 constexpr double cost_of_each_metre_too_close = 4.0;
@@ -63,7 +63,7 @@ double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::
     return glm::distance(p, a + t * along);
 }
 
-/// True if all of `b` lies on the outer side of a line along one of `a`'s edges.
+/// True if all of `b` is on the outer side of a line along one of `a`'s edges.
 bool separated_by_edge_of(std::span<const glm::dvec2> a, std::span<const glm::dvec2> b) {
     for (std::size_t k = 0; k < a.size(); ++k) {
         const glm::dvec2 edge = a[(k + 1) % a.size()] - a[k];
@@ -117,8 +117,8 @@ std::optional<TablePolygon> hidden_by_prop(const PropShape& prop, const RigidTra
         if (!(corner.z < 0.99 * from_m.z)) {
             return std::nullopt;
         }
-        // Where the ray from `from_m` through the corner meets the table (a corner below it counts where it
-        // is).
+        // Intersection with the table of the ray from `from_m` through the corner; a corner below the table
+        // counts at its own position.
         const double t = corner.z > 0.0 ? from_m.z / (from_m.z - corner.z) : 1.0;
         points[count++] = glm::dvec2(from_m) + t * glm::dvec2(corner - from_m);
     }
@@ -161,7 +161,7 @@ void CaptionPlacer::set_obstacles(std::span<const TableRectangle> obstacles) {
     std::copy_n(obstacles.begin(), obstacle_count_, obstacles_.begin());
 }
 
-/// All lie along the axes.
+/// All rectangles are axis-aligned.
 bool CaptionPlacer::on_obstacle(const TableRectangle& rectangle, std::span<const TableRectangle> obstacles) {
     return std::any_of(obstacles.begin(), obstacles.end(), [&](const TableRectangle& obstacle) {
         const bool crossed = (rectangle.quarter_turns - obstacle.quarter_turns) % 2 != 0;

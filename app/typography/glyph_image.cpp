@@ -13,7 +13,7 @@ constexpr int samples = 4; ///< a pixel, along each axis
 constexpr int most_side_px = 16384;
 constexpr std::int64_t most_pixels = 1 << 24;
 
-/// Where the texels of a placed glyph lie: pixels, from the top left of the setting's box.
+/// Area of a placed glyph's texels, in pixels from the top left of the setting's box.
 struct GlyphArea {
     const GlyphBox* box = nullptr;
     double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
@@ -30,7 +30,7 @@ GlyphArea area_of(const GlyphBox& box, const PlacedGlyph& glyph, std::int32_t ba
     return {&box, left, top, left + box.width * scale.px_of_texel, top + box.height * scale.px_of_texel};
 }
 
-/// The code at texel coordinates (texel centres at .5) of a box, between its outermost texel centres.
+/// The code at texel coordinates (texel centres at .5) of a box, clamped to its outermost texel centres.
 double distance_code(const DistanceAtlas& atlas, const GlyphBox& box, double x, double y) {
     const double u = std::clamp(x - 0.5, 0.0, box.width - 1.0);
     const double v = std::clamp(y - 0.5, 0.0, box.height - 1.0);
@@ -54,7 +54,7 @@ struct SampleRows {
     Image<std::uint8_t> samples;
 };
 
-/// `samples_of_code`: how many samples apart a change of the distance by one code lies.
+/// `samples_of_code`: distance in samples for a change of one code.
 void draw(const DistanceAtlas& atlas, const GlyphArea& area, const GlyphImage& image, double px_of_texel,
           double samples_of_code, SampleRows& rows) {
     const double left = (area.left + image.left_px) * samples;
@@ -91,7 +91,7 @@ void average_into(Image<std::uint8_t>& image, const SampleRows& rows) {
     }
 }
 
-/// The part of a glyph's area that its letter can reach: all but the spread around it.
+/// The part of a glyph's area that its letter can cover: all except the spread around it.
 GlyphArea ink_of(GlyphArea area, double spread_px) {
     area.left += spread_px;
     area.top += spread_px;
@@ -100,7 +100,7 @@ GlyphArea ink_of(GlyphArea area, double spread_px) {
     return area;
 }
 
-/// The glyphs that draw something, line by line.
+/// The glyphs that are not blank, line by line.
 struct Areas {
     std::vector<GlyphArea> areas;
     std::vector<std::size_t> line_ends;
@@ -126,7 +126,7 @@ Scale scale_of(const GlyphRuns& runs, double em_px) {
     return {em_px / em_units, em_px / runs.texels_per_em};
 }
 
-/// Of the setting's box and of all letters that reach over it.
+/// Extent of the setting's box and of all letters that extend beyond it.
 GlyphExtent extent_of(const GlyphSetting& setting, std::span<const GlyphArea> areas, const Scale& scale,
                       double spread_px) {
     double left = 0.0;
@@ -151,7 +151,7 @@ GlyphExtent extent_of(const GlyphSetting& setting, std::span<const GlyphArea> ar
     return extent;
 }
 
-/// The rows of pixels that a line's glyphs reach.
+/// The rows of pixels that a line's glyphs cover.
 SampleRows rows_of(std::span<const GlyphArea> line, const GlyphImage& image) {
     double top = image.coverage.height;
     double bottom = 0.0;

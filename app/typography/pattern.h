@@ -1,12 +1,12 @@
-/// The alignment test picture: it shows what must fall where if projector, table and tracker agree.
+/// The alignment test picture: it shows what must coincide if projector, table and tracker agree.
 ///
 /// The picture's outermost pixels and its centre; the table's outline and a grid every 5 cm with its
 /// coordinates in cm; the prop's edges at the tracked pose, each face with its number (1 +X, 2 -X, 3 +Y, 4
-/// -Y, 5 top), dim where the projector does not light the face.
+/// -Y, 5 top), dim if the projector does not light the face.
 ///
 /// Frames   table T; metres.
 /// Threads  as Canvas.
-/// Errors   none: what is behind the projector is left out.
+/// Errors   none: parts behind the projector are left out.
 #pragma once
 
 #include "app/geometry/pinhole.h"
@@ -29,11 +29,11 @@ struct PatternScene {
     PropShape prop;
 };
 
-/// The part that stays the same while the prop moves.
+/// The part that does not change while the prop moves.
 [[nodiscard]] Image8 table_pattern(const PatternScene& scene, const Typesetter& typesetter);
 [[nodiscard]] Image8 with_prop(const Image8& table, const PatternScene& scene,
                                const RigidTransform& table_from_prop, const Typesetter& typesetter);
-/// Adds lines for the staff below the pattern's own text; lines that are too long are broken.
+/// Adds lines for the staff below the pattern's own text; long lines are wrapped.
 [[nodiscard]] Image8 with_lines(const Image8& pattern, std::span<const std::string> lines,
                                 const Typesetter& typesetter);
 

@@ -19,19 +19,19 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// Outward, of an edge that is gone clockwise.
+/// Outward normal of an edge that is traversed clockwise.
 glm::dvec2 normal_of(const glm::dvec2& from, const glm::dvec2& to) {
     const glm::dvec2 along = to - from;
     return glm::dvec2(-along.y, along.x) / glm::length(along);
 }
 
-/// A place on the outline, and where the band is beside it.
+/// A point on the outline, and the direction to the band there.
 struct Stop {
     glm::dvec2 at{0.0};
-    glm::dvec2 out{0.0}; ///< of one metre of distance from both edges
+    glm::dvec2 out{0.0}; ///< offset for a distance of one metre from both edges
 };
 
-/// The outline, clockwise from the far side on: `stops` begins and ends at the same place.
+/// The outline, clockwise from the far side; `stops` begins and ends at the same point.
 struct Outline {
     std::array<Stop, Ring::most + 1> stops{};
     std::size_t count = 0;
@@ -45,7 +45,7 @@ Stop corner(const glm::dvec2& before, const glm::dvec2& at, const glm::dvec2& af
     return {at, out * std::min(1.0, longest_mitre / glm::length(out))};
 }
 
-/// The points without those that are too near to the one before, clockwise.
+/// The polygon clockwise, without points that are too close to the previous one.
 TablePolygon clockwise(const TablePolygon& shadow) {
     constexpr double same_m = 1e-5;
     TablePolygon points;
@@ -89,7 +89,7 @@ Outline outline_of(const TablePolygon& shadow, int quarter_turns) {
     return outline;
 }
 
-/// On an edge, not at its ends.
+/// A point inside an edge, not at its ends.
 Stop between(const Stop& from, const Stop& to, double share) {
     return {glm::mix(from.at, to.at, share), normal_of(from.at, to.at)};
 }

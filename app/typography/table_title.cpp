@@ -17,14 +17,14 @@ namespace {
 
 constexpr std::size_t most_lines = 2;
 constexpr double fades_over_em = 1.5;
-/// Together two lines are 22 mm high, as a place's title (TableSetUp::title_m).
+/// Two lines together are 22 mm high, like a place's title (TableSetUp::title_m).
 constexpr double first_baseline_em = 1.0;
 constexpr double line_pitch_em = 1.2;
 constexpr double below_baseline_em = 0.38;
 
 using Coverage = Image<std::uint8_t>;
 
-/// A run of glyphs without a space: [first, end) in the order of the line.
+/// A run of glyphs without a space: [first, end) in the line's order.
 struct Word {
     std::size_t first = 0;
     std::size_t end = 0;
@@ -45,7 +45,7 @@ std::vector<Word> words_of(const GlyphRuns& runs, const GlyphSetting& line) {
     return words;
 }
 
-/// About where the glyphs [first, end) reach from and to.
+/// Approximate width of the glyphs [first, end).
 double width_of(const GlyphRuns& runs, const GlyphSetting& line, std::size_t first, std::size_t end) {
     const GlyphBox& last = runs.boxes[line.glyphs[end - 1].glyph];
     return line.glyphs[end - 1].x - line.glyphs[first].x +
@@ -60,7 +60,8 @@ GlyphSetting part_of(const GlyphSetting& line, std::size_t first, std::size_t en
     return part;
 }
 
-/// One line broken in two of about the same width, whose longer one is the shortest that there is; nothing without a space.
+/// Breaks a line in two of about equal width, so that the longer one is as short as possible; empty without a
+/// space.
 std::vector<GlyphSetting> broken_in_two(const GlyphRuns& runs, const GlyphSetting& line, bool to_the_left) {
     const std::vector<Word> words = words_of(runs, line);
     std::vector<GlyphSetting> best;
@@ -80,7 +81,7 @@ std::vector<GlyphSetting> broken_in_two(const GlyphRuns& runs, const GlyphSettin
     return best;
 }
 
-/// Each line apart, as a setting of the same box.
+/// Each line by itself, as a setting of the same box.
 std::vector<GlyphSetting> lines_of(const GlyphSetting& setting) {
     std::vector<GlyphSetting> lines;
     auto glyph = setting.glyphs.begin();
@@ -92,8 +93,8 @@ std::vector<GlyphSetting> lines_of(const GlyphSetting& setting) {
     return lines;
 }
 
-/// The setting with the fewest lines that fits. Where two lines do not hold it, its single line is broken in the middle: that
-/// leaves the least to be cut off.
+/// The setting with the fewest lines that fits. If two lines do not hold the title, its single line is broken
+/// in the middle, so that the least text is cut off.
 std::vector<GlyphSetting> best_lines(const GlyphRuns& runs, const GlyphText& title, double width) {
     const GlyphSetting* fits = nullptr;
     const GlyphSetting* single = nullptr;
@@ -138,13 +139,13 @@ Coverage trimmed(const Coverage& image) {
     return ink;
 }
 
-/// A line's letters, and the row of `image` that they stand on.
+/// A line's letters, and the row of `image` that holds their baseline.
 struct SetLine {
     Coverage image;
     int baseline = 0;
 };
 
-/// Line below line at the same distance in every script, so that two always find room in a place.
+/// Lines have the same pitch in every script, so that two always fit a place.
 CaptionImage in_the_middle(const std::vector<SetLine>& lines, double em_px, double texels_per_m) {
     int width = 1;
     for (const SetLine& line : lines) {
@@ -169,7 +170,7 @@ CaptionImage in_the_middle(const std::vector<SetLine>& lines, double em_px, doub
     return title;
 }
 
-/// How far a place is outside a square with round corners, in its half sides; negative inside.
+/// Signed distance of a point from a square with round corners, in its half sides; negative inside.
 double outside_square(const glm::dvec2& at) {
     constexpr double radius = 0.12;
     constexpr double half = 0.97;
@@ -177,7 +178,7 @@ double outside_square(const glm::dvec2& at) {
     return glm::length(glm::max(off, 0.0)) + std::min(std::max(off.x, off.y), 0.0) - radius;
 }
 
-/// `outside`: how far a place is outside what is drawn, in half sides.
+/// `outside`: signed distance of a point from the shape, in half sides.
 template <typename Outside> Coverage drawn(int side_px, const Outside& outside) {
     Coverage image(side_px, side_px);
     const double half_px = 0.5 * side_px;

@@ -1,8 +1,9 @@
-/// An artifact's title as it lies on the table below its picture: at most two lines, in the middle, of the smallest type.
+/// An artifact's title on the table below its picture: at most two centred lines, in the smallest type.
 ///
-/// Units    metres on the table. Coverage is linear light, 255 = white; row 0 at the top of the first line's box.
+/// Units    metres on the table. Coverage is linear light, 255 = white; row 0 at the top of the first line's
+///          box.
 /// Threads  as Typesetter; made once for each title and language.
-/// Method   What does not fit into two lines is cut off, and the last letters before that fade out.
+/// Method   text beyond two lines is cut off, and the last letters before the cut fade out.
 #pragma once
 
 #include "app/pack/glyph_runs.h"
@@ -13,18 +14,19 @@
 
 namespace frustumscreen {
 
-/// Some millimetres more than a place is wide: the bake breaks lines for this width, and places have a gap between them.
+/// Some millimetres more than a place's width: the bake breaks lines for this width, and there are gaps
+/// between places.
 inline constexpr double table_title_width_m = 0.0765;
 
-/// A title that was shaped at the bake, in any script.
+/// A title that the bake has shaped, in any script.
 [[nodiscard]] CaptionImage make_table_title(const GlyphRuns& runs, const DistanceAtlas& atlas,
                                             const GlyphText& title, double texels_per_m);
 [[nodiscard]] CaptionImage make_table_title(const Typesetter& typesetter, const std::string& title,
                                             double texels_per_m);
 
-/// What lies in a place instead of a picture; pictures of coverage with `side_px` texels a side.
+/// Placeholder for a missing picture in a place; coverage with `side_px` texels a side.
 [[nodiscard]] Image<std::uint8_t> outlined_square(int side_px);
-/// The same, with three dots: there is more.
+/// As above, with three dots: there are more artifacts.
 [[nodiscard]] Image<std::uint8_t> more_mark(int side_px);
 
 } // namespace frustumscreen

@@ -27,7 +27,7 @@ struct CloseLibrary {
     void operator()(FT_Library library) const { FT_Done_FreeType(library); }
 };
 
-/// The next code point of UTF-8 text; U+FFFD for a byte that starts none.
+/// The next code point of UTF-8 text; U+FFFD for an invalid byte.
 char32_t next_code_point(std::string_view& text) {
     constexpr char32_t replacement = 0xFFFD;
     const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
@@ -58,7 +58,7 @@ std::u32string decode(std::string_view text) {
     return codes;
 }
 
-/// Letters of scripts that run from right to left, join or stack, and what turns the order of letters round.
+/// Letters of scripts that run from right to left, join or stack, and characters that control text direction.
 bool needs_shaping(char32_t code) {
     return (code >= 0x0590 && code < 0x10A0) || (code >= 0x1100 && code < 0x1200) ||
            (code >= 0x1700 && code < 0x1C80) || (code >= 0x200B && code < 0x2010) ||
@@ -103,7 +103,7 @@ double width_of(FT_Face face, std::u32string_view text) {
     return width;
 }
 
-/// How many characters of `text` go on one line, and how many (with the space after them) are used up.
+/// Number of characters of a text on its first line, and number consumed, including the space after them.
 struct Cut {
     std::size_t shown = 0;
     std::size_t used = 0;
@@ -139,7 +139,7 @@ void break_lines(FT_Face face, const Paragraph& paragraph, double limit_px, std:
     }
 }
 
-/// Draws a glyph's coverage, lighter over darker, so that neighbours that touch do not add up.
+/// Draws a glyph's coverage, keeping the lighter value, so that touching neighbours do not add up.
 void blend(const FT_GlyphSlot& glyph, double brightness, int left, int top, Image<std::uint8_t>& image) {
     const FT_Bitmap& bitmap = glyph->bitmap;
     for (int row = 0; row < static_cast<int>(bitmap.rows); ++row) {
@@ -219,7 +219,7 @@ Result<Typesetter> Typesetter::open(const std::filesystem::path& folder) {
 struct Typesetter::Layout {
     std::vector<Line> lines;
     std::vector<double> baselines_px;
-    int side_px = 0; ///< to the left and to the right: letters may lean over
+    int side_px = 0; ///< margin on the left and right: letters may lean over
     glm::ivec2 size_px{1};
 };
 

@@ -1,6 +1,6 @@
-/// The side of the table that a visitor reads from, in quarter turns: what lies on the table is turned to it.
+/// The side of the table that a visitor reads from, in quarter turns; pictures on the table are turned to it.
 ///
-/// 0: the front edge (-Y). Each quarter turn goes on counter-clockwise seen from above: 1 is the right edge
+/// 0: the front edge (-Y). Each quarter turn continues counter-clockwise seen from above: 1 is the right edge
 /// (+X), 2 the far one, 3 the left one.
 ///
 /// Frames   table T, metres.
@@ -11,18 +11,18 @@
 
 namespace frustumscreen {
 
-/// A point about the table's centre, turned by quarter turns counter-clockwise; exact.
+/// Rotates a point about the table's centre by quarter turns counter-clockwise; exact.
 [[nodiscard]] glm::dvec2 turned(const glm::dvec2& point, int quarter_turns);
 
 class VisitorSide {
 public:
-    /// A visitor must be so much nearer to another side, as seen from the table's middle, before that side counts: at a
-    /// table's corner nothing may turn to and fro.
+    /// A visitor must be this much nearer to another side, as seen from the table's middle, before the side
+    /// changes. This avoids toggling at a table's corner.
     static constexpr double hysteresis_deg = 12.0;
-    /// Somebody who leans over the middle of the table reads from where they came.
+    /// A visitor who leans over the middle of the table keeps the side.
     static constexpr double leaning_m = 0.15;
 
-    /// Takes where the eyes are and returns the side.
+    /// Takes the eye's position and returns the side.
     int update(const glm::dvec3& eye_m);
     [[nodiscard]] int quarter_turns() const { return quarter_turns_; }
 
