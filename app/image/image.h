@@ -34,7 +34,7 @@ template <typename Texel> struct Image {
 };
 
 using Image8 = Image<glm::u8vec4>;    ///< sRGB + alpha
-using Image16 = Image<std::uint16_t>; ///< relief; ReliefAtlas has the codes
+using Image16 = Image<std::uint16_t>; ///< relief; for its codes see ReliefAtlas
 using ImageFloat = Image<glm::vec3>;
 
 /// sRGB transfer function, IEC 61966-2-1.
@@ -46,7 +46,7 @@ using ImageFloat = Image<glm::vec3>;
 [[nodiscard]] std::uint8_t srgb8_from_linear(double linear01);
 
 /// The next coarser mip level: half as wide and high (rounded down, at least 1), colour averaged by area in
-/// linear light. It is the same on every machine, unlike the drivers' own.
+/// linear light. Equal on every machine, unlike the drivers' mip levels.
 [[nodiscard]] Image8 half_size(const Image8& image);
 
 /// Errors: not a PNG, damaged, larger than `limit_texels`.
@@ -57,24 +57,24 @@ using ImageFloat = Image<glm::vec3>;
 /// Lossless; RGB if every alpha is 255.
 [[nodiscard]] Bytes encode_png(const Image8& image);
 [[nodiscard]] Bytes encode_png(const Image16& image);
-/// Lossless; empty if WebP cannot hold it (nothing, or more than 16383 texels a side).
+/// Lossless; empty if WebP cannot hold it (no texels, or more than 16383 a side).
 [[nodiscard]] Bytes encode_webp(const Image8& image);
-/// For looking at: `quality` 0 to 100, alpha left out; empty as above.
+/// For viewing: `quality` 0 to 100, alpha ignored; empty as above.
 [[nodiscard]] Bytes encode_lossy_webp(const Image8& image, float quality);
 /// Errors: not a lossless still picture, damaged, larger than `limit_texels`.
 [[nodiscard]] Result<Image8> decode_webp8(std::span<const std::byte> bytes,
                                           std::int64_t limit_texels = 1 << 28);
 [[nodiscard]] bool begins_as_webp(std::span<const std::byte> bytes);
-/// What a picture's first bytes say of its size; some hundred are enough. Errors: neither PNG nor lossless WebP.
+/// A picture's size from its first bytes; a few hundred suffice. Errors: neither PNG nor lossless WebP.
 struct PictureExtent {
     std::int64_t width = 0, height = 0;
 };
 [[nodiscard]] Result<PictureExtent> extent_of_png(std::span<const std::byte> beginning);
 [[nodiscard]] Result<PictureExtent> extent_of_webp(std::span<const std::byte> beginning);
-/// Portable float map, three channels, little-endian, rows bottom to top as the format has it.
+/// Portable float map, three channels, little-endian, rows from bottom to top as in the format.
 [[nodiscard]] Bytes encode_pfm(const ImageFloat& image);
 
-/// Whether some texel has alpha below one half: pictures leave such texels out.
+/// True if some texel has alpha below one half: shaders do not draw such texels.
 [[nodiscard]] inline bool has_cut_texels(const Image8& image) {
     return std::any_of(image.texels.begin(), image.texels.end(),
                        [](const glm::u8vec4& texel) { return texel.a < 128; });

@@ -1,6 +1,6 @@
 /// A cut-out picture as light on a table, with its mip levels.
 ///
-/// Colour   sRGB codes; averaged in linear light, here and not by the driver (half_size).
+/// Colour   sRGB codes; averaged in linear light here, not by the driver (half_size).
 /// Threads  pure; any.
 #pragma once
 

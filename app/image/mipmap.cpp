@@ -7,7 +7,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The texels of one row or column that a texel of half the size covers, and how much of each.
+/// The texels of one row or column that a texel of half the size covers, and the share of each.
 struct Covered {
     int first = 0;
     int count = 0;
@@ -16,7 +16,7 @@ struct Covered {
 
 std::vector<Covered> coverage(int size, int half) {
     std::vector<Covered> covered(static_cast<std::size_t>(half));
-    const double span = static_cast<double>(size) / half; // 2, or up to 3 where the size is odd
+    const double span = static_cast<double>(size) / half; // 2, or up to 3 if the size is odd
     for (int k = 0; k < half; ++k) {
         Covered& c = covered[static_cast<std::size_t>(k)];
         const double begin = k * span;
@@ -30,8 +30,8 @@ std::vector<Covered> coverage(int size, int half) {
     return covered;
 }
 
-/// A table of the nearest sRGB code of linear light; its steps are finer than a hundredth of a code where
-/// codes lie closest.
+/// A table of the nearest sRGB code of linear light; its steps are a twentieth of a code where codes are
+/// closest, near black.
 std::vector<std::uint8_t> code_table(std::size_t entries) {
     std::vector<std::uint8_t> codes(entries);
     for (std::size_t k = 0; k < entries; ++k) {

@@ -29,7 +29,7 @@ tl::unexpected<Error> damaged(const png_image& png) {
     return bad_input("image.png_damaged", "the PNG picture is damaged (" + std::string(png.message) + ")");
 }
 
-/// Reads the header and checks its size against the limit, before anything of that size is allocated.
+/// Reads the header and checks its size against the limit before allocating anything of that size.
 Result<PngImage> begin_decode(std::span<const std::byte> bytes, std::int64_t limit_texels) {
     PngImage png = new_png();
     if (bytes.empty() || png_image_begin_read_from_memory(png.get(), bytes.data(), bytes.size()) == 0) {
@@ -53,7 +53,7 @@ template <typename Texel> Result<Image<Texel>> finish_decode(PngImage png, png_u
     return image;
 }
 
-/// Empty if libpng refuses the size (nothing, or more than a million texels in a row).
+/// Empty if libpng refuses the size (no texels, or more than a million in a row).
 Bytes encode(int width, int height, png_uint_32 format, const void* texels) {
     if (width <= 0 || height <= 0) {
         return {};
@@ -85,7 +85,7 @@ Result<PictureExtent> extent_of_png(std::span<const std::byte> beginning) {
 
 Result<Image8> decode_png8(std::span<const std::byte> bytes, std::int64_t limit_texels) {
     TRY(PngImage png, begin_decode(bytes, limit_texels));
-    // Pictures of 16 bits without a gamma chunk are sRGB here; libpng would take them for linear light.
+    // Pictures of 16 bits without a gamma chunk are sRGB here; libpng would treat them as linear light.
     png->flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
     return finish_decode<glm::u8vec4>(std::move(png), PNG_FORMAT_RGBA);
 }

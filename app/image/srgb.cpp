@@ -40,7 +40,7 @@ const std::array<float, 256>& linear_from_srgb8() {
 }
 
 std::uint8_t srgb8_from_linear(double linear01) {
-    if (!(linear01 > 0.0)) { // NaN too
+    if (!(linear01 > 0.0)) { // also for NaN
         return 0;
     }
     static const std::array<double, 255> thresholds = make_thresholds();

@@ -21,7 +21,7 @@ struct FreePicture {
     }
 };
 
-/// `import` takes the texels as they lie in the image.
+/// `import` reads the texels in the image's memory layout.
 Bytes encode(const Image8& image, const WebPConfig& config,
              int (*import)(WebPPicture*, const std::uint8_t*, int)) {
     const std::unique_ptr<WebPPicture, FreePicture> picture(new WebPPicture{});
@@ -53,7 +53,7 @@ Bytes encode_webp(const Image8& image) {
         return {};
     }
     config.lossless = 1;
-    config.exact = 1;    // colours stay where alpha is 0: filters mix them in
+    config.exact = 1;    // keep colours where alpha is 0: filters mix them in
     config.method = 4;   // half of the bytes of a quick PNG, 0.4 s a million texels;
     config.quality = 50; // more effort saves 2 %
     return encode(image, config, WebPPictureImportRGBA);
