@@ -1,4 +1,5 @@
-/// A table in its room, for a picture that shows what an exhibit is: table, legs, floor, wall, and the projector above.
+/// A table in its room, for a picture that illustrates an exhibit: table, legs, floor, wall, and the
+/// projector above.
 ///
 /// Frames   table T, metres.
 /// Threads  pure; any.
@@ -10,7 +11,7 @@
 
 namespace frustumscreen {
 
-/// `lens_m`: the projector hangs there.
+/// `lens_m`: the projector's position.
 [[nodiscard]] std::vector<Block> room_around(const glm::dvec2& table_size_m, const glm::dvec3& lens_m);
 
 } // namespace frustumscreen

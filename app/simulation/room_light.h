@@ -1,9 +1,9 @@
-/// The light in the visitor's room: what the projector sends, and a faint light of the room's own.
+/// The light in the visitor's room: the projector's light and a faint room light.
 ///
-/// A surface sends back its share (albedo) of the projector's light, which falls as cos / d^2, and of the room's. The
-/// exposure is fixed by the set-up, as an eye adapts that stays in the room: white on the middle of an upright side face,
-/// the prop at the table's centre, counts as 1. Before a dark room's table (dark grey) the artifact is then as bright as
-/// it looks to a visitor.
+/// A surface reflects its share (albedo) of the projector's light, which falls as cos / d^2, and of the
+/// room's. The exposure is fixed by the set-up, like an eye adapted to the room: white on the middle of a
+/// side face, with the prop upright at the table's centre, counts as 1. Against the dark grey table of a dark
+/// room the artifact is then as bright as it looks to a visitor.
 ///
 /// Frames   table T, metres. Light is linear.
 /// Threads  pure; any.
@@ -21,7 +21,7 @@ inline constexpr double prop_albedo = 0.85;
 inline constexpr double table_albedo = 0.40;
 inline constexpr double brightest_room_light = 0.045; ///< after exposure, on a surface that faces it
 
-/// cos / d^2 of the projector's light at a place; 0 if it comes from behind.
+/// cos / d^2 of the projector's light at a point; 0 if it comes from behind.
 [[nodiscard]] inline double received_from(const glm::dvec3& lens_m, const glm::dvec3& point_m,
                                           const glm::dvec3& normal) {
     const glm::dvec3 to_light = lens_m - point_m;
@@ -29,7 +29,7 @@ inline constexpr double brightest_room_light = 0.045; ///< after exposure, on a 
     return std::max(0.0, glm::dot(normal, to_light) / (distance * distance * distance));
 }
 
-/// What the projector's light is multiplied with.
+/// Factor of the projector's light.
 [[nodiscard]] inline double exposure_of(const PropShape& prop, const glm::dvec3& lens_m) {
     const PropFace& side = prop.faces.front();
     const double light = received_from(lens_m, side.middle(), side.plane.normal);

@@ -17,15 +17,15 @@ constexpr double prop_share_of_picture = 0.62;
 constexpr double largest_sine = 0.9;
 
 constexpr double contact_shadow_reach_m = 0.035;
-constexpr double faded_at_m = 2.0; ///< to half
+constexpr double faded_at_m = 2.0; ///< half of the light at this distance
 
-/// A place that a visitor's ray meets.
+/// A point that a visitor's ray hits.
 struct Place {
     glm::dvec3 point_m{0.0}; ///< table frame
     glm::dvec3 normal{0.0};  ///< table frame
-    bool lit = false;        ///< in sight of the projector's lens
+    bool lit = false;        ///< visible from the projector's lens
     double albedo = table_albedo;
-    double room_share = 1.0; ///< of the room's light, that arrives
+    double room_share = 1.0; ///< share of the room's light that arrives
 };
 
 struct BlockHit {
@@ -34,7 +34,7 @@ struct BlockHit {
     const Block* block = nullptr;
 };
 
-/// Where a ray from outside first meets a block.
+/// The first hit of a ray from outside a block.
 BlockHit first_block(const std::vector<Block>& blocks, const glm::dvec3& origin,
                      const glm::dvec3& direction) {
     BlockHit first;
@@ -97,7 +97,7 @@ public:
         return Place{point, glm::dvec3(0, 0, 1), !shadowed, table_albedo, contact_shadow(point)};
     }
 
-    /// Linear light that a place sends to the eye.
+    /// Linear light that a point reflects to the eye.
     [[nodiscard]] glm::dvec3 sent_back(const Place& place) const {
         glm::dvec3 light(0.0);
         if (place.lit) {
@@ -111,7 +111,8 @@ public:
         return place.albedo * (light + place.room_share * room_light_on(place.normal));
     }
 
-    /// How densely the lens packs pixels towards a place, beside one that does not distort: each has the same light.
+    /// Density of the projector's pixels at a point relative to a lens without distortion: each pixel has the
+    /// same light.
     [[nodiscard]] double pixels_beside(const glm::dvec3& point_m) const {
         const glm::dvec3 p = in_projector(point_m);
         return scene_.projector.lens.area_factor((p.x * p.x + p.y * p.y) / (p.z * p.z));
@@ -122,7 +123,7 @@ public:
     }
 
 private:
-    /// The projector's light, linear, as it would fall on a surface square to it.
+    /// The projector's light, linear, as on a surface perpendicular to it.
     [[nodiscard]] glm::dvec3 projected(const glm::dvec3& point_m) const {
         const std::optional<glm::dvec2> pixel = scene_.projector.pixel(projector_from_table_.point(point_m));
         if (!pixel || pixel->x < 0.0 || pixel->y < 0.0 || pixel->x >= picture_.width ||
@@ -149,11 +150,11 @@ private:
         return std::abs(point_m.x) <= scene_.table_size_m.x / 2.0 &&
                std::abs(point_m.y) <= scene_.table_size_m.y / 2.0;
     }
-    /// The room's own light is around the table.
+    /// The room's own light is around the table and fades with distance.
     [[nodiscard]] static double fading(const glm::dvec3& point_m) {
         return 1.0 / (1.0 + glm::dot(point_m, point_m) / (faded_at_m * faded_at_m));
     }
-    /// Less of the room's light arrives close to the prop.
+    /// Less of the room's light arrives near the prop.
     [[nodiscard]] double contact_shadow(const glm::dvec3& point_m) const {
         const glm::dvec3 p = prop_from_table_.point(point_m);
         const glm::dvec2& foot = scene_.prop.corners.front();

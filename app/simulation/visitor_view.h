@@ -1,13 +1,12 @@
-/// What the visitor's eye sees: the simulated table with the prop, lit by the projector's picture.
+/// The visitor's view: the simulated table with the prop, lit by the projector's picture.
 ///
-/// It is a separate path, to judge the whole chain: it knows the projector's finished picture, the
-/// configuration and the poses, and neither the artifact nor the collineation. A ray goes from the eye
-/// through each pixel to the prop or the table; the point it meets sends back the projector's pixel that
-/// lights it, if one does.
+/// A separate path, to check the whole chain: it uses the projector's finished picture, the configuration and
+/// the poses, but neither the artifact nor the collineation. A ray goes from the eye through each pixel to
+/// the prop or the table; the point that it hits reflects the projector's pixel that lights it, if any.
 ///
 /// Frames   table T; metres. Pixels as in pinhole.h.
-/// Light    linear inside, sRGB codes at both edges. With `light`, it is that of room_light.h. Without it, a
-///          surface sends back the projector's code as it is, and nothing where no light falls.
+/// Light    linear inside, sRGB codes at input and output. With `light`, as in room_light.h. Without it, a
+///          surface returns the projector's code unchanged, and black where no light falls.
 /// Threads  uses all cores; deterministic. Offline only.
 /// Errors   none.
 #pragma once
@@ -27,22 +26,22 @@
 
 namespace frustumscreen {
 
-/// A thing of the room, along the axes of the table's frame, which only the room's light reaches.
+/// An object of the room, axis-aligned in the table frame, which only the room's light reaches.
 struct Block {
     glm::dvec3 low_m{0.0};
     glm::dvec3 high_m{0.0};
     double albedo = 0.3;
 };
 
-/// Everything that stands around the visitor.
+/// Everything around the visitor.
 struct VisitorScene {
-    Pinhole projector; ///< of the picture handed in: its width and height are the picture's
+    Pinhole projector; ///< of the given picture, with its width and height
     RigidTransform table_from_projector;
     PropShape prop;
     RigidTransform table_from_prop;
     glm::dvec3 eye_m{0.0};
     glm::dvec2 table_size_m{0.8, 0.5}; ///< along X and Y
-    std::vector<Block> blocks = {};    ///< shade nothing; none around a picture that is measured
+    std::vector<Block> blocks = {};    ///< they cast no shadows; empty for pictures that are measured
 };
 
 struct VisitorCamera {
@@ -62,13 +61,13 @@ struct VisitorCamera {
 
 struct VisitorViewOptions {
     bool light = true;
-    /// Rays along each side of a pixel, averaged in linear light; 1 = through the centre alone.
+    /// Rays along each side of a pixel, averaged in linear light; 1 = only through the centre.
     int rays_per_side = 3;
-    /// The projector's pixel as it is instead of a bilinear mixture of four.
+    /// Takes the projector's nearest pixel instead of interpolating four.
     bool nearest = false;
 };
-/// Options for comparing with a ray cast, ray for ray: `--no-light`. The visitor's picture should not be
-/// finer than the projector's: half its width and height is right for the default prop.
+/// Options for comparing with a ray cast, ray by ray: `--no-light`. The visitor's picture should not be finer
+/// than the projector's: half its width and height suits the default prop.
 [[nodiscard]] constexpr VisitorViewOptions exact_check() {
     return {false, 1, false};
 }
@@ -76,14 +75,14 @@ struct VisitorViewOptions {
 [[nodiscard]] Image8 visitor_view(const VisitorScene& scene, const Image8& projected,
                                   const VisitorCamera& camera, const VisitorViewOptions& options = {});
 
-/// One picture's camera for the file beside the pictures.
+/// One picture's camera, for the file next to the pictures.
 struct VisitorFrame {
     int frame = 0;
     std::int64_t t_us = 0;
     glm::dvec3 eye_m{0.0};
     VisitorCamera camera;
 };
-/// A file that lies only beside pictures of the visitor's view.
+/// This file exists only next to pictures of the visitor's view.
 inline constexpr std::string_view visitor_cameras_name = "visitor_cameras.json";
 /// {"frames": [{"frame", "t_us", "eye_m"[3], "width", "height", "fx", "fy", "cx", "cy",
 /// "table_from_camera"[16, column-major]}]}; ends with a line break.
