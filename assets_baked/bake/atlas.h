@@ -14,10 +14,10 @@ namespace frustumscreen {
 struct AtlasLayout {
     int width = 0;
     int height = 0;
-    std::vector<glm::ivec2> corners; ///< top-left of each rectangle, in the order given
+    std::vector<glm::ivec2> corners; ///< top-left of each rectangle, in the given order
 };
 
-/// About square. A size is at least 1 x 1, or 0 x 0 for what needs no place.
+/// The picture is about square. A size is at least 1 x 1, or 0 x 0 for an empty rectangle.
 [[nodiscard]] AtlasLayout pack_rectangles(const std::vector<glm::ivec2>& sizes);
 
 } // namespace frustumscreen

@@ -23,12 +23,12 @@ namespace {
 
 /// Simplification tolerances, box units: 1e-4 is 10 um on an artifact 0.1 m long. The finest level is the
 /// source itself unless that is too large. (A tolerance near zero would not give it: the library's 32-bit
-/// errors mean nothing below some 3e-4, and its result strays that far.)
+/// errors are meaningless below about 3e-4, and its result strays by that much.)
 constexpr std::size_t most_finest_triangles = 600'000;
 constexpr float finest_tolerance = 5e-5F;
 constexpr std::array<float, 6> mesh_tolerances{1e-4F, 2.2e-4F, 3.6e-4F, 5.5e-4F, 9e-4F, 2e-3F};
 
-/// The axis that each face looks along most.
+/// The axis closest to each face's normal.
 std::vector<ReliefDirection> directions_of(const PropShape& prop) {
     std::vector<ReliefDirection> directions;
     for (const PropFace& face : prop.faces) {
@@ -40,7 +40,7 @@ std::vector<ReliefDirection> directions_of(const PropShape& prop) {
     return directions;
 }
 
-/// Simplified triangles on their way to a level.
+/// Simplified triangles that become a level.
 struct Surface {
     TriangleMesh mesh;
     float tolerance_box = 0.0F;
@@ -53,7 +53,7 @@ struct TexturedLevels {
     Image8 texture;
 };
 
-/// Everything that levels are made from and measured against.
+/// The input of the levels, for making and measuring them.
 class Bakery {
 public:
     Bakery(const SourceMesh& mesh, const BoxFrame& frame, const BakeOptions& options)
@@ -64,14 +64,14 @@ public:
     [[nodiscard]] const std::vector<glm::dvec3>& points() const { return points_; }
     [[nodiscard]] const SourceScene& source() const { return source_; }
 
-    /// Fine to coarse.
+    /// From fine to coarse.
     std::vector<Surface> surfaces() {
         finest_ =
             welded_.triangle_count() > most_finest_triangles ? simplify(welded_, finest_tolerance) : welded_;
         options_.progress("what visitors can see", 0.02);
         visible_ = seen_sides(finest_);
         if (visible_.indices.empty()) {
-            visible_ = finest_; // nothing is seen from the zone: a sheet flat on the table
+            visible_ = finest_; // no part is visible from the zone: a sheet flat on the table
         }
         samples_ = sample_source(source_, visible_, 5.0F * finest_tolerance, options_.measuring);
         std::vector<Surface> surfaces{measured(visible_, finest_tolerance)};
@@ -84,7 +84,7 @@ public:
                               0.1 + 0.4 * static_cast<double>(k) / mesh_tolerances.size());
             const TriangleMesh fewer = simplify(finest_, mesh_tolerances[k]);
             if (fewer.triangle_count() * 20 > last * 19) {
-                continue; // not 5 % fewer than the last: not worth a level
+                continue; // less than 5 % fewer than the last: not worth a level
             }
             last = fewer.triangle_count();
             const TriangleMesh sides = visible_sides_like(fewer, visible_, seen, mesh_tolerances[k]);
@@ -95,7 +95,7 @@ public:
         return surfaces;
     }
 
-    /// `surfaces` fine to coarse.
+    /// `surfaces` from fine to coarse.
     TexturedLevels mesh_levels(const std::vector<Surface>& surfaces) {
         options_.progress("colours", 0.5);
         SharedCharts charts(texel_box_, 4 * options_.size);
@@ -105,7 +105,7 @@ public:
         }
         std::vector<ChartedMesh> charted = charts.lay_out();
         std::reverse(charted.begin(), charted.end());
-        // A texel shows the finest surface that has it.
+        // A texel shows the finest surface that contains it.
         const ChartedMesh all = joined(charted);
         const Image<AtlasTexel> texels = rasterise(all);
         const float reach = reach_of(surfaces.front().tolerance_box);
@@ -123,7 +123,7 @@ public:
         return made;
     }
 
-    /// For casting, beside the levels.
+    /// The pack's reliefs, in addition to the levels.
     [[nodiscard]] std::vector<MeasuredRelief> reliefs(const TexturedLevels& meshes) const {
         options_.progress("relief to be cast", 0.9);
         return bake_reliefs({meshes.levels.front(), meshes.texture, frame_.box_size,
@@ -134,7 +134,7 @@ public:
 
 private:
     /// The mesh itself decides what is hidden. If the source did, parts of a simplified surface slightly
-    /// outside it would seem visible. Only where alpha cuts holes the source must decide.
+    /// outside it would seem visible. Only if alpha cuts holes must the source decide.
     [[nodiscard]] TriangleMesh seen_sides(const TriangleMesh& mesh) const {
         const std::vector<SourceMaterial>& materials = source_.mesh().materials;
         if (std::any_of(materials.begin(), materials.end(),
@@ -152,7 +152,7 @@ private:
         return surface;
     }
 
-    /// How far a surface may lie from the source where its colours are looked up.
+    /// Largest distance of a surface from the source for looking up its colours.
     static float reach_of(float tolerance_box) { return 4.0F * tolerance_box + 1e-3F; }
 
     /// The texture in the museum's light.
@@ -185,8 +185,8 @@ double mm_per_box(const Pack& pack, const BakedProp& prop) {
     return place(pack, prop.shape).metres_per_box * 1e3;
 }
 
-/// The first level that is good enough, from the finest one of at most `free_triangles` on. The last level is
-/// for close views: it is drawn with more samples.
+/// The first level that is good enough, starting at the finest one of at most `free_triangles`. The start is
+/// never the last level, which is for close views and is drawn with more samples.
 std::uint32_t choose_default(const Pack& pack, const SeenErrors& seen, const BakedProp& prop) {
     constexpr std::size_t free_triangles = 30'000;
     std::uint32_t level = 0;
@@ -206,7 +206,7 @@ LevelOutline outline_of(const Surface& surface) {
     return {LevelTechnique::Mesh, surface.error, surface.mesh.triangle_count(), 0, 0};
 }
 
-/// Leaves the surfaces that are worth a level, fine to coarse.
+/// Keeps the surfaces that are worth a level, from fine to coarse.
 void keep_front(std::vector<Surface>& surfaces) {
     std::vector<LevelOutline> outlines;
     outlines.reserve(surfaces.size());
@@ -222,13 +222,13 @@ void keep_front(std::vector<Surface>& surfaces) {
 
 /// True if the mean error is smaller and neither the 95th percentile nor the colour error is clearly larger.
 bool betters(const LevelError& dearer, const LevelError& cheaper) {
-    constexpr float scatter = 1.1F; // of a measure over random points
+    constexpr float scatter = 1.1F; // scatter of a measure over random points
     constexpr float least_rmse = 1.0F;
     return dearer.mean_box < cheaper.mean_box && dearer.p95_box < scatter * cheaper.p95_box &&
            dearer.colour_rmse < scatter * cheaper.colour_rmse + least_rmse;
 }
 
-/// Moves the levels on the front into the pack, and their texture.
+/// Moves the levels on the front, and their texture, into the pack.
 void keep(Pack& pack, TexturedLevels meshes) {
     std::vector<LevelOutline> outlines;
     outlines.reserve(meshes.levels.size());
@@ -246,7 +246,8 @@ void keep(Pack& pack, TexturedLevels meshes) {
 
 std::vector<std::size_t> measured_front(const std::vector<LevelOutline>& levels) {
     constexpr std::uint64_t few_triangles = 1500; // fewer triangles do not make a frame cheaper
-    constexpr float worst_mean_box = 3e-3F;       // 0.3 mm on an artifact of 0.1 m; a visitor accepts no more
+    constexpr float worst_mean_box = 3e-3F;       // 0.3 mm on an artifact of 0.1 m, the most that a visitor
+                                                  // accepts
     std::vector<std::size_t> order(levels.size());
     std::iota(order.begin(), order.end(), 0);
     const auto rank = [&](std::size_t k) {
@@ -279,7 +280,7 @@ BakedProp baked_cube() {
 
 std::uintmax_t room_for_pack(int size) {
     constexpr std::uintmax_t triangles_bytes = 20'000'000;
-    constexpr std::uintmax_t bytes_each_square = 200; // of all levels and the relief
+    constexpr std::uintmax_t bytes_each_square = 200; // for all levels and the relief
     constexpr std::uintmax_t most_bytes = std::uintmax_t{2} << 30;
     const auto edge = static_cast<std::uintmax_t>(size);
     return std::min(most_bytes, triangles_bytes + bytes_each_square * edge * edge);
@@ -318,7 +319,7 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
         }
     }
     if (frame.lift_box > 0.0) {
-        used.emplace_back(0.0); // the box's bottom, above which the artifact stands
+        used.emplace_back(0.0); // the bottom of the box, above which the artifact stands
     }
     pack.extremes = profile_extremes(used);
     keep(pack, std::move(meshes));

@@ -1,10 +1,10 @@
-/// Bakes a source mesh into a pack: makes levels of simplified mesh, measures them, keeps the front; and layered
-/// relief, to be cast.
+/// Bakes a source mesh into a pack: makes levels of simplified mesh, measures them and keeps the Pareto
+/// front; and bakes layered relief for rasterization.
 ///
 /// Frame    in: the file's; out: the box (pack.h).
 /// Errors   one line for the curator.
-/// Threads  uses all cores; `progress` is called on the caller's.
-/// Memory   about 1.5 kB a source triangle at most, and 30 B for each texel of an atlas.
+/// Threads  uses all cores; `progress` is called on the caller's thread.
+/// Memory   at most about 1.5 kB for each source triangle, and 30 B for each texel of an atlas.
 #pragma once
 
 #include "app/geometry/prop_shape.h"
@@ -23,44 +23,44 @@
 
 namespace frustumscreen {
 
-/// What a pack is baked for: every prop of that kind, whatever its size.
+/// The kind of prop that a pack is baked for, in any size.
 struct BakedProp {
     std::string kind;
-    PropShape shape; ///< of the usual size, which decides what a visitor would notice
+    PropShape shape; ///< of the usual size, which decides which errors a visitor would notice
     ViewingZone zone;
 };
-/// It stands on the table.
+/// Stands on the table.
 [[nodiscard]] BakedProp baked_frustum();
-/// It is held in the hand: seen from all around, from below too.
+/// Held in the hand: seen from all around, also from below.
 [[nodiscard]] BakedProp baked_cube();
 
 struct BakeOptions {
     int size = 512; ///< texels along the longest edge of a face, 16..4096
     bool unlit = false;
-    bool relief = true; ///< the pack keeps layered relief to be cast (measured_reliefs.h)
+    bool relief = true; ///< the pack contains layered relief (measured_reliefs.h)
     BakedProp prop = baked_frustum();
-    std::string up;        ///< empty: the format's own
+    std::string up;        ///< empty: the format's own up axis
     double turn_deg = 0.0; ///< about the vertical axis, counter-clockwise seen from above; best_turn.h
     double lift = 0.0;     ///< above the prop's bottom, in heights of the artifact
-    double scale = 1.0;    ///< on the largest size inside the prop
-    /// Of the points and rays with which it measures what it made, 0..1: with fewer, a pack says its errors less exactly.
+    double scale = 1.0;    ///< relative to the largest size inside the prop
+    /// Share of the points and rays for measurements, 0..1: with fewer, a pack's errors are less exact.
     double measuring = 1.0;
     std::vector<GivenHotspot> hotspots;
-    /// Called with what is being done and how much of all is done, 0..1.
+    /// Called with the current step and the share of the whole work that is done, 0..1.
     std::function<void(std::string_view step, double done)> progress = [](std::string_view, double) {};
 };
 
-/// Id, title, languages, captions and provenance are left for the caller to fill in.
+/// The caller fills in id, title, languages, captions and provenance.
 [[nodiscard]] Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options);
 
 /// Disk space in bytes that a pack of this size (texels) may need. The largest pack measured, a helmet of
-/// seven levels at 512, had 31 MB; this is about twice as much, and never more than a pack may have.
+/// seven levels at 512, had 31 MB; this is about twice as much, and never more than a pack's limit.
 [[nodiscard]] std::uintmax_t room_for_pack(int size);
 
-/// Indices of the levels on the Pareto front of error against cost (triangles; below some 1500 all cost a
-/// frame the same), cheapest first: each has a smaller mean error than the one before, and no clearly larger
-/// 95th percentile or colour error. Those that stray further than a visitor would accept are left out, but for the
-/// nearest one.
+/// Indices of the levels on the Pareto front of error against cost (triangles; below about 1500 a frame's
+/// cost does not depend on them), cheapest first: each has a smaller mean error than the one before, and no
+/// clearly larger 95th percentile or colour error. Levels that stray further than a visitor would accept are
+/// left out, except for the most exact one.
 [[nodiscard]] std::vector<std::size_t> measured_front(const std::vector<LevelOutline>& levels);
 
 } // namespace frustumscreen

@@ -19,7 +19,7 @@ namespace {
 constexpr int full_turn_deg = 360;
 constexpr int quarter_turn_deg = 90;
 
-/// The vertices that triangles use, upright, their bounding box's lowest corner at the origin.
+/// The vertices that triangles use, upright, with the lowest corner of their bounding box at the origin.
 std::vector<glm::dvec3> upright_points(const SourceMesh& mesh, const BoxFrame& frame) {
     std::vector<bool> used(mesh.positions.size(), false);
     for (const auto& triangle : mesh.triangles) {
@@ -37,7 +37,7 @@ std::vector<glm::dvec3> upright_points(const SourceMesh& mesh, const BoxFrame& f
     return points;
 }
 
-/// How much the planes rise: the slopes of their normals, and 0 for the bounding box.
+/// Slopes of the prop's planes: of their normals, and 0 for the bounding box.
 std::vector<double> slopes_of(const PropShape& prop) {
     std::set<double> slopes{0.0};
     for (const Plane& plane : prop.bounds) {
@@ -49,8 +49,8 @@ std::vector<double> slopes_of(const PropShape& prop) {
     return {slopes.begin(), slopes.end()};
 }
 
-/// Of the points those that lie outermost in a direction that a plane can have after a turn by whole degrees,
-/// and the highest.
+/// The points that are outermost in any direction that a plane can have after a turn by whole degrees, and
+/// the highest and lowest.
 std::vector<glm::dvec3> outermost(std::span<const glm::dvec3> points, const std::vector<double>& slopes) {
     std::vector<glm::dvec3> found;
     const auto keep_outermost = [&](const glm::dvec3& direction) {
@@ -69,7 +69,7 @@ std::vector<glm::dvec3> outermost(std::span<const glm::dvec3> points, const std:
     return found;
 }
 
-/// The same for many points: block by block, then among what the blocks found.
+/// As above for many points: block by block, then among the blocks' results.
 std::vector<glm::dvec3> outermost_of_many(const std::vector<glm::dvec3>& points,
                                           const std::vector<double>& slopes) {
     constexpr std::size_t block = 32'768;
@@ -84,7 +84,7 @@ std::vector<glm::dvec3> outermost_of_many(const std::vector<glm::dvec3>& points,
     return outermost(all, slopes);
 }
 
-/// The largest scale inside the prop after a turn, standing as box_frame.h has it.
+/// The largest scale inside the prop after a turn, placed as in box_frame.h.
 double scale_after(int turn_deg, std::vector<glm::dvec3> points, double lift_box, const PropShape& prop) {
     const glm::dmat3 turn = turn_rotation(turn_deg);
     glm::dvec3 low(std::numeric_limits<double>::infinity());
@@ -101,7 +101,7 @@ double scale_after(int turn_deg, std::vector<glm::dvec3> points, double lift_box
     return largest_scale_inside(prop, points);
 }
 
-/// What the artifact covers, seen from the front; pixels.
+/// Pixels that the artifact covers, seen from the front.
 class Silhouette {
 public:
     void add(const std::array<glm::dvec2, 3>& corners) {
@@ -147,7 +147,7 @@ private:
 };
 
 std::ptrdiff_t seen_pixels(int turn_deg, const SourceMesh& mesh, const BoxFrame& frame) {
-    // The picture is as wide as the artifact after any turn, and as high: only shares of areas are compared.
+    // The picture is as wide as the artifact after any turn, and as high: only ratios of areas are compared.
     const double tiny = 1e-9 * frame.file_units_per_box;
     const glm::dvec2 pixels_per_unit =
         (Silhouette::side - 1.0) /
@@ -167,7 +167,7 @@ std::ptrdiff_t seen_pixels(int turn_deg, const SourceMesh& mesh, const BoxFrame&
     return silhouette.pixels();
 }
 
-/// -44 to 45: not turned or straight across if the artifact is as large so, else as it is largest.
+/// -44 to 45: 0 or 45 degrees if the artifact is then as large, otherwise the turn at which it is largest.
 int turn_of_largest_size(const std::vector<glm::dvec3>& points, double lift_box, const PropShape& prop) {
     constexpr double as_large = 0.995;
     std::array<double, quarter_turn_deg> scales{};
@@ -193,7 +193,7 @@ double best_turn_deg(const SourceMesh& mesh, std::string_view up, double lift, c
     }
     const std::vector<glm::dvec3> points = outermost_of_many(upright_points(mesh, *frame), slopes_of(prop));
     const int turn = turn_of_largest_size(points, frame->lift_box, prop);
-    // From behind a side covers as much as from the front, so two are enough.
+    // A side covers as much from behind as from the front, so two suffice.
     constexpr double clearly_more = 1.1;
     const auto front = static_cast<double>(seen_pixels(turn, mesh, *frame));
     const auto beside = static_cast<double>(seen_pixels(turn + quarter_turn_deg, mesh, *frame));

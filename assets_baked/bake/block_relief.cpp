@@ -25,17 +25,18 @@ struct OpenBlock {
     std::uint64_t mask = 0;
     std::array<std::uint32_t, corners_of_block> crossing{};
     std::array<float, corners_of_block> w{};
-    std::array<glm::u8vec4, corners_of_block> guess{}; ///< colours where there is no crossing; alpha 0: none
+    std::array<glm::u8vec4, corners_of_block> guess{}; ///< colours for corners without a crossing; alpha 0:
+                                                       ///< none
     std::array<std::uint64_t, std::size_t{block_cells} * block_cells>
-        cover{}; ///< of each cell; 0 where it is not there
+        cover{}; ///< of each cell; 0 if the cell does not exist
 
     OpenBlock() {
         crossing.fill(no_crossing);
         w.fill(no_height);
     }
 
-    /// The number of corners that the cell shares, nothing where they contradict. Guessed corners agree where they lie together;
-    /// they count only if `guessed`.
+    /// Number of corners that the cell shares with the block; nullopt if they contradict. Guessed corners
+    /// agree if they are close together; they only count if `guessed`.
     [[nodiscard]] std::optional<int> shared(const LinkedCell& cell, int column, int row, bool guessed) const {
         constexpr float together = 0.25F; // texels
         if ((mask >> (row * block_cells + column) & 1U) != 0) {
@@ -72,7 +73,8 @@ struct OpenBlock {
         }
     }
 
-    /// Joins the other if no cell or corner contradicts, and they touch, or lie at about one height.
+    /// Joins the other block if no cell or corner contradicts, and they touch or are at about the same
+    /// height.
     bool join(const OpenBlock& other, bool apart) {
         constexpr float the_same = 0.02F; // texels
         if ((mask & other.mask) != 0) {
@@ -106,7 +108,7 @@ struct OpenBlock {
 
 private:
     [[nodiscard]] glm::vec2 heights() const; ///< lowest, highest
-    /// A block of both is hardly deeper than one of either: what it costs to cast it grows with its depth.
+    /// A block of both is hardly deeper than one of either: the cost of rasterizing it grows with its depth.
     [[nodiscard]] bool lies_with(const OpenBlock& other) const;
 };
 
@@ -127,7 +129,7 @@ bool OpenBlock::lies_with(const OpenBlock& other) const {
     return std::max(a.y, b.y) - std::min(a.x, b.x) < deepest;
 }
 
-/// All layers of one block's place.
+/// All layers at one block's position.
 std::vector<OpenBlock> fill_blocks(const BlockInput& input, const GridCrossings& grid, int column0,
                                    int row0) {
     std::vector<OpenBlock> blocks;
@@ -151,7 +153,7 @@ std::vector<OpenBlock> fill_blocks(const BlockInput& input, const GridCrossings&
             for (std::size_t b = a + 1; b < blocks.size();) {
                 if (blocks[a].join(blocks[b], apart)) {
                     blocks.erase(blocks.begin() + static_cast<std::ptrdiff_t>(b));
-                    b = a + 1; // what did not touch before may now
+                    b = a + 1; // blocks that did not touch before may touch now
                 } else {
                     ++b;
                 }
@@ -161,7 +163,7 @@ std::vector<OpenBlock> fill_blocks(const BlockInput& input, const GridCrossings&
     return blocks;
 }
 
-/// The plane w0 + w_u i + w_v j nearest to the heights.
+/// The plane w0 + w_u i + w_v j closest to the heights.
 glm::dvec3 fit_plane(const OpenBlock& block) {
     glm::dmat3 normal(1e-9); // a single row of corners has no slope across
     glm::dvec3 sum(0.0);
@@ -178,7 +180,7 @@ glm::dvec3 fit_plane(const OpenBlock& block) {
     return glm::inverse(normal) * sum;
 }
 
-/// Gives the corners that no cell uses the mean of their neighbours, so that nothing looks at what is not there.
+/// Fills the corners that no cell uses with the mean of their neighbours, so that no undefined value is read.
 template <typename Value, typename Known>
 void fill_gaps(std::array<Value, corners_of_block>& values, Known known) {
     std::array<bool, corners_of_block> has{};
@@ -213,7 +215,7 @@ void fill_gaps(std::array<Value, corners_of_block>& values, Known known) {
     }
 }
 
-/// One direction's blocks on their way into the relief.
+/// One direction's blocks, before they are added to the relief.
 struct DirectionBlocks {
     std::vector<ReliefBlock> blocks;
     std::vector<std::uint32_t> corner_codes;
@@ -244,7 +246,7 @@ void add_colours(DirectionBlocks& into, const OpenBlock& open, const GridCrossin
     }
 }
 
-/// Extents and gradients of the cells that are there.
+/// Extents and gradients of the existing cells.
 void set_cells(ReliefBlock& block, const std::array<float, corners_of_block>& residual) {
     block.cells = {block_cells, 0, block_cells, 0};
     block.gradient_u =

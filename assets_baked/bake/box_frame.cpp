@@ -10,7 +10,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// A profile point: horizontal coordinate, height, and where it comes from.
+/// A profile point: horizontal coordinate, height, and index of its source point.
 struct ProfilePoint {
     double across;
     double height;
@@ -44,7 +44,7 @@ void append_hull(std::vector<ProfilePoint> points, std::vector<std::size_t>& sou
 } // namespace
 
 std::optional<glm::dmat3> up_rotation(std::string_view up) {
-    // Rows: where the file's axes go.
+    // Rows: the images of the file's axes.
     const auto rows = [](glm::dvec3 x, glm::dvec3 y, glm::dvec3 z) {
         return glm::transpose(glm::dmat3(x, y, z));
     };
@@ -123,7 +123,8 @@ Result<BoxFrame> make_box_frame(const SourceMesh& mesh, const Standing& standing
 }
 
 std::vector<glm::dvec3> in_box(const SourceMesh& mesh, const BoxFrame& frame) {
-    // The corner of the bounding box is subtracted first: that loses no precision, however far the origin is.
+    // The corner of the bounding box is subtracted first: this loses no precision, however far away the
+    // origin is.
     const glm::dvec3 foot(0.5 * frame.extent.x / frame.file_units_per_box,
                           0.5 * frame.extent.y / frame.file_units_per_box, -frame.lift_box);
     std::vector<glm::dvec3> points;

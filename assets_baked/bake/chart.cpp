@@ -12,8 +12,8 @@ float doubled_area(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Calls `function` with each texel whose centre lies inside abc and with the weights of a, b and c there, until it
-/// returns false; returns whether it never did.
+/// Calls `function` with each texel whose centre is inside abc and with the weights of a, b and c there,
+/// until it returns false; returns true if it never did.
 template <typename Function>
 bool for_each_centre(const std::array<glm::vec2, 3>& corners, const Function& function) {
     const auto& [a, b, c] = corners;
@@ -80,7 +80,7 @@ void Chart::reach(const glm::ivec2& low, const glm::ivec2& high) {
         high.y < origin_.y + old_size.y) {
         return;
     }
-    // A chart that grows gets room for more, so that it is seldom copied.
+    // A growing chart reserves a margin, so that it is seldom copied.
     const glm::ivec2 room = empty ? glm::ivec2(0) : old_size / 4 + 4;
     const glm::ivec2 new_low = empty ? low : glm::min(low - room, origin_);
     const glm::ivec2 new_high = empty ? high : glm::max(high + room, origin_ + old_size - 1);

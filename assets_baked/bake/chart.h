@@ -1,4 +1,5 @@
-/// One chart while it grows: the plane that its triangles are projected on, and which surface each texel shows.
+/// One chart while it grows: the plane that its triangles are projected on, and the surface that each texel
+/// shows.
 ///
 /// Frames   in: box. In its plane, one unit is a texel.
 /// Threads  one caller.
@@ -17,21 +18,22 @@ using TriangleCorners = std::array<glm::vec3, 3>;
 
 class Chart {
 public:
-    /// `direction`: unit, out of the surface.
+    /// `direction`: unit, pointing out of the surface.
     Chart(const glm::vec3& direction, float texel_box);
 
     [[nodiscard]] glm::vec2 project(const glm::vec3& p) const {
         return {glm::dot(p, axis_u_), glm::dot(p, axis_v_)};
     }
-    /// Takes the triangle if it faces the chart by a cosine of `least_facing`, lies on no other triangle of the
-    /// same mesh, and lies within `stray_box` of what other meshes have at its place.
+    /// Takes the triangle if the cosine between its normal and the chart's direction is at least
+    /// `least_facing`, it overlaps no other triangle of its mesh, and it is within `stray_box` of other
+    /// meshes' surfaces at its position. Returns true if it was taken.
     [[nodiscard]] bool take(const TriangleCorners& corners, std::uint32_t mesh, float stray_box,
                             float least_facing);
 
 private:
     struct Texel {
         float height = 0.0F;    ///< of the surface along the direction
-        std::uint32_t mesh = 0; ///< that was here last, from 1 on; 0: none
+        std::uint32_t mesh = 0; ///< that was here last, from 1; 0: none
     };
 
     void reach(const glm::ivec2& low, const glm::ivec2& high);

@@ -13,11 +13,10 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr float least_facing = 0.5F;        // a chart's texels stretch at most twice
+constexpr float least_facing = 0.5F;        // a chart's texels are stretched by at most 2
 constexpr float least_facing_later = 0.35F; // small triangles of a finer mesh may be steeper
 
-/// For each triangle's edge k (corner k to k + 1) the triangle on its other side, where exactly two meet
-/// there.
+/// For each triangle's edge k (corner k to k + 1), the triangle on its other side, if exactly two meet there.
 std::vector<std::uint32_t> neighbours(const TriangleMesh& mesh) {
     std::unordered_map<std::uint64_t, std::uint32_t> open; // directed edge -> 3 * triangle + k
     open.reserve(mesh.indices.size());
@@ -70,7 +69,7 @@ void ChartFinder::take_from(const TriangleMesh& other, const std::vector<std::ui
 }
 
 std::vector<std::uint32_t> ChartFinder::find() {
-    constexpr int passes = 4; // the last one hardly changes anything
+    constexpr int passes = 4; // the last pass changes hardly anything
     const bool is_first = charts_.empty();
     grow_the_rest();
     for (int pass = 0; is_first && pass < passes; ++pass) {
@@ -90,7 +89,7 @@ bool ChartFinder::take(std::uint32_t chart, std::uint32_t triangle, float facing
     return taken;
 }
 
-/// Offers each one's chart to the neighbours that have none, and to theirs.
+/// Offers each triangle's chart to its neighbours without one, and on to theirs.
 void ChartFinder::spread(std::vector<std::uint32_t> taken, float facing) {
     for (std::size_t head = 0; head < taken.size(); ++head) {
         for (std::size_t k = 0; k < 3; ++k) {
@@ -128,7 +127,7 @@ void ChartFinder::grow_the_rest() {
     }
 }
 
-/// All charts are this mesh's own.
+/// Only for charts that are all this mesh's own.
 void ChartFinder::grow_anew() {
     std::vector<glm::vec3> means(charts_.size(), glm::vec3(0.0F));
     std::vector<float> sizes(charts_.size(), 0.0F);
@@ -151,7 +150,7 @@ void ChartFinder::grow_anew() {
     grow_the_rest();
 }
 
-/// A triangle two of whose neighbours share another chart goes there if it fits.
+/// Moves a triangle to the chart that two of its neighbours share, if it fits there.
 void ChartFinder::straighten_borders(float facing) {
     constexpr int passes = 4;
     for (int pass = 0; pass < passes; ++pass) {
@@ -176,9 +175,9 @@ std::uint32_t ChartFinder::chart_of_two_neighbours(std::uint32_t triangle) const
     return charts[1] == charts[2] ? charts[1] : no_chart;
 }
 
-/// For each triangle the one of `other` at its place, on the same side.
+/// For each triangle, the triangle of `other` at its position, on the same side.
 std::vector<std::uint32_t> ChartFinder::beside_in(const TriangleMesh& other) const {
-    // The two sides of a sheet share positions: each is moved a little to its own side.
+    // The two sides of a sheet share positions, so each is lifted slightly to its own side.
     constexpr float lift = 1e-4F;
     TriangleMesh lifted = other;
     const std::vector<glm::vec3> normals = smooth_normals(other);

@@ -1,9 +1,11 @@
-/// Which chart each triangle of a mesh goes to: borders are short, because each place at one is a vertex more in every frame.
+/// Assigns each triangle of a mesh to a chart. Borders are kept short, because each vertex on a border is
+/// duplicated in every frame.
 ///
-/// Method   charts grow from large triangles over neighbours that face the same way. Those of the first mesh then grow anew, some
-///          times, each from the triangle where it began and along the mean of what it had taken (Lloyd's algorithm, as variational
-///          shape approximation has it: Cohen-Steiner, Alliez & Desbrun 2004). Then triangles that stick out into another chart go
-///          there.
+/// Method   charts grow from large triangles over neighbours that face the same way. Those of the first mesh
+///          then grow again, several times, each from the triangle where it began and along the mean of the
+///          normals that it had taken (Lloyd's algorithm, as in variational shape approximation:
+///          Cohen-Steiner, Alliez & Desbrun 2004). Finally triangles that stick out into another chart are
+///          moved there.
 /// Frames   box.
 /// Threads  one caller; uses all cores. Deterministic.
 #pragma once
@@ -20,14 +22,16 @@ inline constexpr std::uint32_t no_chart = 0xFFFFFFFFU;
 
 class ChartFinder {
 public:
-    /// `number`: the mesh's own, from 1 on. `charts` gets new ones; `stray_box` and all of these as SharedCharts has them.
+    /// `number`: the mesh's own, from 1. New charts are added to `charts`; the other parameters as in
+    /// SharedCharts.
     ChartFinder(const TriangleMesh& mesh, std::uint32_t number, float texel_box, float stray_box,
                 std::vector<Chart>& charts);
 
-    /// Takes the charts that another mesh has at the same place, then those of the neighbours.
+    /// Takes the charts of another mesh at the same positions, then those of the neighbours.
     void take_from(const TriangleMesh& other, const std::vector<std::uint32_t>& other_charts);
 
-    /// Gives the rest new charts. Returns each triangle's; some charts may be left without any.
+    /// Gives the remaining triangles new charts. Returns the chart of each triangle; some charts may become
+    /// empty.
     [[nodiscard]] std::vector<std::uint32_t> find();
 
 private:
@@ -46,10 +50,10 @@ private:
     float texel_box_;
     float stray_box_;
     std::vector<Chart>& charts_;
-    std::vector<std::uint32_t> across_; ///< of each corner: the triangle beyond the edge from it to the next
+    std::vector<std::uint32_t> across_; ///< of each corner: the triangle beyond the edge to the next corner
     std::vector<glm::vec3> vertex_normals_;
     std::vector<float> areas_;               ///< doubled
-    std::vector<std::uint32_t> large_first_; ///< the triangles
+    std::vector<std::uint32_t> large_first_; ///< triangles by falling area
     std::vector<std::uint32_t> chart_of_;
     std::vector<std::uint32_t> seeds_; ///< of the charts that this mesh began
 };

@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// A chart's rectangle: turned so that it is small.
+/// A chart's rectangle, rotated to be small.
 struct Rectangle {
     glm::vec2 turn{1.0F, 0.0F}; ///< cosine and sine
     glm::vec2 low{0.0F};
@@ -25,14 +25,14 @@ struct Rectangle {
     }
     [[nodiscard]] glm::ivec2 texels(float shrink) const {
         if (low.x > high.x) {
-            return glm::ivec2(0); // no triangle is left in it
+            return glm::ivec2(0); // the chart has become empty
         }
         return glm::ivec2(glm::ceil((high - low) * shrink)) + 1 + 2 * chart_gutter_texels;
     }
 };
 
 Rectangle smallest_around(const std::vector<glm::vec2>& points) {
-    constexpr int turns = 36; // of a quarter
+    constexpr int turns = 36; // per quarter turn
     if (points.empty()) {
         return {{1.0F, 0.0F}, glm::vec2(0.0F), glm::vec2(-1.0F)};
     }
@@ -54,11 +54,11 @@ Rectangle smallest_around(const std::vector<glm::vec2>& points) {
     return smallest;
 }
 
-/// A chart's place in the atlas.
+/// A chart's position in the atlas.
 struct Place {
     Rectangle rectangle;
     glm::vec2 corner{0.0F};
-    float shrink = 1.0F; ///< where the atlas would be too large
+    float shrink = 1.0F; ///< less than 1 if the atlas would be too large
 
     [[nodiscard]] glm::vec2 texel(const glm::vec2& projected) const {
         return (rectangle.turned(projected) - rectangle.low) * shrink + corner +
@@ -86,7 +86,7 @@ std::vector<Place> places_of(const std::vector<Rectangle>& rectangles, int large
     constexpr float step = 1.05F;
     const double most_texels = static_cast<double>(largest_atlas) * largest_atlas;
     float shrink = 1.0F;
-    if (area_of(sizes_of(rectangles, 1e-3F)) < 0.5 * most_texels) { // else it is gutters that fill the atlas
+    if (area_of(sizes_of(rectangles, 1e-3F)) < 0.5 * most_texels) { // otherwise the gutters fill the atlas
         while (area_of(sizes_of(rectangles, shrink)) > most_texels) {
             shrink /= step;
         }
@@ -143,7 +143,7 @@ void SharedCharts::add(const TriangleMesh& mesh, float stray_box) {
         for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
             surface_box2 += 0.5 * static_cast<double>(glm::length(mesh.area_normal(t)));
         }
-        // So many texels the atlas cannot have; without this the charts would take memory in vain.
+        // Upper limit of the atlas's texels; without it the charts would waste memory.
         texel_box_ = std::max(texel_box_, static_cast<float>(std::sqrt(0.5 * surface_box2) / largest_atlas_));
     }
     ChartFinder finder(mesh, static_cast<std::uint32_t>(added_.size()) + 1, texel_box_, stray_box, charts_);

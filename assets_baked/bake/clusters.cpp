@@ -6,7 +6,7 @@ namespace frustumscreen {
 
 namespace {
 
-// Clusters are compact rather than flat, because the kiosk checks each triangle's side itself.
+// Clusters are compact rather than flat, because the kiosk checks the side of each triangle itself.
 constexpr std::size_t most_vertices = 96;
 constexpr std::size_t most_triangles = 64;
 constexpr float cone_weight = 0.0F;

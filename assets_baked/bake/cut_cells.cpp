@@ -8,7 +8,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int parts = 8; ///< of a cell's side
+constexpr int parts = 8; ///< per side of a cell
 constexpr int lines_along = parts + 1;
 constexpr std::size_t lines = std::size_t{lines_along} * lines_along;
 
@@ -16,7 +16,7 @@ constexpr std::size_t line_at(int i, int j) {
     return static_cast<std::size_t>(j) * lines_along + static_cast<std::size_t>(i);
 }
 
-/// The surface, followed through a cell's lines.
+/// The surface, followed along a cell's lines.
 class Sheet {
 public:
     Sheet(const BlockInput& input, const GridCrossings& grid, int column, int row,
@@ -51,7 +51,7 @@ public:
     }
 
     [[nodiscard]] const std::optional<LineCrossing>& at(int i, int j) const { return found_[line_at(i, j)]; }
-    /// Parts in which it ends.
+    /// Parts in which the surface ends.
     [[nodiscard]] std::uint64_t end_parts() const { return end_parts_; }
 
 private:
@@ -60,7 +60,7 @@ private:
         front_.emplace_back(i, j);
     }
 
-    /// At the lines around the end's part of the cell.
+    /// Starts at the lines around the part of the cell that contains the end.
     void begin_at_end(const glm::vec2& place, const SheetEnd& end) {
         const int column = std::clamp(static_cast<int>(place.x * parts), 0, parts - 1);
         const int row = std::clamp(static_cast<int>(place.y * parts), 0, parts - 1);
@@ -81,7 +81,7 @@ private:
         }
     }
 
-    /// As cells are linked (linked_cells.cpp), over an eighth of the way.
+    /// Links lines as in linked_cells.cpp, over an eighth of the distance.
     void follow(const glm::ivec2& from, const glm::ivec2& step) {
         const glm::ivec2 to = from + step;
         if (to.x < 0 || to.y < 0 || to.x > parts || to.y > parts || at(to.x, to.y)) {
@@ -123,7 +123,8 @@ glm::dvec4 corner_weights(int i, int j) {
     return {(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v};
 }
 
-/// Least squares over the sheet, with the guesses as heights of a small weight and the known corners as ones of a large.
+/// Least squares over the sheet: guesses count as heights of small weight, known corners as heights of large
+/// weight.
 void fit_corners(const Sheet& sheet, CornerHeights& corners) {
     constexpr double guess_weight = 0.3;
     constexpr double known_weight = 1e6;

@@ -11,11 +11,11 @@ namespace frustumscreen {
 
 namespace {
 
-/// A crossing flatter than this to its line says nothing of the surface's place: cosine.
+/// A crossing at a flatter angle to its line does not locate the surface: cosine.
 constexpr double least_cosine = 0.12;
-/// How much better another direction must see a crossing to take it: cosine.
+/// Difference in cosine by which another direction must see a crossing better to take it.
 constexpr double shared_cosine = 0.06;
-/// Two crossings nearer than this are one, met in two triangles: texels.
+/// Two crossings nearer than this are one, hit in two triangles: texels.
 constexpr float least_distance = 1e-4F;
 
 int lines_for(double extent_box, double texel_box) {
@@ -46,8 +46,8 @@ glm::u8vec4 codes_of(const glm::vec4& linear) {
             srgb8_from_linear(static_cast<double>(linear.b)), 255};
 }
 
-/// Follows the line at (u, v) from the range's highest place to its lowest, and says what it crosses from the front: the hit, its
-/// height and the cosine between its normal and the line.
+/// Follows the line at (u, v) from the top of the range to its bottom, and visits its crossings from the
+/// front: the hit, its height and the cosine between its normal and the line.
 template <typename Visit>
 void follow_line(const BlockInput& input, const ReliefGrid& grid, const glm::dvec2& at,
                  const glm::dvec2& range, const Visit& visit) {
@@ -76,7 +76,7 @@ LineCrossing crossing_of(const ReliefGrid& grid, const SurfaceHit& hit, double w
             static_cast<float>(-static_cast<double>(hit.normal[grid.axis[1]]) / cosine)};
 }
 
-/// No direction of `normals` sees the hit clearly better.
+/// True if no direction of `normals` sees the hit clearly better.
 bool is_own(const std::vector<glm::vec3>& normals, const SurfaceHit& hit, double cosine) {
     double best = 0.0;
     for (const glm::vec3& normal : normals) {
@@ -132,7 +132,7 @@ GridCrossings cross_grid(const BlockInput& input, ReliefDirection direction) {
     grid.columns = lines_for(input.box_size[frame.axis_u], texel_box);
     grid.rows = lines_for(input.box_size[frame.axis_v], texel_box);
     const std::vector<glm::vec3> normals = normals_of(input.directions);
-    const double top = input.box_size[frame.axis_n] / texel_box + 4.0; // beyond all of the box
+    const double top = input.box_size[frame.axis_n] / texel_box + 4.0; // above the whole box
     std::vector<std::vector<Crossing>> rows(static_cast<std::size_t>(grid.rows));
     grid.first.assign(static_cast<std::size_t>(grid.columns) * rows.size() + 1, 0);
     parallel_for(rows.size(), 4, [&](std::size_t begin, std::size_t end) {

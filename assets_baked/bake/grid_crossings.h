@@ -1,7 +1,7 @@
-/// Where the lines of a direction's grid cross a surface from its front.
+/// The points where the lines of a direction's grid cross a surface from its front.
 ///
 /// Frames   box; the direction's grid (app/relief/block_relief.h).
-/// Threads  uses every core; the same result with any number of them.
+/// Threads  uses every core; the result does not depend on their number.
 #pragma once
 
 #include "assets_baked/bake/block_relief.h"
@@ -15,14 +15,15 @@
 
 namespace frustumscreen {
 
-/// Where a line crosses the surface from its front, and is not too flat to it; texels.
+/// A line's crossing of the surface from its front, not at too flat an angle; texels.
 struct LineCrossing {
     float w = 0.0F;
-    float slope_u = 0.0F, slope_v = 0.0F; ///< what w changes by from texel to texel
+    float slope_u = 0.0F, slope_v = 0.0F; ///< change of w per texel
 };
 
-/// Whether slopes along one way, on either side of an edge between, belong to two faces: one bilinear surface across both may cut more
-/// than a quarter of a texel off the edge. (At half of it a bust of 70,000 triangles has a third more blocks.)
+/// True if slopes along one direction, on either side of an edge between them, belong to two faces: one
+/// bilinear surface across both could cut more than a quarter of a texel off the edge. (At half of it a bust
+/// of 70,000 triangles needs a third more blocks.)
 [[nodiscard]] inline bool is_crease(float slope, float other) {
     const float mean = 0.5F * (slope + other);
     return std::abs(slope - other) > std::sqrt(1.0F + mean * mean);
@@ -33,7 +34,7 @@ struct Crossing : LineCrossing {
     glm::u8vec4 colour{0};
 };
 
-/// A place near an edge of what the direction sees.
+/// A point near an edge of the surface that the direction sees.
 struct SheetEnd : Crossing {
     float u = 0.0F, v = 0.0F;
 
@@ -43,13 +44,14 @@ struct SheetEnd : Crossing {
     }
 };
 
-/// Shape  `columns` x `rows` lines, whole blocks and one more; the crossings of a line from the outermost inwards.
+/// Shape  `columns` x `rows` lines, whole blocks and one more; the crossings of a line from the outermost
+///        inwards.
 struct GridCrossings {
     ReliefGrid grid;
     int columns = 0, rows = 0;
-    std::vector<std::uint32_t> first; ///< of each line; one more at the end
+    std::vector<std::uint32_t> first; ///< start of each line, and the end
     std::vector<Crossing> crossings;
-    std::vector<SheetEnd> ends; ///< by cells
+    std::vector<SheetEnd> ends; ///< sorted by cells
 
     [[nodiscard]] std::span<const SheetEnd> ends_in(int column, int row) const;
     [[nodiscard]] std::span<const Crossing> of(int column, int row) const {
@@ -62,12 +64,14 @@ struct GridCrossings {
     }
 };
 
-/// The crossings of any line (u, v), on the grid or between, with heights within `range` (lowest, highest), from the highest down; into `found`, cleared first.
+/// Finds the crossings of any line (u, v), on the grid or between its lines, with heights within `range`
+/// (lowest, highest), highest first; stored in `found`, which is cleared first.
 void cross_line(const BlockInput& input, const ReliefGrid& grid, const glm::dvec2& at,
                 const glm::dvec2& range, std::vector<LineCrossing>& found);
 
-/// What a hit anywhere on the surface is to the direction: height, slopes, owner, colour; nothing if it is too flat to its lines or
-/// looks away. Of the hit its triangle, place in it, point and normal count.
+/// The crossing that the direction gets from a hit anywhere on the surface: height, slopes, owner, colour;
+/// nullopt if the surface is too flat to the direction's lines or faces away. Of the hit, triangle, position
+/// in it, point and normal are used.
 [[nodiscard]] std::optional<Crossing> crossing_from(const BlockInput& input, const ReliefGrid& grid,
                                                     const SurfaceHit& hit);
 

@@ -10,17 +10,17 @@ namespace frustumscreen {
 namespace {
 
 constexpr float golden_angle = 2.3999632F;
-constexpr float off_surface_box = 2e-4F; ///< beyond what 32-bit rays confuse with the surface itself
+constexpr float off_surface_box = 2e-4F; ///< more than the rounding error of 32-bit rays at the surface
 
-/// Any two unit vectors that stand upright on `normal` and on each other.
+/// Two unit vectors perpendicular to `normal` and to each other.
 std::pair<glm::vec3, glm::vec3> across(const glm::vec3& normal) {
     const glm::vec3 other = std::abs(normal.x) < 0.7F ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
     const glm::vec3 u = glm::normalize(glm::cross(normal, other));
     return {u, glm::cross(normal, u)};
 }
 
-/// Directions of the hemisphere about `normal`, spread evenly, that lead from the point out of the artifact to where
-/// visitors can be.
+/// Number of directions, spread evenly over the hemisphere about `normal`, that lead from the point out of
+/// the artifact into the viewing zone.
 int open_directions(const SourceScene& source, const glm::vec3& point, const glm::vec3& normal,
                     const ViewingZone& zone) {
     constexpr int directions = 96;
@@ -40,7 +40,7 @@ int open_directions(const SourceScene& source, const glm::vec3& point, const glm
     return open;
 }
 
-/// Mean over a small disc: a scan's single triangles point anywhere.
+/// Mean over a small disc, because single triangles of a scan point in random directions.
 glm::vec3 mean_normal(const SourceScene& source, const glm::vec3& point, const glm::vec3& normal) {
     constexpr int rays = 48;
     constexpr float radius_box = 0.012F;
@@ -60,7 +60,7 @@ glm::vec3 mean_normal(const SourceScene& source, const glm::vec3& point, const g
     return glm::normalize(sum);
 }
 
-/// The nearest point on a triangle that has an area; a triangle without one has no normal.
+/// The nearest point on a triangle with an area; a triangle without one has no normal.
 SurfaceHit nearest_with_normal(const SourceScene& source, const glm::vec3& point) {
     constexpr float reach_box = 1e6F;
     constexpr float aside_box = 1e-3F;

@@ -1,7 +1,8 @@
-/// Points that a curator gave, brought onto the artifact's surface.
+/// Moves points given by a curator onto the artifact's surface.
 ///
 /// Frames   in: the file's own coordinates; out: the box.
-/// Errors   one line that begins with the hotspot's place: too far from the surface, or where no visitor sees it.
+/// Errors   one line that begins with the hotspot's place: too far from the surface, or at a place that no
+///          visitor can see.
 /// Threads  pure; any.
 #pragma once
 
@@ -17,16 +18,16 @@
 namespace frustumscreen {
 
 struct GivenHotspot {
-    std::string place; ///< where it was given, for messages
+    std::string place; ///< where it was specified, for messages
     glm::dvec3 point_file{0.0};
     std::vector<PackLabel> labels;
 };
 
-/// How far from the surface a point may be given: a share of the artifact's longest edge.
+/// Largest distance of a given point from the surface, as a share of the artifact's longest edge.
 inline constexpr double most_hotspot_distance_box = 0.05;
 
-/// The nearest point of the surface, and the mean normal of the surface about it, to the side from which more of the
-/// viewing zone is open.
+/// The nearest point of the surface, with the mean normal around it, oriented to the side from which more of
+/// the viewing zone is visible.
 [[nodiscard]] Result<PackHotspot> put_on_surface(const GivenHotspot& given, const SourceScene& source,
                                                  const BoxFrame& frame, const ViewingZone& zone);
 

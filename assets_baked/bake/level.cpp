@@ -51,12 +51,13 @@ void order_vertices(PackLevel& level) {
     level.vertices = std::move(ordered);
 }
 
-/// `count` points spread over triangles by area; point k lies on triangle result[k].
+/// Points spread over triangles by area.
 struct AreaSampler {
     explicit AreaSampler(std::vector<double> areas) : running(std::move(areas)) {
         std::partial_sum(running.begin(), running.end(), running.begin());
     }
-    /// Triangle under the k-th of `count` even steps of the area, and weights from a low-discrepancy pair.
+    /// The triangle under the k-th of `count` even steps of the area; the weights come from a low-discrepancy
+    /// pair.
     [[nodiscard]] std::size_t triangle(std::size_t k, std::size_t count) const {
         const double at = running.back() * (static_cast<double>(k) + 0.5) / static_cast<double>(count);
         return static_cast<std::size_t>(std::lower_bound(running.begin(), running.end(), at) -
@@ -88,7 +89,7 @@ glm::vec3 texture_at(const Image8& texture, glm::vec2 uv) {
                     glm::mix(texel(x0, y0 + 1), texel(x0 + 1, y0 + 1), fx), fy);
 }
 
-/// At most some 200,000 of the positions that triangles use, spread over all.
+/// At most about 200,000 of the positions that triangles use, evenly chosen.
 std::vector<glm::vec3> used_positions(const TriangleMesh& mesh) {
     constexpr std::size_t most = 200'000;
     std::vector<bool> used(mesh.positions.size());
@@ -115,7 +116,7 @@ float squared_codes(const glm::vec3& a, const glm::vec3& b) {
     return sum / 3.0F;
 }
 
-/// Of the usual number.
+/// The usual number of samples, scaled by `share`.
 std::size_t sample_count(double share) {
     return static_cast<std::size_t>(24000.0 * share);
 }

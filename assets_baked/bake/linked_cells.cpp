@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    /// Along the line, for half a texel across the surface.
+    /// Distance along the line for half a texel across the surface.
     [[nodiscard]] static float half_texel_away(const LineCrossing& crossing) {
         return 0.5F *
                std::sqrt(1.0F + crossing.slope_u * crossing.slope_u + crossing.slope_v * crossing.slope_v);
@@ -56,7 +56,7 @@ private:
         return std::find(used_.begin(), used_.end(), id) == used_.end();
     }
 
-    /// The crossing at the neighbouring corner that continues this one best; `axis` 0: along u.
+    /// The crossing at the neighbouring corner that best continues this one; `axis` 0: along u.
     [[nodiscard]] std::uint32_t linked(std::uint32_t id, unsigned from, unsigned axis) const {
         if (id == no_crossing) {
             return no_crossing;
@@ -73,7 +73,8 @@ private:
             const Crossing& there = grid_.crossings[k];
             const float bend = std::abs(slope(here) - slope(there));
             const float miss = std::abs(there.w - here.w - 0.5F * (slope(here) + slope(there)));
-            // A smooth surface misses the mean slope's height by less than a few tenths; a crease or a steep one by more.
+            // A smooth surface misses the mean slope's height by less than a few tenths of a texel; a crease
+            // or a steep surface by more.
             const float allowed =
                 0.4F + std::min(3.0F, 0.55F * bend) + 0.1F * std::abs(slope(here) + slope(there));
             if (miss < allowed && miss < least && !is_crease(slope(here), slope(there)) && is_free(k)) {
@@ -100,7 +101,7 @@ private:
                            [this](std::uint32_t id) { return id != no_crossing && grid_.crossings[id].own; });
     }
 
-    /// The height that the corners which are there give to a place of the cell.
+    /// Height at a position of the cell, extrapolated from the known corners.
     [[nodiscard]] float continued(const LinkedCell& cell, float u, float v) const {
         float sum = 0.0F;
         float count = 0.0F;
@@ -115,7 +116,7 @@ private:
         return sum / count;
     }
 
-    /// A surface that no corner's line meets.
+    /// A surface that no corner's line crosses.
     [[nodiscard]] LinkedCell cell_at(const SheetEnd& end) const {
         CornerHeights corners;
         for (unsigned k = 0; k < 4; ++k) {
@@ -131,7 +132,7 @@ private:
         return cell;
     }
 
-    /// Gives every corner its height, and cuts the cell where it lacks corners, if it is to be kept.
+    /// Sets the height of every corner and, if the cell is kept (`own`), cuts it where it lacks corners.
     void complete(LinkedCell& cell) const {
         CornerHeights corners;
         for (unsigned k = 0; k < 4; ++k) {

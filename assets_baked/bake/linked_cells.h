@@ -1,4 +1,4 @@
-/// The cells of a crossed grid: for each place where the surface continues from crossing to crossing, four corners.
+/// The cells of a crossed grid: four corners wherever the surface continues from crossing to crossing.
 ///
 /// Frames   the direction's grid, texels.
 /// Threads  pure; any.
@@ -15,23 +15,23 @@ namespace frustumscreen {
 
 inline constexpr std::uint32_t no_crossing = 0xFFFFFFFFU;
 
-/// Corners (0, 0), (1, 0), (0, 1), (1, 1) of the cell at (column, row). Where a corner's line does not cross the surface, its height
-/// continues the others'.
+/// Corners (0, 0), (1, 0), (0, 1), (1, 1) of the cell at (column, row). If a corner's line does not cross the
+/// surface, its height is extrapolated from the others.
 struct LinkedCell {
     std::array<std::uint32_t, 4> crossing{no_crossing, no_crossing, no_crossing,
-                                          no_crossing}; ///< of the grid's list
+                                          no_crossing}; ///< index into GridCrossings::crossings
     std::array<float, 4> w{};
-    std::uint64_t cover = ~std::uint64_t{0}; ///< as BlockRelief's covers
-    bool own = false;                        ///< no direction sees some of it clearly better
-    glm::u8vec4 colour{0};                   ///< of a cell without crossings; alpha 0: of no use
+    std::uint64_t cover = ~std::uint64_t{0}; ///< as BlockRelief::covers
+    bool own = false;                        ///< no direction sees a part of it clearly better
+    glm::u8vec4 colour{0};                   ///< for a cell without crossings; alpha 0: unused
 
     [[nodiscard]] bool whole() const {
         return std::find(crossing.begin(), crossing.end(), no_crossing) == crossing.end();
     }
 };
 
-/// All surfaces over one cell, of which this direction owns a corner at least. A cell that lacks corners is cut where the surface ends;
-/// it may lack all.
+/// All surfaces over one cell of which this direction owns at least one corner. A cell that lacks corners is
+/// cut where the surface ends; it may lack all four.
 [[nodiscard]] std::vector<LinkedCell> link_cells(const BlockInput& input, const GridCrossings& grid,
                                                  int column, int row);
 

@@ -1,8 +1,8 @@
 /// Reads any artifact file: glTF 2.0 (.gltf, .glb), OBJ, PLY, STL.
 ///
-/// Errors   one line for the curator: file, what is the matter, what to do; details in brackets. Never crashes
-///          on hostile bytes; memory is bounded by the file's own size and the counts it can back with data.
-///          What is only lost (a colour, a face that shows nothing) is a note of the mesh.
+/// Errors   one line for the curator: file, problem, remedy; details in brackets. Never crashes on malicious
+///          bytes; memory is bounded by the file's own size and the counts that it backs with data. Anything
+///          merely lost (a colour, an invisible face) is a note of the mesh.
 /// Threads  pure apart from reading `path` and the files that it names; any.
 #pragma once
 
@@ -14,7 +14,7 @@
 namespace frustumscreen {
 
 struct LoadOptions {
-    /// A picture for where the model names one that is not there, or names none at all; empty: none.
+    /// A picture to use if the model names a missing one or none at all; empty: none.
     std::filesystem::path texture;
 };
 

@@ -9,7 +9,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// The texture, whose texels are a `size`th of the box, with texels about as large as the relief's: so none of it is skipped.
+/// The texture, whose texels are a `size`th of the box, reduced to about the relief's texels, so that no
+/// texel is skipped.
 Image8 mip_for(const Image8& texture, int size, int texels) {
     Image8 mip = texture;
     for (int each = size; each >= 2 * texels; each /= 2) {

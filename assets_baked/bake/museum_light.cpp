@@ -38,7 +38,7 @@ std::vector<glm::vec3> cosine_directions(int count) {
 MuseumLight::MuseumLight(const SourceScene& source) : source_(source), directions_(cosine_directions(96)) {}
 
 float MuseumLight::at(const glm::vec3& place, const glm::vec3& normal) const {
-    constexpr float lift = 1.5e-3F; // so far may a simplified surface lie below its source
+    constexpr float lift = 1.5e-3F; // a simplified surface may be this far below its source
     constexpr float dome_reach = 1.5F;
     const glm::vec3 side = std::abs(normal.z) < 0.9F ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
     const glm::vec3 tangent = glm::normalize(glm::cross(side, normal));
@@ -48,13 +48,13 @@ float MuseumLight::at(const glm::vec3& place, const glm::vec3& normal) const {
     for (const glm::vec3& d : directions_) {
         const glm::vec3 direction = tangent * d.x + bitangent * d.y + normal * d.z;
         if (direction.z < 0.0F) {
-            sum += 0.10F; // light that the dark table reflects
+            sum += 0.10F; // light reflected by the dark table
             continue;
         }
         if (!source_.occluded(origin, direction, 0.0F, dome_reach)) {
             sum += radiance(direction);
         } else {
-            sum += 0.12F; // stands for light that bounced once; keeps hollows readable
+            sum += 0.12F; // approximates light that bounced once; keeps hollows readable
         }
     }
     return sum / static_cast<float>(directions_.size());

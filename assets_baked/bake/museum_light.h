@@ -1,8 +1,8 @@
-/// The museum's light on an artifact: a soft dome, brighter above, and a broad key light from the upper left of its front, shadowed by
-/// the artifact itself and by the table that it stands on (ambient occlusion).
+/// The museum's light on an artifact: a soft dome, brighter above, and a broad key light from the upper left
+/// of its front, shadowed by the artifact itself and by the table that it stands on (ambient occlusion).
 ///
 /// Frame    box.
-/// Threads  built on one, asked from any.
+/// Threads  built on one; queried from any.
 #pragma once
 
 #include "assets_baked/bake/source_scene.h"
@@ -17,7 +17,7 @@ class MuseumLight {
 public:
     /// `source` must outlive it.
     explicit MuseumLight(const SourceScene& source);
-    /// What falls on a place with that unit normal; 1 = an open surface facing the key light. By 96 rays.
+    /// Light on a point with this unit normal; 1 = an open surface facing the key light. Uses 96 rays.
     [[nodiscard]] float at(const glm::vec3& place, const glm::vec3& normal) const;
 
 private:

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t cells_of_block = std::size_t{block_cells} * block_cells;
 constexpr std::size_t triangles_of_cell = 2;
-/// Corners of a cell's two triangles, as it is cast (cell_row.h): bit 0 the next column, bit 1 the next row.
+/// Corners of a cell's two triangles, as it is rasterized (cell_row.h): bit 0 the next column, bit 1 the next
+/// row.
 constexpr std::array<std::uint32_t, 6> corners_of_cell{0, 1, 2, 3, 2, 1};
 
 using Cell = ReliefScene::Cell;
@@ -32,7 +33,7 @@ template <typename Visit> void for_each_cell(const BlockRelief& relief, Visit vi
     }
 }
 
-/// The place of a surface's hit in its block, as the cast tells it.
+/// Position of a surface hit in its block, encoded as in CastSamples.
 std::uint32_t place_of(std::uint32_t cell, const SurfaceHit& hit) {
     constexpr auto unit = static_cast<float>(CastSamples::places_per_cell);
     const std::size_t first = hit.triangle % triangles_of_cell * 3;
@@ -99,7 +100,7 @@ bool ReliefScene::is_drawn(const SurfaceHit& hit, const glm::vec3& direction) co
 }
 
 float ReliefScene::colour_rmse(const SourceSamples& samples) const {
-    constexpr float reach = 0.2F; // of measure_shape
+    constexpr float reach = 0.2F; // as in measure_shape
     double squares = 0.0;
     for (const SourceSamples::Point& point : samples.points) {
         const SurfaceHit hit = scene_.nearest(point.position, reach);

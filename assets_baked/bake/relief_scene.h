@@ -1,4 +1,4 @@
-/// A relief's surface for rays: where the cut cells have nothing, and through backs, they pass.
+/// A relief's surface for rays, which pass through backs and through the empty parts of cut cells.
 ///
 /// Frame    box.
 /// Threads  const; any. The relief must outlive it.
@@ -14,7 +14,7 @@
 
 namespace frustumscreen {
 
-/// Two triangles for each cell that is there, whole where it is cut.
+/// Two triangles for each existing cell; cut cells are whole.
 [[nodiscard]] TriangleMesh surface_of(const BlockRelief& relief);
 
 class ReliefScene {
@@ -23,18 +23,18 @@ public:
     ReliefScene(const ReliefScene&) = delete;
     ReliefScene& operator=(const ReliefScene&) = delete;
 
-    /// Of whole cells.
+    /// The surface with whole cells.
     [[nodiscard]] const SourceScene& scene() const { return scene_; }
-    /// What is cast.
+    /// The first hit on the surface as it is rasterized.
     [[nodiscard]] SurfaceHit trace(const glm::vec3& eye, const glm::vec3& direction) const;
-    /// As measure_colour, of the blocks' corners instead of a texture.
+    /// As measure_colour, with the colours of the blocks' corners instead of a texture.
     [[nodiscard]] float colour_rmse(const SourceSamples& samples) const;
 
-    /// A cell that is there, in the order of the surface's triangles.
+    /// An existing cell, in the order of the surface's triangles.
     struct Cell {
         std::uint32_t block = 0;
         std::uint32_t cell = 0;  ///< 8 row + column
-        glm::vec3 outward{0.0F}; ///< of its direction
+        glm::vec3 outward{0.0F}; ///< outward axis of its direction
     };
 
 private:

@@ -14,8 +14,8 @@ constexpr std::array<glm::ivec2, 4> grids{glm::ivec2(1, 1), glm::ivec2(1, 2), gl
                                           glm::ivec2(2, 4)};
 constexpr glm::ivec2 reference_grid{4, 4};
 
-/// A picture of the source from far away, with pixels as the projector's land on it: steep faces stretch them
-/// upright.
+/// A picture of the source from far away, with the projector's pixel shape on the prop: steep faces stretch
+/// the pixels vertically.
 struct FarView {
     glm::vec3 towards, right, up, centre;
     glm::vec2 pixel_box;
@@ -52,7 +52,7 @@ double squared_codes(const glm::vec3& a, const glm::vec3& b) {
     return sum / 3.0;
 }
 
-/// RMSE of each grid over the pixels whose centre hits; of `every` row, such as each fourth.
+/// RMSE of each grid over the pixels whose centre hits; only every `every`th row is used.
 std::array<double, grids.size()> errors_of(const FarView& view, const SourceScene& source,
                                            const glm::ivec2& half, int every, double& pixels) {
     using Sums = std::array<double, grids.size() + 1>;
@@ -94,7 +94,7 @@ int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double
                    const ViewingZone& zone, double share) {
     constexpr double good_rmse = 8.0;
     constexpr double most_samples =
-        45e3; // for the artifact's pixels on a usual table: what a slow GPU shades in time
+        45e3; // for the artifact's pixels on a usual table: the number that a slow GPU shades in time
     constexpr int views = 4;
     const double lowest_deg = zone.lowest_elevation_deg + 17.0;
     constexpr double highest_deg = 65.0;
@@ -119,7 +119,7 @@ int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double
             worst[g] = std::max(worst[g], errors[g]);
         }
     }
-    std::size_t chosen = 1; // with one sample, outlines have steps and shimmer
+    std::size_t chosen = 1; // with one sample, outlines show steps and shimmer
     while (chosen + 1 < grids.size() && worst[chosen] > good_rmse &&
            pixels * grids[chosen + 1].x * grids[chosen + 1].y <= most_samples) {
         ++chosen;

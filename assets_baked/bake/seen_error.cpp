@@ -19,10 +19,10 @@ namespace {
 constexpr double eye_distance_box = 6.0;
 constexpr float no_hit = std::numeric_limits<float>::infinity();
 
-/// Rays from one eye through the rectangle around the box as it sees it, on a square grid.
+/// Rays from one eye on a square grid, through the rectangle around the box in its view.
 class EyeRays {
 public:
-    /// About as many as `rays`.
+    /// The number of rays is about `rays`.
     EyeRays(const glm::dvec3& towards, const glm::dvec3& box_size, double rays) {
         const glm::dvec3 centre(0.0, 0.0, box_size.z / 2.0);
         const glm::dvec3 eye = centre + eye_distance_box * towards;
@@ -52,7 +52,7 @@ public:
     }
 
     [[nodiscard]] const glm::ivec2& size() const { return size_; }
-    /// The distance between neighbouring rays where they pass the artifact.
+    /// The distance between neighbouring rays at the artifact.
     [[nodiscard]] double spacing_box() const { return step_ * eye_distance_box; }
 
     [[nodiscard]] glm::vec3 direction(int x, int y) const {
@@ -63,7 +63,7 @@ public:
     }
     [[nodiscard]] const glm::vec3& eye() const { return eye_; }
 
-    /// How far each ray goes to the surface.
+    /// The distance along each ray to the surface.
     [[nodiscard]] Image<float> cast(const TraceSurface& trace) const {
         Image<float> distances(size_.x, size_.y, no_hit);
         parallel_for(static_cast<std::size_t>(size_.y), 8, [&](std::size_t begin, std::size_t end) {
@@ -89,7 +89,7 @@ TraceSurface on(const SourceScene& scene) {
     return [&scene](const glm::vec3& eye, const glm::vec3& direction) { return scene.trace(eye, direction); };
 }
 
-/// Hits with a 4-neighbour that misses.
+/// Number of hits with a 4-neighbour that misses.
 std::size_t outline_of(const Image<float>& distances) {
     std::size_t found = 0;
     const auto missed = [&](int x, int y) { return distances.at(x, y) == no_hit; };
@@ -104,18 +104,19 @@ std::size_t outline_of(const Image<float>& distances) {
     return found;
 }
 
-/// How what a ray meets moves when the ray moves to its neighbour's place, over how far the ray moves.
+/// Movement of a ray's hit point when the ray moves to its neighbour, divided by the movement of the ray.
 struct Slopes {
-    float steepness = 1.0F; ///< the mean of all neighbours
-    /// Of each patch: how far those lie apart that do not meet one surface, over all neighbours. What edges hide is there, and a ray
-    /// meets it when an edge moves.
+    float steepness = 1.0F; ///< mean over all neighbours
+    /// For each patch: the distances of neighbours that hit different surfaces, summed and divided by the
+    /// number of all neighbours. Hidden parts begin there, and a ray hits them when an edge moves.
     std::array<double, seen_patches> over_edges{};
-    double edges = 0.0; ///< neighbours that do not meet one surface
-    double gaps = 0.0;  ///< the sum of how far they lie apart
+    double edges = 0.0; ///< neighbours that hit different surfaces
+    double gaps = 0.0;  ///< sum of their distances
 };
 
-/// Hits of neighbouring rays that lie as far apart as this many rays, more than their own neighbours do, lie on two surfaces, or
-/// about an edge of one. A plane that is seen edge-on has neighbours far apart too, but all of them.
+/// Hits of neighbouring rays that are this many ray spacings farther apart than their own neighbours are lie
+/// on two surfaces, or on either side of an edge. A plane seen edge-on also has neighbours far apart, but all
+/// of them are.
 constexpr double edge_slope = 4.0;
 
 Slopes slopes_of(const EyeRays& rays, const Image<float>& source) {
@@ -184,12 +185,12 @@ SeenEye eye_of(const glm::dvec3& towards, const EyeRays& rays, const Image<float
     return eye;
 }
 
-/// What one eye sees of a level.
+/// Comparison of a level with the source for one eye.
 struct Compared {
-    SeenError error;   ///< its means are of the rays that meet the same surface in both
-    double both = 0.0; ///< rays that meet something in both
+    SeenError error;   ///< its means are of rays that hit the same surface in both
+    double both = 0.0; ///< rays that hit in both
     double beyond_edges =
-        0.0; ///< of them, those that meet another surface: the sum of their errors, box units
+        0.0; ///< of these, the rays that hit another surface: the sum of their errors, box units
 };
 
 Compared compare(const EyeRays& rays, const Image<float>& level, const Image<float>& source) {
@@ -233,22 +234,23 @@ Compared compare(const EyeRays& rays, const Image<float>& level, const Image<flo
     return found;
 }
 
-/// What one eye's rays meet of the source.
+/// The source as hit by one eye's rays.
 struct SeenSource {
     EyeRays rays;
     Image<float> distances;
     Slopes slopes;
 };
 
-/// How far a level's edges move, box units, from all eyes together.
+/// Movement of a level's edges, box units, over all eyes together.
 ///
-/// As if `taken` more of an edge's places had been met where it moves as far as the surface lies off, half of what is seen along
-/// rays (Cauchy; error_estimate.h): of a level whose edges move so little that hardly a ray tells, that is known better.
+/// Prior: counts as if `taken` further places on an edge had been hit where the edge moves by the distance of
+/// the surfaces, which is half of the distance along rays (Cauchy; error_estimate.h). For a level whose edges
+/// move so little that hardly a ray detects it, that is the better estimate.
 double edges_moved(const std::vector<Compared>& compared, const std::vector<SeenSource>& eyes,
                    const std::vector<double>& over_edges) {
-    constexpr double taken = 4.0; // a count of four is known to a half of itself
+    constexpr double taken = 4.0; // the uncertainty of a count of four is half of it
     double found = 0.0;
-    double of_one = 0.0; // if edges moved by 1
+    double of_one = 0.0; // sum for edges that move by 1
     double gaps = 0.0;
     double edges = 0.0;
     double surface_box = 0.0;
@@ -267,9 +269,9 @@ double edges_moved(const std::vector<Compared>& compared, const std::vector<Seen
     return surface_box > 0.0 ? (found + taken * gap) / (of_one + taken * gap / surface_box) : found / of_one;
 }
 
-/// Adds what edges that lie wrong show of what they hide. An eye's rays meet a handful of such places and miss others, so that
-/// their sum is mostly chance. How far a level's edges move is the same for all eyes; what an eye then sees follows from how much
-/// there is behind its edges.
+/// Adds the error of misplaced edges, which show what they should hide. An eye's rays hit few such places, so
+/// their sum is mostly chance. The movement of a level's edges is common to all eyes; the error for an eye
+/// follows from the depth behind its edges.
 std::vector<SeenError> with_edges(const std::vector<Compared>& compared, const std::vector<SeenSource>& eyes,
                                   const SeenErrors& seen) {
     std::vector<double> over_edges(compared.size(), 0.0);
@@ -290,7 +292,7 @@ std::vector<SeenError> with_edges(const std::vector<Compared>& compared, const s
     return errors;
 }
 
-/// Evenly over the zone, by a spiral of golden angles.
+/// Spread evenly over the zone, on a spiral of golden angles.
 std::vector<glm::dvec3> eyes_of(const ViewingZone& zone) {
     constexpr double eyes_above_the_horizon = 90.0;
     constexpr double margin_deg = 9.0;
@@ -394,11 +396,11 @@ SeenError mean_of(std::span<const SeenError> seen) {
 
 bool good_enough(const LevelError& measured, const SeenError& seen, double mm_per_box) {
     constexpr double worst_mm =
-        1.0; // two pixels of a projector of 1280 x 800; means hide a blade that is cut
-    // The worst of fifty poses in two set-ups shows up to three times as much of each.
+        1.0; // two pixels of a projector of 1280 x 800; means would hide a blade that is cut off
+    // The worst of fifty poses in two set-ups shows up to three times these values.
     constexpr double mean_mm = 0.09;
     constexpr double outline_shift_mm = 0.04;
-    constexpr double silhouette_share = 0.012; // a thin object is all outline
+    constexpr double silhouette_share = 0.012; // a thin object consists of outline
     const auto within = [mm_per_box](float box, double most_mm) {
         return static_cast<double>(box) * mm_per_box <= most_mm;
     };

@@ -11,12 +11,13 @@ namespace frustumscreen {
 namespace {
 
 struct Edge {
-    std::uint32_t low = 0, high = 0; ///< places of its ends
+    std::uint32_t low = 0, high = 0; ///< position numbers of its ends
     std::uint32_t triangle = 0;
-    int corner = 0; ///< opposite to it
+    int corner = 0; ///< opposite the edge
 };
 
-/// One number for each vertex, the same for those that lie at one point: files split vertices at seams of the texture.
+/// A number for each vertex, equal for vertices at the same point: files split vertices at seams of the
+/// texture.
 std::vector<std::uint32_t> places_of(const SourceScene& surface) {
     const std::vector<std::array<std::uint32_t, 3>>& triangles = surface.mesh().triangles;
     std::vector<std::uint32_t> order(3 * triangles.size());

@@ -1,6 +1,7 @@
-/// Where the surface that one direction sees ends: along the edges of triangles that face it and have no neighbour that does.
+/// The ends of the surface that one direction sees: along edges of triangles that face it, without a
+/// neighbour that does.
 ///
-/// A grid's lines may miss all of what lies between such an edge and the next line.
+/// A grid's lines may miss everything between such an edge and the next line.
 /// Frames   the direction's grid, texels.
 /// Threads  pure; any.
 #pragma once
@@ -11,8 +12,8 @@
 
 namespace frustumscreen {
 
-/// Places along all such edges, a quarter of a texel apart, a little inside their triangles; by cells, row by row. Those alone that no
-/// other direction sees clearly better.
+/// Points along all such edges, a quarter of a texel apart, slightly inside their triangles, sorted by cells,
+/// row by row. Only points that no other direction sees clearly better.
 [[nodiscard]] std::vector<SheetEnd> sheet_ends(const BlockInput& input, const ReliefGrid& grid);
 
 } // namespace frustumscreen

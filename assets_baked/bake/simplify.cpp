@@ -25,10 +25,10 @@ std::vector<std::uint32_t> simplified(const std::vector<std::uint32_t>& indices,
     return result;
 }
 
-/// Each triangle with the grid cell of its centre, in the order of the cells.
+/// Each triangle with the grid cell of its centre, sorted by cell.
 std::vector<std::pair<std::uint64_t, std::uint32_t>> by_cell(const TriangleMesh& mesh, float offset_box) {
     constexpr float cell_box = 0.15F;
-    constexpr float low = -2.0F; // of every box
+    constexpr float low = -2.0F; // below every box
     std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
     order.reserve(mesh.triangle_count());
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -40,7 +40,7 @@ std::vector<std::pair<std::uint64_t, std::uint32_t>> by_cell(const TriangleMesh&
     return order;
 }
 
-/// Simplifies each cell in its own coordinates and keeps what the cells share.
+/// Simplifies each cell in its own coordinates and keeps the vertices that cells share.
 TriangleMesh simplify_in_cells(const TriangleMesh& mesh, float tolerance_box, float offset_box) {
     constexpr std::uint32_t unknown = 0xFFFFFFFFU;
     const auto order = by_cell(mesh, offset_box);
@@ -76,7 +76,7 @@ TriangleMesh simplify_in_cells(const TriangleMesh& mesh, float tolerance_box, fl
 }
 
 TriangleMesh simplified_by_area(const TriangleMesh& mesh, float tolerance_box) {
-    constexpr std::size_t dense = 50'000; // below, cells would hold little but border triangles
+    constexpr std::size_t dense = 50'000; // below this, cells would contain little but border triangles
     TriangleMesh result = mesh;
     std::size_t before = 0;
     do {
@@ -99,7 +99,7 @@ TriangleMesh simplified_by_area(const TriangleMesh& mesh, float tolerance_box) {
     return result;
 }
 
-/// Each vertex that triangles use: how far it is from the surface, as far as `reach_box`.
+/// Distance of each used vertex from the surface, limited to `reach_box`.
 std::vector<float> distances_to(const TriangleMesh& surface, const TriangleMesh& mesh, float reach_box) {
     const SourceMesh source = as_source(surface);
     const std::vector<glm::dvec3> points(surface.positions.begin(), surface.positions.end());
@@ -114,7 +114,8 @@ std::vector<float> distances_to(const TriangleMesh& surface, const TriangleMesh&
     return distances;
 }
 
-/// The triangles around corners that `fewer` has lost, as far as it strays at all. `mesh` has no unused vertex.
+/// The triangles around corners that `fewer` has lost, and their surroundings as far as it strays. `mesh` has
+/// no unused vertex.
 TriangleMesh lost_part(const TriangleMesh& mesh, const TriangleMesh& fewer, float tolerance_box) {
     const float strays_box = 2.0F * tolerance_box;
     const float lost_box = most_tolerances_lost * tolerance_box;
@@ -125,7 +126,7 @@ TriangleMesh lost_part(const TriangleMesh& mesh, const TriangleMesh& fewer, floa
         lost[k] = distances[k] >= lost_box;
         count += lost[k] ? 1 : 0;
     }
-    for (std::size_t before = 0; before != count;) { // spreads over all that strays beside it
+    for (std::size_t before = 0; before != count;) { // spreads over adjacent corners that stray
         before = count;
         for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
             const auto corners = std::span(mesh.indices).subspan(t, 3);
@@ -160,7 +161,7 @@ void append(TriangleMesh& mesh, const TriangleMesh& more) {
 } // namespace
 
 TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box) {
-    constexpr float finest_tolerance_box = 2e-5F; // finer, the library's errors mean nothing
+    constexpr float finest_tolerance_box = 2e-5F; // below this, the library's errors are meaningless
     if (mesh.indices.empty() || tolerance_box < finest_tolerance_box) {
         return mesh;
     }

@@ -1,4 +1,4 @@
-/// A curator's artifact as it came from the file: one triangle list with materials.
+/// A curator's artifact as read from the file: one triangle list with materials.
 ///
 /// Frame    the file's own coordinates (glTF: the scene's, node transforms applied), 64-bit.
 /// Threads  values; any.
@@ -32,24 +32,24 @@ struct SourceMaterial {
     float alpha_cutoff = 0.5F;
 };
 
-/// What a reader could not keep of the file, or had to guess, in one line for the person who has the file.
+/// One line for the file's owner about data that a reader lost or had to guess.
 struct SourceNote {
     enum class Kind : std::uint8_t { Lost, Guessed };
     Kind kind = Kind::Lost;
     std::string text;
 };
 
-/// Corner attributes of a triangle, kept per vertex: the loader splits vertices where the file does.
+/// Corner attributes of a triangle, stored per vertex: the loader splits vertices where the file does.
 struct SourceMesh {
     std::vector<glm::dvec3> positions;
-    std::vector<glm::vec2> uvs;     ///< transformed; empty or one each position; v = 0 at the top row
-    std::vector<glm::vec4> colours; ///< linear vertex colour factors; empty or one each position
+    std::vector<glm::vec2> uvs;     ///< transformed; empty or one per position; v = 0 at the top row
+    std::vector<glm::vec4> colours; ///< linear vertex colour factors; empty or one per position
     std::vector<std::array<std::uint32_t, 3>> triangles; ///< counter-clockwise seen from outside
-    std::vector<std::uint32_t> triangle_materials;       ///< one each triangle
+    std::vector<std::uint32_t> triangle_materials;       ///< one per triangle
     std::vector<SourceMaterial> materials;               ///< at least one
     std::vector<SourceTexture> textures;
-    std::vector<std::filesystem::path> side_files; ///< other files that the model is made of or names
-    std::vector<SourceNote> notes;                 ///< in the order in which they were found
+    std::vector<std::filesystem::path> side_files; ///< other files that the model consists of or names
+    std::vector<SourceNote> notes;                 ///< in the order of their discovery
     char default_up = 'y';                         ///< 'y' for glTF, OBJ, PLY; 'z' for STL
 };
 

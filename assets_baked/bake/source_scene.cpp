@@ -103,7 +103,7 @@ glm::vec4 sample(const SourceTexture& texture, const glm::vec2& uv) {
     return glm::mix(top, bottom, fy);
 }
 
-/// Lets a ray pass a face that looks away from it.
+/// Lets a ray pass through a face that faces away from it.
 void cut_back_faces(const RTCFilterFunctionNArguments* arguments) {
     const glm::vec3 normal(RTCHitN_Ng_x(arguments->hit, 1, 0), RTCHitN_Ng_y(arguments->hit, 1, 0),
                            RTCHitN_Ng_z(arguments->hit, 1, 0));
@@ -114,7 +114,7 @@ void cut_back_faces(const RTCFilterFunctionNArguments* arguments) {
     }
 }
 
-/// Lets a ray pass where alpha MASK is cut, and faces that are not drawn.
+/// Lets a ray pass where alpha MASK cuts, and through faces that are not drawn.
 void cut(const RTCFilterFunctionNArguments* arguments) {
     assert(arguments->N == 1);
     const auto* scene = static_cast<const SourceScene*>(arguments->geometryUserPtr);
@@ -195,7 +195,7 @@ bool keep_nearest(RTCPointQueryFunctionArguments* arguments) {
     const glm::vec3 point = a + (b - a) * weights.x + (c - a) * weights.y;
     const glm::vec3 away = point - query.point;
     const float squared = glm::dot(away, away);
-    if (!(squared < query.best_squared)) { // this also refuses the NaN of a degenerate triangle
+    if (!(squared < query.best_squared)) { // also rejects the NaN of a degenerate triangle
         return false;
     }
     query.best_squared = squared;
@@ -308,7 +308,7 @@ SurfaceHit SourceScene::facing(const glm::vec3& point, const glm::vec3& normal, 
             break;
         }
         const float distance = std::abs(hit.distance - reach);
-        // Sides count too: a triangle seen from behind is a candidate only if nothing faces this way.
+        // The side counts too: a triangle seen from behind is a candidate only if none faces this way.
         const float penalty = glm::dot(hit.normal, normal) > 0.0F ? 0.0F : 0.25F * reach;
         if (distance + penalty < best_distance) {
             best_distance = distance + penalty;

@@ -1,8 +1,8 @@
 /// The source surface for rays and nearest-point queries, in the box frame.
 ///
-/// Frame    box. Two-sided unless asked for; alpha MASK is cut at its cut-off, BLEND counts as opaque (docs/conventions.md:
-///          the picture).
-/// Threads  built on one, queried from any.
+/// Frame    box. Two-sided unless requested otherwise; alpha MASK is cut at its cut-off, BLEND counts as
+///          opaque (docs/conventions.md: the picture).
+/// Threads  built on one; queried from any.
 /// Library  Embree 3; rays in 32-bit floats over a box of size 1.
 #pragma once
 
@@ -26,7 +26,7 @@ struct SurfaceHit {
     glm::vec3 normal{0.0F}; ///< unit geometric normal, counter-clockwise side
 };
 
-/// What rays meet; the kiosk draws a level's front faces alone.
+/// Sides that rays hit; the kiosk draws only a level's front faces.
 enum class Sides { Both, Front };
 
 class SourceScene {
@@ -40,7 +40,8 @@ public:
     /// First hit with near < distance < far; `direction` is unit.
     [[nodiscard]] SurfaceHit trace(const glm::vec3& origin, const glm::vec3& direction, float near = 0.0F,
                                    float far = 1e30F) const;
-    /// Told a hit's distance, triangle, u and v: whether it counts. Else the ray goes on, to what lies at the same place too.
+    /// Given a hit's distance, triangle, u and v, returns whether it counts. If not, the ray continues, also
+    /// to other surfaces at the same distance.
     using Counts = std::function<bool(const SurfaceHit&)>;
     /// First hit that counts.
     [[nodiscard]] SurfaceHit trace(const glm::vec3& origin, const glm::vec3& direction,
@@ -49,8 +50,8 @@ public:
                                 float far) const;
     /// Nearest surface point within `reach`.
     [[nodiscard]] SurfaceHit nearest(const glm::vec3& point, float reach) const;
-    /// The hit nearest along the normal, up to `reach` to either side, that faces the same way; else the nearest
-    /// point of all.
+    /// The hit nearest to the point along the normal, within `reach` on either side, that faces the same way;
+    /// if there is none, the nearest point of the surface.
     [[nodiscard]] SurfaceHit facing(const glm::vec3& point, const glm::vec3& normal, float reach) const;
 
     /// Base colour at a hit, linear light; alpha in w.
@@ -59,7 +60,8 @@ public:
 
     [[nodiscard]] const SourceMesh& mesh() const;
     [[nodiscard]] const glm::vec3& corner(std::uint32_t triangle, int k) const;
-    /// True if any material has a texture or the mesh has vertex colours: colour varies over the surface.
+    /// True if any material has a texture or the mesh has vertex colours, so that colour varies over the
+    /// surface.
     [[nodiscard]] bool has_varying_colour() const;
     [[nodiscard]] bool has_front_only() const;
 

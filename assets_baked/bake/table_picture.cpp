@@ -16,7 +16,7 @@ namespace {
 constexpr double azimuth_deg = 35.0; ///< from the front to one side
 constexpr double elevation_deg = 22.0;
 constexpr float eye_distance_box = 5.0F; ///< half a metre from an artifact of 0.1 m
-constexpr int samples_a_side = 4;        ///< of a texel
+constexpr int samples_a_side = 4;        ///< a texel
 
 /// A pinhole that frames some points as closely as possible.
 class Camera {
@@ -40,7 +40,7 @@ public:
 
     [[nodiscard]] const glm::vec3& eye() const { return eye_; }
     [[nodiscard]] glm::vec2 extent() const { return glm::max(high_ - low_, glm::vec2(1e-6F)); }
-    /// Through a place of the framed rectangle, from (0, 0) at the top left to `extent()`.
+    /// Ray through a position in the framed rectangle, from (0, 0) at the top left to `extent()`.
     [[nodiscard]] glm::vec3 direction(const glm::vec2& place) const {
         return glm::normalize(forward_ + right_ * (low_.x + place.x) + up_ * (high_.y - place.y));
     }
@@ -50,9 +50,9 @@ private:
     glm::vec2 low_{1e30F}, high_{-1e30F};
 };
 
-/// What falls into one texel, in linear light.
+/// The samples of one texel, in linear light.
 struct Gathered {
-    glm::vec3 colour{0.0F}; ///< mean of what was hit
+    glm::vec3 colour{0.0F}; ///< mean of the hits
     float covered = 0.0F;   ///< 0..1
 };
 
@@ -105,7 +105,7 @@ double covered_area(const Image<Gathered>& picture, const Camera& camera) {
     return sum * texel * texel;
 }
 
-/// From the side that shows more of it; from the right if they show the same.
+/// From the side that shows more of the artifact; from the right if both show equally much.
 Camera best_camera(const SourceScene& scene, const glm::vec3& centre, const TriangleMesh& surface) {
     constexpr int rough_px = 50;
     constexpr double clearly = 1.02;
@@ -117,7 +117,7 @@ Camera best_camera(const SourceScene& scene, const glm::vec3& centre, const Tria
     return from_left > clearly * from_right ? left : right;
 }
 
-/// Brings the brightest places to the light that the exhibit shows them in.
+/// Scales the colours so that the brightest places have the light that the exhibit gives them.
 void expose(Image<Gathered>& picture) {
     constexpr double share_below = 0.98;
     constexpr float highlight = 0.8308F; // linear light of the sRGB code 235
@@ -140,8 +140,8 @@ void expose(Image<Gathered>& picture) {
     }
 }
 
-/// Gives empty texels beside the outline the mean of their neighbours' colours, some rows deep; those beyond get
-/// the mean of the whole artifact, which packs small.
+/// Gives empty texels next to the outline the mean of their neighbours' colours, several rows deep; those
+/// beyond get the mean of the whole artifact, which compresses well.
 void continue_colours(Image<Gathered>& picture) {
     constexpr int rows = 8; // three mip levels
     Image<std::uint8_t> known(picture.width, picture.height);

@@ -1,10 +1,10 @@
-/// A small picture of the artifact for the table, where it lies among others: seen from before, from one side and
-/// from above, in the pack's own light, cut out.
+/// A small picture of the artifact for the table, where it appears among others: seen from the front, one
+/// side and above, in the pack's own light, cut out.
 ///
-/// Shape    the longer side has `table_picture_px`, with an empty texel all around.
-/// Colour   sRGB, not premultiplied; alpha is the share of a texel that the artifact covers. Beyond the outline the
-///          colours go on, so that a filter finds no fringe. The brightest places are as bright as the exhibit shows
-///          them (app/scene/exposure.h).
+/// Shape    the longer side has `table_picture_px` texels, with an empty texel all around.
+/// Colour   sRGB, not premultiplied; alpha is the share of a texel that the artifact covers. The colours
+///          continue beyond the outline, so that filtering makes no fringe. The brightest places are as
+///          bright as in the exhibit (app/scene/exposure.h).
 /// Threads  uses all cores; deterministic.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace frustumscreen {
 
 inline constexpr int table_picture_px = 256;
 
-/// Of the default level. Empty if it has no surface.
+/// A picture of the default level; empty if it has no surface.
 [[nodiscard]] Image8 make_table_picture(const Pack& pack);
 
 } // namespace frustumscreen

@@ -32,7 +32,7 @@ SurfacePoint surface_at(const ChartedMesh& mesh, const AtlasTexel& texel) {
         glm::cross(mesh.positions[mesh.indices[t + 1]] - a, mesh.positions[mesh.indices[t + 2]] - a);
     glm::vec3 normal = blend(mesh.normals, mesh, texel);
     if (glm::dot(normal, flat) < 0.5F * glm::length(normal) * glm::length(flat)) {
-        normal = flat; // across a sharp edge the smooth normal belongs to neither side
+        normal = flat; // across a sharp edge the smooth normal fits neither side
     }
     return {blend(mesh.positions, mesh, texel), glm::normalize(normal)};
 }
@@ -67,7 +67,8 @@ glm::vec3 nearest_in_plane(const glm::vec2& p, const glm::vec2& a, const glm::ve
     return best;
 }
 
-/// Four points of the texel, half-way to its neighbours, where they lie on the same triangle.
+/// Four points of the texel, a quarter of a texel from its centre along each tangent, in the plane of its
+/// normal.
 std::array<SurfacePoint, 4> parts_of(const ChartedMesh& mesh, const AtlasTexel& texel) {
     const SurfacePoint centre = surface_at(mesh, texel);
     const glm::vec3 tangent = glm::normalize(glm::cross(
@@ -86,7 +87,7 @@ std::array<SurfacePoint, 4> parts_of(const ChartedMesh& mesh, const AtlasTexel& 
     return parts;
 }
 
-/// Alpha, scaled so that the material's cut-off lies at one half.
+/// Alpha, scaled so that the material's cut-off maps to one half.
 float coverage_of(const SourceScene& source, const SurfaceHit& hit) {
     const SourceMaterial& material = source.mesh().materials[source.mesh().triangle_materials[hit.triangle]];
     if (!material.alpha_mask) {
@@ -104,7 +105,7 @@ glm::vec3 clamped_rgb(const glm::vec4& colour) {
     return glm::clamp(glm::vec3(colour), glm::vec3(0.0F), glm::vec3(1.0F));
 }
 
-/// Means over the covered texels of each 3 x 3 neighbourhood; `known` marks them.
+/// Fills unknown texels with the mean of the known ones in their 3 x 3 neighbourhood; `known` marks them.
 template <typename Texel> void spread(Image<Texel>& image, Image<std::uint8_t>& known, int passes) {
     for (int pass = 0; pass < passes; ++pass) {
         const Image<std::uint8_t> before = known;
@@ -135,7 +136,7 @@ template <typename Texel> void spread(Image<Texel>& image, Image<std::uint8_t>& 
     }
 }
 
-/// The mean of each known texel and its known neighbours; charts lie too far apart to mix.
+/// The mean of each known texel and its known neighbours; charts are too far apart to mix.
 ImageFloat smoothed(const ImageFloat& image, const Image<std::uint8_t>& known) {
     ImageFloat result = image;
     parallel_for(static_cast<std::size_t>(image.height), 32, [&](std::size_t begin, std::size_t end) {
@@ -258,7 +259,7 @@ ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels, 
             SurfacePoint at = surface_at(mesh, texel);
             const SurfaceHit hit = source.facing(at.position, at.normal, reach_box);
             at.position =
-                hit.hit ? hit.point : at.position; // a coarse surface below it would be in its shadow
+                hit.hit ? hit.point : at.position; // a coarse surface below the source would be in its shadow
             light.at(x, y) = glm::vec3(museum.at(at.position, at.normal));
             known.at(x, y) = 1;
         }

@@ -15,31 +15,32 @@
 
 namespace frustumscreen {
 
-/// What an atlas texel shows: a point on a triangle of the charted mesh.
+/// The content of an atlas texel: a point on a triangle of the charted mesh.
 struct AtlasTexel {
-    std::uint32_t triangle = 0xFFFFFFFFU; ///< 0xFFFFFFFF: nothing
+    std::uint32_t triangle = 0xFFFFFFFFU; ///< 0xFFFFFFFF: none
     float u = 0.0F, v = 0.0F;             ///< barycentric weights of the second and third corner
 };
 
-/// Every texel within the gutter of a triangle gets the nearest point on the triangle.
+/// Assigns every texel within the gutter of a triangle the nearest point on the triangle.
 [[nodiscard]] Image<AtlasTexel> rasterise(const ChartedMesh& mesh);
 
-/// Base colour of the source, linear, for each texel. `reach_box`: how far the level strays from the source.
+/// Base colour of the source, linear, for each texel. `reach_box`: largest distance of the level from the
+/// source.
 [[nodiscard]] ImageFloat bake_colour(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
                                      const SourceScene& source, float reach_box);
 
-/// How much of each texel alpha MASK leaves, 0..1; below one half it is cut. Empty for a source without such
+/// Share of each texel that alpha MASK keeps, 0..1; below one half it is cut. Empty for a source without such
 /// a material.
 [[nodiscard]] Image<float> bake_coverage(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
                                          const SourceScene& source, float reach_box);
 
-/// Light that falls on each texel, 1 = an open surface facing the key light; soft dome and key, shadowed by
-/// the artifact itself and by the table it stands on (ambient occlusion).
+/// Light on each texel, 1 = an open surface facing the key light; soft dome and key, shadowed by the artifact
+/// itself and by the table it stands on (ambient occlusion).
 [[nodiscard]] ImageFloat bake_light(const ChartedMesh& mesh, const Image<AtlasTexel>& texels,
                                     const SourceScene& source, float reach_box);
 
 /// Converts to sRGB. Texels that no triangle covers, or that alpha cuts, take their neighbours' colour, so
-/// that mipmaps and the filter do not bleed. `coverage` becomes alpha; empty = nothing is cut.
+/// that mipmaps and filtering do not bleed. `coverage` becomes alpha; empty = no texel is cut.
 [[nodiscard]] Image8 finish(const ImageFloat& colour, const Image<AtlasTexel>& texels,
                             const Image<float>& coverage = {});
 

@@ -23,7 +23,7 @@ struct TriangleMesh {
     [[nodiscard]] const glm::vec3& corner(std::size_t triangle, int k) const {
         return positions[indices[3 * triangle + static_cast<std::size_t>(k)]];
     }
-    /// Its length is twice the area.
+    /// Its length is twice the triangle's area.
     [[nodiscard]] glm::vec3 area_normal(std::size_t triangle) const {
         return glm::cross(corner(triangle, 1) - corner(triangle, 0),
                           corner(triangle, 2) - corner(triangle, 0));
@@ -31,15 +31,15 @@ struct TriangleMesh {
 };
 
 /// The source's triangles with equal positions shared; degenerate triangles and repetitions (in either
-/// orientation: triangles are two-sided) are dropped.
+/// orientation, because triangles are two-sided) are dropped.
 [[nodiscard]] TriangleMesh weld(const SourceMesh& mesh, std::span<const glm::dvec3> box_points);
 
-/// Drops triangles whose corners repeat, and all but the first of those with the same three corners.
+/// Drops triangles with repeated corners, and all but the first of those with the same three corners.
 void drop_repetitions(std::vector<std::uint32_t>& indices);
 /// Drops vertices that no triangle uses.
 void compact(TriangleMesh& mesh);
 
-/// Of each position: the mean of its triangles' normals, by area; unit, +Z where there is none.
+/// For each position, the mean of its triangles' normals, by area; unit, or +Z if there is none.
 [[nodiscard]] std::vector<glm::vec3> smooth_normals(const TriangleMesh& mesh);
 
 /// The same triangles as a SourceMesh without materials, for ray casts.

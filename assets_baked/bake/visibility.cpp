@@ -12,7 +12,7 @@ namespace {
 
 enum Side : std::uint8_t { none = 0, front = 1, back = 2, both = 3 };
 
-/// Integer hash (the finaliser of MurmurHash3), for points that depend only on their number.
+/// Integer hash (the finaliser of MurmurHash3), for points that depend only on their index.
 std::uint32_t hashed(std::uint32_t x) {
     x ^= x >> 16;
     x *= 0x85EBCA6BU;
@@ -25,12 +25,12 @@ float unit_number(std::uint32_t x) {
     return static_cast<float>(hashed(x) >> 8) / 16777216.0F;
 }
 
-/// Eyes spread over the zone: golden-angle azimuths, elevations even in the sine, distances in turn.
+/// Eyes spread over the zone: golden-angle azimuths, elevations even in the sine, alternating distances.
 std::vector<glm::vec3> eyes_of(const ViewingZone& zone, const glm::vec3& centre) {
     constexpr int count = 1024;
     constexpr double golden_angle = 2.399963229728653;
     const double lowest = std::sin(zone.lowest_elevation_deg * std::numbers::pi / 180.0);
-    const double power = lowest > 0.0 ? 1.5 : 1.0; // above a table there are more low eyes
+    const double power = lowest > 0.0 ? 1.5 : 1.0; // above a table, low eyes are more frequent
     std::vector<glm::vec3> eyes;
     for (int k = 0; k < count; ++k) {
         const double sine = lowest + (1.0 - lowest) * std::pow((k + 0.5) / count, power);
@@ -44,7 +44,7 @@ std::vector<glm::vec3> eyes_of(const ViewingZone& zone, const glm::vec3& centre)
     return eyes;
 }
 
-/// Sample weights on a triangle: first near the corners and edges, where a view through a gap begins.
+/// Sample weights on a triangle: first near the corners and edges, which are the first to appear in a gap.
 glm::vec3 sample_weights(std::uint32_t triangle, int k) {
     static constexpr std::array<glm::vec3, 4> fixed{glm::vec3(1.0F / 3.0F), glm::vec3(0.8F, 0.1F, 0.1F),
                                                     glm::vec3(0.1F, 0.8F, 0.1F), glm::vec3(0.1F, 0.1F, 0.8F)};
@@ -56,19 +56,20 @@ glm::vec3 sample_weights(std::uint32_t triangle, int k) {
     return {1.0F - r, r * (1.0F - s), r * s};
 }
 
-/// Sides of one triangle that some eye sees.
+/// The sides of a triangle that some eye sees.
 std::uint8_t sides_seen(const TriangleMesh& mesh, std::uint32_t triangle, const SourceScene& scene,
                         const std::vector<glm::vec3>& eyes) {
     constexpr float lift = 2e-5F; // off the surface, box units: above 32-bit noise, below what a visitor sees
     constexpr std::uint32_t eyes_per_sample = 160;
-    constexpr std::uint32_t eyes_for_other_side = 40; // where both are seen, many eyes see either
+    constexpr std::uint32_t eyes_for_other_side = 40; // if both sides are visible, many eyes see either
     const glm::vec3 area_normal = mesh.area_normal(triangle);
     const float twice_area = glm::length(area_normal);
     if (!(twice_area > 0.0F)) {
         return none;
     }
     const glm::vec3 normal = area_normal / twice_area;
-    // More samples for a large triangle, which may be visible through a small gap; a small one has neighbours.
+    // More samples for a large triangle, which may be visible through a small gap; a small one has
+    // neighbours.
     const int samples = std::min(4, 1 + static_cast<int>(twice_area * 2e4F)) +
                         std::min(28, static_cast<int>(twice_area * 5e3F));
     std::uint8_t seen = none;
@@ -96,8 +97,8 @@ std::uint8_t sides_seen(const TriangleMesh& mesh, std::uint32_t triangle, const 
     return seen;
 }
 
-/// Spreads seen sides to touching triangles, and on over the surface for `reach_box`: this keeps what samples
-/// missed beside what they found.
+/// Spreads visible sides to touching triangles, and on over the surface for `reach_box`, which fills gaps
+/// between the samples.
 std::vector<std::uint8_t> grown(const TriangleMesh& mesh, const std::vector<std::uint8_t>& sides,
                                 std::uint8_t side) {
     constexpr float reach_box = 5e-3F;
@@ -126,7 +127,7 @@ std::vector<std::uint8_t> grown(const TriangleMesh& mesh, const std::vector<std:
     return result;
 }
 
-/// Flipped copies get their own vertices, so that each side keeps its own normals.
+/// Flipped copies get vertices of their own, so that each side keeps its own normals.
 TriangleMesh kept(const TriangleMesh& mesh, const std::vector<std::uint8_t>& sides) {
     TriangleMesh result{mesh.positions, {}};
     std::vector<std::uint32_t> twin(mesh.positions.size(), 0xFFFFFFFFU);
@@ -186,7 +187,7 @@ TriangleMesh visible_sides_like(const TriangleMesh& mesh, const TriangleMesh& fi
                 const glm::vec3 w = sample_weights(static_cast<std::uint32_t>(t), k);
                 const glm::vec3 p =
                     mesh.corner(t, 0) * w.x + mesh.corner(t, 1) * w.y + mesh.corner(t, 2) * w.z;
-                // Look along the normal both ways, so that each side of a thin wall finds its own.
+                // Looks along the normal in both directions, so that each side of a thin wall finds its own.
                 for (const float sign : {1.0F, -1.0F}) {
                     const glm::vec3 origin = p + normal * (sign * tolerance_box);
                     const SurfaceHit hit = finer_scene.nearest(origin, reach);

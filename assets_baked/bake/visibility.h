@@ -1,9 +1,10 @@
-/// Which sides of which triangles a visitor can ever see.
+/// Finds the sides of triangles that a visitor can see at all.
 ///
 /// Frame    box; the eyes are those of the viewing zone, at every azimuth (the prop can be turned), from
 ///          `lowest_elevation_deg` up to straight above.
-/// Method   for sample points on each triangle it looks for one eye of the zone that sees them; the set is
-///          grown by the triangles that share a vertex, so that no picture shows an edge of the kept surface.
+/// Method   for sample points on each triangle it searches for one eye of the zone that sees them. The result
+///          is grown over touching triangles and a little beyond, so that no picture shows an edge of the
+///          kept surface.
 /// Threads  uses all cores; deterministic.
 #pragma once
 
@@ -14,13 +15,13 @@
 
 namespace frustumscreen {
 
-/// Where eyes can be, relative to the artifact; generous, because one pack serves every kiosk.
+/// Possible positions of eyes relative to the artifact; generous, because one pack serves every kiosk.
 struct ViewingZone {
     double lowest_elevation_deg = 3.0; ///< above the prop's bottom, seen from its centre
     double nearest_box = 2.0;          ///< distance in box units
     double farthest_box = 20.0;
 
-    /// For a prop that can be turned in any way.
+    /// For a prop that can have any orientation.
     [[nodiscard]] static ViewingZone all_around() {
         ViewingZone zone;
         zone.lowest_elevation_deg = -90.0;
@@ -28,12 +29,12 @@ struct ViewingZone {
     }
 };
 
-/// The triangles of `mesh` whose counter-clockwise side is seen, and for those whose other side is seen a
-/// flipped copy: the result can be drawn with back faces culled. `scene` hides what is behind it.
+/// The triangles of `mesh` whose counter-clockwise side is visible, and a flipped copy of those whose other
+/// side is visible: the result can be drawn with back faces culled. `scene` occludes.
 [[nodiscard]] TriangleMesh visible_sides(const TriangleMesh& mesh, const SourceScene& scene,
                                          const ViewingZone& zone);
 
-/// The triangles of a coarser `mesh` (with flipped copies) that lie on sides kept in `finer`.
+/// The triangles of a coarser `mesh` (with flipped copies) on sides that are kept in `finer`.
 [[nodiscard]] TriangleMesh visible_sides_like(const TriangleMesh& mesh, const TriangleMesh& finer,
                                               const SourceScene& finer_scene, float tolerance_box);
 
