@@ -64,7 +64,7 @@ Patch turned(const Profile& profile, const AtlasStrip& strip) {
     Patch patch;
     patch.at = [profile, strip](double u, double v) {
         const Profile::Point p = profile.at_row(v);
-        const double angle = u < 1.0 ? u * turn : 0.0; // the seam's two sides are the same points
+        const double angle = u < 1.0 ? u * turn : 0.0; // the seam's two sides are equal points
         return SurfacePoint{around_axis(p.position.x, p.position.y, angle),
                             {static_cast<float>(u), strip.v(p.length_mm / profile.length_mm(), atlas::size)}};
     };
@@ -77,7 +77,7 @@ Patch body_patch(const Profile& profile, const std::shared_ptr<const ReliefMap>&
     patch.at = [profile, relief](double u, double v) {
         const Profile::Point p = profile.at_row(v);
         const double from_top = 1.0 - p.length_mm / profile.length_mm();
-        // No relief at the two edges, which other patches share.
+        // No relief at the two edges, which are shared with other patches.
         const double fade = std::min({1.0, 40.0 * from_top, 40.0 * (1.0 - from_top)});
         const double around = u < 1.0 ? u : 0.0;
         const glm::dvec2 at = p.position + p.normal * (fade * relief->sample(around, from_top));
@@ -91,7 +91,7 @@ Patch body_patch(const Profile& profile, const std::shared_ptr<const ReliefMap>&
     return patch;
 }
 
-/// The handle's middle line, in the profile's half-plane: out of the neck, up, and down to the shoulder.
+/// The handle's centre line, in the profile's half-plane: out of the neck, up, and down to the shoulder.
 class HandlePath {
 public:
     struct Point {
@@ -109,7 +109,7 @@ public:
     }
 };
 
-/// A strap with three reeds that swells into the wall at both ends. `side` is +1 or -1: towards +X or -X.
+/// A strap with three reeds that widens into the wall at both ends. `side` is +1 or -1: towards +X or -X.
 Patch handle_patch(double side) {
     Patch patch;
     patch.at = [side](double u, double v) {
@@ -125,7 +125,7 @@ Patch handle_patch(double side) {
         const double wide = 9.6 * swell * across;
         const glm::dvec2 outward = {-p.direction.y, p.direction.x}; // left of the path to the shoulder
         const glm::dvec2 at = p.position + outward * thick;
-        // Bent around the axis: the ends keep one depth below the round wall.
+        // Bent around the axis: the ends have a constant depth below the round wall.
         const double x = std::sqrt(std::max(0.0, at.x * at.x - wide * wide));
         return SurfacePoint{{side * x, at.y, side * wide},
                             {static_cast<float>(v), atlas::handle.v(u, atlas::size)}};
@@ -148,7 +148,7 @@ SourceMesh make_amphora(std::int64_t triangles) {
                                   turned(underside_profile(), atlas::underside), handle_patch(1.0),
                                   handle_patch(-1.0)};
     patches[1].columns_of = 0;
-    patches[1].length_v_mm *= 0.4; // nobody sees far into it
+    patches[1].length_v_mm *= 0.4; // hardly any of it is visible
     patches[1].least_v = 8;
     patches[1].pole_at_end = true;
     patches[2].columns_of = 0;

@@ -1,6 +1,7 @@
 /// The amphora's figures, in silhouette with incised lines, as Attic black-figure painters drew them.
 ///
-/// Units    p: figure heights, feet at y = 0, walking towards +x; `edge` is the width of a texel in them.
+/// Units    p: figure heights, feet at y = 0, walking towards +x; `edge` is the width of a texel in the same
+///          units.
 /// Threads  pure; any.
 #pragma once
 
@@ -14,7 +15,7 @@ inline constexpr int shield_emblems = 4;
 void paint_hoplite(Ink& ink, glm::vec2 p, int emblem, float edge);
 /// A grazing or a looking deer, about 1.5 wide.
 void paint_deer(Ink& ink, glm::vec2 p, bool grazing, float edge);
-/// Palmettes and spirals for the place under a handle; symmetric, about 0.8 wide.
+/// Palmettes and spirals below a handle; symmetric, about 0.8 wide.
 void paint_handle_ornament(Ink& ink, glm::vec2 p, float edge);
 
 } // namespace frustumscreen

@@ -27,7 +27,7 @@ float within_unit(float x, float unit, int& number) {
 } // namespace
 
 void paint_meander(Ink& ink, glm::vec2 p, float unit, float height, float edge) {
-    // The key's strokes in a grid of 8 x 7 cells, each from corner to corner.
+    // The key's strokes in a grid of 8 x 7 cells, each between two corners.
     struct Stroke {
         vec2 a, b;
     };
@@ -53,7 +53,8 @@ void paint_meander(Ink& ink, glm::vec2 p, float unit, float height, float edge) 
         distance = std::min(distance, rectangle({x + shift, p.y}, 0.5F * (base_low + base_high),
                                                 0.5F * (base_high - base_low)));
     }
-    // Strokes fill their cells. Slightly thinner ones keep the ground between them as wide as they are.
+    // Strokes fill their cells. They are made slightly thinner, so that the gaps between them are as wide as
+    // they are.
     stamp(ink, Pigment::Slip, distance + 0.04F * cell.y, edge);
 }
 
@@ -104,7 +105,7 @@ void paint_lotus_chain(Ink& ink, glm::vec2 p, float unit, float height, float ed
     const bool lotus = number % 2 != 0;
     const float middle = 0.5F * height;
     const float up = p.y - middle;
-    // The same flowers above and below a chain of links.
+    // Equal flowers above and below a chain of links.
     const vec2 q = {x, std::abs(up) - 0.13F * height};
     const float flower = 0.36F * height;
     if (lotus) {

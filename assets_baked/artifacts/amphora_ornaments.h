@@ -1,6 +1,6 @@
 /// Repeating ornaments of Greek pottery.
 ///
-/// Units    mm unless said; x runs around the vessel, y up; `edge` is the width of a texel.
+/// Units    mm unless noted; x runs around the vessel, y up; `edge` is the width of a texel.
 /// Threads  pure; any.
 #pragma once
 
@@ -10,11 +10,11 @@ namespace frustumscreen {
 
 /// Square-cornered key pattern that repeats every `unit` in x; y in 0..height.
 void paint_meander(Ink& ink, glm::vec2 p, float unit, float height, float edge);
-/// Rays that stand on y = 0.
+/// Rays standing on y = 0.
 void paint_rays(Ink& ink, glm::vec2 p, float unit, float height, float edge);
-/// Tongues that hang from y = height, black and red in turn.
+/// Tongues hanging from y = height, alternating black and red.
 void paint_tongues(Ink& ink, glm::vec2 p, float unit, float height, float edge);
-/// Palmettes and lotus flowers in turn on a chain, as on the necks of amphorae.
+/// Alternating palmettes and lotus flowers on a chain, as on the necks of amphorae.
 void paint_lotus_chain(Ink& ink, glm::vec2 p, float unit, float height, float edge);
 /// Buds on crossing arcs.
 void paint_bud_chain(Ink& ink, glm::vec2 p, float unit, float height, float edge);

@@ -16,7 +16,7 @@ using glm::vec2;
 using glm::vec3;
 
 constexpr float turn = 6.28318531F;
-/// sRGB. The slip is lighter than a real one, because a projector cannot show black.
+/// sRGB. The slip is lighter than real slip, because a projector cannot show black.
 constexpr vec3 clay_colour{0.79F, 0.46F, 0.26F};
 constexpr vec3 slip_colour{0.150F, 0.125F, 0.120F};
 constexpr vec3 thin_slip_colour{0.36F, 0.17F, 0.10F};
@@ -116,10 +116,11 @@ private:
     }
 
     void paint_scene(Ink& ink, float u, float y, float edge) const {
-        constexpr int places = 10; // warriors between the handles, which stand at places 0 and 5
+        constexpr int places = 10; // places around the body: warriors, except for the handles at 0 and 5
         const float size = figures_.height * 0.985F;
         const int nearest = static_cast<int>(std::floor(u * places + 0.5F));
-        for (int cell = nearest - 1; cell <= nearest + 1; ++cell) { // spears reach over to the neighbour
+        for (int cell = nearest - 1; cell <= nearest + 1; ++cell) { // spears reach into the neighbouring
+                                                                    // place
             const vec2 p = vec2((u * places - static_cast<float>(cell)) * figures_.around / places, y) / size;
             const int place = (cell + places) % places;
             if (place % 5 == 0) {
@@ -160,7 +161,7 @@ struct Wear {
     float grain_mm = 0.0F;
 };
 
-/// Age: `u` around 0..1, `y` mm.
+/// Wear at a point: `u` around 0..1, `y` mm.
 Wear wear_at(float u, float y) {
     Wear wear;
     const float cells = u * 40.0F;
@@ -217,11 +218,12 @@ void paint_body(const Profile& body, AmphoraSkin& skin) {
 }
 
 /// The parts without figures: slip inside the mouth thinning into bare clay, clay below, slip on the handles.
-/// `height_mm` is the strip's, at a scale where its circumference equals the body's.
+/// `height_mm` is the strip's height, at a scale where its circumference equals the body's.
 void paint_plain(const AtlasStrip& strip, float height_mm, Image8& texture,
                  float (*slip_at)(float fraction)) {
     paint_strip(strip, texture, [&](float u, float v) {
-        const float y = 1000.0F + static_cast<float>(strip.first_row) + v * height_mm; // not the body's wear
+        const float y = 1000.0F + static_cast<float>(strip.first_row) + v * height_mm; // independent of the
+                                                                                       // body's wear
         Ink ink;
         ink.paint(Pigment::Slip, slip_at(v + 0.03F * noise({u * 12.0F, y / 9.0F}, 12, 3, 31)));
         return colour_of(ink, wear_at(u, y));

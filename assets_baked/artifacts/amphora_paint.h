@@ -2,7 +2,7 @@
 ///
 /// Frame    the atlas has strips of rows: body (u around, v from the lip down to the foot), mouth, underside,
 ///          handles (u along, v around).
-/// Threads  uses all cores; the result does not depend on how many.
+/// Threads  uses all cores; the result does not depend on their number.
 #pragma once
 
 #include "app/image/image.h"
@@ -45,7 +45,7 @@ struct AmphoraSkin {
     ReliefMap body_relief_mm; ///< v = 0 at the lip
 };
 
-/// `body` rises from the foot's resting ring to the top of the lip.
+/// `body` must run from the foot's resting ring to the top of the lip.
 [[nodiscard]] AmphoraSkin paint_amphora(const Profile& body);
 
 } // namespace frustumscreen

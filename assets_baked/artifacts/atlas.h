@@ -1,7 +1,7 @@
-/// A texture atlas of horizontal strips, and how painters fill it.
+/// A texture atlas of horizontal strips, and the function that paints one.
 ///
 /// Shape    row 0 at the top; a strip spans the whole width, so that u may wrap around.
-/// Threads  `paint_strip` uses all cores; the result does not depend on how many.
+/// Threads  `paint_strip` uses all cores; the result does not depend on their number.
 #pragma once
 
 #include "app/image/image.h"
@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// Rows of the atlas that one part of the surface takes.
+/// Rows of the atlas for one part of the surface.
 struct AtlasStrip {
     int first_row = 0;
     int rows = 0;
@@ -23,7 +23,7 @@ struct AtlasStrip {
 
 [[nodiscard]] glm::u8vec4 texel_of(const glm::vec3& srgb01);
 
-/// colour(u, v): v from 0 in the first row to 1 in the last. A few rows beyond the strip are filled too, so
+/// colour(u, v): v from 0 in the first row to 1 in the last. Some rows beyond the strip are filled too, so
 /// that filtering keeps the edge clean.
 void paint_strip(const AtlasStrip& strip, Image8& texture,
                  const std::function<glm::vec3(float u, float v)>& colour);

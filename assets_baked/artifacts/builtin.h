@@ -1,6 +1,6 @@
-/// The built-in artifacts: they give a fresh machine something to show.
+/// The built-in artifacts, so that a new machine has something to show.
 ///
-/// Frame    glTF-like: +Y up, millimetres. Deterministic: the same name and count give the same mesh.
+/// Frame    glTF-like: +Y up, millimetres. Deterministic: equal name and count give equal meshes.
 /// Threads  pure; any.
 #pragma once
 

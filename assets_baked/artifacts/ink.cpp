@@ -23,7 +23,7 @@ std::uint32_t wrapped(int x, int period) {
     return static_cast<std::uint32_t>(((x % period) + period) % period);
 }
 
-/// std::floor is a call without newer instruction sets, and this is the innermost loop.
+/// std::floor is a function call without newer instruction sets, and this is the innermost loop.
 int floor_of(float x) {
     const int truncated = static_cast<int>(x);
     return truncated - (static_cast<float>(truncated) > x ? 1 : 0);
@@ -88,7 +88,7 @@ float arc(glm::vec2 p, glm::vec2 centre, float radius, float width, float from, 
 }
 
 float leaf(glm::vec2 p, glm::vec2 a, glm::vec2 b, float half_width) {
-    // Two circles through a and b; their lens is the leaf.
+    // Two circles through a and b; their intersection is the leaf.
     const glm::vec2 middle = 0.5F * (a + b);
     const glm::vec2 axis = b - a;
     const float half = 0.5F * glm::length(axis);

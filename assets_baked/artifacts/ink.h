@@ -1,5 +1,5 @@
-/// What the painters share: flat shapes as signed distances, noise that is periodic around a body, ink in
-/// layers.
+/// Tools shared by the painters: flat shapes as signed distances, noise that is periodic around a body, ink
+/// in layers.
 ///
 /// Units    the caller's (mm or a figure's height); distances are negative inside a shape.
 /// Threads  pure; any.
@@ -15,7 +15,7 @@ namespace frustumscreen {
 /// Signed distances.
 [[nodiscard]] float disc(glm::vec2 p, glm::vec2 centre, float radius);
 [[nodiscard]] float rectangle(glm::vec2 p, glm::vec2 centre, glm::vec2 half);
-/// A limb: radius `ra` at a, `rb` at b, straight between.
+/// A limb: radius `ra` at a, `rb` at b, linear in between.
 [[nodiscard]] float limb(glm::vec2 p, glm::vec2 a, glm::vec2 b, float ra, float rb);
 /// Any simple polygon.
 [[nodiscard]] float polygon(glm::vec2 p, std::span<const glm::vec2> corners);
@@ -24,7 +24,7 @@ namespace frustumscreen {
 /// A leaf from a to b, `half_width` at its middle, pointed at both ends.
 [[nodiscard]] float leaf(glm::vec2 p, glm::vec2 a, glm::vec2 b, float half_width);
 
-/// 1 inside, 0 outside, a soft edge of `edge`.
+/// 1 inside, 0 outside, with a soft edge of width `edge`.
 [[nodiscard]] float cover(float distance, float edge);
 
 /// Smooth noise in -1..1 over (x, y); periodic in x with `period` cells, several octaves.
@@ -34,8 +34,7 @@ namespace frustumscreen {
 
 enum class Pigment : int { Ground, Slip, Red, White };
 
-/// What lies on one point of the ground: the share of each pigment (their sum is 1), and how far it is
-/// raised.
+/// The pigments at one point of the ground: the share of each (their sum is 1), and the height of the paint.
 struct Ink {
     glm::vec4 share{1.0F, 0.0F, 0.0F, 0.0F};
     float raised_mm = 0.0F;

@@ -15,8 +15,8 @@ using glm::dvec2;
 using glm::dvec3;
 constexpr double turn = 6.283185307179586;
 
-/// The shell: a whorl whose section grows threefold a turn. Angle `theta` (radians along the spiral) is 0 at
-/// the mouth and negative inside; `phi` goes around the section from the keel (0) to the coil (+-pi).
+/// The shell: a whorl whose section grows threefold per turn. Angle `theta` (radians along the spiral) is 0
+/// at the mouth and negative inside; `phi` goes around the section from the keel (0) to the coil (+-pi).
 /// Source: the logarithmic spiral of molluscan shells (Moseley 1838).
 namespace shell {
 constexpr double growth = 0.17484955; ///< ln 3 / (2 pi)
@@ -29,7 +29,7 @@ constexpr double septum_theta = -2.3;
 constexpr double mouth_direction = 0.10; ///< radians above the horizontal
 const dvec3 coil_mm{-14.0, 196.0, 0.0};
 
-/// The mouth's edge: drawn back on the keel and at the coil, forward on the flanks.
+/// The mouth's edge: set back on the keel and at the coil, forward on the flanks.
 double lip_theta(double phi) {
     const auto bump = [phi](double at, double width) {
         const double x = (std::abs(phi) - at) / width;
@@ -43,7 +43,7 @@ dvec3 bare(double theta, double phi) {
     const double out = std::cos(phi);
     const double radius = scale * (centre_radius_mm + radial_mm * out);
     const double z =
-        scale * axial_mm * std::sin(phi) * (1.0 + 0.08 * out); // a little fuller towards the keel
+        scale * axial_mm * std::sin(phi) * (1.0 + 0.08 * out); // slightly fuller towards the keel
     const double direction = mouth_direction + theta;
     return {radius * std::cos(direction), radius * std::sin(direction), z};
 }
@@ -91,7 +91,7 @@ Patch shell_outside() {
     return patch;
 }
 
-/// The septum that closes the body chamber, hollow like a bowl, and from its rim the wall up to the lip.
+/// The septum that closes the body chamber, hollow like a bowl, and the wall from its rim to the lip.
 Patch shell_inside() {
     Patch patch;
     patch.at = [](double u, double v) {
@@ -144,7 +144,7 @@ Patch lip_mount() {
     return patch;
 }
 
-/// A strap over the shell; `centre(t)` gives (theta, phi) along it, `across` its half width in the same
+/// A strap over the shell, from `from` to `to`, both (theta, phi); `across` is its half width in the same
 /// angles.
 Patch strap(dvec2 from, dvec2 to, dvec2 across, double length_mm) {
     Patch patch;
@@ -190,7 +190,7 @@ Patch turned(const Profile& profile, double u_repeat, const AtlasStrip& strip, d
     return patch;
 }
 
-/// A rosette over the coil's eye, on the side `z` (+1 or -1).
+/// A rosette over the coil's eye. `side` is +1 or -1: towards +Z or -Z.
 Patch boss(double side) {
     const Profile dome({{19, 0},
                         {18.6, 2.2},
@@ -237,7 +237,7 @@ SourceMesh make_nautilus_cup(std::int64_t triangles) {
     patches.back().columns_of = 3;
     patches.back().length_v_mm *= 0.3;
     patches.back().pole_at_start = true;
-    constexpr double below = -0.25 * turn - shell::mouth_direction + 0.17; // theta right above the stem
+    constexpr double below = -0.25 * turn - shell::mouth_direction + 0.17; // theta directly above the stem
     patches.push_back(strap({-0.115, 0.0}, {-3.6, 0.0}, {0.0, 0.085}, 250.0));
     patches.push_back(strap({below, 0.02}, {below, 2.55}, {0.045, 0.0}, 100.0));
     patches.push_back(strap({below, -0.02}, {below, -2.55}, {-0.045, 0.0}, 100.0));

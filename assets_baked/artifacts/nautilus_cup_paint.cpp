@@ -66,7 +66,7 @@ double beads(double angle, int count, double across_mm, double half_mm) {
 
 double chasing_mm(double angle, double length) {
     double height = 0.0;
-    // Gadroons on the dome of the foot, turning as they rise; beads around its edge and on the rings.
+    // Gadroons on the dome of the foot, twisted as they rise; beads around its edge and on the rings.
     const double lobe = std::abs(std::cos(9.0 * (angle + 0.010 * length)));
     height += window(length, 16.0, 55.0, 6.0) * 2.0 * (std::sqrt(lobe) - 0.75);
     height += 1.3 * beads(angle, 72, length - 9.0, 2.2);
@@ -91,7 +91,7 @@ Image8 paint_nautilus_cup(double stem_length_mm) {
         return gold_colour(u, v, static_cast<float>(glm::smoothstep(0.05, -0.9, relief)) * 0.75F + 0.08F);
     });
     paint_strip(cup_atlas::straps, texture, [](float u, float v) {
-        // v runs across: a dark line on either side of a row of lozenges.
+        // v runs across the strap: a dark line on either side of a row of lozenges.
         const float across = std::abs(2.0F * v - 1.0F);
         const float lozenge = std::abs(u * 64.0F - std::round(u * 64.0F)) * 2.0F + across / 0.5F;
         const float line = cover(std::abs(across - 0.70F) - 0.05F, 0.06F);

@@ -2,7 +2,7 @@
 ///
 /// Frame    strips of rows: shell outside and inside (u from the coil to the lip, v once around the whorl),
 ///          foot and stem (u around, v upwards), straps and other gilded parts.
-/// Threads  uses all cores; the result does not depend on how many.
+/// Threads  uses all cores; the result does not depend on their number.
 #pragma once
 
 #include "app/image/image.h"
@@ -18,8 +18,8 @@ inline constexpr AtlasStrip stem{1480, 400};
 inline constexpr AtlasStrip straps{1888, 160};
 } // namespace cup_atlas
 
-/// Height of the foot's and stem's chasing in mm: `angle` radians, `length` mm along the profile. It is 0
-/// where the metal is plain.
+/// Height of the chasing on foot and stem in mm: `angle` radians, `length` mm along the profile. 0 on plain
+/// metal.
 [[nodiscard]] double chasing_mm(double angle, double length);
 
 /// `stem_length_mm` is the length of the profile whose chasing is painted.

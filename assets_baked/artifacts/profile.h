@@ -1,7 +1,7 @@
 /// The profile of a turned body: a smooth curve in the (radius, height) half-plane.
 ///
-/// Frame    millimetres. The body lies to the left of the curve's direction, its normal points to the right:
-///          upwards on the outside, downwards on the inside.
+/// Frame    millimetres. The body is to the left of the curve's direction, its normal points to the right.
+///          Curves run upwards on the outside and downwards on the inside.
 /// Threads  immutable; any.
 /// Method   centripetal Catmull-Rom spline between corners, as a dense polyline with arc lengths.
 #pragma once
@@ -37,7 +37,7 @@ public:
 private:
     [[nodiscard]] Point between(std::size_t index, double fraction) const;
     std::vector<Point> points_;
-    std::vector<double> rows_; ///< 0..1, one each point
+    std::vector<double> rows_; ///< 0..1, one per point
 };
 
 } // namespace frustumscreen

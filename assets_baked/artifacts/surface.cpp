@@ -49,7 +49,7 @@ std::vector<Cells> cells_at(const std::vector<Patch>& patches, double cells_per_
 }
 
 /// Finds even cells by bisection of their density, then adds or removes single rows until no step comes
-/// nearer.
+/// closer to the number of triangles.
 std::vector<Cells> share_budget(const std::vector<Patch>& patches, std::int64_t triangles) {
     double low = 0.0;
     double high = 1e4;
@@ -91,7 +91,7 @@ void append_vertices(const Patch& patch, const Cells& cells, SourceMesh& mesh) {
             const SurfacePoint point = patch.at(static_cast<double>(column) / static_cast<double>(cells.u),
                                                 static_cast<double>(row) / static_cast<double>(cells.v));
             const std::size_t index = first + row * columns + column;
-            mesh.positions[index] = glm::dvec3(glm::vec3(point.position)); // as a 32-bit file holds it
+            mesh.positions[index] = glm::dvec3(glm::vec3(point.position)); // rounded to 32 bits, as in a file
             mesh.uvs[index] = point.uv;
         }
     });

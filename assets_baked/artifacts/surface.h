@@ -1,7 +1,7 @@
-/// A mesh from curved patches: each is a function of (u, v), all share one budget of triangles.
+/// A mesh from curved patches: each is a function of (u, v), and all share one budget of triangles.
 ///
 /// Frame    millimetres, +Y up; dP/du x dP/dv points outward.
-/// Threads  pure; `make_mesh` uses all cores, its result does not depend on how many.
+/// Threads  pure; `make_mesh` uses all cores, and its result does not depend on their number.
 #pragma once
 
 #include "app/image/image.h"
@@ -22,13 +22,13 @@ struct SurfacePoint {
 
 struct Patch {
     std::function<SurfacePoint(double u, double v)> at; ///< u and v in 0..1
-    double length_u_mm = 1.0;                           ///< size, for an even spread of triangles
+    double length_u_mm = 1.0;                           ///< size, to spread triangles evenly
     double length_v_mm = 1.0;
     int least_u = 4; ///< fewest cells
     int least_v = 2;
-    bool pole_at_start = false; ///< all of v = 0 is one point
+    bool pole_at_start = false; ///< the whole edge v = 0 is one point
     bool pole_at_end = false;
-    int columns_of = -1; ///< index of an earlier patch that has the same columns: they share an edge
+    int columns_of = -1; ///< index of an earlier patch with equal columns: they share an edge
 };
 
 /// One material with `texture`. The number of triangles is within 5 % of `triangles` if that is at least

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 static_assert(std::endian::native == std::endian::little,
               "glTF is little-endian, and so are the copies below");
 
-// The specification's numbers.
+// Constants of the specification.
 constexpr int type_float = 5126;
 constexpr int type_unsigned = 5125;
 constexpr int target_vertices = 34962;
@@ -97,7 +97,7 @@ private:
         return attributes;
     }
 
-    /// One primitive for each material that has triangles; all share the vertices.
+    /// One primitive for each material with triangles; all share the vertices.
     void write_primitives(const Json& attributes) {
         Json primitives = Json::array();
         for (std::uint32_t material = 0; material < mesh_.materials.size(); ++material) {
@@ -156,7 +156,7 @@ private:
         }
     }
 
-    /// Header, JSON chunk padded with spaces, binary chunk padded with zeros. Empty if too long.
+    /// Header, JSON chunk padded with spaces, binary chunk padded with zeros. Empty if it is too long.
     Bytes container() {
         std::string json = document_.dump();
         json.resize((json.size() + 3) / 4 * 4, ' ');
