@@ -1,6 +1,6 @@
-/// Bakes the exhibit's own words: collected (words.h) and set. speak_words.h gives them sounds.
+/// Bakes the exhibit's own words: collects (words.h) and sets them. speak_words.h adds the sounds.
 ///
-/// Errors   set_texts.h; the language comes first.
+/// Errors   set_texts.h; messages begin with the language.
 /// Threads  one caller.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace frustumscreen {
 
 struct BakedWords {
     std::vector<LanguageWords> languages;
-    std::vector<std::string> notes; ///< what is lost, a sentence each
+    std::vector<std::string> notes; ///< losses, a sentence each
 };
 
 [[nodiscard]] Result<BakedWords> bake_words(const std::vector<CollectedWords>& collected,

@@ -1,4 +1,4 @@
-/// The files of `words/`, built into the program. CMake makes them.
+/// The files of `words/`, built into the program by CMake.
 ///
 /// Threads  constants; any.
 #pragma once

@@ -17,7 +17,7 @@ bool separates_lines(char32_t code) {
     return code == 0x2028 || code == 0x2029;
 }
 
-/// Why a letter is refused; nothing if it is not.
+/// The reason to refuse a letter; empty if it is allowed.
 std::string_view fault_of(std::string_view letter, char32_t code) {
     if (letter != "\n" && (is_control(letter) || separates_lines(code))) {
         return "is a control character; delete it, or use a line break";

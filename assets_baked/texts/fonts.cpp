@@ -11,8 +11,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// Debian's folders and the caches that it makes when the packages are installed. Letters are not fitted to pixels: they are
-/// set at any size.
+/// Only Debian's folders, and the caches made when their packages are installed. Without hinting, because
+/// texts are set at any size.
 constexpr const char* noto_alone =
     R"(<?xml version="1.0"?><!DOCTYPE fontconfig SYSTEM "fonts.dtd"><fontconfig>
 <dir>/usr/share/fonts/truetype/noto</dir><dir>/usr/share/fonts/opentype/noto</dir>
@@ -22,7 +22,7 @@ constexpr const char* noto_alone =
 <edit name="hintstyle" mode="assign"><const>hintnone</const></edit></match>
 </fontconfig>)";
 
-/// The scripts that have a family of their own; Noto Sans itself has Latin, Greek and Cyrillic.
+/// The scripts with a family of their own; Noto Sans itself has Latin, Greek and Cyrillic.
 constexpr std::array<std::pair<PangoScript, const char*>, 19> families{{
     {PANGO_SCRIPT_ARABIC, "Arabic"},     {PANGO_SCRIPT_ARMENIAN, "Armenian"},
     {PANGO_SCRIPT_BENGALI, "Bengali"},   {PANGO_SCRIPT_DEVANAGARI, "Devanagari"},
@@ -48,7 +48,7 @@ bool begins_with_subtag(std::string_view language, std::string_view subtag) {
            (language.size() == subtag.size() || language[subtag.size()] == '-');
 }
 
-/// Han letters look different in each place that writes them.
+/// Han letters look different in each region.
 const char* han_family(std::string_view language) {
     const auto has = [&](std::string_view part) { return language.find(part) != std::string_view::npos; };
     if (begins_with_subtag(language, "ja")) {

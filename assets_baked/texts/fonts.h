@@ -1,7 +1,7 @@
-/// The typefaces that texts are set in: Debian's Noto Sans of every script, and no other that the machine may have.
+/// The typefaces that texts are set in: Debian's Noto Sans for every script, and no others on the machine.
 ///
 /// Threads  one caller (fontconfig's and Pango's objects are not shared).
-/// Errors   the typeface that a language needs is not installed: which, and the Debian package.
+/// Errors   the typeface that a language needs is not installed: its name, and the Debian package.
 /// Library  fontconfig; Pango names the scripts of a language.
 #pragma once
 
@@ -24,9 +24,9 @@ public:
     Fonts& operator=(Fonts&&) noexcept;
     ~Fonts();
 
-    /// Whether the typeface of `language` (BCP 47) is installed; the error says what to install.
+    /// Succeeds if the typeface of `language` (BCP 47) is installed; the error names the package to install.
     [[nodiscard]] Result<void> check(std::string_view language) const;
-    /// For Pango: the language's own family first.
+    /// Font families for Pango: the language's own family first.
     [[nodiscard]] std::string families_for(std::string_view language) const;
     [[nodiscard]] _FcConfig* config() const { return config_.get(); }
 
@@ -38,9 +38,9 @@ private:
     std::unique_ptr<_FcConfig, Free> config_;
 };
 
-/// The family of Noto Sans that holds the letters of `language`.
+/// The Noto Sans family with the letters of `language`.
 [[nodiscard]] std::string family_of(std::string_view language);
-/// The direction in which its paragraphs run.
+/// The direction of the language's paragraphs.
 [[nodiscard]] TextDirection direction_of(std::string_view language);
 
 } // namespace frustumscreen

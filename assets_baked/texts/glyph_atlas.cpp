@@ -20,20 +20,20 @@ struct CloseFace {
     void operator()(FT_Face face) const { FT_Done_Face(face); }
 };
 
-/// A glyph's own picture of distances, and its box without a place in the atlas.
+/// A glyph's own picture of distances, and its box without a position in the atlas.
 struct DrawnGlyph {
     GlyphBox box;
     DistanceAtlas distances;
 };
 
-/// Letters are drawn this much larger than they are stored.
+/// Letters are rendered larger than stored by this factor.
 constexpr int oversampling = 8;
 
 int floor_div(int a, int b) {
     return a >= 0 ? a / b : -((-a + b - 1) / b);
 }
 
-/// A letter as pixels that are inside or outside; all around it is outside.
+/// A letter as pixels inside or outside; everything around it is outside.
 class LetterMask {
 public:
     explicit LetterMask(const FT_GlyphSlotRec_& slot)
@@ -60,8 +60,9 @@ private:
     Image<std::uint8_t> inside_;
 };
 
-/// Signed distances from the centres of pixels to the letter's edge, up to a reach. First along columns, then across them
-/// (Rosenfeld and Pfaltz, Sequential Operations in Digital Picture Processing, 1966; exact for squares of distances).
+/// Signed distances from the centres of pixels to the letter's edge, up to a reach. First along columns, then
+/// across them (Rosenfeld and Pfaltz, Sequential Operations in Digital Picture Processing, 1966; exact for
+/// squared distances).
 class EdgeDistances {
 public:
     EdgeDistances(const LetterMask& mask, int reach) : mask_(mask), reach_(reach) {
@@ -74,7 +75,7 @@ public:
             scan(x, height_ - 1, -1);
         }
     }
-    /// More inside; x and y as in the mask, up to `reach` outside it.
+    /// Positive inside; x and y as in the mask, up to `reach` outside it.
     [[nodiscard]] double at(int x, int y) const {
         const bool inside = mask_.inside(x, y);
         int nearest = reach_ * reach_;
@@ -84,7 +85,7 @@ public:
                 nearest = inside ? std::min(nearest, across * across) : nearest;
                 continue;
             }
-            // The nearest pixel of the other kind in that column: it may be the one beside this pixel.
+            // The nearest pixel of the other kind in that column: possibly the direct neighbour.
             const int down = mask_.inside(x + across, y) != inside ? 0 : along(column, y - first_);
             nearest = std::min(nearest, across * across + down * down);
         }
@@ -98,7 +99,7 @@ private:
         return along_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
                       static_cast<std::size_t>(column)];
     }
-    /// How far it is along the column to a pixel of the other kind, going one way.
+    /// Distance along the column to a pixel of the other kind, in one direction.
     void scan(int column, int row, int step) {
         int far = reach_;
         bool before = false;
@@ -172,8 +173,8 @@ public:
         if (face->glyph->outline.n_contours == 0) {
             return DrawnGlyph();
         }
-        // FreeType 2.12 draws distances itself: wrongly where a letter's strokes overlap or lie inside each other, or a hundred
-        // times as slowly.
+        // FreeType 2.12 can render distances itself, but the result is wrong where a letter's strokes overlap
+        // or lie inside each other, or it takes a hundred times as long.
         if (FT_Render_Glyph(face->glyph, FT_RENDER_MODE_NORMAL) != 0) {
             return bad_input("typeface.glyph_not_drawn", "{}: glyph {} of this typeface cannot be drawn",
                              from.file.string(), glyph);
@@ -201,7 +202,7 @@ private:
     int spread_texels_ = 0;
 };
 
-/// Gives every glyph a place: shelves, the tallest glyphs first.
+/// Packs the glyphs: shelves, the tallest glyphs first.
 void place(std::vector<DrawnGlyph>& glyphs, GlyphRuns& runs) {
     std::int64_t area = 0;
     int widest = 0;

@@ -1,7 +1,7 @@
-/// Gathers shaped texts into glyph runs with one atlas of distances.
+/// Collects shaped texts into glyph runs with one atlas of distances.
 ///
 /// Threads  one caller.
-/// Errors   a typeface's file that FreeType cannot read; more glyphs than an atlas holds.
+/// Errors   a typeface's file that FreeType cannot read; more glyphs than an atlas can hold.
 /// Library  FreeType draws the letters, without hinting.
 #pragma once
 
@@ -16,7 +16,7 @@
 namespace frustumscreen {
 
 struct GlyphAtlasOptions {
-    int texels_per_em = 48; ///< docs/measurements.md says what both are chosen by
+    int texels_per_em = 48; ///< docs/measurements.md gives the reasons for both values
     int spread_texels = 2;
 };
 
@@ -29,7 +29,7 @@ class GlyphAtlasBuilder {
 public:
     explicit GlyphAtlasBuilder(const GlyphAtlasOptions& options = {}) : options_(options) {}
 
-    /// `key`: one that no text has yet, of the letters that `is_text_key` allows.
+    /// `key`: not used before, of the letters that `is_text_key` allows.
     void add(const std::string& key, const ShapedText& text);
     /// Draws the glyphs. Call once, last.
     [[nodiscard]] Result<GlyphSheet> finish();
@@ -39,7 +39,7 @@ private:
 
     GlyphAtlasOptions options_;
     std::map<std::pair<FontFace, std::uint32_t>, std::size_t> numbers_;
-    std::vector<std::pair<FontFace, std::uint32_t>> glyphs_; ///< in order of number
+    std::vector<std::pair<FontFace, std::uint32_t>> glyphs_; ///< in the order of their numbers
     std::vector<GlyphText> texts_;
 };
 

@@ -16,12 +16,13 @@ namespace frustumscreen {
 
 namespace {
 
-/// R 128 measures in blocks of 400 ms; a shorter sound is measured as if it were repeated.
+/// R 128 measures in blocks of 400 ms; a shorter sound is measured as if repeated.
 constexpr std::size_t least_measured_samples = speech_rate_hz;
 constexpr double block_s = 0.01;
-constexpr double silent_db = -45.0;   ///< below the loudest block: pauses and the room's noise
-constexpr double quietest_db = -70.0; ///< of the loudest block, below full scale: nothing was recorded
-constexpr double before_s = 0.06;     ///< that stay: a word's first sound may be soft, its last one longer
+constexpr double silent_db = -45.0;   ///< relative to the loudest block: pauses and room noise
+constexpr double quietest_db = -70.0; ///< of the loudest block, relative to full scale: nothing was recorded
+constexpr double before_s = 0.06;     ///< kept around speech: a word's first sound may be soft, its last one
+                                      ///< may fade
 constexpr double after_s = 0.15;
 constexpr double kilobits_a_second = 40.0;
 constexpr int most_tries = 12;
@@ -44,7 +45,7 @@ std::vector<double> block_levels(std::span<const float> samples, std::size_t blo
     return levels;
 }
 
-/// Without the silence before and after; empty if all is silent.
+/// Trims the silence at both ends; empty if everything is silent.
 std::vector<float> trimmed(std::span<const float> samples, int rate_hz) {
     if (samples.empty()) {
         return {};
@@ -97,7 +98,7 @@ Result<Bytes> encoded(std::span<const float> samples) {
     info.format = SF_FORMAT_OGG | SF_FORMAT_OPUS;
     {
         const SoundFile file = open_sound(bytes, SFM_WRITE, info);
-        // libsndfile's scale for Opus: 6 to 256 kilobits a second and channel, 1 to 0.
+        // libsndfile's scale for Opus: 1 to 0 for 6 to 256 kilobits per second and channel.
         double compression = 1.0 - (kilobits_a_second - 6.0) / 250.0;
         const bool written =
             file &&
@@ -110,7 +111,7 @@ Result<Bytes> encoded(std::span<const float> samples) {
         }
     }
     set_ogg_serial(bytes.written,
-                   1); // the library takes a random one; the same recording shall give the same bytes
+                   1); // not the library's random one: equal recordings give equal bytes
     return std::move(bytes.written);
 }
 
@@ -127,7 +128,8 @@ std::vector<float> scaled(std::span<const float> samples, double gain_db) {
     return out;
 }
 
-/// At `speech_lufs`, with its peaks lowered. A loud knock passes for loudness until it is lowered: hence in rounds.
+/// Scales to `speech_lufs` and lowers the peaks. A loud knock raises the measured loudness until it is
+/// lowered, so this takes several rounds.
 std::vector<float> levelled(std::span<const float> samples, double lufs, double most_db) {
     constexpr int most_rounds = 8;
     constexpr double near_db = 0.1;
@@ -143,7 +145,7 @@ std::vector<float> levelled(std::span<const float> samples, double lufs, double 
     }
 }
 
-/// As Opus, with what a player decodes of it.
+/// The sound as Opus, with the length and loudness after decoding.
 Result<Speech> stored(std::span<const float> samples) {
     TRY(Bytes opus, encoded(samples));
     TRY(const Recording decoded, read_recording(opus, RecordingSource::File));
@@ -183,7 +185,7 @@ Result<std::optional<Speech>> level_speech(const Recording& recording) {
     double most_db = most_true_peak_db;
     for (int tries = 1; tries <= most_tries; ++tries) {
         TRY(Speech speech, stored(levelled(samples, before.lufs, most_db)));
-        // Opus does not keep peaks exactly, and between samples a sound rises above them.
+        // Opus does not preserve peaks exactly, and a sound exceeds its samples between them.
         const double over_db = speech.loudness.true_peak_db - most_true_peak_db;
         if (over_db <= 0.0) {
             return std::optional<Speech>(std::move(speech));

@@ -1,9 +1,9 @@
 /// Makes speech of any recording equally loud, and stores it as Ogg Opus.
 ///
-/// Silence before and after is trimmed, and the loudness is brought to -23 LUFS; peaks that would pass -2 dBTP, such as a knock
-/// beside the microphone, are lowered alone (limit_peaks.h).
+/// Silence at both ends is trimmed, and the loudness becomes -23 LUFS; peaks above -2 dBTP, such as a knock
+/// near the microphone, are lowered individually (limit_peaks.h).
 ///
-/// Errors   one sentence: a library that fails.
+/// Errors   one sentence: a failure of a library.
 /// Threads  pure; any.
 /// Library  libebur128 (EBU R 128, ITU-R BS.1770-4), libsamplerate, libsndfile with Opus.
 #pragma once
@@ -33,9 +33,9 @@ struct Loudness {
 struct Speech {
     Bytes opus; ///< Ogg Opus, one channel
     double seconds = 0.0;
-    Loudness loudness; ///< of what a player decodes
+    Loudness loudness; ///< of the decoded sound
 };
-/// Nothing if nothing can be heard in the recording.
+/// nullopt if the recording is silent.
 [[nodiscard]] Result<std::optional<Speech>> level_speech(const Recording& recording);
 
 } // namespace frustumscreen

@@ -9,10 +9,10 @@ namespace frustumscreen {
 
 namespace {
 
-/// The least of the values within `reach` places of each.
+/// For each value, the minimum of the values within `reach` elements.
 std::vector<float> least_around(std::span<const float> values, std::size_t reach) {
     std::vector<float> least(values.size());
-    std::deque<std::size_t> rising; // places in the window, each with a greater value than the one before
+    std::deque<std::size_t> rising; // indices in the window, with increasing values
     std::size_t next = 0;
     for (std::size_t k = 0; k < values.size(); ++k) {
         for (; next < std::min(values.size(), k + reach + 1); ++next) {
@@ -29,7 +29,7 @@ std::vector<float> least_around(std::span<const float> values, std::size_t reach
     return least;
 }
 
-/// The mean of the values within `reach` places of each; beyond the ends they are as at the ends.
+/// For each value, the mean of the values within `reach` elements; the end values continue beyond the ends.
 std::vector<float> mean_around(std::span<const float> values, std::size_t reach) {
     const auto at = [&](std::size_t shifted) { // by `reach`
         return static_cast<double>(values[std::min(std::max(shifted, reach) - reach, values.size() - 1)]);
@@ -57,7 +57,8 @@ std::vector<float> limit_peaks(std::span<const float> samples, int rate_hz, floa
     std::transform(samples.begin(), samples.end(), limited.begin(),
                    [&](float sample) { return most / std::max(most, std::abs(sample)); });
     const std::size_t reach = static_cast<std::size_t>(rate_hz) / 200;
-    // Each gain of the mean is one of the least within the peak's reach: none is above what the peak needs.
+    // Each gain averaged is a minimum that includes the peak's own, so the mean never exceeds the gain that
+    // the peak needs.
     const std::vector<float> gains = mean_around(least_around(limited, reach), reach);
     std::transform(samples.begin(), samples.end(), gains.begin(), limited.begin(),
                    [&](float sample, float gain) { return std::clamp(sample * gain, -most, most); });

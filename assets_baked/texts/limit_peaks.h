@@ -1,7 +1,7 @@
-/// Lowers short peaks of a sound, and leaves the rest as it is.
+/// Lowers short peaks of a sound, and leaves the rest unchanged.
 ///
-/// A look-ahead limiter: the gain that a peak needs holds for 5 ms on both sides of it, and is averaged over as much, so that it goes
-/// down before the peak and comes back after it without a click.
+/// A look-ahead limiter: the gain that a peak needs is held for 5 ms on both sides of it, and averaged over
+/// an equal length, so that it falls before the peak and returns after it without a click.
 ///
 /// Units    full scale is 1.
 /// Threads  pure; any.

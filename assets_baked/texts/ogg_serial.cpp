@@ -14,7 +14,7 @@ constexpr std::size_t serial_at = 14;
 constexpr std::size_t checksum_at = 22;
 constexpr std::size_t segments_at = 26;
 
-/// Polynomial 0x04c11db7, nothing inverted or mirrored.
+/// Polynomial 0x04c11db7, neither inverted nor mirrored.
 std::uint32_t checksum(std::span<const std::byte> page) {
     std::uint32_t sum = 0;
     for (const std::byte byte : page) {
@@ -26,7 +26,7 @@ std::uint32_t checksum(std::span<const std::byte> page) {
     return sum;
 }
 
-/// 0 if `bytes` do not begin with a whole page.
+/// Size of the page; 0 if `bytes` do not begin with a whole page.
 std::size_t page_bytes(std::span<const std::byte> bytes) {
     if (bytes.size() < header_bytes || as_text(bytes.first(4)) != std::string_view("OggS")) {
         return 0;

@@ -1,4 +1,4 @@
-/// Gives an Ogg stream a serial number of our choice.
+/// Sets the serial number of an Ogg stream.
 ///
 /// Threads  pure; any.
 /// Source   RFC 3533, section 6: the page's header and its checksum.
@@ -10,7 +10,8 @@
 
 namespace frustumscreen {
 
-/// `ogg` is whole pages of one stream, as an encoder wrote them; what follows a page that is none stays as it is.
+/// `ogg` is whole pages of one stream, as written by an encoder. Bytes from the first invalid page on stay
+/// unchanged.
 void set_ogg_serial(Bytes& ogg, std::uint32_t serial);
 
 } // namespace frustumscreen

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array endings{".wav", ".flac", ".opus", ".ogg"};
-/// What else a person may take for a recording.
+/// Other endings that a person may use for a recording.
 constexpr std::array other_endings{".mp3", ".m4a", ".aac", ".aif", ".aiff", ".wma", ".oga"};
 
 bool is_sound(const fs::path& file) {
@@ -28,7 +28,7 @@ bool is_sound(const fs::path& file) {
            std::find(other_endings.begin(), other_endings.end(), ending) != other_endings.end();
 }
 
-/// Sound files in the folder and in its folders, in the order of their names.
+/// Sound files in the folder and its direct subfolders, sorted by name.
 std::vector<fs::path> sounds_in(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code failed;
@@ -46,7 +46,7 @@ std::vector<fs::path> sounds_in(const fs::path& folder) {
     return files;
 }
 
-/// Why nobody hears a file that is not taken.
+/// The reason why a file is not used.
 std::string why_unused(const fs::path& file, const std::string& name, const RecordingNames& names) {
     const bool can_be_read = std::find(endings.begin(), endings.end(), file.extension()) != endings.end();
     if (const auto wanted = names.find(name); wanted != names.end() && wanted->second) {

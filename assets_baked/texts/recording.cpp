@@ -19,7 +19,7 @@ constexpr int most_channels = 2;
 constexpr std::uint32_t riff = 0x46464952;
 constexpr std::uint32_t data_chunk = 0x61746164;
 
-/// The sound that a WAV file claims and does not have, in bytes; libsndfile reads such a file as if it were shorter.
+/// Bytes of sound that a WAV file claims but lacks; libsndfile reads such a file as if it were shorter.
 std::uint64_t missing_wav_bytes(std::span<const std::byte> bytes) {
     ByteReader header(bytes);
     if (header.read<std::uint32_t>() != riff) {

@@ -1,7 +1,8 @@
 /// Reads a recording of speech: WAV, FLAC or Ogg (Opus, Vorbis), from bytes.
 ///
-/// Errors   one sentence: no recording of these kinds, cut off, too long, too many channels, a rate that no speech has, samples
-///          that are no numbers. Memory is bounded by `longest_recording_s`, whatever the file claims.
+/// Errors   one sentence: not a recording of these kinds, cut off, too long, too many channels, a sample rate
+///          unusual for speech, samples that are not numbers. Memory is bounded by `longest_recording_s`,
+///          whatever the file claims.
 /// Threads  pure; any.
 /// Library  libsndfile.
 #pragma once
@@ -22,8 +23,8 @@ struct Recording {
     std::vector<float> samples; ///< one channel, full scale is 1; two channels are averaged
 };
 
-/// What the bytes come out of: a file's length must be true, and it must have sound; a stream's header is written before its length
-/// is known, and a program that had nothing to say writes no more.
+/// The origin of the bytes. A file's length must be correct, and it must have sound. A stream's header is
+/// written before its length is known, and a program that had nothing to say writes nothing more.
 enum class RecordingSource { File, Stream };
 
 [[nodiscard]] Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSource source);

@@ -38,7 +38,7 @@ std::vector<KeyedText> texts_of(const PackCaption& caption, std::span<const std:
     return texts;
 }
 
-/// Widths that break a text alike are one: the narrowest of them stays.
+/// Keeps only the narrowest of adjacent settings that break a text alike.
 void join_equal(std::vector<ShapedSetting>& settings) {
     const auto is_alike = [](const ShapedSetting& a, const ShapedSetting& b) {
         return a.width == b.width && a.height == b.height && a.glyphs.size() == b.glyphs.size();
@@ -52,7 +52,7 @@ void join_equal(std::vector<ShapedSetting>& settings) {
     }
 }
 
-/// The least height of all widths; 0 without the text.
+/// The smallest height over all widths; 0 without the text.
 double least_height(const GlyphRuns& runs, std::string_view key) {
     const GlyphText* text = runs.find(key);
     if (text == nullptr || text->settings.empty()) {
@@ -92,7 +92,7 @@ public:
         }
     }
 
-    /// Nothing if the letters do not fit an atlas.
+    /// nullopt if the letters do not fit an atlas.
     [[nodiscard]] std::optional<SetLanguage> finish() {
         Result<GlyphSheet> sheet = builder_.finish();
         if (!sheet) {

@@ -1,11 +1,12 @@
-/// Sets the texts of an artifact in all their languages: captions, details and the labels of hotspots, by the keys of
-/// app/pack/pack_texts.h.
+/// Sets the texts of an artifact in all their languages: captions, details and the labels of hotspots, by the
+/// keys of app/pack/pack_texts.h.
 ///
-/// What cannot be set is left out and told, a sentence each: a language whose typeface is missing, a text that is too long to be
-/// shaped, a letter that no typeface has, a word or a caption that fits nowhere. The plain texts are none of its business.
+/// Losses are reported, a sentence each: a language whose typeface is missing, a text that is too long to be
+/// shaped, a letter that no typeface has, a word or a caption that fits nowhere. The plain texts are not
+/// affected.
 ///
 /// Threads  one caller.
-/// Errors   none: all of them are notes.
+/// Errors   none: all problems become notes.
 #pragma once
 
 #include "app/pack/pack.h"
@@ -19,18 +20,18 @@
 
 namespace frustumscreen {
 
-/// Widths that lines may have, in 1/1024 of each text's own type size, and the height of title and text together in 1/1024 of the
-/// text's, above which a caption fits nowhere.
+/// Widths of lines, in 1/1024 of each text's own type size, and the height of title and text together, in
+/// 1/1024 of the text's type size, above which a caption fits nowhere.
 struct CaptionLimits {
     std::vector<std::int32_t> text;
     std::vector<std::int32_t> title;
-    double title_em = 1.0; ///< its type size, in those of the text
+    double title_em = 1.0; ///< the title's type size relative to the text's
     std::int32_t most_height = 0;
 };
 
 struct SetArtifact {
     std::vector<SetLanguage> languages;
-    std::vector<std::string> notes; ///< what is lost, a sentence each
+    std::vector<std::string> notes; ///< losses, a sentence each
 };
 
 /// `labels`: one list for each hotspot.

@@ -1,6 +1,6 @@
 /// Sets the texts of one language: shaped for the widths of captions, with one atlas for all of them.
 ///
-/// Errors   shape.h, glyph_atlas.h; the text's key comes first.
+/// Errors   shape.h, glyph_atlas.h; messages begin with the text's key.
 /// Threads  one caller.
 #pragma once
 
@@ -14,11 +14,11 @@
 
 namespace frustumscreen {
 
-/// The widths that captions are broken for, in type sizes. At 24 pt they are 30, 15 and 7.6 cm.
+/// The widths that captions are wrapped to, in type sizes. At 24 pt they are 30, 15 and 7.6 cm.
 inline constexpr std::array<int, 3> caption_widths_em{36, 18, 9};
 
 struct TextToSet {
-    std::string key; ///< as `is_text_key` allows; once
+    std::string key; ///< as `is_text_key` allows; unique
     std::string text;
     std::string language; ///< BCP 47
     bool bold = false;
@@ -26,7 +26,7 @@ struct TextToSet {
 
 struct SetTexts {
     GlyphSheet sheet;
-    std::vector<std::string> notes; ///< what is lost, a sentence each, with the text's key
+    std::vector<std::string> notes; ///< losses, a sentence each, with the text's key
 };
 
 [[nodiscard]] Result<SetTexts> set_texts(std::span<const TextToSet> texts, const Shaper& shaper,

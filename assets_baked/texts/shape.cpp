@@ -17,8 +17,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// The size that texts are shaped at. Pango's units are 1/1024 of a pixel in 32 bits: the longest word that is allowed must not
-/// overflow them, and what is rounded, 1/8192 em, no projector shows.
+/// The size at which texts are shaped. Pango's units are 1/1024 of a pixel in 32 bits: the longest allowed
+/// word must not overflow them, and the rounding, 1/8192 em, is invisible in projection.
 constexpr int shaping_px = 8;
 constexpr std::size_t most_named_letters = 10;
 
@@ -30,7 +30,7 @@ struct FreeDescription {
 };
 template <typename Object> using Owned = std::unique_ptr<Object, Unref>;
 
-/// Pango's units at the shaping size to 1/1024 em.
+/// Converts Pango's units at the shaping size to 1/1024 em.
 std::int32_t em_units_of(std::int64_t pango_units) {
     static_assert(em_units == PANGO_SCALE);
     return static_cast<std::int32_t>(std::lround(static_cast<double>(pango_units) / shaping_px));
@@ -92,7 +92,7 @@ private:
 };
 
 struct Measures {
-    int widest = 0, ascent = 0, descent = 0; ///< of the lines; Pango's units
+    int widest = 0, ascent = 0, descent = 0; ///< over the lines; Pango's units
 };
 
 Measures measure(PangoLayout* layout) {
@@ -140,7 +140,8 @@ Result<void> check_limits(const TextToShape& text) {
                                glyph_limits::most_side / em_units);
 }
 
-/// A single word of so many letters takes Pango a second or two; the time grows with their square.
+/// A single word of this many letters takes Pango a second or two; the time grows with the square of its
+/// length.
 Result<void> check_length(std::string_view text) {
     const auto letters = static_cast<std::size_t>(std::count_if(
         text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));

@@ -1,10 +1,10 @@
-/// Shapes a text: lines broken by the language's rules, letters joined and stacked as its script asks, right-to-left order
-/// resolved, for several widths.
+/// Shapes a text for several widths: lines broken by the language's rules, letters joined and stacked as in
+/// its script, right-to-left order resolved.
 ///
-/// Units    1/1024 em (`em_units`), as in app/pack/glyph_runs.h. Line pitch is what the typefaces ask for.
-/// Errors   check_text.h; a language whose typeface is missing (fonts.h); a width out of range; more lines than a setting may
-///          have. What is lost, but can be shown without, is a note: a letter that no typeface has, a word wider than every
-///          width.
+/// Units    1/1024 em (`em_units`), as in app/pack/glyph_runs.h. Line pitch comes from the typefaces.
+/// Errors   check_text.h; a language whose typeface is missing (fonts.h); a width out of range; more lines
+///          than a setting may have. Losses that leave the text usable are notes: a letter that no typeface
+///          has, a word wider than every width.
 /// Threads  one caller.
 /// Library  Pango with HarfBuzz, FriBidi and libthai.
 #pragma once
@@ -27,11 +27,12 @@ struct TextToShape {
     std::string text;
     std::string language; ///< BCP 47
     std::vector<std::int32_t>
-        limits; ///< widths that the lines may have, at least one; one too narrow for a word or for so many lines is left out
+        limits; ///< widths of the lines, at least one; a width too narrow for a word or with too many lines
+                ///< is skipped
     bool bold = false;
 };
 
-/// A file of outlines; collections have several faces.
+/// A file of outlines; collections contain several faces.
 struct FontFace {
     std::filesystem::path file;
     int index = 0;
@@ -40,7 +41,7 @@ struct FontFace {
 
 struct ShapedGlyph {
     std::uint32_t face = 0;  ///< index into the text's faces
-    std::uint32_t glyph = 0; ///< the face's own number
+    std::uint32_t glyph = 0; ///< glyph number in the face
     std::int32_t x = 0;
     std::int16_t up = 0;
 };
@@ -55,7 +56,7 @@ struct ShapedText {
     TextDirection direction = TextDirection::LeftToRight;
     std::vector<FontFace> faces;
     std::vector<ShapedSetting> settings;
-    std::vector<std::string> notes; ///< what is lost, a sentence each
+    std::vector<std::string> notes; ///< losses, a sentence each
 };
 
 class Shaper {

@@ -1,4 +1,4 @@
-/// libsndfile over bytes in memory.
+/// libsndfile on bytes in memory.
 ///
 /// Threads  one caller.
 /// Library  libsndfile's virtual files.
@@ -31,7 +31,7 @@ struct CloseSound {
 };
 using SoundFile = std::unique_ptr<SNDFILE, CloseSound>;
 
-/// `bytes` must outlive the file. Null if the library refuses it; `sf_strerror(nullptr)` says why.
+/// `bytes` must outlive the file. Null if the library refuses it; `sf_strerror(nullptr)` gives the reason.
 [[nodiscard]] inline SoundFile open_sound(SoundBytes& bytes, int mode, SF_INFO& info) {
     SF_VIRTUAL_IO io{};
     io.get_filelen = [](void* of) { return static_cast<SoundBytes*>(of)->size(); };

@@ -39,13 +39,14 @@ Result<Spoken> speak(const PackCaption& caption, const SpeechSources& sources) {
               sources.voice->speak(caption.description, caption.language));
 }
 
-/// A sentence where recording and description are of so different lengths that one of them must be another text's.
+/// A sentence if the lengths of recording and description differ so much that they must belong to different
+/// texts.
 std::optional<std::string> length_note(const PackCaption& caption, const std::filesystem::path& file,
                                        double seconds) {
     constexpr double least_share = 0.4;
     constexpr double most_share = 3.0;
     const double words_s = reading_time_s(caption.description);
-    const double brief_s = 3.0; // a breath more or less
+    const double brief_s = 3.0; // tolerance for pauses
     if (seconds >= least_share * words_s && seconds <= most_share * words_s + brief_s) {
         return std::nullopt;
     }
@@ -55,7 +56,7 @@ std::optional<std::string> length_note(const PackCaption& caption, const std::fi
         printable(file.string(), 300), seconds, caption.language, words_s);
 }
 
-/// A sentence for each reason, with the languages that have it.
+/// One sentence for each reason, with its languages.
 class Silences {
 public:
     void add(const std::string& why, const std::string& language) {
@@ -82,7 +83,8 @@ private:
 
 Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions, const SpeechSources& sources) {
     std::vector<Result<Spoken>> all(captions.size(), Spoken());
-    std::atomic<bool> failed{false}; // one sentence about a voice is enough, and each may take half a minute
+    std::atomic<bool> failed{false}; // one message about a voice is enough, and each attempt may take half a
+                                     // minute
     parallel_for(captions.size(), 1, [&](std::size_t k, std::size_t) {
         if (!captions[k].description.empty() && !failed) {
             all[k] = speak(captions[k], sources);

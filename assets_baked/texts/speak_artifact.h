@@ -1,10 +1,11 @@
-/// Speaks the audio descriptions of an artifact: the curator's recordings, else a voice.
+/// Speaks the audio descriptions of an artifact: the curator's recordings, otherwise a voice.
 ///
-/// A recording is the one that is named for its language, else FOLDER/LANGUAGE/description.wav, .flac, .opus or .ogg. Its words
-/// must be there as the description: who does not hear reads them.
+/// The recording of a language is the one named for it, otherwise FOLDER/LANGUAGE/description.wav, .flac,
+/// .opus or .ogg. The spoken words must also exist as the written description, for visitors who cannot hear.
 ///
-/// Errors   one sentence: a recording that is bad; a voice that fails on the way.
-/// Threads  one caller; the languages are spoken on all cores, with the same result.
+/// Errors   one sentence: an unusable recording; a voice that fails.
+/// Threads  one caller; the languages are spoken on all cores, and the result does not depend on their
+///          number.
 #pragma once
 
 #include "app/pack/pack.h"
@@ -21,17 +22,17 @@
 namespace frustumscreen {
 
 struct SpeechSources {
-    std::map<std::string, std::filesystem::path> recordings; ///< by language, as named
+    std::map<std::string, std::filesystem::path> recordings; ///< by language, if named explicitly
     std::filesystem::path folder;                            ///< empty: none
     std::vector<std::string>
-        left_out;               ///< languages that are not baked on purpose: their recordings may lie there
-    std::optional<Voice> voice; ///< nothing: descriptions without a recording are silent
+        left_out;               ///< languages that are not baked on purpose, whose recordings may be present
+    std::optional<Voice> voice; ///< nullopt: descriptions without a recording are silent
 };
 
 struct SpokenArtifact {
     std::vector<SpokenLanguage> languages;
-    std::vector<std::string> silent; ///< which descriptions, and why, a sentence for each reason
-    std::vector<std::string> notes; ///< which recordings nobody hears, or fit no description, a sentence each
+    std::vector<std::string> silent; ///< descriptions and reasons, a sentence for each reason
+    std::vector<std::string> notes;  ///< recordings that are unused or fit no description, a sentence each
 };
 
 [[nodiscard]] Result<SpokenArtifact> speak_artifact(std::span<const PackCaption> captions,

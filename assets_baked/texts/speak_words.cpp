@@ -12,7 +12,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Why the voice cannot speak a language, by language; asked once for all words.
+/// The reasons why the voice cannot speak a language, by language; determined once for all words.
 class VoiceCheck {
 public:
     VoiceCheck(const std::optional<Voice>& voice, const LanguageWords& words) {
@@ -33,7 +33,7 @@ private:
     std::map<std::string, std::optional<std::string>> why_silent_;
 };
 
-/// A recording, else what the voice says.
+/// Uses the recording, otherwise the voice.
 Result<Spoken> speak(const PlainWord& word, const LanguageWords& words, const SpeakOptions& options,
                      const VoiceCheck& check) {
     if (const auto file = find_recording(options.recordings, words.language, word.key)) {
@@ -47,11 +47,12 @@ Result<Spoken> speak(const PlainWord& word, const LanguageWords& words, const Sp
               options.voice->speak(word.text, word.language));
 }
 
-/// Speaks one language; returns why some of its words are silent, or nothing.
+/// Speaks one language; returns a sentence if some of its words are silent, otherwise an empty string.
 Result<std::string> speak_language(LanguageWords& words, const SpeakOptions& options) {
     const VoiceCheck check(options.voice, words);
     std::vector<Result<Spoken>> all(words.words.size(), Spoken());
-    std::atomic<bool> failed{false}; // one sentence about a voice is enough, and each may take half a minute
+    std::atomic<bool> failed{false}; // one message about a voice is enough, and each attempt may take half a
+                                     // minute
     parallel_for(words.words.size(), 1, [&](std::size_t k, std::size_t) {
         if (!failed) {
             all[k] = speak(words.words[k], words, options, check);

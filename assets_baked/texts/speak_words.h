@@ -1,9 +1,11 @@
-/// Gives the exhibit's own words their sounds: the museum's recordings, else a voice.
+/// Gives the exhibit's own words their sounds: the museum's recordings, otherwise a voice.
 ///
-/// A recording is FOLDER/LANGUAGE/KEY.wav, .flac, .opus or .ogg. A language is spoken by the voice whole or not at all.
+/// A recording is FOLDER/LANGUAGE/KEY.wav, .flac, .opus or .ogg. The voice speaks a language completely or
+/// not at all.
 ///
-/// Errors   one sentence: a recording that is bad; a voice that fails on the way.
-/// Threads  one caller; the words of a language are spoken on all cores, with the same result.
+/// Errors   one sentence: an unusable recording; a voice that fails.
+/// Threads  one caller; the words of a language are spoken on all cores, and the result does not depend on
+///          their number.
 #pragma once
 
 #include "app/pack/words_file.h"
@@ -20,11 +22,11 @@ namespace frustumscreen {
 
 struct SpeakOptions {
     std::filesystem::path recordings; ///< empty: none
-    std::optional<Voice> voice;       ///< nothing: words without a recording are silent
+    std::optional<Voice> voice;       ///< nullopt: words without a recording are silent
     std::function<void(std::string_view what, double done)> progress; ///< may be empty
 };
 
-/// Returns which words are silent and why, a sentence for each language.
+/// Returns the silent words with the reason, a sentence for each language.
 [[nodiscard]] Result<std::vector<std::string>> speak_words(std::vector<LanguageWords>& languages,
                                                            const SpeakOptions& options);
 

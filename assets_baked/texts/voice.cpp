@@ -19,18 +19,20 @@ bool begins_with_subtag(std::string_view language, std::string_view subtag) {
            (language.size() == subtag.size() || language[subtag.size()] == '-');
 }
 
-/// espeak-ng's name of the voice. Its plain voice for Chinese reads the letters' Latin spelling as if it were English.
+/// espeak-ng's name of the voice. Its default voice for Chinese reads the romanised letters as if they were
+/// English.
 std::string espeak_voice(const std::string& language) {
     return begins_with_subtag(language, "zh") ? "cmn-latn-pinyin" : language;
 }
 
-/// Of the scripts that espeak-ng has voices for, those from right to left are written in consonants; the vowels are marks, which
-/// texts leave out or have in part.
+/// Of the scripts that espeak-ng has voices for, those from right to left are written in consonants; vowels
+/// are marks, which texts omit entirely or in part.
 bool lacks_vowels(std::string_view language) {
     return direction_of(language) == TextDirection::RightToLeft;
 }
 
-/// Letters that the voice of `language` has a sound for. Voices of other scripts read Latin words as English ones.
+/// True if the voice of `language` has a sound for the letter. Voices of other scripts read Latin words as
+/// English.
 bool is_read(char32_t letter, const std::string& language) {
     const auto script = static_cast<PangoScript>(g_unichar_get_script(letter));
     if (script == PANGO_SCRIPT_HAN) {
@@ -40,8 +42,8 @@ bool is_read(char32_t letter, const std::string& language) {
            pango_language_includes_script(pango_language_from_string(language.c_str()), script) != 0;
 }
 
-/// The first letters of `text` in a row that the voice cannot read; empty if it can read all. A Greek letter alone is a sign, and
-/// has a name in every language.
+/// The first sequence of letters in `text` that the voice cannot read; empty if it can read all. A single
+/// Greek letter is a symbol, which has a name in every language.
 std::string unread_word(std::string_view text, const std::string& language) {
     const auto is_sign = [](std::string_view word) {
         const char32_t letter = code_point_of(word);
@@ -63,8 +65,8 @@ std::string unread_word(std::string_view text, const std::string& language) {
     return is_sign(word) ? std::string() : word;
 }
 
-/// Whether more than half of the sounds are those of other voices. espeak-ng writes a voice's name in brackets where it goes over
-/// to that one, and ends with its own.
+/// True if more than half of the sounds are those of other voices. espeak-ng writes a voice's name in
+/// brackets where it switches to it, and ends with its own.
 bool is_mostly_foreign(std::string_view sounds) {
     const std::size_t last = sounds.rfind('(');
     if (last == std::string_view::npos) {

@@ -1,9 +1,8 @@
-/// Who speaks a text: a recording of the museum's, else a program that takes text on its standard input and writes WAV to its
-/// standard output.
+/// A voice: a program that takes text on its standard input and writes WAV to its standard output.
 ///
-/// Without another program espeak-ng speaks, where it knows the sounds: not letters that it would spell (Japanese kanji, Cyrillic
-/// in an English text), and not languages that leave vowels out (Hebrew, Arabic). Single words of another language it may read
-/// as that language.
+/// By default espeak-ng speaks, if it knows the sounds: not letters that it would spell (Japanese kanji,
+/// Cyrillic in an English text), and not languages written without vowels (Hebrew, Arabic). It may read
+/// single words of another language as that language.
 ///
 /// Errors   one sentence: the program cannot be started, hangs, fails, or writes no recording.
 /// Threads  any; waits for the program.
@@ -20,23 +19,24 @@
 
 namespace frustumscreen {
 
-/// What became of a text.
+/// The result for one text.
 struct Spoken {
     std::optional<Speech> speech;
-    std::string why_silent; ///< where there is no speech
+    std::string why_silent; ///< set without speech
 };
 
 class Voice {
 public:
     /// espeak-ng.
     Voice() = default;
-    /// A program with its arguments, separated by blanks; `{language}` in them is replaced by the text's language.
+    /// A program with its arguments, separated by blanks; `{language}` in them is replaced by the text's
+    /// language.
     explicit Voice(std::string_view program, ProgramLimits limits = {});
 
-    /// Why this voice cannot speak `text`, a sentence; nothing if it can.
+    /// A sentence if this voice cannot speak `text`; otherwise nullopt.
     [[nodiscard]] std::optional<std::string> why_silent(std::string_view text,
                                                         const std::string& language) const;
-    /// A voice that says nothing had nothing to speak; that is no error.
+    /// A silent recording means that the text has nothing to speak; this is not an error.
     [[nodiscard]] Result<Spoken> speak(std::string_view text, const std::string& language) const;
 
 private:

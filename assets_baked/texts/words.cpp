@@ -129,7 +129,7 @@ constexpr auto keys = std::to_array<std::string_view>({
     "calibration.eyes.kept",
     "calibration.eyes.unchanged",
 });
-/// A museum's file that was written for an earlier version may have these.
+/// Keys that a museum's file for an earlier version may contain.
 constexpr auto past_keys = std::to_array<std::string_view>({
     "choose_by_sliding",
     "help",
@@ -152,7 +152,7 @@ std::string_view nearest_key(std::string_view found) {
     });
 }
 
-/// Reads one file; the first thing that is wrong is kept.
+/// Reads one file and keeps its first error.
 class WordsReader {
 public:
     WordsReader(const std::string& file, WrittenWords& words) : file_(file), words_(words) {}
@@ -195,7 +195,7 @@ private:
             words_.emplace(name, text->get());
         }
     }
-    /// The keys of a table come in the order of the alphabet; a person reads from the top.
+    /// A table's keys come in alphabetical order; report the error nearest to the top of the file.
     void refuse(MessageId id, const toml::node& node, const std::string& what) {
         const auto line = node.source().begin.line;
         if (!error_ || line < line_) {
@@ -210,7 +210,7 @@ private:
     toml::source_index line_ = 0;
 };
 
-/// The built-in words and, over them, those of the folder.
+/// The built-in words, overridden by those of the folder.
 Result<WrittenWords> words_of(const std::filesystem::path& folder, const std::string& language) {
     WrittenWords words;
     for (const BuiltinWords& file : builtin_words()) {

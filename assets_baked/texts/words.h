@@ -1,11 +1,11 @@
 /// The exhibit's own words as a museum writes them: a folder with one file LANGUAGE.toml for each language.
 ///
-/// A file has the keys of words/en.toml, those with a dot in tables: `[advice]` with `slide_left = "..."`. A key that is left out
-/// falls back; one that only an earlier version knew is read, and not shown. A museum's folder may hold a few lines only; the rest
-/// are the built-in words.
+/// A file has the keys of words/en.toml, those with a dot in tables: `[advice]` with `slide_left = "..."`. A
+/// missing key falls back; a key that only an earlier version used is read, but not shown. A museum's folder
+/// may contain only a few lines; the rest come from the built-in words.
 ///
-/// Errors   one sentence: file, line, key, what is wrong, what is allowed.
-/// Threads  pure; any.
+/// Errors   one sentence: file, line, key, problem, allowed values.
+/// Threads  pure except for reading files; any.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -20,7 +20,7 @@
 
 namespace frustumscreen {
 
-/// Text by key; what a file leaves out is not there.
+/// Text by key; keys missing in a file are absent.
 using WrittenWords = std::map<std::string, std::string, std::less<>>;
 
 /// `file` is for messages.
@@ -29,21 +29,22 @@ using WrittenWords = std::map<std::string, std::string, std::less<>>;
 struct Word {
     std::string key;
     std::string text;
-    std::string language; ///< that it is written in
+    std::string language; ///< language of `text`
 };
 
 struct CollectedWords {
     std::string language;
     std::vector<Word> words;        ///< one for each key, in the order of words/en.toml
-    std::vector<std::string> notes; ///< which lines were missing, which are no longer shown; a sentence each
+    std::vector<std::string> notes; ///< missing lines and lines that are no longer shown, a sentence each
 };
 
-/// One for each of `languages` (BCP 47), of which the first is the house's. A line is looked for in the language's file in
-/// `folder`, in the built-in words, then in the house's language in both. `folder` may be empty: the built-in words alone.
+/// One for each of `languages` (BCP 47); the first is the house's. A line is searched for in the language's
+/// file in `folder`, in the built-in words, then in the house's language in both. `folder` may be empty: only
+/// the built-in words.
 [[nodiscard]] Result<std::vector<CollectedWords>> collect_words(const std::filesystem::path& folder,
                                                                 std::span<const std::string> languages);
 
-/// The languages that the built-in words have.
+/// The languages of the built-in words.
 [[nodiscard]] std::vector<std::string> builtin_word_languages();
 
 } // namespace frustumscreen
