@@ -1,6 +1,7 @@
-/// frustumscreen-safe-words: bakes the safe picture's words into a C++ file (app/safe/safe_words.h). The build runs it.
+/// frustumscreen-safe-words: bakes the safe picture's words into a C++ file (app/safe/safe_words.h). The
+/// build runs it.
 ///
-/// Errors   one line: what a person must mend in words.toml, or which typeface is missing.
+/// Errors   one line: a mistake in words.toml, or a missing typeface.
 #include "app/pack/glyph_runs.h"
 #include "app/programs/common/guarded_main.h"
 #include "assets_baked/texts/glyph_atlas.h"
@@ -25,13 +26,13 @@ constexpr std::uintmax_t most_file_bytes = 1 << 20;
 constexpr std::int32_t one_line = glyph_limits::most_side;
 constexpr std::array<std::int32_t, 5> staff_widths_em{46, 36, 28, 20, 14};
 
-/// The characters that a reason may have: Latin, and the punctuation that sentences are written with.
+/// The characters that a reason may contain: Latin, and the punctuation of sentences.
 constexpr std::array<std::pair<char32_t, char32_t>, 6> letter_ranges{
     {{0x20, 0x7E}, {0xA0, 0xAC}, {0xAE, 0x17F}, {0x2010, 0x2027}, {0x20AC, 0x20AC}, {0xFFFD, 0xFFFD}}};
 
 struct LanguageToBake {
     std::string language, visitors, staff;
-    std::int64_t line = 0; ///< in the file; the picture has the file's order
+    std::int64_t line = 0; ///< in the file; the picture keeps the file's order
 };
 
 struct Letter {
@@ -78,7 +79,7 @@ std::string utf8(char32_t code) {
     return {byte(0xE0 | (code >> 12)), byte(0x80 | ((code >> 6) & 0x3F)), byte(0x80 | (code & 0x3F))};
 }
 
-/// Everything that is to be in the picture, in one atlas.
+/// Collects everything that the picture may show in one atlas.
 class WordsBaker {
 public:
     explicit WordsBaker(const Shaper& shaper) : shaper_(shaper) {}
@@ -92,14 +93,15 @@ public:
         return add("staff." + language.language, language.staff, language.language, widths);
     }
 
-    /// A letter that the typeface lacks is left out.
+    /// A letter that the typeface lacks is skipped.
     [[nodiscard]] Result<void> add(char32_t character) {
         TRY(const ShapedText alone, shaped(utf8(character)));
         TRY(const ShapedText between, shaped("|" + utf8(character) + "|"));
         TRY(const ShapedText bars, shaped("||"));
         if (alone.notes.empty()) {
             Letter letter{character, fmt::format("u{:04x}", static_cast<std::uint32_t>(character)), 0};
-            // A space at the end of a line has no width, and bars are not moved nearer to their neighbours.
+            // A space at the end of a line has no width, so the letter is measured between bars, which have
+            // no kerning.
             letter.advance = between.settings.front().width - bars.settings.front().width;
             builder_.add(letter.key, alone);
             letters_.push_back(letter);
@@ -133,7 +135,7 @@ private:
 
 using Out = std::back_insert_iterator<std::string>;
 
-/// How far to the right a line must go so that its ink is in the middle of the box.
+/// Shift to the right that centres a line's ink in the box.
 std::int32_t to_middle(const GlyphRuns& runs, std::span<const PlacedGlyph> line, std::int32_t width) {
     std::int32_t left = width;
     std::int32_t right = 0;
@@ -147,7 +149,7 @@ std::int32_t to_middle(const GlyphRuns& runs, std::span<const PlacedGlyph> line,
     return left < right ? (width - left - right) / 2 : 0;
 }
 
-/// A setting's glyphs as an array; the setting as an initialiser that names it.
+/// Writes a setting's glyphs as an array; returns the setting as an initialiser that names it.
 std::string write_setting(std::string& cpp, const std::string& name, const GlyphRuns& runs,
                           const GlyphSetting& setting) {
     fmt::format_to(Out(cpp), "constexpr BakedGlyph {}[]{{", name);
