@@ -1,4 +1,4 @@
-/// How large each thing in a pack may be. A pack is outside data: every size in it is checked against these
+/// Size limits of everything in a pack. A pack is untrusted data: every size in it is checked against these
 /// before memory is allocated for it.
 #pragma once
 
@@ -24,10 +24,11 @@ inline constexpr std::size_t most_text_lines = 1000;
 inline constexpr std::size_t most_sections = 64;
 inline constexpr std::size_t most_section_name_bytes = 40;
 inline constexpr std::size_t most_section_parts = 4096; ///< of all sections together
-/// Of all sections together, written without white space.
+/// All sections together, serialized without white space.
 inline constexpr std::size_t most_section_data_bytes = 1U << 20;
-inline constexpr std::size_t most_manifest_depth = 32; ///< objects and lists inside each other
-/// Names, numbers, texts, objects and lists. Together with the next one it keeps what a manifest takes in memory below 48 MiB.
+inline constexpr std::size_t most_manifest_depth = 32; ///< nesting of objects and lists
+/// Names, numbers, texts, objects and lists. Together with `most_object_names` it keeps a manifest's memory
+/// below 48 MiB.
 inline constexpr std::size_t most_manifest_values = 1U << 19;
 inline constexpr std::size_t most_object_names = 4096; ///< in one object
 inline constexpr std::size_t most_id_bytes = 64;
@@ -35,20 +36,22 @@ inline constexpr std::size_t most_hotspots = 3;
 inline constexpr int most_table_picture_side = 1024; ///< texels
 
 inline constexpr std::size_t most_extremes = 100000;
-inline constexpr double least_scale = 0.05; ///< on the largest size inside the prop
+inline constexpr double least_scale = 0.05; ///< relative to the largest size inside the prop
 inline constexpr double most_scale = 20.0;
 inline constexpr std::size_t most_levels = 32;
 inline constexpr std::size_t most_textures = 64;
 inline constexpr std::uint32_t most_vertices = 1U << 24; ///< of one level
 inline constexpr std::uint32_t most_indices = 3U << 24;  ///< of one level
 inline constexpr std::uint32_t most_clusters = 1U << 22; ///< of one level
-inline constexpr float most_error_box = 10.0F;           ///< the box is 1 long: more is no measurement
+inline constexpr float most_error_box = 10.0F;           ///< the box is 1 long: a larger error is not a
+                                                         ///< measurement
 inline constexpr float most_colour_rmse = 255.0F;
 inline constexpr std::size_t most_reliefs = 8;            ///< of the section relief_blocks
 inline constexpr std::uint32_t most_relief_texels = 4096; ///< along the box's longest edge
 inline constexpr std::uint32_t most_relief_blocks = 1U << 19;
-inline constexpr std::size_t most_charts = 65535; ///< their numbers are 16 bits
-inline constexpr int most_side_texels = 16384;    ///< of a texture or the relief; what OpenGL ES drivers take
+inline constexpr std::size_t most_charts = 65535;    ///< their numbers are 16 bits
+inline constexpr int most_side_texels = 16384;       ///< of a texture or the relief; the limit of OpenGL ES
+                                                     ///< drivers
 inline constexpr std::int64_t most_texels = 1 << 26; ///< of one picture
 inline constexpr std::int64_t most_texels_together = 1 << 28;
 

@@ -11,7 +11,7 @@ namespace frustumscreen {
 /// 64 hexadecimal digits, lower case.
 [[nodiscard]] std::string sha256_hex(std::span<const std::byte> bytes);
 
-/// Of bytes that come piece by piece.
+/// Hash of bytes that arrive piece by piece.
 class Sha256 {
 public:
     Sha256();
@@ -24,7 +24,7 @@ public:
     [[nodiscard]] std::string hex();
 
 private:
-    struct State; ///< the library's
+    struct State; ///< the library's state
     std::unique_ptr<State> state_;
 };
 

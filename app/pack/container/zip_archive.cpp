@@ -16,30 +16,30 @@
 
 namespace frustumscreen::pack_format {
 
-/// What the library reads and writes, and its cursor in it.
+/// The bytes that the library reads and writes, and its cursor in them.
 struct ArchiveBytes {
     ArchiveBytes() = default;
     ArchiveBytes(const ArchiveBytes&) = delete;
     ArchiveBytes& operator=(const ArchiveBytes&) = delete;
     virtual ~ArchiveBytes() = default;
     [[nodiscard]] virtual std::uint64_t size() const = 0;
-    /// `out` lies inside.
+    /// `out` must lie inside.
     [[nodiscard]] virtual bool read(std::uint64_t offset, std::span<std::byte> out) = 0;
     [[nodiscard]] virtual bool write(std::uint64_t /*offset*/, std::span<const std::byte> /*in*/) {
         return false;
     }
 
     std::uint64_t cursor = 0;
-    bool failed = false; ///< something could not be read that should be there
+    bool failed = false; ///< bytes that should exist could not be read
 };
 
 namespace {
 
 constexpr int deflate_level = 1; ///< Z_BEST_SPEED: a part is packed once and unpacked at every start
-constexpr uLong first_of_1980 = (1U << 21) | (1U << 16); ///< MS-DOS date, midnight: the earliest there is
+constexpr uLong first_of_1980 = (1U << 21) | (1U << 16); ///< MS-DOS date, midnight: the earliest possible
 constexpr uLong encrypted_flag = 1;
 /// Deflate never packs tighter than 1032 to 1 (zlib's technical details); an archive that claims more is
-/// wrong.
+/// invalid.
 constexpr std::uint64_t most_deflate_ratio = 1032;
 constexpr std::size_t end_record_bytes = 22;
 constexpr std::size_t through_step_bytes = 64U << 10U;
@@ -66,7 +66,7 @@ struct WrittenFile final : ArchiveBytes {
     int fault = 0; ///< errno
 
     [[nodiscard]] std::uint64_t size() const override { return end; }
-    /// The library only writes, and goes back to write.
+    /// The library only writes, and seeks back to write.
     [[nodiscard]] bool read(std::uint64_t /*offset*/, std::span<std::byte> /*out*/) override { return false; }
     [[nodiscard]] bool write(std::uint64_t offset, std::span<const std::byte> in) override {
         while (!in.empty()) {
@@ -97,8 +97,8 @@ struct ViewedBytes final : ArchiveBytes {
     }
 };
 
-/// The library reads a directory byte by byte, and looks for its end from behind; a window that begins at whole steps
-/// keeps that from being a call of the system each.
+/// The library reads a directory byte by byte, and searches for its end backwards; a window aligned to whole
+/// steps avoids a system call for each byte.
 class FileBytes final : public ArchiveBytes {
 public:
     explicit FileBytes(OpenFile file) : file_(std::move(file)) {}
@@ -194,8 +194,8 @@ zlib_filefunc64_def functions_over(ArchiveBytes& bytes) {
     return functions;
 }
 
-/// An entry is the first thing in the file, the end record the last, and its directory ends where it begins (APPNOTE.TXT 4.3.16):
-/// nothing was cut off, put in front or added behind.
+/// An entry is at the start of the file, the end record at its end, and the directory ends where that record
+/// begins (APPNOTE.TXT 4.3.16): nothing was cut off, prepended or appended.
 bool is_whole(ArchiveBytes& bytes) {
     std::array<std::byte, end_record_bytes> record{};
     std::array<std::byte, 4> first{};
@@ -424,7 +424,7 @@ Result<void> ZipReader::read_through(const ZipEntry& entry,
     return whole && taken == entry.bytes ? Result<void>() : damaged(entry);
 }
 
-/// `step` reads on and says whether there is more.
+/// `step` reads on and returns true if there is more.
 Result<void> ZipReader::read_whole(const ZipEntry& entry, const std::function<bool()>& step) {
     const unz64_file_pos position{entry.position, entry.number};
     if (unzGoToFilePos64(zip_, &position) != UNZ_OK || unzOpenCurrentFile(zip_) != UNZ_OK) {
@@ -432,7 +432,8 @@ Result<void> ZipReader::read_whole(const ZipEntry& entry, const std::function<bo
     }
     while (entry.bytes > 0 && step()) {
     }
-    // There must not be one byte more. Closing compares the checksum, but only if the entry was read to its end.
+    // There must be no further byte. Closing verifies the checksum, but only if the entry was read to its
+    // end.
     std::byte beyond{};
     const bool ends = unzReadCurrentFile(zip_, &beyond, 1) == 0;
     return unzCloseCurrentFile(zip_) == UNZ_OK && ends ? Result<void>() : damaged(entry);

@@ -1,11 +1,11 @@
-/// A ZIP container: what a pack needs of it and no more. It is written in memory or to a file, and read from memory or piece by
-/// piece from a file.
+/// A ZIP container, limited to the features that a pack needs. It is written in memory or to a file, and read
+/// from memory or piece by piece from a file.
 ///
-/// Errors   ZipReader: anything but a plain archive (no comment, no junk before or after, no encryption, no
-///          ZIP64, stored or deflated, unique names), or an entry whose bytes do not match its checksum;
-///          DeviceLost: a file that cannot be read to its end any more.
+/// Errors   ZipReader: anything but a plain archive (no comment, no extra bytes before or after, no
+///          encryption, no ZIP64, stored or deflated, unique names), or an entry whose bytes do not match its
+///          checksum; DeviceLost: a file that can no longer be read to its end.
 /// Threads  one caller.
-/// Library  minizip (ioapi functions over bytes of our own).
+/// Library  minizip (ioapi functions on our own bytes).
 #pragma once
 
 #include "firmware_host/base/file.h"
@@ -28,7 +28,7 @@ struct ZipEntry;
 
 enum class Packing { Stored, Deflated };
 
-/// Dates are fixed, so that the same entries give the same bytes.
+/// Dates are fixed, so that equal entries give equal bytes.
 class ZipWriter {
 public:
     /// In memory.
@@ -40,11 +40,12 @@ public:
     ZipWriter& operator=(const ZipWriter&) = delete;
 
     void add(const std::string& name, std::span<const std::byte> bytes, Packing packing);
-    /// An entry of another archive as it is packed there. Errors: as ZipReader::read, but its checksum is not looked at.
+    /// Copies an entry of another archive without repacking. Errors: as ZipReader::read, but its checksum is
+    /// not verified.
     [[nodiscard]] Result<void> copy(ZipReader& from, const ZipEntry& entry);
-    /// The archive; call once, last. Errors: Internal, when the library failed on the way.
+    /// Returns the archive; call once, last. Errors: Internal, if the library failed on the way.
     [[nodiscard]] Result<Bytes> finish();
-    /// The same for a file. Errors: it could not be written; the system's reason.
+    /// As above, for a file. Errors: it could not be written; the system's reason.
     [[nodiscard]] Result<void> finish_file();
 
 private:
@@ -57,9 +58,9 @@ private:
 
 struct ZipEntry {
     std::string name;
-    std::uint64_t bytes = 0; ///< unpacked, as the archive claims; never more than its packed bytes can hold
+    std::uint64_t bytes = 0; ///< unpacked, as the archive claims; at most what its packed bytes can hold
     std::uint64_t stored_bytes = 0; ///< in the archive
-    std::uint64_t position = 0;     ///< the library's own handle: place in the directory ...
+    std::uint64_t position = 0;     ///< the library's own handle: position in the directory ...
     std::uint64_t number = 0;       ///< ... and number
 };
 
@@ -73,17 +74,17 @@ public:
     ZipReader& operator=(ZipReader&&) = delete;
 
     [[nodiscard]] const std::vector<ZipEntry>& entries() const { return entries_; }
-    /// Null if there is none of that name.
+    /// Null if there is no entry with that name.
     [[nodiscard]] const ZipEntry* find(std::string_view name) const;
     /// Unpacks an entry; the caller must have checked entry.bytes against a limit.
     [[nodiscard]] Result<Bytes> read(const ZipEntry& entry);
-    /// The same bytes, some at a time; they count only if all is well in the end.
+    /// As `read`, piece by piece; the bytes are only valid if it succeeds.
     [[nodiscard]] Result<void> read_through(const ZipEntry& entry,
                                             const std::function<void(std::span<const std::byte>)>& take);
 
 private:
     friend class ZipWriter;
-    /// `message`, or that the file cannot be read any more.
+    /// An error with `message`, or DeviceLost if the file can no longer be read.
     [[nodiscard]] tl::unexpected<Error> refusal(MessageId id, std::string message) const;
     [[nodiscard]] tl::unexpected<Error> damaged(const ZipEntry& entry) const;
     explicit ZipReader(std::unique_ptr<ArchiveBytes> bytes);
@@ -93,7 +94,7 @@ private:
     std::unique_ptr<ArchiveBytes> file_;
     void* zip_ = nullptr;
     std::vector<ZipEntry> entries_;
-    std::map<std::string, std::size_t, std::less<>> numbers_; ///< of the entries, by name
+    std::map<std::string, std::size_t, std::less<>> numbers_; ///< index into entries_, by name
 };
 
 } // namespace frustumscreen::pack_format
