@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A value in a message: itself if it is small, its type if not.
+/// A value in a message: itself if it is small, otherwise its type.
 std::string found(const Json& value) {
     if (value.is_structured()) {
         return fmt::format("{} of {}", value.is_object() ? "an object" : "a list", value.size());
@@ -245,7 +245,7 @@ Json parse_json(Refusal& refusal, std::string_view text, std::size_t most_depth)
     std::size_t values = 0;
     const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
         if (refusal.error) {
-            return false; // nothing of it is kept
+            return false; // discard everything
         }
         const bool ends = event == Json::parse_event_t::object_end || event == Json::parse_event_t::array_end;
         values += ends ? 0 : 1;

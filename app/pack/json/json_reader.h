@@ -1,7 +1,7 @@
-/// Reads one JSON object field by field: what is asked for is consumed, what is left over is refused.
+/// Reads one JSON object field by field: requested fields are consumed, remaining fields are refused.
 ///
-/// Errors   the first one is kept in `Refusal`, as one line: the field's place, what was found, what is
-///          allowed. After it every call does nothing, so callers need not check each call.
+/// Errors   the first one is kept in `Refusal`, as one line: the field's place, the value found, the allowed
+///          values. After it every call does nothing, so callers need not check each call.
 /// Threads  one caller.
 #pragma once
 
@@ -23,13 +23,13 @@ namespace frustumscreen::pack_format {
 
 struct Refusal {
     std::optional<Error> error;
-    std::string document = "the manifest"; ///< what is read, for messages
+    std::string document = "the manifest"; ///< document being read, for messages
     void refuse(MessageId id, const std::string& place, std::string_view what);
 };
 
 class JsonReader {
 public:
-    /// `object` may be null or no object: that is refused.
+    /// `object` may be null or not an object: both are refused.
     JsonReader(Refusal& refusal, const nlohmann::json* object, std::string place);
 
     /// A field whose value was checked before.
@@ -41,7 +41,7 @@ public:
         value = static_cast<Whole>(whole_of(key, most));
     }
     void number(const char* key, float& value);
-    /// A field that may be left out.
+    /// An optional field.
     void number_or(const char* key, double& value, double left_out);
     /// Exactly `values.size()` numbers.
     void numbers(const char* key, std::span<double> values);
@@ -52,7 +52,7 @@ public:
     void choice(const char* key, Choice& value, std::span<const std::string_view> words) {
         value = static_cast<Choice>(word_of(key, words));
     }
-    /// Index of the name found; another is refused as `otherwise`.
+    /// Index of the name found; an unknown name is refused with `otherwise`.
     void name_in(const char* key, std::uint32_t& index, std::span<const std::string> names,
                  std::string_view otherwise);
     void object(const char* key, const auto& describe) {
@@ -78,7 +78,8 @@ public:
             item.finish();
         }
     }
-    /// One value for each field of the object `key`, with the field's name, in the names' order. It may be left out.
+    /// One value for each field of the object `key`, with the field's name, in the names' order. The object
+    /// is optional.
     template <typename Value>
     void members_or_none(const char* key, std::vector<Value>& values, std::size_t most,
                          const auto& describe) {
@@ -95,7 +96,7 @@ public:
     }
     /// An object with any fields, as text: keys in order, without white space.
     void free_object(const char* key, std::string& text);
-    /// Refuses fields that nobody asked for. Call once, last.
+    /// Refuses fields that were not requested. Call once, last.
     void finish();
 
     void refuse(MessageId id, const char* key, std::string_view what) {
@@ -118,8 +119,8 @@ private:
     std::set<std::string> known_;
 };
 
-/// Parses the document. It refuses what is not JSON (and says at which byte), a field that occurs twice, and
-/// objects and lists that lie too deep inside each other.
+/// Parses the document. It refuses text that is not JSON (with the position in bytes), a field that occurs
+/// twice, and objects and lists nested too deeply.
 [[nodiscard]] nlohmann::json parse_json(Refusal& refusal, std::string_view text,
                                         std::size_t most_depth = most_manifest_depth);
 

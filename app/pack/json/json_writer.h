@@ -18,7 +18,7 @@
 
 namespace frustumscreen::pack_format {
 
-/// The fewest digits that read back as the same 32-bit number.
+/// The fewest digits that read back as an equal 32-bit number.
 [[nodiscard]] inline double in_few_digits(float value) {
     const double few = std::strtod(fmt::format("{}", value).c_str(), nullptr);
     return static_cast<float>(few) == value ? few : static_cast<double>(value);
