@@ -1,4 +1,4 @@
-/// What minisign's files have in common: lines, comments in front, numbers and keys in base64.
+/// Common parts of minisign's files: lines, comment prefixes, numbers and keys in base64.
 ///
 /// Threads  pure; any.
 /// Source   https://jedisct1.github.io/minisign/
@@ -20,7 +20,7 @@ namespace frustumscreen::minisign {
 inline constexpr std::string_view untrusted_prefix = "untrusted comment: ";
 inline constexpr std::string_view trusted_prefix = "trusted comment: ";
 
-/// Lines without their ends, of Unix or Windows. A text that ends in a line break has no empty line behind it.
+/// Lines without their ends, of Unix or Windows. A final line break adds no empty line.
 [[nodiscard]] inline std::vector<std::string_view> lines_of(std::string_view text, std::size_t most) {
     std::vector<std::string_view> lines;
     while (!text.empty() && lines.size() < most) {
@@ -42,8 +42,8 @@ inline constexpr std::string_view trusted_prefix = "trusted comment: ";
     return text;
 }
 
-/// Exactly `Size` bytes in the one way of writing them, with padding. libsodium 1.0.18 also takes bytes above 127 for letters, so
-/// what was read is written again.
+/// Exactly `Size` bytes in their only valid encoding, with padding. libsodium 1.0.18 also accepts bytes above
+/// 127 as letters, so the result is encoded again and compared.
 template <std::size_t Size>
 [[nodiscard]] std::optional<std::array<std::uint8_t, Size>> from_base64(std::string_view text) {
     std::array<std::uint8_t, Size> bytes{};
@@ -53,7 +53,7 @@ template <std::size_t Size>
     return read && count == Size && to_base64(bytes) == text ? std::optional(bytes) : std::nullopt;
 }
 
-/// Reads pieces of a record one after the other.
+/// Reads the pieces of a record in order.
 class Pieces {
 public:
     explicit Pieces(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}

@@ -18,7 +18,7 @@ constexpr std::size_t checksum_bytes = 32;
 constexpr std::size_t hidden_bytes = 8 + crypto_sign_SECRETKEYBYTES + checksum_bytes; ///< with a password
 constexpr std::size_t record_bytes = 2 + 2 + 2 + salt_bytes + 8 + 8 + hidden_bytes;
 constexpr std::size_t most_file_bytes = 4096;
-/// What a file may ask for: what minisign itself does.
+/// Upper limit for a file: the cost that minisign itself uses.
 constexpr PasswordCost most_cost{};
 
 using Name = std::array<std::uint8_t, 2>;
@@ -30,7 +30,7 @@ constexpr Name blake2b{'B', '2'};
 using Checksum = std::array<std::uint8_t, checksum_bytes>;
 using Hidden = std::array<std::uint8_t, hidden_bytes>;
 
-/// Bytes that are wiped when they go.
+/// Bytes that are wiped on destruction.
 template <typename Bytes> struct Wiped {
     Bytes bytes{};
     Wiped() = default;
@@ -74,7 +74,7 @@ Checksum checksum_of(std::span<const std::uint8_t> id_and_key) {
     return checksum;
 }
 
-/// Hides what is open, and the other way round.
+/// Encrypts or decrypts: XOR with scrypt's output.
 Result<void> apply_password(Hidden& hidden, std::string_view password, const Record& record) {
     Wiped<Hidden> stream;
     if (crypto_pwhash_scryptsalsa208sha256(stream.bytes.data(), stream.bytes.size(), password.data(),
@@ -90,7 +90,7 @@ Result<void> apply_password(Hidden& hidden, std::string_view password, const Rec
     return {};
 }
 
-/// Into `record`, which cannot be moved: it is wiped where it stands.
+/// Reads into `record`, which cannot be moved: it is wiped in place.
 Result<void> read_record(std::string_view text, Record& record) {
     const auto refused = [] {
         return bad_input(
@@ -131,8 +131,8 @@ Result<void> read_record(std::string_view text, Record& record) {
     return {};
 }
 
-/// Whether the half of the key that is public belongs to the half that is secret: a signature made with another one gives the
-/// secret away.
+/// True if the public half of the key belongs to the secret half: a signature made with a wrong public half
+/// would reveal the secret.
 bool is_whole(std::span<const std::uint8_t, crypto_sign_SECRETKEYBYTES> key) {
     Wiped<std::array<std::uint8_t, crypto_sign_SECRETKEYBYTES>> made;
     std::array<std::uint8_t, crypto_sign_PUBLICKEYBYTES> other{};

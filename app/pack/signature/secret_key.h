@@ -1,11 +1,13 @@
-/// Secret keys in minisign's format, and signing with them. Only who signs needs this; no program of the exhibit does.
+/// Secret keys in minisign's format, and signing with them. Only signers need this; no program of the exhibit
+/// does.
 ///
-/// Bytes    an untrusted comment, base64 of "Ed", "Sc" (scrypt) or zeros (not encrypted), "B2", salt (32), scrypt's limits for
-///          operations and bytes of memory (8, 8), key id (8), Ed25519 secret key (64), their BLAKE2b-256 checksum (32); the last
-///          three XORed with scrypt's output.
-/// Memory   a key is wiped when it goes. With a password, reading and writing take the memory that the limits say: at most 1 GiB.
+/// Bytes    an untrusted comment, base64 of "Ed", "Sc" (scrypt) or zeros (not encrypted), "B2", salt (32),
+///          scrypt's limits for operations and bytes of memory (8, 8), key id (8), Ed25519 secret key (64),
+///          their BLAKE2b-256 checksum (32); the last three XORed with scrypt's output.
+/// Memory   a key is wiped on destruction. With a password, reading and writing take the memory in the
+///          limits: at most 1 GiB.
 /// Threads  one caller.
-/// Errors   one sentence: no key, another password, not enough memory.
+/// Errors   one sentence: not a key, a wrong password, not enough memory.
 /// Source   https://jedisct1.github.io/minisign/
 /// Library  libsodium.
 #pragma once
@@ -23,7 +25,7 @@
 
 namespace frustumscreen {
 
-/// What a password costs who guesses it, and who knows it: scrypt's limits.
+/// Cost of each password attempt, for attackers and owners alike: scrypt's limits.
 struct PasswordCost {
     std::uint64_t operations = 33554432;
     std::uint64_t memory_bytes = 1073741824;
@@ -31,7 +33,7 @@ struct PasswordCost {
 
 class SecretKey {
 public:
-    /// A new one.
+    /// Generates a new key.
     [[nodiscard]] static SecretKey make();
     ~SecretKey();
     SecretKey(SecretKey&& other) noexcept;
@@ -54,7 +56,7 @@ private:
 [[nodiscard]] Result<std::string> write_secret_key(const SecretKey& key,
                                                    std::optional<std::string_view> password,
                                                    const PasswordCost& cost = {});
-/// Errors: it is no secret key.
+/// Errors: it is not a secret key.
 [[nodiscard]] Result<bool> needs_password(std::string_view text);
 [[nodiscard]] Result<SecretKey> parse_secret_key(std::string_view text,
                                                  std::optional<std::string_view> password);

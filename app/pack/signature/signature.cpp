@@ -25,7 +25,7 @@ constexpr AlgorithmName of_the_bytes{'E', 'd'};
 constexpr std::size_t most_comment_bytes = 8192; ///< of a trusted comment; minisign's own limit
 constexpr std::size_t most_public_key_bytes = 4096;
 
-/// A signature file, taken apart and not checked.
+/// A signature file, parsed but not verified.
 struct ReadSignature {
     AlgorithmName algorithm{};
     std::array<std::uint8_t, 8> key_id{};
@@ -35,7 +35,7 @@ struct ReadSignature {
     std::uint64_t serial = 0;
 };
 
-/// Only tabs are allowed of the control characters, as minisign puts them between fields.
+/// Of the control characters only tabs are allowed, which minisign puts between fields.
 bool is_comment(std::string_view text) {
     while (!text.empty()) {
         const std::size_t bytes = character_bytes(text);
@@ -47,7 +47,7 @@ bool is_comment(std::string_view text) {
     return true;
 }
 
-/// What stands behind `name` in each field of that name.
+/// The text after `name` in each field of that name.
 std::vector<std::string_view> fields_named(std::string_view name, std::string_view comment) {
     const char between = comment.find('\t') == std::string_view::npos ? ' ' : '\t';
     std::vector<std::string_view> values;
@@ -61,7 +61,8 @@ std::vector<std::string_view> fields_named(std::string_view name, std::string_vi
     return values;
 }
 
-/// A comment that has a `serial` has no other: a damaged one must not make the time of signing count in its place.
+/// A comment with a `serial` uses no other field: if the serial is damaged, the time of signing must not
+/// replace it.
 std::optional<std::uint64_t> serial_in(std::string_view comment) {
     std::vector<std::string_view> values = fields_named("serial:", comment);
     if (values.empty()) {
@@ -126,8 +127,8 @@ bool is_signed_by(const PublicKey& key, const SignatureBytes& signature,
     return crypto_sign_verify_detached(signature.data(), bytes.data(), bytes.size(), key.key.data()) == 0;
 }
 
-/// Which algorithm was used is not signed. So 64 bytes could be the hash of something else that the museum did sign: nothing
-/// of that length is taken with the older algorithm.
+/// The algorithm is not signed. So 64 bytes could be the hash of another file that the museum did sign: bytes
+/// of that length are refused with the older algorithm.
 bool signs_bytes(const ReadSignature& read, const PublicKey& key, std::span<const std::byte> bytes) {
     if (read.algorithm == of_the_bytes) {
         return bytes.size() != crypto_generichash_BYTES_MAX &&
@@ -175,7 +176,7 @@ tl::unexpected<SignatureRefusal> refused_as_unknown(const ReadSignature& read,
 
 std::string text_of_key_id(std::span<const std::uint8_t, 8> id) {
     std::uint64_t number = 0;
-    for (std::size_t k = id.size(); k-- > 0;) { // its lowest byte stands first
+    for (std::size_t k = id.size(); k-- > 0;) { // lowest byte first
         number = number << 8U | id[k];
     }
     return fmt::format("{:X}", number);
@@ -241,7 +242,8 @@ tl::expected<Signer, SignatureRefusal> check_signature(std::span<const std::byte
         return tl::unexpected<SignatureRefusal>(SignatureRefusal{SignatureFault::Malformed, read.error()});
     }
     auto refusal = refused_as_unknown(*read, keys);
-    // Two keys may have the same id, or one key two ends: the first that is good counts, and the last refusal is told.
+    // Two keys may have the same id, or one key two last days: the first valid one counts, otherwise the last
+    // refusal is reported.
     for (const TrustedKey& trusted : keys) {
         const std::string name = printable(trusted.name, 40);
         if (trusted.key.id != read->key_id) {

@@ -1,12 +1,14 @@
-/// Signatures in minisign's format: `minisign -V` accepts ours, and ours accept minisign's.
+/// Signatures in minisign's format: `minisign -V` accepts ours, and we accept minisign's.
 ///
-/// Bytes    signature: an untrusted comment, base64 of algorithm (2 bytes: "ED", over the BLAKE2b-512 hash; "Ed", over the bytes
-///          themselves), key id (8) and Ed25519 signature (64), a trusted comment, base64 of a signature over signature and
-///          trusted comment. Public key: an untrusted comment, base64 of "Ed", key id (8) and key (32); the second line alone will do.
-/// Serial   of what is signed, from the trusted comment: `serial:N`, else `timestamp:N` (as minisign writes it), fields apart by
-///          tabs, or by spaces where it has no tab. A higher one replaces a lower one.
+/// Bytes    signature: an untrusted comment, base64 of algorithm (2 bytes: "ED", over the BLAKE2b-512 hash;
+///          "Ed", over the bytes themselves), key id (8) and Ed25519 signature (64), a trusted comment,
+///          base64 of a signature over signature and trusted comment. Public key: an untrusted comment,
+///          base64 of "Ed", key id (8) and key (32); the second line alone is accepted.
+/// Serial   of the signed file, from the trusted comment: `serial:N`, otherwise `timestamp:N` (as minisign
+///          writes it), fields separated by tabs, or by spaces if it has no tab. A higher serial replaces a
+///          lower one.
 /// Threads  pure; any.
-/// Errors   one sentence for who holds the stick; what is refused says why as a value too.
+/// Errors   one sentence for the person who holds the stick; a refusal also has its reason as a value.
 /// Source   https://jedisct1.github.io/minisign/
 /// Library  libsodium.
 #pragma once
@@ -30,41 +32,41 @@ struct PublicKey {
     std::array<std::uint8_t, 32> key{};
     [[nodiscard]] bool operator==(const PublicKey&) const = default;
 };
-/// A file of minisign's, or its second line.
+/// Accepts a file of minisign's, or its second line.
 [[nodiscard]] Result<PublicKey> parse_public_key(std::string_view text);
 /// The second line, without a line break.
 [[nodiscard]] std::string public_key_line(const PublicKey& key);
-/// A file of minisign's.
+/// A public key file in minisign's format.
 [[nodiscard]] std::string write_public_key(const PublicKey& key);
 /// A key's id as minisign writes it: a number of at most 16 digits, upper case.
 [[nodiscard]] std::string text_of_key_id(std::span<const std::uint8_t, 8> id);
 
-/// As many as the settings or a folder may name.
+/// Most keys that the settings or a folder may name.
 inline constexpr std::size_t most_trusted_keys = 32;
 /// One of the museum's keys.
 struct TrustedKey {
     std::string name;
     PublicKey key;
-    std::optional<std::chrono::sys_days> until; ///< its last day; none: it does not end
+    std::optional<std::chrono::sys_days> until; ///< its last day; nullopt: unlimited
     [[nodiscard]] bool operator==(const TrustedKey&) const = default;
 };
 
-/// What becomes of packs that have no signature. A signature that is there must be right in any case.
+/// Policy for packs without a signature. An existing signature must be valid in any case.
 enum class UnsignedPacks : std::uint8_t { Refuse, Allow };
 
 enum class SignatureFault : std::uint8_t {
-    Unsigned,   ///< there is none
-    Malformed,  ///< it is not of minisign's format, or has no serial
+    Unsigned,   ///< there is no signature
+    Malformed,  ///< not in minisign's format, or without a serial
     UnknownKey, ///< made with a key that is not one of the museum's
-    KeyEnded,   ///< the key's last day is over
-    Altered,    ///< it is not the signature of these bytes, or of its trusted comment
+    KeyEnded,   ///< the key's last day has passed
+    Altered,    ///< not the signature of these bytes, or of its trusted comment
 };
 struct SignatureRefusal {
     SignatureFault fault;
     Error error;
 };
 
-/// What a signature says. Anybody can have written it: for reports, and for who signs again.
+/// The claims of an unverified signature, which anyone may have written: for reports, and for signing again.
 struct SignatureClaim {
     std::string key_id;
     std::uint64_t serial = 0;
@@ -78,7 +80,7 @@ struct Signer {
     std::string trusted_comment;
     PublicKey public_key;
 };
-/// `signature`: the bytes of a `.minisig` file; none: Unsigned. `today`: none: no key has ended.
+/// `signature`: the bytes of a `.minisig` file; nullopt: Unsigned. `today`: nullopt: no key has ended.
 [[nodiscard]] tl::expected<Signer, SignatureRefusal>
 check_signature(std::span<const std::byte> signed_bytes, std::optional<std::string_view> signature,
                 std::span<const TrustedKey> keys, std::optional<std::chrono::sys_days> today);
