@@ -1,4 +1,4 @@
-# One static library for each room of the house; ARCHITECTURE.md has the map.
+# One static library for each room of the house; docs/rooms.md has the map.
 #
 #   frustumscreen_room(<room> SOURCES ... [USES <room>...] [LIBRARIES <target>...])
 #
