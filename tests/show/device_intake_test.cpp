@@ -64,6 +64,31 @@ TEST(DeviceIntake, WithoutATrackerThePropStandsWhereItIs) {
     EXPECT_TRUE(intake.situation_at(MonotonicTime{}).prop_known);
 }
 
+class MissingPanel final : public Panel {
+public:
+    [[nodiscard]] Result<void> poll(MonotonicTime /*now*/, std::vector<PanelEvent>& /*events*/) override {
+        return {};
+    }
+    [[nodiscard]] std::string name() const override { return "missing"; }
+    [[nodiscard]] std::string_view state() const override { return "it is not there"; }
+    [[nodiscard]] DeviceCondition condition() const override { return {DeviceHealth::Away, "panel.missing"}; }
+};
+
+TEST(DeviceIntake, TellsWhichDevicesCannotBeUsed) {
+    Inputs inputs;
+    inputs.panel = std::make_unique<MissingPanel>();
+    inputs.tracker =
+        std::make_unique<RegisteredTracker>(std::make_unique<FalteringTracker>(), Registration{});
+    DeviceIntake intake(Settings{}, inputs);
+    RunStatus status;
+    intake.tell({}, status);
+    EXPECT_EQ(status.devices.panel.ok, false);
+    EXPECT_EQ(status.devices.panel.id, "panel.missing");
+    EXPECT_EQ(status.panel.view(), "it is not there");
+    EXPECT_FALSE(status.devices.tracker.ok) << "it stands in for one";
+    EXPECT_FALSE(status.devices.sound.ok) << "there is none";
+}
+
 TEST(DeviceIntake, AnErrorIsCountedAndTheSamplesBeforeItAreTaken) {
     for (const bool followed : {true, false}) {
         Settings settings;
