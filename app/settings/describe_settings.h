@@ -364,6 +364,9 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
     }
     fields.path("library", exhibit.library,
                 "where packs from sticks are installed; a set there goes before `packs`");
+    fields.path("counts", exhibit.counts,
+                "where numbers of visits are kept ([counts.md](counts.md)); a folder that is not there, such "
+                "as `off`: nothing is counted");
     fields.parsed("language", exhibit.language, std::identity(), parse_language_tag, allowed_language_tags,
                   "of the captions, at first");
     fields.flag("captions", exhibit.captions, "on the table, beside the prop");

@@ -140,6 +140,8 @@ struct ExhibitSettings {
     UnsignedPacks unsigned_packs = UnsignedPacks::Refuse; ///< from a stick
     /// What the importer says of a stick (library/import_report.h); not there: nothing. Resolved as above.
     std::filesystem::path import_report = "/run/frustumscreen-import/report.json";
+    /// Of visits, numbers alone (counts/day_counts.h); a folder that is not there: nothing is counted. Resolved as above.
+    std::filesystem::path counts = "/var/lib/frustumscreen/counts";
 };
 
 /// Alsa: a sound card of this machine. It is opened only if there is something to say.

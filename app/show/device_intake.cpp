@@ -22,20 +22,25 @@ std::optional<Command> command_of(const PanelEvent& event) {
     }
 }
 
-/// In one plain sentence; empty: there is none.
-std::string_view camera_state(const Inputs& inputs) {
+/// The sentence is empty where there is none.
+DeviceState camera_state(const Inputs& inputs) {
     if (!inputs.camera) {
         return {};
     }
     const CameraState state = inputs.camera->state();
     const bool is_well = health_of(state) == CameraHealth::Well;
     if (is_well && inputs.tags && !inputs.tags->trouble().empty()) {
-        return inputs.tags->trouble();
+        return {{DeviceHealth::Impaired, "camera.no_tags"}, Sentence(inputs.tags->trouble())};
     }
     if (is_well && inputs.visitor && !inputs.visitor->trouble().empty()) {
-        return inputs.visitor->trouble();
+        return {{DeviceHealth::Impaired, "camera.no_visitor"}, Sentence(inputs.visitor->trouble())};
     }
-    return sentence_of(state);
+    return {condition_of(state), Sentence(sentence_of(state))};
+}
+
+/// `device`: none: nothing is asked for.
+DeviceReport report_of(const auto& device) {
+    return device ? DeviceReport(device->condition()) : DeviceReport{};
 }
 
 } // namespace
@@ -127,6 +132,9 @@ void DeviceIntake::tell(const Situation& shown, RunStatus& status) const {
     status.eye_by = shown.head_known ? "sensor" : shown.head_seen ? "camera" : "settings";
     status.eye_sd_m = status.eye_by == "camera" ? std::optional(shown.eye_sd_m) : std::nullopt;
     status.hand_overs = situation_.hand_overs();
+    status.devices.tracker = report_of(inputs_.tracker);
+    status.devices.panel = report_of(inputs_.panel);
+    status.devices.sound = report_of(inputs_.sound);
     status.panel = Sentence(inputs_.panel ? inputs_.panel->state() : std::string_view{});
     status.sound = Sentence(inputs_.sound ? inputs_.sound->state() : std::string_view{});
     status.recording = inputs_.recorder ? Sentence(inputs_.recorder->state()) : inputs_.why_not_recorded;
@@ -134,7 +142,9 @@ void DeviceIntake::tell(const Situation& shown, RunStatus& status) const {
 }
 
 void DeviceIntake::tell_of_camera(RunStatus& status) const {
-    status.camera = Sentence(camera_state(inputs_));
+    const DeviceState camera = camera_state(inputs_);
+    status.camera = camera.sentence;
+    status.devices.camera = inputs_.camera ? DeviceReport(camera.condition) : DeviceReport{};
     status.camera_hz = inputs_.camera ? inputs_.camera->rate_hz() : 0.0;
     if (inputs_.viewfinder && inputs_.camera) {
         const std::optional<CameraSetUp> set_up = inputs_.camera->set_up();

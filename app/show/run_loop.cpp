@@ -1,5 +1,6 @@
 #include "app/show/run_loop.h"
 
+#include "app/counts/visit_counter.h"
 #include "app/render/probe.h"
 #include "app/show/device_intake.h"
 
@@ -20,8 +21,16 @@ constexpr Nanoseconds between_probes = std::chrono::seconds(1);
 /// The smallest light that still draws; 0 means asleep.
 constexpr double least_light = 1e-6;
 
+/// Of visits that wait to be taken; nobody takes them for as long only where its thread is stuck.
+constexpr std::size_t most_visit_pieces = 64;
+
 std::string_view shown_artifact(const ShowState& state) {
     return state.state != State::Fault ? state.artifact : std::string_view{};
+}
+
+VisitsReport report_of(const CountedVisits& visits) {
+    return {visits.today.visits, visits.since_start.visits, 1e-3 * static_cast<double>(visits.today.ms),
+            1e-3 * static_cast<double>(visits.since_start.ms), visits.trouble};
 }
 
 double milliseconds_since(MonotonicTime start) {
@@ -38,6 +47,7 @@ public:
           light_delay_(Nanoseconds(std::llround(1e6 * settings.tracker.display_latency_ms))),
           intake_(settings, inputs), stills_(options.stills, options.length, start, display),
           times_(window_frames), presented_(start), artifact_since_(start) {
+        visit_pieces_.reserve(most_visit_pieces);
         result_.status.calibrates = static_cast<bool>(options.calibrate);
         result_.status.camera_for = camera_uses(inputs);
         if (options.keep_rows && options.length) {
@@ -63,6 +73,10 @@ public:
                 next_status += between_statuses;
             }
             now = next_display_time(now);
+        }
+        if (options_.visits != nullptr) {
+            visit_counter_.end(now, visit_pieces_);
+            options_.visits->post_last(visit_pieces_);
         }
         post_status(now);
         if (stills_.lacks_all() && result_.status.frames > 0 && !shows_camera_) {
@@ -154,6 +168,7 @@ private:
 
     /// Applies the exhibit's decisions of this frame: lamps, the request to calibrate, and what the next frame needs.
     void follow_state(MonotonicTime now, const ShowState& state) {
+        count_visits(now, state);
         used_ = state.used;
         attracts_ = state.state == State::Attract;
         staff_ = state.state == State::Staff;
@@ -169,6 +184,22 @@ private:
             inputs_.panel->light(state.lamps);
         }
         result_.status.presented.settled = state.settled;
+    }
+
+    void count_visits(MonotonicTime now, const ShowState& state) {
+        if (options_.visits == nullptr) {
+            return;
+        }
+        if (visit_pieces_.size() < most_visit_pieces / 2) {
+            visit_counter_.step({.now = now,
+                                 .used = state.used,
+                                 .rests = asleep_ || state.state == State::Attract,
+                                 .staff = state.state == State::Staff,
+                                 .artifact = shown_artifact(state),
+                                 .language = state.language},
+                                visit_pieces_);
+        }
+        options_.visits->post(visit_pieces_);
     }
 
     /// The drift marks are shown only while no visitor is present.
@@ -210,6 +241,7 @@ private:
     [[nodiscard]] Result<void> sleep(MonotonicTime now, const Situation& situation, MonotonicTime begin) {
         watch_.enters("waits for the display");
         TRY_VOID(display_.stay_dark());
+        count_visits(now, show_.state());
         presented_ = now - between_probes; // the first picture afterwards is presented in any case
         fault_since_
             .reset(); // nobody sees that there is nothing to show, and a new start would light the projector
@@ -287,9 +319,14 @@ private:
         status.shown_code = watch_.shown_code();
         status.health = word_of(watch_.health());
         status.display = Sentence(display_.state());
+        status.devices.display = DeviceReport(display_.condition());
         status.mode = options_.mode;
         status.settings = options_.settings;
         status.hour_of_day = local_hour();
+        if (options_.visits != nullptr) {
+            options_.visits->read(visits_);
+            status.visits = report_of(visits_);
+        }
         intake_.tell(shown_, status);
     }
 
@@ -336,6 +373,9 @@ private:
     MonotonicTime artifact_since_;
     std::optional<MonotonicTime> fault_since_; ///< nothing can be shown
     std::optional<MonotonicTime> used_;        ///< when somebody used the exhibit last
+    VisitCounter visit_counter_;
+    std::vector<VisitPiece> visit_pieces_; ///< that were not taken yet
+    CountedVisits visits_;
     std::uint8_t probe_code_ = 0;
     std::size_t rows_expected_ = 0;
     LoopResult result_;

@@ -7,6 +7,7 @@
 ///          again.
 #pragma once
 
+#include "app/counts/visit_book.h"
 #include "app/settings/settings.h"
 #include "app/show/inputs.h"
 #include "app/show/run_hours.h"
@@ -42,6 +43,7 @@ struct LoopOptions {
     Screenshot* screenshot = nullptr;     ///< of the display's size; whoever asks it for a picture gets one
     std::function<bool()> ends = {};      ///< asked in each frame: yes ends it too
     std::function<void()> calibrate = {}; ///< the staff ask for the table's calibration; none: they cannot
+    VisitBook* visits = nullptr;          ///< where visits are counted; none: nowhere, like a fast run
     RunHours* hours = nullptr; ///< by which it sleeps; none: never, like a fast run and an alignment pattern
 };
 

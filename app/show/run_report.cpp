@@ -96,9 +96,9 @@ void stamp(RunStatus& status) {
     status.resident_mib = resident_mib();
 }
 
-StatusFile::StatusFile(std::filesystem::path file, std::function<void(const RunStatus&)> written)
-    : file_(std::move(file)), written_(std::move(written)) {
-    if (!file_.empty()) {
+StatusFile::StatusFile(StatusPlaces places, std::function<void(const RunStatus&)> written)
+    : places_(std::move(places)), written_(std::move(written)) {
+    if (wanted()) {
         writer_ = std::jthread([this] { work(); });
     }
 }
@@ -112,7 +112,7 @@ StatusFile::~StatusFile() {
 }
 
 void StatusFile::post(const RunStatus& status) {
-    if (file_.empty()) {
+    if (!wanted()) {
         return;
     }
     {
@@ -127,7 +127,7 @@ void StatusFile::note_hang(bool hangs) {
     {
         const std::lock_guard lock(mutex_);
         hangs_ = hangs;
-        pending_ = !file_.empty();
+        pending_ = wanted();
     }
     changed_.notify_one();
 }
@@ -154,10 +154,10 @@ void StatusFile::work() {
         pending_ = false;
         lock.unlock();
         stamp(status);
-        renew_surroundings(surroundings, {.status_file = file_}, status_clock());
+        renew_surroundings(surroundings, places_, status_clock());
         status.surroundings = std::make_shared<const Surroundings>(surroundings);
         status.versions.system = surroundings.system;
-        const Result<void> written = renew_file(file_, as_bytes(status_json(status)));
+        const Result<void> written = renew_file(places_.status_file, as_bytes(status_json(status)));
         if (!written && !complained) {
             say_line("frustumscreen", written.error().message);
             complained = true;

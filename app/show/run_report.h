@@ -85,8 +85,8 @@ void stamp(RunStatus& status);
 /// Writes the latest status posted, by rename; and reads, as often, what others know of the exhibit.
 class StatusFile {
 public:
-    /// An empty path: posts go nowhere. `written`: called on the writer's thread after each status.
-    explicit StatusFile(std::filesystem::path file, std::function<void(const RunStatus&)> written = {});
+    /// Without a status file, posts go nowhere. `written`: called on the writer's thread after each status.
+    explicit StatusFile(StatusPlaces places, std::function<void(const RunStatus&)> written = {});
     ~StatusFile(); ///< writes what is still to be written
     StatusFile(const StatusFile&) = delete;
     StatusFile& operator=(const StatusFile&) = delete;
@@ -94,14 +94,14 @@ public:
     /// The thread that posts hangs, or no longer hangs: the latest status is written again. Any thread may
     /// call.
     void note_hang(bool hangs);
-    [[nodiscard]] bool wanted() const { return !file_.empty(); }
+    [[nodiscard]] bool wanted() const { return !places_.status_file.empty(); }
     /// What was read last; none: nothing yet, or there is no file.
     [[nodiscard]] SharedSurroundings surroundings();
 
 private:
     void work();
 
-    std::filesystem::path file_;
+    StatusPlaces places_;
     std::function<void(const RunStatus&)> written_;
     std::mutex mutex_;
     std::condition_variable changed_;

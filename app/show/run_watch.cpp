@@ -130,6 +130,9 @@ void RunWatch::note(const RunStatus& status) {
     note_device("recording", status.recording, recording_);
     note_device("hours", status.hours.why, hours_);
     note_device("clock", status.hours.clock, clock_);
+    if (status.visits && !status.visits->trouble.empty()) {
+        note_device("visits", Sentence(status.visits->trouble), visits_);
+    }
     if (status.set && status.set != noted_set_) { // the sentence is made only where there is news
         noted_set_ = status.set;
         note_device("set", Sentence(sentence_of(*status.set)), set_);

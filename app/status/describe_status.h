@@ -238,7 +238,31 @@ void drawing_fields(auto& fields, auto& status) {
                  Metric{"device_errors_total", "Errors that devices answered with."});
 }
 
+/// `device`: its key, a literal.
+void condition_fields(auto& fields, const char* device, auto& report) {
+    fields.object(device, {}, [&](auto& inner) {
+        inner.field("ok", report.ok, {},
+                    Metric{"device_ok", "1: this device, which the settings ask for, can be used.", 1.0,
+                           "device", device});
+        inner.field("impaired", report.impaired);
+        inner.field("id", report.id);
+    });
+}
+
 void device_fields(auto& fields, auto& status) {
+    fields.object(
+        "devices",
+        "`display`, `tracker`, `camera`, `panel` and `sound`, of each `ok`, whether it can be used (`null`: "
+        "the "
+        "settings ask for none); `impaired`, it can, and something about it is to be put right; `id`, the "
+        "short name of the sentence that it says below",
+        [&](auto& devices) {
+            condition_fields(devices, "display", status.devices.display);
+            condition_fields(devices, "tracker", status.devices.tracker);
+            condition_fields(devices, "camera", status.devices.camera);
+            condition_fields(devices, "panel", status.devices.panel);
+            condition_fields(devices, "sound", status.devices.sound);
+        });
     fields.field("display", status.display,
                  "how the projector is, in one sentence; empty: there is nothing to say");
     fields.field("tracker", status.tracker,
@@ -292,6 +316,20 @@ void device_fields(auto& fields, auto& status) {
         "`packs`, each with `file`, `title`, `outcome` (`pending`, `taken`, `already_there`, "
         "`refused`, `removed`), `refusal` and `reason`. `null`: there was none",
         Metric{}, [](auto& inner, auto& report) { import_fields(inner, report); });
+    fields.object_or_null("visits", status.visits,
+                          "of visitors, numbers alone ([counts.md](counts.md)): visits that began `today` "
+                          "and `since_start`, and how long they "
+                          "lasted, `today_s`, `since_start_s`; `trouble`, why the numbers cannot be kept. "
+                          "`null`: they are not counted",
+                          Metric{}, [](auto& inner, auto& visits) {
+                              inner.field("today", visits.today);
+                              inner.field("since_start", visits.since_start, {},
+                                          Metric{"visits_total", "Visits since the exhibit was started."});
+                              inner.field("today_s", visits.today_s);
+                              inner.field("since_start_s", visits.since_start_s, {},
+                                          Metric{"visits_seconds_total", "How long they lasted together."});
+                              inner.field("trouble", visits.trouble);
+                          });
     fields.field("prop_known", status.prop_known, "the prop's place is known now",
                  Metric{"prop_known", "1: the prop's place is known."});
     fields.field("head_known", status.head_known,

@@ -10,49 +10,106 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
 
 namespace frustumscreen {
 
 namespace {
 
-std::string health_sentence(const std::string& word) {
-    const auto* const known = std::find_if(all_healths.begin(), all_healths.end(),
-                                           [&](Health health) { return word_of(health) == word; });
-    return known != all_healths.end() ? std::string(sentence_of(*known))
-                                      : fmt::format("its health is '{}'", word);
+ExhibitVerdict not_running(MessageId id, std::string sentence) {
+    return {false, false, std::move(sentence), std::string(id.view())};
 }
 
-/// Why nothing is known of now; empty: the status is of now.
-std::string why_not_running(const StatusDocument& status) {
+/// Why nothing is known of now; nothing: the status is of now.
+std::optional<ExhibitVerdict> why_not_running(const StatusDocument& status) {
     if (status.fields.is_null()) {
-        return fmt::format("Nothing is known of the exhibit: {}", status.why);
+        return not_running("exhibit.unknown", fmt::format("Nothing is known of the exhibit: {}", status.why));
     }
     if (status.other_boot) {
-        return "The exhibit does not run: its status is from before the machine was started";
+        return not_running("exhibit.other_boot",
+                           "The exhibit does not run: its status is from before the machine was started");
     }
     if (!status.age_s) {
-        return "Nothing is known of the exhibit: its status does not say when it was written";
+        return not_running("exhibit.no_time",
+                           "Nothing is known of the exhibit: its status does not say when it was written");
     }
     if (!status.fresh()) {
-        return fmt::format("The exhibit does not run, or cannot say how it is: its status is {} old",
-                           words_of_time(*status.age_s));
+        return not_running(
+            "exhibit.old",
+            fmt::format("The exhibit does not run, or cannot say how it is: its status is {} old",
+                        words_of_time(*status.age_s)));
     }
-    return {};
+    return std::nullopt;
 }
 
-/// What the watchdog complains of; empty: nothing, or nobody knows.
-std::string watchdog_complaint(const StatusDocument& watchdog) {
+ExhibitVerdict not_well(std::string id, std::string sentence) {
+    return {true, false, std::move(sentence), std::move(id)};
+}
+
+ExhibitVerdict unhealthy(const std::string& word) {
+    const auto* const known = std::find_if(all_healths.begin(), all_healths.end(),
+                                           [&](Health health) { return word_of(health) == word; });
+    const bool is_known = known != all_healths.end();
+    return not_well(is_known ? "exhibit." + word : "exhibit.unheard_of",
+                    "The exhibit runs, and is not well: " + (is_known
+                                                                 ? std::string(sentence_of(*known))
+                                                                 : fmt::format("its health is '{}'", word)));
+}
+
+/// What the watchdog complains of; nothing: it does not, or nobody knows.
+std::optional<ExhibitVerdict> watchdog_complaint(const StatusDocument& watchdog) {
     if (!watchdog.fresh()) {
-        return {};
+        return std::nullopt;
     }
     const WatchdogStatus status = read_watchdog_status(watchdog.fields);
     if (status.trouble) {
-        return "The exhibit runs, and its watchdog says: " + status.trouble->sentence;
+        return not_well(watchdog_id(watchdog),
+                        "The exhibit runs, and its watchdog says: " + status.trouble->sentence);
     }
     if (!status.mode.empty() && status.mode != word_of(Mode::Normal)) {
-        return fmt::format("The exhibit runs, but its watchdog {}", sentence_of_mode(status.mode));
+        return not_well(watchdog_id(watchdog),
+                        fmt::format("The exhibit runs, but its watchdog {}", sentence_of_mode(status.mode)));
     }
-    return {};
+    return std::nullopt;
+}
+
+/// What of the devices a person has to put right, the first clause of each sentence: what to do stands below.
+struct Complaints {
+    std::string id; ///< of the first one
+    std::string clauses;
+
+    void add(std::string_view of, std::string_view sentence) {
+        if (clauses.empty()) {
+            id = of;
+        }
+        clauses += fmt::format("{}{}", clauses.empty() ? "" : "; ", sentence.substr(0, sentence.find("; ")));
+    }
+};
+
+/// Those that cannot be used, and those that are there and impaired.
+std::pair<Complaints, Complaints> complaints_of(const StatusReport& status) {
+    std::pair<Complaints, Complaints> found;
+    auto& [missing, impaired] = found;
+    const DeviceReports& devices = status.devices;
+    const std::array<std::pair<const DeviceReport&, std::string_view>, 5> all{
+        {{devices.display, status.display.view()},
+         {devices.tracker, status.tracker.view()},
+         {devices.camera, status.camera.view()},
+         {devices.panel, status.panel.view()},
+         {devices.sound, status.sound.view()}}};
+    for (const auto& [device, sentence] : all) {
+        if (device.ok == false) {
+            missing.add(device.id, sentence);
+        } else if (device.impaired) {
+            impaired.add(device.id, sentence);
+        }
+    }
+    if (status.drifted) {
+        impaired.add("drift.moved", status.drift.view());
+    }
+    return found;
 }
 
 } // namespace
@@ -63,20 +120,28 @@ std::string_view sentence_of_mode(std::string_view word) {
 }
 
 ExhibitVerdict verdict_of(const KnownExhibit& known) {
-    if (std::string why = why_not_running(known.status); !why.empty()) {
-        return {false, false, std::move(why)};
+    if (std::optional<ExhibitVerdict> why = why_not_running(known.status)) {
+        return std::move(*why);
     }
     const StatusReport report = read_status_report(known.status.fields);
     if (report.health != word_of(Health::Well)) {
-        return {true, false, "The exhibit runs, and is not well: " + health_sentence(report.health)};
+        return unhealthy(report.health);
     }
     if (report.state == name_of(State::Fault)) {
-        return {true, false, "The exhibit runs, and has no artifact that it can show"};
+        return not_well("exhibit.no_artifact", "The exhibit runs, and has no artifact that it can show");
     }
-    if (std::string complaint = watchdog_complaint(known.surroundings.watchdog); !complaint.empty()) {
-        return {true, false, std::move(complaint)};
+    if (std::optional<ExhibitVerdict> complaint = watchdog_complaint(known.surroundings.watchdog)) {
+        return std::move(*complaint);
     }
-    return {true, true, "The exhibit runs and is well"};
+    const auto [missing, impaired] = complaints_of(report);
+    if (!missing.clauses.empty()) {
+        return not_well(missing.id, "The exhibit runs, but: " + missing.clauses);
+    }
+    return impaired.clauses.empty()
+               ? ExhibitVerdict{true, true, "The exhibit runs and is well", "exhibit.well"}
+               : ExhibitVerdict{true, true,
+                                "The exhibit runs and is well, but look at this: " + impaired.clauses,
+                                impaired.id};
 }
 
 } // namespace frustumscreen

@@ -1,4 +1,5 @@
-/// Whether the exhibit is well, as far as anybody can know from outside.
+/// Whether the exhibit is well, as far as anybody can know from outside: it shows an artifact, nobody has a complaint, and each device
+/// that its settings ask for can be used. The watchdog does not go by this but by the status' `health`: no restart plugs in a cable.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -15,9 +16,9 @@ namespace frustumscreen {
 
 struct ExhibitVerdict {
     bool runs = false; ///< its status is of now
-    bool well =
-        false; ///< it runs, an artifact is on the screen, and neither it nor its watchdog has a complaint
-    std::string sentence;
+    bool well = false;
+    std::string sentence; ///< without a full stop
+    std::string id;       ///< of the sentence, or of what it tells of a device: subject.problem
 };
 [[nodiscard]] ExhibitVerdict verdict_of(const KnownExhibit& known);
 

@@ -96,6 +96,10 @@ void renew_surroundings(Surroundings& known, const StatusPlaces& places, const S
         known.system = system_name();
         known.crashes = read_crashes(places.crash_folder); // a later one ends the process that would read it
     }
+    if (MachineState& machine = known.machine;
+        !machine.seen || clock.now - *machine.seen >= between_looks_at_machine) {
+        machine = {clock.now, hottest_c(places.root), disk_space(places.data_folder)};
+    }
     const std::filesystem::path file = places.status_file.parent_path() / "ends";
     std::error_code missing;
     const std::uintmax_t bytes =

@@ -8,6 +8,7 @@
 
 #include "app/status/system_image.h"
 #include "app/watch/crash.h"
+#include "app/watch/machine.h"
 #include "app/watch/outcome.h"
 #include "app/watch/service_ends.h"
 #include "firmware_host/base/json.h"
@@ -42,16 +43,25 @@ struct StatusDocument {
 [[nodiscard]] StatusDocument parse_status(std::string_view json, const StatusClock& clock);
 [[nodiscard]] StatusDocument read_status(const std::filesystem::path& file, const StatusClock& clock);
 
+/// How the machine is, every ten seconds.
+struct MachineState {
+    std::optional<MonotonicTime> seen;
+    std::optional<double> hottest_c;
+    std::optional<DiskSpace> disk; ///< of all data
+};
+inline constexpr Nanoseconds between_looks_at_machine = std::chrono::seconds(10);
+
 /// What others know of the exhibit's run; it never changes.
 struct Surroundings {
     StatusDocument watchdog;
     ServiceEnds ends;
     std::uintmax_t ends_bytes = 0; ///< of their file, to which lines are only ever added
     std::string ends_trouble;      ///< why their file could not be read; one that is not there has no ends
-    double monotonic_s = 0.0;      ///< when it was read
-    std::string system;            ///< name and version of the operating system and of the kernel
-    SystemImage image;             ///< of an appliance
-    std::vector<Crash> crashes;    ///< the last ones, the latest first
+    double monotonic_s = 0.0;      ///< when it was read: so long the machine is on
+    MachineState machine;
+    std::string system;         ///< name and version of the operating system and of the kernel
+    SystemImage image;          ///< of an appliance
+    std::vector<Crash> crashes; ///< the last ones, the latest first
 };
 using SharedSurroundings = std::shared_ptr<const Surroundings>;
 struct StatusPlaces {
@@ -59,6 +69,8 @@ struct StatusPlaces {
     std::filesystem::path watchdog_file = usual_watchdog_file;
     std::filesystem::path boot_folder = usual_boot_folder;
     std::filesystem::path crash_folder = usual_crash_folder;
+    std::filesystem::path data_folder = "/var/lib/frustumscreen"; ///< on the disk with the packs
+    std::filesystem::path root = "/";                             ///< below which is sys
 };
 /// Brings `known` up to now; what cannot have changed is not read again.
 void renew_surroundings(Surroundings& known, const StatusPlaces& places, const StatusClock& clock);

@@ -74,6 +74,19 @@ void add_watchdog(Metrics& metrics, const StatusDocument& watchdog) {
     }
 }
 
+void add_machine(Metrics& metrics, const Surroundings& surroundings) {
+    const MachineState& machine = surroundings.machine;
+    metrics.add({"machine_uptime_seconds", "Time since the machine was started."}, surroundings.monotonic_s);
+    if (machine.hottest_c) {
+        metrics.add({"temperature_celsius", "Of the hottest of the machine's sensors."}, *machine.hottest_c);
+    }
+    if (machine.disk) {
+        metrics.add({"disk_free_bytes", "Free space of the disk with the packs."},
+                    static_cast<double>(machine.disk->free_bytes));
+        metrics.add({"disk_size_bytes", "Its size."}, static_cast<double>(machine.disk->size_bytes));
+    }
+}
+
 void add_system(Metrics& metrics, const SystemImage& image) {
     if (image.there()) {
         metrics.add({"system_info", "1; the label is the version of the appliance's system.", 1.0, "version"},
@@ -89,7 +102,8 @@ std::string prometheus_text(const KnownExhibit& known) {
     const ExhibitVerdict verdict = verdict_of(known);
     Metrics metrics;
     metrics.add({"up", "1: the exhibit runs."}, verdict.runs ? 1.0 : 0.0);
-    metrics.add({"well", "1: it runs, and nobody has a complaint."}, verdict.well ? 1.0 : 0.0);
+    metrics.add({"well", "1: it runs, nobody has a complaint, and its devices are there."},
+                verdict.well ? 1.0 : 0.0);
     if (known.status.age_s) {
         metrics.add({"status_age_seconds", "Age of the exhibit's status."}, *known.status.age_s);
     }
@@ -100,6 +114,7 @@ std::string prometheus_text(const KnownExhibit& known) {
     }
     add_ends(metrics, known.surroundings);
     add_watchdog(metrics, known.surroundings.watchdog);
+    add_machine(metrics, known.surroundings);
     add_system(metrics, known.surroundings.image);
     return metrics.take();
 }

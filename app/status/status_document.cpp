@@ -1,6 +1,7 @@
 #include "app/status/status_document.h"
 
 #include "app/status/exhibit_verdict.h"
+#include "app/status/watchdog_status.h"
 
 #include <cmath>
 
@@ -10,14 +11,30 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json rounded_or_null(const std::optional<double>& seconds) {
-    return seconds ? Json(std::round(*seconds * 1000.0) / 1000.0) : Json(nullptr);
+Json rounded_or_null(const std::optional<double>& number) {
+    return number ? Json(std::round(*number * 1000.0) / 1000.0) : Json(nullptr);
 }
 
 Json json_of(const StatusDocument& document) {
     return {{"age_s", rounded_or_null(document.age_s)},
             {"why_unknown", document.why},
             {"status", Json(document.fields)}};
+}
+
+Json json_of_watchdog(const StatusDocument& document) {
+    Json json = json_of(document);
+    json["id"] = watchdog_id(document);
+    return json;
+}
+
+Json json_of_machine(const Surroundings& surroundings) {
+    const MachineState& machine = surroundings.machine;
+    return {{"on_s", rounded_or_null(surroundings.monotonic_s)},
+            {"hottest_c", rounded_or_null(machine.hottest_c)},
+            {"disk", machine.disk ? Json{{"free_bytes", machine.disk->free_bytes},
+                                         {"size_bytes", machine.disk->size_bytes},
+                                         {"writable", machine.disk->writable}}
+                                  : Json(nullptr)}};
 }
 
 Json json_of(const Surroundings& surroundings) {
@@ -61,12 +78,14 @@ std::string status_document(const KnownExhibit& known) {
     const Json document = {{"well", verdict.well},
                            {"runs", verdict.runs},
                            {"sentence", verdict.sentence},
+                           {"id", verdict.id},
                            {"age_s", rounded_or_null(known.status.age_s)},
                            {"exhibit", json_of(known.status)},
-                           {"watchdog", json_of(known.surroundings.watchdog)},
+                           {"watchdog", json_of_watchdog(known.surroundings.watchdog)},
                            {"ends", json_of(known.surroundings)},
                            {"crashes", json_of(known.surroundings.crashes)},
-                           {"system", json_of(known.surroundings.image)}};
+                           {"system", json_of(known.surroundings.image)},
+                           {"machine", json_of_machine(known.surroundings)}};
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

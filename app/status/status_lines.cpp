@@ -132,6 +132,16 @@ std::string camera_line(const StatusReport& status) {
                              or_else(status.camera_for, "nothing"));
 }
 
+std::string visits_line(const StatusReport& status) {
+    if (!status.visits) {
+        return {};
+    }
+    const VisitsReport& visits = *status.visits;
+    std::string text = fmt::format("today {}, {:.0f} minutes together",
+                                   counted(visits.today, "visit", "visits"), visits.today_s / 60.0);
+    return visits.trouble.empty() ? text : text + "; " + brief(visits.trouble);
+}
+
 std::string set_line(const StatusReport& status) {
     if (!status.set) {
         return "the packs of the settings";
@@ -243,6 +253,22 @@ std::string notes_line(const StatusDocument& watchdog) {
     return fmt::format("{}", fmt::join(notes, "; "));
 }
 
+/// How it is with the computer itself.
+std::string computer_line(const Surroundings& around) {
+    const MachineState& machine = around.machine;
+    std::string text = fmt::format("on for {}", words_of_time(around.monotonic_s));
+    if (machine.disk) {
+        constexpr double gb = 1e9;
+        text += fmt::format("; {:.1f} of {:.1f} GB of its disk are free",
+                            static_cast<double>(machine.disk->free_bytes) / gb,
+                            static_cast<double>(machine.disk->size_bytes) / gb);
+    }
+    if (machine.hottest_c) {
+        text += fmt::format("; {:.0f} degrees Celsius at its hottest sensor", *machine.hottest_c);
+    }
+    return text;
+}
+
 std::string image_line(const SystemImage& image) {
     if (!image.there()) {
         return {};
@@ -301,6 +327,7 @@ void add_exhibit(Lines& lines, const StatusReport& status, std::optional<double>
     lines.add("buttons", or_else(status.panel.view(), "there are none"));
     lines.add("sound", or_else(status.sound.view(), "nothing to say"));
     lines.add("recording", status.recording.view());
+    lines.add("visitors", visits_line(status));
     lines.add("packs", set_line(status));
     lines.add("left out", left_out_line(status));
     lines.add("stick", stick_line(status), false);
@@ -318,6 +345,7 @@ std::vector<StatusLine> status_lines(const StatusReport* status, std::optional<d
     if (surroundings != nullptr) {
         lines.add("starts", starts_line(status, age_s, *surroundings));
         lines.add("watchdog", watchdog_line(surroundings->watchdog));
+        lines.add("computer", computer_line(*surroundings));
         lines.add("machine", notes_line(surroundings->watchdog));
         lines.add("system", image_line(surroundings->image));
         add_faults(lines, surroundings->watchdog);

@@ -10,6 +10,7 @@
 #include "app/library/pack_left_out.h"
 #include "app/pack/pack_file.h"
 #include "app/status/set_status.h"
+#include "firmware_host/base/device_state.h"
 #include "firmware_host/base/json.h"
 #include "firmware_host/base/sentence.h"
 #include "firmware_host/base/time.h"
@@ -65,6 +66,32 @@ struct FrameQuantiles {
     std::optional<double> p99 = 0.0;
 };
 
+/// Of one device: whether it can be used.
+struct DeviceReport {
+    std::optional<bool> ok; ///< nothing: the settings ask for none
+    bool impaired = false;  ///< it can be used, and something about it is to be put right
+    std::string id;         ///< of the sentence that it says, MessageId; empty: it says none
+
+    DeviceReport() = default;
+    explicit DeviceReport(const DeviceCondition& condition)
+        : ok(condition.health == DeviceHealth::None ? std::nullopt
+                                                    : std::optional(condition.health != DeviceHealth::Away)),
+          impaired(condition.health == DeviceHealth::Impaired), id(condition.id.view()) {}
+};
+struct DeviceReports {
+    DeviceReport display, tracker, camera, panel, sound;
+};
+
+/// Of visitors, numbers alone (app/counts).
+struct VisitsReport {
+    std::uint64_t today = 0; ///< visits that began on this day, by local time
+    std::uint64_t since_start = 0;
+    double today_s = 0.0; ///< how long they lasted together
+    double since_start_s = 0.0;
+    std::string trouble; ///< a sentence: the numbers cannot be kept; empty: they are
+    [[nodiscard]] bool operator==(const VisitsReport&) const = default;
+};
+
 struct StatusReport {
     StatusStamp written;
     StatusVersions versions;
@@ -99,7 +126,8 @@ struct StatusReport {
     std::uint64_t probes = 0;        ///< pictures at rest that were presented again
     std::uint64_t skipped = 0;       ///< display times that passed without a new frame
     std::uint64_t device_errors = 0; ///< samples that were no pose; polls that were answered with an error
-    Sentence display;                ///< states of the devices; empty where there is nothing to say
+    DeviceReports devices;
+    Sentence display; ///< states of the devices; empty where there is nothing to say
     Sentence tracker;
     bool tracker_hangs = false; ///< Tracker::hangs
     TrackerCounts tracker_counts;
@@ -116,6 +144,7 @@ struct StatusReport {
     std::uint64_t sound_underruns = 0; ///< how often the loudspeaker had nothing to play
     Sentence recording;
     std::shared_ptr<const ImportReport> import; ///< what the importer says; none: nothing
+    std::optional<VisitsReport> visits;         ///< nothing: they are not counted
     bool prop_known = false;
     bool head_known = false;
     std::string eye_by{"settings"}; ///< sensor, camera or settings

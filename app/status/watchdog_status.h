@@ -3,6 +3,7 @@
 /// Threads  values; any.
 #pragma once
 
+#include "app/status/known_exhibit.h"
 #include "app/status/metric.h"
 #include "app/watch/step.h"
 #include "firmware_host/base/json.h"
@@ -16,6 +17,7 @@
 namespace frustumscreen {
 
 struct WatchdogTrouble {
+    std::string cause; ///< word_of(Cause)
     std::string sentence;
     double since_s = 0.0;
 };
@@ -46,6 +48,7 @@ void watchdog_fields(auto& fields, auto& status) {
     fields.object_or_null("trouble", status.trouble, {},
                           Metric{"watchdog_trouble", "1: it sees something wrong."},
                           [](auto& trouble, auto& value) {
+                              trouble.field("cause", value.cause);
                               trouble.field("sentence", value.sentence);
                               trouble.field("since_s", value.since_s);
                           });
@@ -67,5 +70,8 @@ void watchdog_fields(auto& fields, auto& status) {
 
 /// Of any JSON.
 [[nodiscard]] WatchdogStatus read_watchdog_status(const nlohmann::json& document);
+/// The id of what is said of it: watchdog.unknown, watchdog.no_time, watchdog.old; what troubles it, as watchdog.no_picture; or what it
+/// lets the exhibit show, as watchdog.normal.
+[[nodiscard]] std::string watchdog_id(const StatusDocument& watchdog);
 
 } // namespace frustumscreen

@@ -29,6 +29,7 @@ public:
     [[nodiscard]] std::string name() const override { return device_->name(); }
     [[nodiscard]] bool reports_table_frame() const override { return true; }
     [[nodiscard]] std::string_view state() const override { return device_->state(); }
+    [[nodiscard]] DeviceCondition condition() const override { return device_->condition(); }
     [[nodiscard]] TrackerHealth health() const override { return device_->health(); }
     [[nodiscard]] bool hangs() const override { return device_->hangs(); }
     [[nodiscard]] TrackerCounts counts() const override { return device_->counts(); }

@@ -1,13 +1,11 @@
 /// The state of a device in one plain sentence for the person beside it, as a value of fixed size.
 ///
 /// `Sentence` cuts what is too long between two UTF-8 characters: systemd refuses half a character.
-/// `SharedSentence` carries the latest one from the device's thread to the exhibit's.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <mutex>
 #include <string_view>
 
 namespace frustumscreen {
@@ -33,26 +31,6 @@ private:
 
     std::array<char, longest> text_{};
     std::size_t length_ = 0;
-};
-
-/// Threads  one sets, one reads; reading never waits.
-class SharedSentence {
-public:
-    explicit SharedSentence(std::string_view text) : latest_(text) {}
-    void set(std::string_view text) {
-        const std::lock_guard lock(mutex_);
-        latest_ = Sentence(text);
-    }
-    /// Leaves `sentence` as it is while the other side is setting one.
-    void read(Sentence& sentence) const {
-        if (const std::unique_lock lock(mutex_, std::try_to_lock); lock.owns_lock()) {
-            sentence = latest_;
-        }
-    }
-
-private:
-    mutable std::mutex mutex_;
-    Sentence latest_;
 };
 
 } // namespace frustumscreen

@@ -3,6 +3,8 @@
 /// Threads  values.
 #pragma once
 
+#include "firmware_host/base/device_state.h"
+
 #include <cstdint>
 #include <string_view>
 
@@ -26,47 +28,63 @@ enum class CameraState : std::uint8_t {
     Silent,
 };
 
-/// One plain sentence: what, and what to do. Running, where all is well, says so too.
-[[nodiscard]] constexpr std::string_view sentence_of(CameraState state) {
+/// One plain sentence, and its id.
+[[nodiscard]] constexpr DeviceNote note_of(CameraState state) {
     switch (state) {
     case CameraState::NotConnected:
-        return "no camera is connected; check its USB cable, and its name in the settings";
+        return {"camera.not_connected",
+                "no camera is connected; check its USB cable, and its name in the settings"};
     case CameraState::NoPermission:
-        return "a camera is connected, but this user may not open it; put the user into the group video";
+        return {"camera.no_permission",
+                "a camera is connected, but this user may not open it; put the user into the group video"};
     case CameraState::InUse:
-        return "the camera is in use by another program; end that program";
+        return {"camera.in_use", "the camera is in use by another program; end that program"};
     case CameraState::CannotBeOpened:
-        return "a camera is connected, but cannot be opened; pull its cable, and try another port and "
-               "another "
-               "cable";
+        return {"camera.cannot_be_opened",
+                "a camera is connected, but cannot be opened; pull its cable, and try another port and "
+                "another "
+                "cable"};
     case CameraState::NoFormat:
-        return "the camera sends no format that can be read (GREY, YUYV, MJPEG); use another camera";
+        return {"camera.no_format",
+                "the camera sends no format that can be read (GREY, YUYV, MJPEG); use another camera"};
     case CameraState::SetUpRefused:
-        return "the camera refuses its set-up or does not answer; pull its cable and put it back";
+        return {"camera.set_up_refused",
+                "the camera refuses its set-up or does not answer; pull its cable and put it back"};
     case CameraState::SettingUp:
-        return "the camera is being set up";
+        return {"camera.setting_up", "the camera is being set up"};
     case CameraState::Running:
-        return "the camera is running";
+        return {"camera.running", "the camera is running"};
     case CameraState::Unlocked:
-        return "the camera runs, but its exposure or its white balance cannot be locked, so its picture may "
-               "change by itself; use another camera if that disturbs";
+        return {"camera.unlocked",
+                "the camera runs, but its exposure or its white balance cannot be locked, so its picture may "
+                "change by itself; use another camera if that disturbs"};
     case CameraState::Slow:
-        return "the camera sends less than half of its frames; try another USB port, and nothing else at its "
-               "hub";
+        return {
+            "camera.slow",
+            "the camera sends less than half of its frames; try another USB port, and nothing else at its "
+            "hub"};
     case CameraState::Dark:
-        return "the camera sees nothing but dark; take away what covers it, or give it light";
+        return {"camera.dark",
+                "the camera sees nothing but dark; take away what covers it, or give it light"};
     case CameraState::Blinded:
-        return "the camera is blinded; take away the light that shines into it, or shorten its exposure in "
-               "the "
-               "settings";
+        return {"camera.blinded",
+                "the camera is blinded; take away the light that shines into it, or shorten its exposure in "
+                "the "
+                "settings"};
     case CameraState::Frozen:
-        return "the camera sends the same picture again and again; pull its cable and put it back";
+        return {"camera.frozen",
+                "the camera sends the same picture again and again; pull its cable and put it back"};
     case CameraState::Broken:
-        return "the camera's frames come broken; try another USB cable and another port";
+        return {"camera.broken", "the camera's frames come broken; try another USB cable and another port"};
     case CameraState::Silent:
-        return "the camera has stopped sending; if it stays so, pull its cable and put it back";
+        return {"camera.silent",
+                "the camera has stopped sending; if it stays so, pull its cable and put it back"};
     }
-    return "";
+    return {"camera.unknown", ""};
+}
+/// One plain sentence: what, and what to do. Running, where all is well, says so too.
+[[nodiscard]] constexpr std::string_view sentence_of(CameraState state) {
+    return note_of(state).sentence;
 }
 
 /// What of a camera can be used.
@@ -89,6 +107,15 @@ enum class CameraHealth : std::uint8_t {
     default:
         return CameraHealth::Away;
     }
+}
+
+/// A camera that cannot be locked is made so: nothing can be put right.
+[[nodiscard]] constexpr DeviceCondition condition_of(CameraState state) {
+    const CameraHealth health = health_of(state);
+    return {health == CameraHealth::Well       ? DeviceHealth::Well
+            : health == CameraHealth::Impaired ? DeviceHealth::Impaired
+                                               : DeviceHealth::Away,
+            note_of(state).id};
 }
 
 /// Its frames show what is before it now, even if they come slowly or are too bright.

@@ -3,6 +3,7 @@
 /// Threads  the render thread alone; construction makes the context current on it.
 #pragma once
 
+#include "firmware_host/base/device_state.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/base/time.h"
 #include "firmware_host/display/letterbox.h"
@@ -47,6 +48,8 @@ public:
     [[nodiscard]] virtual std::string name() const = 0;
     /// The device's state in one plain sentence, valid until the next call; empty: nothing can fail.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
+    /// Whether the device that the settings ask for can be used; its id is that of the sentence that `state` says.
+    [[nodiscard]] virtual DeviceCondition condition() const { return {}; }
 };
 
 } // namespace frustumscreen

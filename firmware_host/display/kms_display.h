@@ -45,6 +45,7 @@ public:
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override { return watch_.alive_until(); }
     [[nodiscard]] std::string name() const override { return card_.path() + ", " + gl_driver_name(); }
     [[nodiscard]] std::string_view state() const override { return presenter_.state(); }
+    [[nodiscard]] DeviceCondition condition() const override { return presenter_.condition(); }
 
 private:
     void take_news();

@@ -1,9 +1,9 @@
-/// The output's state in one sentence for the person beside it.
+/// The output's state, in one sentence for the person beside it.
 ///
 /// Threads  pure.
 #pragma once
 
-#include "firmware_host/base/sentence.h"
+#include "firmware_host/base/device_state.h"
 #include "firmware_host/display/kms_mode.h"
 
 #include <string_view>
@@ -17,13 +17,13 @@ struct LitOutput {
     bool blindly = false;         ///< the connector says that nothing is connected
     std::string_view shortcoming; ///< what may be wrong with it, as KmsDevice tells it
 };
-[[nodiscard]] Sentence sentence_of(const LitOutput& output);
+[[nodiscard]] DeviceState state_of(const LitOutput& output);
 
 /// Why nothing is lit, or that it is about to be.
-[[nodiscard]] Sentence why_dark(const CardSeen& card, const OutputRequest& request);
+[[nodiscard]] DeviceState why_dark(const CardSeen& card, const OutputRequest& request);
 
 /// Why the connector chosen was not lit; `reason`: a clause, or empty.
-[[nodiscard]] Sentence why_refused(const ConnectorSeen& connector, const OutputRequest& request,
-                                   std::string_view reason);
+[[nodiscard]] DeviceState why_refused(const ConnectorSeen& connector, const OutputRequest& request,
+                                      std::string_view reason);
 
 } // namespace frustumscreen

@@ -13,15 +13,19 @@ namespace frustumscreen {
 namespace {
 
 constexpr Nanoseconds soon = std::chrono::milliseconds(50);
-constexpr std::string_view sleeps = "the projector is dark on purpose";
 constexpr std::string_view projector_is_elsewhere =
     "a projector is at another graphics card; the exhibit must be restarted to take it up";
+
+DeviceState asleep() {
+    return {{DeviceHealth::Well, "display.asleep"}, Sentence("the projector is dark on purpose")};
+}
 
 } // namespace
 
 Presenter::Presenter(KmsDevice& device, MakeScanout make_scanout, OutputRequest request)
-    : device_(device), make_scanout_(std::move(make_scanout)), request_(std::move(request)),
-      state_("the projector is being looked for") {}
+    : device_(device), make_scanout_(std::move(make_scanout)),
+      request_(std::move(request)), state_{{DeviceHealth::Away, "display.looked_for"},
+                                           Sentence("the projector is being looked for")} {}
 
 void Presenter::connected(CardSeen seen) {
     seen_ = std::move(seen);
@@ -29,13 +33,13 @@ void Presenter::connected(CardSeen seen) {
     try_again_.reset();
     unfit_.clear();
     if (seen_.state == CardState::Elsewhere) {
-        lose(projector_is_elsewhere);
+        lose("display.elsewhere", projector_is_elsewhere);
     } else if (seen_.state != CardState::There) {
-        lose("the graphics card is gone; the exhibit goes on in the dark");
+        lose_card();
     } else if (lit_ && !still_right()) {
         darken_ = true;
     } else if (!lit_) {
-        state_ = rest_ != Rest::None ? Sentence(sleeps) : why_dark(seen_, request_);
+        state_ = rest_ != Rest::None ? asleep() : why_dark(seen_, request_);
     }
 }
 
@@ -148,13 +152,13 @@ void Presenter::wait_for_flip() {
         }
         late_ = queued_.has_value();
         if (late_) {
-            state_ =
-                format_sentence("the graphics card does not show the last picture; the exhibit waits for it");
+            state_ = {{DeviceHealth::Impaired, "display.late"},
+                      Sentence("the graphics card does not show the last picture; the exhibit waits for it")};
         }
     }
     if (queued_ && device_.now() - queued_->at >= flip_given_up) {
         const MonotonicTime since = stuck_since_.value_or(queued_->at);
-        lose("the graphics card does not answer; the projector will be lit anew");
+        lose("display.no_flip", "the graphics card does not answer; the projector will be lit anew");
         try_again_ = device_.now();
         stuck_since_ = since;
     }
@@ -214,7 +218,7 @@ void Presenter::darken() {
         went_wrong(answer);
     } else if (rest_ != Rest::None) {
         rest_ = Rest::Dark;
-        state_ = Sentence(sleeps);
+        state_ = asleep();
     } else {
         state_ = why_dark(seen_, request_);
     }
@@ -266,7 +270,8 @@ bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode, Pi
         lit_ = Lit{connector.id, connector.name, mode, as_requested, is_lit_blindly(connector, request_)};
         queued_ = Queued{device_.now(), ticket_, free_};
         clock_ = FlipClock(refresh_hz(mode));
-        state_ = format_sentence("the projector at {} is about to be lit", connector.name);
+        state_ = {{DeviceHealth::Well, "display.first_picture"},
+                  format_sentence("the projector at {} is about to be lit", connector.name)};
         return true;
     }
     if (answer == KmsAnswer::Refused) {
@@ -325,20 +330,26 @@ void Presenter::went_wrong(KmsAnswer answer) {
         stuck_since_ = stuck_since_.value_or(device_.now());
         break;
     case KmsAnswer::Refused:
-        lose("the graphics card refused a picture; the projector will be lit anew");
+        lose("display.picture_refused",
+             "the graphics card refused a picture; the projector will be lit anew");
         try_again_ = device_.now() + soon;
         break;
     case KmsAnswer::NotMaster:
-        lose("another program holds the screen; the exhibit goes on in the dark until it lets go");
+        lose("display.held_by_another",
+             "another program holds the screen; the exhibit goes on in the dark until it lets go");
         master_ = false;
         break;
     case KmsAnswer::Gone:
-        lose("the graphics card is gone; the exhibit goes on in the dark");
+        lose_card();
         break;
     }
 }
 
-void Presenter::lose(std::string_view why) {
+void Presenter::lose_card() {
+    lose("display.card_gone", "the graphics card is gone; the exhibit goes on in the dark");
+}
+
+void Presenter::lose(MessageId id, std::string_view why) {
     lit_.reset();
     queued_.reset();
     late_ = false;
@@ -346,11 +357,11 @@ void Presenter::lose(std::string_view why) {
     clock_ = {};
     stuck_since_.reset();
     try_again_ = device_.now() + between_tries;
-    state_ = Sentence(why);
+    state_ = {{DeviceHealth::Away, id}, Sentence(why)};
 }
 
 void Presenter::say_lit() {
-    state_ = sentence_of({lit_->name, lit_->mode, lit_->as_requested, lit_->blindly, device_.shortcoming()});
+    state_ = state_of({lit_->name, lit_->mode, lit_->as_requested, lit_->blindly, device_.shortcoming()});
 }
 
 } // namespace frustumscreen

@@ -13,7 +13,7 @@
 ///          projector at another card: the program must be started again.
 #pragma once
 
-#include "firmware_host/base/sentence.h"
+#include "firmware_host/base/device_state.h"
 #include "firmware_host/display/flip_clock.h"
 #include "firmware_host/display/kms_device.h"
 
@@ -55,7 +55,8 @@ public:
     /// Reads the first pixels of the top row of the framebuffer that flipped last, RGBA codes; false: none is
     /// lit.
     [[nodiscard]] bool read_shown(std::span<std::byte> rgba) const;
-    [[nodiscard]] std::string_view state() const { return state_.view(); }
+    [[nodiscard]] std::string_view state() const { return state_.sentence.view(); }
+    [[nodiscard]] DeviceCondition condition() const { return state_.condition; }
     [[nodiscard]] MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const {
         return clock_.next_frame(now, period);
     }
@@ -96,7 +97,8 @@ private:
     [[nodiscard]] FramebufferId fill();
     /// Acts on an answer other than Done.
     void went_wrong(KmsAnswer answer);
-    void lose(std::string_view why);
+    void lose(MessageId id, std::string_view why);
+    void lose_card();
     void say_lit();
 
     KmsDevice& device_;
@@ -122,7 +124,7 @@ private:
     bool darken_ = false; ///< what was lit is to be turned off
     enum class Rest : std::uint8_t { None, Wanted, Dark };
     Rest rest_ = Rest::None; ///< dark on purpose: to be turned off, or turned off
-    Sentence state_;
+    DeviceState state_;
 };
 
 } // namespace frustumscreen

@@ -10,19 +10,32 @@ namespace {
 
 constexpr Nanoseconds look_again = std::chrono::milliseconds(500);
 constexpr Nanoseconds longest_wait = std::chrono::milliseconds(100); ///< a stop is noticed after that
-constexpr std::string_view all_well = "its buttons are there";
 
-std::string_view state_of(const Buttons& buttons, std::string_view well) {
+DeviceState impaired(MessageId id, std::string_view sentence) {
+    return {{DeviceHealth::Impaired, id}, Sentence(sentence)};
+}
+
+/// While no button is broken.
+DeviceState state_of(const ButtonLines& lines) {
+    return lines.remark().empty()
+               ? DeviceState{{DeviceHealth::Well, "panel.well"}, Sentence("its buttons are there")}
+               : impaired("panel.line_has_function", lines.remark());
+}
+
+/// `otherwise`: while none is broken.
+DeviceState state_of(const Buttons& buttons, const DeviceState& otherwise) {
     if (buttons.any_stuck() && buttons.any_chatters()) {
-        return "a button is stuck, another chatters, and both are ignored; free or exchange them";
+        return impaired("panel.stuck_and_chatters",
+                        "a button is stuck, another chatters, and both are ignored; free or exchange them");
     }
     if (buttons.any_stuck()) {
-        return "a button is stuck and is ignored; free it or exchange it";
+        return impaired("panel.stuck", "a button is stuck and is ignored; free it or exchange it");
     }
     return buttons.any_chatters()
-               ? "a button chatters and is ignored until it is quiet; look at its wires, or "
-                 "exchange it"
-               : well;
+               ? impaired("panel.chatters",
+                          "a button chatters and is ignored until it is quiet; look at its wires, or "
+                          "exchange it")
+               : otherwise;
 }
 
 /// What the lamps show; sent to them when it changes.
@@ -54,7 +67,7 @@ ButtonPanel::ButtonPanel(OpenLines open, std::size_t buttons, const ButtonTimes&
 
 Result<void> ButtonPanel::poll(MonotonicTime now, std::vector<PanelEvent>& events) {
     mailbox_.take(now, events);
-    said_.read(state_);
+    static_cast<void>(said_.try_take(state_));
     return {};
 }
 
@@ -63,7 +76,7 @@ void ButtonPanel::watch(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         heartbeat_.promise(monotonic_now() + longest_round);
         Result<std::unique_ptr<ButtonLines>> lines = open_();
-        said_.set(lines ? serve(**lines, stop).message : lines.error().message);
+        said_.put(away(lines ? serve(**lines, stop) : lines.error()));
         held_until_.promise(MonotonicTime{});
         lines = {}; // the chip is closed before it is looked for again
         sleep_until_stop(stop, look_again);
@@ -71,8 +84,8 @@ void ButtonPanel::watch(const std::stop_token& stop) {
 }
 
 Error ButtonPanel::serve(ButtonLines& lines, const std::stop_token& stop) {
-    const std::string_view well = lines.remark().empty() ? all_well : lines.remark();
-    said_.set(well);
+    const DeviceState whole = state_of(lines);
+    said_.put(whole);
     Buttons buttons(count_, times_);
     const auto down = std::make_unique<bool[]>(count_);
     const std::span<bool> levels(down.get(), count_);
@@ -89,7 +102,7 @@ Error ButtonPanel::serve(ButtonLines& lines, const std::stop_token& stop) {
         held_until_.promise(buttons.chord_held() ? now + held_for : MonotonicTime{});
         if (!events.empty()) {
             mailbox_.put(events);
-            said_.set(state_of(buttons, well));
+            said_.put(state_of(buttons, whole));
         }
         if (Result<void> lit = lamps.follow(wished_, buttons, lines); !lit) {
             return lit.error();

@@ -6,8 +6,8 @@
 #pragma once
 
 #include "firmware_host/base/heartbeat.h"
+#include "firmware_host/base/latest.h"
 #include "firmware_host/base/mailbox.h"
-#include "firmware_host/base/sentence.h"
 #include "firmware_host/panel/button_lines.h"
 #include "firmware_host/panel/buttons.h"
 #include "firmware_host/panel/panel.h"
@@ -31,7 +31,8 @@ public:
 
     [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PanelEvent>& events) override;
     [[nodiscard]] std::string name() const override { return "buttons"; }
-    [[nodiscard]] std::string_view state() const override { return state_.view(); }
+    [[nodiscard]] std::string_view state() const override { return state_.sentence.view(); }
+    [[nodiscard]] DeviceCondition condition() const override { return state_.condition; }
     [[nodiscard]] bool chord_held(MonotonicTime now) const override {
         return now < held_until_.promised_until();
     }
@@ -49,9 +50,10 @@ private:
     std::size_t count_;
     ButtonTimes times_;
     Mailbox<PanelEvent, most_waiting> mailbox_;
-    SharedSentence said_{"its buttons are not opened yet"};
-    Sentence state_;                       ///< the latest sentence that `poll` saw
-    std::atomic<std::uint32_t> wished_{0}; ///< lamps
+    Latest<DeviceState> said_;
+    DeviceState state_{{DeviceHealth::Away, "panel.not_opened"},
+                       Sentence("its buttons are not opened yet")}; ///< the latest that `poll` saw
+    std::atomic<std::uint32_t> wished_{0};                          ///< lamps
     Heartbeat heartbeat_{monotonic_now() + longest_round};
     Heartbeat held_until_{MonotonicTime{}}; ///< the chord is held at least until then, unless it is let go
     std::jthread thread_;                   ///< last: it uses all of the above

@@ -139,7 +139,8 @@ private:
 Result<std::unique_ptr<ButtonLines>> open_gpio_lines(const LineRequest& request) {
     Chip chip(::gpiod_chip_open_lookup(request.chip.c_str()));
     if (!chip) {
-        return lost("panel.chip_not_opened", fmt::format("GPIO chip {}: {}", request.chip, reason(errno)));
+        return lost("panel.chip_not_opened",
+                    fmt::format("the buttons' GPIO chip {}: {}", request.chip, reason(errno)));
     }
     TRY(const auto lines, find_all(chip.get(), request.lines, request.chip));
     TRY(const auto lamps, find_all(chip.get(), request.lamps, request.chip));

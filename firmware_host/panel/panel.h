@@ -1,6 +1,7 @@
 /// The button panel: which button a visitor pressed, and when. Threads: one caller; `poll` never blocks.
 #pragma once
 
+#include "firmware_host/base/device_state.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/base/time.h"
 
@@ -39,6 +40,8 @@ public:
     /// The state of the device, or of what replaces it, in one plain sentence that is valid until the next
     /// `poll`; empty: there is nothing to say.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
+    /// Whether the device that the settings ask for can be used; its id is that of the sentence that `state` says.
+    [[nodiscard]] virtual DeviceCondition condition() const { return {}; }
     /// Lights the lamps of the buttons that do something, bit k = button k; it does not wait for them.
     virtual void light(std::uint32_t /*buttons*/) {}
     /// Until when its thread has promised to be heard from again; nothing: it has none.

@@ -1,3 +1,4 @@
+#include "firmware_host/base/format_sentence.h"
 #include "firmware_host/sound/alsa_controls.h"
 #include "firmware_host/sound/pcm_device.h"
 
@@ -118,12 +119,15 @@ public:
         : pcm_(std::move(pcm)), name_(std::move(name)), set_up_(set_up),
           frames_(set_up.queue * set_up.channels) {
         const double queue_ms = 1000.0 * static_cast<double>(set_up.queue) / sample_rate_hz;
-        state_ =
-            set_up.queue <= samples_in(longest_queue)
-                ? fmt::format("its sound goes to {}", name_)
-                : fmt::format("its sound goes to {}, which holds {:.0f} ms back: it speaks late; another "
-                              "name for the same card may be quicker, 'aplay -L' lists them",
-                              name_, queue_ms);
+        if (set_up.queue <= samples_in(longest_queue)) {
+            state_ = {{DeviceHealth::Well, "sound.well"}, format_sentence("its sound goes to {}", name_)};
+        } else {
+            state_ = {
+                {DeviceHealth::Impaired, "sound.late"},
+                format_sentence("its sound goes to {}, which holds {:.0f} ms back: it speaks late; another "
+                                "name for the same card may be quicker, 'aplay -L' lists them",
+                                name_, queue_ms)};
+        }
     }
 
     [[nodiscard]] Result<std::size_t> room() override {
@@ -176,7 +180,7 @@ public:
     }
 
     [[nodiscard]] std::uint64_t underruns() const override { return underruns_; }
-    [[nodiscard]] std::string_view state() const override { return state_; }
+    [[nodiscard]] DeviceState state() const override { return state_; }
 
 private:
     /// Goes on after an underrun or a suspension of the machine; negative: the device is lost.
@@ -203,7 +207,7 @@ private:
     std::vector<std::int16_t> frames_; ///< of all channels
     std::size_t queued_ = 0;
     std::uint64_t underruns_ = 0;
-    std::string state_;
+    DeviceState state_;
 };
 
 /// The card that it plays on at last, by its number; -1: none.

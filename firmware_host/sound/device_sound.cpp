@@ -47,7 +47,7 @@ SoundReport DeviceSound::poll(MonotonicTime /*now*/, const SoundWish& wish) {
     if (SoundReport latest; reports_.try_take(latest)) {
         report_ = latest;
     }
-    said_.read(state_);
+    static_cast<void>(said_.try_take(state_));
     return report_;
 }
 
@@ -60,13 +60,13 @@ void DeviceSound::run(const std::stop_token& stop) {
         const Nanoseconds took = monotonic_now() - began;
         go_on_silently();
         if (device) {
-            said_.set((*device)->state());
+            said_.put((*device)->state());
             const Error lost = play(**device, stop);
             clock_ = SampleClock(monotonic_now());
             ++losses_;
-            said_.set(lost.message);
+            said_.put(away(lost));
         } else {
-            said_.set(device.error().message);
+            said_.put(away(device.error()));
         }
         device = {}; // it is closed before it is looked for again
         rest(std::max(look_again, rests_for_each_look * took), stop);

@@ -11,7 +11,6 @@
 
 #include "firmware_host/base/heartbeat.h"
 #include "firmware_host/base/latest.h"
-#include "firmware_host/base/sentence.h"
 #include "firmware_host/sound/mixer.h"
 #include "firmware_host/sound/pcm_device.h"
 #include "firmware_host/sound/sample_clock.h"
@@ -32,7 +31,8 @@ public:
 
     SoundReport poll(MonotonicTime now, const SoundWish& wish) override;
     [[nodiscard]] std::string name() const override { return "device"; }
-    [[nodiscard]] std::string_view state() const override { return state_.view(); }
+    [[nodiscard]] std::string_view state() const override { return state_.sentence.view(); }
+    [[nodiscard]] DeviceCondition condition() const override { return state_.condition; }
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override {
         return heartbeat_.promised_until();
     }
@@ -51,12 +51,13 @@ private:
     // Between the threads:
     Latest<SoundWish> wishes_;
     Latest<SoundReport> reports_;
-    SharedSentence said_{"its sound device is not opened yet"};
+    Latest<DeviceState> said_;
     Heartbeat heartbeat_{monotonic_now() + longest_round};
     // Of the caller:
     SoundWish wished_; ///< the latest that was handed over
     SoundReport report_;
-    Sentence state_;
+    DeviceState state_{{DeviceHealth::Away, "sound.not_opened"},
+                       Sentence("its sound device is not opened yet")};
     // Of the thread:
     Mixer mixer_;
     SampleClock clock_{monotonic_now()}; ///< while there is no device

@@ -4,6 +4,7 @@
 /// Threads  one caller. Only opening and closing may take long.
 #pragma once
 
+#include "firmware_host/base/device_state.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/sound/prompt.h"
 
@@ -27,8 +28,7 @@ public:
     /// Until there may be room, or `longest` has passed.
     virtual void wait(Nanoseconds longest) = 0;
     [[nodiscard]] virtual std::uint64_t underruns() const = 0;
-    /// One sentence, valid as long as the device.
-    [[nodiscard]] virtual std::string_view state() const = 0;
+    [[nodiscard]] virtual DeviceState state() const = 0;
 };
 
 using OpenPcm = std::function<Result<std::unique_ptr<PcmDevice>>()>;

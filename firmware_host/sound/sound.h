@@ -6,6 +6,7 @@
 /// Errors   none; `state` says what is the matter.
 #pragma once
 
+#include "firmware_host/base/device_state.h"
 #include "firmware_host/base/time.h"
 #include "firmware_host/sound/sound_wish.h"
 
@@ -35,6 +36,8 @@ public:
     [[nodiscard]] virtual std::string name() const = 0;
     /// The device's state in one plain sentence, valid until the next `poll`; empty: there is nothing to say.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
+    /// Whether the device that the settings ask for can be used; its id is that of the sentence that `state` says.
+    [[nodiscard]] virtual DeviceCondition condition() const { return {}; }
     /// Until when its thread has promised to be heard from again; nothing: it has none.
     [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return {}; }
 };

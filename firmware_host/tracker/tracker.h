@@ -4,6 +4,7 @@
 /// Threads  one caller; `poll` never blocks.
 #pragma once
 
+#include "firmware_host/base/device_state.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/base/time.h"
 
@@ -75,6 +76,8 @@ public:
     /// The state of the device, or of what replaces it, in one plain sentence that is valid until the next
     /// `poll`; empty: there is nothing to say.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
+    /// Whether the device that the settings ask for can be used; its id is that of the sentence that `state` says.
+    [[nodiscard]] virtual DeviceCondition condition() const { return {}; }
     [[nodiscard]] virtual TrackerHealth health() const { return TrackerHealth::Well; }
     /// It is plugged in and does not do what it should, so that a reset of its port may help.
     [[nodiscard]] virtual bool hangs() const { return false; }

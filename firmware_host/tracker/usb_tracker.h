@@ -33,6 +33,7 @@ public:
     [[nodiscard]] std::string name() const override { return "usb"; }
     [[nodiscard]] bool reports_table_frame() const override { return table_frame_; }
     [[nodiscard]] std::string_view state() const override { return sentence_of(state_); }
+    [[nodiscard]] DeviceCondition condition() const override { return condition_of(state_); }
     [[nodiscard]] TrackerHealth health() const override { return health_of(state_); }
     [[nodiscard]] bool hangs() const override { return frustumscreen::hangs(state_); }
     [[nodiscard]] TrackerCounts counts() const override { return seen_counts_; }

@@ -60,6 +60,7 @@ public:
     [[nodiscard]] bool lit() const { return desk_.card.shown(desk_.hdmi) || desk_.card.shown(desk_.other); }
     /// Why it cannot go on; empty: it can.
     [[nodiscard]] const std::string& end() const { return end_; }
+    [[nodiscard]] DeviceHealth health() const { return presenter_->condition().health; }
     [[nodiscard]] std::string state() const {
         return presenter_ ? std::string(presenter_->state()) : std::string();
     }
@@ -96,11 +97,13 @@ TEST_P(KmsEvening, TheProjectorComesGoesSleepsAndIsDarkAtTheEnd) {
         evening.frames(4);
         EXPECT_EQ(evening.mode(), "320x200");
         EXPECT_EQ(evening.state(), "the projector at HDMI-A-1 is lit, 320 x 200 at 60 Hz");
+        EXPECT_EQ(evening.health(), DeviceHealth::Well);
         desk.card.unplug(desk.hdmi);
         evening.plugged();
         evening.frames(2);
         EXPECT_EQ(evening.mode(), "dark");
         EXPECT_TRUE(holds(evening.state(), "no projector is connected")) << evening.state();
+        EXPECT_EQ(evening.health(), DeviceHealth::Away);
         desk.card.plug(desk.hdmi, {kernel_mode(256, 192, 60.0, true)});
         evening.plugged();
         evening.frames(3);
@@ -108,6 +111,7 @@ TEST_P(KmsEvening, TheProjectorComesGoesSleepsAndIsDarkAtTheEnd) {
         evening.frames(3, true);
         EXPECT_EQ(evening.mode(), "dark");
         EXPECT_TRUE(holds(evening.state(), "dark on purpose")) << evening.state();
+        EXPECT_EQ(evening.health(), DeviceHealth::Well);
         evening.frames(3);
         EXPECT_EQ(evening.mode(), "256x192");
         EXPECT_EQ(desk.card.removed_while_shown(), 0);
@@ -138,6 +142,7 @@ TEST_P(KmsEvening, TheModeThatIsWishedForGoesBeforeThePreferredOne) {
     evening.frames(3);
     EXPECT_EQ(evening.mode(), "320x200") << "the projector has no such mode";
     EXPECT_TRUE(holds(evening.state(), "cannot do the mode in the settings")) << evening.state();
+    EXPECT_EQ(evening.health(), DeviceHealth::Impaired);
 }
 
 TEST_P(KmsEvening, AModeThatTheCardRefusesIsFollowedByTheNext) {

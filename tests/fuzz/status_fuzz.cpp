@@ -27,7 +27,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const StatusClock clock{MonotonicTime(std::chrono::seconds(1000)), "boot"};
     const StatusDocument document = parse_status(text, clock);
     KnownExhibit known{document,
-                       {document, parse_service_ends(text), text.size(), {}, 1000.0, "system", {}, {}}};
+                       {document, parse_service_ends(text), text.size(), {}, 1000.0, {}, "system", {}, {}}};
     if (std::optional<Crash> crash = parse_crash(text)) {
         known.surroundings.crashes.push_back(*std::move(crash));
     }

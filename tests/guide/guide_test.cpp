@@ -23,7 +23,9 @@ namespace fs = std::filesystem;
 const fs::path root = frustumscreen::source_dir();
 
 /// Whose sentences reach the staff.
-constexpr const char* sources[] = {"app/drift",
+constexpr const char* sources[] = {"app/counts/counts_folder.cpp",
+                                   "app/counts/day_counts.cpp",
+                                   "app/drift",
                                    "app/exhibit",
                                    "app/guidance",
                                    "app/safe",

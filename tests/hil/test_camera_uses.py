@@ -267,7 +267,7 @@ class Drift(CameraUse):
             status = self.drift_says("moved by 5 mm", 5)
             self.assertTrue(status["drifted"])
             self.assertAlmostEqual(status["drift_mm"], self.shift_mm, delta=0.5)
-            for said in (self.bench.journal(), self.bench.machine.check("frustumscreen status")):  # its lines are those of the staff's picture
+            for said in (self.bench.journal(), self.bench.machine.run("frustumscreen status").output):  # its lines are those of the staff's picture
                 self.assertIn("moved by 5 mm since the calibration", said)
             camera.shift_px = 0
             status = self.drift_says("the picture lies where it was calibrated", 5)

@@ -92,7 +92,9 @@ TEST(ButtonPanel, APressComesThroughAndAnUnpluggedChipIsFoundAgain) {
     times.debounce = debounce;
     ButtonPanel panel(opener(chip), 3, times);
     std::vector<PanelEvent> events;
+    EXPECT_EQ(panel.condition().health, DeviceHealth::Away) << "it was not looked for yet";
     ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
+    EXPECT_EQ(panel.condition().health, DeviceHealth::Well);
     let_levels_count(chip); // they are known before they change
     chip.down[1] = true;
     ASSERT_TRUE(until(panel, events, [&] { return !events.empty(); }));
@@ -100,6 +102,7 @@ TEST(ButtonPanel, APressComesThroughAndAnUnpluggedChipIsFoundAgain) {
     chip.down[1] = false;
     chip.plugged = false;
     ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "not there"; }));
+    EXPECT_EQ(panel.condition().health, DeviceHealth::Away);
     chip.plugged = true;
     ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
     EXPECT_EQ(chip.opened, 2);
@@ -223,6 +226,8 @@ TEST(ButtonPanel, WhatDoesNotWorkThoughTheButtonsAreThereIsSaidUnlessAButtonIsSt
     ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "a lamp cannot be lit"; }));
     chip.down[0] = true;
     ASSERT_TRUE(until(panel, events, [&] { return panel.state().find("a button is stuck") == 0; }));
+    EXPECT_EQ(panel.condition().health, DeviceHealth::Impaired);
+    EXPECT_EQ(panel.condition().id, "panel.stuck");
     chip.down[0] = false;
     ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "a lamp cannot be lit"; }));
 }

@@ -150,7 +150,7 @@ TEST_F(GpioLines, AChipThatIsNotThereIsSaid) {
         const auto lines = open_gpio_lines(request);
         ASSERT_FALSE(lines) << name;
         EXPECT_EQ(lines.error().kind, ErrorKind::DeviceLost);
-        EXPECT_EQ(lines.error().message.find(std::string("GPIO chip ") + name + ": "), 0U)
+        EXPECT_EQ(lines.error().message.find(std::string("the buttons' GPIO chip ") + name + ": "), 0U)
             << lines.error().message;
     }
 }

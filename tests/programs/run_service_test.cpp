@@ -130,10 +130,11 @@ TEST_F(RunService, IsReadyWhenAPictureIsOnSaysWhatItShowsFeedsAndStops) {
 TEST_F(RunService, ALostTrackerAndALostPanelAreSaidAndFedThrough) {
     start("[panel]\nkind = \"gpio\"\nchip = \"no-such-chip\"\nlines = [\"1\"]\n");
     ASSERT_TRUE(hears("READY=1")) << errors();
-    ASSERT_TRUE(hears("STATUS=poses come from a file; no tracker is asked; GPIO chip no-such-chip"))
+    ASSERT_TRUE(
+        hears("STATUS=poses come from a file; no tracker is asked; the buttons' GPIO chip no-such-chip"))
         << errors();
     EXPECT_TRUE(fed_within(seconds(10)));
-    EXPECT_NE(errors().find("frustumscreen: panel: GPIO chip no-such-chip"), std::string::npos);
+    EXPECT_NE(errors().find("frustumscreen: panel: the buttons' GPIO chip no-such-chip"), std::string::npos);
     ::kill(process, SIGTERM);
     EXPECT_EQ(ending(), 0);
 }

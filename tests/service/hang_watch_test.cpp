@@ -1,4 +1,5 @@
 // A thread that is not heard of is told of by another, once, and so is its return.
+#include "firmware_host/base/latest.h"
 #include "firmware_host/base/sentence.h"
 #include "firmware_host/service/hang_watch.h"
 
@@ -53,16 +54,16 @@ TEST(HangPolicy, AMachineThatStoodStillIsNoHang) {
 }
 
 TEST(HangWatch, SaysWhatTheThreadWasDoingAndThatItIsHeardAgain) {
-    SharedSentence told{""};
+    Latest<Sentence> told;
     HangWatch watch(milliseconds(40), [&told](std::optional<const char*> doing) {
-        told.set(doing ? *doing : "it is heard again");
+        told.put(Sentence(doing ? *doing : "it is heard again"));
     });
     const auto wait_for = [&told](std::string_view what) {
         Sentence now;
         for (const MonotonicTime end = monotonic_now() + seconds(60);
              now.view() != what && monotonic_now() < end;) {
             std::this_thread::sleep_for(milliseconds(1));
-            told.read(now);
+            static_cast<void>(told.take(now));
         }
         EXPECT_EQ(now.view(), what);
     };

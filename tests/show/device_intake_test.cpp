@@ -1,9 +1,13 @@
 #include "app/show/device_intake.h"
+#include "firmware_host/camera/camera_state.h"
+#include "firmware_host/tracker/usb_tracker_state.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <memory>
+#include <set>
+#include <string_view>
 #include <utility>
 
 namespace frustumscreen {
@@ -62,6 +66,54 @@ TEST(DeviceIntake, WithoutATrackerThePropStandsWhereItIs) {
     DeviceIntake intake(Settings{}, inputs);
     intake.poll(MonotonicTime{});
     EXPECT_TRUE(intake.situation_at(MonotonicTime{}).prop_known);
+}
+
+class MissingPanel final : public Panel {
+public:
+    [[nodiscard]] Result<void> poll(MonotonicTime /*now*/, std::vector<PanelEvent>& /*events*/) override {
+        return {};
+    }
+    [[nodiscard]] std::string name() const override { return "missing"; }
+    [[nodiscard]] std::string_view state() const override { return "it is not there"; }
+    [[nodiscard]] DeviceCondition condition() const override { return {DeviceHealth::Away, "panel.missing"}; }
+};
+
+TEST(DeviceIntake, TellsWhichDevicesCannotBeUsed) {
+    Inputs inputs;
+    inputs.panel = std::make_unique<MissingPanel>();
+    inputs.tracker =
+        std::make_unique<RegisteredTracker>(std::make_unique<FalteringTracker>(), Registration{});
+    DeviceIntake intake(Settings{}, inputs);
+    RunStatus status;
+    intake.tell({}, status);
+    EXPECT_EQ(status.devices.panel.ok, false);
+    EXPECT_EQ(status.devices.panel.id, "panel.missing");
+    EXPECT_EQ(status.panel.view(), "it is not there");
+    EXPECT_FALSE(status.devices.tracker.ok) << "it stands in for one";
+    EXPECT_FALSE(status.devices.sound.ok) << "there is none";
+}
+
+/// Of every state: an id of its own, and away where the device's own health says that nothing comes from it.
+template <typename State, typename Health>
+void expect_conditions(State last, std::string_view subject, Health away) {
+    std::set<std::string_view> ids;
+    for (int k = 0; k <= static_cast<int>(last); ++k) {
+        const auto state = static_cast<State>(k);
+        const DeviceCondition condition = condition_of(state);
+        EXPECT_TRUE(condition.id.view().starts_with(subject)) << condition.id.view();
+        EXPECT_TRUE(ids.insert(condition.id).second) << condition.id.view();
+        EXPECT_EQ(condition.health == DeviceHealth::Away, health_of(state) == away) << sentence_of(state);
+        EXPECT_FALSE(sentence_of(state).empty());
+    }
+}
+
+TEST(DeviceIntake, EachStateOfATrackerAndACameraHasItsId) {
+    expect_conditions(UsbTrackerState::MetalNear, "tracker.", TrackerHealth::Away);
+    expect_conditions(CameraState::Silent, "camera.", CameraHealth::Away);
+    EXPECT_EQ(condition_of(UsbTrackerState::Streaming).health, DeviceHealth::Well);
+    EXPECT_EQ(condition_of(UsbTrackerState::MetalNear).health, DeviceHealth::Impaired);
+    EXPECT_EQ(condition_of(CameraState::Running).health, DeviceHealth::Well);
+    EXPECT_EQ(condition_of(CameraState::Dark).health, DeviceHealth::Impaired);
 }
 
 TEST(DeviceIntake, AnErrorIsCountedAndTheSamplesBeforeItAreTaken) {

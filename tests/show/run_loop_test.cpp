@@ -1,10 +1,16 @@
 // When the loop ends by itself.
 
+#include "app/counts/day_counts.h"
+#include "app/counts/visit_book.h"
 #include "app/show/run_loop.h"
+#include "firmware_host/base/file.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
 #include <vector>
 
 namespace frustumscreen {
@@ -45,12 +51,14 @@ private:
 };
 
 /// On a clock that steps by one frame.
-Result<LoopResult> run_fast(Show& show, Inputs& inputs, Nanoseconds length, MonotonicTime start) {
+Result<LoopResult> run_fast(Show& show, Inputs& inputs, Nanoseconds length, MonotonicTime start,
+                            VisitBook* visits = nullptr) {
     LoopOptions options;
+    options.visits = visits;
     options.length = length;
     options.fast = true;
     NoDisplay display;
-    StatusFile no_file{std::filesystem::path{}};
+    StatusFile no_file{{.status_file = {}}};
     ServiceManager manager;
     const Journal journal("test");
     RunWatch watch(manager, journal);
@@ -65,6 +73,34 @@ Result<LoopResult> run_with(Nanoseconds from, Nanoseconds until) {
     Inputs inputs;
     return run_fast(show, inputs, seconds(200), start);
 }
+
+/// Somebody uses it from the 10th second to the 30th; it rests from the 50th on.
+class UsedShow final : public Show {
+public:
+    explicit UsedShow(MonotonicTime start) : start_(start) {}
+    void step(MonotonicTime now, std::span<const Command> /*commands*/,
+              const Situation& /*on_table*/) override {
+        now_ = now;
+    }
+    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const Situation& /*on_table*/,
+                                  const RenderTarget& /*target*/, Redraw /*redraw*/) override {
+        return {};
+    }
+    [[nodiscard]] ShowState state() const override {
+        const Nanoseconds run = now_ - start_;
+        ShowState state;
+        state.state = run < seconds(10) || run >= seconds(50) ? State::Attract : State::View;
+        state.artifact = "Amphora";
+        state.language = "en";
+        if (run >= seconds(10)) {
+            state.used = start_ + std::min<Nanoseconds>(run, seconds(30));
+        }
+        return state;
+    }
+
+private:
+    MonotonicTime start_, now_;
+};
 
 /// Nobody is there until `comes`; notes the marks of light that it is told to show.
 class QuietShow final : public Show {
@@ -157,6 +193,34 @@ TEST(RunLoop, GoesOnWhereSomethingComesBack) {
     const Result<LoopResult> run = run_with(seconds(10), seconds(69));
     ASSERT_TRUE(run) << run.error().message;
     EXPECT_NEAR(run->status.uptime_s.value_or(0.0), 200.0, 0.1);
+}
+
+/// The picture's time is simulated, the book's thread is not.
+TEST(RunLoop, CountsVisits) {
+    std::string folder = (std::filesystem::temp_directory_path() / "visits.XXXXXX").string();
+    ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+    {
+        VisitBook visits(folder, [](std::chrono::sys_seconds) { return seconds(0); });
+        const MonotonicTime start = monotonic_now();
+        UsedShow show(start);
+        Inputs inputs;
+        const Result<LoopResult> result = run_fast(show, inputs, seconds(100), start, &visits);
+        ASSERT_TRUE(result) << result.error().message;
+        EXPECT_TRUE(result->status.visits);
+    }
+    std::uint64_t count = 0;
+    double length_s = 0.0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const Result<Bytes> bytes = read_file(entry.path());
+        ASSERT_TRUE(bytes);
+        const Result<DayCounts> day = parse_day_counts(as_text(*bytes));
+        ASSERT_TRUE(day) << day.error().message;
+        count += day->all().visits;
+        length_s += 1e-3 * static_cast<double>(day->artifacts.at("Amphora").ms);
+    }
+    std::filesystem::remove_all(folder);
+    EXPECT_EQ(count, 1U);
+    EXPECT_NEAR(length_s, 40.0, 0.2) << "from the first touch until it rests";
 }
 
 } // namespace

@@ -62,7 +62,7 @@ TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {
     set->newest = {8, TrialState::Bad, 2, "dog.fspack: it is damaged"};
     const std::time_t before = std::time(nullptr);
     {
-        StatusFile status_file(file);
+        StatusFile status_file({.status_file = file});
         for (std::uint64_t k = 1; k <= 50; ++k) {
             RunStatus status;
             status.artifact = "Amphora";
@@ -100,7 +100,7 @@ TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {
     EXPECT_GT(json.at("resident_mib"), 0.0);
     EXPECT_FALSE(std::filesystem::exists(file.string() + ".part" + std::to_string(::getpid())));
     std::filesystem::remove(file);
-    StatusFile nowhere{std::filesystem::path()};
+    StatusFile nowhere{{.status_file = {}}};
     nowhere.post({});
 }
 
@@ -159,7 +159,7 @@ TEST(RunReport, AHangIsWrittenIntoTheLatestStatusAndSoIsItsEnd) {
         return false;
     };
     {
-        StatusFile status_file(file);
+        StatusFile status_file({.status_file = file});
         status_file.post({});
         EXPECT_TRUE(comes("well"));
         status_file.note_hang(true);

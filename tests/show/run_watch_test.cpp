@@ -67,7 +67,7 @@ protected:
         return meals;
     }
 
-    StatusFile nowhere{std::filesystem::path()};
+    StatusFile nowhere{{.status_file = {}}};
     NotifySocket socket;
     std::optional<ServiceManager> manager;
     Journal journal{"frustumscreen"};

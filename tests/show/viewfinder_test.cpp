@@ -302,7 +302,7 @@ protected:
         options.length = length;
         options.fast = true;
         options.screenshot = screenshot;
-        StatusFile no_file{std::filesystem::path{}};
+        StatusFile no_file{{.status_file = {}}};
         ServiceManager manager;
         const Journal journal("test");
         RunWatch watch(manager, journal);

@@ -192,8 +192,10 @@ TEST_F(AlsaDevice, ADeviceOfLongPeriodsSaysThatItSpeaksLate) {
     card.buffer = 0;
     ASSERT_TRUE(device) << device.error().message;
     EXPECT_EQ(*(*device)->room(), 2 * 2048U);
-    EXPECT_NE((*device)->state().find("holds 85 ms back: it speaks late"), std::string_view::npos)
-        << (*device)->state();
+    EXPECT_NE((*device)->state().sentence.view().find("holds 85 ms back: it speaks late"),
+              std::string_view::npos)
+        << (*device)->state().sentence.view();
+    EXPECT_EQ((*device)->state().condition.health, DeviceHealth::Impaired);
 }
 
 TEST_F(AlsaDevice, ADeviceThatIsNotThereIsSaidInOneSentence) {

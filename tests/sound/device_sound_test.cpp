@@ -64,7 +64,9 @@ public:
         std::this_thread::sleep_for(std::min<Nanoseconds>(longest, milliseconds(1)));
     }
     [[nodiscard]] std::uint64_t underruns() const override { return card_.underruns; }
-    [[nodiscard]] std::string_view state() const override { return "it sounds"; }
+    [[nodiscard]] DeviceState state() const override {
+        return {{DeviceHealth::Well, "sound.well"}, Sentence("it sounds")};
+    }
 
 private:
     [[nodiscard]] bool fails() {
@@ -156,6 +158,7 @@ TEST(DeviceSound, CaptionsCarryOnWithoutADeviceAndSoundReturnsByItself) {
     };
     ASSERT_TRUE(goes_on(false)); // missing at the start
     EXPECT_EQ(sound.state(), "not there");
+    EXPECT_EQ(sound.condition().health, DeviceHealth::Away);
     EXPECT_EQ(card.count(), 0U);
     card.plugged = true;
     ASSERT_TRUE(goes_on(true));
@@ -235,7 +238,7 @@ public:
     [[nodiscard]] std::size_t queued() const override { return 0; }
     void wait(Nanoseconds longest) override { std::this_thread::sleep_for(longest); }
     [[nodiscard]] std::uint64_t underruns() const override { return 0; }
-    [[nodiscard]] std::string_view state() const override { return "nobody listens"; }
+    [[nodiscard]] DeviceState state() const override { return {{}, Sentence("nobody listens")}; }
 };
 
 TEST(DeviceSound, AFrameAllocatesNothingNorDoesItsThread) {

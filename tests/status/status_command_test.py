@@ -46,6 +46,22 @@ def exhibit(**changes):
     return status
 
 
+def device(ok, short_name, impaired=False):
+    return {"ok": ok, "impaired": impaired, "id": short_name}
+
+
+def devices(**changes):
+    """As an exhibit with all its devices has it; the settings ask for no camera."""
+    all_well = {"display": device(True, "display.lit"), "tracker": device(True, "tracker.streaming"),
+                "camera": device(None, ""), "panel": device(True, "panel.well"), "sound": device(True, "sound.well")}
+    return all_well | changes
+
+
+NO_TRACKER = {"devices": devices(tracker=device(False, "tracker.not_connected")),
+              "tracker": "no tracker is connected; check its USB cable and its power"}
+NO_BUTTONS = "the buttons' GPIO chip cp2112_gpio: it is not there; is it plugged in, and its driver loaded?"
+
+
 def watchdog(**changes):
     status = {
         "written_at": "2026-05-01T10:00:00Z", "monotonic_ns": time.monotonic_ns(), "mode": "normal", "trouble": None, "step": None,
@@ -85,8 +101,16 @@ class Status(unittest.TestCase):
         return subprocess.run(
             [PROGRAM, "status", "--status-file", self.folder / "status.json", "--watchdog-file", self.folder / "dog.json",
              "--staff-socket", self.folder / "staff.sock", "--boot-folder", self.folder / "boot",
-             "--crash-folder", self.folder / "crashes", *options],
+             "--crash-folder", self.folder / "crashes", "--data-folder", self.folder / "data", "--root", self.folder / "root",
+             *options],
             capture_output=True, timeout=60, check=False, env={**os.environ, "TZ": "UTC", "LC_ALL": "C.UTF-8"})
+
+    def sensor(self, path, **files):
+        """A folder of the kernel's below sys, in the test's own root."""
+        folder = self.folder / "root/sys/class" / path
+        folder.mkdir(parents=True)
+        for name, content in files.items():
+            (folder / name).write_text(content + "\n", encoding="ascii")
 
     def text(self, expected_status):
         done = self.run_status()
@@ -205,6 +229,68 @@ class Text(Status):
         self.write("dog.json", watchdog(trouble=trouble, monotonic_ns=time.monotonic_ns() - 10**12))
         self.assertIn("runs and is well", self.text(0))  # what it said long ago is no complaint of now
 
+    def test_devices_of_the_settings_that_are_missing(self):
+        self.write("status.json", exhibit(**NO_TRACKER))
+        text = self.text(1)
+        self.assertEqual(text.split("\n")[0], "The exhibit runs, but: no tracker is connected.")
+        self.assertEqual(self.line(text, "tracker"), NO_TRACKER["tracker"])
+        known = json.loads(self.run_status("--json").stdout)
+        self.assertEqual((known["well"], known["runs"], known["id"]), (False, True, "tracker.not_connected"))
+        missing = devices(tracker=device(False, "tracker.not_connected"), panel=device(False, "panel.chip_not_opened"))
+        self.write("status.json", exhibit(**(NO_TRACKER | {"devices": missing, "panel": NO_BUTTONS})))
+        self.assertEqual(self.text(1).split("\n")[0],
+                         "The exhibit runs, but: no tracker is connected; the buttons' GPIO chip cp2112_gpio: it is not there.")
+
+    def test_devices_that_the_settings_do_not_ask_for_are_not_missing(self):
+        none = {name: device(None, "device.none") for name in devices()}
+        self.write("status.json", exhibit(devices=none, tracker="a simulated visitor moves the prop; no tracker is asked"))
+        self.assertTrue(self.text(0).startswith("The exhibit runs and is well.\n"))
+
+    def test_a_device_that_is_there_and_impaired_is_named(self):
+        for changes, words, short_name in (
+                ({"devices": devices(panel=device(True, "panel.stuck", True)),
+                  "panel": "a button is stuck and is ignored; free it or exchange it"},
+                 "a button is stuck and is ignored", "panel.stuck"),
+                ({"drift": "the picture lies 5.0 mm beside where it was calibrated; hold both", "drifted": True},
+                 "the picture lies 5.0 mm beside where it was calibrated", "drift.moved")):
+            self.write("status.json", exhibit(**changes))
+            self.assertEqual(self.text(0).split("\n")[0], f"The exhibit runs and is well, but look at this: {words}.")
+            self.assertEqual(json.loads(self.run_status("--json").stdout)["id"], short_name)
+        self.write("status.json", exhibit(**(NO_TRACKER | {"drifted": True, "drift": "it moved"})))
+        self.assertEqual(self.text(1).split("\n")[0], "The exhibit runs, but: no tracker is connected.")
+
+    def test_what_is_worse_comes_first(self):
+        self.write("status.json", exhibit(health="frozen", **NO_TRACKER))
+        self.assertIn("is not well: the picture that is presented", self.text(1).split("\n")[0])
+        self.write("status.json", exhibit(**NO_TRACKER))
+        self.write("dog.json", watchdog(mode="built_in"))
+        self.assertIn("its watchdog lets the exhibit show a built-in artifact", self.text(1).split("\n")[0])
+
+    def test_the_computer(self):
+        self.write("status.json", exhibit())
+        self.assertRegex(self.line(self.text(0), "computer"), r"^on for [0-9]+ (s|min|h [0-9]+ min)$")  # nothing else is known here
+        (self.folder / "data").mkdir()
+        self.sensor("thermal/thermal_zone0", type="acpitz", temp="27800")
+        self.sensor("hwmon/hwmon3", name="k10temp", temp1_input="61250", temp1_crit="105000")
+        self.sensor("hwmon/hwmon4", name="nvme", temp1_input="84850")
+        disk = os.statvfs(self.folder)
+        known = json.loads(self.run_status("--json").stdout)["machine"]
+        self.assertEqual(known["hottest_c"], 61.25)  # a disk's own sensor is not the processor's
+        self.assertEqual(known["disk"]["size_bytes"], disk.f_frsize * disk.f_blocks)
+        self.assertAlmostEqual(known["disk"]["free_bytes"], disk.f_frsize * disk.f_bavail, delta=0.05 * known["disk"]["size_bytes"])
+        self.assertAlmostEqual(known["on_s"], time.monotonic(), delta=60)
+        self.assertRegex(self.line(self.text(0), "computer"),
+                         r"^on for .*; [0-9.]+ of [0-9.]+ GB of its disk are free; 61 degrees Celsius at its hottest sensor$")
+
+    def test_visitors(self):
+        self.write("status.json", exhibit())
+        self.assertNotIn("\nvisitors ", self.text(0))
+        visits = {"today": 34, "since_start": 40, "today_s": 7080.0, "since_start_s": 8000.0, "trouble": ""}
+        self.write("status.json", exhibit(visits=visits))
+        self.assertEqual(self.line(self.text(0), "visitors"), "today 34 visits, 118 minutes together")
+        self.write("status.json", exhibit(visits=visits | {"trouble": "the disk is full"}))
+        self.assertEqual(self.line(self.text(0), "visitors"), "today 34 visits, 118 minutes together; the disk is full")
+
     def test_wrong_use(self):
         for options in (("--json", "--prometheus"), ("--no-such-option",), ("word",)):
             done = self.run_status(*options)
@@ -268,12 +354,13 @@ class Json(Status):
         done = self.run_status("--json")
         self.assertEqual((done.returncode, done.stderr), (0, b""))
         known = json.loads(done.stdout)
-        self.assertEqual(list(known), ["well", "runs", "sentence", "age_s", "exhibit", "watchdog", "ends", "crashes", "system"])
+        self.assertEqual(list(known), ["well", "runs", "sentence", "id", "age_s", "exhibit", "watchdog", "ends", "crashes", "system", "machine"])
         self.assertEqual(known["system"], {"version": "1.4.0", "slot": "a", "notes": ["it did not start"]})
         self.assertTrue(known["well"] and known["runs"])
         self.assertTrue(0 <= known["age_s"] < 5)
         self.assertEqual(known["exhibit"]["status"]["artifact"], "Amphora \"of\" Exekias")
         self.assertEqual(known["watchdog"]["status"]["faults"], watchdog()["faults"])
+        self.assertEqual((known["id"], known["watchdog"]["id"]), ("exhibit.well", "watchdog.normal"))
         self.assertEqual(known["ends"]["count"], 1)
         self.assertEqual(known["ends"]["last"]["result"], "core-dump")
         self.assertAlmostEqual(known["ends"]["last"]["ago_s"], 60, delta=30)
@@ -282,9 +369,22 @@ class Json(Status):
         done = self.run_status("--json")
         self.assertEqual(done.returncode, 1)
         known = json.loads(done.stdout)
-        self.assertEqual(list(known), ["well", "runs", "sentence", "age_s", "exhibit", "watchdog", "ends", "crashes", "system"])
+        self.assertEqual(list(known), ["well", "runs", "sentence", "id", "age_s", "exhibit", "watchdog", "ends", "crashes", "system", "machine"])
         self.assertEqual((known["age_s"], known["exhibit"]["status"], known["ends"]["last"], known["system"]), (None,) * 4)
         self.assertIn("there is no such file", known["exhibit"]["why_unknown"])
+        self.assertEqual((known["id"], known["watchdog"]["id"]), ("exhibit.unknown", "watchdog.unknown"))
+        self.assertEqual((known["machine"]["hottest_c"], known["machine"]["disk"]), (None, None))
+
+    def test_each_sentence_of_the_watchdog_has_its_id(self):
+        self.write("status.json", exhibit())
+        trouble = {"cause": "no_picture", "sentence": "no living picture comes from the exhibit", "since_s": 90}
+        for changes, short_name in (({"trouble": trouble}, "watchdog.no_picture"), ({"mode": "plain"}, "watchdog.plain"),
+                                    ({"trouble": trouble | {"cause": "\u001b[2J"}}, "watchdog.trouble"),
+                                    ({"mode": "invented"}, "watchdog.unheard_of"),
+                                    ({"monotonic_ns": time.monotonic_ns() - 10**12}, "watchdog.old"),
+                                    ({"monotonic_ns": None}, "watchdog.no_time")):
+            self.write("dog.json", watchdog(**changes))
+            self.assertEqual(json.loads(self.run_status("--json").stdout)["watchdog"]["id"], short_name)
 
 
 class Prometheus(Status):
@@ -336,6 +436,24 @@ class Prometheus(Status):
         self.assertEqual(self.value(families, "system_info", version="1.4.0"), 1)
         self.assertEqual(self.value(families, "system_notes"), 2)
         self.assertEqual(self.value(families, "watchdog_mode", mode="normal"), 1)
+
+    def test_one_sample_for_each_device_of_the_settings(self):
+        self.write("status.json", exhibit(**NO_TRACKER))
+        families = self.families(1)
+        self.assertEqual(self.value(families, "well"), 0)
+        self.assertEqual({sample.labels["device"]: sample.value for sample in families["frustumscreen_device_ok"].samples},
+                         {"display": 1, "tracker": 0, "panel": 1, "sound": 1})
+
+    def test_the_machine_and_its_visitors(self):
+        (self.folder / "data").mkdir()
+        self.sensor("thermal/thermal_zone0", temp="54000")
+        self.write("status.json", exhibit(visits={"today": 3, "since_start": 40, "today_s": 1.0, "since_start_s": 8000.5}))
+        families = self.families(0)
+        self.assertEqual(self.value(families, "temperature_celsius"), 54)
+        self.assertEqual(self.value(families, "visits"), 40)
+        self.assertEqual(self.value(families, "visits_seconds"), 8000.5)
+        self.assertLess(self.value(families, "disk_free_bytes"), self.value(families, "disk_size_bytes"))
+        self.assertAlmostEqual(self.value(families, "machine_uptime_seconds"), time.monotonic(), delta=60)
 
     def test_an_exhibit_that_does_not_run_has_no_numbers_of_its_own(self):
         self.write("status.json", exhibit(monotonic_ns=1))

@@ -63,6 +63,12 @@ StatusReport full_report() {
     report.probes = 12;
     report.skipped = 6;
     report.device_errors = 9;
+    for (DeviceReport* const device :
+         {&report.devices.display, &report.devices.tracker, &report.devices.camera, &report.devices.panel,
+          &report.devices.sound}) {
+        *device = DeviceReport({DeviceHealth::Impaired, "device.impaired"});
+    }
+    report.visits = VisitsReport{34, 40, 7080.5, 8000.25, "the disk is full"};
     report.display = Sentence("lights HDMI-A-1");
     report.tracker = Sentence("a VIPER sends");
     report.tracker_hangs = true;
@@ -150,6 +156,14 @@ TEST(StatusReport, EachKeyHasItsMember) {
         }
     }
     EXPECT_GT(compared, 60U);
+}
+
+TEST(StatusReport, ADeviceThatIsNotAskedForIsNeitherWellNorMissing) {
+    EXPECT_FALSE(DeviceReport(DeviceCondition{}).ok);
+    EXPECT_EQ(DeviceReport({DeviceHealth::Well, "panel.well"}).ok, true);
+    EXPECT_EQ(DeviceReport({DeviceHealth::Impaired, "panel.stuck"}).ok, true);
+    EXPECT_EQ(DeviceReport({DeviceHealth::Away, "panel.lost"}).ok, false);
+    EXPECT_EQ(DeviceReport({DeviceHealth::Away, "panel.lost"}).id, "panel.lost");
 }
 
 TEST(StatusReport, WhatIsMissingIsNothingAndTheRestIsRead) {

@@ -2,6 +2,7 @@
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/frustumscreen/camera/camera_command.h"
 #include "app/programs/frustumscreen/config/config_command.h"
+#include "app/programs/frustumscreen/counts/counts_command.h"
 #include "app/programs/frustumscreen/drawing/drawing_command.h"
 #include "app/programs/frustumscreen/guide/guide_command.h"
 #include "app/programs/frustumscreen/plan/plan_command.h"
@@ -23,28 +24,29 @@ namespace frustumscreen {
 namespace {
 
 void print_usage(std::FILE* to) {
-    fmt::print(
-        to,
-        "usage: frustumscreen run|status|record|camera|render|guide|states|plan|config|drawing [--help] ...\n"
-        "  run     the exhibit\n"
-        "  status  how the exhibit on this machine is, and its picture\n"
-        "  record  what the tracker sends, into a file\n"
-        "  camera  which cameras are there, and how that of the settings is\n"
-        "  render  a pose file into pictures, without devices\n"
-        "  guide   what the visitor of each pose sees unlit, and the move that mends it\n"
-        "  states  what the exhibit does, and what leads from one thing to the other\n"
-        "  plan    what a scene needs, what it leaves out, and what that saves\n"
-        "  config  the resolved, checked settings; what they mean on the table\n"
-        "  drawing the table, the projector and the prop to build, to scale\n"
-        "  --version\n");
+    fmt::print(to, "usage: frustumscreen "
+                   "run|status|counts|record|camera|render|guide|states|plan|config|drawing [--help] ...\n"
+                   "  run     the exhibit\n"
+                   "  status  how the exhibit on this machine is, and its picture\n"
+                   "  counts  how often, when and for how long it is used\n"
+                   "  record  what the tracker sends, into a file\n"
+                   "  camera  which cameras are there, and how that of the settings is\n"
+                   "  render  a pose file into pictures, without devices\n"
+                   "  guide   what the visitor of each pose sees unlit, and the move that mends it\n"
+                   "  states  what the exhibit does, and what leads from one thing to the other\n"
+                   "  plan    what a scene needs, what it leaves out, and what that saves\n"
+                   "  config  the resolved, checked settings; what they mean on the table\n"
+                   "  drawing the table, the projector and the prop to build, to scale\n"
+                   "  --version\n");
 }
 
 struct Command {
     std::string_view name;
     int (*run)(int argc, char** argv);
 };
-constexpr std::array<Command, 10> commands{{{"run", run_command},
+constexpr std::array<Command, 11> commands{{{"run", run_command},
                                             {"status", status_command},
+                                            {"counts", counts_command},
                                             {"record", record_command},
                                             {"camera", camera_command},
                                             {"render", render_command},

@@ -225,6 +225,15 @@ Result<int> finish(const RunRequest& request, const RunEnd& end, const Result<Lo
     return 0;
 }
 
+/// None: nothing is counted. A run of simulated time has no day.
+std::unique_ptr<VisitBook> open_visit_book(const RunRequest& request, const Settings& settings) {
+    std::error_code missing;
+    const std::filesystem::path& folder = settings.exhibit.counts;
+    const bool counts = !request.fast && !request.pattern && !folder.empty() &&
+                        std::filesystem::is_directory(folder, missing);
+    return counts ? std::make_unique<VisitBook>(folder, local_offset_at) : nullptr;
+}
+
 /// Runs the loop, and finishes while what it needs is still open: what hangs cannot hold up the end.
 Result<int> loop_and_finish(const RunRequest& request, const RunMode& mode, OpenExhibit& exhibit,
                             const StopSignals& stop_signals, ServiceManager& manager,
@@ -238,7 +247,13 @@ Result<int> loop_and_finish(const RunRequest& request, const RunMode& mode, Open
     const std::string& zone = settings.hours.time_zone;
     RunHours hours(settings.hours, local_offset_at, has_time_zone(zone) ? std::string_view() : zone);
     options.hours = &hours;
-    StatusFile status_file(request.status_file, keeper_of(request.places, mode));
+    const std::unique_ptr<VisitBook> visits = open_visit_book(request, settings);
+    options.visits = visits.get();
+    StatusPlaces places{.status_file = request.status_file};
+    if (library_is_there(settings)) {
+        places.data_folder = settings.exhibit.library;
+    }
+    StatusFile status_file(std::move(places), keeper_of(request.places, mode));
     RunWatch watch(manager, journal);
     const Result<LoopResult> result = run_loop(settings, *exhibit.display, exhibit.inputs, *exhibit.show,
                                                options, status_file, watch, exhibit.start);

@@ -1,12 +1,12 @@
 #include "app/programs/watchdog/kiosk_view.h"
 
 #include "app/programs/watchdog/exhibit_status.h"
+#include "app/watch/machine.h"
 #include "app/watch/service_ends.h"
 #include "firmware_host/base/calendar_day.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
-#include <sys/statvfs.h>
 
 #include <algorithm>
 #include <array>
@@ -93,15 +93,6 @@ double worn(const fs::path& root) {
     return worst;
 }
 
-std::optional<double> hottest_c(const fs::path& root) {
-    std::optional<double> hottest;
-    for_each_in(root / "sys/class/thermal", "thermal_zone", [&](const fs::path& zone) {
-        const double here = 1e-3 * number_in(zone / "temp", -1e9);
-        hottest = here > -100.0 ? std::max(hottest.value_or(here), here) : hottest;
-    });
-    return hottest;
-}
-
 std::optional<bool> projector(const fs::path& root) {
     std::optional<bool> connected;
     for_each_in(root / "sys/class/drm", "card", [&](const fs::path& connector) {
@@ -124,10 +115,9 @@ bool has_object(const fs::path& file, std::string_view key) {
 }
 
 void look_at_disk(const fs::path& folder, Outcome& outcome) {
-    struct statvfs disk {};
-    if (::statvfs(folder.c_str(), &disk) == 0 && disk.f_blocks > 0) {
-        outcome.disk_free = static_cast<double>(disk.f_bavail) / static_cast<double>(disk.f_blocks);
-        outcome.disk_writable = (disk.f_flag & ST_RDONLY) == 0;
+    if (const std::optional<DiskSpace> disk = disk_space(folder)) {
+        outcome.disk_free = disk->free_share();
+        outcome.disk_writable = disk->writable;
     }
 }
 

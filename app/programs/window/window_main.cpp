@@ -128,7 +128,7 @@ Result<void> run(const Request& request) {
         options.length = Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(request.seconds * 1e9)));
     }
     options.stop = &stop_signals;
-    StatusFile status_file{{}};
+    StatusFile status_file{{.status_file = {}}};
     RunWatch watch(manager, journal);
     return without_value(
         run_loop(settings, *window.display, inputs, **show, options, status_file, watch, monotonic_now()));

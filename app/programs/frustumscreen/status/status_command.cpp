@@ -30,10 +30,10 @@ struct Request {
 };
 
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
-    CommandLine app(
-        "Says how the exhibit on this machine is. Exit status: 0 it is well, 1 it is not or nothing "
-        "is known.",
-        "frustumscreen status");
+    CommandLine app("Says how the exhibit on this machine is. Exit status: 0 it is well and its devices are "
+                    "there, 1 it is "
+                    "not, or nothing is known.",
+                    "frustumscreen status");
     const CommandOption json = app.add_flag("--json", request.json, "all that is known, as JSON");
     app.add_flag("--prometheus", request.prometheus, "numbers in Prometheus' text format").excludes(json);
     app.add_option("--screenshot", request.screenshot, "write the picture that is projected now, as PNG");
@@ -43,6 +43,10 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     app.add_option("--boot-folder", request.places.boot_folder, "what the start of an appliance has left")
         .capture_default_str();
     app.add_option("--crash-folder", request.places.crash_folder, "what the last crashes have left")
+        .capture_default_str();
+    app.add_option("--data-folder", request.places.data_folder, "on the disk with the packs")
+        .capture_default_str();
+    app.add_option("--root", request.places.root, "the folder that has sys: another one for a test")
         .capture_default_str();
     app.add_option("--staff-socket", request.staff_socket, "where the exhibit gives its picture")
         .capture_default_str();

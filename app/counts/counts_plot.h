@@ -1,0 +1,18 @@
+/// The numbers of visits as one picture, SVG: hours against days, what each hour and each day adds up to, and how long each artifact and each
+/// language was shown.
+///
+/// Frame    CSS pixels, origin at the top left; 1200 wide.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/counts/counts_table.h"
+
+#include <string>
+#include <vector>
+
+namespace frustumscreen {
+
+/// `days` ascending; a day that is not among them has no numbers, and stays blank.
+[[nodiscard]] std::string counts_plot(const std::vector<DayCounts>& days);
+
+} // namespace frustumscreen

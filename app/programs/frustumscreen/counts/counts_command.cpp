@@ -1,0 +1,94 @@
+#include "app/programs/frustumscreen/counts/counts_command.h"
+
+#include "app/counts/counts_plot.h"
+#include "app/counts/counts_table.h"
+#include "app/programs/common/command_line.h"
+#include "app/programs/common/guarded_main.h"
+#include "firmware_host/base/calendar_day.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace frustumscreen {
+
+namespace {
+
+struct Request {
+    std::filesystem::path folder = "/var/lib/frustumscreen/counts";
+    std::filesystem::path csv, plot;
+    std::string from, to;
+    bool json = false;
+};
+
+std::optional<int> read_arguments(int argc, char** argv, Request& request) {
+    CommandLine app(
+        "Says how often, when and for how long the exhibit was used: numbers alone, of 400 days at most.",
+        "frustumscreen counts");
+    app.add_option("--folder", request.folder, "where the exhibit keeps them, exhibit.counts of its settings")
+        .capture_default_str();
+    app.add_option("--csv", request.csv, "write all numbers as a table: day,kind,name,visits,minutes");
+    app.add_option("--plot", request.plot, "write a picture, SVG");
+    app.add_option("--from", request.from, "the first day, as 2026-11-27; else the first that there is");
+    app.add_option("--to", request.to, "the last day");
+    app.add_flag("--json", request.json, "print all numbers as JSON");
+    return app.end_of_arguments(argc, argv);
+}
+
+Result<std::optional<std::chrono::sys_days>> day_in(const std::string& text, const char* option) {
+    const std::optional<std::chrono::sys_days> day = parse_day(text);
+    if (!text.empty() && !day) {
+        return bad_input("counts.day", "{} {}: this is no day; write it as 2026-11-27", option, text);
+    }
+    return day;
+}
+
+Result<ReadCounts> wanted(const Request& request) {
+    TRY(const auto from, day_in(request.from, "--from"));
+    TRY(const auto to, day_in(request.to, "--to"));
+    TRY(ReadCounts counts, read_counts(request.folder));
+    std::erase_if(counts.days, [&](const DayCounts& each) {
+        return (from && *each.day < *from) || (to && *each.day > *to);
+    });
+    if (from || to) {
+        counts.undated = {};
+    }
+    return counts;
+}
+
+Result<void> show_counts(const Request& request, const ReadCounts& counts) {
+    if (!request.csv.empty()) {
+        TRY_VOID(write_file(request.csv, as_bytes(counts_csv(counts))));
+    }
+    if (!request.plot.empty()) {
+        TRY_VOID(write_file(request.plot, as_bytes(counts_plot(counts.days))));
+    }
+    fmt::print("{}", request.json ? counts_json(counts) : counts_text(counts));
+    std::fflush(stdout);
+    return {};
+}
+
+} // namespace
+
+int counts_command(int argc, char** argv) {
+    Request request;
+    if (const std::optional<int> status = read_arguments(argc, argv, request)) {
+        return *status;
+    }
+    const Result<ReadCounts> counts = wanted(request);
+    if (!counts) {
+        return exit_status("frustumscreen", tl::unexpected<Error>(counts.error()));
+    }
+    for (const std::string& trouble : counts->trouble) {
+        say_line("frustumscreen", trouble);
+    }
+    const int status = exit_status("frustumscreen", show_counts(request, *counts));
+    return counts->trouble.empty() ? status : 1;
+}
+
+} // namespace frustumscreen

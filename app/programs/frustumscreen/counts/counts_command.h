@@ -1,0 +1,8 @@
+/// `frustumscreen counts`: how often, when and for how long the exhibit is used, as text, as a table, and as a picture.
+#pragma once
+
+namespace frustumscreen {
+
+int counts_command(int argc, char** argv);
+
+} // namespace frustumscreen
