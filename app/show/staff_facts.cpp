@@ -1,5 +1,6 @@
 #include "app/show/staff_facts.h"
 
+#include "app/settings/command.h"
 #include "app/show/viewfinder_panel.h"
 #include "app/status/exhibit_verdict.h"
 #include "app/status/status_card.h"

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -31,9 +32,9 @@ std::string circled(std::size_t button, const StaffView& view) {
 }
 
 /// A page's words, from its title to what the buttons do.
-class Words {
+class PageWords {
 public:
-    Words(const StaffView& view, const StaffFacts& facts) : view_(view), facts_(facts) {
+    PageWords(const StaffView& view, const StaffFacts& facts) : view_(view), facts_(facts) {
         const auto page = static_cast<std::size_t>(view.page);
         add(fmt::format("{} of {}: {}", page + 1, staff_page_names.size(), staff_page_names.at(page)), 1.3,
             true);
@@ -272,7 +273,7 @@ Image8 staff_picture(const StaffView& view, const StaffFacts& facts, const Patte
     const double width = scene.projector.width, height = scene.projector.height;
     const double margin = 34.0 * unit;
     Canvas canvas(background);
-    const Words words(view, facts);
+    const PageWords words(view, facts);
     const auto put_words = [&](const glm::dvec2& corner, const glm::dvec2& room, double em) {
         put(canvas, words.set(typesetter, room, em * unit), glm::ivec2(glm::round(corner)));
     };

@@ -28,7 +28,7 @@ std::string plain(std::string_view text) {
 
 std::string packs_line(const StatusReport& status) {
     if (!status.set || status.set->packs.empty()) {
-        return "packs: those of the settings";
+        return fmt::format("packs: {}", "the packs of the settings");
     }
     std::string text = fmt::format("packs: set {}:", status.set->shown);
     for (const InstalledPack& pack : status.set->packs) {

@@ -1,5 +1,6 @@
 // The staff's pages: their QR code is read by another program (zbarimg, of the ZBar project), and no word lies on another thing.
 
+#include "app/show/exhibit_place.h"
 #include "app/show/qr_code.h"
 #include "app/show/staff_picture.h"
 #include "app/status/status_card.h"
@@ -183,7 +184,10 @@ TEST_F(StaffPicture, WordsStayWithinThePicture) {
 
 TEST_F(StaffPicture, TheGreysAreTheCodesThatTheyName) {
     set_size(1920, 1200);
-    const Image8 greys = staff_background({StaffPage::Light, StaffLight::Greys}, scene, *typesetter);
+    StaffView view;
+    view.page = StaffPage::Light;
+    view.light = StaffLight::Greys;
+    const Image8 greys = staff_background(view, scene, *typesetter);
     for (int k = 0; k < 16; ++k) {
         EXPECT_EQ(greys.at(60 + 120 * k, 100).r, 17 * k);
     }
@@ -192,12 +196,20 @@ TEST_F(StaffPicture, TheGreysAreTheCodesThatTheyName) {
     EXPECT_EQ(greys.at(180, 600).r, 2);
 }
 
+InstalledPack pack_of(const char* id, const char* sha256) {
+    InstalledPack pack;
+    pack.id = id;
+    pack.title = "\u0391";
+    pack.sha256 = sha256;
+    return pack;
+}
+
 TEST(StatusCard, IsShortPlainAndCutFromItsEnd) {
     StatusReport status;
     status.uptime_s = 36000.0;
     auto set = std::make_shared<SetStatus>();
     set->shown = 3;
-    set->packs = {{"a.fspack", "amphora", "\u0391"}, {"b.fspack", "", "Cup", 0, "0123456789abcdef"}};
+    set->packs = {pack_of("amphora", ""), pack_of("", "0123456789abcdef")};
     status.set = set;
     std::vector<StatusLine> lines{{"tracker", "is \u201chere\u201d"},
                                   {"projector", "lit"},
@@ -211,7 +223,7 @@ TEST(StatusCard, IsShortPlainAndCutFromItsEnd) {
     for (StatusLine& line : lines) {
         line.text = std::string(1000, 'x');
     }
-    set->packs.assign(200, {"a.fspack", "amphora"});
+    set->packs.assign(200, pack_of("amphora", ""));
     lines.insert(lines.end(), {{"camera", std::string(500, 'y')},
                                {"buttons", std::string(500, 'y')},
                                {"sound", std::string(500, 'y')},
@@ -240,6 +252,21 @@ TEST(CalibrationLine, SaysWhichHowOldAndHowGood) {
     EXPECT_EQ(calibration_line(settings, 0).find("ago"), std::string::npos) << "a clock that was not set";
     settings.used->made = "2026-02-31";
     EXPECT_EQ(calibration_line(settings, first_of_may).find("ago"), std::string::npos);
+}
+
+/// Where the buttons can measure the table, and nobody has.
+TEST(StaffStays, UntilTheTableIsMeasured) {
+    Settings settings;
+    settings.tracker.kind = TrackerKind::Usb;
+    EXPECT_TRUE(exhibit_place(settings).staff_stays);
+    settings.calibration.by_buttons = false;
+    EXPECT_FALSE(exhibit_place(settings).staff_stays);
+    settings.calibration.by_buttons = true;
+    settings.tracker.kind = TrackerKind::None;
+    EXPECT_FALSE(exhibit_place(settings).staff_stays);
+    settings.tracker.kind = TrackerKind::Usb;
+    settings.calibration.used.emplace();
+    EXPECT_FALSE(exhibit_place(settings).staff_stays);
 }
 
 } // namespace
