@@ -19,7 +19,7 @@ packages=(
     # meshes and ray casting
     libembree-dev libmeshoptimizer-dev libdraco-dev libtinyobjloader-dev
     # pictures and letters
-    libpng-dev libturbojpeg0-dev libwebp-dev libtiff-dev libstb-dev libfreetype-dev fonts-dejavu-core
+    libpng-dev libturbojpeg0-dev libwebp-dev libtiff-dev libstb-dev libfreetype-dev fonts-dejavu-core libqrencode-dev
     # shaped texts and speech
     libpango1.0-dev libsndfile1-dev libsamplerate0-dev libebur128-dev
     fonts-noto-core espeak-ng # for every language but Chinese, Japanese and Korean; a voice
@@ -49,6 +49,7 @@ for part; do
                 dpkg-dev file                     # the Debian packages
                 python3-matplotlib                # the bench's plots
                 python3-prometheus-client         # reads what status says to Prometheus
+                zbar-tools                        # reads the QR code of the staff's picture
                 chromium                          # shows the preview's page; 120 MB to fetch, 400 on the disk
                 lintian                           # looks at the Debian packages
                 squashfs-tools cpio zstd fdisk dosfstools mtools       # a made-up image, to be taken apart

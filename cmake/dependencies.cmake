@@ -28,6 +28,7 @@ pkg_check_modules(UDEV REQUIRED IMPORTED_TARGET libudev)
 pkg_check_modules(XCVT REQUIRED IMPORTED_TARGET libxcvt)
 pkg_check_modules(DRACO REQUIRED IMPORTED_TARGET draco)
 pkg_check_modules(FREETYPE REQUIRED IMPORTED_TARGET freetype2)
+pkg_check_modules(QRENCODE REQUIRED IMPORTED_TARGET libqrencode)
 pkg_check_modules(PANGOFT2 REQUIRED IMPORTED_TARGET pangoft2 fontconfig)
 # GLib asks for -pthread, with which the precompiled headers were not made; threads come from Threads::Threads.
 set_property(TARGET PkgConfig::PANGOFT2 PROPERTY INTERFACE_COMPILE_OPTIONS "")

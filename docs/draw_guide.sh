@@ -11,7 +11,7 @@ if [[ ! -f $built_in ]]; then
     exit 1
 fi
 cmake/build.sh release draw_staff_picture draw_calibration_pictures >/dev/null
-build/release/tests/draw_staff_picture "$guide/staff.png"
+build/release/tests/draw_staff_picture "$guide"
 "$bin/frustumscreen" drawing --config config/kiosk.toml -o "$guide/table.svg"
 "$bin/frustumscreen" drawing --config config/kiosk.toml -o "$guide/prop.svg" --sheet prop
 

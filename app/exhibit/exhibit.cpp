@@ -9,18 +9,19 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
                  MonotonicTime now)
     : catalogue_(std::move(catalogue)), place_(place), house_language_(language),
       selection_(make_selection(catalogue_, language, now)), ready_(catalogue_.size(), ArtifactState::Ready),
-      offered_(catalogue_.size(), true), state_since_(now), next_turn_(now + turn_time),
+      offered_(catalogue_.size(), true), staff_(place.staff_stays), state_since_(now),
+      next_turn_(now + turn_time),
       guide_(place.guidance ? std::optional<Guide>(*place.guidance) : std::nullopt),
       sentences_(place.words, place.picture_m), table_(lay_out_catalogue(catalogue_, place)),
       placer_(place.picture_m), labels_(place.picture_m) {}
 
 Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& situation) {
-    calibrate_ = false;
+    const bool pressed =
+        std::any_of(commands.begin(), commands.end(), [](Command command) { return !is_hold(command); });
     // Who is told something is there, also without moving.
     const bool telling = tells();
-    there_ = presence_.update(now, situation, !commands.empty() || telling);
-    const bool rests =
-        state_ == State::Staff ? now - state_since_ >= staff_time : presence_.rests(now, place_.rest);
+    there_ = presence_.update(now, situation, pressed || telling);
+    const bool rests = state_ == State::Staff ? staff_.is_over(now) : presence_.rests(now, place_.rest);
     if (rests && state_ != State::Staff && state_ != State::Attract) {
         rest(now);
     }
@@ -29,6 +30,7 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     for (const Command command : commands) {
         take(command, now);
     }
+    staff_.step(now);
     if (!attract_) {
         attract_.emplace(place_.attract_place_m, situation.prop_known, now);
     }
@@ -41,7 +43,7 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
         selection_.choose(selection_.next(), now);
         next_turn_ = now + turn_time;
     }
-    return present(now, situation, stand, !commands.empty());
+    return present(now, situation, stand, pressed);
 }
 
 void Exhibit::note(std::span<const ArtifactState> states) {
@@ -81,6 +83,10 @@ void Exhibit::take(Command command, MonotonicTime now) {
         take_chord(now);
         return;
     }
+    if (is_hold(command)) {
+        take_hold(command == Command::HoldFirst, now);
+        return;
+    }
     const bool counts = state_ != State::Staff;
     selected_.at(static_cast<std::size_t>(button_of(command))) = counts;
     if (counts) {
@@ -88,7 +94,7 @@ void Exhibit::take(Command command, MonotonicTime now) {
         choose_ = choose_ || command == Command::Choose;
         help_ = help_ || command == Command::Help;
     } else {
-        staff_pressed_ = now;
+        staff_.press(static_cast<std::size_t>(button_of(command)), now);
     }
     go_to(next(state_, Event::Press), now);
 }
@@ -101,9 +107,18 @@ void Exhibit::take_chord(MonotonicTime now) {
             selection_.undo(button_commands[button], now);
         }
     }
-    calibrate_ = state_ == State::Staff || (staff_pressed_ && now - *staff_pressed_ <= chord_again);
-    staff_pressed_.reset();
+    if (state_ == State::Staff) {
+        staff_.undo_chord(place_.buttons - 1);
+    } else {
+        staff_.begin(now);
+    }
     go_to(next(state_, Event::Chord), now);
+}
+
+void Exhibit::take_hold(bool first, MonotonicTime now) {
+    if (state_ == State::Staff) {
+        staff_.hold(first, now);
+    }
 }
 
 void Exhibit::go_to(State state, MonotonicTime now) {

@@ -7,10 +7,10 @@
 /// States   app/exhibit/states.h has them all; what is said, and where, follows from the state.
 /// Rest     after `ExhibitPlace::rest` without anybody the artifacts come in turn, in the house's language. The first touch ends
 ///          it, and the artifact on show stays.
-/// Staff    Command::StaffMode shows the alignment pattern for a minute, or until something is pressed; that
-///          press does nothing else. Presses take effect at once, since a visitor's must. If they turn out to
-///          be the beginning of the staff's chord they are undone, so the pattern leaves no trace. The chord again while the
-///          pattern is shown asks for the table's calibration; whoever runs the exhibit sees to it, or not.
+/// Staff    Command::StaffMode shows the staff's picture, and ends it; what buttons do there, and when it goes by itself, is
+///          staff_tool.h's. Presses take effect at once, since a visitor's must. If they turn out to be the beginning of the
+///          staff's chord they are undone, so the picture leaves no trace. The staff may ask there for the table's calibration;
+///          whoever runs the exhibit sees to it, or not.
 /// Frames   table T, metres.
 /// Time     `now` never goes back. Fades are closed forms of it; a caption appears from its first step on.
 /// Threads  values; one caller. `step` allocates nothing.
@@ -27,6 +27,7 @@
 #include "app/exhibit/selection.h"
 #include "app/exhibit/sensed.h"
 #include "app/exhibit/sentences.h"
+#include "app/exhibit/staff_tool.h"
 #include "app/exhibit/stand_in.h"
 #include "app/exhibit/states.h"
 #include "app/exhibit/table_browser.h"
@@ -72,6 +73,7 @@ struct ExhibitPlace {
     std::size_t buttons = button_commands.size(); ///< of the panel; the chord is the first and the last
     std::optional<GuidanceSetup> guidance;        ///< none: nobody is told what to do
     std::vector<AdviceLanguage> words;            ///< none: guidance has no words
+    bool staff_stays = false;                     ///< there is no calibration: as StaffTool
     bool table_pictures = false;                  ///< the set's artifacts lie on the table, to choose from
     Nanoseconds rest = std::chrono::seconds(60);  ///< nobody has been there for so long: attract
 };
@@ -132,16 +134,16 @@ struct Presentation {
     RigidTransform table_from_prop; ///< the pose to draw for
     bool attracts = false;          ///< the prop's own pose is not what is drawn
     bool settled = true;            ///< nothing fades: a good moment for a picture
-    bool staff = false;             ///< State::Staff: the alignment pattern is shown instead
+    bool staff = false;             ///< State::Staff: the staff's picture is shown instead
+    StaffView staff_view;           ///< then, what it shows
+    std::uint32_t staff_tones = 0;  ///< how often the staff have asked for the test tone
+    int louder_db = 0;              ///< than the settings say
     bool calibrate = false;         ///< in this step the staff asked for it
     std::uint32_t lamps = 0;        ///< the buttons that do something, bit k = button k
 };
 
 class Exhibit {
 public:
-    static constexpr Nanoseconds staff_time = std::chrono::seconds(60);
-    /// From the press that ends the pattern to the chord which that press begins: longer than buttons are held for it.
-    static constexpr Nanoseconds chord_again = std::chrono::seconds(5);
     /// Of an artifact, while they come in turn.
     static constexpr Nanoseconds turn_time = std::chrono::seconds(20);
     /// Of another set, for somebody who is being told something.
@@ -186,12 +188,15 @@ public:
     [[nodiscard]] std::size_t chosen() const { return selection_.artifact(); }
     /// The chosen language.
     [[nodiscard]] const std::string& language() const { return selection_.language(); }
-    /// Ends the staff's mode early: there is no pattern to show.
+    /// The volume that the staff chose before, in place of the settings'.
+    void set_louder_db(int louder_db) { staff_.set_louder_db(louder_db); }
+    /// Ends the staff's mode early: there is no picture to show.
     void end_staff_mode() { state_ = state_ == State::Staff ? next(state_, Event::Rest) : state_; }
 
 private:
     void take(Command command, MonotonicTime now);
     void take_chord(MonotonicTime now);
+    void take_hold(bool first, MonotonicTime now);
     void offer_what_can_be_shown(MonotonicTime now);
     [[nodiscard]] bool ready(std::size_t artifact) const;
     void go_to(State state, MonotonicTime now);
@@ -214,7 +219,7 @@ private:
     void dim_what_leaves(MonotonicTime now, Presentation& presentation) const;
 
     // What is shown in the state that it is in: exhibit_shows.cpp.
-    /// Behind the staff's pattern all goes on but what is told.
+    /// Behind the staff's picture all goes on but what is told.
     [[nodiscard]] bool has_artifact() const { return !catalogue_.empty() && state_ != State::Fault; }
     [[nodiscard]] Presentation present(MonotonicTime now, const Situation& situation, const Stand& stand,
                                        bool pressed);
@@ -247,8 +252,7 @@ private:
     StandIn stand_in_;
     State state_ = State::Attract;
     State state_before_ = State::Attract;
-    std::optional<MonotonicTime> staff_pressed_; ///< when a press ended the pattern
-    bool calibrate_ = false;                     ///< of this step
+    StaffTool staff_;
     MonotonicTime state_since_;
     MonotonicTime next_turn_;        ///< when the next artifact comes, in State::Attract
     std::optional<Attract> attract_; ///< from the first step on

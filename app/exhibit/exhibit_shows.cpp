@@ -45,7 +45,10 @@ Presentation Exhibit::present(MonotonicTime now, const Situation& situation, con
     waits_ = comes.waits;
     dim_what_leaves(now, presentation);
     presentation.staff = state_ == State::Staff;
-    presentation.calibrate = calibrate_;
+    presentation.staff_view = staff_.shown();
+    presentation.staff_tones = staff_.tones();
+    presentation.louder_db = staff_.louder_db();
+    presentation.calibrate = staff_.take_measure();
     presentation.lamps = lamps();
     return presentation;
 }
@@ -281,6 +284,9 @@ std::string_view Exhibit::language_of(std::size_t artifact) const {
 }
 
 std::uint32_t Exhibit::lamps() const {
+    if (state_ == State::Staff) {
+        return (1U << place_.buttons) - 1U; // each of them is tested, and its lamp
+    }
     std::uint32_t lamps = 0;
     for (std::size_t button = 0; button < button_commands.size(); ++button) {
         lamps |= selection_.accepts(button_commands[button]) ? 1U << button : 0U;

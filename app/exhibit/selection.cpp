@@ -102,6 +102,8 @@ void Selection::undo(Command command, MonotonicTime now) {
     case Command::Choose:
     case Command::Help:
     case Command::StaffMode:
+    case Command::HoldFirst:
+    case Command::HoldOther:
         break;
     }
 }
@@ -116,6 +118,8 @@ bool Selection::accepts(Command command) const {
     case Command::Choose:
     case Command::Help:
     case Command::StaffMode:
+    case Command::HoldFirst:
+    case Command::HoldOther:
         break;
     }
     return false;

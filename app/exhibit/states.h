@@ -67,7 +67,7 @@ inline constexpr std::array<StateNote, state_count> state_notes{{
      "nobody knows where the prop is: the artifact turns at a place of its own; what to do, in words, aloud"},
     {State::Fault, "fault", false, false, Words::Fault, false,
      "no artifact can be shown: words that say so; silent"},
-    {State::Staff, "staff", false, false, Words::None, false, "the alignment pattern; silent"},
+    {State::Staff, "staff", false, false, Words::None, false, "the staff's picture, with pages; a test tone where they ask for it"},
 }};
 
 struct EventNote {
@@ -76,7 +76,7 @@ struct EventNote {
     std::string_view when;
 };
 inline constexpr std::array<EventNote, event_count> event_notes{{
-    {Event::Rest, "rest", "nobody has been there for `exhibit.rest_s`; in staff: its minute is over"},
+    {Event::Rest, "rest", "nobody has been there for `exhibit.rest_s`; in staff: its time is over"},
     {Event::VisitorComes, "visitor comes",
      "prop or head has moved, or something was pressed or told, since then"},
     {Event::Chord, "chord", "the staff's two buttons were held"},
@@ -148,10 +148,9 @@ inline constexpr std::array transitions{
     Transition{State::Fault, Event::Chord, State::Staff},
     Transition{State::Fault, Event::SomethingToShow, State::View},
 
-    // The press that ends it does nothing else. What is the case is looked at afterwards.
+    // A press turns its pages. What is the case is looked at afterwards.
     Transition{State::Staff, Event::Rest, State::View},
     Transition{State::Staff, Event::Chord, State::View},
-    Transition{State::Staff, Event::Press, State::View},
 };
 
 /// The same state where the table has no row.

@@ -227,8 +227,7 @@ void calibration_settings(auto& fields, auto& calibration) {
                 "pose in [projector] and the registration in [tracker]");
     fields.flag(
         "by_buttons", calibration.by_buttons,
-        "the staff may begin one on the table: the first and the last button held together, and again "
-        "while the staff's page is shown");
+        "the staff may begin one on the page Place of their picture, which stays as long as none is kept");
     fields.number("sensor_height_m", calibration.sensor_height_m, {-2.0, 2.0, "metres"},
                   "of the sensor above the prop's bottom, by a ruler; 0: as tracker.sensor_from_prop has it");
     fields.integer("touches", calibration.touches, 6, 30, "how many crosses the prop is laid on");

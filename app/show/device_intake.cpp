@@ -15,6 +15,8 @@ std::optional<Command> command_of(const PanelEvent& event) {
     switch (event.kind) {
     case PressKind::Press:
         return command_of_button(event.button);
+    case PressKind::LongPress:
+        return event.button == 0 ? Command::HoldFirst : Command::HoldOther;
     case PressKind::Chord:
         return Command::StaffMode;
     default:
@@ -97,6 +99,11 @@ void DeviceIntake::take_poses(MonotonicTime now) {
         inputs_.visitor->poll(now, heads_);
     }
     for (const PoseSample& sample : samples_) {
+        if (sample.station == prop_station) {
+            prop_signal_.take(sample);
+        } else if (sample.station == head_station) {
+            head_signal_.take(sample);
+        }
         if (head_is_followed_ || sample.station != head_station) {
             errors_ += situation_.take(sample) ? 0 : 1;
         }

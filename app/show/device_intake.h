@@ -11,6 +11,7 @@
 #include "app/show/inputs.h"
 #include "app/show/run_report.h"
 #include "app/tracking/live_situation.h"
+#include "app/tracking/signal_meter.h"
 #include "app/tracking/situation.h"
 
 #include <cstdint>
@@ -33,6 +34,9 @@ public:
     void drop_commands() { commands_.clear(); }
     /// Prop, eye and tracker at the time at which the picture is lit.
     [[nodiscard]] Situation situation_at(MonotonicTime lit);
+    /// How the tracker sees the prop's sensor, and the head's.
+    [[nodiscard]] const SignalMeter& prop_signal() const { return prop_signal_; }
+    [[nodiscard]] const SignalMeter& head_signal() const { return head_signal_; }
     /// The devices' part of the status. `shown`: the situation of the latest picture.
     void tell(const Situation& shown, RunStatus& status) const;
 
@@ -45,6 +49,7 @@ private:
     bool head_is_followed_;
     bool looks_for_drift_;
     LiveSituation situation_;
+    SignalMeter prop_signal_, head_signal_;
     std::uint64_t errors_ = 0;
     std::vector<PoseSample> samples_; ///< these four: of this frame
     std::vector<UncertainPose> tag_poses_;

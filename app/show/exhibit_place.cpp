@@ -18,6 +18,9 @@ ExhibitPlace exhibit_place(const Settings& settings) {
     if (guides_visitors(settings)) {
         place.guidance = guidance_setup(settings);
     }
+    // One that can be calibrated with the buttons, and is not yet.
+    place.staff_stays = settings.calibration.by_buttons && !settings.calibration.used &&
+                        settings.tracker.kind != TrackerKind::None;
     place.table_pictures = chooses_on_table(settings);
     place.rest = Nanoseconds(std::llround(1e9 * settings.exhibit.rest_s));
     return place;

@@ -1,34 +1,18 @@
 #include "app/show/live_exhibit.h"
 
 #include "app/show/mark_show.h"
-#include "app/status/status_lines.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <numbers>
 #include <utility>
 
 namespace frustumscreen {
 
 namespace {
-
-/// What `frustumscreen status` says, and what only the exhibit itself knows.
-std::vector<std::string> lines_of(const RunStatus& status, const std::string& driver, State before) {
-    std::vector<std::string> lines;
-    for (const StatusLine& line :
-         status_lines(&status, 0.0, status.surroundings.get(),
-                      std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()))) {
-        if (line.for_staff) {
-            lines.push_back(line.name.empty() ? line.text : fmt::format("{}: {}", line.name, line.text));
-        }
-    }
-    lines.push_back(fmt::format("OpenGL: {}; before this picture: {}", driver, name_of(before)));
-    return lines;
-}
 
 ToldText told_by(const Presentation& presentation) {
     if (presentation.caption && presentation.caption->portion) {
@@ -80,7 +64,7 @@ LiveExhibit::LiveExhibit(const Settings& settings, std::unique_ptr<ExhibitStage>
     : settings_(settings), stage_(std::move(stage)), driver_(std::move(driver)), exhibit_(std::move(exhibit)),
       notice_(settings, answer == PromptReader::Answer::Always ? ImportWatch::Answer::Always
                                                                : ImportWatch::Answer::WhenReady),
-      volume_(volume_of(settings.sound)) {
+      volume_(volume_of(settings.sound)), gain_db_(settings.sound.gain_db) {
     if (speaks()) {
         speaker_.begin(answer);
     }
@@ -108,6 +92,7 @@ void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, con
                                                      0.5 * std::numbers::sqrt2 * settings_.prop.base_m);
     stage_->set_mark(has_room ? mark_ : std::nullopt);
     follow_staff_mode();
+    speaker_.set_gain_db(gain_db_ + presentation_.louder_db);
     if (asleep) {
         speaker_.fall_silent();
         return;
@@ -125,7 +110,7 @@ std::span<const Command> LiveExhibit::left_by_notice(MonotonicTime now, std::spa
     bool has_chord = false;
     for (const Command command : commands) {
         has_chord = has_chord || command == Command::StaffMode;
-        if (command != Command::StaffMode) {
+        if (is_press(command)) {
             exhibit_.forget_press(command);
         }
     }
@@ -145,41 +130,32 @@ ShowState LiveExhibit::state() const {
     state.import = notice_.import();
     state.used = exhibit_.used();
     state.calibrate = presentation_.calibrate;
+    state.louder_db = presentation_.louder_db;
     return state;
 }
 
 void LiveExhibit::follow_staff_mode() {
-    if (presentation_.staff == (pattern_ != nullptr)) {
-        return;
+    if (presentation_.staff != (staff_ != nullptr)) {
+        presents_ = 0;
+        staff_.reset();
+        if (presentation_.staff) {
+            Result<std::unique_ptr<StaffShow>> made =
+                StaffShow::create(settings_, speaks(), driver_, presentation_.state_before);
+            if (!made) {
+                say_line("frustumscreen", fmt::format("no picture for the staff: {}", made.error().message));
+                exhibit_.end_staff_mode();
+                return;
+            }
+            staff_ = std::move(*made);
+        }
     }
-    presents_ = 0;
-    if (!presentation_.staff) {
-        pattern_.reset();
-        return;
-    }
-    Result<std::unique_ptr<PatternShow>> pattern = PatternShow::create(settings_);
-    if (!pattern) {
-        say_line("frustumscreen", fmt::format("no pattern for the staff: {}", pattern.error().message));
-        exhibit_.end_staff_mode();
-        return;
-    }
-    pattern_ = std::move(*pattern);
 }
 
 void LiveExhibit::tell(const RunStatus& status) {
-    if (pattern_) {
-        std::vector<std::string> lines = lines_of(status, driver_, presentation_.state_before);
-        if (settings_.exhibit.unsigned_packs == UnsignedPacks::Allow) {
-            lines.insert(lines.begin(), "unsigned packs are allowed: for the bench only");
-        }
-        if (status.calibrates) {
-            lines.emplace_back(
-                "To measure the table anew, hold the first and the last button again for three seconds.");
-        }
-        pattern_->set_lines(std::move(lines));
-        pattern_->tell(status);
+    gain_db_ = gain_db_at(volume_, status.hour_of_day);
+    if (staff_) {
+        staff_->tell(status, gain_db_);
     }
-    speaker_.set_gain_db(gain_db_at(volume_, status.hour_of_day));
 }
 
 DrawResult LiveExhibit::draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
@@ -189,11 +165,12 @@ DrawResult LiveExhibit::draw(MonotonicTime now, const Situation& on_table, const
     if (presents_ && target.buffer_age > *presents_) {
         own.buffer_age = 0;
     }
-    if (pattern_) {
-        pattern_->set_viewfinder(viewfinder_);
+    if (staff_) {
+        staff_->set_viewfinder(viewfinder_);
+        staff_->show(now, presentation_.staff_view, prop_signal_, head_signal_);
     }
-    const DrawResult drawn = pattern_ ? pattern_->draw(now, on_table, own, redraw)
-                                      : stage_->draw(now, presentation_, on_table.eye_m, own, redraw);
+    const DrawResult drawn = staff_ ? staff_->draw(now, on_table, own, redraw)
+                                    : stage_->draw(now, presentation_, on_table.eye_m, own, redraw);
     if (presents_ && drawn.drawn) {
         ++*presents_;
     }
@@ -201,7 +178,7 @@ DrawResult LiveExhibit::draw(MonotonicTime now, const Situation& on_table, const
 }
 
 void LiveExhibit::record_time(MonotonicTime now, double ms) {
-    if (!pattern_) {
+    if (!staff_) {
         stage_->record_time(now, ms);
     }
 }

@@ -1,7 +1,7 @@
-/// The exhibit as visitors meet it: what `Exhibit` decides, drawn on the stage. For the staff it shows the
-/// alignment pattern with every device's state, level and error, frame times, versions.
+/// The exhibit as visitors meet it: what `Exhibit` decides, drawn on the stage. For the staff it shows their picture
+/// (staff_show.h).
 ///
-/// Memory   the pattern is made when it is asked for and freed afterwards: it costs nothing the rest of the
+/// Memory   the staff's picture is made when it is asked for and freed afterwards: it costs nothing the rest of the
 ///          time.
 /// Threads  the render thread, with the display's context current.
 /// Errors   a typeface is missing: the exhibit goes on, and a line on standard error says so.
@@ -10,10 +10,10 @@
 #include "app/exhibit/exhibit.h"
 #include "app/settings/settings.h"
 #include "app/show/notice_show.h"
-#include "app/show/pattern_show.h"
 #include "app/show/set_switch.h"
 #include "app/show/show.h"
 #include "app/show/speaker.h"
+#include "app/show/staff_show.h"
 #include "firmware_host/sound/volume.h"
 
 #include <memory>
@@ -48,6 +48,10 @@ public:
     void set_light(double light) override { light_ = light; }
     void set_mark(const std::optional<ShownMark>& mark) override { mark_ = mark; }
     void set_viewfinder(Viewfinder* viewfinder) override { viewfinder_ = viewfinder; }
+    void set_signal(const TrackerSignal& prop, const TrackerSignal& head) override {
+        prop_signal_ = prop;
+        head_signal_ = head;
+    }
 
 private:
     /// Those that a notice leaves to the exhibit.
@@ -64,11 +68,13 @@ private:
     Speaker speaker_;
     NoticeShow notice_;
     Volume volume_;
-    double light_ = 1.0;                   ///< 0: asleep
-    std::optional<ShownMark> mark_;        ///< wanted in this step
-    Viewfinder* viewfinder_ = nullptr;     ///< none: nobody holds the staff's buttons
-    std::unique_ptr<PatternShow> pattern_; ///< while it is on
-    std::optional<int> presents_;          ///< since the other picture was last drawn; nothing = never
+    double light_ = 1.0;               ///< 0: asleep
+    std::optional<ShownMark> mark_;    ///< wanted in this step
+    Viewfinder* viewfinder_ = nullptr; ///< none: nobody holds the staff's buttons
+    TrackerSignal prop_signal_, head_signal_;
+    double gain_db_;                   ///< the settings' volume of this hour
+    std::unique_ptr<StaffShow> staff_; ///< while it is on
+    std::optional<int> presents_;      ///< since the other picture was last drawn; nothing = never
 };
 
 } // namespace frustumscreen

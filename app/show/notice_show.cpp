@@ -132,8 +132,7 @@ NoticeShow::NoticeShow(const Settings& settings, ImportWatch::Answer answer)
 }
 
 bool NoticeShow::take_press(MonotonicTime now, std::span<const Command> commands) {
-    const bool pressed = std::any_of(commands.begin(), commands.end(),
-                                     [](Command command) { return command != Command::StaffMode; });
+    const bool pressed = std::any_of(commands.begin(), commands.end(), is_press);
     return pressed && lies_there_ && notice_.press(now);
 }
 

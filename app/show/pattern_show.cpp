@@ -40,6 +40,12 @@ bool PatternShow::follow_camera(int buffer_age) {
     return buffer_age > without_camera_;
 }
 
+void PatternShow::set_picture(Image8 picture, bool with_edges) {
+    table_ = std::move(picture);
+    with_edges_ = with_edges;
+    shown_.reset();
+}
+
 void PatternShow::set_lines(std::vector<std::string> lines) {
     if (lines != lines_) {
         lines_ = std::move(lines);
@@ -49,7 +55,7 @@ void PatternShow::set_lines(std::vector<std::string> lines) {
 
 DrawResult PatternShow::draw(MonotonicTime, const Situation& situation, const RenderTarget& target,
                              Redraw redraw) {
-    const glm::dmat4 pose = situation.table_from_prop.matrix();
+    const glm::dmat4 pose = with_edges_ ? situation.table_from_prop.matrix() : glm::dmat4(1.0);
     const PixelRectangle whole{0, 0, scene_.projector.width, scene_.projector.height};
     const bool other_camera = follow_camera(target.buffer_age);
     const bool unchanged = target.buffer_age > 0 && shown_ == pose && !other_camera;
@@ -62,7 +68,8 @@ DrawResult PatternShow::draw(MonotonicTime, const Situation& situation, const Re
         return {true, {}, whole, 0};
     }
     if (shown_ != pose) {
-        const Image8 picture = with_prop(table_, scene_, situation.table_from_prop, typesetter_);
+        const Image8 picture =
+            with_edges_ ? with_prop(table_, scene_, situation.table_from_prop, typesetter_) : table_;
         upload_.put(lines_.empty() ? picture : with_lines(picture, lines_, typesetter_));
         shown_ = pose;
     }

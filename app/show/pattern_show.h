@@ -1,4 +1,4 @@
-/// The alignment pattern on the display: drawn on the CPU whenever the prop has moved.
+/// The alignment pattern on the display, drawn on the CPU whenever the prop has moved; or another picture of the staff's.
 ///
 /// Threads  the render thread, with the display's context current.
 /// Errors   the typeface is missing.
@@ -26,6 +26,9 @@ public:
     /// What it says of the camera while the staff hold their buttons.
     void tell(const RunStatus& status) override;
     void set_viewfinder(Viewfinder* viewfinder) override { viewfinder_ = viewfinder; }
+    /// Shows `picture` in the pattern's place, with the prop's edges on it or without.
+    void set_picture(Image8 picture, bool with_edges);
+    [[nodiscard]] const PatternScene& scene() const { return scene_; }
     /// Sets the lines that the pattern shows below its own text.
     void set_lines(std::vector<std::string> lines);
     [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
@@ -46,7 +49,8 @@ private:
     PatternScene scene_;
     Typesetter typesetter_;
     PictureUpload upload_;
-    Image8 table_;
+    Image8 table_; ///< below the prop's edges
+    bool with_edges_ = true;
     std::vector<std::string> lines_;
     std::optional<glm::dmat4> shown_;        ///< the prop's pose in the picture that was uploaded
     std::unique_ptr<ViewfinderPanel> panel_; ///< none: the settings have no camera

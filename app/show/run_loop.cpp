@@ -96,6 +96,9 @@ private:
         watch_.enters("draws");
         const Situation situation = intake_.situation_at(now + light_delay_.from_now());
         show_.set_mark(mark(now));
+        if (staff_) {
+            show_.set_signal(intake_.prop_signal().at(now), intake_.head_signal().at(now));
+        }
         const std::vector<Command>& commands = intake_.commands();
         show_.step(now, commands, situation);
         if (inputs_.sound) {
@@ -228,8 +231,8 @@ private:
             return;
         }
         const bool was_dark = hours_->asleep();
-        hours_->step(now,
-                     {std::chrono::system_clock::now(), !intake_.commands().empty(), used_, watch_.ready()});
+        hours_->step(now, {std::chrono::system_clock::now(), !intake_.commands().empty(), used_,
+                           watch_.ready() && !staff_}); // who stands on a ladder is not left in the dark
         if (was_dark) {
             intake_.drop_commands();
         }
@@ -302,6 +305,7 @@ private:
         status.seen_import = state.import;
         status.import = report_of(state.import);
         status.language = state.language;
+        status.louder_db = state.louder_db;
         status.technique = state.levels.technique;
         status.level = state.levels.level;
         status.samples = state.levels.samples;
@@ -359,7 +363,7 @@ private:
     RunHours* hours_; ///< none: it never sleeps
     bool asleep_ = false;
     bool attracts_ = false;     ///< in the frame before: nobody was there
-    bool staff_ = false;        ///< in the frame before: the alignment pattern was shown to the staff
+    bool staff_ = false;        ///< in the frame before: the staff's picture was shown
     bool shows_camera_ = false; ///< the staff hold their buttons and see what the camera sees
     MonotonicTime start_;
     Nanoseconds period_;

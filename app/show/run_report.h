@@ -70,6 +70,7 @@ private:
 struct RunStatus : StatusReport {
     double hour_of_day = 12.0;               ///< local time
     int camera_width = 0, camera_height = 0; ///< of the camera's frames; 0: not known
+    int louder_db = 0;                       ///< than the settings say, by the staff's buttons
     bool calibrates = false;                 ///< the staff may begin the table's calibration with the buttons
     SharedImport seen_import;                ///< what the importer says; none: nothing
     SharedSurroundings surroundings;         ///< what others know; none: nobody has asked them yet

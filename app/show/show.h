@@ -11,6 +11,7 @@
 #include "app/settings/command.h"
 #include "app/show/run_report.h"
 #include "app/show/viewfinder.h"
+#include "app/tracking/signal_meter.h"
 #include "app/tracking/situation.h"
 #include "firmware_host/base/time.h"
 #include "firmware_host/sound/sound.h"
@@ -40,6 +41,7 @@ struct ShowState {
     SharedImport import = {};               ///< what the importer says; none: nothing
     std::optional<MonotonicTime> used = {}; ///< when somebody used it last; nothing: never
     bool calibrate = false;                 ///< in this step the staff asked for the table's calibration
+    int louder_db = 0;                      ///< than the settings say, by the staff's buttons
 };
 
 class Show {
@@ -57,6 +59,8 @@ public:
     /// What the camera sees, from the next `draw` on, where the alignment pattern is shown to the staff; none: they do not hold their
     /// buttons, or no camera is used.
     virtual void set_viewfinder(Viewfinder* /*viewfinder*/) {}
+    /// How the tracker sees the prop's and the head's sensor; while the staff's picture is shown, before each `step`.
+    virtual void set_signal(const TrackerSignal& /*prop*/, const TrackerSignal& /*head*/) {}
     /// What is to be heard.
     [[nodiscard]] virtual const SoundWish& wish() const {
         static const SoundWish silence;

@@ -1,9 +1,16 @@
 #include "app/show/speaker.h"
 
+#include "app/show/test_tone.h"
+
 #include <algorithm>
 #include <utility>
 
 namespace frustumscreen {
+
+void Speaker::begin(PromptReader::Answer answer) {
+    reader_.emplace(answer);
+    tone_ = test_tone();
+}
 
 bool Speaker::step(const Presentation& presentation, const ExhibitStage& stage,
                    const SharedRecording& announcement) {
@@ -16,11 +23,26 @@ bool Speaker::step(const Presentation& presentation, const ExhibitStage& stage,
                   presentation.prepares ? stage.recording(*presentation.prepares) : nullptr);
     if (presentation.staff) {
         fall_silent();
+        play_tones(presentation.staff_tones);
         return false;
+    }
+    if (is_alive(tone_number_)) {
+        wish_.stop();
     }
     tell(presentation, stage);
     advise(presentation, stage);
     return announcement && !presentation.prepares_word && announce(announcement);
+}
+
+/// The latest one begins at once.
+void Speaker::play_tones(std::uint32_t asked) {
+    if (std::exchange(tones_, asked) == asked) {
+        return;
+    }
+    if (is_alive(tone_number_)) {
+        wish_.stop();
+    }
+    tone_number_ = wish_.say(tone_);
 }
 
 bool Speaker::announce(const SharedRecording& announcement) {

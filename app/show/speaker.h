@@ -16,6 +16,7 @@
 #include "app/show/show.h"
 #include "firmware_host/sound/sound.h"
 
+#include <cstdint>
 #include <optional>
 
 namespace frustumscreen {
@@ -23,7 +24,7 @@ namespace frustumscreen {
 class Speaker {
 public:
     /// There is something to say: without it nothing is heard, and there is no thread that reads.
-    void begin(PromptReader::Answer answer) { reader_.emplace(answer); }
+    void begin(PromptReader::Answer answer);
     /// `announcement`: what is to be said when nothing else is heard, or about to be; none: nothing. Returns whether it begins now.
     bool step(const Presentation& presentation, const ExhibitStage& stage,
               const SharedRecording& announcement = nullptr);
@@ -41,6 +42,8 @@ public:
     [[nodiscard]] Narration narration() const;
 
 private:
+    /// For the staff: nothing but the tone that they asked for.
+    void play_tones(std::uint32_t asked);
     void end_description(bool at_pause);
     void tell(const Presentation& presentation, const ExhibitStage& stage);
     void advise(const Presentation& presentation, const ExhibitStage& stage);
@@ -58,6 +61,9 @@ private:
     Ending ending_ = Ending::None;  ///< of it, before its time
     std::optional<WordIndex> word_; ///< waits until it was read
     std::uint64_t advice_ = 0;      ///< the number of the latest
+    SharedPrompt tone_;             ///< the staff's
+    std::uint64_t tone_number_ = 0; ///< of the latest
+    std::uint32_t tones_ = 0;       ///< asked for until now
 };
 
 } // namespace frustumscreen

@@ -30,8 +30,10 @@ struct Row {
 constexpr std::array table{
     Row{false, Command::PreviousArtifact, false, -1, 0}, Row{false, Command::NextArtifact, false, 1, 0},
     Row{false, Command::NextLanguage, false, 0, 1},      Row{false, Command::StaffMode, true, 0, 0},
-    Row{true, Command::PreviousArtifact, false, 0, 0},   Row{true, Command::NextArtifact, false, 0, 0},
-    Row{true, Command::NextLanguage, false, 0, 0},       Row{true, Command::StaffMode, false, 0, 0},
+    Row{false, Command::HoldFirst, false, 0, 0},         Row{false, Command::HoldOther, false, 0, 0},
+    Row{true, Command::PreviousArtifact, true, 0, 0},    Row{true, Command::NextArtifact, true, 0, 0},
+    Row{true, Command::NextLanguage, true, 0, 0},        Row{true, Command::StaffMode, false, 0, 0},
+    Row{true, Command::HoldFirst, true, 0, 0},           Row{true, Command::HoldOther, true, 0, 0},
 };
 
 const std::vector<std::string> languages{"en", "de", "fr"};
@@ -55,6 +57,9 @@ TEST(Exhibit, EachCommandDoesWhatTheTableSays) {
         }
         now += seconds(1);
         EXPECT_EQ(exhibit.step(now, std::span(&row.command, 1), situation(now)).staff, row.staff_after);
+        if (row.staff_after) {
+            static_cast<void>(exhibit.step(now, std::array{Command::StaffMode}, situation(now)));
+        }
         const Presentation shown = settled(exhibit, now);
         EXPECT_EQ(shown.artifact, static_cast<std::size_t>(row.artifact_step + 4) % 4);
         EXPECT_EQ(shown.language, languages[static_cast<std::size_t>(row.language_step)]);
@@ -75,7 +80,6 @@ public:
     void press(std::size_t button) {
         latest_counts_[button] = !staff;
         counted_[button] += staff ? 0 : 1;
-        staff = false;
     }
     void chord() {
         for (const std::size_t button : {std::size_t{0}, buttons_ - 1}) {
@@ -123,46 +127,64 @@ TEST(Exhibit, EndsWhereAllThePressesLead) {
     }
 }
 
-TEST(Exhibit, TheStaffsPatternEndsByItself) {
+TEST(Exhibit, TheStaffsPictureEndsByItself) {
     Exhibit exhibit = sample::exhibit(2, languages);
     const std::array chord{Command::StaffMode};
     const auto staff_at = [&](MonotonicTime now) { return exhibit.step(now, {}, situation(now)).staff; };
     EXPECT_TRUE(exhibit.step(start, chord, situation(start)).staff);
-    EXPECT_TRUE(staff_at(start + Exhibit::staff_time - milliseconds(1)));
-    EXPECT_FALSE(staff_at(start + Exhibit::staff_time));
-    EXPECT_TRUE(exhibit.step(start + Exhibit::staff_time, chord, situation(start)).staff);
+    EXPECT_TRUE(staff_at(start + StaffTool::after_press - milliseconds(1)));
+    EXPECT_FALSE(staff_at(start + StaffTool::after_press));
+    EXPECT_TRUE(exhibit.step(start + StaffTool::after_press, chord, situation(start)).staff);
     exhibit.end_staff_mode();
-    EXPECT_FALSE(staff_at(start + Exhibit::staff_time));
+    EXPECT_FALSE(staff_at(start + StaffTool::after_press));
 }
 
-TEST(Exhibit, TheChordOnTheStaffsPatternAsksForACalibration) {
-    const std::array chord{Command::StaffMode};
-    const std::array first{Command::PreviousArtifact};
-    const std::array last{Command::NextLanguage};
+/// From the chord to the table's calibration, and what its presses leave.
+TEST(Exhibit, TheStaffAskForACalibrationWhereThePlaceIsShown) {
     Exhibit exhibit = sample::exhibit(2, languages);
     MonotonicTime now = start;
-    const auto held = [&](Nanoseconds until_chord) {
-        static_cast<void>(exhibit.step(now, first, situation(now)));
-        static_cast<void>(exhibit.step(now + milliseconds(50), last, situation(now)));
-        now += until_chord;
-        return exhibit.step(now, chord, situation(now));
+    const auto step = [&](std::initializer_list<Command> commands) {
+        now += milliseconds(400);
+        return exhibit.step(now, std::span(commands.begin(), commands.size()), situation(now));
     };
-    const Presentation once = held(seconds(3));
-    EXPECT_TRUE(once.staff);
-    EXPECT_FALSE(once.calibrate);
     const std::size_t artifact = exhibit.chosen();
-    const std::string language = exhibit.language();
-    now += seconds(10);
-    const Presentation again = held(seconds(3));
-    EXPECT_TRUE(again.staff) << "and where nobody sees to it, the pattern is there";
-    EXPECT_TRUE(again.calibrate);
-    EXPECT_EQ(exhibit.chosen(), artifact) << "its presses are undone";
-    EXPECT_EQ(exhibit.language(), language);
-    now += milliseconds(20);
-    EXPECT_FALSE(exhibit.step(now, {}, situation(now)).calibrate) << "it is asked once";
-    static_cast<void>(exhibit.step(now, first, situation(now))); // a press ends the pattern
-    now += Exhibit::chord_again;
-    EXPECT_FALSE(held(seconds(3)).calibrate) << "that was another one";
+    static_cast<void>(step({Command::PreviousArtifact, Command::NextLanguage}));
+    EXPECT_TRUE(step({Command::StaffMode}).staff);
+    EXPECT_FALSE(step({Command::PreviousArtifact, Command::HoldFirst}).calibrate)
+        << "the first page has nothing to measure";
+    EXPECT_EQ(step({Command::NextArtifact}).staff_view.page, StaffPage::Place);
+    EXPECT_FALSE(step({Command::NextLanguage, Command::HoldOther}).calibrate);
+    const Presentation asked = step({Command::PreviousArtifact, Command::HoldFirst});
+    EXPECT_TRUE(asked.calibrate);
+    EXPECT_TRUE(asked.staff) << "and where nobody sees to it, the picture is there";
+    EXPECT_FALSE(step({}).calibrate) << "it is asked once";
+    EXPECT_FALSE(step({Command::StaffMode}).staff);
+    EXPECT_FALSE(step({Command::HoldFirst}).calibrate);
+    EXPECT_EQ(exhibit.chosen(), artifact)
+        << "the chord's presses are undone, and those on the staff's picture are no visitor's";
+    EXPECT_EQ(exhibit.language(), "en");
+}
+
+TEST(Exhibit, WithoutACalibrationTheStaffsPictureStays) {
+    ExhibitPlace place = sample::place();
+    place.buttons = 3;
+    place.staff_stays = true;
+    Exhibit exhibit({}, place, "en", start);
+    const std::array chord{Command::StaffMode};
+    EXPECT_TRUE(exhibit.step(start, chord, situation(start)).staff_view.stays);
+    const MonotonicTime later = start + std::chrono::hours(20);
+    EXPECT_TRUE(exhibit.step(later, {}, situation(later)).staff);
+    EXPECT_FALSE(exhibit.step(later, chord, situation(later)).staff);
+}
+
+TEST(Exhibit, AVisitorsLongPressIsNoSecondPress) {
+    Exhibit exhibit = sample::exhibit(4, languages);
+    static_cast<void>(exhibit.step(start, std::array{Command::NextArtifact}, situation(start)));
+    const MonotonicTime pressed = *exhibit.used();
+    const MonotonicTime later = start + seconds(2);
+    static_cast<void>(exhibit.step(later, std::array{Command::HoldOther}, situation(later)));
+    EXPECT_EQ(exhibit.chosen(), 1U);
+    EXPECT_EQ(exhibit.used(), pressed);
 }
 
 TEST(Exhibit, TheLampsAreThoseOfTheButtonsThatDoSomething) {
@@ -213,8 +235,9 @@ TEST(Exhibit, AStepAllocatesNothing) {
         now += milliseconds(16);
         Situation moved = situation(now);
         moved.table_from_prop.translation.x = 0.3 * std::sin(0.01 * k);
-        const std::array commands{button_commands.at(random() % 3), Command::StaffMode};
-        static_cast<void>(exhibit.step(now, std::span(commands).first(random() % 40 == 0 ? 2 : 0), moved));
+        const std::array commands{button_commands.at(random() % 3), Command::HoldOther, Command::StaffMode};
+        static_cast<void>(
+            exhibit.step(now, std::span(commands).last(random() % 40 == 0 ? random() % 4 : 0), moved));
     }
     EXPECT_EQ(synthetic::allocations_so_far(), before);
 }

@@ -263,6 +263,8 @@ TEST_F(RestTest, TheStaffsPatternGoesBackToWhatIsTheCase) {
     wait(seconds(5));
     EXPECT_EQ(shown.state, State::Staff);
     wait(milliseconds(20), std::array{Command::NextArtifact});
+    EXPECT_EQ(shown.state, State::Staff);
+    wait(milliseconds(20), std::array{Command::StaffMode});
     EXPECT_EQ(shown.state, State::Degraded);
     wait(seconds(1));
     EXPECT_EQ(shown.artifact, 0U);

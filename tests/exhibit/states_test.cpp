@@ -23,7 +23,7 @@ constexpr const char* by_hand =
     "rest              .        attract  attract  attract  attract  attract  attract  view\n"
     "visitor_comes     view     .        .        .        .        .        .        .\n"
     "chord             staff    staff    staff    staff    staff    staff    staff    view\n"
-    "press             view     .        .        .        .        .        .        view\n"
+    "press             view     .        .        .        .        .        .        .\n"
     "nothing_to_show   fault    fault    fault    fault    fault    fault    .        .\n"
     "something_to_show .        .        .        .        .        .        view     .\n"
     "tracker_lost      .        degraded degraded degraded .        .        .        .\n"

@@ -1,16 +1,17 @@
-// Draws the staff's picture of an exhibit that runs well, for the guide: the exhibit's own pattern, and its lines of an example.
+// Draws the staff's picture of an exhibit that runs well, for the guide: the exhibit's own pages, with the status of an example.
 //
-//   draw_staff_picture OUT.png
+//   draw_staff_picture FOLDER      writes staff.png, staff_place.png, and staff_pages.png with the others
 
 #include "app/image/image.h"
 #include "app/settings/settings.h"
-#include "app/status/status_lines.h"
-#include "app/typography/pattern.h"
+#include "app/show/staff_picture.h"
+#include "app/typography/canvas.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 
 namespace frustumscreen {
 namespace {
@@ -24,8 +25,8 @@ constexpr const char* status = R"({
  "display": "the projector at HDMI-A-1 is lit, 1280 x 800 at 60 Hz",
  "tracker": "the tracker is running", "prop_known": true, "head_known": false,
  "panel": "its buttons are there", "sound": "its sound goes to plughw:CARD=PCH,DEV=0",
- "set": {"number": 3, "packs": [{"title": "Amphora"}, {"title": "Nautilus cup"}], "newest": {"number": 3, "verdict": "good"},
-         "trouble": ""},
+ "set": {"number": 3, "packs": [{"id": "amphora", "title": "Amphora"}, {"id": "nautilus-cup", "title": "Nautilus cup"}],
+         "newest": {"number": 3, "verdict": "good"}, "trouble": ""},
  "tracker_counts": {"frames": 2160000, "lost": 3, "broken": 0, "connections": 1}, "device_errors": 0,
  "uptime_s": 36000, "resident_mib": 197})";
 constexpr const char* watchdog = R"({
@@ -33,32 +34,73 @@ constexpr const char* watchdog = R"({
  "faults": [{"at": "2026-05-01T09:30:00Z", "awake_s": 5, "sentence": "the tracker is plugged in and says nothing",
              "done": "the tracker's USB port is switched off and on", "helped": true}]})";
 
-Result<Image8> picture() {
-    const Result<CheckedSettings> settings =
-        parse_settings("[projector]\nwidth = 1280\nheight = 800\n", "kiosk.toml");
-    Result<Typesetter> typesetter = Typesetter::open();
-    if (!settings || !typesetter) {
-        return tl::unexpected<Error>(!settings ? settings.error() : typesetter.error());
-    }
+StaffFacts facts_of(const Settings& settings) {
     Surroundings around;
     around.watchdog.fields = nlohmann::json::parse(watchdog);
     around.watchdog.age_s = 0.0;
-    std::vector<std::string> lines;
+    RunStatus run;
+    static_cast<StatusReport&>(run) = read_status_report(nlohmann::json::parse(status));
+    run.surroundings = std::make_shared<const Surroundings>(around);
+    run.calibrates = true;
     constexpr std::time_t now = 1777651200; // a Friday at noon
-    const StatusReport report = read_status_report(nlohmann::json::parse(status));
-    for (const StatusLine& line : status_lines(&report, 0.0, &around, now)) {
-        if (line.for_staff) {
-            lines.push_back(line.name.empty() ? line.text : fmt::format("{}: {}", line.name, line.text));
-        }
+    StaffFacts facts = staff_facts(run, settings, "Mesa Intel(R) UHD Graphics 630", State::View, now);
+    facts.speaks = true;
+    facts.settings_gain_db = -3.0;
+    facts.prop = {240.0, 1.0, 0.06, 0.012};
+    return facts;
+}
+
+/// The others beside each other, half as large.
+Image8 contact_sheet(const std::vector<Image8>& pages) {
+    constexpr int gap = 10;
+    const glm::ivec2 size(pages.front().width / 2, pages.front().height / 2);
+    const int rows = (static_cast<int>(pages.size()) + 1) / 2;
+    Canvas sheet(2 * size.x + gap, rows * (size.y + gap) - gap, Colour(255));
+    for (std::size_t k = 0; k < pages.size(); ++k) {
+        const glm::ivec2 place(static_cast<int>(k % 2), static_cast<int>(k / 2));
+        sheet.picture(pages[k], {0.0, 0.0}, {pages[k].width, pages[k].height}, place * (size + gap), size);
     }
-    const Settings& all = **settings;
-    const PatternScene scene{all.projector.pinhole,
-                             all.projector.table_from_projector,
-                             {all.table.width_m, all.table.depth_m},
-                             make_prop(all.prop)};
+    return sheet.take();
+}
+
+Result<void> draw(const std::filesystem::path& folder) {
+    TRY(const CheckedSettings checked,
+        parse_settings("[projector]\nwidth = 1280\nheight = 800\n[panel]\nkind = \"keys\"\nkeys = "
+                       "[\"KEY_1\", \"KEY_2\", \"KEY_3\"]\n",
+                       "kiosk.toml"));
+    TRY(const Typesetter typesetter, Typesetter::open());
+    Settings settings = *checked;
+    Calibration used;
+    used.made = "2026-04-12 10:12 UTC";
+    used.places = 9;
+    used.mean_mm = 0.52;
+    used.worst_mm = 0.84;
+    settings.calibration.used = used;
+    settings.calibration.used_name = "calibration-0008.toml";
+    const PatternScene scene{settings.projector.pinhole,
+                             settings.projector.table_from_projector,
+                             {settings.table.width_m, settings.table.depth_m},
+                             make_prop(settings.prop)};
+    const StaffFacts facts = facts_of(settings);
+    const auto page = [&](StaffPage which, StaffLight light = StaffLight::White) {
+        StaffView view;
+        view.page = which;
+        view.light = light;
+        view.louder_db = 6;
+        view.presses = {2, 1, 4, 0, 0};
+        view.pressed =
+            which == StaffPage::Buttons ? std::optional<std::uint8_t>(std::uint8_t{2}) : std::nullopt;
+        return staff_picture(view, facts, scene, staff_background(view, scene, typesetter), typesetter);
+    };
     const RigidTransform table_from_prop{glm::angleAxis(0.35, glm::dvec3(0.0, 0.0, 1.0)), {0.12, -0.02, 0.0}};
-    return with_lines(with_prop(table_pattern(scene, *typesetter), scene, table_from_prop, *typesetter),
-                      lines, *typesetter);
+    TRY_VOID(write_file(folder / "staff.png", encode_png(page(StaffPage::Status))));
+    TRY_VOID(write_file(folder / "staff_place.png",
+                        encode_png(with_prop(page(StaffPage::Place), scene, table_from_prop, typesetter))));
+    return write_file(
+        folder / "staff_pages.png",
+        encode_png(contact_sheet({page(StaffPage::Focus), page(StaffPage::Light, StaffLight::Greys),
+                                  page(StaffPage::Sound), page(StaffPage::Tracker), page(StaffPage::Buttons),
+                                  page(StaffPage::Light)})));
 }
 
 } // namespace
@@ -67,14 +109,12 @@ Result<Image8> picture() {
 int main(int argc, char** argv) {
     using namespace frustumscreen;
     if (argc != 2) {
-        fmt::print(stderr, "usage: draw_staff_picture OUT.png\n");
+        fmt::print(stderr, "usage: draw_staff_picture FOLDER\n");
         return 2;
     }
-    const Result<Image8> drawn = picture();
-    const Result<void> written =
-        drawn ? write_file(argv[1], encode_png(*drawn)) : tl::unexpected<Error>(drawn.error());
-    if (!written) {
-        fmt::print(stderr, "draw_staff_picture: {}\n", written.error().message);
+    const Result<void> drawn = draw(argv[1]);
+    if (!drawn) {
+        fmt::print(stderr, "draw_staff_picture: {}\n", drawn.error().message);
     }
-    return written ? 0 : 1;
+    return drawn ? 0 : 1;
 }

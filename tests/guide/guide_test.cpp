@@ -66,6 +66,7 @@ constexpr LeftOut left_out[] = {
     {"app/show/house_words.cpp", "the journal"},
     {"app/show/import_journal.cpp", "the journal"},
     {"app/show/import_watch.cpp", "the journal"},
+    {"app/show/kept_volume.cpp", "a file of the exhibit's own"},
     {"app/show/last_good_settings.cpp", "the journal and the status file"},
     {"app/show/notice_show.cpp", "the journal"},
     {"app/residency/prompt_reader.cpp", "the journal"},
@@ -96,7 +97,7 @@ constexpr LeftOut left_out[] = {
 /// Of other files, which have more.
 constexpr const char* never_shown[] = {
     "not wanted any more",      // ends a thread's work, and nobody reads it
-    "no pattern for the staff", // the journal
+    "no picture for the staff", // the journal
     "texts left out",           // the journal
 };
 

@@ -139,6 +139,7 @@ const std::vector<Guard> guards = {
     {"linux/input", {"firmware_host/panel/"}},
     {"linux/videodev2", {"firmware_host/camera/"}},
     {"apriltag/", {"firmware_host/tags/"}},
+    {"qrencode", {"app/show/"}},
     {"turbojpeg", {"firmware_host/camera/", "assets_baked/bake/"}},
     {"systemd/", {"firmware_host/service/"}},
     {"alsa/", {"firmware_host/sound/"}},

@@ -42,6 +42,7 @@ public:
             events.push_back({now, 1, PressKind::Press});
             events.push_back({now, 1, PressKind::LongPress});
             events.push_back({now, 0, PressKind::Chord});
+            events.push_back({now, 0, PressKind::LongPress});
         }
         return {};
     }
@@ -56,7 +57,8 @@ TEST(DeviceIntake, APressAndAChordAreCommandsOfOneFrame) {
     inputs.panel = std::make_unique<OnePress>();
     DeviceIntake intake(Settings{}, inputs);
     intake.poll(MonotonicTime{});
-    EXPECT_EQ(intake.commands(), (std::vector{Command::NextArtifact, Command::StaffMode}));
+    EXPECT_EQ(intake.commands(), (std::vector{Command::NextArtifact, Command::HoldOther, Command::StaffMode,
+                                              Command::HoldFirst}));
     intake.poll(MonotonicTime{} + milliseconds(16));
     EXPECT_TRUE(intake.commands().empty());
 }

@@ -73,10 +73,17 @@ protected:
         now += milliseconds(16);
         return drawn;
     }
+    [[nodiscard]] Image8 picture() const { return read_colour(display->framebuffer(), 320, 200); }
     /// The pattern's outermost pixels are white.
     [[nodiscard]] bool pattern_is_on() const {
-        const Image8 picture = read_colour(display->framebuffer(), 320, 200);
-        return picture.at(0, 100).r == 255 && picture.at(319, 199).r == 255;
+        const Image8 now_shown = picture();
+        return now_shown.at(0, 100).r == 255 && now_shown.at(319, 199).r == 255;
+    }
+    /// Presses the second button, and waits until what is shown has followed.
+    void turn_page() {
+        frame(next);
+        now += StaffTool::between_views;
+        frame();
     }
 
     Settings settings;
@@ -87,19 +94,78 @@ protected:
     MonotonicTime now = start;
 };
 
-TEST_F(Live, TheChordBringsThePatternAndAPressEndsIt) {
-    EXPECT_FALSE(pattern_is_on());
+TEST_F(Live, TheChordBringsTheStaffsPictureAndEndsIt) {
     frame(chord);
-    EXPECT_TRUE(pattern_is_on());
     EXPECT_EQ(record.ages, (std::vector<int>{0, 1}));
-    EXPECT_EQ(record.times, 2); // the pattern's time is none of the governor's
-    frame(next);
+    EXPECT_EQ(record.times, 2); // its time is none of the governor's
+    EXPECT_FALSE(pattern_is_on());
+    turn_page();
+    EXPECT_TRUE(pattern_is_on());
+    EXPECT_EQ(record.ages.size(), 2U);
+    frame(chord);
     frame();
     EXPECT_EQ(record.ages, (std::vector<int>{0, 1, 0, 1})); // at first the buffer holds nothing of its own
 }
 
+/// Every page is another picture; of the lights, all white and all black are that, once their words have gone.
+TEST_F(Live, EveryPageIsAnotherPicture) {
+    frame(chord);
+    std::vector<std::vector<glm::u8vec4>> seen{picture().texels};
+    for (std::size_t page = 1; page < staff_page_names.size(); ++page) {
+        turn_page();
+        seen.push_back(picture().texels);
+        EXPECT_EQ(std::count(seen.begin(), seen.end(), seen.back()), 1) << staff_page_names.at(page);
+    }
+    frame(chord);
+    frame(chord);
+    for (int page = 0; page < 3; ++page) {
+        turn_page();
+    }
+    const auto all_are = [this](int code) {
+        now += StaffTool::words_stay;
+        frame();
+        const Image8 shown = picture();
+        // The first row has the code for the watchdog.
+        return std::all_of(shown.texels.begin() + shown.width, shown.texels.end(),
+                           [code](const glm::u8vec4& texel) {
+                               return texel.r == code && texel.g == code && texel.b == code;
+                           });
+    };
+    EXPECT_FALSE(all_are(0));
+    EXPECT_TRUE(all_are(255));
+    frame(std::array{Command::PreviousArtifact});
+    EXPECT_TRUE(all_are(0));
+    frame(std::array{Command::PreviousArtifact});
+    EXPECT_FALSE(all_are(0));
+}
+
+TEST_F(Live, ThePropsEdgesFollowItWhereThePlaceIsShown) {
+    frame(chord);
+    Situation moved;
+    moved.table_from_prop.translation.x = 0.1;
+    EXPECT_FALSE(frame({}, moved).drawn) << "the status has no prop in it";
+    turn_page();
+    frame();
+    EXPECT_FALSE(frame().drawn);
+    EXPECT_TRUE(frame({}, moved).drawn);
+}
+
+TEST_F(Live, TheTrackersNumbersAreLiveAndKeepAPace) {
+    frame(chord);
+    for (int page = 0; page < 5; ++page) {
+        turn_page();
+    }
+    int drawn = 0;
+    for (int k = 0; k < 120; ++k) { // two seconds
+        show->set_signal({120.0 + k, 1.0, 0.01 * k, 0.001 * k}, {});
+        drawn += frame().drawn ? 1 : 0;
+    }
+    EXPECT_GE(drawn, 5);
+    EXPECT_LE(drawn, 8) << "once more as the pressed button goes out";
+}
+
 TEST_F(Live, EndsByItselfAfterAMinuteOrByTheChord) {
-    const MonotonicTime end = now + Exhibit::staff_time;
+    const MonotonicTime end = now + StaffTool::after_press;
     frame(chord);
     now = end - milliseconds(1);
     frame();
@@ -205,6 +271,8 @@ TEST_F(Live, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
                     ++patterns;
                 } else if (event.kind == PressKind::Press) {
                     commands.push_back(*command_of_button(event.button));
+                } else if (event.kind == PressKind::LongPress) {
+                    commands.push_back(event.button == 0 ? Command::HoldFirst : Command::HoldOther);
                 }
             }
             if (now >= prop_turns) {

@@ -1,5 +1,6 @@
 // What the exhibit decides to say, as it is heard: in a WAV's samples, with prompts that nothing else resembles.
 #include "app/show/speaker.h"
+#include "app/show/test_tone.h"
 #include "firmware_host/sound/mixer.h"
 #include "firmware_host/sound/opus_reader.h"
 #include "tests/folders.h"
@@ -259,4 +260,60 @@ TEST_F(Speaking, the_staff_are_left_in_peace) {
     presentation.staff = true;
     frames(3);
     EXPECT_FALSE(sounds());
+}
+
+/// Each tone that is asked for begins at once, whatever is heard of the one before; leaving the picture ends it.
+TEST_F(Speaking, the_staff_hear_the_tone_that_they_ask_for) {
+    presentation.staff = true;
+    frames(3);
+    EXPECT_FALSE(sounds());
+    presentation.staff_tones = 1;
+    const SharedPrompt tone = test_tone();
+    // Where its first note ends and its second begins, 0.4 s after it began; a note repeats itself.
+    const std::vector<std::int16_t> part(tone->samples.begin() + 18200, tone->samples.begin() + 20200);
+    const auto heard_times = [&] {
+        std::size_t times = 0;
+        for (auto at = heard.begin();
+             (at = std::search(at, heard.end(), part.begin(), part.end())) != heard.end(); ++at) {
+            ++times;
+        }
+        return times;
+    };
+    frames(25);
+    EXPECT_TRUE(sounds());
+    EXPECT_EQ(heard_times(), 1U);
+    presentation.staff_tones = 2;
+    frames(25);
+    EXPECT_EQ(heard_times(), 2U) << "it waits for the end of the one before, after 1.2 s";
+    frames(100);
+    EXPECT_EQ(heard_times(), 2U);
+    EXPECT_FALSE(sounds());
+    presentation.staff_tones = 3;
+    frames(5);
+    presentation.staff = false;
+    frames(5);
+    EXPECT_FALSE(sounds());
+    EXPECT_EQ(heard_times(), 2U);
+    presentation.staff = true; // it comes again, and what was asked for before is not played again
+    frames(10);
+    EXPECT_FALSE(sounds());
+}
+
+/// ITU-R BS.1770: a sine of 1 kHz with an amplitude of -20 dBFS has -23 LUFS.
+TEST(TestTone, is_as_loud_as_speech_and_begins_and_ends_softly) {
+    const SharedPrompt tone = test_tone();
+    double squares = 0.0;
+    int most = 0, largest_step = 0;
+    for (std::size_t k = 0; k < tone->samples.size(); ++k) {
+        squares += static_cast<double>(tone->samples[k]) * tone->samples[k];
+        most = std::max(most, std::abs(int{tone->samples[k]}));
+        largest_step = k > 0 ? std::max(largest_step, std::abs(tone->samples[k] - tone->samples[k - 1])) : 0;
+    }
+    EXPECT_EQ(most, 3277);
+    EXPECT_NEAR(10.0 * std::log10(squares / static_cast<double>(tone->samples.size()) / (32768.0 * 32768.0)),
+                -23.0, 0.5);
+    EXPECT_EQ(tone->samples.front(), 0);
+    EXPECT_EQ(tone->samples.back(), 0);
+    EXPECT_LT(largest_step, 900) << "a click; 2 kHz goes by 858 at most";
+    EXPECT_EQ(tone->samples.size(), sample_rate_hz * 12U / 10U);
 }

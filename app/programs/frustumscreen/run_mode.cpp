@@ -1,5 +1,6 @@
 #include "app/programs/frustumscreen/run_mode.h"
 
+#include "app/show/kept_volume.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/standard_error.h"
 #include "firmware_host/display/plain_drawing.h"
@@ -90,8 +91,11 @@ std::function<void(const RunStatus&)> keeper_of(const RunPlaces& places, const R
     if (places.cache.empty() || mode.mode == Mode::BuiltIn) {
         return {};
     }
-    return [keeper = SettingsKeeper(last_good(places), mode.used.text)](const RunStatus& status) mutable {
+    return [keeper = SettingsKeeper(last_good(places), mode.used.text),
+            volume = VolumeKeeper(places.volume_file(), mode.used.settings->sound.gain_db)](
+               const RunStatus& status) mutable {
         keeper.note(status);
+        volume.note(status.louder_db);
     };
 }
 

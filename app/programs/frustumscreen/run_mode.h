@@ -19,7 +19,11 @@ struct RunPlaces {
     std::filesystem::path config;
     std::filesystem::path mode_file;                            ///< empty: the mode is normal
     std::filesystem::path shipped = "/usr/share/frustumscreen"; ///< built_in.fspack, kiosk.toml
-    std::filesystem::path cache; ///< settings_last_good.toml, compiled shaders; empty: none are kept
+    std::filesystem::path cache; ///< settings_last_good.toml, volume.txt, compiled shaders; empty: none are kept
+    /// Of the volume that the staff chose (kept_volume.h).
+    [[nodiscard]] std::filesystem::path volume_file() const {
+        return cache.empty() ? std::filesystem::path() : cache / "volume.txt";
+    }
 };
 struct RunMode {
     Mode mode = Mode::Normal; ///< never Safe
@@ -33,7 +37,8 @@ struct RunMode {
 /// Tells the graphics driver how to draw and where to keep compiled shaders. Call before the first display. Plain drawing and the
 /// built-in artifact keep none; where shaders cannot be kept, one line says so.
 void prepare_driver(const RunPlaces& places, Mode mode, const Journal& journal);
-/// Keeps a copy of settings that showed an artifact well; none where the built-in one is shown, of which they say little.
+/// Keeps the staff's volume, and a copy of settings that showed an artifact well; neither where the built-in one is shown, of which
+/// they say little.
 [[nodiscard]] std::function<void(const RunStatus&)> keeper_of(const RunPlaces& places, const RunMode& mode);
 
 } // namespace frustumscreen

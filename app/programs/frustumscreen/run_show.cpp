@@ -2,6 +2,7 @@
 
 #include "app/show/artifact_show.h"
 #include "app/show/installed_show.h"
+#include "app/show/kept_volume.h"
 #include "app/show/library_watch.h"
 #include "app/show/live_exhibit.h"
 #include "app/show/pattern_show.h"
@@ -41,6 +42,7 @@ Result<std::unique_ptr<Show>> make_show(const RunRequest& request, const Setting
         say_line("frustumscreen", note);
     }
     Exhibit exhibit = make_exhibit(settings, *artifacts, start);
+    exhibit.set_louder_db(read_kept_volume(request.places.volume_file(), settings.sound.gain_db));
     ArtifactShow& stage = *artifacts;
     auto live = std::make_unique<LiveExhibit>(
         settings, std::move(artifacts), std::move(exhibit), display.name(),

@@ -1,0 +1,312 @@
+#include "app/show/staff_picture.h"
+
+#include "app/show/qr_code.h"
+#include "app/typography/canvas.h"
+#include "app/typography/test_pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr Colour white{255, 255, 255};
+constexpr Colour lit_colour{255, 184, 92};
+constexpr Colour ring_colour{126, 158, 196};
+constexpr double smallest_em_px = 8.0;
+
+/// 1 px of a picture of 1280 x 800.
+double unit_px(const PatternScene& scene) {
+    return std::min(scene.projector.width / 1280.0, scene.projector.height / 800.0);
+}
+
+std::string circled(std::size_t button, const StaffView& view) {
+    constexpr std::array open{"\u2460", "\u2461", "\u2462", "\u2463", "\u2464"};
+    constexpr std::array full{"\u2776", "\u2777", "\u2778", "\u2779", "\u277a"};
+    return view.pressed == button ? full.at(button) : open.at(button);
+}
+
+/// A page's words, from its title to what the buttons do.
+class PageWords {
+public:
+    PageWords(const StaffView& view, const StaffFacts& facts) : view_(view), facts_(facts) {
+        const auto page = static_cast<std::size_t>(view.page);
+        add(fmt::format("{} of {}: {}", page + 1, staff_page_names.size(), staff_page_names.at(page)), 1.3,
+            true);
+        add_page();
+        add_buttons();
+        add_end();
+    }
+    /// As large as fits the room, `em_px` at most.
+    [[nodiscard]] Image<std::uint8_t> set(const Typesetter& typesetter, const glm::dvec2& room,
+                                          double em_px) const {
+        std::vector<Paragraph> paragraphs;
+        for (;; em_px *= 0.93) {
+            paragraphs.clear();
+            for (const Line& line : lines_) {
+                paragraphs.push_back({line.text, em_px * line.size, line.bold, 1.0, em_px * line.space});
+            }
+            if (em_px <= smallest_em_px || typesetter.extent(paragraphs, room.x).y <= room.y) {
+                return typesetter.set(paragraphs, room.x);
+            }
+        }
+    }
+
+private:
+    struct Line {
+        std::string text;
+        double size = 1.0; ///< of its letters, in ems
+        bool bold = false;
+        double space = 0.3; ///< before it, in ems
+    };
+    void add(std::string text, double size = 1.0, bool bold = false, double space = 0.3) {
+        if (!text.empty()) {
+            lines_.push_back({std::move(text), size, bold, space});
+        }
+    }
+
+    void add_page() {
+        switch (view_.page) {
+        case StaffPage::Status:
+            for (const std::string& line : facts_.lines) {
+                add(line);
+            }
+            break;
+        case StaffPage::Place:
+            add("The bright edge must lie on the table's edge, and the numbered edges on the prop's.");
+            add(facts_.calibration);
+            add(facts_.drift);
+            break;
+        case StaffPage::Focus:
+            add("Every star must be sharp to its middle, on paper held half as high as the prop.");
+            break;
+        case StaffPage::Light:
+            add_light();
+            break;
+        case StaffPage::Sound:
+            add_sound();
+            break;
+        case StaffPage::Tracker:
+            add(facts_.tracker);
+            add_signal("prop", facts_.prop);
+            if (facts_.tracks_head) {
+                add_signal("head", facts_.head);
+            }
+            add("Let them lie still: noise is what they tremble, in the last second.");
+            add(facts_.camera);
+            break;
+        case StaffPage::Buttons:
+            add("Press each button: it lights up and is counted, and does nothing else here.");
+            add(facts_.panel);
+            break;
+        }
+    }
+
+    void add_light() {
+        switch (view_.light) {
+        case StaffLight::White:
+            add("All white, for a lux meter. These words go after five seconds.");
+            break;
+        case StaffLight::Black:
+            add("All black, for a lux meter. These words go after five seconds.");
+            break;
+        case StaffLight::Greys:
+            add("Each step must be seen, also at both ends of the lower row.");
+            break;
+        }
+    }
+
+    void add_sound() {
+        add(facts_.sound);
+        if (!facts_.speaks) {
+            add("This exhibit has nothing to say, so no loudspeaker is used.");
+        }
+        add(fmt::format("volume: {:+.1f} dB by the settings, {:+d} dB by these buttons: {:+.1f} dB",
+                        facts_.settings_gain_db, view_.louder_db, facts_.settings_gain_db + view_.louder_db),
+            1.15, true);
+        add("It is kept until settings with another volume come.");
+    }
+
+    void add_signal(const char* sensor, const TrackerSignal& signal) {
+        add(signal.rate_hz <= 0.0 ? fmt::format("{}: nothing comes", sensor)
+                                  : fmt::format("{}: {:.0f} samples a second, {:.0f} % of them can be used",
+                                                sensor, signal.rate_hz, 100.0 * signal.usable),
+            1.15, true);
+        if (signal.noise_mm && signal.noise_deg) {
+            add(fmt::format("{}: noise of {:.2f} mm and {:.3f}\u00b0", sensor, *signal.noise_mm,
+                            *signal.noise_deg),
+                1.15, true);
+        }
+    }
+
+    [[nodiscard]] std::string action_of(std::size_t button) const {
+        if (view_.page == StaffPage::Buttons) {
+            return {};
+        }
+        if (button == 1) {
+            return "next page";
+        }
+        const bool is_first = button == 0;
+        if (view_.page == StaffPage::Light && button <= 2) {
+            return is_first ? "white, black and greys in turn" : "one back of these";
+        }
+        if (view_.page == StaffPage::Sound && button <= 2) {
+            return is_first ? "louder, with a tone; after the loudest comes the quietest"
+                            : "quieter, with a tone";
+        }
+        return {};
+    }
+
+    void add_buttons() {
+        double space = 1.0;
+        const auto add_button = [&](std::string text) {
+            add(std::move(text), 1.0, false, std::exchange(space, 0.3));
+        };
+        for (std::size_t button = 0; button < facts_.buttons; ++button) {
+            if (const std::string action = action_of(button); !action.empty()) {
+                add_button(fmt::format("{} {}", circled(button, view_), action));
+            }
+        }
+        const bool measures = view_.page == StaffPage::Place && facts_.calibrates;
+        if (measures) {
+            add_button(fmt::format("{} held for two seconds: the table is measured anew", circled(0, view_)));
+        }
+        if (!view_.kept && !view_.stays && view_.page != StaffPage::Buttons) {
+            add_button(fmt::format("{} held for two seconds: this picture is kept for half an hour",
+                                   measures ? circled(1, view_) : "any button"));
+        }
+        add_button(fmt::format("{} and {} held together for three seconds: back to the exhibit",
+                               circled(0, view_), circled(facts_.buttons - 1, view_)));
+    }
+
+    void add_end() {
+        add(view_.stays  ? "There is no calibration yet, so this picture stays until then."
+            : view_.kept ? "It goes by itself half an hour after it came."
+                         : "It goes by itself a minute after the last press.");
+    }
+
+    const StaffView& view_;
+    const StaffFacts& facts_;
+    std::vector<Line> lines_;
+};
+
+void put(Canvas& canvas, const Image<std::uint8_t>& words, const glm::ivec2& corner) {
+    constexpr int margin_px = 8;
+    const glm::dvec2 low(corner - margin_px);
+    canvas.fill(low, low + glm::dvec2(words.width + 2 * margin_px, words.height + 2 * margin_px), Colour(0),
+                0.85);
+    canvas.coverage(words, corner, white);
+}
+
+/// At the upper right; returns its left edge. Without room for three pixels a module, which no telephone reads, there is none.
+double put_code(Canvas& canvas, const std::string& card, double margin_px) {
+    const Image<std::uint8_t> code = qr_code(card);
+    const Image8& picture = canvas.image();
+    if (code.width == 0) {
+        return picture.width;
+    }
+    const int module_px =
+        static_cast<int>(std::min(0.42 * picture.width, picture.height - 2.0 * margin_px)) / code.width;
+    if (module_px < 3) {
+        return picture.width;
+    }
+    const glm::dvec2 corner(picture.width - std::round(margin_px) - module_px * code.width,
+                            std::round(margin_px));
+    for (int y = 0; y < code.height; ++y) {
+        for (int x = 0; x < code.width; ++x) {
+            const glm::dvec2 low = corner + static_cast<double>(module_px) * glm::dvec2(x, y);
+            canvas.fill(low, low + static_cast<double>(module_px), Colour(code.at(x, y)));
+        }
+    }
+    return corner.x;
+}
+
+/// Each with its number, how often it was pressed, and whether it is pressed now.
+void put_buttons(Canvas& canvas, const StaffView& view, std::size_t count, double unit,
+                 const Typesetter& typesetter) {
+    const double width = canvas.image().width, height = canvas.image().height;
+    const double radius = 60.0 * unit;
+    for (std::size_t button = 0; button < count; ++button) {
+        const glm::dvec2 centre(width * (static_cast<double>(button) + 0.5) / static_cast<double>(count),
+                                0.68 * height);
+        const bool is_lit = view.pressed == button;
+        const bool counts = view.presses.at(button) > 0;
+        if (is_lit) {
+            canvas.circle(centre, radius / 2.0, radius, lit_colour);
+        }
+        canvas.circle(centre, radius, 4.0 * unit, counts ? lit_colour : ring_colour);
+        canvas.text(typesetter, fmt::format("{}", button + 1), centre, 44.0 * unit,
+                    is_lit ? Colour(0) : white, {0.5, 0.5}, true);
+        const std::string said = is_lit && view.held ? "held"
+                                 : counts            ? fmt::format("{}\u00d7", view.presses.at(button))
+                                                     : "not yet";
+        canvas.text(typesetter, said, centre + glm::dvec2(0.0, radius + 12.0 * unit), 22.0 * unit, white,
+                    {0.5, 0.0});
+    }
+}
+
+} // namespace
+
+Image8 staff_background(const StaffView& view, const PatternScene& scene, const Typesetter& typesetter) {
+    const int width = scene.projector.width, height = scene.projector.height;
+    const bool is_white = view.page == StaffPage::Light && view.light == StaffLight::White;
+    if (view.page == StaffPage::Place) {
+        return table_pattern(scene, typesetter);
+    }
+    if (view.page == StaffPage::Focus) {
+        return focus_picture(width, height);
+    }
+    if (view.page == StaffPage::Light && view.light == StaffLight::Greys) {
+        return grey_picture(width, height, typesetter);
+    }
+    return {width, height, glm::u8vec4(glm::u8vec3(is_white ? 255 : 0), 255)};
+}
+
+Image8 staff_picture(const StaffView& view, const StaffFacts& facts, const PatternScene& scene,
+                     const Image8& background, const Typesetter& typesetter) {
+    const double unit = unit_px(scene);
+    const double width = scene.projector.width, height = scene.projector.height;
+    const double margin = 34.0 * unit;
+    Canvas canvas(background);
+    const PageWords words(view, facts);
+    const auto put_words = [&](const glm::dvec2& corner, const glm::dvec2& room, double em) {
+        put(canvas, words.set(typesetter, room, em * unit), glm::ivec2(glm::round(corner)));
+    };
+    const double wide = width - 2.0 * margin;
+    switch (view.page) {
+    case StaffPage::Status: {
+        const double right = put_code(canvas, facts.card, margin);
+        put_words({margin, margin}, {right - 2.0 * margin, height - 2.0 * margin}, 16.0);
+        break;
+    }
+    case StaffPage::Place: // below what the pattern says itself
+        put_words({30.0, 84.0}, {0.5 * wide, 0.5 * height}, 16.0);
+        break;
+    case StaffPage::Focus: // between the stars
+        put_words({0.08 * width, 0.235 * height}, {0.5 * wide, 0.18 * height}, 16.0);
+        break;
+    case StaffPage::Light:
+        if (view.light == StaffLight::Greys) {
+            put_words({margin, 0.73 * height}, {wide, 0.25 * height}, 18.0);
+        } else if (view.has_words) {
+            put_words({margin, 0.6 * height}, {wide, 0.36 * height}, 18.0);
+        }
+        break;
+    case StaffPage::Sound:
+    case StaffPage::Tracker:
+        put_words({margin, margin}, {wide, height - 2.0 * margin}, 22.0);
+        break;
+    case StaffPage::Buttons:
+        put_words({margin, margin}, {wide, 0.5 * height}, 22.0);
+        put_buttons(canvas, view, facts.buttons, unit, typesetter);
+        break;
+    }
+    return canvas.take();
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,55 @@
+/// The staff's picture on the display: its pages, with what is known now.
+///
+/// Memory   all of it is there only while the picture is shown.
+/// Threads  the render thread, with the display's context current.
+/// Errors   the typeface is missing.
+#pragma once
+
+#include "app/exhibit/states.h"
+#include "app/settings/settings.h"
+#include "app/show/pattern_show.h"
+#include "app/show/staff_picture.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace frustumscreen {
+
+class StaffShow {
+public:
+    /// Numbers that are live change no faster.
+    static constexpr Nanoseconds between_signals = std::chrono::milliseconds(300);
+
+    /// `speaks`: something can be heard. `driver`: the display's name for itself. `before`: the state before the picture came.
+    [[nodiscard]] static Result<std::unique_ptr<StaffShow>> create(const Settings& settings, bool speaks,
+                                                                   std::string driver, State before);
+
+    /// `gain_db`: the volume that the settings have for this hour.
+    void tell(const RunStatus& status, double gain_db);
+    void set_viewfinder(Viewfinder* viewfinder) { pattern_->set_viewfinder(viewfinder); }
+    /// Draws what has changed.
+    void show(MonotonicTime now, const StaffView& view, const TrackerSignal& prop, const TrackerSignal& head);
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
+                                  Redraw redraw) {
+        return pattern_->draw(now, situation, target, redraw);
+    }
+
+private:
+    StaffShow(const Settings& settings, Typesetter typesetter, std::unique_ptr<PatternShow> pattern);
+
+    const Settings& settings_;
+    Typesetter typesetter_;
+    std::unique_ptr<PatternShow> pattern_;
+    std::string driver_;
+    State before_ = State::View;
+    StaffFacts facts_;
+    Image8 background_; ///< of the page that was drawn last
+    std::optional<std::pair<StaffPage, StaffLight>> background_of_;
+    std::optional<StaffView> drawn_; ///< nothing: what was drawn holds no more
+    MonotonicTime signals_at_;
+};
+
+} // namespace frustumscreen
