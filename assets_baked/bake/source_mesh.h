@@ -32,14 +32,21 @@ struct SourceMaterial {
     float alpha_cutoff = 0.5F;
 };
 
-/// One line for the file's owner about data that a reader lost or had to guess.
+/// What a reader could not keep of the file, had to guess, or took where nobody said otherwise, in one line for the person who has
+/// the file.
 struct SourceNote {
-    enum class Kind : std::uint8_t { Lost, Guessed };
+    enum class Kind : std::uint8_t { Lost, Guessed, Taken };
     Kind kind = Kind::Lost;
     std::string text;
 };
 
-/// Corner attributes of a triangle, stored per vertex: the loader splits vertices where the file does.
+/// What the file says of itself, one line each; empty: nothing.
+struct SourceAbout {
+    std::string title, author, licence, source;
+    [[nodiscard]] bool operator==(const SourceAbout&) const = default;
+};
+
+/// Corner attributes of a triangle, kept per vertex: the loader splits vertices where the file does.
 struct SourceMesh {
     std::vector<glm::dvec3> positions;
     std::vector<glm::vec2> uvs;     ///< transformed; empty or one per position; v = 0 at the top row
@@ -48,9 +55,10 @@ struct SourceMesh {
     std::vector<std::uint32_t> triangle_materials;       ///< one per triangle
     std::vector<SourceMaterial> materials;               ///< at least one
     std::vector<SourceTexture> textures;
-    std::vector<std::filesystem::path> side_files; ///< other files that the model consists of or names
-    std::vector<SourceNote> notes;                 ///< in the order of their discovery
-    char default_up = 'y';                         ///< 'y' for glTF, OBJ, PLY; 'z' for STL
+    std::vector<std::filesystem::path> side_files; ///< other files that the model is made of or names
+    std::vector<SourceNote> notes;                 ///< in the order in which they were found
+    SourceAbout about;
+    char default_up = 'y'; ///< 'y' for glTF, OBJ, PLY; 'z' for STL
 };
 
 } // namespace frustumscreen

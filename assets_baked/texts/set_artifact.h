@@ -1,5 +1,5 @@
-/// Sets the texts of an artifact in all their languages: captions, details and the labels of hotspots, by the
-/// keys of app/pack/pack_texts.h.
+/// Sets the texts of an artifact in all their languages: captions, attribution and the labels of hotspots, by the keys of
+/// app/pack/pack_texts.h.
 ///
 /// Losses are reported, a sentence each: a language whose typeface is missing, a text that is too long to be
 /// shaped, a letter that no typeface has, a word or a caption that fits nowhere. The plain texts are not
@@ -9,6 +9,7 @@
 /// Errors   none: all problems become notes.
 #pragma once
 
+#include "app/pack/attribution.h"
 #include "app/pack/pack.h"
 #include "app/pack/pack_texts.h"
 #include "assets_baked/texts/shape.h"
@@ -35,7 +36,7 @@ struct SetArtifact {
 };
 
 /// `labels`: one list for each hotspot.
-[[nodiscard]] SetArtifact set_artifact(std::span<const PackCaption> captions,
+[[nodiscard]] SetArtifact set_artifact(std::span<const PackCaption> captions, const ScanRights& rights,
                                        std::span<const std::vector<PackLabel>> labels,
                                        const CaptionLimits& limits, const Shaper& shaper);
 

@@ -8,6 +8,7 @@
 /// Errors   none.
 #pragma once
 
+#include "app/pack/attribution.h"
 #include "app/pack/pack.h"
 #include "app/programs/preview/text_pictures.h"
 #include "app/programs/preview/turn_pictures.h"
@@ -35,7 +36,8 @@ struct PreviewFacts {
     std::string stands;
     std::string program; ///< name and version
     std::vector<PreviewLevel> levels;
-    std::vector<std::string> lost, silent, guessed; ///< a sentence each
+    std::vector<std::string> lost, silent, guessed, taken, missing; ///< a sentence each
+    ScanRights rights;
 };
 
 struct PreviewMedia {
