@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 /// The sizes of a description's portions.
 struct DescriptionShape {
-    std::vector<std::vector<glm::dvec2>> sizes_m; ///< by portion and by width; at most four widths
+    std::vector<std::vector<glm::dvec2>> sizes_m; ///< by portion and by width
     std::vector<glm::dvec2> largest_m;            ///< for each width; as `largest_sizes` of them
     bool flush_right = false;                     ///< its lines begin at the right
 };

@@ -52,8 +52,8 @@ namespace frustumscreen {
 /// An artifact that can be shown.
 struct CatalogueEntry {
     std::vector<std::string> languages; ///< of its captions, BCP 47
-    /// For each of `languages` the caption's sizes, one for each width that it was wrapped to, in falling
-    /// preference; at most four.
+    /// For each of `languages` the caption's sizes, one for each width that it was wrapped to, and again without its attribution
+    /// where it has one; in falling preference.
     std::vector<std::vector<glm::dvec2>> caption_sizes_m;
     /// For each of `languages` what there is to tell, and how large it is; none: there is nothing.
     std::vector<Tellable> tellables{};

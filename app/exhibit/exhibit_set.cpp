@@ -21,7 +21,17 @@ std::vector<std::string> languages_of(const Catalogue& catalogue) {
     return languages;
 }
 
-/// For each of the widths that captions are wrapped to, the size that holds them all.
+/// The sizes of one text for as many shapes: again and again those that it has.
+std::vector<glm::dvec2> repeated(const std::vector<glm::dvec2>& sizes_m, std::size_t shapes) {
+    std::vector<glm::dvec2> all;
+    for (std::size_t k = 0; k < shapes && !sizes_m.empty(); ++k) {
+        all.push_back(sizes_m[k % sizes_m.size()]);
+    }
+    return all;
+}
+
+/// For each of the shapes that captions have, the size that holds them all. Texts without an attribution, descriptions among them,
+/// have fewer shapes, for the same widths.
 std::vector<glm::dvec2> sizes_of_all_captions(const Catalogue& catalogue) {
     std::vector<std::vector<glm::dvec2>> all;
     for (const CatalogueEntry& entry : catalogue) {
@@ -29,6 +39,10 @@ std::vector<glm::dvec2> sizes_of_all_captions(const Catalogue& catalogue) {
         for (const DescriptionShape& description : entry.descriptions) {
             all.push_back(description.largest_m);
         }
+    }
+    const std::size_t shapes = largest_sizes(all).size();
+    for (std::vector<glm::dvec2>& sizes_m : all) {
+        sizes_m = repeated(sizes_m, shapes);
     }
     return largest_sizes(all);
 }

@@ -149,13 +149,18 @@ void Telling::follow_speech(MonotonicTime now, const TellingInput& input) {
         }
     }
     if (!reads_ && !over_since_) {
+        const bool is_over = input.narration.state == Narration::State::Over;
         const bool never_came =
             input.narration.state == Narration::State::Silent ||
             (input.narration.state == Narration::State::Coming && now - since_ >= longest_coming);
         if (never_came) {
             reads_ = true;
             portion_since_ = now;
-        } else if (input.narration.state == Narration::State::Over) {
+        } else if (is_over && tellable.ends_unspoken) {
+            reads_ = true;
+            portion_ = tellable.portions.size() - 1;
+            portion_since_ = now;
+        } else if (is_over) {
             over_since_ = now;
         }
     }

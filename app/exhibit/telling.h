@@ -6,7 +6,8 @@
 /// `first_rest`, and each next one when the one before was heard or read; each thing once, until another artifact or language
 /// comes, or somebody else. A description that advice interrupts in its first half is told again.
 ///
-/// Portions a description is shown in portions. While it is heard they follow the speech, else they change at reading speed.
+/// Portions a description is shown in portions. While it is heard they follow the speech, else they change at reading speed. The
+///          last one may be the attribution, which is read after what was heard.
 /// Ends     what is chosen or pressed ends it at once; advice, and a prop or a head that is lost, at the speech's next pause.
 /// Time     `now` never goes back. No state lasts for ever: each has its longest time.
 /// Threads  values; one caller. Allocates nothing.
@@ -25,8 +26,9 @@ namespace frustumscreen {
 /// What there is to tell of an artifact in one language.
 struct Tellable {
     std::vector<Nanoseconds>
-        portions; ///< of the description: how long each is read; none: there is no description
+        portions;               ///< of the description: how long each is read; none: there is no description
     std::vector<Nanoseconds> hotspots; ///< how long the label of each is read
+    bool ends_unspoken = false; ///< the last portion, the attribution, is read and never heard
     [[nodiscard]] std::size_t count() const { return (portions.empty() ? 0 : 1) + hotspots.size(); }
 };
 

@@ -82,8 +82,6 @@ void read_key(TableReader& table, CarriedKey& key) {
 void read_all(TableReader& table, ExhibitFile& file) {
     read_ids(table, "order", file.order);
     table.flag("only", file.only, {});
-    table.require("exhibit_file.only", !file.only || !file.order.empty(), "only",
-                  "would remove every pack, since no order names any; write order = [\"id\", ...]");
     read_ids(table, "remove", file.remove);
     for (const std::string& id : file.remove) {
         const bool ordered = std::find(file.order.begin(), file.order.end(), id) != file.order.end();
@@ -102,7 +100,9 @@ Result<ExhibitFile> parse_exhibit_file(std::string_view text) {
     read_toml(state, text, most_exhibit_file_bytes, [&](const toml::table& root) {
         TableReader keys(state, &root, "");
         read_all(keys, file);
-        keys.finish();
+        keys.finish(); // a misspelt order is said before one that is missing
+        keys.require("exhibit_file.only", !file.only || !file.order.empty(), "only",
+                     "would remove every pack, since no order names any; write order = [\"id\", ...]");
     });
     if (state.error) {
         return tl::unexpected<Error>(*std::move(state.error));

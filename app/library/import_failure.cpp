@@ -71,12 +71,11 @@ ImportFailure failure_of(const PackRefusal& refusal) {
 
 ImportFailure no_room(std::uint64_t wanted, std::uint64_t free, std::uint64_t margin) {
     constexpr std::uint64_t bytes_per_mb = 1000000;
-    return {
-        ImportRefusal::NoRoom,
-        fmt::format("the packs need {} MB and {} MB of the kiosk's disk are free, of which {} MB stay free; "
-                    "remove packs, or put fewer on the stick",
-                    wanted / bytes_per_mb + 1, free / bytes_per_mb, margin / bytes_per_mb),
-        true};
+    return {ImportRefusal::NoRoom,
+            fmt::format("the packs need {} MB, {} MB of the kiosk's disk are free, and {} MB must stay free; "
+                        "remove packs, or put fewer on the stick",
+                        wanted / bytes_per_mb + 1, free / bytes_per_mb, margin / bytes_per_mb),
+            true};
 }
 
 ImportFailure unsure_switch() {

@@ -4,6 +4,7 @@
 #include "app/library/copy_stage.h"
 #include "app/library/library_folder.h"
 #include "app/library/next_set_file.h"
+#include "app/library/pack_signers.h"
 #include "app/library/set_plan.h"
 #include "app/library/signed_exhibit_file.h"
 #include "app/library/stick_walk.h"
@@ -54,6 +55,7 @@ private:
     Outcome rewrite(SetFile next);
     Outcome copy();
     Outcome read_verdict_again();
+    [[nodiscard]] std::string of_ended_keys(const InstalledSet& set);
     Outcome switch_set();
     void progress(std::uint64_t bytes);
     [[nodiscard]] bool is_too_late() const { return outside_.now() - began_ > request_.limits.look; }
@@ -303,6 +305,18 @@ Outcome Import::read_verdict_again() {
     return {};
 }
 
+/// Who takes a key back hears which packs it leaves behind.
+std::string Import::of_ended_keys(const InstalledSet& set) {
+    if (!exhibit_ || exhibit_->file.keys.empty()) {
+        return {};
+    }
+    const std::vector<std::string> packs = packs_of_ended_keys(library_, set, keys_, today());
+    return packs.empty() ? std::string()
+                         : fmt::format("packs of a key that does not count any more stay: {}; name them under remove, or "
+                                       "sign them with another key, if they are not to",
+                                       names_in_words(packs));
+}
+
 /// Serials and keys are kept even where the set stays as it is.
 Outcome Import::switch_set() {
     TRY(PlannedSet planned, plan_set(shown(), packs_, refused_on_the_way_,
@@ -334,6 +348,7 @@ Outcome Import::switch_set() {
     }
     if (exhibit_line_) {
         exhibit_line_->outcome = next == known_ ? ImportOutcome::AlreadyThere : ImportOutcome::Taken;
+        exhibit_line_->reason = of_ended_keys(next.choice.set);
     }
     known_ = std::move(next);
     may_clear_away_ = !is_unsure_;

@@ -1,5 +1,6 @@
 #include "app/library/set_plan.h"
 
+#include "firmware_host/base/letters_apart.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -62,6 +63,17 @@ tl::expected<void, ImportFailure> check_packs(std::span<const StickPack> packs,
     return {};
 }
 
+/// ", or write the nearest id, vase"; empty: none is near.
+std::string nearest_id(const std::vector<InstalledPack>& packs, const std::string& id) {
+    const auto apart = [&](const InstalledPack& pack) { return letters_apart(id, pack.id); };
+    const auto nearest =
+        std::min_element(packs.begin(), packs.end(),
+                         [&](const InstalledPack& a, const InstalledPack& b) { return apart(a) < apart(b); });
+    return nearest != packs.end() && !nearest->id.empty() && 3 * apart(*nearest) <= id.size()
+               ? fmt::format(", or write the nearest id, {}", nearest->id)
+               : std::string();
+}
+
 tl::expected<void, ImportFailure> apply(const ExhibitFile& file, PlannedSet& planned) {
     std::vector<InstalledPack>& packs = planned.set.packs;
     std::vector<InstalledPack> ordered;
@@ -71,8 +83,8 @@ tl::expected<void, ImportFailure> apply(const ExhibitFile& file, PlannedSet& pla
         if (found == packs.end()) {
             return no_set(ImportRefusal::NotAPack,
                           fmt::format("{} names \"{}\", which is neither on the stick nor installed; put its "
-                                      "pack on the stick",
-                                      exhibit_file_name, id));
+                                      "pack on the stick{}",
+                                      exhibit_file_name, id, nearest_id(packs, id)));
         }
         ordered.push_back(*found);
     }

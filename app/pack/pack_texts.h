@@ -1,9 +1,9 @@
 /// The texts of an artifact beside the plain ones of its manifest: set as glyph runs (the section `texts`) and spoken (the section
 /// `sounds`), in parts of their own for each language.
 ///
-/// Keys     `title`, `text`, `period`, `place`, `maker`, `credit`; `description.0` ... of the description's portions
-///          (text_portions.h); `label.0` ... of the hotspots in their order. A text that is empty, or that could not be set, is
-///          not there. The sound of the description has the key `description`.
+/// Keys     `title`, `text`, `attribution` (attribution.h; older packs have `period`, `place`, `maker` and `credit` in its place);
+///          `description.0` ... of the description's portions (text_portions.h); `label.0` ... of the hotspots in their order. A
+///          text that is empty, or that could not be set, is not there. The sound of the description has the key `description`.
 /// Errors   one line: data that FORMAT.md does not allow; a part that is not what it should be. Messages of `load_...` begin with
 ///          the file's name. A pack without the sections is no error.
 /// Threads  pure; any.

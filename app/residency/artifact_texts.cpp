@@ -29,6 +29,53 @@ std::vector<std::string> told_portions(const PackCaption& caption) {
     return portions.size() <= most_text_portions ? portions : std::vector<std::string>();
 }
 
+/// The caption with the attribution below it, and without, for where that finds no room.
+std::vector<TableText> caption_texts(const ScanRights& rights, const PackCaption& caption,
+                                     std::span<const SetLanguage> set) {
+    const TableText bare = caption_text(caption);
+    const std::vector<TextPiece> attribution = attribution_pieces(caption, rights, set, CaptionRole::Small);
+    if (attribution.empty()) {
+        return {bare};
+    }
+    TableText whole = bare;
+    whole.pieces.insert(whole.pieces.end(), attribution.begin(), attribution.end());
+    return {whole, bare};
+}
+
+/// What is told of an artifact, portion by portion.
+struct ToldTexts {
+    std::vector<TableText> portions;
+    bool ends_with_attribution = false;
+};
+ToldTexts told_texts(const ScanRights& rights, const PackCaption& caption, std::span<const SetLanguage> set) {
+    ToldTexts told;
+    for (const std::string& portion : told_portions(caption)) {
+        told.portions.push_back(portion_text(caption, told.portions.size(), portion));
+    }
+    std::vector<TextPiece> attribution = attribution_pieces(caption, rights, set, CaptionRole::Text);
+    told.ends_with_attribution = !attribution.empty();
+    if (told.ends_with_attribution) {
+        told.portions.push_back({caption.language, std::move(attribution)});
+    }
+    return told;
+}
+
+Nanoseconds reading_time(const TableText& text) {
+    Nanoseconds time(0);
+    for (const TextPiece& piece : text.pieces) {
+        time += reading_time(piece.text);
+    }
+    return time;
+}
+
+/// Whether its lines begin at the right.
+bool is_flush_right(const TableText& text, const SetLanguage* set) {
+    return set != nullptr && std::any_of(text.pieces.begin(), text.pieces.end(), [&](const TextPiece& piece) {
+               const GlyphText* const glyphs = set->runs.find(piece.key);
+               return glyphs != nullptr && glyphs->direction == TextDirection::RightToLeft;
+           });
+}
+
 /// Null if the bake could not set it in this language.
 const GlyphText* label_in(const SetLanguage* set, std::size_t hotspot) {
     return set != nullptr ? set->runs.find(fmt::format("label.{}", hotspot)) : nullptr;
@@ -64,24 +111,27 @@ SharedRecording recording_of(const TextSource& source, std::span<const SpokenTex
 Result<void> add_language(const TextSource& source, const PackCaption& caption,
                           std::span<const SetLanguage> set, std::span<const SpokenText> sounds,
                           CaptionSetter& setter, ArtifactTexts& made) {
-    TRY(const std::vector<glm::dvec2> sizes, setter.sizes_m(caption_text(caption), set));
-    made.entry.caption_sizes_m.push_back(sizes);
+    TRY(const ScanRights rights, scan_rights(source.pack));
+    std::vector<glm::dvec2>& captions = made.entry.caption_sizes_m.emplace_back();
+    for (const TableText& text : caption_texts(rights, caption, set)) {
+        TRY(const std::vector<glm::dvec2> sizes, setter.sizes_m(text, set));
+        captions.insert(captions.end(), sizes.begin(), sizes.end());
+    }
     Tellable& tellable = made.entry.tellables.emplace_back();
     tellable.hotspots = label_times(source.pack, caption.language);
     DescriptionShape& shape = made.entry.descriptions.emplace_back();
-    const SetLanguage* const language = find_language(set, caption.language);
-    const std::vector<std::string> portions = told_portions(caption);
-    for (std::size_t k = 0; k < portions.size(); ++k) {
-        const TableText text = portion_text(caption, k, portions[k]);
+    const ToldTexts told = told_texts(rights, caption, set);
+    for (const TableText& text : told.portions) {
         TRY(const std::vector<glm::dvec2> portion, setter.sizes_m(text, set));
         shape.sizes_m.push_back(portion);
-        const GlyphText* const glyphs = language != nullptr ? language->runs.find(text.text_key) : nullptr;
-        shape.flush_right =
-            shape.flush_right || (glyphs != nullptr && glyphs->direction == TextDirection::RightToLeft);
-        tellable.portions.push_back(reading_time(portions[k]));
+        shape.flush_right = shape.flush_right || is_flush_right(text, find_language(set, caption.language));
+        tellable.portions.push_back(reading_time(text));
     }
     shape.largest_m = largest_sizes(shape.sizes_m);
-    made.recordings.push_back(recording_of(source, sounds, caption.language, tellable.portions));
+    tellable.ends_unspoken = told.ends_with_attribution;
+    std::vector<Nanoseconds> spoken = tellable.portions;
+    spoken.resize(spoken.size() - (tellable.ends_unspoken ? 1 : 0));
+    made.recordings.push_back(recording_of(source, sounds, caption.language, spoken));
     return {};
 }
 
@@ -95,11 +145,11 @@ HotspotSet lay_out_hotspots(const PackDescription& pack, std::span<const std::st
         labelled.at = {metres_per_box * hotspot.point, hotspot.normal};
         for (const std::string& language : languages) {
             const SetLanguage* const texts = find_language(set, language);
-            const GlyphText* const text = label_in(texts, k);
-            labelled.label_sizes_m.push_back(text != nullptr
-                                                 ? caption_size_m(texts->runs, nullptr, text, style.em_m,
-                                                                  label_width_m, style.texels_per_m)
-                                                 : glm::dvec2(0.0));
+            const GlyphPart text{CaptionRole::Text, label_in(texts, k)};
+            labelled.label_sizes_m.push_back(
+                text.text != nullptr ? caption_size_m(texts->runs, std::span(&text, 1), style.em_m,
+                                                      label_width_m, style.texels_per_m)
+                                     : glm::dvec2(0.0));
         }
     }
     return made;
@@ -145,11 +195,12 @@ public:
     }
     void add_label(const std::string& language, std::size_t hotspot) {
         const SetLanguage* const texts = find_language(set_, language);
-        const GlyphText* const text = label_in(texts, hotspot);
-        pictures.push_back(text != nullptr ? make_caption(texts->runs, texts->atlas, nullptr, text,
-                                                          style_.em_m, label_width_m, style_.texels_per_m)
-                                                 .coverage
-                                           : Image<std::uint8_t>());
+        const GlyphPart text{CaptionRole::Text, label_in(texts, hotspot)};
+        pictures.push_back(text.text != nullptr
+                               ? make_caption(texts->runs, texts->atlas, std::span(&text, 1), style_.em_m,
+                                              label_width_m, style_.texels_per_m)
+                                     .coverage
+                               : Image<std::uint8_t>());
     }
 
     TextPictures pictures;
@@ -161,13 +212,16 @@ private:
     CaptionSetter setter_;
 };
 
-Result<void> draw(const PackDescription& pack, const PackCaption& caption, TextPart part, Drawing& drawing) {
-    if (part == TextPart::Caption) {
-        return drawing.add(caption_text(caption));
+Result<void> draw(const PackDescription& pack, const PackCaption& caption, std::span<const SetLanguage> set,
+                  TextPart part, Drawing& drawing) {
+    TRY(const ScanRights rights, scan_rights(pack));
+    const bool is_caption = part == TextPart::Caption;
+    for (const TableText& text :
+         is_caption ? caption_texts(rights, caption, set) : told_texts(rights, caption, set).portions) {
+        TRY_VOID(drawing.add(text));
     }
-    const std::vector<std::string> portions = told_portions(caption);
-    for (std::size_t k = 0; k < portions.size(); ++k) {
-        TRY_VOID(drawing.add(portion_text(caption, k, portions[k])));
+    if (is_caption) {
+        return {};
     }
     for (std::size_t k = 0; k < pack.hotspots.size(); ++k) {
         drawing.add_label(caption.language, k);
@@ -222,7 +276,7 @@ Result<TextPictures> draw_texts(const TextSource& source, const ArtifactTexts& t
     const PackCaption& caption = source.pack.captions[source.captions[language]];
     TRY(const std::vector<SetLanguage> set, load_set_texts(source.file, std::span(&caption.language, 1)));
     Drawing drawing(style, set, given_up);
-    TRY_VOID(at(source.file.string(), draw(source.pack, caption, part, drawing)));
+    TRY_VOID(at(source.file.string(), draw(source.pack, caption, set, part, drawing)));
     const std::vector<glm::ivec2> sizes = sizes_px(texts.entry, part, language, style);
     const auto as_laid_out = [](const Image<std::uint8_t>& picture, const glm::ivec2& size) {
         return glm::ivec2(picture.width, picture.height) == size;

@@ -3,6 +3,7 @@
 #include "app/pack/text_portions.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -14,20 +15,59 @@ const SetLanguage* whole_in(std::span<const SetLanguage> set, const TableText& t
     if (found == nullptr) {
         return nullptr;
     }
-    const auto has = [&](const std::string& key, const std::string& part) {
-        return part.empty() || found->runs.find(key) != nullptr;
-    };
-    return has(text.title_key, text.title) && has(text.text_key, text.text) ? found : nullptr;
+    const bool is_whole = std::all_of(text.pieces.begin(), text.pieces.end(), [&](const TextPiece& piece) {
+        return piece.text.empty() || found->runs.find(piece.key) != nullptr;
+    });
+    return is_whole ? found : nullptr;
+}
+
+std::vector<GlyphPart> glyph_parts(const TableText& text, const GlyphRuns& runs) {
+    std::vector<GlyphPart> parts;
+    for (const TextPiece& piece : text.pieces) {
+        parts.push_back({piece.role, runs.find(piece.key)});
+    }
+    return parts;
+}
+
+std::vector<PlainPart> plain_parts(const TableText& text) {
+    std::vector<PlainPart> parts;
+    for (const TextPiece& piece : text.pieces) {
+        parts.push_back({piece.role, piece.text});
+    }
+    return parts;
 }
 
 } // namespace
 
 TableText caption_text(const PackCaption& caption) {
-    return {caption.language, "title", caption.title, "text", caption.text};
+    return {caption.language,
+            {{CaptionRole::Title, "title", caption.title}, {CaptionRole::Text, "text", caption.text}}};
 }
 
 TableText portion_text(const PackCaption& caption, std::size_t portion, const std::string& text) {
-    return {caption.language, {}, {}, portion_key(portion), text};
+    return {caption.language, {{CaptionRole::Text, portion_key(portion), text}}};
+}
+
+std::vector<TextPiece> attribution_pieces(const PackCaption& caption, const ScanRights& rights,
+                                          std::span<const SetLanguage> set, CaptionRole role) {
+    std::vector<TextPiece> pieces;
+    const std::string whole = attribution_of(caption, rights);
+    if (whole.empty()) {
+        return pieces;
+    }
+    const SetLanguage* const language = find_language(set, caption.language);
+    if (language == nullptr || language->runs.find(attribution_key) != nullptr) {
+        return {{role, std::string(attribution_key), whole}};
+    }
+    for (const auto& [key, text] : {std::pair("maker", &caption.maker),
+                                    {"place", &caption.place},
+                                    {"period", &caption.period},
+                                    {"credit", &caption.credit}}) {
+        if (!text->empty() && language->runs.find(key) != nullptr) {
+            pieces.push_back({role, key, *text});
+        }
+    }
+    return pieces;
 }
 
 const SetLanguage* find_language(std::span<const SetLanguage> set, const std::string& language) {
@@ -44,10 +84,9 @@ Result<std::vector<CaptionImage>> CaptionSetter::set(const TableText& text,
     for (const double width_m : caption_widths_m) {
         images.push_back(
             language != nullptr
-                ? make_caption(language->runs, language->atlas, language->runs.find(text.title_key),
-                               language->runs.find(text.text_key), style_.em_m, width_m, style_.texels_per_m)
-                : make_caption(*typesetter_, text.title, text.text, style_.em_m, width_m,
-                               style_.texels_per_m));
+                ? make_caption(language->runs, language->atlas, glyph_parts(text, language->runs),
+                               style_.em_m, width_m, style_.texels_per_m)
+                : make_caption(*typesetter_, plain_parts(text), style_.em_m, width_m, style_.texels_per_m));
     }
     return images;
 }
@@ -58,12 +97,11 @@ Result<std::vector<glm::dvec2>> CaptionSetter::sizes_m(const TableText& text,
     TRY_VOID(language == nullptr ? open_typesetter() : Result<void>());
     std::vector<glm::dvec2> sizes;
     for (const double width_m : caption_widths_m) {
-        sizes.push_back(language != nullptr
-                            ? caption_size_m(language->runs, language->runs.find(text.title_key),
-                                             language->runs.find(text.text_key), style_.em_m, width_m,
-                                             style_.texels_per_m)
-                            : caption_size_m(*typesetter_, text.title, text.text, style_.em_m, width_m,
-                                             style_.texels_per_m));
+        sizes.push_back(
+            language != nullptr
+                ? caption_size_m(language->runs, glyph_parts(text, language->runs), style_.em_m, width_m,
+                                 style_.texels_per_m)
+                : caption_size_m(*typesetter_, plain_parts(text), style_.em_m, width_m, style_.texels_per_m));
     }
     return sizes;
 }

@@ -6,6 +6,7 @@
 /// Errors   no typeface where one is needed.
 #pragma once
 
+#include "app/pack/attribution.h"
 #include "app/pack/pack.h"
 #include "app/pack/pack_texts.h"
 #include "app/typography/caption_image.h"
@@ -24,16 +25,26 @@ struct TextStyle {
     double texels_per_m = 2400.0;
 };
 
-/// What is set as one picture. The keys are those of the glyph runs (pack_texts.h).
+/// A part of what is set as one picture.
+struct TextPiece {
+    CaptionRole role = CaptionRole::Text;
+    std::string key; ///< among the glyph runs (pack_texts.h)
+    std::string text;
+};
+/// What is set as one picture.
 struct TableText {
     std::string language; ///< BCP 47
-    std::string title_key, title;
-    std::string text_key, text;
+    std::vector<TextPiece> pieces;
 };
 /// The title and the short text.
 [[nodiscard]] TableText caption_text(const PackCaption& caption);
 [[nodiscard]] TableText portion_text(const PackCaption& caption, std::size_t portion,
                                      const std::string& text);
+
+/// Whose the artifact and its scan are (attribution.h); none: nothing is known. Packs that were baked before the attribution was
+/// set as one text have its lines apart, in `set`.
+[[nodiscard]] std::vector<TextPiece> attribution_pieces(const PackCaption& caption, const ScanRights& rights,
+                                                        std::span<const SetLanguage> set, CaptionRole role);
 
 /// Null if there is none in this language.
 [[nodiscard]] const SetLanguage* find_language(std::span<const SetLanguage> set, const std::string& language);

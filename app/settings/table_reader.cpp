@@ -15,6 +15,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr std::size_t longest_text = 4096;
+constexpr std::string_view unknown_key = "settings.unknown_key";
 
 std::string found(const toml::node& node) {
     if (const auto* text = node.as_string()) {
@@ -51,6 +52,8 @@ std::uint32_t line_of(const toml::node& node) {
 void ReadState::refuse(MessageId id, std::uint32_t line, std::string_view what) {
     if (!error) {
         error = Error{ErrorKind::BadInput, id, located(file, line, what)};
+    } else if (error->id == unknown_key && id == unknown_key) { // all of them are told at once
+        error->message += fmt::format("; line {}: {}", line, what);
     }
 }
 
@@ -364,29 +367,32 @@ std::vector<TableReader> TableReader::tables_of(std::string_view key, std::size_
 }
 
 void TableReader::finish() {
-    if (table_ == nullptr || state_->error) {
+    if (table_ == nullptr || (state_->error && state_->error->id != unknown_key)) {
         return;
     }
-    const toml::key* left_over = nullptr;
+    constexpr std::size_t most_told = 5;
+    std::vector<const toml::key*> left_over;
     for (const auto& [key, node] : *table_) {
-        const bool known = std::find(known_.begin(), known_.end(), key.str()) != known_.end();
-        if (!known && (left_over == nullptr || key.source().begin.line < left_over->source().begin.line)) {
-            left_over = &key;
+        if (std::find(known_.begin(), known_.end(), key.str()) == known_.end()) {
+            left_over.push_back(&key);
         }
     }
-    if (left_over == nullptr) {
-        return;
+    std::sort(left_over.begin(), left_over.end(), [](const toml::key* a, const toml::key* b) {
+        return a->source().begin.line < b->source().begin.line;
+    });
+    left_over.resize(std::min(left_over.size(), most_told));
+    for (const toml::key* const each : left_over) {
+        const std::string key = printable(each->str(), 60);
+        const auto nearest =
+            std::min_element(known_.begin(), known_.end(), [&](const std::string& a, const std::string& b) {
+                return distance(key, a) < distance(key, b);
+            });
+        const std::string advice = nearest != known_.end()
+                                       ? fmt::format("; the nearest allowed key is {}", full_name(*nearest))
+                                       : std::string();
+        state_->refuse("settings.unknown_key", static_cast<std::uint32_t>(each->source().begin.line),
+                       fmt::format("{} is not a known key{}", full_name(key), advice));
     }
-    const std::string key = printable(left_over->str(), 60);
-    const auto nearest =
-        std::min_element(known_.begin(), known_.end(), [&](const std::string& a, const std::string& b) {
-            return distance(key, a) < distance(key, b);
-        });
-    const std::string advice = nearest != known_.end()
-                                   ? fmt::format("; the nearest allowed key is {}", full_name(*nearest))
-                                   : std::string();
-    state_->refuse("settings.unknown_key", static_cast<std::uint32_t>(left_over->source().begin.line),
-                   fmt::format("{} is not a known key{}", full_name(key), advice));
 }
 
 } // namespace frustumscreen

@@ -70,7 +70,8 @@ void add_language(const LanguageWords& words, const AdviceWordsRequest& request,
         AdviceText text{*key, {}};
         AdviceWord one{all.pictures.size(), nullptr};
         for (const double width_em : widths_em) {
-            CaptionImage image = make_caption(words.runs, words.atlas, nullptr, set, request.em_m,
+            const GlyphPart part{CaptionRole::Text, set};
+            CaptionImage image = make_caption(words.runs, words.atlas, std::span(&part, 1), request.em_m,
                                               width_em * request.em_m, request.texels_per_m);
             text.sizes_m.push_back(image.size_m);
             all.pictures.push_back(std::move(image.coverage));

@@ -1,6 +1,9 @@
 #include "app/show/library_files.h"
 
-#include "app/library/set_file.h"
+#include "app/library/library_folder.h"
+#include "app/library/pack_signers.h"
+#include "app/library/trusted_keys.h"
+#include "firmware_host/base/disk_tree.h"
 #include "firmware_host/base/file.h"
 
 #include <fmt/format.h>
@@ -49,6 +52,20 @@ Result<void> keep_verdict(const std::filesystem::path& library, const SetVerdict
     std::error_code failed; // then the file cannot be written either, and that says why
     std::filesystem::create_directories(path.parent_path(), failed);
     return write_file(path, as_bytes(write_verdict(verdict)));
+}
+
+std::string packs_of_ended_keys(const std::filesystem::path& library, const InstalledSet& set,
+                                const Settings& settings, std::optional<std::chrono::sys_days> clock) {
+    const Result<std::unique_ptr<WritableTree>> tree = open_tree(library);
+    if (settings.exhibit.keys.empty() || set.packs.empty() || !tree) {
+        return {};
+    }
+    const tl::expected<SetFile, ImportFailure> file = read_set_file(**tree);
+    if (!file) {
+        return {}; // told elsewhere
+    }
+    return names_in_words(packs_of_ended_keys(**tree, set, trusted_keys(settings.exhibit.keys, file->keys),
+                                              day_here(clock, file->latest_day)));
 }
 
 LibraryStart start_library(const std::filesystem::path& library, Trust trust) {

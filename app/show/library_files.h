@@ -10,6 +10,7 @@
 #include "app/show/shown_set.h"
 #include "firmware_host/base/result.h"
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -29,6 +30,12 @@ struct FileStamp {
 /// Nothing: there is none, or it cannot be used, as after a power cut: then the set is on trial anew.
 [[nodiscard]] std::optional<SetVerdict> read_verdict(const std::filesystem::path& library);
 [[nodiscard]] Result<void> keep_verdict(const std::filesystem::path& library, const SetVerdict& verdict);
+
+/// The packs of `set` that were signed with a key that does not count any more, in words; empty: there are none, or the settings
+/// name no key, so that none is asked for.
+[[nodiscard]] std::string packs_of_ended_keys(const std::filesystem::path& library, const InstalledSet& set,
+                                              const Settings& settings,
+                                              std::optional<std::chrono::sys_days> clock);
 
 /// What the exhibit knows when it starts.
 struct LibraryStart {

@@ -64,6 +64,7 @@ void LibraryWatch::work(const std::stop_token& stop) {
         keep();
         follow_target(stop);
         keep();
+        look_at_keys();
         post();
         sleep_until_stop(stop, set_up_.between_looks);
     }
@@ -173,11 +174,27 @@ void LibraryWatch::offer(const InstalledSet& set, const std::stop_token& stop) {
     delete coming_.exchange(opened->release());
 }
 
+/// Anew for another set and another set.txt, and each hour: a key ends with its last day.
+void LibraryWatch::look_at_keys() {
+    const MonotonicTime now = monotonic_now();
+    const std::pair looked_at(on_show_, stamp_);
+    if (keys_of_ == looked_at && now < keys_again_) {
+        return;
+    }
+    keys_of_ = looked_at;
+    keys_again_ = now + std::chrono::hours(1);
+    const auto clock = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+    of_ended_keys_ = on_show_ == shown_set_.number
+                         ? packs_of_ended_keys(set_up_.library, shown_set_, settings_, clock)
+                         : std::string();
+}
+
 void LibraryWatch::post() {
     SetStatus status;
     status.shown = on_show_;
     if (on_show_ == shown_set_.number) {
         status.packs = shown_set_.packs;
+        status.of_ended_keys = of_ended_keys_;
     }
     if (trial_) {
         status.newest = trial_->told();

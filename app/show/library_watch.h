@@ -64,6 +64,7 @@ private:
     void keep();
     void follow_target(const std::stop_token& stop);
     void offer(const InstalledSet& set, const std::stop_token& stop);
+    void look_at_keys();
     void post();
 
     const Settings& settings_;
@@ -78,6 +79,9 @@ private:
     std::optional<std::uint64_t> failed_; ///< the latest that could not be opened
     InstalledSet offered_set_, shown_set_;
     std::uint64_t on_show_ = 0; ///< as it was reported
+    std::string of_ended_keys_;
+    std::optional<std::pair<std::uint64_t, std::optional<FileStamp>>> keys_of_; ///< that it was looked up for
+    MonotonicTime keys_again_;
     std::optional<SetStatus> posted_;
 
     Latest<ShownReport> shown_;

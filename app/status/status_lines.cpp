@@ -155,6 +155,12 @@ std::string set_line(const StatusReport& status) {
     return trouble.empty() ? text : text + "; " + brief(trouble);
 }
 
+std::string signatures_line(const StatusReport& status) {
+    return !status.set || status.set->of_ended_keys.empty()
+               ? std::string()
+               : "packs of a key that does not count any more: " + brief(status.set->of_ended_keys);
+}
+
 std::string left_out_line(const StatusReport& status) {
     if (!status.left_out) {
         return {};
@@ -302,6 +308,7 @@ void add_exhibit(Lines& lines, const StatusReport& status, std::optional<double>
     lines.add("sound", or_else(status.sound.view(), "nothing to say"));
     lines.add("recording", status.recording.view());
     lines.add("packs", set_line(status));
+    lines.add("signatures", signatures_line(status));
     lines.add("left out", left_out_line(status));
     lines.add("stick", stick_line(status), false);
     lines.add("errors", errors_line(status));

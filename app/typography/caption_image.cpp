@@ -13,90 +13,119 @@ namespace {
 
 constexpr double text_gap_em = 0.3; ///< between title and text
 
-/// Title or text.
+/// In type sizes of the text, on the table.
+double type_size(CaptionRole role, double em_m) {
+    switch (role) {
+    case CaptionRole::Title:
+        return caption_title_em;
+    case CaptionRole::Text:
+        return 1.0;
+    case CaptionRole::Small:
+        break;
+    }
+    return std::max(caption_small_em * em_m, least_caption_em_m) / em_m;
+}
+
+double brightness_of(CaptionRole role) {
+    return role == CaptionRole::Title ? 1.0 : caption_text_brightness;
+}
+
+/// Of the text's type size.
+double gap_above(CaptionRole role, CaptionRole before) {
+    return role == CaptionRole::Small && before == CaptionRole::Small ? 0.0 : text_gap_em;
+}
+
 struct SetPart {
     const GlyphSetting* setting = nullptr;
     double em_px = 0.0;
     double brightness = 1.0;
     TextDirection direction = TextDirection::LeftToRight;
     GlyphExtent extent;
+    int top_px = 0;
 };
 
 /// One part below the other.
 struct SetParts {
     std::vector<SetPart> parts;
-    int gap_px = 0; ///< between two
     int width_px = 1, height_px = 0;
 };
 
-SetParts lay_out(const GlyphRuns& runs, const GlyphText* title, const GlyphText* text, double em_m,
-                 double width_m, double texels_per_m) {
-    const double em_px = std::max(em_m, least_caption_em_m) * texels_per_m;
-    const double width_em = width_m * texels_per_m / em_px;
+SetParts lay_out(const GlyphRuns& runs, std::span<const GlyphPart> parts, double em_m, double width_m,
+                 double texels_per_m) {
+    const double text_em_m = std::max(em_m, least_caption_em_m);
+    const double em_px = text_em_m * texels_per_m;
+    const double width_em = width_m / text_em_m;
     SetParts all;
-    all.gap_px = static_cast<int>(std::lround(text_gap_em * em_px));
-    const auto add = [&](const GlyphText* part, double em, double brightness) {
-        if (const GlyphSetting* setting = fitting_setting(part, width_em / em)) {
-            const GlyphExtent extent = glyph_extent(runs, *setting, em * em_px);
-            all.width_px = std::max(all.width_px, extent.width_px);
-            all.height_px += (all.height_px > 0 ? all.gap_px : 0) + extent.height_px;
-            all.parts.push_back({setting, em * em_px, brightness, part->direction, extent});
+    CaptionRole before = CaptionRole::Title;
+    for (const GlyphPart& part : parts) {
+        const double em = type_size(part.role, text_em_m);
+        const GlyphSetting* const setting = fitting_setting(part.text, width_em / em);
+        if (setting == nullptr) {
+            continue;
         }
-    };
-    add(title, caption_title_em, 1.0);
-    add(text, 1.0, caption_text_brightness);
+        const GlyphExtent extent = glyph_extent(runs, *setting, em * em_px);
+        if (!all.parts.empty()) {
+            all.height_px += static_cast<int>(std::lround(gap_above(part.role, before) * em_px));
+        }
+        all.parts.push_back(
+            {setting, em * em_px, brightness_of(part.role), part.text->direction, extent, all.height_px});
+        all.width_px = std::max(all.width_px, extent.width_px);
+        all.height_px += extent.height_px;
+        before = part.role;
+    }
     all.height_px = std::max(all.height_px, 1);
     return all;
 }
 
-std::vector<Paragraph> paragraphs_of(const std::string& title, const std::string& text, double em_px) {
+std::vector<Paragraph> paragraphs_of(std::span<const PlainPart> parts, double em_m, double texels_per_m) {
+    const double text_em_m = std::max(em_m, least_caption_em_m);
+    const double em_px = text_em_m * texels_per_m;
     std::vector<Paragraph> paragraphs;
-    if (!title.empty()) {
-        paragraphs.push_back({title, caption_title_em * em_px, true, 1.0, 0.0});
-    }
-    if (!text.empty()) {
-        paragraphs.push_back({text, em_px, false, caption_text_brightness, text_gap_em * em_px});
+    CaptionRole before = CaptionRole::Title;
+    for (const PlainPart& part : parts) {
+        if (!part.text.empty()) {
+            paragraphs.push_back({part.text, type_size(part.role, text_em_m) * em_px,
+                                  part.role == CaptionRole::Title, brightness_of(part.role),
+                                  gap_above(part.role, before) * em_px});
+            before = part.role;
+        }
     }
     return paragraphs;
 }
 
 } // namespace
 
-CaptionImage make_caption(const Typesetter& typesetter, const std::string& title, const std::string& text,
-                          double em_m, double width_m, double texels_per_m) {
-    const double em_px = std::max(em_m, least_caption_em_m) * texels_per_m;
+CaptionImage make_caption(const Typesetter& typesetter, std::span<const PlainPart> parts, double em_m,
+                          double width_m, double texels_per_m) {
     CaptionImage caption;
-    caption.coverage = typesetter.set(paragraphs_of(title, text, em_px), width_m * texels_per_m);
+    caption.coverage = typesetter.set(paragraphs_of(parts, em_m, texels_per_m), width_m * texels_per_m);
     caption.size_m = glm::dvec2(caption.coverage.width, caption.coverage.height) / texels_per_m;
     return caption;
 }
 
-CaptionImage make_caption(const GlyphRuns& runs, const DistanceAtlas& atlas, const GlyphText* title,
-                          const GlyphText* text, double em_m, double width_m, double texels_per_m) {
-    const SetParts set = lay_out(runs, title, text, em_m, width_m, texels_per_m);
+CaptionImage make_caption(const GlyphRuns& runs, const DistanceAtlas& atlas, std::span<const GlyphPart> parts,
+                          double em_m, double width_m, double texels_per_m) {
+    const SetParts set = lay_out(runs, parts, em_m, width_m, texels_per_m);
     CaptionImage caption;
     caption.coverage = Image<std::uint8_t>(set.width_px, set.height_px);
-    int top = 0;
     for (const SetPart& part : set.parts) {
         const bool flush_right = part.direction == TextDirection::RightToLeft;
         draw_lighter(glyph_image(runs, atlas, *part.setting, part.em_px).coverage, part.brightness,
-                     flush_right ? set.width_px - part.extent.width_px : 0, top, caption.coverage);
-        top += part.extent.height_px + set.gap_px;
+                     flush_right ? set.width_px - part.extent.width_px : 0, part.top_px, caption.coverage);
     }
     caption.size_m = glm::dvec2(caption.coverage.width, caption.coverage.height) / texels_per_m;
     return caption;
 }
 
-glm::dvec2 caption_size_m(const Typesetter& typesetter, const std::string& title, const std::string& text,
-                          double em_m, double width_m, double texels_per_m) {
-    const double em_px = std::max(em_m, least_caption_em_m) * texels_per_m;
-    return glm::dvec2(typesetter.extent(paragraphs_of(title, text, em_px), width_m * texels_per_m)) /
+glm::dvec2 caption_size_m(const Typesetter& typesetter, std::span<const PlainPart> parts, double em_m,
+                          double width_m, double texels_per_m) {
+    return glm::dvec2(typesetter.extent(paragraphs_of(parts, em_m, texels_per_m), width_m * texels_per_m)) /
            texels_per_m;
 }
 
-glm::dvec2 caption_size_m(const GlyphRuns& runs, const GlyphText* title, const GlyphText* text, double em_m,
+glm::dvec2 caption_size_m(const GlyphRuns& runs, std::span<const GlyphPart> parts, double em_m,
                           double width_m, double texels_per_m) {
-    const SetParts set = lay_out(runs, title, text, em_m, width_m, texels_per_m);
+    const SetParts set = lay_out(runs, parts, em_m, width_m, texels_per_m);
     return glm::dvec2(set.width_px, set.height_px) / texels_per_m;
 }
 

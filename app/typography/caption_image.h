@@ -11,6 +11,8 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <cstdint>
+#include <span>
 #include <string>
 
 namespace frustumscreen {
@@ -21,30 +23,44 @@ inline constexpr std::array<double, 3> caption_widths_m{0.30, 0.16, 0.075};
 inline constexpr double caption_title_em = 1.35;
 /// Share of the title's light, linear: a little behind it.
 inline constexpr double caption_text_brightness = 0.8;
+/// Type size of the lines below the text, in those of the text; they too have at least 24 pt.
+inline constexpr double caption_small_em = 0.8;
+
+/// What a part of a caption is set as.
+enum class CaptionRole : std::uint8_t {
+    Title, ///< larger and bold
+    Text,
+    Small, ///< as the text, in small type; a line of them follows the one before without a gap
+};
+struct PlainPart {
+    CaptionRole role = CaptionRole::Text;
+    std::string text;
+};
+struct GlyphPart {
+    CaptionRole role = CaptionRole::Text;
+    const GlyphText* text = nullptr; ///< of the runs; null: it is left out
+};
 
 struct CaptionImage {
     Image<std::uint8_t> coverage;
     glm::dvec2 size_m{0.0}; ///< along X and Y of the table
 };
 
-/// The title, larger and bold, over the text, wrapped to `width_m`. `em_m` is the text's type size; less than
-/// 24 pt (`least_caption_em_m`) becomes 24 pt.
-[[nodiscard]] CaptionImage make_caption(const Typesetter& typesetter, const std::string& title,
-                                        const std::string& text, double em_m, double width_m,
-                                        double texels_per_m);
+/// The parts, one below the other, wrapped to `width_m`. `em_m` is the text's type size; less than 24 pt
+/// (`least_caption_em_m`) becomes 24 pt.
+[[nodiscard]] CaptionImage make_caption(const Typesetter& typesetter, std::span<const PlainPart> parts,
+                                        double em_m, double width_m, double texels_per_m);
 
 /// The same of texts that were shaped at the bake: without a typeface, in any script. A paragraph that runs to the left is flush
-/// right. `title` and `text` are texts of `runs`, or null; each is set in the widest of its settings that fits `width_m`, else in
-/// the narrowest.
+/// right. Each part is set in the widest of its settings that fits `width_m`, else in the narrowest.
 [[nodiscard]] CaptionImage make_caption(const GlyphRuns& runs, const DistanceAtlas& atlas,
-                                        const GlyphText* title, const GlyphText* text, double em_m,
-                                        double width_m, double texels_per_m);
+                                        std::span<const GlyphPart> parts, double em_m, double width_m,
+                                        double texels_per_m);
 
 /// The `size_m` that each of these makes, without drawing anything.
-[[nodiscard]] glm::dvec2 caption_size_m(const Typesetter& typesetter, const std::string& title,
-                                        const std::string& text, double em_m, double width_m,
-                                        double texels_per_m);
-[[nodiscard]] glm::dvec2 caption_size_m(const GlyphRuns& runs, const GlyphText* title, const GlyphText* text,
+[[nodiscard]] glm::dvec2 caption_size_m(const Typesetter& typesetter, std::span<const PlainPart> parts,
                                         double em_m, double width_m, double texels_per_m);
+[[nodiscard]] glm::dvec2 caption_size_m(const GlyphRuns& runs, std::span<const GlyphPart> parts, double em_m,
+                                        double width_m, double texels_per_m);
 
 } // namespace frustumscreen

@@ -147,6 +147,7 @@ CaptionPlacer::CaptionPlacer(std::span<const glm::dvec2> room, double border_m, 
     : room_(room.begin(), room.end()), border_m_(border_m), settles_(settles) {}
 
 void CaptionPlacer::set_shapes(std::span<const glm::dvec2> sizes_m) {
+    assert(sizes_m.size() <= most_shapes);
     size_count_ = std::min(sizes_m.size(), sizes_.size());
     std::copy_n(sizes_m.begin(), size_count_, sizes_.begin());
     place_.reset();

@@ -71,12 +71,13 @@ public:
                            Nanoseconds settles = {});
 
     /// Sets another caption; its shapes (one for each width it was wrapped to) are in falling preference, at
-    /// most four. It appears at the best place at the next update.
+    /// most `most_shapes`. It appears at the best place at the next update.
     void set_shapes(std::span<const glm::dvec2> sizes_m);
 
     /// What else lies on the table; captions lie beside it. At most `most_obstacles`.
     void set_obstacles(std::span<const TableRectangle> obstacles);
     static constexpr std::size_t most_obstacles = 16;
+    static constexpr std::size_t most_shapes = 6;
 
     /// `shadow` and `hidden`: `hidden_by_prop` from the lens and from the eye. `quarter_turns`: the reader's side.
     void update(MonotonicTime now, const std::optional<TablePolygon>& shadow,
@@ -105,7 +106,7 @@ private:
     double border_m_;
     Nanoseconds settles_;
     bool comes_again_ = false; ///< it had to leave a place
-    std::array<glm::dvec2, 4> sizes_{};
+    std::array<glm::dvec2, most_shapes> sizes_{};
     std::size_t size_count_ = 0;
     std::array<TableRectangle, most_obstacles> obstacles_{}; ///< in the table's frame
     std::size_t obstacle_count_ = 0;

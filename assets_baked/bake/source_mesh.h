@@ -32,11 +32,18 @@ struct SourceMaterial {
     float alpha_cutoff = 0.5F;
 };
 
-/// What a reader could not keep of the file, or had to guess, in one line for the person who has the file.
+/// What a reader could not keep of the file, had to guess, or took where nobody said otherwise, in one line for the person who has
+/// the file.
 struct SourceNote {
-    enum class Kind : std::uint8_t { Lost, Guessed };
+    enum class Kind : std::uint8_t { Lost, Guessed, Taken };
     Kind kind = Kind::Lost;
     std::string text;
+};
+
+/// What the file says of itself, one line each; empty: nothing.
+struct SourceAbout {
+    std::string title, author, licence, source;
+    [[nodiscard]] bool operator==(const SourceAbout&) const = default;
 };
 
 /// Corner attributes of a triangle, kept per vertex: the loader splits vertices where the file does.
@@ -50,7 +57,8 @@ struct SourceMesh {
     std::vector<SourceTexture> textures;
     std::vector<std::filesystem::path> side_files; ///< other files that the model is made of or names
     std::vector<SourceNote> notes;                 ///< in the order in which they were found
-    char default_up = 'y';                         ///< 'y' for glTF, OBJ, PLY; 'z' for STL
+    SourceAbout about;
+    char default_up = 'y'; ///< 'y' for glTF, OBJ, PLY; 'z' for STL
 };
 
 } // namespace frustumscreen

@@ -172,6 +172,8 @@ void read_all(TableReader& table, ArtifactFile& file) {
                   fmt::format("is \"{}\"; allowed are 1 to {} of a-z 0-9 . _ -, a letter or a digit first",
                               printable(file.id, 40), pack_format::most_id_bytes));
     read_text(table, "licence", file.licence);
+    read_text(table, "author", file.author);
+    read_text(table, "source", file.source);
     table.integer("size", file.size, 16, 4096, {});
     table.flag("unlit", file.unlit, {});
     read_word(table, "prop", file.prop, prop_words);

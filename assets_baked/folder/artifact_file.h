@@ -35,7 +35,9 @@ struct ArtifactFile {
     std::filesystem::path scan;    ///< with the folder in front
     std::filesystem::path texture; ///< the same; empty: the scan's own
     std::string id;
-    std::string licence;
+    std::string licence; ///< this and the next two: of the scan; empty: what its file says of itself
+    std::string author;
+    std::string source;
     int size = 512; ///< texels
     bool unlit = false;
     std::string prop = "frustum";

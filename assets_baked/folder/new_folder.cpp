@@ -46,8 +46,10 @@ bool is_same_folder(const fs::path& a, const fs::path& b) {
 }
 
 /// Where each of the scan's files goes, relative to the folder.
-Result<std::vector<std::pair<fs::path, fs::path>>> copies_of(const ScanFacts& scan) {
-    std::vector<std::pair<fs::path, fs::path>> copies{{scan.file, scan.file.filename()}};
+using Copies = std::vector<std::pair<fs::path, fs::path>>;
+
+Result<Copies> copies_of(const ScanFacts& scan) {
+    Copies copies{{scan.file, scan.file.filename()}};
     for (const fs::path& side : scan.side_files) {
         std::error_code none;
         if (!fs::is_regular_file(side, none)) {
@@ -65,7 +67,31 @@ Result<std::vector<std::pair<fs::path, fs::path>>> copies_of(const ScanFacts& sc
     return copies;
 }
 
-Result<void> copy_into(const fs::path& folder, const std::vector<std::pair<fs::path, fs::path>>& copies) {
+/// What was begun is taken away again: a cut file would be taken for a scan by the next try.
+void take_away(const fs::path& folder, const Copies& copies) {
+    for (const auto& [from, to] : copies) {
+        std::error_code none;
+        fs::remove(folder / to, none);
+    }
+}
+
+Result<void> not_copied(const fs::path& from, const fs::path& to, const std::error_code& why) {
+    std::error_code none;
+    const fs::space_info room = fs::space(to.parent_path(), none);
+    const std::uintmax_t bytes = fs::file_size(from, none);
+    if (why == std::errc::no_space_on_device || (!none && room.available < bytes)) {
+        return bad_input(
+            "folder.no_space",
+            "{}: no space is left for it in {}: it needs {:.1f} MB and {:.1f} MB are free; make room, or "
+            "choose a folder on another disk",
+            from.string(), to.parent_path().string(), static_cast<double>(bytes) / 1e6,
+            static_cast<double>(room.available) / 1e6);
+    }
+    return bad_input("folder.not_copied", "{}: cannot be copied to {}: {}", from.string(), to.string(),
+                     why.message());
+}
+
+Result<void> copy_into(const fs::path& folder, const Copies& copies) {
     for (const auto& [from, to] : copies) {
         if (std::error_code none; fs::exists(folder / to, none)) {
             return bad_input("folder.there_already",
@@ -79,8 +105,8 @@ Result<void> copy_into(const fs::path& folder, const std::vector<std::pair<fs::p
         fs::create_directories((folder / to).parent_path(), failed);
         fs::copy_file(from, folder / to, failed);
         if (failed) {
-            return bad_input("folder.not_copied", "{}: cannot be copied to {}: {}", from.string(),
-                             (folder / to).string(), failed.message());
+            take_away(folder, copies); // none was there before
+            return not_copied(from, folder / to, failed);
         }
     }
     return {};
@@ -99,7 +125,11 @@ scan = {scan}
 
 # This artifact's own name, which visitors never see. A pack with the same id replaces an older one: keep it.
 id = {id}
-#licence = "CC-BY-4.0"
+# The scan's licence, who made the scan, and where it was published. Licence and author are shown to visitors, since most licences
+# ask for it; without them here the bake takes what the scan's file says.
+{licence}
+{author}
+{source}
 
 # The colours have their light in them, as in photogrammetry. Without this the artifact is lit as in a museum.
 #unlit = true
@@ -122,9 +152,10 @@ id = {id}
 [[texts]]
 language = "en"
 title = {title}
-#period = "about 540 BC"
-#place = "Athens"
+# These four are shown below the caption in small type where there is room, and at the end of what is told.
 #maker = "unknown potter"
+#place = "Athens"
+#period = "about 540 BC"
 #credit = "Gift of ..."
 #text = "One or two sentences for the caption beside the prop."
 # What there is to see, for visitors who do not see it.
@@ -148,6 +179,12 @@ title = {title}
 #labels = {{ en = "The handle", de = "Der Henkel" }}
 )";
 
+/// What the file says, else a line that begins with # as an example.
+std::string told_or_example(std::string_view key, const std::string& told, std::string_view example) {
+    return told.empty() ? fmt::format("#{} = {}", key, toml_string(example))
+                        : fmt::format("{} = {}", key, toml_string(told));
+}
+
 std::string words_of(glm::dvec3 v, double longest) {
     for (int axis = 0; axis < 3; ++axis) {
         v[axis] = std::abs(v[axis]) < 1e-5 * longest ? 0.0 : v[axis]; // 4e-09 says nothing to a person
@@ -160,11 +197,14 @@ std::string words_of(glm::dvec3 v, double longest) {
 std::string new_artifact_text(const ScanFacts& scan, const std::string& title, const std::string& id) {
     const glm::dvec3 size = scan.high - scan.low;
     const double longest = std::max({size.x, size.y, size.z});
-    return fmt::format(head, fmt::arg("scan", toml_string(scan.file.filename().string())),
-                       fmt::arg("id", toml_string(id)), fmt::arg("up", scan.default_up),
-                       fmt::arg("title", toml_string(title)), fmt::arg("low", words_of(scan.low, longest)),
-                       fmt::arg("high", words_of(scan.high, longest)),
-                       fmt::arg("middle", words_of(0.5 * (scan.low + scan.high), longest)));
+    return fmt::format(
+        head, fmt::arg("scan", toml_string(scan.file.filename().string())), fmt::arg("id", toml_string(id)),
+        fmt::arg("licence", told_or_example("licence", scan.licence, "CC-BY-4.0")),
+        fmt::arg("author", told_or_example("author", scan.author, "Jane Doe")),
+        fmt::arg("source", told_or_example("source", scan.source, "https://...")),
+        fmt::arg("up", scan.default_up), fmt::arg("title", toml_string(title)),
+        fmt::arg("low", words_of(scan.low, longest)), fmt::arg("high", words_of(scan.high, longest)),
+        fmt::arg("middle", words_of(0.5 * (scan.low + scan.high), longest)));
 }
 
 Result<fs::path> start_folder(const fs::path& folder, const ScanFacts& scan) {
@@ -179,8 +219,9 @@ Result<fs::path> start_folder(const fs::path& folder, const ScanFacts& scan) {
         return bad_input("folder.artifact_file_there",
                          "{}: this file is there already; edit it, or choose another folder", file.string());
     }
+    Copies copies;
     if (!is_same_folder(folder, scan.file.parent_path())) {
-        TRY(const auto copies, copies_of(scan));
+        TRY(copies, copies_of(scan));
         fs::create_directories(folder, failed);
         if (failed) {
             return bad_input("folder.not_made", "{}: this folder cannot be made: {}", folder.string(),
@@ -188,8 +229,13 @@ Result<fs::path> start_folder(const fs::path& folder, const ScanFacts& scan) {
         }
         TRY_VOID(copy_into(folder, copies));
     }
-    const std::string title = scan.file.stem().string();
-    TRY_VOID(write_file(file, as_bytes(new_artifact_text(scan, title, new_id(title)))));
+    const std::string title = scan.title.empty() ? scan.file.stem().string() : scan.title;
+    if (const Result<void> written =
+            write_file(file, as_bytes(new_artifact_text(scan, title, new_id(title))));
+        !written) {
+        take_away(folder, copies);
+        return tl::unexpected<Error>(written.error());
+    }
     return file;
 }
 

@@ -21,6 +21,7 @@ struct ScanFacts {
     std::vector<std::filesystem::path> side_files; ///< those that the scan names; some may be missing
     glm::dvec3 low{0.0}, high{0.0};                ///< its bounding box, in its own coordinates
     char default_up = 'y';
+    std::string title, author, licence, source; ///< as the file says them; empty: it does not
 };
 
 /// The text of a new `artifact.toml`. Only what has no good value of itself is set; the rest stands in comments.

@@ -52,11 +52,16 @@ std::string why_unused(const fs::path& file, const std::string& name, const Reco
     if (const auto wanted = names.find(name); wanted != names.end() && wanted->second) {
         return fmt::format("{} goes before it", printable(wanted->second->string(), 300));
     }
+    if (!can_be_read) {
+        const fs::path wav = fs::path(file).replace_extension(endings.front());
+        return fmt::format("it is none of WAV, FLAC and Ogg Opus; convert it, such as by ffmpeg -i {} {}",
+                           printable(file.filename().string(), 100), printable(wav.filename().string(), 100));
+    }
     const auto nearest = std::min_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
         return letters_apart(name, a.first) < letters_apart(name, b.first);
     });
     return fmt::format("no text has this name; the nearest name of a text is {}{}", nearest->first,
-                       can_be_read ? file.extension().string() : endings.front());
+                       file.extension().string());
 }
 
 } // namespace

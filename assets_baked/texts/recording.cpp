@@ -94,7 +94,9 @@ Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSour
     const SoundFile file = open_sound(sound, SFM_READ, info);
     if (!file) {
         return bad_input("recording.unreadable",
-                         "this is no recording that can be read ({}); WAV, FLAC and Ogg Opus can",
+                         "this is no recording that can be read ({}); WAV, FLAC and Ogg Opus can, and others "
+                         "are converted, "
+                         "such as by ffmpeg -i NAME.mp3 NAME.wav",
                          printable(sf_strerror(nullptr), 120));
     }
     TRY_VOID(check_kind(info));

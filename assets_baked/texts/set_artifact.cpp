@@ -19,10 +19,11 @@ struct KeyedText {
     bool is_title = false;
 };
 
-std::vector<KeyedText> texts_of(const PackCaption& caption, std::span<const std::vector<PackLabel>> labels) {
-    std::vector<KeyedText> texts{{"title", caption.title, true}, {"text", caption.text},
-                                 {"period", caption.period},     {"place", caption.place},
-                                 {"maker", caption.maker},       {"credit", caption.credit}};
+std::vector<KeyedText> texts_of(const PackCaption& caption, const ScanRights& rights,
+                                std::span<const std::vector<PackLabel>> labels) {
+    std::vector<KeyedText> texts{{"title", caption.title, true},
+                                 {"text", caption.text},
+                                 {std::string(attribution_key), attribution_of(caption, rights)}};
     const std::vector<std::string> portions = portions_of(caption.description);
     for (std::size_t k = 0; k < portions.size() && portions.size() <= most_text_portions; ++k) {
         texts.push_back({portion_key(k), portions[k]});
@@ -135,12 +136,12 @@ private:
 
 } // namespace
 
-SetArtifact set_artifact(std::span<const PackCaption> captions,
+SetArtifact set_artifact(std::span<const PackCaption> captions, const ScanRights& rights,
                          std::span<const std::vector<PackLabel>> labels, const CaptionLimits& limits,
                          const Shaper& shaper) {
     SetArtifact set;
     for (const PackCaption& caption : captions) {
-        const std::vector<KeyedText> texts = texts_of(caption, labels);
+        const std::vector<KeyedText> texts = texts_of(caption, rights, labels);
         if (texts.empty()) {
             continue;
         }

@@ -1,4 +1,4 @@
-/// Sets the texts of an artifact in all their languages: captions, details and the labels of hotspots, by the keys of
+/// Sets the texts of an artifact in all their languages: captions, attribution and the labels of hotspots, by the keys of
 /// app/pack/pack_texts.h.
 ///
 /// What cannot be set is left out and told, a sentence each: a language whose typeface is missing, a text that is too long to be
@@ -8,6 +8,7 @@
 /// Errors   none: all of them are notes.
 #pragma once
 
+#include "app/pack/attribution.h"
 #include "app/pack/pack.h"
 #include "app/pack/pack_texts.h"
 #include "assets_baked/texts/shape.h"
@@ -34,7 +35,7 @@ struct SetArtifact {
 };
 
 /// `labels`: one list for each hotspot.
-[[nodiscard]] SetArtifact set_artifact(std::span<const PackCaption> captions,
+[[nodiscard]] SetArtifact set_artifact(std::span<const PackCaption> captions, const ScanRights& rights,
                                        std::span<const std::vector<PackLabel>> labels,
                                        const CaptionLimits& limits, const Shaper& shaper);
 

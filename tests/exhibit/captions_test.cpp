@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -194,7 +195,8 @@ TEST(Captions, TypeIsNeverSmallerThanTwentyFourPoint) {
     ASSERT_TRUE(typesetter) << typesetter.error().message;
     constexpr double texels_per_m = 8000.0;
     // A capital of DejaVu Sans is 0.729 em high; 'H' has neither overshoot nor descender.
-    const CaptionImage caption = make_caption(*typesetter, "", "HHH", 0.002, 0.2, texels_per_m);
+    const CaptionImage caption =
+        make_caption(*typesetter, std::array{PlainPart{CaptionRole::Text, "HHH"}}, 0.002, 0.2, texels_per_m);
     int rows = 0;
     for (int y = 0; y < caption.coverage.height; ++y) {
         bool ink = false;
@@ -212,8 +214,9 @@ TEST(Captions, TheTitleStandsOverTheTextAndBothKeepTheirWidth) {
     ASSERT_TRUE(typesetter);
     const std::string text =
         "Wine was carried and poured from vessels like this one in every house of the town";
-    const CaptionImage wide = make_caption(*typesetter, "Amphora", text, 0.010, 0.30, 2000.0);
-    const CaptionImage narrow = make_caption(*typesetter, "Amphora", text, 0.010, 0.12, 2000.0);
+    const std::array parts{PlainPart{CaptionRole::Title, "Amphora"}, PlainPart{CaptionRole::Text, text}};
+    const CaptionImage wide = make_caption(*typesetter, parts, 0.010, 0.30, 2000.0);
+    const CaptionImage narrow = make_caption(*typesetter, parts, 0.010, 0.12, 2000.0);
     EXPECT_LE(wide.size_m.x, 0.302);
     EXPECT_LE(narrow.size_m.x, 0.122);
     EXPECT_GT(narrow.size_m.y, 1.5 * wide.size_m.y);

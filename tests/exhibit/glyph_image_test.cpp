@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -116,7 +117,9 @@ TEST(GlyphCaption, the_title_is_over_the_text_and_both_are_flush_with_where_they
     const GlyphText title{"title", TextDirection::RightToLeft, {narrow}};
     const double em_m = 2.0 * least_caption_em_m;
     const double texels_per_m = 40.0 / em_m;
-    const CaptionImage both = make_caption(runs, square(), &title, &runs.texts[0], em_m, 0.3, texels_per_m);
+    const std::array parts{GlyphPart{CaptionRole::Title, &title},
+                           GlyphPart{CaptionRole::Text, &runs.texts[0]}};
+    const CaptionImage both = make_caption(runs, square(), parts, em_m, 0.3, texels_per_m);
     // A title of 1.35 em to the right above a text of 40 pixels an em, with 0.3 em between them.
     EXPECT_EQ(both.coverage.width, 80);
     EXPECT_EQ(both.coverage.height, 54 + 12 + 40);
@@ -125,8 +128,26 @@ TEST(GlyphCaption, the_title_is_over_the_text_and_both_are_flush_with_where_they
     EXPECT_EQ(both.coverage.at(14, 27), 0);
     EXPECT_EQ(both.coverage.at(10, 54 + 12 + 20), 204) << "the text is a little behind the title";
     const CaptionImage less =
-        make_caption(runs, square(), nullptr, &runs.texts[0], em_m, 1.5 * em_m, texels_per_m);
+        make_caption(runs, square(), std::span(parts).last(1), em_m, 1.5 * em_m, texels_per_m);
     EXPECT_EQ(less.coverage.width, 20) << "the setting that fits";
-    const CaptionImage none = make_caption(runs, square(), nullptr, nullptr, em_m, 0.3, texels_per_m);
+    const CaptionImage none = make_caption(runs, square(), {}, em_m, 0.3, texels_per_m);
     EXPECT_EQ(none.coverage.texels.size(), 1U);
+}
+
+TEST(GlyphCaption, small_lines_lie_below_the_text_close_together_and_have_at_least_24_points) {
+    GlyphRuns runs = runs_with(line_of({0}, em_units));
+    const GlyphPart text{CaptionRole::Text, &runs.texts[0]};
+    const GlyphPart small{CaptionRole::Small, &runs.texts[0]};
+    const std::array parts{text, small, small};
+    for (const double em_pt : {24.0, 28.0, 60.0}) {
+        const double em_m = em_pt * 0.0254 / 72.0;
+        const double texels_per_m = 50.0 / em_m;
+        const double small_px = 50.0 * std::max(0.8 * em_pt, 24.0) / em_pt;
+        const CaptionImage image = make_caption(runs, square(), parts, em_m, 0.3, texels_per_m);
+        // 0.3 em of the text's own below it, and nothing between the two lines.
+        EXPECT_NEAR(image.coverage.height, 50 + 15 + 2 * small_px, 2.0) << em_pt;
+        EXPECT_EQ(image.coverage.at(10, 50 + 15 + static_cast<int>(small_px / 2)), 204) << em_pt;
+        EXPECT_EQ(image.coverage.at(static_cast<int>(small_px) + 2, image.coverage.height - 10), 0) << em_pt;
+        EXPECT_EQ(caption_size_m(runs, parts, em_m, 0.3, texels_per_m), image.size_m);
+    }
 }

@@ -74,7 +74,8 @@ protected:
         if (spoken_since) {
             const Nanoseconds heard = now - *spoken_since - delay;
             const bool in_pause = heard % seconds(2) < milliseconds(300);
-            const auto portions = static_cast<Nanoseconds::rep>(tellable->portions.size());
+            const auto portions =
+                static_cast<Nanoseconds::rep>(tellable->portions.size()) - (tellable->ends_unspoken ? 1 : 0);
             if (heard >= portions * seconds(2) || (told.leaves && has_pauses && in_pause)) {
                 spoken_since.reset();
                 was_spoken = true;
@@ -145,6 +146,34 @@ TEST_F(Telling_, RestLeadsThroughAllOfItOnce) {
     subject.language = 1;
     rest(seconds(7));
     EXPECT_EQ(told.portion, 0U);
+}
+
+TEST_F(Telling_, TheAttributionIsReadAfterWhatWasHeardAndAloneWhereNothingElseIsToldInWords) {
+    const Tellable attributed{{seconds(4), seconds(4), seconds(2)}, {}, true}; // two of them are spoken
+    tellable = &attributed;
+    press();
+    rest(seconds(3));
+    EXPECT_EQ(told.portion, 1U);
+    EXPECT_TRUE(told.speaks);
+    rest(seconds(2));
+    EXPECT_EQ(told.portion, 2U) << "the voice has ended";
+    EXPECT_FALSE(told.speaks);
+    rest(attributed.portions[2] + Telling::finds_text - seconds(1));
+    EXPECT_EQ(told.portion, 2U);
+    rest(seconds(1) + Telling::breath);
+    EXPECT_TRUE(nothing());
+
+    const Tellable alone{{seconds(2)}, {}, true};
+    tellable = &alone;
+    subject.artifact = 1;
+    voice = false;
+    rest(milliseconds(100));
+    ask();
+    rest(seconds(1));
+    EXPECT_EQ(told.portion, 0U);
+    EXPECT_FALSE(told.speaks);
+    rest(alone.portions[0] + Telling::finds_text + Telling::breath);
+    EXPECT_TRUE(nothing());
 }
 
 TEST_F(Telling_, WhatIsSilentIsReadAtItsPace) {

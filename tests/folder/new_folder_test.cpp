@@ -4,7 +4,9 @@
 #include "firmware_host/base/file.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <string>
 
 using namespace frustumscreen;
@@ -25,7 +27,11 @@ protected:
                 {root / "in/scan.mtl", root / "in/pictures/skin.png", root / "in/missing.png"},
                 {-1, 0, 2},
                 {1, 5, 4},
-                'y'};
+                'y',
+                {},
+                {},
+                {},
+                {}};
     }
     void TearDown() override { fs::remove_all(root); }
     void put(const std::string& file, std::string_view text) const {
@@ -84,6 +90,43 @@ TEST_F(NewFolder, every_hint_can_be_taken) {
     EXPECT_EQ(read->size, 512) << "hints have the values that hold without them";
     EXPECT_EQ(read->scale, 1.0);
     EXPECT_EQ(read->prop, "frustum");
+}
+
+TEST_F(NewFolder, says_what_the_scans_file_says_of_itself) {
+    scan.title = "Egyptian \"Cat\"";
+    scan.author = "Ann (https://example.org/ann)";
+    scan.licence = "CC-BY-4.0";
+    scan.source = "https://example.org/cat";
+    ASSERT_TRUE(start_folder(root / "out", scan));
+    const Result<ArtifactFile> read = read_artifact_file(root / "out");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->texts[0].title, scan.title);
+    EXPECT_EQ(read->author, scan.author);
+    EXPECT_EQ(read->licence, scan.licence);
+    EXPECT_EQ(read->source, scan.source);
+    EXPECT_EQ(read->id.substr(0, 9), "egyptian-");
+    scan.author = scan.licence = scan.source = "";
+    const Result<ArtifactFile> silent =
+        parse_artifact_file(new_artifact_text(scan, "Cat", "cat"), "artifact.toml");
+    EXPECT_EQ(silent->licence + silent->author + silent->source, "") << "examples are no statements";
+}
+
+TEST_F(NewFolder, leaves_no_cut_file_where_it_cannot_be_written) {
+    put("in/pictures/skin.png", std::string(100'000, 'x'));
+    struct rlimit before {};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const struct rlimit small { 50'000, before.rlim_max };
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+    const Result<fs::path> started = start_folder(root / "out", scan);
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    ASSERT_FALSE(started);
+    EXPECT_EQ(started.error().id, "folder.not_copied") << started.error().message;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / "out")) {
+        EXPECT_TRUE(entry.is_directory()) << entry.path();
+    }
+    EXPECT_TRUE(start_folder(root / "out", scan)) << "the next try finds nothing in its way";
 }
 
 TEST_F(NewFolder, replaces_nothing) {

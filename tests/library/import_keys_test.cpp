@@ -1,4 +1,7 @@
 // Keys that sets bring: whom they need, when they end, and how they are taken back.
+#include "app/library/library_folder.h"
+#include "app/library/pack_signers.h"
+#include "app/library/trusted_keys.h"
 #include "firmware_host/base/calendar_day.h"
 #include "tests/library/stick_fixture.h"
 
@@ -68,6 +71,42 @@ TEST_F(ImportKeys, AKeyAloneIsNoNewSet) {
     EXPECT_EQ(line_of(report, "exhibit.toml").outcome, ImportOutcome::Taken);
     EXPECT_EQ(report.set_number, 1U) << "the exhibit has nothing to try";
     EXPECT_EQ(read_set_file(kiosk)->keys.size(), 1U);
+}
+
+TEST_F(ImportKeys, PacksOfAKeyThatIsTakenBackStayAndAreNamed) {
+    request.today = day("2026-11-20");
+    ASSERT_EQ(bring(key_text(next), museum.key, 1).stage, ImportStage::Done);
+    stick.put("jar.fspack", museum.pack("jar", 1));
+    stick.put("vase.fspack", Museum::signed_by(next, Museum::unsigned_pack("vase", "Vase"), 1));
+    stick.put("no_id.fspack", Museum::signed_by(next, Museum::unsigned_pack("", "Bowl"), 1));
+    ASSERT_EQ(import().stage, ImportStage::Done);
+    const ImportReport report = bring(key_text(next, "2026-11-01"), museum.key, 2);
+    EXPECT_EQ(line_of(report, "exhibit.toml").outcome, ImportOutcome::Taken);
+    const std::string reason = line_of(report, "exhibit.toml").reason;
+    EXPECT_NE(reason.find("stay: vase, Bowl;"), std::string::npos) << reason;
+    const SetFile file = *read_set_file(kiosk);
+    ASSERT_EQ(file.choice.set.packs.size(), 3U) << "they are shown as before";
+    const std::vector<TrustedKey> counting = trusted_keys(request.keys, file.keys);
+    const auto ended = [&](std::string_view today) {
+        return packs_of_ended_keys(kiosk, file.choice.set, counting, day(today));
+    };
+    EXPECT_EQ(ended("2026-11-20"), (std::vector<std::string>{"vase", "Bowl"}));
+    EXPECT_TRUE(ended("2026-11-01").empty()) << "its last day";
+    EXPECT_TRUE(packs_of_ended_keys(kiosk, file.choice.set, counting, std::nullopt).empty())
+        << "without a clock";
+    EXPECT_EQ(signing_key(kiosk, file.choice.set.packs[0]), text_of_key_id(museum.key.public_key().id));
+    InstalledPack gone = file.choice.set.packs[1];
+    gone.file = "packs/gone.fspack";
+    EXPECT_FALSE(signing_key(kiosk, gone));
+    const ImportReport again = bring(key_text(third), museum.key, 3);
+    EXPECT_NE(line_of(again, "exhibit.toml").reason.find("vase"), std::string::npos) << "whichever key comes";
+}
+
+TEST(PackSigners, ManyNamesAreFew) {
+    EXPECT_EQ(names_in_words(std::vector<std::string>{}), "");
+    EXPECT_EQ(names_in_words(std::vector<std::string>{"a", "b"}), "a, b");
+    EXPECT_EQ(names_in_words(std::vector<std::string>{"a", "b", "c", "d", "e", "f", "g"}),
+              "a, b, c, d, e and 2 more");
 }
 
 TEST_F(ImportKeys, AKeyGoesWithTheOneThatSignedForIt) {

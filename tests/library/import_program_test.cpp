@@ -123,6 +123,52 @@ TEST_F(ImportProgram, ListsWhoseSignatureCounts) {
     EXPECT_NE(text("out.txt").find("does not count any more"), std::string::npos) << text("out.txt");
 }
 
+TEST_F(ImportProgram, ListsWhoSignedEachPackAndWhetherThatKeyStillCounts) {
+    const SecretKey second = SecretKey::make();
+    const auto bring_key = [&](const std::string& until, int serial) {
+        const std::string set = fmt::format("[[key]]\nname = \"second\"\npublic_key = \"{}\"\n{}",
+                                            public_key_line(second.public_key()), until);
+        put("stick/exhibit.toml", as_bytes(set));
+        put("stick/exhibit.toml.minisig",
+            as_bytes(museum.key.sign(as_bytes(set), fmt::format("serial:{}", serial))));
+    };
+    bring_key("", 1);
+    put("stick/vase.fspack", museum.pack("vase", 3));
+    put("stick/cup.fspack", Museum::signed_by(second, Museum::unsigned_pack("cup", "Cup"), 1));
+    ASSERT_EQ(import(), 0) << text("err.txt");
+    const auto listed_line = [&](const std::string& id) {
+        const std::string all = text("out.txt");
+        const std::size_t at = all.find("  " + id + "  ");
+        return at == std::string::npos ? all : all.substr(at, all.find('\n', at) - at);
+    };
+    ASSERT_EQ(run("frustumscreen-import --list --into library --keys keys"), 0);
+    EXPECT_TRUE(listed_line("cup").ends_with("signed by second")) << text("out.txt");
+    EXPECT_TRUE(listed_line("vase").ends_with("signed by museum")) << text("out.txt");
+    const json without = listed()["packs"];
+    EXPECT_EQ(without[0]["signed_by"]["id"], text_of_key_id(second.public_key().id));
+    EXPECT_TRUE(without[0]["signed_by"]["counts"].is_null()) << "without the settings nobody knows";
+
+    bring_key("until = \"2020-01-01\"\n", 2);
+    ASSERT_EQ(import(), 0) << text("err.txt");
+    EXPECT_NE(
+        text("out.txt").find("exhibit.toml: taken: packs of a key that does not count any more stay: cup;"),
+        std::string::npos)
+        << text("out.txt");
+    ASSERT_EQ(run("frustumscreen-import --list --into library --keys keys"), 0);
+    EXPECT_TRUE(
+        listed_line("cup").ends_with("signed by second, which does not count any more (until 2020-01-01)"))
+        << text("out.txt");
+    EXPECT_TRUE(listed_line("vase").ends_with("signed by museum")) << text("out.txt");
+    ASSERT_EQ(run("frustumscreen-import --list --into library --keys keys --json"), 0);
+    const json packs = json::parse(text("out.txt"))["packs"];
+    EXPECT_EQ(packs[0]["signed_by"]["name"], "second");
+    EXPECT_EQ(packs[0]["signed_by"]["counts"], false);
+    EXPECT_EQ(packs[1]["signed_by"]["counts"], true);
+    std::filesystem::remove(folder / "library" / packs[0]["file"].get<std::string>());
+    ASSERT_EQ(run("frustumscreen-import --list --into library --keys keys"), 0);
+    EXPECT_TRUE(listed_line("cup").ends_with("its file cannot be read")) << text("out.txt");
+}
+
 /// As udev writes it: mke2fs -L and blkid have the same bytes (util-linux, encode.c).
 TEST_F(ImportProgram, TakesTheLabelFromUdevsLinkWhateverItHolds) {
     const auto label_of = [&](const std::string& link) {

@@ -1,6 +1,7 @@
 // What `frustumscreen-bake` writes, and what it never replaces.
 
 #include "app/image/image.h"
+#include "app/pack/attribution.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_texts.h"
 #include "firmware_host/base/json.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace frustumscreen {
 namespace {
@@ -115,6 +117,63 @@ TEST_F(BakeCommand, WhatIsLostIsSaidOrRefused) {
     EXPECT_EQ(text("err.txt"), "");
     EXPECT_TRUE(load_pack(folder / "strict.fspack"));
     EXPECT_EQ(bake_to("skin.png", "--force --texture skin.png"), 1) << "the picture is an input";
+}
+
+TEST_F(BakeCommand, WhatTheFileSaysOfItselfIsTakenOverAndTold) {
+    put("scan.mtl",
+        "# Title: Small jar\n# Author: Ann\n# License: CC-BY-4.0\nnewmtl skin\nKd 1 1 1\nmap_Kd skin.png\n");
+    ASSERT_EQ(bake_to("Jar of Ann.fspack", "--json"), 0) << text("err.txt");
+    nlohmann::json report = nlohmann::json::parse(text("out.txt"));
+    EXPECT_EQ(report["title"], "Small jar");
+    EXPECT_EQ(report["author"], "Ann");
+    EXPECT_EQ(report["licence"], "CC-BY-4.0");
+    EXPECT_EQ(report["missing"].size(), 0U) << report["missing"];
+    EXPECT_EQ(report["taken"].size(), 2U) << "from the file, and the id";
+    Result<VerifiedPack> pack = load_pack(folder / "Jar of Ann.fspack");
+    ASSERT_TRUE(pack);
+    EXPECT_EQ(scan_rights(**pack).value(), (ScanRights{"CC-BY-4.0", "Ann", ""}));
+    EXPECT_EQ(report["id"], (*pack)->id);
+    EXPECT_TRUE((*pack)->id.starts_with("jar-of-ann-")) << (*pack)->id;
+
+    ASSERT_EQ(bake_to("jar.fspack", "--licence CC0-1.0 --author Bo --title Jug"), 0) << text("err.txt");
+    pack = load_pack(folder / "jar.fspack");
+    EXPECT_EQ(scan_rights(**pack).value(), (ScanRights{"CC0-1.0", "Bo", ""}));
+    EXPECT_EQ((*pack)->title, "Jug");
+    EXPECT_EQ((*pack)->id, "jar");
+    EXPECT_NE(
+        text("out.txt").find("guessed the licence is \"CC0-1.0\", as you say; the file says \"CC-BY-4.0\""),
+        std::string::npos)
+        << text("out.txt");
+    EXPECT_NE(text("out.txt").find("taken   the id \"jar\" from the pack's name"), std::string::npos);
+}
+
+TEST_F(BakeCommand, WhatAPackShouldSayIsMissedAtTheBakeAndWhenItIsSigned) {
+    ASSERT_EQ(bake_to("scan.fspack"), 0) << text("err.txt");
+    EXPECT_NE(text("out.txt").find("missing the licence:"), std::string::npos) << text("out.txt");
+    ASSERT_EQ(run("frustumscreen-pack keygen -o key < /dev/null"), 0) << text("err.txt");
+    ASSERT_EQ(run("frustumscreen-pack sign scan.fspack --key key.key"), 0) << text("err.txt");
+    EXPECT_NE(text("out.txt").find("scan.fspack: missing: the licence:"), std::string::npos)
+        << text("out.txt");
+    ASSERT_EQ(bake_to("scan.fspack", "--licence CC-BY-4.0"), 0);
+    EXPECT_NE(text("out.txt").find("missing the author:"), std::string::npos) << text("out.txt");
+    ASSERT_EQ(run("frustumscreen-pack sign scan.fspack --key key.key --json"), 0);
+    EXPECT_EQ(nlohmann::json::parse(text("out.txt"))[0]["missing"].size(), 1U) << text("out.txt");
+    ASSERT_EQ(bake_to("scan.fspack", "--licence CC-BY-4.0 --author Ann"), 0);
+    EXPECT_EQ(text("out.txt").find("missing"), std::string::npos) << text("out.txt");
+}
+
+TEST_F(BakeCommand, AnIdOfTheNameIsTheSameForTheSameNameAndAnotherForAnother) {
+    const auto id_of = [&](const std::string& name) {
+        EXPECT_EQ(bake_to(name), 0) << text("err.txt");
+        const Result<VerifiedPack> pack = load_pack(folder / name);
+        return pack ? (*pack)->id : std::string();
+    };
+    EXPECT_EQ(id_of("vase_2.old.fspack"), "vase_2.old");
+    EXPECT_EQ(id_of("Vase.fspack"), "vase");
+    const std::set<std::string> others{id_of("löwe.fspack"), id_of("lüwe.fspack"), id_of("猫.fspack"),
+                                       id_of("_.fspack"), id_of(std::string(100, 'v') + ".fspack")};
+    EXPECT_EQ(others.size(), 5U);
+    EXPECT_TRUE(others.contains(id_of("löwe.fspack"))) << "again the same";
 }
 
 TEST_F(BakeCommand, AFoldersTextsAreSetAndItsDescriptionIsSpoken) {

@@ -63,20 +63,48 @@ TEST(CaptionSetter, falls_back_to_the_typeface_for_all_that_was_not_set_whole) {
 TEST(CaptionSetter, lays_out_to_the_size_that_it_draws) {
     std::vector<SetLanguage> set{set_language("ar", {letter("title"), letter("text")})};
     CaptionSetter setter({em_m, texels_per_m});
+    const auto titled = [](const std::string& language, const std::string& title, const std::string& text) {
+        return caption_text({language, title, text});
+    };
     for (const TableText& text :
-         {TableText{"ar", "title", "T", "text", "t"},
-          TableText{"hi", "title", "Title", "text", "A text of several words that is broken"},
-          TableText{"hi", "title", "", "text", "A text"}, TableText{"ar", {}, {}, "text", "t"},
-          TableText{"el", "title", "", "text", ""}}) {
+         {titled("ar", "T", "t"), titled("hi", "Title", "A text of several words that is broken"),
+          titled("hi", "", "A text"), TableText{"ar", {{CaptionRole::Text, "text", "t"}}},
+          titled("el", "", ""),
+          TableText{
+              "hi",
+              {{CaptionRole::Text, "text", "A text"}, {CaptionRole::Small, "attribution", "A potter"}}}}) {
         const std::vector<CaptionImage> drawn = setter.set(text, set).value();
         std::vector<SetLanguage> without_atlas = set;
         without_atlas.front().atlas = {};
         const std::vector<glm::dvec2> sizes = setter.sizes_m(text, without_atlas).value();
         ASSERT_EQ(sizes.size(), drawn.size());
         for (std::size_t k = 0; k < sizes.size(); ++k) {
-            EXPECT_EQ(sizes[k], drawn[k].size_m) << text.text;
+            EXPECT_EQ(sizes[k], drawn[k].size_m) << text.language << text.pieces.size();
             EXPECT_EQ(glm::round(sizes[k] * texels_per_m),
                       glm::dvec2(drawn[k].coverage.width, drawn[k].coverage.height));
         }
     }
+}
+
+TEST(CaptionSetter, takes_the_attribution_as_one_text_or_in_older_packs_line_by_line) {
+    PackCaption caption{"ar", "T", "t"};
+    caption.maker = "m";
+    caption.credit = "c";
+    const ScanRights rights{"CC-BY-4.0", "Ann", {}};
+    const auto keys = [&](const std::vector<SetLanguage>& set) {
+        std::vector<std::string> found;
+        for (const TextPiece& piece : attribution_pieces(caption, rights, set, CaptionRole::Small)) {
+            found.push_back(piece.key);
+        }
+        return found;
+    };
+    EXPECT_EQ(keys({set_language("ar", {letter("title"), letter("attribution"), letter("maker")})}),
+              std::vector<std::string>{"attribution"});
+    EXPECT_EQ(keys({set_language("ar", {letter("title"), letter("credit"), letter("maker")})}),
+              (std::vector<std::string>{"maker", "credit"}));
+    EXPECT_EQ(keys({set_language("ar", {letter("title")})}), std::vector<std::string>{})
+        << "nothing is set in it";
+    EXPECT_EQ(keys({}), std::vector<std::string>{"attribution"}) << "in the kiosk's own typeface";
+    caption.maker = caption.credit = "";
+    EXPECT_TRUE(attribution_pieces(caption, {}, {}, CaptionRole::Small).empty());
 }

@@ -2,6 +2,9 @@
 
 #include "app/library/set_file.h"
 #include "app/pack/container/sha256.h"
+#include "app/pack/container/zip_archive.h"
+#include "app/pack/sign_pack.h"
+#include "app/pack/signature/secret_key.h"
 #include "app/render/read_back.h"
 #include "app/scene/device_plan.h"
 #include "app/show/installed_show.h"
@@ -178,6 +181,35 @@ protected:
     const std::array<Command, 1> next{Command::NextArtifact};
     const std::array<Command, 1> previous{Command::PreviousArtifact};
 };
+
+TEST_F(SetSwitching, PacksOfAKeyThatDoesNotCountAnyMoreAreInTheStatus) {
+    const SecretKey museum = SecretKey::make();
+    const SecretKey other = SecretKey::make();
+    const auto signed_by = [](const SecretKey& key, const Bytes& pack) {
+        Result<pack_format::ZipReader> zip = pack_format::ZipReader::open(pack);
+        const Bytes manifest = zip->read(zip->entries().front()).value();
+        return with_signature(pack, key.sign(manifest, "serial:1")).value();
+    };
+    InstalledSet set = put(1, {1, 2});
+    for (std::size_t k = 0; k < 2; ++k) {
+        const Bytes bytes = signed_by(k == 0 ? museum : other, pack_of(k + 1));
+        set.packs[k].sha256 = sha256_hex(bytes);
+        set.packs[k].file = installed_file_name(set.packs[k].sha256);
+        set.packs[k].bytes = bytes.size();
+        ASSERT_TRUE(write_file(folder / set.packs[k].file, bytes));
+    }
+    install(set);
+    const std::chrono::sys_days today = std::chrono::sys_days(std::chrono::year(2026) / 11 / 27);
+    EXPECT_EQ(packs_of_ended_keys(folder, set, settings, today), "") << "no key is asked for";
+    settings.exhibit.keys = {{"museum", museum.public_key(), std::nullopt}};
+    EXPECT_EQ(packs_of_ended_keys(folder, set, settings, today), "rings-2");
+    settings.exhibit.keys.push_back({"other", other.public_key(), today});
+    EXPECT_EQ(packs_of_ended_keys(folder, set, settings, today), "") << "its last day";
+    EXPECT_EQ(packs_of_ended_keys(folder, set, settings, today + std::chrono::days(1)), "rings-2");
+    settings.exhibit.keys.pop_back();
+    start();
+    ASSERT_TRUE(await([&] { return sets->status() && sets->status()->of_ended_keys == "rings-2"; }));
+}
 
 TEST_F(SetSwitching, ANewSetIsShownPixelForPixelAndTheOldOneIsGone) {
     const Image8 expected = picture_of({4});

@@ -37,6 +37,7 @@ StatusReport full_report() {
     set->packs = {{"a", "b", "A cat", 3, {}, 0, {}}};
     set->newest = {8, TrialState::Bad, 2, "dog.fspack: it is damaged"};
     set->on_trial = true;
+    set->of_ended_keys = "vase, cup";
     set->trouble = "set.txt cannot be read";
     report.set = set;
     report.state = "view";
@@ -121,6 +122,7 @@ TEST(StatusReport, WhatWasWrittenIsReadAgain) {
     EXPECT_EQ(read.hours.until, report.hours.until);
     ASSERT_NE(read.set, nullptr);
     EXPECT_EQ(read.set->newest, report.set->newest);
+    EXPECT_EQ(read.set->of_ended_keys, "vase, cup");
     ASSERT_NE(read.import, nullptr);
     EXPECT_EQ(*read.import, *report.import);
     EXPECT_DOUBLE_EQ(read.drift_m.value_or(0.0), 0.003125);

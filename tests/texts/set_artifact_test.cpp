@@ -5,6 +5,7 @@
 #include "tests/texts/languages.h"
 
 #include <algorithm>
+#include <array>
 
 using namespace frustumscreen;
 using namespace frustumscreen::testing;
@@ -31,7 +32,7 @@ class SetArtifactTexts : public Shaping {
 protected:
     [[nodiscard]] SetArtifact set(const std::vector<PackCaption>& captions,
                                   const std::vector<std::vector<PackLabel>>& labels = {}) const {
-        return set_artifact(captions, labels, limits_for_captions(), *shaper);
+        return set_artifact(captions, {"CC-BY-4.0", "Ann", {}}, labels, limits_for_captions(), *shaper);
     }
 };
 
@@ -59,9 +60,15 @@ TEST_F(SetArtifactTexts, all_that_is_said_in_a_language_is_set_in_it) {
     const SetArtifact made = set({german, english}, {{{"en", "Handle"}}, {{"de", "Fuß"}, {"en", "Foot"}}});
     EXPECT_TRUE(made.notes.empty()) << made.notes.front();
     ASSERT_EQ(made.languages.size(), 2U);
-    EXPECT_EQ(keys_of(made.languages[0]), (std::vector<std::string>{"title", "text", "period", "place",
-                                                                    "credit", "description.0", "label.1"}));
-    EXPECT_EQ(keys_of(made.languages[1]), (std::vector<std::string>{"title", "label.0", "label.1"}));
+    EXPECT_EQ(keys_of(made.languages[0]),
+              (std::vector<std::string>{"title", "text", "attribution", "description.0", "label.1"}));
+    EXPECT_EQ(keys_of(made.languages[1]),
+              (std::vector<std::string>{"title", "attribution", "label.0", "label.1"}));
+    const auto lines = [](const SetLanguage& language) {
+        return language.runs.find("attribution")->settings.back().lines.size();
+    };
+    EXPECT_EQ(lines(made.languages[0]), 3U) << "Köln and um 1600, the gift, who made the scan";
+    EXPECT_EQ(lines(made.languages[1]), 1U);
     EXPECT_EQ(made.languages[0].runs.find("title")->settings.size(), 1U) << "one line is one setting";
 }
 
@@ -82,8 +89,10 @@ TEST_F(SetArtifactTexts, captions_are_as_wide_as_the_kiosks_and_no_wider) {
             for (const double width_m : {0.30, 0.16}) { // words may be wider than 0.075 m
                 constexpr double texels_per_m = 2000.0;
                 const CaptionImage image =
-                    make_caption(language.runs, language.atlas, language.runs.find("title"),
-                                 language.runs.find("text"), em_m, width_m, texels_per_m);
+                    make_caption(language.runs, language.atlas,
+                                 std::array{GlyphPart{CaptionRole::Title, language.runs.find("title")},
+                                            GlyphPart{CaptionRole::Text, language.runs.find("text")}},
+                                 em_m, width_m, texels_per_m);
                 EXPECT_LE(image.size_m.x, width_m + 0.1 * em_m) << sample.language;
                 EXPECT_GE(image.size_m.x, 0.75 * width_m) << sample.language << ": room is left unused";
                 EXPECT_GT(image.size_m.y, last_height_m) << sample.language;

@@ -40,7 +40,7 @@ void set_texts(const BakeRequest& request, ArtifactWords& words) {
     for (const GivenHotspot& hotspot : request.options.hotspots) {
         labels.push_back(hotspot.labels);
     }
-    SetArtifact set = set_artifact(request.captions, labels, caption_limits(), *shaper);
+    SetArtifact set = set_artifact(request.captions, request.rights, labels, caption_limits(), *shaper);
     words.set = std::move(set.languages);
     words.lost.insert(words.lost.end(), set.notes.begin(), set.notes.end());
 }

@@ -25,8 +25,9 @@ namespace {
 /// --new: a folder to start from.
 Result<void> start(const BakeArguments& arguments) {
     TRY(const SourceMesh mesh, load_mesh(arguments.input, {arguments.texture}));
-    ScanFacts scan{arguments.input, mesh.side_files, mesh.positions.front(), mesh.positions.front(),
-                   mesh.default_up};
+    ScanFacts scan{arguments.input,        mesh.side_files,    mesh.positions.front(),
+                   mesh.positions.front(), mesh.default_up,    mesh.about.title,
+                   mesh.about.author,      mesh.about.licence, mesh.about.source};
     for (const glm::dvec3& position : mesh.positions) {
         scan.low = glm::min(scan.low, position);
         scan.high = glm::max(scan.high, position);
@@ -107,7 +108,7 @@ int run(int argc, char** argv) {
         "Bakes an artifact (glTF, OBJ, PLY, STL) into a pack for the FrustumScreen. Options stand above "
         "what a folder's artifact.toml says.",
         "frustumscreen-bake");
-    app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", "frustumscreen-bake " FRUSTUMSCREEN_VERSION);
     app.footer(
         "frustumscreen-bake --watch FOLDER looks at a folder and draws its page again whenever it changes; "
         "--batch DIR "

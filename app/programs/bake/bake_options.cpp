@@ -40,7 +40,10 @@ void add_bake_options(CommandLine& app, BakeArguments& arguments) {
         "program that speaks descriptions without a recording: it takes text on standard input and "
         "writes WAV; {language} in it is replaced; none: no voice (default: espeak-ng)");
     app.add_option("--language", arguments.languages, "language of a caption, BCP 47; once for each");
-    app.add_option("--licence", arguments.licence, "licence of the artifact");
+    app.add_option("--licence", arguments.licence,
+                   "licence of the scan; visitors read it (default: what the file says of itself)");
+    app.add_option("--author", arguments.author,
+                   "who made the scan, as its licence asks for; visitors read it (default: as above)");
 }
 
 std::vector<std::string> bake_options_of(const BakeArguments& arguments) {
@@ -78,6 +81,7 @@ std::vector<std::string> bake_options_of(const BakeArguments& arguments) {
         add("--language", language);
     }
     add_text("--licence", arguments.licence);
+    add_text("--author", arguments.author);
     return words;
 }
 

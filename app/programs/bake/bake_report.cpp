@@ -140,6 +140,14 @@ std::vector<std::string> texts_of(const BakeResult& result, SourceNote::Kind kin
     return texts;
 }
 
+std::string missing_text(const BakeResult& result) {
+    std::string text;
+    for (const std::string& sentence : result.missing) {
+        text += fmt::format("  {:<8}{}\n", "missing", sentence);
+    }
+    return text;
+}
+
 std::string page_text(const BakeResult& result) {
     return result.page.empty()
                ? std::string()
@@ -166,6 +174,9 @@ PreviewFacts preview_facts(const BakeResult& result) {
     facts.lost = texts_of(result, SourceNote::Kind::Lost);
     facts.silent = result.silent;
     facts.guessed = texts_of(result, SourceNote::Kind::Guessed);
+    facts.taken = texts_of(result, SourceNote::Kind::Taken);
+    facts.rights = result.rights;
+    facts.missing = result.missing;
     return facts;
 }
 
@@ -180,7 +191,8 @@ std::string report_text(const BakeResult& result) {
                        result.pack.scale > 1.0 ? ", which cuts off what is outside (--scale)" : "") +
            fmt::format("  {:<8}{}\n", "stands", standing_text(result)) + levels_text(result) +
            speech_text(result) + (lost.empty() ? fmt::format("  {:<8}nothing\n", "lost") : lost) +
-           notes_text(result, SourceNote::Kind::Guessed, "guessed") + page_text(result);
+           notes_text(result, SourceNote::Kind::Guessed, "guessed") +
+           notes_text(result, SourceNote::Kind::Taken, "taken") + missing_text(result) + page_text(result);
 }
 
 Json report_json(const BakeResult& result) {
@@ -212,7 +224,13 @@ Json report_json(const BakeResult& result) {
                    {"spoken", spoken_in(result.pack)},
                    {"silent", result.silent},
                    {"lost", texts_of(result, SourceNote::Kind::Lost)},
-                   {"guessed", texts_of(result, SourceNote::Kind::Guessed)}};
+                   {"guessed", texts_of(result, SourceNote::Kind::Guessed)},
+                   {"taken", texts_of(result, SourceNote::Kind::Taken)},
+                   {"missing", result.missing},
+                   {"id", result.pack.id},
+                   {"licence", result.rights.licence},
+                   {"author", result.rights.author},
+                   {"source", result.rights.source}};
     if (!result.page.empty()) {
         report["page"] = result.page.string();
     }

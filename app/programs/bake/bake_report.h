@@ -31,6 +31,8 @@ struct BakeResult {
     bool turn_given = false; ///< else it was chosen
     std::vector<SourceNote> notes;
     std::vector<std::string> silent; ///< descriptions that nobody hears, and why
+    ScanRights rights;
+    std::vector<std::string> missing; ///< what the curator should say, a sentence each
     double seconds = 0.0;
     std::filesystem::path page; ///< of the preview; empty: none
     std::uint64_t page_bytes = 0;
@@ -42,7 +44,7 @@ struct BakeResult {
 [[nodiscard]] std::string report_text(const BakeResult& result);
 /// {file, bytes, title, seconds, prop, size_m, up, front, turn_deg, scale, levels: [{technique, triangles, bytes,
 /// mean_mm, p95_mm, max_mm, colour_rmse}], default_level, spoken: [languages], silent: [], lost: [],
-/// guessed: [], page}; `page` only where there is one
+/// guessed: [], taken: [], missing: [], id, licence, author, source, page}; `page` only where there is one
 [[nodiscard]] nlohmann::ordered_json report_json(const BakeResult& result);
 
 } // namespace frustumscreen

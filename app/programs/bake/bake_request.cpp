@@ -45,8 +45,9 @@ Result<void> check_text(const std::string& option, std::string_view text, TextSh
 }
 
 Result<void> check_texts(const BakeArguments& arguments) {
-    for (const auto& [option, text] :
-         {std::pair("--title", arguments.title), {"--licence", arguments.licence}}) {
+    for (const auto& [option, text] : {std::pair("--title", arguments.title),
+                                       {"--licence", arguments.licence},
+                                       {"--author", arguments.author}}) {
         TRY_VOID(check_text(option, text, TextShape::Line));
     }
     for (const std::string& caption : arguments.captions) {
@@ -102,8 +103,8 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
     const BakeArguments arguments = with_folder(written);
     TRY_VOID(check_texts(arguments));
     TRY(ArtifactFile file, file_of(arguments));
-    const Result<std::vector<PackCaption>> captions = captions_of(
-        {arguments.title, arguments.languages, arguments.captions, file.texts, file.scan.stem().string()});
+    const Result<std::vector<PackCaption>> captions =
+        captions_of({arguments.title, arguments.languages, arguments.captions, file.texts, {}});
     if (!captions) {
         return as_kind(ErrorKind::BadConfiguration, captions.error());
     }
@@ -126,7 +127,9 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
     request.turn_deg = arguments.turn_deg ? arguments.turn_deg : file.turn_deg;
     request.options = options_of(arguments, file);
     request.id = file.id;
-    request.licence = arguments.licence.empty() ? file.licence : arguments.licence;
+    request.usual_title = file.scan.stem().string();
+    request.rights = {arguments.licence.empty() ? file.licence : arguments.licence,
+                      arguments.author.empty() ? file.author : arguments.author, file.source};
     request.captions = *captions;
     const std::vector<std::string> left_out = left_out_of(file, *captions);
     request.lost = label_notes(file.hotspots, *captions, left_out);

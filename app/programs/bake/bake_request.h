@@ -4,6 +4,7 @@
 /// Threads  pure apart from reading the folder; any.
 #pragma once
 
+#include "app/pack/attribution.h"
 #include "app/pack/pack.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/texts/speak_artifact.h"
@@ -37,6 +38,7 @@ struct BakeArguments {
     std::filesystem::path texture;
     std::string title;
     std::string licence;
+    std::string author;
     std::vector<std::string> languages;
     std::vector<std::string> captions; ///< LANGUAGE=TEXT
     std::string speech;                ///< empty: espeak-ng; "none": no voice
@@ -53,9 +55,10 @@ struct BakeRequest {
     std::filesystem::path texture;
     std::optional<double> turn_deg; ///< nothing: the best
     BakeOptions options;
-    std::string id;
-    std::string licence;
-    std::vector<PackCaption> captions; ///< at least one
+    std::string id;                    ///< empty: from the pack's name (default_id.h)
+    std::string usual_title;           ///< of what has no title of its own
+    ScanRights rights;                 ///< empty: what the scan's file says of itself
+    std::vector<PackCaption> captions; ///< at least one; a title may be empty
     SpeechSources speech;
     std::vector<std::string> lost; ///< what the folder's file says and nobody will see, a sentence each
 };

@@ -1,10 +1,12 @@
 #include "app/programs/bake/bake_work.h"
 
+#include "app/pack/attribution.h"
 #include "app/pack/container/sha256.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_magic.h"
 #include "app/programs/bake/artifact_words.h"
 #include "app/programs/bake/check_hotspots.h"
+#include "app/programs/bake/scan_about.h"
 #include "app/programs/common/progress_line.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/best_turn.h"
@@ -36,7 +38,7 @@ Result<void> describe(Pack& pack, const BakeRequest& request) {
     TRY(const Bytes source, read_file(request.scan));
     pack.provenance.source_name = request.scan.filename().string();
     pack.provenance.source_sha256 = sha256_hex(source);
-    pack.provenance.licence = request.licence;
+    put_scan_rights(pack, request.rights);
     return {};
 }
 
@@ -91,13 +93,16 @@ Result<ArtifactWords> set_and_speak(const BakeRequest& request, const BakeOption
     return words;
 }
 
-Result<BakeResult> bake_file(const BakeRequest& request, BakeOptions options) {
+Result<BakeResult> bake_file(const BakeRequest& written, BakeOptions options) {
     const auto start = std::chrono::steady_clock::now();
-    TRY(const SourceMesh mesh, load(request));
+    TRY(const SourceMesh mesh, load(written));
+    CompletedRequest all = completed(written, mesh.about);
+    const BakeRequest& request = all.request;
     BakeResult result;
     result.file = request.output;
     result.prop = options.prop;
     result.notes = mesh.notes;
+    result.notes.insert(result.notes.end(), all.notes.begin(), all.notes.end());
     result.up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
     result.up_given = !options.up.empty();
     result.turn_given = request.turn_deg.has_value();
@@ -109,6 +114,14 @@ Result<BakeResult> bake_file(const BakeRequest& request, BakeOptions options) {
     result.silent = std::move(words.silent);
     TRY(Pack pack, at(request.scan.string(), bake(mesh, options)));
     TRY_VOID(describe(pack, request));
+    result.rights = request.rights;
+    result.missing = missing_in(pack, request.rights);
+    if (request.output.extension() != ".fspack" && !request.watched) {
+        result.missing.push_back(
+            fmt::format("the name's end: a kiosk looks at *.fspack alone and passes {} over; "
+                        "call it {}.fspack",
+                        request.output.filename().string(), request.output.stem().string()));
+    }
     put_sounds(pack, words.spoken);
     put_set_texts(pack, words.set);
     result.pack = std::move(pack);

@@ -199,7 +199,7 @@ int batch_command(int argc, char** argv) {
                     "left; what fails stops "
                     "nothing else. A run that was ended goes on where it was.",
                     program);
-    app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", "frustumscreen-bake " FRUSTUMSCREEN_VERSION);
     add_options(app, arguments);
     if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (arguments.folder.empty() || arguments.output.empty()) {

@@ -203,7 +203,7 @@ int watch_command(int argc, char** argv) {
                     "browser that has the page "
                     "open shows each new one by itself.",
                     program);
-    app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", "frustumscreen-bake " FRUSTUMSCREEN_VERSION);
     app.add_option("--watch", arguments.folder, "FOLDER with an artifact.toml").expected(0, 1);
     app.add_option("--preview", arguments.page,
                    "page to write (default: FOLDER.preview.html beside the folder)");

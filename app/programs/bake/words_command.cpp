@@ -200,7 +200,7 @@ int words_command(int argc, char** argv) {
     Arguments arguments;
     CommandLine app("Bakes the exhibit's own words (advice, faults, invitations) into a file for the kiosk.",
                     program);
-    app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", "frustumscreen-bake " FRUSTUMSCREEN_VERSION);
     app.add_option("--words", arguments.folder, "folder with LANGUAGE.toml; without one the built-in words")
         .expected(0, 1);
     app.add_option("-o,--output", arguments.output, "file to write (*.fswords)").required();

@@ -17,7 +17,7 @@ int run(int argc, char** argv) {
         " shimmer, numerical stability, latency; which set-up suits a table; what the"
         " recovery ladder, tags on the prop and a camera that sees the visitors are worth.",
         "frustumscreen-bench");
-    app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", "frustumscreen-bench " FRUSTUMSCREEN_VERSION);
     app.require_subcommand();
     const std::array commands = {error_time_command(app), scaling_command(app),   projection_command(app),
                                  shimmer_command(app),    stability_command(app), plot_command(app),

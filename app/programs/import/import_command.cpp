@@ -9,6 +9,7 @@
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/import/import_watcher.h"
 #include "app/programs/import/listed_keys.h"
+#include "app/programs/import/listed_signers.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/disk_tree.h"
 #include "firmware_host/base/file.h"
@@ -244,21 +245,27 @@ Result<std::string> list_installed(const ImportArguments& arguments) {
     ImportRequest request; // whose keys are empty where no settings were named
     TRY_VOID(read_trust(arguments, request));
     const InstalledSet* set = &found.set;
+    const bool knows_settings = !arguments.config.empty() || !arguments.keys.empty();
+    const std::vector<ListedKey> listed = list_keys(request.keys, found.file.keys);
+    const SignerList signers(
+        arguments.into, listed, knows_settings, trusted_keys(request.keys, found.file.keys),
+        day_here(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()), found.file.latest_day));
     auto packs = nlohmann::ordered_json::array();
     std::string text;
     for (const InstalledPack& pack : set->packs) {
+        const ListedSigner signer = signers.of(pack);
         packs.push_back({{"file", pack.file},
                          {"title", pack.title},
                          {"serial", pack.serial},
                          {"sha256", pack.sha256},
                          {"id", pack.id},
-                         {"bytes", pack.bytes}});
-        text += fmt::format("{}  {}  serial {}  {}\n", pack.sha256.substr(0, 12),
-                            pack.id.empty() ? "-" : pack.id, pack.serial, printable(pack.title));
+                         {"bytes", pack.bytes},
+                         {"signed_by", json_of(signer)}});
+        text += fmt::format("{}  {}  serial {}  {}  {}\n", pack.sha256.substr(0, 12),
+                            pack.id.empty() ? "-" : pack.id, pack.serial, printable(pack.title), text_of(signer));
     }
-    const bool knows_settings = !arguments.config.empty() || !arguments.keys.empty();
     auto keys = nlohmann::ordered_json::array();
-    for (const ListedKey& key : list_keys(request.keys, found.file.keys)) {
+    for (const ListedKey& key : listed) {
         keys.push_back(json_of(key, knows_settings));
         text += text_of(key, knows_settings);
     }

@@ -1,5 +1,6 @@
 #include "app/programs/pack/pack_report.h"
 
+#include "app/pack/attribution.h"
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
 #include "app/pack/signed_pack.h"
@@ -8,6 +9,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
 
 namespace frustumscreen {
 
@@ -148,9 +152,12 @@ void add_description(Json& json, const Pack& pack) {
         json["table_picture"] = {{"width", pack.table_picture.width}, {"height", pack.table_picture.height}};
     }
     json["sections"] = sections_json(pack);
+    const ScanRights rights = scan_rights(pack).value_or(ScanRights());
     json["provenance"] = {{"source_name", pack.provenance.source_name},
                           {"source_sha256", pack.provenance.source_sha256},
                           {"licence", pack.provenance.licence},
+                          {"author", rights.author},
+                          {"source", rights.source},
                           {"source_triangles", pack.provenance.source_triangles}};
     json["prop_kind"] = pack.prop_kind;
     json["unlit"] = pack.unlit;
@@ -234,7 +241,9 @@ std::string title_line(const OpenedPack& opened) {
 }
 
 bool is_passed_over(const PackSection& section) {
-    return section.name != "texts" && section.name != "sounds" && section.name != "relief_blocks";
+    constexpr std::array<std::string_view, 6> known{"attribution",   "texts",       "sounds",
+                                                    "relief_blocks", "seen_errors", "seen_reliefs"};
+    return std::find(known.begin(), known.end(), section.name) == known.end();
 }
 
 std::string sections_text(const Pack& pack) {
@@ -273,13 +282,18 @@ std::string speech_text(const Pack& pack, const PackCaption& caption) {
                                        : "          silent: the description is shown and nobody speaks it\n";
 }
 
+std::string on_one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
 std::string description_text(const Pack& pack, double mm) {
     std::string text;
     for (const PackCaption& caption : pack.captions) {
         text += fmt::format("  caption {}: {}{}{}\n", caption.language, caption.title,
                             caption.text.empty() ? "" : " - ", caption.text);
         for (const auto& [name, detail] : details_of(caption)) {
-            text += fmt::format("          {}: {}\n", name, printable(detail, 200));
+            text += fmt::format("          {}: {}\n", name, printable(on_one_line(detail), 200));
         }
         text += speech_text(pack, caption);
     }
@@ -292,6 +306,12 @@ std::string description_text(const Pack& pack, double mm) {
     text += fmt::format("  source: {}, {} triangles, licence {}\n          sha256 {}\n", source.source_name,
                         source.source_triangles, source.licence.empty() ? "not stated" : source.licence,
                         source.source_sha256.empty() ? "not stated" : source.source_sha256);
+    const ScanRights rights = scan_rights(pack).value_or(ScanRights());
+    if (!rights.author.empty() || !rights.source.empty()) {
+        text += fmt::format("          by {}, from {}\n",
+                            rights.author.empty() ? "nobody named" : printable(rights.author, 200),
+                            rights.source.empty() ? "a place not stated" : printable(rights.source, 200));
+    }
     text += fmt::format("  baked for a {}, {}, {} texels along the longest edge of a face\n", pack.prop_kind,
                         pack.unlit ? "unlit" : "in museum light", pack.relief_size);
     if (!pack.relief.charts.empty()) {

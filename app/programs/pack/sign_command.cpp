@@ -2,6 +2,7 @@
 
 #include "app/library/exhibit_file.h"
 #include "app/library/stick_settings.h"
+#include "app/pack/attribution.h"
 #include "app/pack/container/limits.h"
 #include "app/pack/container/zip_archive.h"
 #include "app/pack/manifest.h"
@@ -72,6 +73,11 @@ std::string signature_of(const SecretKey& key, std::span<const std::byte> bytes,
 struct Signable {
     Bytes manifest;
     std::optional<std::string> before;
+    std::vector<std::string> missing; ///< what it should say, a sentence each
+};
+struct Signed {
+    std::uint64_t serial = 0;
+    std::vector<std::string> missing;
 };
 
 /// Refuses packs that the kiosk would refuse in spite of the signature.
@@ -83,16 +89,19 @@ Result<Signable> read_sound(OpenFile file) {
     TRY(const VerifiedPack pack, read_pack(reader));
     TRY_VOID(check_set_and_spoken(*pack));
     TRY_VOID(check_reliefs(*pack));
-    return Signable{std::move(manifest), std::move(before)};
+    TRY(const ScanRights rights, scan_rights(*pack));
+    return Signable{std::move(manifest), std::move(before), missing_in(*pack, rights)};
 }
 
-Result<std::uint64_t> sign_pack(const SignRequest& request, const SecretKey& key, const std::string& file) {
+Result<Signed> sign_pack(const SignRequest& request, const SecretKey& key, const std::string& file) {
     TRY(OpenFile checked, OpenFile::open(file, pack_format::most_pack_bytes));
     TRY(OpenFile copied, OpenFile::open(file, pack_format::most_pack_bytes));
     TRY(const Signable pack, at(file, read_sound(std::move(checked))));
     TRY(const std::uint64_t serial, at(file, serial_for(request, pack.before)));
     return write_with_signature(std::move(copied), signature_of(key, pack.manifest, serial, file), file)
-        .map([&] { return serial; });
+        .map([&] {
+            return Signed{serial, pack.missing};
+        });
 }
 
 /// Messages of the set file's own parser begin with the name that it has on a stick.
@@ -112,7 +121,7 @@ Result<void> check_sound(std::string_view text, const std::string& file) {
     return sound ? Result<void>() : tl::unexpected<Error>(named(file, sound.error()));
 }
 
-Result<std::uint64_t> sign_text(const SignRequest& request, const SecretKey& key, const std::string& file) {
+Result<Signed> sign_text(const SignRequest& request, const SecretKey& key, const std::string& file) {
     static_assert(most_stick_settings_bytes == most_exhibit_file_bytes);
     TRY(const Bytes text, read_file(file, most_exhibit_file_bytes));
     TRY_VOID(check_sound(as_text(text), file));
@@ -120,10 +129,12 @@ Result<std::uint64_t> sign_text(const SignRequest& request, const SecretKey& key
     const Result<Bytes> before = read_file(beside, pack_format::most_signature_bytes);
     TRY(const std::uint64_t serial,
         at(file, serial_for(request, before ? std::optional<std::string>(as_text(*before)) : std::nullopt)));
-    return write_file(beside, as_bytes(signature_of(key, text, serial, file))).map([&] { return serial; });
+    return write_file(beside, as_bytes(signature_of(key, text, serial, file))).map([&] {
+        return Signed{serial, {}};
+    });
 }
 
-Result<std::uint64_t> sign_file(const SignRequest& request, const SecretKey& key, const std::string& file) {
+Result<Signed> sign_file(const SignRequest& request, const SecretKey& key, const std::string& file) {
     return file.ends_with(".toml") ? sign_text(request, key, file) : sign_pack(request, key, file);
 }
 
@@ -138,18 +149,25 @@ int sign_files(const SignRequest& request) {
     auto report = nlohmann::ordered_json::array();
     int status = 0;
     for (const std::string& file : request.files) {
-        const Result<std::uint64_t> serial = sign_file(request, *key, file);
-        if (!serial) {
-            status = exit_status("frustumscreen-pack", tl::unexpected<Error>(serial.error()));
+        const Result<Signed> done = sign_file(request, *key, file);
+        if (!done) {
+            status = exit_status("frustumscreen-pack", tl::unexpected<Error>(done.error()));
             report.push_back({{"file", file},
                               {"signed", false},
-                              {"id", serial.error().id.view()},
-                              {"reason", serial.error().message}});
+                              {"id", done.error().id.view()},
+                              {"reason", done.error().message}});
             continue;
         }
-        report.push_back({{"file", file}, {"signed", true}, {"key_id", id}, {"serial", *serial}});
+        report.push_back({{"file", file},
+                          {"signed", true},
+                          {"key_id", id},
+                          {"serial", done->serial},
+                          {"missing", done->missing}});
         if (!request.json) {
-            fmt::print("{}: signed with the key {}, serial {}\n", file, id, *serial);
+            fmt::print("{}: signed with the key {}, serial {}\n", file, id, done->serial);
+            for (const std::string& sentence : done->missing) {
+                fmt::print("{}: missing: {}\n", file, sentence);
+            }
         }
     }
     if (request.json) {

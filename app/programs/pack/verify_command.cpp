@@ -1,5 +1,6 @@
 #include "app/programs/pack/verify_command.h"
 
+#include "app/pack/attribution.h"
 #include "app/pack/container/limits.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_relief.h"
@@ -62,7 +63,9 @@ Result<SoundPack> check(const std::string& file, std::span<const TrustedKey> key
     TRY(std::optional<SignatureClaim> claim, at(file, claim_of(reader.first)));
     Result<VerifiedPack> pack = read_pack(reader.first);
     const Result<void> good = pack.and_then([](const VerifiedPack& read) {
-        return check_set_and_spoken(*read).and_then([&] { return check_reliefs(*read); });
+        return check_set_and_spoken(*read).and_then([&] { return check_reliefs(*read); }).and_then([&] {
+            return without_value(scan_rights(*read));
+        });
     });
     TRY_VOID(at(file, good));
     return SoundPack{*std::move(pack), std::move(claim), std::move(reader.second)};

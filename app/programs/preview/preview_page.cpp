@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -128,7 +129,8 @@ std::string notes_of(std::string_view kind, const std::vector<std::string>& sent
 
 std::string warnings(const PreviewFacts& facts) {
     const std::string items = notes_of("lost", facts.lost, false) + notes_of("silent", facts.silent, false) +
-                              notes_of("guessed", facts.guessed, true);
+                              notes_of("missing", facts.missing, false) +
+                              notes_of("guessed", facts.guessed, true) + notes_of("taken", facts.taken, true);
     const bool well = facts.lost.empty() && facts.silent.empty();
     return fmt::format(
         "<section class=\"notes{}\" aria-label=\"what the bake has to say\">"
@@ -142,10 +144,15 @@ std::string warnings(const PreviewFacts& facts) {
 
 /// A text as it lies on the table. In the figure's caption stands what it is.
 std::string figure(const ProjectedText& text, const std::string& what) {
+    // All on one scale: the widest caption is as wide as its column. A table's cell, which has a label, has no width of its own.
+    constexpr double usual_column_px = 560.0;
+    const double share = std::min(1.0, text.size.x / widest_text_px());
+    const std::string width =
+        what.empty() ? fmt::format("{:.0f}", share * usual_column_px) : fmt::format("{:.1f}%", 100.0 * share);
     const std::string picture =
         text.picture.empty()
             ? "<p class=\"missing\">the bake could not set this text; the kiosk uses its own typeface</p>"
-            : fmt::format("<img width=\"{}\" height=\"{}\" alt=\"\" src=\"{}\">", text.size.x, text.size.y,
+            : fmt::format("<img width=\"{}\" alt=\"\" src=\"{}\">", width,
                           data_address("image/webp", text.picture));
     const std::string said =
         what.empty() ? std::string() : fmt::format("<figcaption>{}</figcaption>", xml_text(what));
@@ -166,10 +173,16 @@ std::string words_of(const PackCaption& caption) {
 
 std::string language_part(const ProjectedLanguage& language) {
     const PackCaption& caption = language.caption;
-    std::string left = figure(language.title, "title and short text");
-    for (std::size_t k = 0; k < language.portions.size(); ++k) {
-        left += figure(language.portions[k],
-                       fmt::format("description, {} of {}", k + 1, language.portions.size()));
+    const std::size_t last = language.ends_with_attribution ? 1 : 0;
+    const std::size_t portions = language.portions.size() - last;
+    std::string left =
+        figure(language.title,
+               last > 0 ? "title, short text and, where there is room, whose it is" : "title and short text");
+    for (std::size_t k = 0; k < portions; ++k) {
+        left += figure(language.portions[k], fmt::format("description, {} of {}", k + 1, portions));
+    }
+    if (last > 0) {
+        left += figure(language.portions.back(), "whose it is, at the end of what is told");
     }
     const std::string sound =
         !language.sound.empty()
@@ -236,9 +249,10 @@ std::string levels_part(const PackDescription& pack, const PreviewFacts& facts) 
 std::string source_part(const PackDescription& pack, const PreviewFacts& facts) {
     const PackProvenance& from = pack.provenance;
     return fmt::format(
-        "<h2>Where it comes from</h2>\n<dl>\n{}{}{}{}{}</dl>\n", fact("scan", from.source_name),
+        "<h2>Where it comes from</h2>\n<dl>\n{}{}{}{}{}{}{}</dl>\n", fact("scan", from.source_name),
         fact("triangles", std::to_string(from.source_triangles)), fact("SHA-256", from.source_sha256),
-        fact("licence", from.licence), fact("baked in", words_of_time(facts.seconds)));
+        fact("author", facts.rights.author), fact("licence", from.licence),
+        fact("source", facts.rights.source), fact("baked in", words_of_time(facts.seconds)));
 }
 
 } // namespace

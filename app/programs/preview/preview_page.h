@@ -35,7 +35,8 @@ struct PreviewFacts {
     std::string stands;
     std::string program; ///< name and version
     std::vector<PreviewLevel> levels;
-    std::vector<std::string> lost, silent, guessed; ///< a sentence each
+    std::vector<std::string> lost, silent, guessed, taken, missing; ///< a sentence each
+    ScanRights rights;
 };
 
 struct PreviewMedia {

@@ -1,6 +1,7 @@
 #include "app/programs/preview/text_pictures.h"
 
 #include "app/image/image.h"
+#include "app/pack/attribution.h"
 #include "app/pack/pack_texts.h"
 #include "app/pack/text_portions.h"
 #include "app/residency/artifact_texts.h"
@@ -14,10 +15,11 @@ namespace frustumscreen {
 namespace {
 
 constexpr auto never = [] { return false; };
+constexpr double usual_texels_per_m = 2400.0;
 
 /// A kiosk's own, unless its settings have another type size.
 TextStyle usual_style() {
-    return {ExhibitSettings{}.caption_height_m, 2400.0};
+    return {ExhibitSettings{}.caption_height_m, usual_texels_per_m};
 }
 
 /// White on black, as the projector shows it.
@@ -52,9 +54,15 @@ Result<ProjectedLanguage> language_of(const TextSource& source, const ArtifactTe
     made.title = projected(made.caption.title, captions->front());
     const std::size_t portions = texts.entry.descriptions[language].sizes_m.size();
     const std::vector<std::string> told = portions_of(made.caption.description);
+    TRY(const ScanRights rights, at(source.file.string(), scan_rights(source.pack)));
+    const std::string attribution = attribution_of(made.caption, rights);
+    const bool has_attribution = texts.entry.tellables[language].ends_unspoken;
     for (std::size_t k = 0; k < portions; ++k) {
-        made.portions.push_back(projected(told[k], telling[portion_picture(k, 0)]));
+        const bool is_attribution = has_attribution && k + 1 == portions;
+        made.portions.push_back(
+            projected(is_attribution ? attribution : told[k], telling[portion_picture(k, 0)]));
     }
+    made.ends_with_attribution = has_attribution;
     for (std::size_t k = 0; k < source.pack.hotspots.size(); ++k) {
         made.labels.push_back(projected(label_in(source.pack.hotspots[k], made.caption.language),
                                         telling[label_picture(texts.entry, language, k)]));
@@ -64,6 +72,10 @@ Result<ProjectedLanguage> language_of(const TextSource& source, const ArtifactTe
 }
 
 } // namespace
+
+double widest_text_px() {
+    return usual_texels_per_m * caption_widths_m.front();
+}
 
 Result<std::vector<ProjectedLanguage>> projected_texts(const std::filesystem::path& pack_file,
                                                        const PackDescription& pack, double metres_per_box) {

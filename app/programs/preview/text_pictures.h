@@ -27,11 +27,15 @@ struct ProjectedText {
 
 struct ProjectedLanguage {
     PackCaption caption;
-    ProjectedText title;                 ///< the title over the short text
-    std::vector<ProjectedText> portions; ///< of the description
-    std::vector<ProjectedText> labels;   ///< of the hotspots, in their order
-    Bytes sound;                         ///< the description, Ogg Opus; none: it is silent
+    ProjectedText title;                 ///< the title over the short text, the attribution below
+    std::vector<ProjectedText> portions; ///< of the description, then the attribution
+    bool ends_with_attribution = false;
+    std::vector<ProjectedText> labels; ///< of the hotspots, in their order
+    Bytes sound;                       ///< the description, Ogg Opus; none: it is silent
 };
+
+/// That a caption's lines may have.
+[[nodiscard]] double widest_text_px();
 
 /// One for each caption of the pack.
 [[nodiscard]] Result<std::vector<ProjectedLanguage>>

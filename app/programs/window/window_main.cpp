@@ -42,7 +42,7 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
         "prop; "
         "wheel or right drag: turn it; middle drag: move the eye; 1, 2, 3: the buttons; H: help; Esc: end.",
         "frustumscreen-window");
-    app.set_version_flag("--version", FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", "frustumscreen-window " FRUSTUMSCREEN_VERSION);
     app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
     app.add_option("--packs", request.show.packs, "artifacts to show instead of those in the settings");
     app.add_option("--technique", request.show.technique,

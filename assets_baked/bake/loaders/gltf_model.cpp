@@ -301,6 +301,7 @@ GltfModel gltf_model_from(const JsonPlace& document) {
     read_surface(document, model);
     read_all(document, "meshes", model, model.meshes, mesh_from);
     read_nodes(document, model);
+    model.animations = document.size_of("animations");
     return model;
 }
 

@@ -104,6 +104,9 @@ struct GltfMaterial {
     std::optional<GltfTextureUse> texture;
     bool alpha_mask = false;
     float alpha_cutoff = 0.5F;
+    bool normal_map = false; ///< these three are not shown (gltf_losses.h)
+    bool occlusion_map = false;
+    bool emits = false;
 };
 
 using GltfAttributes = std::map<std::string, std::size_t, std::less<>>; ///< POSITION -> accessor
@@ -153,6 +156,7 @@ struct GltfModel {
     std::vector<GltfMesh> meshes;
     std::vector<GltfNode> nodes;
     std::vector<GltfSkin> skins;
+    std::size_t animations = 0;
     /// Roots of the default scene, else of scene 0; nothing if the file has no scenes.
     std::optional<std::vector<std::size_t>> scene_roots;
 };

@@ -1,6 +1,7 @@
 #include "assets_baked/bake/loaders/gltf_model.h"
 #include "assets_baked/bake/loaders/refusal.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace frustumscreen {
@@ -92,6 +93,13 @@ void read_colour(const JsonPlace& place, const char* factor_key, const char* tex
     }
 }
 
+/// The factor is black unless it is given, whatever the map.
+bool emits_light(const JsonPlace& place) {
+    const std::optional<JsonPlace> factor = place.find("emissiveFactor");
+    const std::vector<double> light = factor ? factor->numbers(3) : std::vector<double>();
+    return std::any_of(light.begin(), light.end(), [](double each) { return each > 0.0; });
+}
+
 GltfMaterial material_from(const JsonPlace& place, const GltfModel& model) {
     GltfMaterial material;
     // The older workflow is still common in museums' downloads; its diffuse colour comes nearest to a base
@@ -103,6 +111,9 @@ GltfMaterial material_from(const JsonPlace& place, const GltfModel& model) {
     }
     material.alpha_mask = place.text_or("alphaMode", "OPAQUE") == "MASK";
     material.alpha_cutoff = static_cast<float>(std::clamp(place.number_or("alphaCutoff", 0.5), 0.0, 2.0));
+    material.normal_map = place.find("normalTexture").has_value();
+    material.occlusion_map = place.find("occlusionTexture").has_value();
+    material.emits = emits_light(place);
     return material;
 }
 

@@ -1,11 +1,14 @@
 #include "assets_baked/bake/loaders/load_gltf.h"
 
+#include "assets_baked/bake/loaders/gltf_losses.h"
 #include "assets_baked/bake/loaders/gltf_primitive.h"
+#include "assets_baked/bake/loaders/source_about.h"
 #include "firmware_host/base/json.h"
 #include "firmware_host/base/printable.h"
 
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace frustumscreen {
 
@@ -251,6 +254,7 @@ public:
                 draw_mesh(mesh, {glm::dmat4(1.0), {}, mesh.weights});
             }
         }
+        note_gltf_losses(model_, materials_, notes_);
         return mesh_.finish(has_points_);
     }
 
@@ -305,6 +309,9 @@ private:
     }
 
     void note_losses(const GltfPrimitive& primitive) {
+        if (primitive.material) {
+            materials_.insert(*primitive.material);
+        }
         if (primitive.mode < 4) {
             has_points_ = true;
             notes_.lost("points or lines are left out ({})", primitive.place);
@@ -322,6 +329,7 @@ private:
     GltfBuffers& buffers_;
     LoadNotes& notes_;
     bool has_points_ = false;
+    std::set<std::size_t> materials_; ///< of what is drawn
     MeshAssembly mesh_{'y'};
     std::map<std::size_t, std::vector<glm::dmat4>> joints_; ///< of each skin
     Surfaces surfaces_;
@@ -337,6 +345,7 @@ SourceMesh load_gltf(ByteView file, ModelFiles& files) {
     {
         const nlohmann::json document = parse_json(container.json);
         model = gltf_model_from(JsonPlace(document, ""));
+        files.about = about_of_gltf(document);
     }
     GltfBuffers buffers(model, files.sidecars, container.binary_chunk);
     for (const GltfImage& image : model.images) {

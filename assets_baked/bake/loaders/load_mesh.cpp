@@ -124,6 +124,7 @@ SourceMesh load(ByteView file, const std::filesystem::path& path, const LoadOpti
     if (!options.texture.empty()) {
         mesh.side_files.push_back(options.texture);
     }
+    mesh.about = files.about;
     mesh.notes = files.notes.take();
     return mesh;
 }

@@ -3,6 +3,7 @@
 #include "assets_baked/bake/loaders/mesh_assembly.h"
 #include "assets_baked/bake/loaders/obj_materials.h"
 #include "assets_baked/bake/loaders/polygon.h"
+#include "assets_baked/bake/loaders/source_about.h"
 #include "assets_baked/bake/loaders/text.h"
 #include "firmware_host/base/printable.h"
 #include "firmware_host/base/trimmed.h"
@@ -31,7 +32,7 @@ bool is_passed_over(std::string_view keyword) {
 class ObjReader {
 public:
     ObjReader(std::string_view text, ModelFiles& files)
-        : text_(text), notes_(files.notes), materials_(files, mesh_) {}
+        : text_(text), notes_(files.notes), about_(files.about), materials_(files, mesh_) {}
 
     SourceMesh read() {
         while (!text_.empty()) {
@@ -88,7 +89,9 @@ private:
     void read_line(std::string_view line) {
         WordReader words(line);
         const std::string_view keyword = words.next();
-        if (keyword == "v") {
+        if (keyword.starts_with('#')) {
+            take_comments(line, about_);
+        } else if (keyword == "v") {
             read_position(words);
         } else if (keyword == "vt") {
             const std::vector<double> uv = numbers(words, 1);
@@ -215,6 +218,7 @@ private:
     std::string joined_;
     std::size_t line_ = 0;
     LoadNotes& notes_;
+    SourceAbout& about_;
     MeshAssembly mesh_{'y'};
     ObjMaterials materials_;
     std::string material_;

@@ -52,6 +52,7 @@ public:
           surface_(header_.pictures, files, mesh_) {}
 
     SourceMesh read() {
+        files_.about = header_.about;
         for (const PlyElement& element : header_.elements) {
             if (element.properties.empty()) {
                 continue; // it has no data, whatever its count

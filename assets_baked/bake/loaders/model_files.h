@@ -14,6 +14,7 @@ struct ModelFiles {
     ~ModelFiles() = default;
 
     LoadNotes notes;
+    SourceAbout about;
     Sidecars sidecars;
     PictureStore pictures;
 };

@@ -1,6 +1,7 @@
 #include "assets_baked/bake/loaders/obj_materials.h"
 
 #include "assets_baked/bake/loaders/mtl_text.h"
+#include "assets_baked/bake/loaders/source_about.h"
 #include "assets_baked/bake/loaders/text.h"
 #include "assets_baked/names/file_name.h"
 #include "firmware_host/base/printable.h"
@@ -75,6 +76,7 @@ void ObjMaterials::read_library(const std::string& name, const std::string& plac
     }
     has_library_ = true;
     const std::shared_ptr<const Bytes> bytes = files_.sidecars.read(name, place);
+    take_comments(as_text(*bytes), files_.about);
     const MtlText mtl = mtl_text_from(as_text(*bytes));
     std::istringstream stream{mtl.text};
     std::map<std::string, int> names;

@@ -1,5 +1,6 @@
 #include "assets_baked/bake/loaders/ply_header.h"
 
+#include "assets_baked/bake/loaders/source_about.h"
 #include "assets_baked/bake/loaders/text.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/trimmed.h"
@@ -96,6 +97,16 @@ PlyElement element_from(WordReader& words, std::size_t line) {
     return element;
 }
 
+void read_comment(std::string_view comment, PlyHeader& header) {
+    constexpr std::string_view picture = "TextureFile";
+    if (comment.starts_with(picture) &&
+        (comment.size() == picture.size() || is_blank(comment[picture.size()]))) {
+        header.pictures.emplace_back(trimmed(comment.substr(picture.size())));
+        return;
+    }
+    take_comment(comment, header.about);
+}
+
 } // namespace
 
 std::size_t size_of(PlyType type) {
@@ -137,15 +148,15 @@ PlyHeader ply_header_from(ByteView file) {
                 refuse_damage("line {}: a property comes before the first element", lines.line());
             }
             header.elements.back().properties.push_back(property_from(words, lines.line()));
-        } else if (keyword == "comment" && words.next() == "TextureFile") {
-            header.pictures.emplace_back(trimmed(words.rest_of_line()));
+        } else if (keyword == "comment" || keyword == "obj_info") {
+            read_comment(trimmed(words.rest_of_line()), header);
         } else if (keyword == "end_header") {
             if (!has_format) {
                 refuse_damage("the header does not say the format");
             }
             header.size = mark + lines.position();
             return header;
-        } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
+        } else if (!keyword.empty()) {
             refuse_damage("line {}: \"{}\" is not known in a PLY header", lines.line(),
                           keyword.substr(0, 40));
         }

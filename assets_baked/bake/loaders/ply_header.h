@@ -5,6 +5,7 @@
 #pragma once
 
 #include "assets_baked/bake/loaders/bytes.h"
+#include "assets_baked/bake/source_mesh.h"
 
 #include <bit>
 #include <cstdint>
@@ -33,6 +34,7 @@ struct PlyHeader {
     std::endian order = std::endian::little; ///< of binary data
     std::vector<PlyElement> elements;
     std::vector<std::string> pictures; ///< of the comments "TextureFile NAME", as MeshLab writes them
+    SourceAbout about;                 ///< of the other comments
     std::size_t size = 0;              ///< bytes up to the data
 };
 
