@@ -41,6 +41,9 @@ public:
 
     std::uint32_t add_material(const SourceMaterial& material);
     int add_texture(SourceTexture texture);
+    [[nodiscard]] const SourceTexture& texture(int index) const {
+        return mesh_.textures[static_cast<std::size_t>(index)];
+    }
     void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t material);
 
     [[nodiscard]] const std::vector<glm::dvec3>& positions() const { return mesh_.positions; }
