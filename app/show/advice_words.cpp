@@ -109,7 +109,7 @@ Result<void> set_attract_line(std::span<const AttractLine> lines, const std::str
     }
     CaptionSetter setter(style);
     TRY(std::vector<CaptionImage> images,
-        setter.set({{}, {}, {}, {}, lines[caption_for(language, there)].text}, {}));
+        setter.set({{}, {{CaptionRole::Text, {}, lines[caption_for(language, there)].text}}}, {}));
     if (words.languages.empty()) {
         words.languages.push_back({language, {}});
         words.words.emplace_back();

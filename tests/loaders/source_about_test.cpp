@@ -13,23 +13,22 @@ SourceAbout about_of(const std::string& asset) {
 }
 
 TEST(SourceAbout, of_glTF_is_what_Sketchfab_writes_or_the_copyright_notice) {
-    EXPECT_EQ(about_of(R"({"version":"2.0","extras":{"author":"Ann (https://a.org/ann)","title":"A  cat\n",
-                           "license":"CC-BY-4.0 (http://b.org)","source":"https://a.org/cat"
-}
-})"),
-              (SourceAbout{"A cat", "Ann (https://a.org/ann)", "CC-BY-4.0 (http://b.org)", "https://a.org/cat"}));
-EXPECT_EQ(about_of(R"({"copyright":"2018 (c) Ann, CC-BY 4.0"})"),
-          (SourceAbout{"", "2018 (c) Ann, CC-BY 4.0", "CC-BY 4.0", ""}));
-EXPECT_EQ(about_of(R"({"copyright":"CC0 - public domain"})").licence, "CC0");
-EXPECT_EQ(about_of(R"({"copyright":"Ann","extras":{"author":"Bo","license":"CC0-1.0"}})"),
-          (SourceAbout{"", "Bo", "CC0-1.0", ""}));
-for (const char* strange :
-     {R"({"copyright":5,"extras":[]})", R"({"extras":{"author":{},"license":null}})", "7"}) {
-    EXPECT_EQ(about_of(strange), SourceAbout()) << strange;
-}
-const std::string long_name = std::string(999, 'a') + "\u00E4\u00E4";
-EXPECT_EQ(about_of(fmt::format(R"({{"extras":{{"author":"{}"}}}})", long_name)).author,
-          std::string(999, 'a'));
+    EXPECT_EQ(
+        about_of(
+            R"json({"extras":{"author":"Ann (https://a.org/ann)","title":"A  cat\n","license":"CC-BY-4.0 (http://b.org)","source":"https://a.org/cat"}})json"),
+        (SourceAbout{"A cat", "Ann (https://a.org/ann)", "CC-BY-4.0 (http://b.org)", "https://a.org/cat"}));
+    EXPECT_EQ(about_of(R"({"copyright":"2018 (c) Ann, CC-BY 4.0"})"),
+              (SourceAbout{"", "2018 (c) Ann, CC-BY 4.0", "CC-BY 4.0", ""}));
+    EXPECT_EQ(about_of(R"({"copyright":"CC0 - public domain"})").licence, "CC0");
+    EXPECT_EQ(about_of(R"({"copyright":"Ann","extras":{"author":"Bo","license":"CC0-1.0"}})"),
+              (SourceAbout{"", "Bo", "CC0-1.0", ""}));
+    for (const char* strange :
+         {R"({"copyright":5,"extras":[]})", R"({"extras":{"author":{},"license":null}})", "7"}) {
+        EXPECT_EQ(about_of(strange), SourceAbout()) << strange;
+    }
+    const std::string long_name = std::string(999, 'a') + "\u00E4\u00E4";
+    EXPECT_EQ(about_of(fmt::format(R"({{"extras":{{"author":"{}"}}}})", long_name)).author,
+              std::string(999, 'a'));
 }
 
 TEST(SourceAbout, of_comments_is_the_first_of_a_kind) {

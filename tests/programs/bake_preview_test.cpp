@@ -50,9 +50,9 @@ protected:
 TEST_F(BakePreview, HasPicturesTextsSoundErrorsAndABrowserShowsThem) {
     ASSERT_EQ(run("frustumscreen-bake jug -o jug.fspack --preview jug.html --while-watched --speech none"), 0)
         << text("err.txt");
-    // The turn, the table's picture, two captions, a portion, a label.
+    // The turn, the table's picture, two captions, a portion, whose it is in both languages, a label.
     EXPECT_EQ(
-        check("--reloads --pictures 6 --sounds 1 --text 'Jug <b>& \"co\"' --text 'Of clay.' --text 'A jug.' "
+        check("--reloads --pictures 8 --sounds 1 --text 'Jug <b>& \"co\"' --text 'Of clay.' --text 'A jug.' "
               "--text 'جرة' --text Side --text CC0-1.0 --text 'mean mm' --text \"has no label in 'ar'\""),
         0);
     EXPECT_NE(text("out.txt").find("  page    jug.html, "), std::string::npos) << text("out.txt");
@@ -61,7 +61,7 @@ TEST_F(BakePreview, HasPicturesTextsSoundErrorsAndABrowserShowsThem) {
         GTEST_SKIP() << "chromium is not installed; the rest was checked";
     }
     const std::string root = root_in_chromium(folder, "jug.html");
-    EXPECT_NE(root.find("data-pictures=\"6 of 6\""), std::string::npos) << root;
+    EXPECT_NE(root.find("data-pictures=\"8 of 8\""), std::string::npos) << root;
     EXPECT_NE(root.find("data-sounds=\"1 of 1\""), std::string::npos) << root;
     EXPECT_EQ(root.find("data-blocked"), std::string::npos) << root;
 }

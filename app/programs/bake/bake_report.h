@@ -4,6 +4,7 @@
 /// Threads  pure; any.
 #pragma once
 
+#include "app/pack/attribution.h"
 #include "app/pack/pack.h"
 #include "app/pack/pack_contents.h"
 #include "app/programs/preview/preview_page.h"

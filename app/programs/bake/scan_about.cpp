@@ -97,14 +97,16 @@ CompletedRequest completed(BakeRequest request, const SourceAbout& about) {
     completion.fill("licence", made.request.rights.licence, about.licence);
     completion.fill("source", made.request.rights.source, about.source);
     completion.tell();
-    if (made.request.id.empty() && !made.request.watched) { // a watched pack is not kept
+    if (made.request.id.empty()) {
         made.request.id = default_id(made.request.output);
-        made.notes.push_back(
-            {SourceNote::Kind::Taken,
-             fmt::format(
-                 "the id \"{}\" from the pack's name: a pack with the same id replaces this one; keep the "
-                 "name, or write id = \"...\" in the artifact.toml of a folder",
-                 made.request.id)});
+        if (!made.request.watched) { // a watched pack is not for a kiosk
+            made.notes.push_back(
+                {SourceNote::Kind::Taken,
+                 fmt::format(
+                     "the id \"{}\" from the pack's name: a pack with the same id replaces this one; keep "
+                     "the name, or write id = \"...\" in the artifact.toml of a folder",
+                     made.request.id)});
+        }
     }
     return made;
 }

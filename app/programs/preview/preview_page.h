@@ -8,6 +8,7 @@
 /// Errors   none.
 #pragma once
 
+#include "app/pack/attribution.h"
 #include "app/pack/pack.h"
 #include "app/programs/preview/text_pictures.h"
 #include "app/programs/preview/turn_pictures.h"
