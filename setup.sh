@@ -21,7 +21,7 @@ packages=(
     # pictures and letters
     libpng-dev libturbojpeg0-dev libwebp-dev libtiff-dev libstb-dev libfreetype-dev fonts-dejavu-core libqrencode-dev
     # shaped texts and speech
-    libpango1.0-dev libsndfile1-dev libsamplerate0-dev libebur128-dev
+    libpango1.0-dev libglib2.0-dev libsndfile1-dev libsamplerate0-dev libebur128-dev
     fonts-noto-core espeak-ng # for every language but Chinese, Japanese and Korean; a voice
     # devices
     libgpiod-dev libusb-1.0-0-dev libhidapi-dev libevdev-dev libsystemd-dev libapriltag-dev

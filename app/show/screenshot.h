@@ -20,9 +20,11 @@ class Display;
 class Screenshot {
 public:
     static constexpr Nanoseconds between_pictures = std::chrono::seconds(1);
-    static constexpr Nanoseconds patience = std::chrono::seconds(3);
+    static constexpr Nanoseconds usual_patience = std::chrono::seconds(3);
 
-    Screenshot(int width, int height) : picture_(width, height) {}
+    /// `patience`: how long `take` waits for a frame.
+    Screenshot(int width, int height, Nanoseconds patience = usual_patience)
+        : picture_(width, height), patience_(patience) {}
 
     /// Call in every frame, after it was presented.
     void serve(const Display& display);
@@ -38,6 +40,7 @@ private:
 
     std::atomic<Turn> turn_ = Turn::Nobody;
     Image8 picture_; ///< of the render thread while it copies, else of the one who asks
+    Nanoseconds patience_;
     MonotonicTime earliest_{};
 };
 

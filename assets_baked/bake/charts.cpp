@@ -110,7 +110,7 @@ ChartedMesh split(const TriangleMesh& mesh, const std::vector<std::uint32_t>& ch
                   const std::vector<Chart>& charts, const std::vector<Place>& places) {
     ChartedMesh result;
     result.chart_count = charts.size();
-    const std::vector<glm::vec3> normals = smooth_normals(mesh);
+    const std::vector<glm::vec3> normals = corner_normals(mesh);
     constexpr std::uint32_t none = 0xFFFFFFFFU;
     std::vector<std::uint32_t> copy_of(mesh.positions.size(), none);
     std::vector<std::uint32_t> chart_of_copy;
@@ -126,10 +126,10 @@ ChartedMesh split(const TriangleMesh& mesh, const std::vector<std::uint32_t>& ch
                 copy_of[vertex] = static_cast<std::uint32_t>(result.positions.size());
                 chart_of_copy.push_back(c);
                 result.positions.push_back(mesh.positions[vertex]);
-                result.normals.push_back(normals[vertex]);
                 result.uv_texels.push_back(places[c].texel(charts[c].project(mesh.positions[vertex])));
             }
             result.indices.push_back(copy_of[vertex]);
+            result.normals.push_back(normals[3 * std::size_t{t} + k]);
         }
     }
     return result;

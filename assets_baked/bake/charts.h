@@ -22,7 +22,8 @@ struct ChartedMesh {
     int atlas_width = 0;
     int atlas_height = 0;
     std::vector<glm::vec3> positions; ///< split at chart borders; equal positions stay bit-equal
-    std::vector<glm::vec3> normals;   ///< unit, smooth across chart borders, one per position
+    std::vector<glm::vec3>
+        normals; ///< unit, one each index: smooth across chart borders, not across hard edges
     std::vector<glm::vec2> uv_texels;
     std::vector<std::uint32_t> indices;
     std::size_t chart_count = 0; ///< of the whole atlas; some may have become empty

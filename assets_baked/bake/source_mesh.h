@@ -58,6 +58,7 @@ struct SourceMesh {
     std::vector<std::filesystem::path> side_files; ///< other files that the model is made of or names
     std::vector<SourceNote> notes;                 ///< in the order in which they were found
     SourceAbout about;
+    bool is_unlit = false; ///< the file says that its colours are shown as they are, without light
     char default_up = 'y'; ///< 'y' for glTF, OBJ, PLY; 'z' for STL
 };
 

@@ -27,13 +27,8 @@ T blend(const std::vector<T>& values, const ChartedMesh& mesh, const AtlasTexel&
 
 SurfacePoint surface_at(const ChartedMesh& mesh, const AtlasTexel& texel) {
     const std::size_t t = 3 * std::size_t{texel.triangle};
-    const glm::vec3& a = mesh.positions[mesh.indices[t]];
-    const glm::vec3 flat =
-        glm::cross(mesh.positions[mesh.indices[t + 1]] - a, mesh.positions[mesh.indices[t + 2]] - a);
-    glm::vec3 normal = blend(mesh.normals, mesh, texel);
-    if (glm::dot(normal, flat) < 0.5F * glm::length(normal) * glm::length(flat)) {
-        normal = flat; // across a sharp edge the smooth normal fits neither side
-    }
+    const glm::vec3 normal = mesh.normals[t] * (1.0F - texel.u - texel.v) + mesh.normals[t + 1] * texel.u +
+                             mesh.normals[t + 2] * texel.v;
     return {blend(mesh.positions, mesh, texel), glm::normalize(normal)};
 }
 

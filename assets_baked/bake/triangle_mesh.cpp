@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
 
 namespace frustumscreen {
 
@@ -80,6 +83,39 @@ std::vector<glm::vec3> smooth_normals(const TriangleMesh& mesh) {
     for (glm::vec3& n : normals) {
         const float length = glm::length(n);
         n = length > 0.0F ? n / length : glm::vec3(0.0F, 0.0F, 1.0F);
+    }
+    return normals;
+}
+
+std::vector<glm::vec3> corner_normals(const TriangleMesh& mesh) {
+    std::vector<glm::vec3> flat(mesh.triangle_count());
+    std::vector<std::uint32_t> first_around(mesh.positions.size() + 1, 0); // of each position, into `around`
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        flat[t] = mesh.area_normal(t);
+    }
+    for (const std::uint32_t position : mesh.indices) {
+        ++first_around[position + 1];
+    }
+    std::partial_sum(first_around.begin(), first_around.end(), first_around.begin());
+    std::vector<std::uint32_t> around(mesh.indices.size()); // triangles
+    std::vector<std::uint32_t> end(first_around.begin(), first_around.end() - 1);
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        around[end[mesh.indices[i]]++] = static_cast<std::uint32_t>(i / 3);
+    }
+    const auto cosine = static_cast<float>(std::cos(hard_edge_deg * std::numbers::pi / 180.0));
+    std::vector<glm::vec3> normals(mesh.indices.size());
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        const glm::vec3& own = flat[i / 3];
+        const std::uint32_t position = mesh.indices[i];
+        glm::vec3 sum(0.0F);
+        for (std::uint32_t k = first_around[position]; k < first_around[position + 1]; ++k) {
+            const glm::vec3& other = flat[around[k]];
+            if (glm::dot(own, other) >= cosine * glm::length(own) * glm::length(other)) {
+                sum += other;
+            }
+        }
+        const float length = glm::length(sum);
+        normals[i] = length > 0.0F ? sum / length : glm::vec3(0.0F, 0.0F, 1.0F);
     }
     return normals;
 }

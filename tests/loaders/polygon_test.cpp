@@ -56,6 +56,58 @@ TEST(Polygon, AStarOfTwentyCornersIsCovered) {
     expect_covered(corners, 20.0 * 0.5 * 2.0 * 1.0 * std::sin(std::acos(-1.0) / 10.0));
 }
 
+/// A plus sign with `steps` corners along each of its twelve edges, 5 square units.
+std::vector<glm::dvec3> cross_of(int steps) {
+    const std::vector<glm::dvec3> outline = {{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {3, 1, 0},
+                                             {3, 2, 0}, {2, 2, 0}, {2, 3, 0}, {1, 3, 0},
+                                             {1, 2, 0}, {0, 2, 0}, {0, 1, 0}, {1, 1, 0}};
+    std::vector<glm::dvec3> corners;
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+        for (int i = 0; i < steps; ++i) {
+            corners.push_back(glm::mix(outline[k], outline[(k + 1) % outline.size()], double(i) / steps));
+        }
+    }
+    return corners;
+}
+
+TEST(Polygon, AConcavePolygonMayHaveAnyNumberOfCorners) {
+    for (const int steps : {1, 4, 6, 32, 250}) {
+        expect_covered(cross_of(steps), 5.0);
+    }
+}
+
+TEST(Polygon, ACombOfAThousandTeethIsCovered) {
+    std::vector<glm::dvec3> corners = {{0, 0, 0}, {2000, 0, 0}};
+    for (int tooth = 999; tooth >= 0; --tooth) {
+        corners.emplace_back(2 * tooth + 2, 1, 0);
+        corners.emplace_back(2 * tooth + 1, 3, 0);
+    }
+    corners.emplace_back(0, 1, 0);
+    Triangles triangles;
+    triangulate_polygon(corners, triangles);
+    double sum = 0.0;
+    for (const double part : signed_areas(corners, triangles)) {
+        EXPECT_GE(part, 0.0);
+        sum += part;
+    }
+    EXPECT_NEAR(sum, 2000.0 + 1000.0 * 2.0, 1e-9);
+}
+
+TEST(Polygon, AnOutlineThatGoesIntoAHoleAndBackIsCovered) {
+    // A square of 4 by 4 with a hole of 2 by 2, cut open along one line.
+    expect_covered({{0, 0, 0},
+                    {4, 0, 0},
+                    {4, 4, 0},
+                    {0, 4, 0},
+                    {0, 0, 0},
+                    {1, 1, 0},
+                    {1, 3, 0},
+                    {3, 3, 0},
+                    {3, 1, 0},
+                    {1, 1, 0}},
+                   12.0);
+}
+
 TEST(Polygon, APolygonThatCrossesItselfOrHasNoAreaStillGivesItsTriangles) {
     for (const std::vector<glm::dvec3>& corners :
          {std::vector<glm::dvec3>{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<glm::dvec3>(6)}) {

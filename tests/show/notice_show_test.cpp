@@ -77,7 +77,7 @@ protected:
                 with_words ? fmt::format("words = \"{}\"\n", (folder / "own.fswords").string()) : ""),
             "kiosk.toml");
         settings.panel.script = {{1.0, 0}, {2.0, 1}};
-        ArtifactShowOptions options{packs.files(), "auto", 1, AllEconomies};
+        ArtifactShowOptions options{packs.files(), "level0", 1, AllEconomies}; // frame times choose no level
         options.waits = true;
         now = MonotonicTime(seconds(100));
         auto artifacts = ArtifactShow::create(settings, plan_devices(settings, false, false), options,

@@ -449,7 +449,7 @@ TEST_F(ViewfinderRun, ACameraThatIsLostOrCoveredHasALineInPlaceOfAPicture) {
 
 TEST_F(ViewfinderRun, NoScreenshotHasIt) {
     with_viewfinder();
-    Screenshot asked(width, height);
+    Screenshot asked(width, height, std::chrono::hours(1)); // the frames' own time counts, not the wall's
     screenshot = &asked;
     const std::unique_ptr<PatternShow> show = pattern();
     LookedAt looked(*show, inputs.viewfinder.get());

@@ -33,6 +33,8 @@ void add_bake_options(CommandLine& app, BakeArguments& arguments) {
            "--lift", arguments.lift,
            "raises the artifact above the prop's bottom, in heights of the artifact, 0 to 1 (default: 0)")
         .within(0.0, 1.0);
+    app.add_flag("--clean", arguments.clean,
+                 "leave out few triangles that lie far from the rest and make the artifact small");
     app.add_flag("--strict", arguments.strict,
                  "refuse a file of which something would be lost; nothing is written");
     app.add_option(
@@ -75,6 +77,7 @@ std::vector<std::string> bake_options_of(const BakeArguments& arguments) {
     add_number("--turn", arguments.turn_deg);
     add_number("--scale", arguments.scale);
     add_number("--lift", arguments.lift);
+    add_flag("--clean", arguments.clean);
     add_flag("--strict", arguments.strict);
     add_text("--speech", arguments.speech);
     for (const std::string& language : arguments.languages) {

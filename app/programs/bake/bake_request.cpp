@@ -122,6 +122,7 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
         request.inputs.push_back(recording);
     }
     request.force = arguments.force;
+    request.clean = arguments.clean;
     request.strict = arguments.strict;
     request.texture = arguments.texture.empty() ? file.texture : arguments.texture;
     request.turn_deg = arguments.turn_deg ? arguments.turn_deg : file.turn_deg;

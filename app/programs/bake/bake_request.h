@@ -25,6 +25,7 @@ struct BakeArguments {
     bool watched = false;             ///< --watch asks for it: a coarse page, which loads itself again
     std::filesystem::path new_folder; ///< --new: start a folder from the scan, bake nothing
     bool force = false;               ///< replace an output that is no pack
+    bool clean = false;               ///< leave out scraps (last_look.h)
     bool strict = false;              ///< what is lost is an error
     bool json = false;
     bool unlit = false;
@@ -51,6 +52,7 @@ struct BakeRequest {
     bool watched = false;                      ///< as above
     std::vector<std::filesystem::path> inputs; ///< what must not be replaced, as far as it is known now
     bool force = false;
+    bool clean = false;
     bool strict = false;
     std::filesystem::path texture;
     std::optional<double> turn_deg; ///< nothing: the best

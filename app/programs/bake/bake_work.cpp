@@ -10,6 +10,7 @@
 #include "app/programs/common/progress_line.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/best_turn.h"
+#include "assets_baked/bake/last_look.h"
 #include "assets_baked/bake/load_mesh.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/output_file.h"
@@ -78,6 +79,24 @@ Result<SourceMesh> load(const BakeRequest& request) {
              "light and shade: the file has no colours, and --unlit makes a flat picture of it; without "
              "--unlit it is lit as in a museum"});
     }
+    Scraps scraps = find_scraps(mesh);
+    if (request.clean && scraps.triangles > 0) {
+        mesh.notes.push_back(
+            {SourceNote::Kind::Guessed,
+             fmt::format("{} of {} triangles, which lie apart from the rest: --clean leaves them out",
+                         scraps.triangles, mesh.triangles.size())});
+        remove_scraps(mesh, scraps);
+        scraps = {};
+    }
+    const std::vector<SourceNote> looks = last_look(mesh, scraps);
+    mesh.notes.insert(mesh.notes.end(), looks.begin(), looks.end());
+    mesh.is_unlit = mesh.is_unlit && has_colours(mesh);
+    if (mesh.is_unlit && !request.options.unlit) {
+        mesh.notes.push_back(
+            {SourceNote::Kind::Guessed,
+             "its colours have their light already, as the file says (KHR_materials_unlit): it is "
+             "baked as with --unlit"});
+    }
     return mesh;
 }
 
@@ -96,6 +115,7 @@ Result<ArtifactWords> set_and_speak(const BakeRequest& request, const BakeOption
 Result<BakeResult> bake_file(const BakeRequest& written, BakeOptions options) {
     const auto start = std::chrono::steady_clock::now();
     TRY(const SourceMesh mesh, load(written));
+    options.unlit = options.unlit || mesh.is_unlit;
     CompletedRequest all = completed(written, mesh.about);
     const BakeRequest& request = all.request;
     BakeResult result;

@@ -1,5 +1,9 @@
 #include "assets_baked/bake/loaders/gltf_losses.h"
 
+#include "firmware_host/base/printable.h"
+
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 namespace frustumscreen {
@@ -37,6 +41,23 @@ void note_gltf_losses(const GltfModel& model, const std::set<std::size_t>& drawn
     if (const std::size_t maps = count(model, drawn_materials, &GltfMaterial::occlusion_map); maps > 0) {
         notes.lost("the occlusion maps of {}: shadow in hollows; the museum light casts its own",
                    counted(maps, "material", "materials"));
+    }
+    if (const std::size_t glowing = count(model, drawn_materials, &GltfMaterial::emission_is_colour);
+        glowing > 0) {
+        notes.guessed("{} no colour but {} own light (emission), which is taken for it",
+                      counted(glowing, "material has", "materials have"), glowing == 1 ? "its" : "their");
+    }
+    if (const std::size_t unlit = count(model, drawn_materials, &GltfMaterial::unlit);
+        unlit > 0 && unlit < drawn_materials.size()) {
+        notes.lost("that {} unlit (KHR_materials_unlit): the museum light falls on all of them alike",
+                   counted(unlit, "material is", "materials are"));
+    }
+    if (!model.variants.empty()) {
+        notes.lost("the variants of its materials ({}); it has the look that the file begins with",
+                   printable(fmt::format("{}", fmt::join(model.variants, ", "))));
+    }
+    for (const std::string& extension : model.unknown_extensions) {
+        notes.lost("what the extension {} of glTF adds; it is not read", printable(extension));
     }
     if (const std::size_t glowing = count(model, drawn_materials, &GltfMaterial::emits); glowing > 0) {
         notes.lost("the light that {} of {} own (emission)",

@@ -32,7 +32,20 @@ constexpr std::array known_extensions = {
     std::string_view("KHR_materials_volume"),
     std::string_view("KHR_lights_punctual"),
     std::string_view("KHR_xmp_json_ld"),
+    std::string_view("EXT_mesh_gpu_instancing"),
+    std::string_view("KHR_node_visibility"),
+    std::string_view("KHR_materials_diffuse_transmission"),
+    std::string_view("KHR_materials_dispersion"),
+    std::string_view("FB_ngon_encoding"),
+    std::string_view("EXT_mesh_features"),
+    std::string_view("EXT_structural_metadata"),
+    std::string_view("MSFT_packing_normalRoughnessMetallic"),
+    std::string_view("MSFT_packing_occlusionRoughnessMetallic"),
 };
+
+bool is_known(std::string_view extension) {
+    return std::find(known_extensions.begin(), known_extensions.end(), extension) != known_extensions.end();
+}
 
 void check_header(const JsonPlace& document) {
     const std::string version = document.at("asset").at("version").text();
@@ -43,13 +56,35 @@ void check_header(const JsonPlace& document) {
     const std::optional<JsonPlace> required = document.find("extensionsRequired");
     for (std::size_t i = 0; required && i < required->size(); ++i) {
         const std::string name = (*required)[i].text();
-        if (std::find(known_extensions.begin(), known_extensions.end(), name) == known_extensions.end()) {
+        if (!is_known(name)) {
             refuse("mesh.gltf_extension",
                    "it needs the extension {} of glTF, which is not supported; export it without that "
                    "(extensionsRequired[{}])",
                    name.substr(0, 80), i);
         }
     }
+}
+
+std::vector<std::string> unknown_extensions_of(const JsonPlace& document) {
+    std::vector<std::string> unknown;
+    const std::optional<JsonPlace> used = document.find("extensionsUsed");
+    for (std::size_t i = 0; used && i < used->size(); ++i) {
+        if (std::string name = (*used)[i].text(); !is_known(name)) {
+            unknown.push_back(std::move(name));
+        }
+    }
+    return unknown;
+}
+
+std::vector<std::string> variants_of(const JsonPlace& document) {
+    std::vector<std::string> names;
+    if (const auto extension = extension_of(document, "KHR_materials_variants")) {
+        const JsonPlace variants = extension->at("variants");
+        for (std::size_t i = 0; i < variants.size(); ++i) {
+            names.push_back(variants[i].text_or("name", "without a name"));
+        }
+    }
+    return names;
 }
 
 bool declares(const JsonPlace& document, std::string_view extension) {
@@ -62,11 +97,6 @@ bool declares(const JsonPlace& document, std::string_view extension) {
         }
     }
     return false;
-}
-
-std::optional<JsonPlace> extension_of(const JsonPlace& place, std::string_view name) {
-    const std::optional<JsonPlace> extensions = place.find("extensions");
-    return extensions ? extensions->find(name) : std::nullopt;
 }
 
 /// Refuses [offset, offset + length) outside the buffer.
@@ -207,14 +237,6 @@ GltfAccessor accessor_from(const JsonPlace& place, const GltfModel& model) {
     return accessor;
 }
 
-GltfAttributes attributes_from(const JsonPlace& place, const GltfModel& model) {
-    GltfAttributes attributes;
-    for (const std::string& name : place.keys()) {
-        attributes.emplace(name, place.at(name).index_into(model.accessors.size()));
-    }
-    return attributes;
-}
-
 GltfDraco draco_from(const JsonPlace& place, const GltfModel& model) {
     GltfDraco draco;
     draco.view = place.at("bufferView").index_into(model.views.size());
@@ -277,6 +299,19 @@ void read_all(const JsonPlace& document, std::string_view key, const GltfModel& 
 
 } // namespace
 
+std::optional<JsonPlace> extension_of(const JsonPlace& place, std::string_view name) {
+    const std::optional<JsonPlace> extensions = place.find("extensions");
+    return extensions ? extensions->find(name) : std::nullopt;
+}
+
+GltfAttributes attributes_from(const JsonPlace& place, const GltfModel& model) {
+    GltfAttributes attributes;
+    for (const std::string& name : place.keys()) {
+        attributes.emplace(name, place.at(name).index_into(model.accessors.size()));
+    }
+    return attributes;
+}
+
 std::size_t size_of(ComponentType type) {
     switch (type) {
     case ComponentType::I8:
@@ -302,6 +337,8 @@ GltfModel gltf_model_from(const JsonPlace& document) {
     read_all(document, "meshes", model, model.meshes, mesh_from);
     read_nodes(document, model);
     model.animations = document.size_of("animations");
+    model.variants = variants_of(document);
+    model.unknown_extensions = unknown_extensions_of(document);
     return model;
 }
 

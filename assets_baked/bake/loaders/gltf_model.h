@@ -104,6 +104,10 @@ struct GltfMaterial {
     std::optional<GltfTextureUse> texture;
     bool alpha_mask = false;
     float alpha_cutoff = 0.5F;
+    bool blends = false; ///< alphaMode BLEND
+    bool unlit = false;  ///< KHR_materials_unlit
+    /// Base colour and texture are the material's own light: it has no other colour.
+    bool emission_is_colour = false;
     bool normal_map = false; ///< these three are not shown (gltf_losses.h)
     bool occlusion_map = false;
     bool emits = false;
@@ -138,6 +142,9 @@ struct GltfNode {
     std::optional<std::size_t> skin;
     glm::dmat4 parent_from_node{1.0};
     std::vector<double> weights; ///< empty: the mesh's
+    GltfAttributes
+        instances;       ///< TRANSLATION, ROTATION, SCALE of EXT_mesh_gpu_instancing; empty: the mesh once
+    bool visible = true; ///< KHR_node_visibility, of the node and all below it
 };
 
 struct GltfSkin {
@@ -157,6 +164,8 @@ struct GltfModel {
     std::vector<GltfNode> nodes;
     std::vector<GltfSkin> skins;
     std::size_t animations = 0;
+    std::vector<std::string> variants;           ///< KHR_materials_variants: their names
+    std::vector<std::string> unknown_extensions; ///< in use, and may change what is shown
     /// Roots of the default scene, else of scene 0; nothing if the file has no scenes.
     std::optional<std::vector<std::size_t>> scene_roots;
 };
@@ -169,5 +178,8 @@ void read_surface(const JsonPlace& document, GltfModel& model);
 void read_nodes(const JsonPlace& document, GltfModel& model);
 
 [[nodiscard]] std::size_t size_of(ComponentType type);
+/// The extension's object at `place`.
+[[nodiscard]] std::optional<JsonPlace> extension_of(const JsonPlace& place, std::string_view name);
+[[nodiscard]] GltfAttributes attributes_from(const JsonPlace& place, const GltfModel& model);
 
 } // namespace frustumscreen

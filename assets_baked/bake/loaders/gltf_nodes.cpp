@@ -66,6 +66,12 @@ GltfNode node_from(const JsonPlace& place, std::size_t node_count, const GltfMod
     if (const auto weights = place.find("weights")) {
         node.weights = weights->numbers();
     }
+    if (const auto instancing = extension_of(place, "EXT_mesh_gpu_instancing")) {
+        node.instances = attributes_from(instancing->at("attributes"), model);
+    }
+    if (const auto visibility = extension_of(place, "KHR_node_visibility")) {
+        node.visible = visibility->truth_or("visible", true);
+    }
     return node;
 }
 

@@ -8,11 +8,6 @@ namespace frustumscreen {
 
 namespace {
 
-std::optional<JsonPlace> extension_of(const JsonPlace& place, std::string_view name) {
-    const std::optional<JsonPlace> extensions = place.find("extensions");
-    return extensions ? extensions->find(name) : std::nullopt;
-}
-
 Wrap wrap_from(const JsonPlace& sampler, std::string_view key) {
     switch (const std::uint64_t value = sampler.whole_or(key, 10497)) {
     case 10497:
@@ -94,10 +89,32 @@ void read_colour(const JsonPlace& place, const char* factor_key, const char* tex
 }
 
 /// The factor is black unless it is given, whatever the map.
-bool emits_light(const JsonPlace& place) {
-    const std::optional<JsonPlace> factor = place.find("emissiveFactor");
-    const std::vector<double> light = factor ? factor->numbers(3) : std::vector<double>();
-    return std::any_of(light.begin(), light.end(), [](double each) { return each > 0.0; });
+glm::vec4 emission_of(const JsonPlace& place) {
+    glm::vec4 light(0.0F, 0.0F, 0.0F, 1.0F);
+    if (const auto factor = place.find("emissiveFactor")) {
+        const std::vector<double> values = factor->numbers(3);
+        for (int i = 0; i < 3; ++i) {
+            light[i] = static_cast<float>(std::clamp(values[static_cast<std::size_t>(i)], 0.0, 1.0));
+        }
+    }
+    return light;
+}
+
+bool is_black(const glm::vec4& colour) {
+    return glm::vec3(colour) == glm::vec3(0.0F);
+}
+
+/// Exporters of shadeless materials write the colour as the material's own light, over a black surface or one without a picture.
+void read_emission(const JsonPlace& place, const GltfModel& model, GltfMaterial& material) {
+    const glm::vec4 emission = emission_of(place);
+    const std::optional<JsonPlace> texture = place.find("emissiveTexture");
+    material.emits = !is_black(emission);
+    if (material.emits && (is_black(material.base_colour) || (texture && !material.texture))) {
+        material.base_colour = emission;
+        material.texture = texture ? std::optional(texture_use_from(*texture, model)) : std::nullopt;
+        material.emission_is_colour = true;
+        material.emits = false;
+    }
 }
 
 GltfMaterial material_from(const JsonPlace& place, const GltfModel& model) {
@@ -109,11 +126,14 @@ GltfMaterial material_from(const JsonPlace& place, const GltfModel& model) {
     } else if (const auto roughness = place.find("pbrMetallicRoughness")) {
         read_colour(*roughness, "baseColorFactor", "baseColorTexture", model, material);
     }
-    material.alpha_mask = place.text_or("alphaMode", "OPAQUE") == "MASK";
+    const std::string alpha_mode = place.text_or("alphaMode", "OPAQUE");
+    material.alpha_mask = alpha_mode == "MASK";
+    material.blends = alpha_mode == "BLEND";
     material.alpha_cutoff = static_cast<float>(std::clamp(place.number_or("alphaCutoff", 0.5), 0.0, 2.0));
     material.normal_map = place.find("normalTexture").has_value();
     material.occlusion_map = place.find("occlusionTexture").has_value();
-    material.emits = emits_light(place);
+    material.unlit = extension_of(place, "KHR_materials_unlit").has_value();
+    read_emission(place, model, material);
     return material;
 }
 

@@ -1,11 +1,16 @@
 #include "assets_baked/bake/loaders/load_gltf.h"
 
 #include "assets_baked/bake/loaders/gltf_losses.h"
+#include "assets_baked/bake/loaders/gltf_materials.h"
 #include "assets_baked/bake/loaders/gltf_primitive.h"
 #include "assets_baked/bake/loaders/source_about.h"
 #include "firmware_host/base/json.h"
 #include "firmware_host/base/printable.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -82,71 +87,6 @@ nlohmann::json parse_json(std::string_view text) {
     }
 }
 
-/// The mesh's materials and textures, made when a primitive first needs them.
-class Surfaces {
-public:
-    Surfaces(const GltfModel& model, GltfBuffers& buffers, PictureStore& pictures, MeshAssembly& mesh)
-        : model_(model), buffers_(buffers), pictures_(pictures), mesh_(mesh) {}
-
-    std::uint32_t material(std::optional<std::size_t> index) {
-        const auto known = materials_.find(index);
-        if (known != materials_.end()) {
-            return known->second;
-        }
-        SourceMaterial made;
-        if (index) {
-            const GltfMaterial& source = model_.materials[*index];
-            made.base_colour = source.base_colour;
-            made.alpha_mask = source.alpha_mask;
-            made.alpha_cutoff = source.alpha_cutoff;
-            made.texture = source.texture ? texture(source.texture->texture) : -1;
-        }
-        return materials_[index] = mesh_.add_material(made);
-    }
-
-private:
-    int texture(std::size_t index) {
-        const auto known = textures_.find(index);
-        if (known != textures_.end()) {
-            return known->second;
-        }
-        const GltfTexture& source = model_.textures[index];
-        if (!source.image) {
-            refuse(
-                "mesh.gltf_picture_format",
-                "a picture is neither PNG, JPEG nor WebP; export the model with one of these (textures[{}])",
-                index);
-        }
-        return textures_[index] = mesh_.add_texture({image(*source.image), source.wrap_u, source.wrap_v});
-    }
-
-    std::shared_ptr<const Image8> image(std::size_t index) {
-        std::shared_ptr<const Image8>& known = images_[index];
-        if (known) {
-            return known;
-        }
-        const GltfImage& source = model_.images[index];
-        const std::string place = fmt::format("images[{}]", index);
-        if (source.view) {
-            known = pictures_.decode(buffers_.view(*source.view), place);
-        } else if (const std::optional<Bytes> inside = bytes_of_data_uri(*source.uri, place)) {
-            known = pictures_.decode(*inside, place);
-        } else {
-            const std::string name = percent_decoded(*source.uri, place);
-            known = pictures_.named(name, fmt::format("{}: {}", place, printable(name)));
-        }
-        return known;
-    }
-
-    const GltfModel& model_;
-    GltfBuffers& buffers_;
-    PictureStore& pictures_;
-    MeshAssembly& mesh_;
-    std::map<std::optional<std::size_t>, std::uint32_t> materials_;
-    std::map<std::size_t, int> textures_;
-    std::map<std::size_t, std::shared_ptr<const Image8>> images_;
-};
-
 /// Nodes that are nobody's child. A node with two parents is refused.
 std::vector<std::size_t> root_nodes(const GltfModel& model) {
     std::vector<std::optional<std::size_t>> parent(model.nodes.size());
@@ -169,13 +109,16 @@ std::vector<std::size_t> root_nodes(const GltfModel& model) {
     return roots;
 }
 
-/// Every node below `roots`, parents first. As each node has one parent, nodes that no root reaches form a
-/// cycle.
-std::vector<std::size_t> nodes_below(const GltfModel& model, const std::vector<std::size_t>& roots) {
+enum class Nodes { All, Visible };
+
+/// Every node below `roots`, parents first; without those that the file hides, and all below them, if visible ones are asked for. As each
+/// node has one parent, nodes that no root reaches form a cycle.
+std::vector<std::size_t> nodes_below(const GltfModel& model, const std::vector<std::size_t>& roots,
+                                     Nodes nodes = Nodes::All) {
     std::vector<bool> seen(model.nodes.size(), false);
     std::vector<std::size_t> order;
     const auto visit = [&](std::size_t node) {
-        if (!seen[node]) {
+        if (!seen[node] && (nodes == Nodes::All || model.nodes[node].visible)) {
             seen[node] = true;
             order.push_back(node);
         }
@@ -238,13 +181,17 @@ std::vector<glm::dmat4> joint_transforms(const GltfModel& model, GltfBuffers& bu
 class SceneDrawer {
 public:
     SceneDrawer(const GltfModel& model, GltfBuffers& buffers, PictureStore& pictures, LoadNotes& notes)
-        : model_(model), buffers_(buffers), notes_(notes), surfaces_(model, buffers, pictures, mesh_),
+        : model_(model), buffers_(buffers), notes_(notes), surfaces_(model, buffers, pictures, notes, mesh_),
           primitives_(model, buffers, mesh_, [this](auto index) { return surfaces_.material(index); }) {}
 
     SourceMesh draw() {
         const std::vector<glm::dmat4> scene_from_node = scene_from_nodes(model_);
         const std::vector<std::size_t> roots = model_.scene_roots ? *model_.scene_roots : root_nodes(model_);
-        const std::vector<std::size_t> drawn = nodes_below(model_, roots);
+        const std::vector<std::size_t> drawn = nodes_below(model_, roots, Nodes::Visible);
+        if (const std::size_t hidden = nodes_below(model_, roots).size() - drawn.size(); hidden > 0) {
+            notes_.guessed("{} left out, since the file hides {} (KHR_node_visibility)",
+                           counted(hidden, "part is", "parts are"), hidden == 1 ? "it" : "them");
+        }
         check_size(drawn);
         for (const std::size_t node : drawn) {
             draw_node(node, scene_from_node);
@@ -255,7 +202,11 @@ public:
             }
         }
         note_gltf_losses(model_, materials_, notes_);
-        return mesh_.finish(has_points_);
+        SourceMesh mesh = mesh_.finish(has_points_);
+        mesh.is_unlit = !materials_.empty() &&
+                        std::all_of(materials_.begin(), materials_.end(),
+                                    [&](std::size_t each) { return model_.materials[each].unlit; });
+        return mesh;
     }
 
 private:
@@ -271,7 +222,9 @@ private:
         }
         std::size_t total = 0;
         for (const std::size_t node : drawn) {
-            total += model_.nodes[node].mesh ? triangles[*model_.nodes[node].mesh] : 0;
+            const std::size_t once = model_.nodes[node].mesh ? triangles[*model_.nodes[node].mesh] : 0;
+            const std::size_t times = instances_of(model_.nodes[node]);
+            total += once > 0 && times > most_triangles / once ? most_triangles + 1 : once * times;
             if (total > most_triangles) {
                 refuse("mesh.gltf_too_many_triangles",
                        "it has more than {} triangles; simplify it first, for instance in MeshLab (at "
@@ -279,6 +232,44 @@ private:
                        "are used again counted again)",
                        most_triangles, node);
             }
+        }
+    }
+
+    [[nodiscard]] std::size_t instances_of(const GltfNode& node) const {
+        return node.instances.empty() ? 1 : model_.accessors[node.instances.begin()->second].count;
+    }
+
+    /// EXT_mesh_gpu_instancing: the mesh once for each row of the attributes.
+    void draw_instances(const GltfNode& node, const GltfMesh& mesh, const GltfPlacement& node_placement) {
+        const auto attribute = [&](std::string_view name,
+                                   std::size_t components) -> std::optional<GltfAttribute> {
+            const auto found = node.instances.find(name);
+            if (found == node.instances.end()) {
+                return std::nullopt;
+            }
+            GltfAttribute read(model_, buffers_, found->second);
+            if (read.components() != components || read.count() != instances_of(node)) {
+                refuse_contradiction("{}: {} rows of {} numbers are expected for {}", read.place(),
+                                     instances_of(node), components, name);
+            }
+            return read;
+        };
+        const std::optional<GltfAttribute> translation = attribute("TRANSLATION", 3);
+        const std::optional<GltfAttribute> rotation = attribute("ROTATION", 4);
+        const std::optional<GltfAttribute> scale = attribute("SCALE", 3);
+        for (std::size_t i = 0; i < instances_of(node); ++i) {
+            GltfPlacement placement = node_placement;
+            placement.scene_from_mesh = glm::translate(placement.scene_from_mesh,
+                                                       translation ? translation->vec3(i) : glm::dvec3(0.0));
+            if (rotation) {
+                const glm::dquat turn(rotation->value(i, 3), rotation->value(i, 0), rotation->value(i, 1),
+                                      rotation->value(i, 2));
+                placement.scene_from_mesh *=
+                    glm::length(turn) < 1e-6 ? glm::dmat4(1.0) : glm::mat4_cast(glm::normalize(turn));
+            }
+            placement.scene_from_mesh =
+                glm::scale(placement.scene_from_mesh, scale ? scale->vec3(i) : glm::dvec3(1.0));
+            draw_mesh(mesh, placement);
         }
     }
 
@@ -297,6 +288,10 @@ private:
                 known->second = joint_transforms(model_, buffers_, *node.skin, scene_from_node);
             }
             placement.scene_from_mesh_by_joint = known->second;
+        }
+        if (!node.instances.empty()) {
+            draw_instances(node, mesh, placement);
+            return;
         }
         draw_mesh(mesh, placement);
     }
@@ -332,7 +327,7 @@ private:
     std::set<std::size_t> materials_; ///< of what is drawn
     MeshAssembly mesh_{'y'};
     std::map<std::size_t, std::vector<glm::dmat4>> joints_; ///< of each skin
-    Surfaces surfaces_;
+    GltfMaterials surfaces_;
     GltfPrimitives primitives_;
 };
 

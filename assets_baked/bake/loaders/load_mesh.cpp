@@ -42,10 +42,12 @@ std::string lower_extension(const std::filesystem::path& path) {
 /// The content decides first, because a file may have been renamed. STL and OBJ have no certain mark, so
 /// there the extension decides.
 Format format_of(ByteView file, const std::filesystem::path& path) {
-    const std::string_view head =
+    std::string_view head =
         as_text(file.subspan(0, std::min<std::size_t>(file.size(), std::size_t{64} * 1024)));
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    head.remove_prefix(head.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
     const std::string_view first = trimmed(head);
-    if (head.starts_with("glTF") || first.starts_with('{') || first.starts_with("\xEF\xBB\xBF{")) {
+    if (head.starts_with("glTF") || first.starts_with('{')) {
         return Format::Gltf;
     }
     if (head.starts_with("ply\n") || head.starts_with("ply\r") || head.starts_with("ply ")) {

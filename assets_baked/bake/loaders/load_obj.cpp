@@ -1,128 +1,33 @@
 #include "assets_baked/bake/loaders/load_obj.h"
 
 #include "assets_baked/bake/loaders/mesh_assembly.h"
+#include "assets_baked/bake/loaders/obj_materials.h"
 #include "assets_baked/bake/loaders/polygon.h"
 #include "assets_baked/bake/loaders/source_about.h"
 #include "assets_baked/bake/loaders/text.h"
 #include "firmware_host/base/printable.h"
 #include "firmware_host/base/trimmed.h"
 
-#include <tiny_obj_loader.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
-#include <sstream>
+#include <array>
+#include <set>
 #include <unordered_map>
 
 namespace frustumscreen {
 
 namespace {
 
-/// Materials by name, made when a face first uses them.
-class ObjMaterials {
-public:
-    ObjMaterials(ModelFiles& files, MeshAssembly& mesh) : files_(files), mesh_(mesh) {}
-
-    void read_library(const std::string& name, const std::string& place) {
-        if (!files_.sidecars.exists(name)) {
-            missing_library_ = true;
-            if (files_.pictures.has_curators()) {
-                return; // whose picture stands for the colours
-            }
-            files_.notes.lost(
-                "the colours: it names \"{}\" for them, and there is no such file beside it; put "
-                "it there ({})",
-                printable(last_part(name)), place);
-            return;
-        }
-        has_library_ = true;
-        const std::shared_ptr<const Bytes> bytes = files_.sidecars.read(name, place);
-        take_comments(as_text(*bytes), files_.about);
-        std::istringstream stream{std::string(as_text(*bytes))};
-        std::map<std::string, int> names;
-        std::vector<tinyobj::material_t> materials;
-        std::string warnings;
-        std::string errors;
-        tinyobj::LoadMtl(&names, &materials, &stream, &warnings, &errors);
-        for (const auto& [material, index] : names) {
-            if (index >= 0 && static_cast<std::size_t>(index) < materials.size()) {
-                mention_pictures(materials[static_cast<std::size_t>(index)]);
-                known_.insert_or_assign(material, materials[static_cast<std::size_t>(index)]);
-            }
-        }
-    }
-
-    /// A material with an unknown name is white, or wears the curator's own picture.
-    std::uint32_t number_of(const std::string& name) {
-        if (const auto used = used_.find(name); used != used_.end()) {
-            return used->second;
-        }
-        SourceMaterial made;
-        if (const auto known = known_.find(name); known != known_.end()) {
-            made = made_from(known->second);
-        } else if (!name.empty()) {
-            note_unknown(name);
-        }
-        return used_[name] = mesh_.add_material(made);
-    }
-
-private:
-    void note_unknown(const std::string& name) {
-        if (has_library_) {
-            files_.notes.lost(
-                "the colour of the material \"{}\": the file of materials (.mtl) does not have it",
-                printable(name));
-        } else if (!missing_library_ && !files_.pictures.has_curators()) {
-            files_.notes.lost(
-                "the colours: it names materials, but no file of materials (.mtl); export it again "
-                "with its materials");
-        }
-    }
-
-    void mention_pictures(const tinyobj::material_t& material) {
-        for (const std::string* name :
-             {&material.diffuse_texname, &material.ambient_texname, &material.specular_texname,
-              &material.specular_highlight_texname, &material.bump_texname, &material.displacement_texname,
-              &material.alpha_texname, &material.reflection_texname, &material.roughness_texname,
-              &material.metallic_texname, &material.sheen_texname, &material.emissive_texname,
-              &material.normal_texname}) {
-            files_.sidecars.mention(*name);
-        }
-    }
-
-    SourceMaterial made_from(const tinyobj::material_t& source) {
-        SourceMaterial made;
-        const bool textured = !source.diffuse_texname.empty();
-        for (int i = 0; i < 3; ++i) {
-            const auto factor = static_cast<float>(source.diffuse[i]);
-            made.base_colour[i] = factor >= 0.0F && factor <= 1.0F ? factor : 1.0F;
-        }
-        if (textured) {
-            made.texture = texture(source.diffuse_texname, source.diffuse_texopt.clamp);
-            // A writer that leaves Kd black beside a picture means the picture alone.
-            made.base_colour =
-                glm::vec3(made.base_colour) == glm::vec3(0.0F) ? glm::vec4(1.0F) : made.base_colour;
-        }
-        return made;
-    }
-
-    int texture(const std::string& name, bool clamp) {
-        std::shared_ptr<const Image8>& picture = pictures_by_name_[name];
-        if (!picture) {
-            picture = files_.pictures.named(name, "map_Kd " + printable(name));
-        }
-        const Wrap wrap = clamp ? Wrap::Clamp : Wrap::Repeat;
-        return mesh_.add_texture({picture, wrap, wrap});
-    }
-
-    ModelFiles& files_;
-    MeshAssembly& mesh_;
-    bool has_library_ = false;
-    bool missing_library_ = false;
-    std::map<std::string, std::shared_ptr<const Image8>> pictures_by_name_;
-    std::map<std::string, tinyobj::material_t> known_;
-    std::map<std::string, std::uint32_t> used_;
-};
+/// Keywords that change nothing of what is shown, and those of curves, which their `curv` and `surf` stand for.
+bool is_passed_over(std::string_view keyword) {
+    static constexpr std::array keywords = {"",       "g",          "o",         "s",     "mg",    "vn",
+                                            "vp",     "cstype",     "deg",       "bmat",  "step",  "parm",
+                                            "trim",   "hole",       "scrv",      "sp",    "end",   "con",
+                                            "bevel",  "c_interp",   "d_interp",  "lod",   "curv2", "usemap",
+                                            "maplib", "shadow_obj", "trace_obj", "ctech", "stech"};
+    return keyword.starts_with('#') || std::find(keywords.begin(), keywords.end(), keyword) != keywords.end();
+}
 
 class ObjReader {
 public:
@@ -134,6 +39,9 @@ public:
             read_line(next_line());
         }
         note_losses();
+        if (!colours_.empty() && mesh_.codes_to_linear()) {
+            notes_.guessed("the colours at its points are read as 0 to 255, since some are above 1");
+        }
         return mesh_.finish(!positions_.empty());
     }
 
@@ -145,6 +53,13 @@ private:
         if (points_lines_surfaces_ > 0) {
             notes_.lost("{} that no triangle is made of: points, lines or curved surfaces",
                         counted(points_lines_surfaces_, "part", "parts"));
+        }
+        if (corners_at_0_ > 0) {
+            notes_.lost("the texture coordinates of {}: they have the number 0, and the first is 1",
+                        counted(corners_at_0_, "corner", "corners"));
+        }
+        if (!unknown_.empty()) {
+            notes_.lost("lines that no OBJ has: {}", printable(fmt::format("{}", fmt::join(unknown_, ", "))));
         }
     }
 
@@ -188,8 +103,9 @@ private:
         } else if (keyword == "usemtl") {
             material_ = trimmed(words.rest_of_line());
         } else if (keyword == "mtllib") {
-            materials_.read_library(std::string(trimmed(words.rest_of_line())),
-                                    fmt::format("line {}: mtllib", line_));
+            materials_.read_libraries(trimmed(words.rest_of_line()), fmt::format("line {}: mtllib", line_));
+        } else if (!is_passed_over(keyword)) {
+            unknown_.insert(std::string(keyword.substr(0, 40)));
         }
     }
 
@@ -220,8 +136,7 @@ private:
         if (values.size() >= 6) {
             colours_.resize(positions_.size(), glm::vec4(1.0F));
             for (int i = 0; i < 3; ++i) {
-                const double srgb = std::clamp(values[static_cast<std::size_t>(i) + 3], 0.0, 1.0);
-                colours_.back()[i] = static_cast<float>(linear_from_srgb(srgb));
+                colours_.back()[i] = static_cast<float>(values[static_cast<std::size_t>(i) + 3]);
             }
         }
     }
@@ -247,8 +162,19 @@ private:
         const std::uint32_t position = index_from(word.substr(0, slash), positions_.size(), "vertex");
         std::string_view rest = word.substr(std::min(slash + 1, word.size()));
         rest = rest.substr(0, rest.find('/'));
-        const std::uint32_t uv = rest.empty() ? no_uv : index_from(rest, uvs_.size(), "texture coordinate");
-        return vertex(position, uv);
+        return vertex(position, uv_from(rest));
+    }
+
+    /// Some exporters write 0 for a corner without a texture coordinate.
+    std::uint32_t uv_from(std::string_view word) {
+        if (word.empty()) {
+            return no_uv;
+        }
+        if (whole_from(word) == std::int64_t{0}) {
+            ++corners_at_0_;
+            return no_uv;
+        }
+        return index_from(word, uvs_.size(), "texture coordinate");
     }
 
     std::uint32_t vertex(std::uint32_t position, std::uint32_t uv) {
@@ -260,7 +186,7 @@ private:
                 mesh_.set_uv(uvs_[uv]);
             }
             if (position < colours_.size()) {
-                mesh_.set_colour(colours_[position]);
+                mesh_.set_colour_code(colours_[position]);
             }
         }
         return known->second;
@@ -298,9 +224,11 @@ private:
     std::string material_;
     std::size_t faces_without_area_ = 0;    ///< of fewer than three corners
     std::size_t points_lines_surfaces_ = 0; ///< elements that are no faces
+    std::size_t corners_at_0_ = 0;          ///< whose texture coordinate has the number 0
+    std::set<std::string> unknown_;         ///< keywords
     std::vector<glm::dvec3> positions_;
     std::vector<glm::dvec2> uvs_;
-    std::vector<glm::vec4> colours_; ///< of the first positions; there may be fewer of them
+    std::vector<glm::vec4> colours_; ///< codes of the first positions, as written; there may be fewer of them
     std::unordered_map<std::uint64_t, std::uint32_t> vertices_;
     std::vector<std::uint32_t> corners_;
     std::vector<glm::dvec3> points_;

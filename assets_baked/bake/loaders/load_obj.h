@@ -2,11 +2,10 @@
 /// coordinates, base colour (Kd) and its picture (map_Kd). Points, lines and free-form curves are left out.
 ///
 /// Frame    the file's; up is y. v is turned over: 0 at the picture's top row.
-/// Colour   Kd is taken as linear, as today's writers mean it; vertex colours are sRGB in 0..1.
+/// Colour   of materials: obj_materials.h. Vertex colours are sRGB in 0..1, or in 0..255 where one of the file is above 1.
 /// Errors   throws Refusal naming the line. Without its .mtl the model is white, which is noted; a missing
 ///          picture is refused.
-/// Library  the .mtl is read by tinyobjloader. Geometry is read here: the library takes an unreadable number
-///          for 0, cuts polygons at 255 corners, drops colours with callbacks, and does not say in which line
+/// Library  geometry is read here: tinyobjloader takes an unreadable number for 0, cuts polygons at 255 corners, drops colours with callbacks, and does not say in which line
 ///          it failed.
 #pragma once
 

@@ -1,42 +1,49 @@
 #include "assets_baked/bake/loaders/load_ply.h"
 
 #include "assets_baked/bake/loaders/mesh_assembly.h"
+#include "assets_baked/bake/loaders/ply_roles.h"
 #include "assets_baked/bake/loaders/ply_surface.h"
 #include "assets_baked/bake/loaders/ply_values.h"
 #include "assets_baked/bake/loaders/polygon.h"
+#include "firmware_host/base/printable.h"
+
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace frustumscreen {
 
 namespace {
 
-/// What a vertex's property stands for: 0..2 position, 3..6 colour and alpha, 7..8 texture coordinates, -1
-/// nothing.
-int role_of(const PlyProperty& property) {
-    static constexpr std::array<std::string_view, 15> names = {
-        "x", "y", "z", "red",       "green",     "blue",      "alpha",    "s",
-        "t", "u", "v", "texture_u", "texture_v", "texture_s", "texture_t"};
-    const auto found = std::find(names.begin(), names.end(), property.name);
-    if (property.list_count || found == names.end()) {
-        return -1;
-    }
-    const int place = static_cast<int>(found - names.begin());
-    return place < 7 ? place : 7 + (place - 7) % 2;
-}
-
-double colour01(double value, PlyType type) {
+/// A colour's code in 0..1; floating-point numbers as they are written, which may be in 0..255.
+double code_from(double value, PlyType type) {
     switch (type) {
     case PlyType::F32:
     case PlyType::F64:
-        return std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 1.0;
+        return std::isfinite(value) ? value : 1.0;
     case PlyType::U16:
         return value / 65535.0;
     default:
         return std::clamp(value / 255.0, 0.0, 1.0);
     }
 }
+
+/// Red, green and blue in the bits of one number, as the Point Cloud Library writes them.
+glm::vec4 unpacked_colour(double value, PlyType type) {
+    const std::uint32_t bits = type == PlyType::F32
+                                   ? std::bit_cast<std::uint32_t>(static_cast<float>(value))
+                                   : static_cast<std::uint32_t>(static_cast<std::int64_t>(value));
+    const auto byte = [&](unsigned shift) { return static_cast<float>((bits >> shift) & 0xffU) / 255.0F; };
+    return {byte(16), byte(8), byte(0), 1.0F};
+}
+
+struct PlyVertex {
+    glm::dvec3 position{0.0};
+    glm::vec4 code{1.0F}; ///< colour
+    glm::dvec2 uv{0.0};
+};
 
 class PlyReader {
 public:
@@ -62,46 +69,77 @@ public:
 
 private:
     void read_vertices(const PlyElement& element) {
-        std::vector<int> roles;
-        for (const PlyProperty& property : element.properties) {
-            roles.push_back(role_of(property));
-        }
-        const auto has = [&](int role) { return std::find(roles.begin(), roles.end(), role) != roles.end(); };
-        for (int axis = 0; axis < 3; ++axis) {
-            if (!has(axis)) {
-                refuse_damage("the vertices have no {}", "xyz"[axis]);
+        const PlyRoles roles = roles_of_vertices(element);
+        for (const PlyRole axis : {PlyRole::X, PlyRole::Y, PlyRole::Z}) {
+            if (!roles.has(axis)) {
+                refuse_damage("the vertices have no {}",
+                              "xyz"[static_cast<int>(axis) - static_cast<int>(PlyRole::X)]);
             }
         }
-        const bool coloured = has(3);
-        const bool textured = has(7) && has(8);
+        const bool coloured = roles.has_colour();
+        const bool textured = roles.has(PlyRole::U) && roles.has(PlyRole::V);
+        if (!coloured && (roles.has(PlyRole::Red) || roles.has(PlyRole::Green) || roles.has(PlyRole::Blue))) {
+            files_.notes.lost("the colours at its points: red, green and blue are not all there");
+        }
+        note_unknown("points", roles.unknown);
         for (std::uint64_t row = 0; row < element.count; ++row) {
-            std::array<double, 9> v{0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0};
-            for (std::size_t i = 0; i < roles.size(); ++i) {
-                read_vertex_property(element, i, roles[i], row, v);
+            PlyVertex vertex;
+            for (std::size_t i = 0; i < roles.of.size(); ++i) {
+                read_vertex_property(element, i, roles.of[i], row, vertex);
             }
-            (void)mesh_.add_vertex({v[0], v[1], v[2]}, "vertex", static_cast<std::size_t>(row));
+            (void)mesh_.add_vertex(vertex.position, "vertex", static_cast<std::size_t>(row));
             if (coloured) {
-                mesh_.set_colour(
-                    glm::vec4(linear_from_srgb(v[3]), linear_from_srgb(v[4]), linear_from_srgb(v[5]), v[6]));
+                mesh_.set_colour_code(vertex.code);
             }
             if (textured) {
-                mesh_.set_uv({v[7], 1.0 - v[8]});
+                mesh_.set_uv({vertex.uv.x, 1.0 - vertex.uv.y});
             }
+        }
+        if (coloured && mesh_.codes_to_linear()) {
+            files_.notes.guessed("the colours at its points are read as 0 to 255, since some are above 1");
         }
         surface_.at_vertices(coloured, textured);
     }
 
-    void read_vertex_property(const PlyElement& element, std::size_t i, int role, std::uint64_t row,
-                              std::array<double, 9>& vertex) {
+    void note_unknown(std::string_view where, const std::vector<std::string>& names) {
+        if (!names.empty()) {
+            files_.notes.lost("numbers at its {} that mean nothing to this program: {}", where,
+                              printable(fmt::format("{}", fmt::join(names, ", "))));
+        }
+    }
+
+    void read_vertex_property(const PlyElement& element, std::size_t i, PlyRole role, std::uint64_t row,
+                              PlyVertex& vertex) {
         const PlyProperty& property = element.properties[i];
         if (property.list_count) {
             skip_list(element, property, row);
             return;
         }
         const double value = values_.next(property.type, element, row);
-        if (role >= 0) {
-            const bool is_colour = role >= 3 && role <= 6;
-            vertex[static_cast<std::size_t>(role)] = is_colour ? colour01(value, property.type) : value;
+        switch (role) {
+        case PlyRole::X:
+        case PlyRole::Y:
+        case PlyRole::Z:
+            vertex.position[static_cast<int>(role) - static_cast<int>(PlyRole::X)] = value;
+            break;
+        case PlyRole::Red:
+        case PlyRole::Green:
+        case PlyRole::Blue:
+        case PlyRole::Alpha:
+            vertex.code[static_cast<int>(role) - static_cast<int>(PlyRole::Red)] =
+                static_cast<float>(code_from(value, property.type));
+            break;
+        case PlyRole::U:
+            vertex.uv.x = value;
+            break;
+        case PlyRole::V:
+            vertex.uv.y = value;
+            break;
+        case PlyRole::PackedColour:
+            vertex.code = unpacked_colour(value, property.type);
+            break;
+        case PlyRole::None:
+            break;
         }
     }
 
@@ -123,10 +161,13 @@ private:
     void read_lists(const PlyElement& element) {
         const bool faces = element.name == "face";
         const bool strips = element.name == "tristrips";
+        const std::size_t corner_list = corner_list_of(element);
+        note_unread(element, faces || strips, corner_list);
         for (std::uint64_t row = 0; row < element.count; ++row) {
             const std::size_t first = corners_.size();
-            for (const PlyProperty& property : element.properties) {
-                const bool corners = property.name == "vertex_indices" || property.name == "vertex_index";
+            for (std::size_t i = 0; i < element.properties.size(); ++i) {
+                const PlyProperty& property = element.properties[i];
+                const bool corners = i == corner_list;
                 if (faces && !property.list_count) {
                     surface_.face_value(property.name, values_.next(property.type, element, row));
                 } else if (!property.list_count) {
@@ -143,6 +184,38 @@ private:
                 surface_.end_face(first, corners_.size());
             }
         }
+    }
+
+    /// The list of a face's corners; the number of properties if there is none.
+    static std::size_t corner_list_of(const PlyElement& element) {
+        const auto is_named = [](const PlyProperty& property) {
+            std::string name = property.name;
+            std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+                return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
+            });
+            return property.list_count && (name == "vertex_indices" || name == "vertex_index" ||
+                                           name == "vertexindices" || name == "indices");
+        };
+        return static_cast<std::size_t>(
+            std::find_if(element.properties.begin(), element.properties.end(), is_named) -
+            element.properties.begin());
+    }
+
+    void note_unread(const PlyElement& element, bool is_shown, std::size_t corner_list) {
+        if (!is_shown) {
+            if (element.count > 0 && element.name != "edge" && element.name != "camera") {
+                files_.notes.lost("the part \"{}\" of the file, which means nothing to this program",
+                                  printable(element.name));
+            }
+            return;
+        }
+        std::vector<std::string> unknown;
+        for (std::size_t i = 0; i < element.properties.size(); ++i) {
+            if (i != corner_list && !is_known_at_faces(element.properties[i].name)) {
+                unknown.push_back(element.properties[i].name);
+            }
+        }
+        note_unknown("faces", unknown);
     }
 
     void read_texcoords(const PlyElement& element, const PlyProperty& property, std::uint64_t row) {

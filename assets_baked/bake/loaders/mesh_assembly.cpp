@@ -3,6 +3,7 @@
 #include "assets_baked/bake/loaders/refusal.h"
 
 #include <cmath>
+#include <limits>
 
 namespace frustumscreen {
 
@@ -60,6 +61,31 @@ void MeshAssembly::set_colour(const glm::vec4& linear) {
     mesh_.colours.resize(mesh_.positions.size(), glm::vec4(1.0F));
     mesh_.colours.back() = glm::vec4(colour_factor(linear.r), colour_factor(linear.g),
                                      colour_factor(linear.b), colour_factor(linear.a));
+}
+
+void MeshAssembly::set_colour_code(const glm::vec4& code) {
+    mesh_.colours.resize(mesh_.positions.size(),
+                         glm::vec4(std::numeric_limits<float>::infinity())); // as without a colour: white
+    mesh_.colours.back() = code;
+    for (int i = 0; i < 3; ++i) {
+        if (std::isfinite(code[i])) {
+            largest_code_ = std::max(largest_code_, code[i]);
+            codes_are_whole_ = codes_are_whole_ && code[i] == std::floor(code[i]);
+        }
+    }
+}
+
+bool MeshAssembly::codes_to_linear() {
+    const bool in_255 = largest_code_ > 1.0F && (codes_are_whole_ || largest_code_ > 2.0F);
+    const float largest = in_255 ? 255.0F : 1.0F;
+    for (glm::vec4& colour : mesh_.colours) {
+        for (int i = 0; i < 3; ++i) {
+            colour[i] =
+                static_cast<float>(linear_from_srgb(static_cast<double>(colour_factor(colour[i] / largest))));
+        }
+        colour.a = colour_factor(colour.a / (colour.a > 1.0F ? largest : 1.0F));
+    }
+    return in_255;
 }
 
 std::uint32_t MeshAssembly::add_material(const SourceMaterial& material) {

@@ -29,6 +29,10 @@ public:
     void set_uv(const glm::dvec2& uv) { set_uv(last_vertex(), uv); }
     void set_uv(std::uint32_t vertex, const glm::dvec2& uv);
     void set_colour(const glm::vec4& linear);
+    /// An sRGB code as the file writes it, in 0..1 or 0..255. `codes_to_linear` makes all of them linear factors, and returns whether they
+    /// are in 0..255: some are above 1, and all are whole or some are above 2.
+    void set_colour_code(const glm::vec4& code);
+    [[nodiscard]] bool codes_to_linear();
     /// Leaves the vertices without colours, or texture coordinates, of their own.
     void drop_colours() { mesh_.colours.clear(); }
     void drop_uvs() { mesh_.uvs.clear(); }
@@ -37,6 +41,9 @@ public:
 
     std::uint32_t add_material(const SourceMaterial& material);
     int add_texture(SourceTexture texture);
+    [[nodiscard]] const SourceTexture& texture(int index) const {
+        return mesh_.textures[static_cast<std::size_t>(index)];
+    }
     void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t material);
 
     [[nodiscard]] const std::vector<glm::dvec3>& positions() const { return mesh_.positions; }
@@ -49,6 +56,8 @@ private:
     }
 
     SourceMesh mesh_;
+    float largest_code_ = 0.0F;
+    bool codes_are_whole_ = true;
 };
 
 } // namespace frustumscreen

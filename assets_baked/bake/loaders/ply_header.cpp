@@ -12,6 +12,8 @@ namespace frustumscreen {
 
 namespace {
 
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
 /// Lines end with LF, CR LF or CR.
 class LineReader {
 public:
@@ -46,6 +48,8 @@ PlyType type_from(std::string_view name, std::size_t line) {
         std::pair("ushort"sv, PlyType::U16), std::pair("uint16"sv, PlyType::U16),
         std::pair("int"sv, PlyType::I32),    std::pair("int32"sv, PlyType::I32),
         std::pair("uint"sv, PlyType::U32),   std::pair("uint32"sv, PlyType::U32),
+        std::pair("int64"sv, PlyType::I64),  std::pair("uint64"sv, PlyType::U64),
+        std::pair("long"sv, PlyType::I64),   std::pair("ulong"sv, PlyType::U64),
         std::pair("float"sv, PlyType::F32),  std::pair("float32"sv, PlyType::F32),
         std::pair("double"sv, PlyType::F64), std::pair("float64"sv, PlyType::F64),
     };
@@ -113,6 +117,8 @@ std::size_t size_of(PlyType type) {
     case PlyType::I16:
     case PlyType::U16:
         return 2;
+    case PlyType::I64:
+    case PlyType::U64:
     case PlyType::F64:
         return 8;
     default:
@@ -121,7 +127,9 @@ std::size_t size_of(PlyType type) {
 }
 
 PlyHeader ply_header_from(ByteView file) {
-    LineReader lines(as_text(file));
+    const std::string_view text = as_text(file);
+    const std::size_t mark = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+    LineReader lines(text.substr(mark));
     PlyHeader header;
     bool has_format = false;
     if (trimmed(lines.next().value_or("")) != "ply") {
@@ -146,7 +154,7 @@ PlyHeader ply_header_from(ByteView file) {
             if (!has_format) {
                 refuse_damage("the header does not say the format");
             }
-            header.size = lines.position();
+            header.size = mark + lines.position();
             return header;
         } else if (!keyword.empty()) {
             refuse_damage("line {}: \"{}\" is not known in a PLY header", lines.line(),

@@ -15,7 +15,7 @@
 
 namespace frustumscreen {
 
-enum class PlyType { I8, U8, I16, U16, I32, U32, F32, F64 };
+enum class PlyType { I8, U8, I16, U16, I32, U32, I64, U64, F32, F64 };
 
 struct PlyProperty {
     std::string name;

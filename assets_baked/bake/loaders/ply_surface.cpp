@@ -1,5 +1,6 @@
 #include "assets_baked/bake/loaders/ply_surface.h"
 
+#include "assets_baked/bake/loaders/ply_roles.h"
 #include "firmware_host/base/printable.h"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ void PlySurface::face_value(std::string_view name, double value) {
         const auto pictures = static_cast<double>(std::max<std::size_t>(pictures_.size(), 1));
         const bool is_known = value >= 0.0 && value < pictures;
         picture_ = is_known ? static_cast<int>(value) : no_picture;
-    } else if (name == "red" || name == "green" || name == "blue") {
+    } else if (const PlyRole role = colour_role_of(name); role != PlyRole::None && role != PlyRole::Alpha) {
         colours_at_faces_ = true;
     }
 }

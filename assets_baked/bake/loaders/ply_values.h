@@ -66,6 +66,10 @@ private:
             return load<std::int32_t>(data_, position_, header_.order);
         case PlyType::U32:
             return load<std::uint32_t>(data_, position_, header_.order);
+        case PlyType::I64:
+            return static_cast<double>(load<std::int64_t>(data_, position_, header_.order));
+        case PlyType::U64:
+            return static_cast<double>(load<std::uint64_t>(data_, position_, header_.order));
         case PlyType::F32:
             return static_cast<double>(load<float>(data_, position_, header_.order));
         default:

@@ -1,12 +1,10 @@
 #include "assets_baked/bake/loaders/polygon.h"
 
-#include <numeric>
+#include <algorithm>
 
 namespace frustumscreen {
 
 namespace {
-
-constexpr std::size_t most_corners_for_ears = 64;
 
 /// Newell's normal: correct for any planar polygon, concave ones too.
 glm::dvec3 normal_of(std::span<const glm::dvec3> corners) {
@@ -32,62 +30,90 @@ bool is_convex(std::span<const glm::dvec3> corners, const glm::dvec3& normal) {
     return true;
 }
 
+/// The corners that are left, as a ring.
 class EarCutter {
 public:
     EarCutter(std::span<const glm::dvec3> corners, const glm::dvec3& normal)
-        : corners_(corners), normal_(normal), left_(corners.size()) {
-        std::iota(left_.begin(), left_.end(), 0U);
+        : corners_(corners), normal_(normal), next_(corners.size()), previous_(corners.size()),
+          is_reflex_(corners.size(), false) {
+        const auto count = static_cast<std::uint32_t>(corners.size());
+        for (std::uint32_t i = 0; i < count; ++i) {
+            next_[i] = (i + 1) % count;
+            previous_[i] = (i + count - 1) % count;
+        }
+        for (std::uint32_t i = 0; i < count; ++i) {
+            is_reflex_[i] = turn_at(i) <= 0.0;
+            if (is_reflex_[i]) {
+                reflex_.push_back(i);
+            }
+        }
     }
 
     void cut(std::vector<std::array<std::uint32_t, 3>>& triangles) {
-        while (left_.size() > 3) {
-            const std::size_t tip = find_ear();
-            triangles.push_back(triangle_at(tip));
-            left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(tip));
+        std::uint32_t tip = 0;
+        std::size_t tried = 0;
+        for (std::size_t left = corners_.size(); left > 3;) {
+            // A polygon that crosses itself may have no ear; then any corner is cut.
+            if (tried < left && !is_ear(tip)) {
+                tip = next_[tip];
+                ++tried;
+                continue;
+            }
+            triangles.push_back({previous_[tip], tip, next_[tip]});
+            tip = cut_off(tip);
+            --left;
+            tried = 0;
         }
-        triangles.push_back({left_[0], left_[1], left_[2]});
+        triangles.push_back({previous_[tip], tip, next_[tip]});
     }
 
 private:
-    [[nodiscard]] std::array<std::uint32_t, 3> triangle_at(std::size_t tip) const {
-        const std::size_t n = left_.size();
-        return {left_[(tip + n - 1) % n], left_[tip], left_[(tip + 1) % n]};
+    [[nodiscard]] double turn_at(std::uint32_t tip) const {
+        return turn(normal_, corners_[previous_[tip]], corners_[tip], corners_[next_[tip]]);
     }
-    [[nodiscard]] bool is_ear(std::size_t tip) const {
-        const auto [a, b, c] = triangle_at(tip);
-        const glm::dvec3 &pa = corners_[a], &pb = corners_[b], &pc = corners_[c];
-        if (turn(normal_, pa, pb, pc) <= 0.0) {
+
+    /// Returns where to look next: every other corner on, so that no corner fans out.
+    std::uint32_t cut_off(std::uint32_t tip) {
+        const std::uint32_t before = previous_[tip];
+        const std::uint32_t after = next_[tip];
+        next_[before] = after;
+        previous_[after] = before;
+        is_reflex_[tip] = false;
+        for (const std::uint32_t corner : {before, after}) { // a convex corner stays convex
+            is_reflex_[corner] = is_reflex_[corner] && turn_at(corner) <= 0.0;
+        }
+        std::erase_if(reflex_, [&](std::uint32_t i) { return !is_reflex_[i]; });
+        return next_[after];
+    }
+
+    [[nodiscard]] bool is_ear(std::uint32_t tip) const {
+        const glm::dvec3& a = corners_[previous_[tip]];
+        const glm::dvec3& b = corners_[tip];
+        const glm::dvec3& c = corners_[next_[tip]];
+        if (turn(normal_, a, b, c) <= 0.0) {
             return false;
         }
-        for (const std::uint32_t i : left_) {
+        // A corner at the place of one of the three is where the outline touches itself.
+        return std::none_of(reflex_.begin(), reflex_.end(), [&](std::uint32_t i) {
             const glm::dvec3& p = corners_[i];
-            if (i != a && i != b && i != c && turn(normal_, pa, pb, p) >= 0.0 &&
-                turn(normal_, pb, pc, p) >= 0.0 && turn(normal_, pc, pa, p) >= 0.0) {
-                return false;
-            }
-        }
-        return true;
-    }
-    /// A polygon that crosses itself may have no ear; then the first corner is cut.
-    [[nodiscard]] std::size_t find_ear() const {
-        for (std::size_t tip = 0; tip < left_.size(); ++tip) {
-            if (is_ear(tip)) {
-                return tip;
-            }
-        }
-        return 1;
+            return p != a && p != b && p != c && turn(normal_, a, b, p) >= 0.0 &&
+                   turn(normal_, b, c, p) >= 0.0 && turn(normal_, c, a, p) >= 0.0;
+        });
     }
 
     std::span<const glm::dvec3> corners_;
     glm::dvec3 normal_;
-    std::vector<std::uint32_t> left_;
+    std::vector<std::uint32_t> next_;
+    std::vector<std::uint32_t> previous_;
+    std::vector<bool> is_reflex_;
+    std::vector<std::uint32_t> reflex_; ///< corners that are left and not convex
 };
 
 } // namespace
 
 void triangulate_polygon(std::span<const glm::dvec3> corners,
                          std::vector<std::array<std::uint32_t, 3>>& triangles) {
-    if (corners.size() > 3 && corners.size() <= most_corners_for_ears) {
+    if (corners.size() > 3) {
         const glm::dvec3 normal = normal_of(corners);
         if (!is_convex(corners, normal)) {
             EarCutter(corners, normal).cut(triangles);

@@ -2,8 +2,7 @@
 ///
 /// Shape    corners in order; the result's numbers count the polygon's own corners, orientation kept.
 /// Method   a fan where the polygon is convex; otherwise ears are cut off one after the other (Meisters,
-///          Polygons have ears, 1975). A polygon of more than 64 corners is always cut as a fan: the time for
-///          ears grows with their cube.
+///          Polygons have ears, 1975), each tested against the reflex corners alone. Time grows with corners times reflex corners.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,6 +1,7 @@
 #include "assets_baked/bake/loaders/sidecar.h"
 
 #include "assets_baked/bake/loaders/refusal.h"
+#include "assets_baked/names/file_name.h"
 #include "firmware_host/base/printable.h"
 
 #include <algorithm>
@@ -37,22 +38,12 @@ bool is_file(const std::filesystem::path& path) {
     return std::filesystem::is_regular_file(path, ignored);
 }
 
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
-}
-
-/// Letters beyond ASCII count as they are.
-bool same_but_for_case(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](char x, char y) { return lower(x) == lower(y); });
-}
-
 /// By its ending.
 bool is_picture_name(const std::string& name) {
     static constexpr std::array endings = {".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".bmp", ".tga"};
     const std::string ending = std::filesystem::path(name).extension().string();
     return std::any_of(endings.begin(), endings.end(),
-                       [&](const char* each) { return same_but_for_case(ending, each); });
+                       [&](const char* each) { return is_same_file_name(ending, each); });
 }
 
 int hexadecimal(char c) {
@@ -78,9 +69,9 @@ std::optional<std::string> first_in(const std::filesystem::path& folder, const F
     return first;
 }
 
-/// `name` inside `folder`, part by part; each part may be written with other capital letters.
-std::optional<std::filesystem::path> find_in_any_case(std::filesystem::path folder,
-                                                      const std::filesystem::path& name) {
+/// `name` inside `folder`, part by part; each part may be written as another computer writes it.
+std::optional<std::filesystem::path> find_in_any_spelling(std::filesystem::path folder,
+                                                          const std::filesystem::path& name) {
     for (const std::filesystem::path& part : name.lexically_normal()) {
         std::error_code ignored;
         if (std::filesystem::exists(folder / part, ignored)) {
@@ -88,7 +79,7 @@ std::optional<std::filesystem::path> find_in_any_case(std::filesystem::path fold
             continue;
         }
         const auto found =
-            first_in(folder, [&](const std::string& each) { return same_but_for_case(each, part.string()); });
+            first_in(folder, [&](const std::string& each) { return is_same_file_name(each, part.string()); });
         if (!found) {
             return std::nullopt;
         }
@@ -103,22 +94,35 @@ std::string_view last_part(std::string_view name) {
     return name.substr(name.find_last_of("/\\") + 1); // npos + 1 is 0
 }
 
+std::optional<std::filesystem::path> Sidecars::find_as_written(std::string_view name) const {
+    const std::filesystem::path portable(with_slashes(name));
+    if (name.empty() || name.find('\0') != std::string_view::npos || has_scheme(name) ||
+        leaves_folder(portable)) {
+        return std::nullopt;
+    }
+    const std::filesystem::path exact = (folder_ / portable).lexically_normal();
+    return is_file(exact) ? std::optional(exact) : find_in_any_spelling(folder_, portable);
+}
+
+bool Sidecars::exists_as_written(std::string_view name) const {
+    return find_as_written(name).has_value();
+}
+
+std::filesystem::path Sidecars::folder_of(std::string_view name) const {
+    const std::optional<std::filesystem::path> path = find(name);
+    return path ? path->lexically_relative(folder_.empty() ? "." : folder_).parent_path()
+                : std::filesystem::path();
+}
+
 std::optional<std::filesystem::path> Sidecars::find(std::string_view name) const {
     if (name.empty() || name.find('\0') != std::string_view::npos) {
         return std::nullopt;
     }
-    const std::filesystem::path portable(with_slashes(name));
-    if (!has_scheme(name) && !leaves_folder(portable)) {
-        const std::filesystem::path exact = (folder_ / portable).lexically_normal();
-        if (is_file(exact)) {
-            return exact;
-        }
-        if (auto found = find_in_any_case(folder_, portable)) {
-            return found;
-        }
+    if (auto found = find_as_written(name)) {
+        return found;
     }
     const std::string_view last = last_part(name);
-    return last.empty() || last == "." || last == ".." ? std::nullopt : find_in_any_case(folder_, last);
+    return last.empty() || last == "." || last == ".." ? std::nullopt : find_in_any_spelling(folder_, last);
 }
 
 std::shared_ptr<const Bytes> Sidecars::read(std::string_view name, std::string_view place) {
@@ -147,7 +151,7 @@ std::shared_ptr<const Bytes> Sidecars::read(std::string_view name, std::string_v
 std::optional<std::string> Sidecars::like(std::string_view name) const {
     const std::string stem = std::filesystem::path(last_part(name)).stem().string();
     return first_in(folder_, [&](const std::string& each) {
-        return !stem.empty() && same_but_for_case(std::filesystem::path(each).stem().string(), stem) &&
+        return !stem.empty() && is_same_file_name(std::filesystem::path(each).stem().string(), stem) &&
                is_picture_name(each);
     });
 }

@@ -1,6 +1,6 @@
 /// Files that a model names: .bin, pictures, .mtl. Only those in the model's own folder or below it are read.
 ///
-/// A name from another computer is understood: backslashes, other capital letters, and a path that leads
+/// A name from another computer is understood: backslashes, other capital letters, another normal form, and a path that leads
 /// elsewhere (C:\scans\skin.png), of which only the last part counts.
 ///
 /// Errors   throws Refusal: an empty name, a file that is missing or unreadable.
@@ -28,6 +28,10 @@ public:
     /// is named. `place` begins the message of a refusal.
     [[nodiscard]] std::shared_ptr<const Bytes> read(std::string_view name, std::string_view place);
     [[nodiscard]] bool exists(std::string_view name) const { return find(name).has_value(); }
+    /// Whether the path itself leads to a file in the model's folder, not its last part alone.
+    [[nodiscard]] bool exists_as_written(std::string_view name) const;
+    /// The folder of the file called `name`, from the model's folder on.
+    [[nodiscard]] std::filesystem::path folder_of(std::string_view name) const;
     /// A file beside the model that differs only in its ending from `name`: skin.jpg for skin.png.
     [[nodiscard]] std::optional<std::string> like(std::string_view name) const;
 
@@ -39,6 +43,7 @@ public:
 private:
     /// Where the file is that the model means by `name`.
     [[nodiscard]] std::optional<std::filesystem::path> find(std::string_view name) const;
+    [[nodiscard]] std::optional<std::filesystem::path> find_as_written(std::string_view name) const;
 
     std::filesystem::path folder_;
     LoadNotes& notes_;

@@ -1,0 +1,194 @@
+#include "assets_baked/bake/last_look.h"
+
+#include <fmt/format.h>
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double max_scrap_share = 0.001; ///< of the triangles, for all scraps together
+constexpr double min_shrinkage = 0.8; ///< without scraps the size is less than this of what it is with them
+constexpr double max_step_share = 1.0 / 2000; ///< of the size: about a texel of the finest relief
+
+struct Bounds {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+
+    void add(const Bounds& other) {
+        low = glm::min(low, other.low);
+        high = glm::max(high, other.high);
+    }
+    [[nodiscard]] double size() const {
+        const glm::dvec3 edges = high - low;
+        return std::max({edges.x, edges.y, edges.z, 0.0});
+    }
+};
+
+/// Which part each triangle belongs to, numbered from 0, by union-find over equal positions.
+std::vector<std::uint32_t> parts_of(const SourceMesh& mesh, std::size_t& count) {
+    std::vector<std::uint32_t> same(mesh.positions.size());
+    meshopt_generateVertexRemap(same.data(), nullptr, mesh.positions.size(), mesh.positions.data(),
+                                mesh.positions.size(), sizeof(glm::dvec3));
+    std::vector<std::uint32_t> parent(mesh.positions.size());
+    std::iota(parent.begin(), parent.end(), 0U);
+    const auto root = [&](std::uint32_t v) {
+        while (parent[v] != v) {
+            parent[v] = parent[parent[v]];
+            v = parent[v];
+        }
+        return v;
+    };
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const std::uint32_t first = root(same[a]);
+        parent[root(same[b])] = first;
+        parent[root(same[c])] = first;
+    }
+    std::vector<std::uint32_t> number(mesh.positions.size(), std::numeric_limits<std::uint32_t>::max());
+    std::vector<std::uint32_t> parts;
+    parts.reserve(mesh.triangles.size());
+    count = 0;
+    for (const auto& triangle : mesh.triangles) {
+        std::uint32_t& part = number[root(same[triangle[0]])];
+        part = part == std::numeric_limits<std::uint32_t>::max() ? static_cast<std::uint32_t>(count++) : part;
+        parts.push_back(part);
+    }
+    return parts;
+}
+
+struct Part {
+    Bounds bounds;
+    std::size_t triangles = 0;
+};
+
+/// How far a part reaches beyond `rest`, at its farthest.
+double reach_beyond(const Bounds& part, const Bounds& rest) {
+    const glm::dvec3 beyond = glm::max(part.high - rest.high, rest.low - part.low);
+    return std::max({beyond.x, beyond.y, beyond.z});
+}
+
+bool is_all_black(const SourceMesh& mesh) {
+    constexpr float black = 1e-3F; // linear
+    const auto is_dark = [](const glm::vec4& colour) {
+        return std::max({colour.r, colour.g, colour.b}) < black;
+    };
+    const bool dark_vertices =
+        !mesh.colours.empty() && std::all_of(mesh.colours.begin(), mesh.colours.end(), is_dark);
+    return dark_vertices ||
+           std::all_of(mesh.triangle_materials.begin(), mesh.triangle_materials.end(),
+                       [&](std::uint32_t number) {
+                           const SourceMaterial& material = mesh.materials[number];
+                           if (is_dark(material.base_colour)) {
+                               return true;
+                           }
+                           const Image8* picture =
+                               material.texture < 0
+                                   ? nullptr
+                                   : mesh.textures[static_cast<std::size_t>(material.texture)].image.get();
+                           return picture != nullptr &&
+                                  std::all_of(picture->texels.begin(), picture->texels.end(),
+                                              [](const glm::u8vec4& texel) {
+                                                  return std::max({texel.r, texel.g, texel.b}) < 4;
+                                              });
+                       });
+}
+
+} // namespace
+
+Scraps find_scraps(const SourceMesh& mesh) {
+    std::size_t count = 0;
+    const std::vector<std::uint32_t> part_of = parts_of(mesh, count);
+    std::vector<Part> parts(count);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        Part& part = parts[part_of[t]];
+        ++part.triangles;
+        for (const std::uint32_t vertex : mesh.triangles[t]) {
+            part.bounds.add({mesh.positions[vertex], mesh.positions[vertex]});
+        }
+    }
+    // The largest parts are the artifact; of the rest, those that reach beyond it by more than a tenth of its size may be scraps.
+    std::vector<std::uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return std::pair(parts[b].triangles, a) < std::pair(parts[a].triangles, b);
+    });
+    const auto few = static_cast<std::size_t>(max_scrap_share * static_cast<double>(mesh.triangles.size()));
+    Bounds artifact;
+    Bounds all;
+    std::vector<bool> is_scrap_part(count, false);
+    Scraps scraps;
+    for (const std::uint32_t p : order) {
+        const Part& part = parts[p];
+        all.add(part.bounds);
+        const bool is_far = reach_beyond(part.bounds, artifact) > 0.1 * artifact.size();
+        if (part.triangles <= few && artifact.size() > 0.0 && is_far) {
+            is_scrap_part[p] = true;
+            scraps.triangles += part.triangles;
+        } else {
+            artifact.add(part.bounds);
+        }
+    }
+    scraps.size_with = all.size();
+    scraps.size_without = artifact.size();
+    if (scraps.triangles == 0 || scraps.triangles > few ||
+        scraps.size_without >= min_shrinkage * scraps.size_with) {
+        return {};
+    }
+    for (const std::uint32_t part : part_of) {
+        scraps.is_scrap.push_back(is_scrap_part[part]);
+    }
+    return scraps;
+}
+
+void remove_scraps(SourceMesh& mesh, const Scraps& scraps) {
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (!scraps.is_scrap[t]) {
+            mesh.triangles[kept] = mesh.triangles[t];
+            mesh.triangle_materials[kept] = mesh.triangle_materials[t];
+            ++kept;
+        }
+    }
+    mesh.triangles.resize(kept);
+    mesh.triangle_materials.resize(kept);
+}
+
+std::vector<SourceNote> last_look(const SourceMesh& mesh, const Scraps& scraps) {
+    std::vector<SourceNote> notes;
+    const auto guess = [&](std::string text) {
+        notes.push_back({SourceNote::Kind::Guessed, std::move(text)});
+    };
+    if (scraps.triangles > 0) {
+        guess(fmt::format("{} of its {} triangles lie apart from the rest, and make the artifact {:.2g} "
+                          "times as small as it could be: leave them out with --clean, "
+                          "or cut them off in the scan",
+                          scraps.triangles, mesh.triangles.size(), scraps.size_with / scraps.size_without));
+    }
+    if (is_all_black(mesh)) {
+        guess("all of its colours are black, so nothing of it will show: export it with its colours, or name "
+              "a picture with --texture FILE");
+    }
+    Bounds bounds;
+    double farthest = 0.0;
+    for (const glm::dvec3& position : mesh.positions) {
+        bounds.add({position, position});
+        farthest = std::max({farthest, std::abs(position.x), std::abs(position.y), std::abs(position.z)});
+    }
+    const bool is_single =
+        std::all_of(mesh.positions.begin(), mesh.positions.end(),
+                    [](const glm::dvec3& position) { return glm::dvec3(glm::vec3(position)) == position; });
+    const double step = std::ldexp(farthest, -23);
+    if (is_single && bounds.size() > 0.0 && step > max_step_share * bounds.size()) {
+        guess(fmt::format("its points lie on a grid of {:.2g} of its size, since its coordinates are large "
+                          "({:.3g}): move it to the origin before it is exported",
+                          step / bounds.size(), farthest));
+    }
+    return notes;
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,43 @@
+/// A glTF file's materials and pictures in the mesh, made when a primitive first needs them.
+///
+/// BLEND    a picture whose alpha is all or nothing is cut out as with MASK; any other is shown opaque, and told.
+/// Errors   throws Refusal.
+#pragma once
+
+#include "assets_baked/bake/loaders/gltf_buffers.h"
+#include "assets_baked/bake/loaders/gltf_model.h"
+#include "assets_baked/bake/loaders/load_notes.h"
+#include "assets_baked/bake/loaders/mesh_assembly.h"
+#include "assets_baked/bake/loaders/picture_store.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace frustumscreen {
+
+class GltfMaterials {
+public:
+    GltfMaterials(const GltfModel& model, GltfBuffers& buffers, PictureStore& pictures, LoadNotes& notes,
+                  MeshAssembly& mesh)
+        : model_(model), buffers_(buffers), pictures_(pictures), notes_(notes), mesh_(mesh) {}
+
+    /// The mesh's number of the file's material; without an index glTF's default material.
+    std::uint32_t material(std::optional<std::size_t> index);
+
+private:
+    void cut_or_fill(SourceMaterial& material, std::size_t index);
+    [[nodiscard]] int texture(std::size_t index);
+    [[nodiscard]] std::shared_ptr<const Image8> image(std::size_t index);
+
+    const GltfModel& model_;
+    GltfBuffers& buffers_;
+    PictureStore& pictures_;
+    LoadNotes& notes_;
+    MeshAssembly& mesh_;
+    std::map<std::optional<std::size_t>, std::uint32_t> materials_;
+    std::map<std::size_t, int> textures_;
+    std::map<std::size_t, std::shared_ptr<const Image8>> images_;
+};
+
+} // namespace frustumscreen

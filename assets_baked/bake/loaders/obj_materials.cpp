@@ -1,0 +1,243 @@
+#include "assets_baked/bake/loaders/obj_materials.h"
+
+#include "assets_baked/bake/loaders/mtl_text.h"
+#include "assets_baked/bake/loaders/source_about.h"
+#include "assets_baked/bake/loaders/text.h"
+#include "assets_baked/names/file_name.h"
+#include "firmware_host/base/printable.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <sstream>
+#include <vector>
+
+namespace frustumscreen {
+
+namespace {
+
+bool moves_picture(const tinyobj::texture_option_t& options) {
+    return options.origin_offset[0] != 0 || options.origin_offset[1] != 0 || options.scale[0] != 1 ||
+           options.scale[1] != 1;
+}
+
+glm::vec4 colour_of(const tinyobj::real_t (&colour)[3]) {
+    glm::vec4 made(1.0F);
+    for (int i = 0; i < 3; ++i) {
+        const auto factor = static_cast<float>(colour[i]);
+        made[i] = factor >= 0.0F && factor <= 1.0F ? factor : 1.0F;
+    }
+    return made;
+}
+
+bool is_black(const glm::vec4& colour) {
+    return glm::vec3(colour) == glm::vec3(0.0F);
+}
+
+/// The existing files that a line `mtllib` names: all of it as one name, else the longest runs of its words that are names.
+std::vector<std::string> names_in(std::string_view line, const Sidecars& sidecars) {
+    std::vector<std::string> words;
+    WordReader reader(line);
+    for (std::string_view word = reader.next(); !word.empty(); word = reader.next()) {
+        words.emplace_back(word);
+    }
+    if (words.size() <= 1 || sidecars.exists(line)) {
+        return {std::string(line)};
+    }
+    std::vector<std::string> names;
+    for (std::size_t begin = 0; begin < words.size();) {
+        std::size_t end = words.size();
+        std::string name;
+        for (; end > begin; --end) {
+            name = fmt::format("{}", fmt::join(words.begin() + static_cast<std::ptrdiff_t>(begin),
+                                               words.begin() + static_cast<std::ptrdiff_t>(end), " "));
+            if (end == begin + 1 || sidecars.exists(name)) {
+                break;
+            }
+        }
+        names.push_back(name);
+        begin = end;
+    }
+    return names;
+}
+
+} // namespace
+
+void ObjMaterials::read_libraries(std::string_view names, const std::string& place) {
+    for (const std::string& name : names_in(names, files_.sidecars)) {
+        read_library(name, place);
+    }
+}
+
+void ObjMaterials::read_library(const std::string& name, const std::string& place) {
+    if (!files_.sidecars.exists(name)) {
+        note_missing_library(name, place);
+        return;
+    }
+    has_library_ = true;
+    const std::shared_ptr<const Bytes> bytes = files_.sidecars.read(name, place);
+    take_comments(as_text(*bytes), files_.about);
+    const MtlText mtl = mtl_text_from(as_text(*bytes));
+    std::istringstream stream{mtl.text};
+    std::map<std::string, int> names;
+    std::vector<tinyobj::material_t> materials;
+    std::string warnings;
+    std::string errors;
+    tinyobj::LoadMtl(&names, &materials, &stream, &warnings, &errors);
+    const std::string shown_name = printable(last_part(name));
+    if (!mtl.unknown.empty()) {
+        files_.notes.lost("lines of {} that no .mtl has: {}", shown_name,
+                          printable(fmt::format("{}", fmt::join(mtl.unknown, ", "))));
+    }
+    if (mtl.kd_in_codes) {
+        files_.notes.guessed("the colours of {} are read as 0 to 255, since some are above 1", shown_name);
+    }
+    for (const auto& [material, index] : names) {
+        if (!material.empty() && index >= 0 && static_cast<std::size_t>(index) < materials.size()) {
+            tinyobj::material_t& source = materials[static_cast<std::size_t>(index)];
+            for (tinyobj::real_t& part : source.diffuse) {
+                part /= mtl.kd_in_codes ? 255 : 1;
+            }
+            take(material, source, files_.sidecars.folder_of(name));
+        }
+    }
+}
+
+void ObjMaterials::note_missing_library(std::string_view name, const std::string& place) {
+    missing_library_ = true;
+    if (!files_.pictures.has_curators()) { // whose picture stands for the colours
+        files_.notes.lost(
+            "the colours: it names \"{}\" for them, and there is no such file beside it; put it there ({})",
+            printable(last_part(name)), place);
+    }
+}
+
+void ObjMaterials::take(const std::string& name, const tinyobj::material_t& source,
+                        const std::filesystem::path& folder) {
+    const Material& taken = known_.insert_or_assign(name, Material{source, folder}).first->second;
+    for (const std::string* picture :
+         {&source.diffuse_texname, &source.ambient_texname, &source.specular_texname,
+          &source.specular_highlight_texname, &source.bump_texname, &source.displacement_texname,
+          &source.alpha_texname, &source.reflection_texname, &source.roughness_texname,
+          &source.metallic_texname, &source.sheen_texname, &source.emissive_texname,
+          &source.normal_texname}) {
+        if (!picture->empty()) {
+            files_.sidecars.mention(picture_name(taken, *picture));
+        }
+    }
+}
+
+std::string ObjMaterials::picture_name(const Material& material, const std::string& name) const {
+    const std::string beside_mtl = (material.folder / name).string();
+    return !files_.sidecars.exists_as_written(name) && files_.sidecars.exists_as_written(beside_mtl)
+               ? beside_mtl
+               : name;
+}
+
+const ObjMaterials::Material* ObjMaterials::find(const std::string& name) {
+    if (const auto known = known_.find(name); known != known_.end()) {
+        return &known->second;
+    }
+    if (name.empty() && known_.size() == 1) {
+        files_.notes.guessed("no face names a material; the only one, \"{}\", is taken",
+                             printable(known_.begin()->first));
+        return &known_.begin()->second;
+    }
+    const auto like = std::find_if(known_.begin(), known_.end(),
+                                   [&](const auto& each) { return is_same_file_name(each.first, name); });
+    return name.empty() || like == known_.end() ? nullptr : &like->second;
+}
+
+std::uint32_t ObjMaterials::number_of(const std::string& name) {
+    if (const auto used = used_.find(name); used != used_.end()) {
+        return used->second;
+    }
+    SourceMaterial made;
+    if (const Material* known = find(name)) {
+        made = made_from(*known);
+        note_unshown(*known);
+    } else if (!name.empty()) {
+        note_unknown(name);
+    } else if (known_.size() > 1) {
+        files_.notes.lost("the colours of faces that name no material: the file of materials (.mtl) has {}",
+                          known_.size());
+    }
+    return used_[name] = mesh_.add_material(made);
+}
+
+void ObjMaterials::note_unknown(const std::string& name) {
+    if (has_library_) {
+        files_.notes.lost("the colour of the material \"{}\": the file of materials (.mtl) does not have it",
+                          printable(name));
+    } else if (!missing_library_ && !files_.pictures.has_curators()) {
+        files_.notes.lost("the colours: it names materials, but no file of materials (.mtl); export it again "
+                          "with its materials");
+    }
+}
+
+void ObjMaterials::note_unshown(const Material& material) {
+    const tinyobj::material_t& source = material.source;
+    const std::string name = printable(source.name);
+    if (!source.normal_texname.empty() || !source.bump_texname.empty() ||
+        !source.displacement_texname.empty()) {
+        files_.notes.lost("the relief of the material \"{}\" that is drawn in a picture (bump, norm, disp), "
+                          "not in triangles",
+                          name);
+    }
+    if (!source.alpha_texname.empty()) {
+        files_.notes.lost("the cut-outs of the material \"{}\" (map_d): it is shown whole", name);
+    }
+    if (source.dissolve < 1) {
+        files_.notes.lost("the transparency of the material \"{}\" (d {:.2f}): it is shown opaque", name,
+                          source.dissolve);
+    }
+    if (moves_picture(source.diffuse_texopt)) {
+        files_.notes.lost("where the picture of the material \"{}\" lies (map_Kd -o, -s): it is shown as if "
+                          "both were left out",
+                          name);
+    }
+}
+
+SourceMaterial ObjMaterials::made_from(const Material& material) {
+    const tinyobj::material_t& source = material.source;
+    SourceMaterial made;
+    made.base_colour = colour_of(source.diffuse);
+    const bool has_picture = !source.diffuse_texname.empty();
+    if (has_picture) {
+        made.texture = texture(material, source.diffuse_texname, source.diffuse_texopt, "map_Kd");
+        if (is_black(
+                made.base_colour)) { // a writer that leaves Kd black beside a picture means the picture alone
+            made.base_colour = glm::vec4(1.0F);
+        }
+    }
+    const glm::vec4 emission = colour_of(source.emission);
+    const bool glows = !source.emissive_texname.empty() || !is_black(emission);
+    if (!glows) {
+        return made;
+    }
+    const std::string name = printable(source.name);
+    if (has_picture || (!is_black(made.base_colour) && source.emissive_texname.empty())) {
+        files_.notes.lost("the light of its own of the material \"{}\" (Ke, map_Ke)", name);
+        return made;
+    }
+    files_.notes.guessed(
+        "the material \"{}\" has no colour but its own light (Ke, map_Ke), which is taken for it", name);
+    made.base_colour = is_black(emission) ? glm::vec4(1.0F) : emission;
+    if (!source.emissive_texname.empty()) {
+        made.texture = texture(material, source.emissive_texname, source.emissive_texopt, "map_Ke");
+    }
+    return made;
+}
+
+int ObjMaterials::texture(const Material& material, const std::string& name,
+                          const tinyobj::texture_option_t& options, std::string_view keyword) {
+    const std::string found = picture_name(material, name);
+    std::shared_ptr<const Image8>& picture = pictures_by_name_[found];
+    if (!picture) {
+        picture = files_.pictures.named(found, fmt::format("{} {}", keyword, printable(name)));
+    }
+    const Wrap wrap = options.clamp ? Wrap::Clamp : Wrap::Repeat;
+    return mesh_.add_texture({picture, wrap, wrap});
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,186 @@
+// glTF as exporters really write it: light as colour, instances, hidden parts, transparency, extensions.
+#include "app/image/image.h"
+#include "tests/loaders/loaders_testing.h"
+#include "tests/loaders/sample_pictures.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustumscreen::testing {
+namespace {
+
+/// A triangle with texture coordinates; rows of two instances: places (0, 0, 0) and (5, 0, 0), a quarter turn about z for the second,
+/// scales 1 and 2.
+const std::string bytes =
+    bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0,           1,           0, // 0: positions
+                                0, 0, 1, 0, 0, 1,                              // 36: uv
+                                0, 0, 0, 5, 0, 0,                              // 60: translations
+                                0, 0, 0, 1, 0, 0, 0.70710678F, 0.70710678F,    // 84: rotations
+                                1, 1, 1, 2, 2, 2});                            // 116: scales
+constexpr std::string_view accessors =
+    R"("bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":24},{"buffer":0,"byteOffset":60,"byteLength":24},)"
+    R"({"buffer":0,"byteOffset":84,"byteLength":32},{"buffer":0,"byteOffset":116,"byteLength":24}],)"
+    R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3},{"bufferView":1,"componentType":5126,"type":"VEC2","count":3},)"
+    R"({"bufferView":2,"componentType":5126,"type":"VEC3","count":2},{"bufferView":3,"componentType":5126,"type":"VEC4","count":2},)"
+    R"({"bufferView":4,"componentType":5126,"type":"VEC3","count":2}])";
+
+SourceMesh mesh_of(const std::string& text) {
+    Result<SourceMesh> mesh = load_text("model.gltf", text);
+    EXPECT_TRUE(mesh.has_value()) << (mesh ? "" : mesh.error().message);
+    if (!mesh) {
+        return {};
+    }
+    expect_sound(*mesh);
+    return *std::move(mesh);
+}
+
+/// One triangle of one material; picture 0 is `picture`.
+SourceMesh with_material(std::string_view material,
+                         const Image8& picture = Image8(1, 1, glm::u8vec4(10, 20, 30, 255)),
+                         std::string_view more = "") {
+    return mesh_of(gltf_text(
+        bytes,
+        fmt::format(
+            R"({},"images":[{{"uri":"data:image/png;base64,{}"}}],"textures":[{{"source":0}}],"materials":[{}],)"
+            R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"TEXCOORD_0":1}},"material":0}}]}}]{})",
+            accessors, base64(png_of(picture)), material, more)));
+}
+
+SourceMesh with_nodes(std::string_view nodes, std::string_view more = "") {
+    return mesh_of(gltf_text(
+        bytes,
+        fmt::format(
+            R"({},"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],"nodes":[{}],"scenes":[{{"nodes":[0]}}]{})",
+            accessors, nodes, more)));
+}
+
+const SourceMaterial& material_of(const SourceMesh& mesh) {
+    return mesh.materials[mesh.triangle_materials[0]];
+}
+
+bool notes(const SourceMesh& mesh, SourceNote::Kind kind, std::string_view words) {
+    return std::any_of(mesh.notes.begin(), mesh.notes.end(), [&](const SourceNote& note) {
+        return note.kind == kind && note.text.find(words) != std::string::npos;
+    });
+}
+
+TEST(GltfExporters, LightOfItsOwnStandsForAColourThatIsNotThere) {
+    for (
+        const char* material :
+        {R"({"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1]},"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}})",
+         R"({"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}})",
+         R"({"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1],"baseColorTexture":{"index":0}},"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}})"}) {
+        const SourceMesh mesh = with_material(material);
+        EXPECT_EQ(glm::vec3(material_of(mesh).base_colour), glm::vec3(1.0F)) << material;
+        EXPECT_EQ(material_of(mesh).texture, 0) << material;
+        EXPECT_TRUE(notes(mesh, SourceNote::Kind::Guessed, "own light")) << material;
+    }
+    EXPECT_EQ(
+        glm::vec3(
+            material_of(
+                with_material(
+                    R"({"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1]},"emissiveFactor":[0.5,0.25,1]})"))
+                .base_colour),
+        glm::vec3(0.5F, 0.25F, 1.0F));
+}
+
+TEST(GltfExporters, LightBesideAColourIsTold) {
+    const SourceMesh mesh = with_material(
+        R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}})");
+    EXPECT_TRUE(notes(mesh, SourceNote::Kind::Lost, "emission"));
+    const SourceMesh none = with_material(
+        R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"emissiveTexture":{"index":0}})");
+    EXPECT_TRUE(none.notes.empty()) << "without a factor the light is black";
+}
+
+TEST(GltfExporters, UnlitMaterialsAreSaidOfTheMeshAndAMixtureIsTold) {
+    EXPECT_TRUE(with_material(R"({"extensions":{"KHR_materials_unlit":{}}})").is_unlit);
+    EXPECT_FALSE(with_material("{}").is_unlit);
+    const SourceMesh mixed = mesh_of(gltf_text(
+        bytes,
+        fmt::format(
+            R"({},"materials":[{{"extensions":{{"KHR_materials_unlit":{{}}}}}},{{}}],"meshes":[{{"primitives":[)"
+            R"({{"attributes":{{"POSITION":0}},"material":0}},{{"attributes":{{"POSITION":0}},"material":1}}]}}])",
+            accessors)));
+    EXPECT_FALSE(mixed.is_unlit);
+    EXPECT_TRUE(notes(mixed, SourceNote::Kind::Lost, "unlit"));
+}
+
+TEST(GltfExporters, ATransparencyOfAllOrNothingIsCutOut) {
+    const std::string blend =
+        R"({"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})";
+    Image8 picture(10, 10, glm::u8vec4(10, 20, 30, 255));
+    EXPECT_FALSE(material_of(with_material(blend, picture)).alpha_mask) << "opaque everywhere";
+    EXPECT_TRUE(with_material(blend, picture).notes.empty());
+    picture.at(3, 3).a = 0;
+    const SourceMesh cut = with_material(blend, picture);
+    EXPECT_TRUE(material_of(cut).alpha_mask);
+    EXPECT_EQ(material_of(cut).alpha_cutoff, 0.5F);
+    EXPECT_TRUE(notes(cut, SourceNote::Kind::Guessed, "cut out"));
+    for (int y = 0; y < 10; ++y) {
+        picture.at(0, y).a = picture.at(1, y).a = 128;
+    }
+    const SourceMesh glass = with_material(blend, picture);
+    EXPECT_FALSE(material_of(glass).alpha_mask);
+    EXPECT_TRUE(notes(glass, SourceNote::Kind::Lost, "opaque"));
+    EXPECT_TRUE(notes(
+        with_material(R"({"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]}})"),
+        SourceNote::Kind::Lost, "opaque"));
+}
+
+TEST(GltfExporters, InstancesStandWhereTheirRowsSay) {
+    const SourceMesh mesh = with_nodes(
+        R"({"mesh":0,"translation":[0,0,1],"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":2,"ROTATION":3,"SCALE":4}}}})",
+        R"(,"extensionsUsed":["EXT_mesh_gpu_instancing"],"extensionsRequired":["EXT_mesh_gpu_instancing"])");
+    ASSERT_EQ(mesh.triangles.size(), 2U);
+    EXPECT_LT(glm::length(mesh.positions[mesh.triangles[0][1]] - glm::dvec3(1, 0, 1)), 1e-6);
+    EXPECT_LT(glm::length(mesh.positions[mesh.triangles[1][0]] - glm::dvec3(5, 0, 1)), 1e-6);
+    EXPECT_LT(glm::length(mesh.positions[mesh.triangles[1][1]] - glm::dvec3(5, 2, 1)), 1e-6)
+        << "scaled, then turned, then moved";
+    EXPECT_TRUE(mesh.notes.empty());
+    EXPECT_EQ(
+        with_nodes(R"({"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":2}}}})")
+            .triangles.size(),
+        2U);
+    EXPECT_NE(
+        error_of(
+            load_text(
+                "model.gltf",
+                gltf_text(
+                    bytes,
+                    fmt::format(
+                        R"({},"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],"nodes":[{{"mesh":0,)"
+                        R"("extensions":{{"EXT_mesh_gpu_instancing":{{"attributes":{{"TRANSLATION":3}}}}}}}}])",
+                        accessors))))
+            .find("rows of 3 numbers"),
+        std::string::npos);
+}
+
+TEST(GltfExporters, AHiddenNodeHidesAllBelowIt) {
+    const std::string below =
+        R"(,{"mesh":0},{"children":[3],"extensions":{"KHR_node_visibility":{"visible":false}}},{"mesh":0})";
+    const SourceMesh mesh = with_nodes(R"({"children":[1,2]})" + below);
+    EXPECT_EQ(mesh.triangles.size(), 1U);
+    EXPECT_TRUE(notes(mesh, SourceNote::Kind::Guessed, "2 parts are left out"));
+    EXPECT_TRUE(
+        with_nodes(R"({"mesh":0,"extensions":{"KHR_node_visibility":{"visible":true}}})").notes.empty());
+}
+
+TEST(GltfExporters, AnExtensionThatIsNotReadIsTold) {
+    EXPECT_TRUE(notes(with_nodes(R"({"mesh":0})", R"(,"extensionsUsed":["ACME_twist"])"),
+                      SourceNote::Kind::Lost, "ACME_twist"));
+    EXPECT_TRUE(
+        with_nodes(R"({"mesh":0})", R"(,"extensionsUsed":["KHR_materials_specular","KHR_lights_punctual"])")
+            .notes.empty())
+        << "shine and lamps change no colour";
+    const SourceMesh variants = with_nodes(
+        R"({"mesh":0})",
+        R"(,"extensionsUsed":["KHR_materials_variants"],"extensions":{"KHR_materials_variants":{"variants":[{"name":"gilt"},{"name":"bare"}]}})");
+    EXPECT_TRUE(notes(variants, SourceNote::Kind::Lost, "gilt, bare"));
+}
+
+} // namespace
+} // namespace frustumscreen::testing
