@@ -229,7 +229,7 @@ std::optional<SetUpChoice> best_prop(const Settings& projector, Mount mount, dou
             fit_picture(choice.settings, mount, wider);
             choice.figures = examine_without_zone(choice.settings);
             choice.works = even && choice.figures.covered && choice.figures.pixels >= pixels;
-            if (choice.works) {
+            if (choice.works && options.asks_for_zone()) {
                 find_zone(choice.settings, choice.figures);
                 choice.works = choice.figures.zone_m.x >= options.zone_m.x &&
                                choice.figures.zone_m.y >= options.zone_m.y;
@@ -238,6 +238,9 @@ std::optional<SetUpChoice> best_prop(const Settings& projector, Mount mount, dou
         if (!best || is_better(choice, *best)) {
             best = std::move(choice);
         }
+    }
+    if (best && !options.asks_for_zone()) {
+        find_zone(best->settings, best->figures);
     }
     return best;
 }
