@@ -1,5 +1,5 @@
-/// The convex solid that holds an artifact, by its corners: a pack's section `hull` (FORMAT.md). What lies before it hides the
-/// artifact nowhere, and who sees all of it sees all of the artifact.
+/// The convex solid that holds an artifact, by its corners: a pack's section `hull` (FORMAT.md). Who sees all of the solid sees all
+/// of the artifact.
 ///
 /// Frame    box; box units. In a prop: prop P, metres.
 /// Errors   one line beginning with the field's place in the manifest.
