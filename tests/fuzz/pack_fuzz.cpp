@@ -2,9 +2,9 @@
 // the same pack. pack_mutator.cpp puts the hashes right, so that the fuzzer gets past them.
 #include "app/pack/pack_contents.h"
 #include "app/pack/pack_file.h"
+#include "app/pack/pack_hull.h"
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
-#include "app/pack/pack_hull.h"
 #include "app/pack/seen_errors.h"
 #include "tests/fuzz/fuzz.h"
 

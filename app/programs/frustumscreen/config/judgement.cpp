@@ -78,12 +78,11 @@ void judge_letters(const Settings& settings, Page& page) {
                         px, least_em_px, rounded_up(least_em_px / px_per_m)));
     }
     if (arcmin < least_capital_arcmin) {
-        page.faults.push_back(
-            fmt::format("A caption is too small for eyes at eye.default_m: a capital is seen at {:.0f} "
-                        "minutes of arc, and needs "
-                        "{:g} (ISO 9241-303). Set exhibit.caption_height_m = {:.3f}.",
-                        arcmin, least_capital_arcmin,
-                        rounded_up(least_capital_arcmin / arcmin_per_em_m(settings.eye))));
+        page.faults.push_back(fmt::format(
+            "A caption is too small for eyes at eye.default_m: a capital is seen at {:.0f} "
+            "minutes of arc, and needs "
+            "{:g} (ISO 9241-303). Set exhibit.caption_height_m = {:.3f}.",
+            arcmin, least_capital_arcmin, rounded_up(least_capital_arcmin / arcmin_per_em_m(settings.eye))));
     }
 }
 
