@@ -38,7 +38,8 @@ struct Guided {
     std::int64_t t_us = 0;
     FaceSets faces;
     double unlit_px = 0.0;
-    std::optional<bool> whole; ///< where the artifact is known
+    bool knows_artifact = false;
+    bool whole = false; ///< where the artifact is known
     std::optional<Advice> advice;
 };
 
@@ -76,8 +77,8 @@ std::string json_line(const Guided& guided, const PropShape& prop) {
               {"lit", names_of(guided.faces.lit, prop)},
               {"valid", guided.faces.valid()},
               {"unlit_px", guided.unlit_px}};
-    if (guided.whole) {
-        line["whole"] = *guided.whole;
+    if (guided.knows_artifact) {
+        line["whole"] = guided.whole;
     }
     line["advice"] = advice_json(guided.advice);
     return line.dump();
@@ -148,9 +149,8 @@ Result<void> guide(const Request& request) {
     std::string said; ///< a line where it changes
     for (const Situation& frame : frames) {
         const GuidedSituation situation{frame.table_from_prop, frame.eye_m};
-        const Guided guided{to_microseconds(frame.time), reader.read(situation), reader.unlit_px(situation),
-                            setup.hull.empty() ? std::nullopt : std::optional(reader.whole(situation)),
-                            advisor.advise(situation)};
+        const Guided guided{to_microseconds(frame.time), reader.read(situation),  reader.unlit_px(situation),
+                            !setup.hull.empty(),         reader.whole(situation), advisor.advise(situation)};
         if (request.json) {
             fmt::print("{}\n", json_line(guided, prop));
         } else if (std::string words = text_words(guided, prop); words != said) {
