@@ -189,6 +189,9 @@ const Guidance* Exhibit::step_guide(MonotonicTime now, const Situation& situatio
         guide_->rest(now); // what is being chosen is no mistake
         return nullptr;
     }
+    const std::size_t shown = selection_.at(now).artifact;
+    guide_->show(shown < catalogue_.size() ? std::span<const glm::dvec3>(catalogue_[shown].hull)
+                                           : std::span<const glm::dvec3>());
     if (help_) {
         guide_->ask();
     } else if (on_way) {

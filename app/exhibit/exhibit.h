@@ -60,6 +60,10 @@ struct CatalogueEntry {
     std::vector<Tellable> tellables{};
     std::vector<DescriptionShape> descriptions{};
     HotspotSet hotspots{};
+    /// The artifact in the prop, by the corners of its hull (pack/pack_hull.h), prop frame; none: it is not known, and every seen
+    /// face counts.
+    std::vector<glm::dvec3> hull{};
+    std::optional<ZoneFrame> zone{}; ///< where it is seen whole; none: the place's
 };
 using Catalogue = std::vector<CatalogueEntry>;
 
@@ -115,21 +119,22 @@ struct Presentation {
     std::string_view language;                ///< of the caption, shown or not; valid as long as the exhibit
     std::string_view wanted_language; ///< the chosen one, to load texts ahead; valid as long as the exhibit
     std::optional<PresentedCaption> caption;
-    std::optional<PlacedSign> sign;           ///< what the visitor should do
-    std::optional<PresentedAdvice> advice;    ///< the same in words; an invitation; why nothing is shown
-    std::optional<WordIndex> says;            ///< what begins to be spoken at this step
-    bool falls_silent = false;                ///< what was spoken of it holds no more
-    std::optional<WordIndex> prepares_word;   ///< what may be spoken next; none while the set leaves
-    std::optional<DescriptionIndex> tells;    ///< whose description is to be heard, from its beginning on
-    bool leaves = false;                      ///< what it told before ends at its next pause, else at once
-    std::optional<DescriptionIndex> prepares; ///< whose description may be heard next
-    std::optional<std::size_t> tells_of;      ///< the hotspot that is pointed out, seen or not
-    std::optional<PresentedHotspot> hotspot;  ///< its label
-    const PresentedTable* table = nullptr;    ///< what lies there to choose from; valid until the next step
-    std::string_view table_language;          ///< of its titles; valid as long as the exhibit
-    double set_share = 1.0;                   ///< of the table's pictures: 0..1, the same
-    double title_brightness = 1.0;            ///< of its titles: 0..1, a factor on linear light
-    std::optional<PresentedNotice> notice;    ///< what is told of a stick; the exhibit leaves it out
+    std::optional<PlacedSign> sign;             ///< what the visitor should do
+    std::optional<PresentedAdvice> advice;      ///< the same in words; an invitation; why nothing is shown
+    std::optional<WordIndex> says;              ///< what begins to be spoken at this step
+    bool falls_silent = false;                  ///< what was spoken of it holds no more
+    std::optional<WordIndex> prepares_word;     ///< what may be spoken next; none while the set leaves
+    std::optional<DescriptionIndex> tells;      ///< whose description is to be heard, from its beginning on
+    bool leaves = false;                        ///< what it told before ends at its next pause, else at once
+    std::optional<DescriptionIndex> prepares;   ///< whose description may be heard next
+    std::optional<std::size_t> tells_of;        ///< the hotspot that is pointed out, seen or not
+    std::optional<PresentedHotspot> hotspot;    ///< its label
+    const PresentedTable* table = nullptr;      ///< what lies there to choose from; valid until the next step
+    std::string_view table_language;            ///< of its titles; valid as long as the exhibit
+    double set_share = 1.0;                     ///< of the table's pictures: 0..1, the same
+    double title_brightness = 1.0;              ///< of its titles: 0..1, a factor on linear light
+    std::optional<PresentedNotice> notice;      ///< what is told of a stick; the exhibit leaves it out
+    std::array<TableRectangle, 4> zone_sides{}; ///< of the frame around the zone
     double zone_share = 0.0;        ///< of the frame around the prop's zone: 0..1, a factor on linear light
     RigidTransform table_from_prop; ///< the pose to draw for
     bool attracts = false;          ///< the prop's own pose is not what is drawn
@@ -208,6 +213,7 @@ private:
     [[nodiscard]] const Guidance* step_guide(MonotonicTime now, const Situation& situation,
                                              const Stand& stand);
     [[nodiscard]] bool is_on_way_to_picture(MonotonicTime now);
+    [[nodiscard]] const ZoneFrame& zone_of(std::size_t artifact) const;
     /// Something of the artifact is being told.
     [[nodiscard]] bool tells() const;
 

@@ -119,6 +119,9 @@ Catalogue Exhibit::show_set(Catalogue catalogue, std::optional<TableBrowser> tab
     // Who chose no language has the house's, and another set may have a nearer one.
     const std::string chosen = selection_.is_at_first_language() ? house_language_ : selection_.language();
     Catalogue before = std::exchange(catalogue_, std::move(catalogue));
+    if (guide_) {
+        guide_->show({}); // what it was shown goes
+    }
     selection_ = make_selection(catalogue_, house_language_, now);
     const std::vector<std::string> languages = languages_of(catalogue_);
     selection_.begin_with(artifact, languages.empty() ? chosen : languages[caption_for(chosen, languages)],

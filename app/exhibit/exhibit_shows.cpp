@@ -35,7 +35,9 @@ Presentation Exhibit::present(MonotonicTime now, const Situation& situation, con
     presentation.title_brightness = shown.language_brightness;
     // Pictures invite out of the zone, and its frame would cross them.
     const bool framed = !stand.attracts && !(table_ && table_->presented().count > 0);
-    presentation.zone_share = framed ? place_.zone.share(stand.table_from_prop) * stand.brightness : 0.0;
+    const ZoneFrame& zone = zone_of(shown.artifact);
+    presentation.zone_sides = zone.sides();
+    presentation.zone_share = framed ? zone.share(stand.table_from_prop) * stand.brightness : 0.0;
     presentation.table_from_prop = stand.table_from_prop;
     presentation.attracts = stand.attracts;
     const double opacity = placer_.at(now).opacity;
@@ -51,6 +53,11 @@ Presentation Exhibit::present(MonotonicTime now, const Situation& situation, con
     presentation.calibrate = staff_.take_measure();
     presentation.lamps = lamps();
     return presentation;
+}
+
+const ZoneFrame& Exhibit::zone_of(std::size_t artifact) const {
+    const bool has_own = artifact < catalogue_.size() && catalogue_[artifact].zone;
+    return has_own ? *catalogue_[artifact].zone : place_.zone;
 }
 
 WantedArtifacts Exhibit::wanted() const {

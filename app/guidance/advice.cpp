@@ -100,19 +100,19 @@ void for_each_execution(const Move& move, const GuidanceSetup& setup, double mar
 
 Help help_of(const FaceReader& reader, const GuidedSituation& situation, const Move& move, double margin,
              int* looks) {
-    const double before_px = reader.unlit_px(situation);
+    const double before_px = reader.lost_px(situation);
     Help help{true};
     int ways = 0;
     int whole = 0;
     for_each_execution(move, reader.setup(), margin, [&](const Execution& execution) {
         const GuidedSituation next = after(move, reader.setup(), situation, execution);
-        const bool valid = reader.valid(next);
+        const bool is_whole = reader.whole(next);
         ++ways;
-        whole += valid ? 1 : 0;
+        whole += is_whole ? 1 : 0;
         if (looks != nullptr) {
-            *looks += valid ? 1 : looks_of_an_area;
+            *looks += is_whole ? 1 : looks_of_an_area;
         }
-        help.always = valid || reader.unlit_px(next) < better_share * before_px;
+        help.always = is_whole || reader.lost_px(next) < better_share * before_px;
         return help.always;
     });
     help.whole_share = static_cast<double>(whole) / ways;

@@ -41,7 +41,7 @@ void AdviceSearch::begin(const FaceReader& reader, const GuidedSituation& situat
     situation_ = situation;
     standing_ = standing;
     found_.reset();
-    over_ = reader.valid(situation);
+    over_ = reader.whole(situation);
     stage_ = Stage::Begun;
     best_ = {};
 }
@@ -72,13 +72,13 @@ void AdviceSearch::end(const Move& move, int steps) {
     over_ = true;
 }
 
-/// Those that are valid if they are done well, the easiest first.
+/// Those that make it whole if they are done well, the easiest first.
 void AdviceSearch::collect_single_moves(const FaceReader& reader) {
     const Candidates list = candidates(reader.setup(), situation_, MoveSet::Only);
     looks_left_ -= static_cast<int>(list.all().size());
     candidates_ = {};
     for (const Candidate& candidate : list.all()) {
-        if (reader.valid(after(candidate.move, reader.setup(), situation_))) {
+        if (reader.whole(after(candidate.move, reader.setup(), situation_))) {
             const bool stays = standing_ && alike(standing_->move, candidate.move);
             candidates_.add(candidate.move, candidate.effort + (stays ? as_advised_already : 0.0));
         }
@@ -99,7 +99,7 @@ void AdviceSearch::weigh_single_move(const FaceReader& reader) {
     candidates_.add_effort(next_++, cost_of_end(reader, next));
 }
 
-/// The best one is valid if it is done well, and helpful however it is done.
+/// The best one makes it whole if it is done well, and helpful however it is done.
 void AdviceSearch::try_single_move(const FaceReader& reader) {
     const std::span<const Candidate> moves = candidates_.all();
     if (next_ == moves.size() || moves[next_].effort >= best_.cost) {
@@ -172,7 +172,7 @@ void AdviceSearch::begin_try(const FaceReader& reader) {
     candidates_ = candidates(reader.setup(), search.from, search.depth == 1 ? search.last : MoveSet::Inner);
 }
 
-/// Each move is done well, the end is valid; only the first move and the length matter.
+/// Each move is done well, at the end it is whole; only the first move and the length matter.
 void AdviceSearch::go_on_with_try(const FaceReader& reader) {
     const Try& search = tries_.at(try_);
     if (next_ == candidates_.all().size()) {
@@ -202,7 +202,7 @@ void AdviceSearch::go_on_with_try(const FaceReader& reader) {
 
 /// Who is led to the edge of what is lit soon has to be led again.
 double AdviceSearch::cost_of_end(const FaceReader& reader, const GuidedSituation& end) {
-    if (!reader.valid(end)) {
+    if (!reader.whole(end)) {
         return never;
     }
     int looks = 0;

@@ -1,8 +1,8 @@
 /// The one move that lets a visitor see the whole artifact, and how many moves it is the first of.
 ///
 /// A single move is advised only if it helps however people carry it out: with its direction up to 20 degrees off, its
-/// amount up to 40 per cent off, each execution leads to a valid situation or to a smaller unlit area; done well, it
-/// leads to a valid one. Among those it is the one with the least effort, for as much as it is sure and ends steadily (steadiness.h). So it opens every face that is seen and not
+/// amount up to 40 per cent off, each execution leads to a situation in which the artifact is whole, or less of it lost; done well, it
+/// leads to a whole one. Among those it is the one with the least effort, for as much as it is sure and ends steadily (steadiness.h). So it opens every face that is seen and not
 /// lit, and keeps those that are; the paper asks for the largest one at a time. Where no single move does, it is the
 /// first of the shortest sequence found.
 ///
@@ -18,11 +18,12 @@
 #include "app/guidance/face_reader.h"
 
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace frustumscreen {
 
-/// Nothing if the situation is valid. Wait: no sequence of up to four moves was found.
+/// Nothing if it is whole. Wait: no sequence of up to four moves was found.
 [[nodiscard]] std::optional<Advice> advise(const FaceReader& reader, const GuidedSituation& situation,
                                            const std::optional<GivenAdvice>& standing = std::nullopt);
 
@@ -31,6 +32,8 @@ class Advisor {
 public:
     explicit Advisor(GuidanceSetup setup) : reader_(std::move(setup)) {}
 
+    /// As FaceReader::show; a search that goes on is to be begun anew.
+    void show(std::span<const glm::dvec3> hull) { reader_.show(hull); }
     [[nodiscard]] std::optional<Advice> advise(const GuidedSituation& situation);
 
     /// The same in pieces (advice_search.h): begin, then advance until it is true.

@@ -1,5 +1,7 @@
 #include "app/guidance/face_reader.h"
 
+#include "app/guidance/seen_places.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -11,6 +13,12 @@ namespace {
 
 /// A point this near to the eye or behind it is taken as this near, in shares of the distance to the prop's middle.
 constexpr double nearest_share = 0.01;
+
+/// A pinhole at the eye looks at the prop's middle.
+glm::dvec3 forward_from(const glm::dvec3& eye, const PropShape& prop) {
+    const glm::dvec3 way = prop.middle - eye;
+    return way / std::fmax(glm::length(way), 1e-9);
+}
 
 /// The sine at a corner is the height over the plane divided by the corner's distance.
 bool sees(const glm::dvec3& point, const PropFace& face, double least_sine) {
@@ -42,21 +50,50 @@ struct Views {
     [[nodiscard]] bool seen(const PropFace& face) const {
         return sees(eye, face, FaceReader::least_sine_of_sight);
     }
+    [[nodiscard]] bool turned_to_light(const PropFace& face, const GuidanceSetup& setup) const {
+        return sees(lens, face, setup.least_sine_of_light);
+    }
     [[nodiscard]] bool lit(const PropFace& face, const GuidanceSetup& setup) const {
         const Pinhole& pinhole = setup.projector;
-        return sees(lens, face, setup.least_sine_of_light) &&
+        return turned_to_light(face, setup) &&
                std::all_of(face.corners.begin(), face.corners.end(), [&](const glm::dvec3& corner) {
                    const auto pixel = pinhole.pixel(projector_from_prop.point(corner));
                    return pixel && pixel->x >= 0.0 && pixel->y >= 0.0 && pixel->x <= pinhole.width &&
                           pixel->y <= pinhole.height;
                });
     }
+    /// Calls `visit` with parts that together are all of the face that is not lit, and do not overlap, until it returns false.
+    template <typename Visit>
+    bool for_each_unlit(const PropFace& face, const GuidanceSetup& setup, const std::array<Plane, 4>& picture,
+                        const Visit& visit) const {
+        FacePart rest(face.corners);
+        if (!turned_to_light(face, setup)) {
+            return visit(rest);
+        }
+        for (const Plane& edge : picture) {
+            const Plane inward = in_prop(edge);
+            const FacePart outside = rest.clipped(-inward.normal, -inward.offset);
+            if (!outside.empty() && !visit(outside)) {
+                return false;
+            }
+            rest = rest.clipped(inward.normal, inward.offset);
+        }
+        return true;
+    }
+
+private:
+    /// A plane through the lens, from the projector's frame.
+    [[nodiscard]] Plane in_prop(const Plane& plane) const {
+        const glm::dvec3 normal = glm::conjugate(projector_from_prop.rotation) * plane.normal;
+        return {normal, glm::dot(normal, lens)};
+    }
 };
 
 } // namespace
 
 FaceReader::FaceReader(GuidanceSetup setup)
-    : setup_(std::move(setup)), projector_from_table_(setup_.table_from_projector.inverse()) {
+    : setup_(std::move(setup)), projector_from_table_(setup_.table_from_projector.inverse()),
+      picture_(picture_planes(setup_.projector, RigidTransform())) {
     assert(setup_.prop.faces.size() <= 32);
 }
 
@@ -75,6 +112,40 @@ bool FaceReader::valid(const GuidedSituation& situation) const {
     const Views views(setup_, projector_from_table_, situation);
     return std::all_of(setup_.prop.faces.begin(), setup_.prop.faces.end(),
                        [&](const PropFace& face) { return !views.seen(face) || views.lit(face, setup_); });
+}
+
+bool FaceReader::whole(const GuidedSituation& situation) const {
+    const std::span<const glm::dvec3> hull = shown();
+    if (hull.empty()) {
+        return valid(situation);
+    }
+    const Views views(setup_, projector_from_table_, situation);
+    return std::all_of(setup_.prop.faces.begin(), setup_.prop.faces.end(), [&](const PropFace& face) {
+        return !views.seen(face) || views.lit(face, setup_) ||
+               views.for_each_unlit(face, setup_, picture_, [&](const FacePart& unlit) {
+                   return !sees_through(views.eye, unlit, hull);
+               });
+    });
+}
+
+double FaceReader::lost_px(const GuidedSituation& situation) const {
+    const std::span<const glm::dvec3> hull = shown();
+    if (hull.empty()) {
+        return unlit_px(situation);
+    }
+    const Views views(setup_, projector_from_table_, situation);
+    const SeenOutline outline(views.eye, forward_from(views.eye, setup_.prop), hull);
+    double area = 0.0;
+    for (const PropFace& face : setup_.prop.faces) {
+        if (!views.seen(face) || views.lit(face, setup_)) {
+            continue;
+        }
+        views.for_each_unlit(face, setup_, picture_, [&](const FacePart& unlit) {
+            area += outline.area_through(unlit);
+            return true;
+        });
+    }
+    return area * pixels_per_radian * pixels_per_radian;
 }
 
 double FaceReader::area_px(const GuidedSituation& situation, std::uint32_t faces) const {

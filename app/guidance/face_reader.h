@@ -1,21 +1,28 @@
-/// Which of the prop's faces a visitor sees, and which of them the projector lights.
+/// Which of the prop's faces a visitor sees, which of them the projector lights, and whether the artifact is seen whole.
 ///
 /// Seen     the eye is in front of the face's plane by a sine of at least `least_sine_of_sight` at every corner.
 /// Lit      so is the projector by `least_sine_of_light`, and all corners lie in its picture.
 /// Valid    every seen face is lit. The prop is convex, so no face hides or shades another.
+/// Whole    every place of the seen faces through which the artifact is seen (seen_places.h) is lit: the projector is in front of
+///          the face by that sine, and the place in its picture. Where no artifact is known: valid.
 ///
 /// Frames   table T, metres.
 /// Threads  pure; any. Allocates nothing.
 /// Source   Kim, Shin, Kim 2008, 'Guiding the user'.
 #pragma once
 
+#include "app/geometry/picture_planes.h"
 #include "app/geometry/pinhole.h"
 #include "app/geometry/prop_shape.h"
 #include "app/geometry/transform.h"
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace frustumscreen {
 
@@ -28,6 +35,8 @@ struct GuidanceSetup {
     bool in_hand = false; ///< else it stands on the table, and the table's edge ends its way
     glm::dvec2 half_table_m{0.4, 0.25};
     bool head_tracked = true; ///< else nobody is asked to walk
+    /// The artifact in the prop, by the corners of its hull, prop frame, 1024 at most; empty: none is known.
+    std::vector<glm::dvec3> hull{};
 };
 
 struct GuidedSituation {
@@ -53,12 +62,21 @@ public:
     explicit FaceReader(GuidanceSetup setup);
 
     [[nodiscard]] const GuidanceSetup& setup() const { return setup_; }
+    /// Another artifact, in place of the set-up's. Its corners are the caller's, who keeps them.
+    void show(std::span<const glm::dvec3> hull) { shown_ = hull; }
+    [[nodiscard]] std::span<const glm::dvec3> shown() const {
+        return shown_.value_or(std::span<const glm::dvec3>(setup_.hull));
+    }
+
     [[nodiscard]] FaceSets read(const GuidedSituation& situation) const;
     /// The same as `read(situation).valid()`, in a part of the time.
     [[nodiscard]] bool valid(const GuidedSituation& situation) const;
-    /// Valid, and there is a picture: a prop of the table that lies so that the visitor sees none of its faces shows nothing.
-    [[nodiscard]] bool whole(const FaceSets& faces) const {
-        return faces.valid() && (faces.seen != 0 || setup_.in_hand);
+    [[nodiscard]] bool whole(const GuidedSituation& situation) const;
+    /// Whole, and there is a picture: a prop of the table that lies so that the visitor sees none of its faces shows nothing.
+    /// `faces`: of the situation.
+    [[nodiscard]] bool shows_whole(const GuidedSituation& situation, const FaceSets& faces) const {
+        return (faces.valid() || (!shown().empty() && whole(situation))) &&
+               (faces.seen != 0 || setup_.in_hand);
     }
     /// Area of these faces in the picture of a pinhole at the eye that looks at the prop's middle, square pixels.
     [[nodiscard]] double area_px(const GuidedSituation& situation, std::uint32_t faces) const;
@@ -66,12 +84,16 @@ public:
     [[nodiscard]] double unlit_px(const GuidedSituation& situation) const {
         return area_px(situation, read(situation).unlit());
     }
+    /// Area of the places that keep it from being whole.
+    [[nodiscard]] double lost_px(const GuidedSituation& situation) const;
     /// The face with the largest area of these, as a set; 0 of none.
     [[nodiscard]] std::uint32_t largest_of(const GuidedSituation& situation, std::uint32_t faces) const;
 
 private:
     GuidanceSetup setup_;
     RigidTransform projector_from_table_;
+    std::array<Plane, 4> picture_; ///< projector's frame
+    std::optional<std::span<const glm::dvec3>> shown_;
 };
 
 } // namespace frustumscreen

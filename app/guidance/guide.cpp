@@ -55,7 +55,7 @@ void Guide::take(MonotonicTime now, const GuidedSituation& situation, Sensing se
         guidance_.steps = advice ? advice->steps : 1;
     }
     guidance_.left_light = sensing == Sensing::PropLost && !advisor_.reader().setup().in_hand &&
-                           !advisor_.reader().valid(situation);
+                           !advisor_.reader().whole(situation);
     const double left = effort_left(guidance_.move);
     if (guidance_.stage == GuidanceStage::Quiet || !was_sensing || !alike(before, guidance_.move)) {
         // Another advice begins as a picture, however far the one before had come.
@@ -128,12 +128,21 @@ bool Guide::waits(MonotonicTime now) const {
            needed_for_ < (again ? patience_again : patience);
 }
 
+void Guide::show(std::span<const glm::dvec3> hull) {
+    const std::span<const glm::dvec3> before = advisor_.reader().shown();
+    if (hull.data() != before.data() || hull.size() != before.size()) {
+        advisor_.show(hull);
+        looks_at_.reset();
+        next_look_.reset();
+    }
+}
+
 const Guidance& Guide::step(MonotonicTime now, const GuidedSituation& situation, Sensing sensing,
                             bool may_speak) {
     guidance_.speak = false;
     const bool lost = sensing == Sensing::PropLost || sensing == Sensing::TrackerAway;
     faces_ = advisor_.reader().read(situation);
-    const bool dark = !lost && !advisor_.reader().whole(faces_);
+    const bool dark = !lost && !advisor_.reader().shows_whole(situation, faces_);
     sensing = dark ? Sensing::Good : sensing;
     const bool needed = dark || sensing != Sensing::Good;
     note_need(now, needed);
@@ -173,7 +182,9 @@ void Guide::look(MonotonicTime now, const GuidedSituation& situation, Sensing se
         advisor_.begin(situation);
         next_look_ = now + looks_every;
     }
-    if (looks_at_ && advisor_.advance(asked_ ? looks_a_step_asked : looks_a_step)) {
+    // A look through the artifact's hull takes longer than one at the faces.
+    const int share = advisor_.reader().shown().empty() ? 1 : 3;
+    if (looks_at_ && advisor_.advance((asked_ ? looks_a_step_asked : looks_a_step) / share)) {
         take(now, *looks_at_, sensing);
         looks_at_.reset();
     }

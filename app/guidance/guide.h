@@ -2,7 +2,7 @@
 ///
 /// One advice at a time. First it is a picture on the table, then a text beside it, then it is spoken. It goes on
 /// to the next of these only while the visitor does not follow it, and what is spoken is said again after pauses that grow.
-/// It ends as soon as every seen face is lit. It does not begin for what lasts only a moment.
+/// It ends as soon as the visitor sees the whole artifact. It does not begin for what lasts only a moment.
 ///
 /// Frames   table T, metres.
 /// Time     `now` never goes back; the rhythm of the steps does not matter, but for how often the advice is looked for.
@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace frustumscreen {
@@ -60,6 +61,10 @@ public:
     static constexpr int looks_a_step_asked = 4 * looks_a_step; ///< somebody waits
 
     explicit Guide(GuidanceSetup setup) : advisor_(std::move(setup)) {}
+
+    /// The artifact that is in the prop from the next step on: the corners of its hull, prop frame, which are kept by the caller;
+    /// empty: none is known, and every seen face counts.
+    void show(std::span<const glm::dvec3> hull);
 
     /// `situation`: of a lost prop the latest that was known. `may_speak`: false while something else is being said, or the
     /// words do not lie on the table.

@@ -21,7 +21,7 @@ public:
     void add(const GuidedSituation& situation) {
         ++all_;
         ++looks_;
-        whole_ += reader_.valid(situation) ? 1 : 0;
+        whole_ += reader_.whole(situation) ? 1 : 0;
     }
     [[nodiscard]] double share() const { return static_cast<double>(whole_) / all_; }
 

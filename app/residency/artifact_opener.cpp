@@ -2,8 +2,10 @@
 
 #include "app/exhibit/languages.h"
 #include "app/pack/pack_file.h"
+#include "app/pack/pack_hull.h"
 #include "app/pack/prop_note.h"
 #include "app/scene/prop_outline.h"
+#include "app/settings/whole_zone.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
@@ -35,6 +37,23 @@ SceneRequest request_of(const Settings& settings, const OpenerOptions& options, 
     return request;
 }
 
+/// What of the prop the artifact is seen through, and where it is seen whole.
+Result<void> find_whole_zone(const Settings& settings, KnownArtifact& artifact) {
+    // As many corners as a frame can look through; by 64 a ball is held with 3 % to spare.
+    constexpr std::size_t most_corners = 64;
+    CatalogueEntry& entry = artifact.texts.entry;
+    TRY(entry.hull, hull_in(artifact.outline.description, make_prop(settings.prop), most_corners));
+    if (!shows_zone_frame(settings)) {
+        return {};
+    }
+    const Rectangle zone = whole_zone(settings, all_eyes(settings.eye), entry.hull).rectangle;
+    if (zone.half_m.x > 0.0 && zone.half_m.y > 0.0) {
+        entry.zone =
+            ZoneFrame(zone, 0.5 * settings.prop.base_m, {settings.table.width_m, settings.table.depth_m});
+    }
+    return {};
+}
+
 Result<KnownArtifact> open_pack(const Settings& settings, const OpenerOptions& options,
                                 const std::filesystem::path& file) {
     KnownArtifact opened{file, {}, {}, {}};
@@ -49,6 +68,7 @@ Result<KnownArtifact> open_pack(const Settings& settings, const OpenerOptions& o
     TRY(opened.texts,
         lay_out_texts({file, opened.outline.description, opened.plan.captions}, opened.plan.metres_per_box,
                       text_style(settings), settings.sound.kind != SoundKind::None));
+    TRY_VOID(find_whole_zone(settings, opened));
     return opened;
 }
 

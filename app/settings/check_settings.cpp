@@ -125,7 +125,7 @@ void check_projector(const Settings& settings, Fitness& fitness) {
     const double least_height = settings.prop.height_m + least_clearance_m;
     fitness.require(
         "settings.projector_too_low", pose.translation.z >= least_height, position,
-        fmt::format("is {} metres above the table; allowed are at least {}, the prop's height and {}",
+        fmt::format("is {:g} metres above the table; allowed are at least {:g}, the prop's height and {:g}",
                     pose.translation.z, least_height, least_clearance_m));
     const double downward = -pose.direction({0, 0, 1}).z;
     fitness.require(

@@ -3,6 +3,7 @@
 #include "app/settings/describe_settings.h"
 #include "app/settings/light_range.h"
 #include "app/settings/lit_zone.h"
+#include "app/settings/whole_zone.h"
 #include "firmware_host/base/json.h"
 
 namespace frustumscreen {
@@ -115,6 +116,28 @@ Json faces_json(const PropShape& prop) {
     return faces;
 }
 
+Json whole_zone_json(const WholeZone& zone) {
+    return {{"area_m2", area_of(zone.places)},
+            {"rectangle_centre_m", list_of(zone.rectangle.centre_m)},
+            {"rectangle_half_m", list_of(zone.rectangle.half_m)},
+            {"polygon_m", list_of(zone.places)}};
+}
+
+/// For an artifact as good as any; those of packs are in `config --explain`.
+Json usual_zone_json(const Settings& settings) {
+    const std::vector<glm::dvec3> hull = usual_artifact(make_prop(settings.prop));
+    glm::dvec3 low(hull.front());
+    glm::dvec3 high(low);
+    for (const glm::dvec3& corner : hull) {
+        low = glm::min(low, corner);
+        high = glm::max(high, corner);
+    }
+    return {
+        {"artifact_m", list_of(high - low)},
+        {"all_eyes", whole_zone_json(whole_zone(settings, all_eyes(settings.eye), hull))},
+        {"eyes_like_default", whole_zone_json(whole_zone(settings, eyes_like_default(settings.eye), hull))}};
+}
+
 Json lit_zone_json(const Settings& settings) {
     const LitZone zone = lit_zone(settings);
     return {
@@ -124,7 +147,8 @@ Json lit_zone_json(const Settings& settings) {
           {"rectangle_centre_m", list_of(zone.any_eye_rectangle.centre_m)},
           {"rectangle_half_m", list_of(zone.any_eye_rectangle.half_m)},
           {"polygon_m", list_of(zone.any_eye)}}},
-        {"default_eye", {{"area_m2", area_of(zone.default_eye)}, {"polygon_m", list_of(zone.default_eye)}}}};
+        {"default_eye", {{"area_m2", area_of(zone.default_eye)}, {"polygon_m", list_of(zone.default_eye)}}},
+        {"whole", usual_zone_json(settings)}};
 }
 
 Json light_json(const Settings& settings) {

@@ -11,14 +11,15 @@ namespace {
 constexpr std::string_view closed = "closed";
 constexpr std::size_t longest_zone = 64;
 
-/// "07:30" as minutes; nothing unless it is written exactly so, and is at most "24:00".
-std::optional<int> parse_minute(std::string_view text) {
+/// "07:30" or "7:30" as minutes; nothing unless it is written so, and is at most "24:00".
+std::optional<int> parse_minute(std::string_view written) {
     constexpr std::string_view form = "00:00";
+    const std::string text = (written.size() + 1 == form.size() ? "0" : "") + std::string(written);
     const auto fits = [](char c, char place) { return place == ':' ? c == ':' : c >= '0' && c <= '9'; };
     if (text.size() != form.size() || !std::equal(text.begin(), text.end(), form.begin(), fits)) {
         return std::nullopt;
     }
-    const auto number = [text](std::size_t at) { return 10 * (text[at] - '0') + (text[at + 1] - '0'); };
+    const auto number = [&text](std::size_t at) { return 10 * (text[at] - '0') + (text[at + 1] - '0'); };
     const int minute = 60 * number(0) + number(3);
     return number(3) < 60 && minute <= minutes_a_day ? std::optional(minute) : std::nullopt;
 }

@@ -1,5 +1,7 @@
 #include "app/settings/lit_zone.h"
 
+#include "app/geometry/picture_planes.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,18 +36,10 @@ struct PictureEdge {
 };
 
 std::array<PictureEdge, 4> picture_edges(const ProjectorSettings& projector) {
-    const Pinhole& p = projector.pinhole;
-    const std::array<glm::dvec2, 4> corners{glm::dvec2(0, 0), glm::dvec2(p.width, 0),
-                                            glm::dvec2(p.width, p.height), glm::dvec2(0, p.height)};
-    // A lens that distorts bends the edges: the zone stays within straight ones that lie in the picture.
-    const double within = 1.0 / p.lens.factors_within(p.farthest_r2()).second;
-    const auto ray = [&](const glm::dvec2& corner) {
-        return glm::dvec3(within * glm::dvec2(p.ideal().ray(corner)), 1.0);
-    };
+    const std::array<Plane, 4> planes = picture_planes(projector.pinhole, projector.table_from_projector);
     std::array<PictureEdge, 4> edges{};
     for (std::size_t k = 0; k < 4; ++k) {
-        const glm::dvec3 normal = glm::cross(ray(corners[k]), ray(corners[(k + 1) % 4]));
-        const glm::dvec3 inward = projector.table_from_projector.direction(glm::normalize(normal));
+        const glm::dvec3& inward = planes[k].normal;
         edges[k] = {inward, glm::length(glm::dvec2(inward)), std::atan2(inward.y, inward.x)};
     }
     return edges;

@@ -20,6 +20,9 @@ struct HalfPlane {
 
 [[nodiscard]] Polygon clipped(const Polygon& polygon, const HalfPlane& keep);
 
+/// The smallest convex polygon that holds the points (Andrew 1979).
+[[nodiscard]] Polygon convex_polygon(std::vector<glm::dvec2> points);
+
 [[nodiscard]] double area_of(const Polygon& polygon);
 
 struct Rectangle {

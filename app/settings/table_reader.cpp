@@ -7,8 +7,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace frustumscreen {
 
@@ -41,6 +43,15 @@ std::size_t distance(std::string_view mistyped, std::string_view key) {
     const bool shortened =
         key.substr(0, mistyped.size()) == mistyped || mistyped.substr(0, key.size()) == key;
     return shortened ? 1 : letters_apart(mistyped, key);
+}
+
+/// What people call by a name that has no letter of it.
+std::string_view usual_name(std::string_view key) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 3> names{
+        {{"volume", "gain_db"}, {"loudness", "gain_db"}, {"size_m", "base_m"}}};
+    const auto found =
+        std::find_if(names.begin(), names.end(), [key](const auto& name) { return name.first == key; });
+    return found != names.end() ? found->second : key;
 }
 
 std::uint32_t line_of(const toml::node& node) {
@@ -234,7 +245,8 @@ void TableReader::named_texts(std::string_view key, std::vector<std::pair<std::s
 
 void TableReader::texts(std::string_view key, std::vector<std::string>& values, std::size_t most,
                         std::string_view /*sentence*/) {
-    const toml::array* array = list_of(key, 0, most, fmt::format("at most {} texts", most));
+    const toml::array* array =
+        list_of(key, 0, most, fmt::format("at most {} texts, in brackets: {} = [\"...\"]", most, key));
     if (array == nullptr) {
         return;
     }
@@ -383,9 +395,10 @@ void TableReader::finish() {
     left_over.resize(std::min(left_over.size(), most_told));
     for (const toml::key* const each : left_over) {
         const std::string key = printable(each->str(), 60);
+        const std::string_view meant = usual_name(key);
         const auto nearest =
             std::min_element(known_.begin(), known_.end(), [&](const std::string& a, const std::string& b) {
-                return distance(key, a) < distance(key, b);
+                return distance(meant, a) < distance(meant, b);
             });
         const std::string advice = nearest != known_.end()
                                        ? fmt::format("; the nearest allowed key is {}", full_name(*nearest))

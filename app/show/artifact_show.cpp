@@ -223,7 +223,7 @@ void ArtifactShow::place_zone_frame(const Presentation& presentation) {
         return;
     }
     const double brightness = zone_brightness * caption_brightness_ * presentation.zone_share;
-    for (const TableRectangle& side : zone_.sides()) {
+    for (const TableRectangle& side : presentation.zone_sides) {
         on_table_.add({picture_corners(side), brightness, white_});
     }
 }

@@ -1,6 +1,8 @@
 #include "assets_baked/bake/bake.h"
 
+#include "app/geometry/convex_hull.h"
 #include "app/pack/pack_file.h"
+#include "app/pack/pack_hull.h"
 #include "assets_baked/bake/box_frame.h"
 #include "assets_baked/bake/level.h"
 #include "assets_baked/bake/measured_reliefs.h"
@@ -318,6 +320,7 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
             used.push_back(bakery.points()[vertex]);
         }
     }
+    put_hull(enclosing_corners(used, most_hull_corners), pack);
     if (frame.lift_box > 0.0) {
         used.emplace_back(0.0); // the bottom of the box, above which the artifact stands
     }

@@ -2,12 +2,15 @@
 
 #include "app/exhibit/guidance_setup.h"
 #include "app/settings/lit_zone.h"
+#include "app/settings/whole_zone.h"
 #include "tests/exhibit/exhibits.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace frustumscreen {
 namespace {
@@ -23,7 +26,7 @@ struct Visit {
     Situation situation = sample::situation(start);
     Presentation shown;
 
-    explicit Visit(bool pictures) {
+    explicit Visit(bool pictures, std::vector<glm::dvec3> hull = {}) {
         place.prop = make_prop(shipped.prop);
         place.lens_m = shipped.projector.table_from_projector.translation;
         place.picture_m = picture_on_table(shipped, 0.0);
@@ -36,7 +39,8 @@ struct Visit {
             words.texts.push_back({key, {{0.1, 0.02}}});
         }
         place.words = {words};
-        const CatalogueEntry entry{{"en"}, {{{0.2, 0.05}, {0.1, 0.1}}}, {}};
+        CatalogueEntry entry{{"en"}, {{{0.2, 0.05}, {0.1, 0.1}}}, {}};
+        entry.hull = std::move(hull);
         exhibit.emplace(Catalogue(6, entry), place, "en", start);
     }
     void step() {
@@ -186,6 +190,35 @@ TEST(GuidedTable, TheZonesFrameDoesNotCrossPictures) {
         visit.slide_to({0.30, -0.1});
         EXPECT_EQ(visit.shown.zone_share > 0.5, !pictures);
     }
+}
+
+/// A corner of the prop's foot lies in the dark, and nothing of the artifact is seen through it.
+TEST(GuidedTable, IsQuietWhileTheArtifactIsSeenWhole) {
+    constexpr glm::dvec2 at(0.20, 0.05);
+    for (const bool known : {true, false}) {
+        Visit visit(false, known ? usual_artifact(make_prop(Settings().prop)) : std::vector<glm::dvec3>());
+        visit.situation.table_from_prop.rotation =
+            glm::angleAxis(0.25 * std::numbers::pi, glm::dvec3(0, 0, 1));
+        visit.situation.eye_m = visit.shipped.eye.default_m;
+        visit.signs_in(milliseconds(800));
+        visit.slide_to(at);
+        const FaceReader reader(*visit.place.guidance);
+        ASSERT_FALSE(reader.valid({visit.situation.table_from_prop, visit.situation.eye_m}));
+        const int signs = visit.signs_in(milliseconds(3000));
+        EXPECT_EQ(signs > 60, !known);
+        EXPECT_EQ(signs == 0, known);
+    }
+}
+
+/// The frame is that of the artifact that is shown, where it has one.
+TEST(GuidedTable, TheFrameLiesAroundTheShownArtifactsZone) {
+    Visit visit(false);
+    CatalogueEntry own{{"en"}, {{{0.2, 0.05}}}, {}};
+    own.zone = ZoneFrame({{0.0, 0.0}, {0.1, 0.05}}, 0.15, {0.8, 0.5});
+    visit.exhibit.emplace(Catalogue{own, {{"en"}, {{{0.2, 0.05}}}, {}}}, visit.place, "en", visit.now);
+    visit.step();
+    EXPECT_EQ(visit.shown.zone_sides[0].centre_m, own.zone->sides()[0].centre_m);
+    EXPECT_NE(visit.shown.zone_sides[0].centre_m, visit.place.zone.sides()[0].centre_m);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // the same pack. pack_mutator.cpp puts the hashes right, so that the fuzzer gets past them.
 #include "app/pack/pack_contents.h"
 #include "app/pack/pack_file.h"
+#include "app/pack/pack_hull.h"
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
 #include "app/pack/seen_errors.h"
@@ -48,6 +49,8 @@ void require_usable(const Pack& pack) {
     const Result<SeenErrors> seen = seen_errors_of(pack, pack.levels.size());
     fuzz::require(!seen || seen->eyes.empty() || seen->levels.size() == pack.levels.size(),
                   "what is seen is of every level");
+    const auto hull = hull_of(pack);
+    fuzz::require(!hull || !hull->empty(), "a hull has corners");
 }
 
 /// Choosing one level reads that level as reading everything does.

@@ -5,6 +5,7 @@
 
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import unittest
@@ -109,6 +110,24 @@ class Teeth(unittest.TestCase):
         program = BUILD / "bin/frustumscreen"
         self.assertFalse(accepted.is_complete(program, ["run", "--headless"]))
         self.assertTrue(accepted.is_complete(program, ["run", "--config", "FILE"]))
+
+
+class Zone(unittest.TestCase):
+    """The zone that designers.md promises is the one that the shipped settings give."""
+
+    def test_the_promised_zone_is_the_computed_one(self):
+        ran = subprocess.run([BUILD / "bin/frustumscreen", "config", "--config", SOURCE / "config/kiosk.toml", "--json"],
+                             capture_output=True, text=True, check=True)
+        lit = json.loads(ran.stdout)["lit_zone"]
+        page = (SOURCE / "docs/designers.md").read_text(encoding="utf-8")
+        rows = (("for all eyes", lit["whole"]["all_eyes"]), ("for eyes as high as", lit["whole"]["eyes_like_default"]),
+                ("so that every face", lit["any_eye"]))
+        for begins, zone in rows:
+            promised = re.search(rf"^\| {begins}.*\| ([\d.]+) x ([\d.]+) cm \|$", page, re.MULTILINE)
+            self.assertIsNotNone(promised, begins)
+            for said, half in zip(promised.groups(), zone["rectangle_half_m"]):
+                digits = len(said.partition(".")[2])
+                self.assertEqual(said, f"{200 * half:.{digits}f}", begins)
 
 
 if __name__ == "__main__":

@@ -115,5 +115,37 @@ TEST_F(ConfigCommand, RefusesWrongUseAndSettingsThatAreWrong) {
     EXPECT_EQ(run("frustumscreen config --describe"), 0);
 }
 
+TEST_F(ConfigCommand, JudgesAGoodSetUpAsGood) {
+    const std::string said = page("");
+    expect_words(said,
+                 {"seen whole from all around while the prop is within 44 x 15 cm", "10 mm high, 24 pixels",
+                  "at 22 minutes of arc", "awake all day, every day", "To look into\n  Nothing.\n"});
+}
+
+TEST_F(ConfigCommand, JudgesLettersThatAreTooFewPixelsOrTooSmall) {
+    // 1.5 m over 100 / 0.8 x 1.5 pixels of focal length.
+    expect_words(
+        page("[projector]\nwidth = 100\nheight = 100\nthrow_ratio = 1.875\n"),
+        {"letters are 1 pixels high, too few to read: they need 18", "exhibit.caption_height_m = 0.144"});
+    // A capital is 0.714 of the type's height, seen 1.9 m away from 0.5 m above the table.
+    const double arcmin = 60.0 * 180.0 / M_PI * 0.01 * 0.714 * 0.5 / (1.8 * 1.8 + 0.5 * 0.5);
+    expect_words(page("[eye]\ndefault_m = [0, -1.8, 0.5]\n"),
+                 {fmt::format("a capital is seen at {:.0f} minutes of arc, and needs 16", arcmin)});
+}
+
+TEST_F(ConfigCommand, JudgesAZoneThatIsTooNarrow) {
+    expect_words(page("[projector]\nwidth = 1920\nheight = 1000\nthrow_ratio = 2.0\n"),
+                 {"The zone is too narrow to play in", "With a throw ratio of"});
+}
+
+TEST_F(ConfigCommand, SaysThisWeeksHours) {
+    const std::string said = page("[hours]\nmonday = []\ntuesday = [\"9:00-18:00\"]\ntime_zone = \"UTC\"\n");
+    expect_words(said,
+                 {"This week, by this machine's clock", "closed.", "09:00-18:00.", "all day.", "It is "});
+    for (const char* day : {"Monday", "Tuesday", "Wednesday", "Thursday", "Friday", "Saturday", "Sunday"}) {
+        EXPECT_NE(said.find(fmt::format("\n  {:<9} 20", day)), std::string::npos) << day;
+    }
+}
+
 } // namespace
 } // namespace frustumscreen

@@ -69,5 +69,13 @@ TEST(Hours, SayThatThereIsNoSuchZone) {
     EXPECT_NE(lines[0].find("no time zone \"Europe/Nowhere\""), std::string::npos) << lines[0];
 }
 
+TEST(Hours, MayBeWrittenWithoutAZeroInFront) {
+    EXPECT_EQ(parse_open_span("9:00-18:00"), parse_open_span("09:00-18:00"));
+    EXPECT_EQ(text_of_span(*parse_open_span("9:00-18:00")), "09:00-18:00");
+    EXPECT_FALSE(parse_open_span("9-18"));
+    EXPECT_FALSE(parse_open_span(":00-18:00"));
+    EXPECT_FALSE(parse_open_span("009:00-18:00"));
+}
+
 } // namespace
 } // namespace frustumscreen

@@ -39,10 +39,12 @@ AdviceProof prove(const GuidanceSetup& setup, const GuidanceOptions& options,
         GuidedSituation situation = seeded_situation(setup, seeded);
         Advisor advisor(setup);
         const FaceReader& reader = advisor.reader();
-        const auto whole = [&](const GuidedSituation& now) { return reader.whole(reader.read(now)); };
+        const auto whole = [&](const GuidedSituation& now) {
+            return reader.shows_whole(now, reader.read(now));
+        };
         std::size_t moves = 0;
         for (; !whole(situation) && moves < most_moves; ++moves) {
-            if (reader.valid(situation)) { // none of its faces is seen: what Guide advises then
+            if (reader.whole(situation)) { // none of its faces is seen: what Guide advises then
                 situation = after({Action::Upright}, setup, situation);
                 continue;
             }
@@ -58,7 +60,7 @@ AdviceProof prove(const GuidanceSetup& setup, const GuidanceOptions& options,
                 after(advice.move, setup, situation, seeded_person(advice.move, setup, seeded));
             if (advice.steps == 1) {
                 ++proof.single;
-                const bool helped = reader.valid(next) || reader.unlit_px(next) < reader.unlit_px(situation);
+                const bool helped = reader.whole(next) || reader.lost_px(next) < reader.lost_px(situation);
                 proof.failed += helped ? 0 : 1;
             }
             situation = next;

@@ -17,7 +17,7 @@ constexpr double unsteady_s = 4.0;
 } // namespace
 
 std::optional<Move> perfect_advice(const FaceReader& reader, const GuidedSituation& situation) {
-    if (reader.valid(situation)) {
+    if (reader.whole(situation)) {
         return std::nullopt;
     }
     std::optional<Move> best;
@@ -26,7 +26,7 @@ std::optional<Move> perfect_advice(const FaceReader& reader, const GuidedSituati
         for (const Candidate& candidate : candidates(reader.setup(), situation, set).all()) {
             const GuidedSituation next = after(candidate.move, reader.setup(), situation);
             const double lasts_s = time_for_s(candidate.move, situation, next);
-            if (lasts_s < least_cost_s && reader.valid(next)) {
+            if (lasts_s < least_cost_s && reader.whole(next)) {
                 int looks = 0;
                 const double cost_s = lasts_s + unsteady_s * (1.0 - steadiness(reader, next, looks));
                 if (cost_s < least_cost_s) {

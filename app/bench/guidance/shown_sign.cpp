@@ -29,7 +29,7 @@ void ShownSign::step(double now_s, const GuidedSituation& situation) {
 }
 
 void ShownSign::step_paper(double now_s, const GuidedSituation& situation) {
-    if (guide_.reader().valid(situation)) {
+    if (guide_.reader().whole(situation)) {
         shown_.reset();
         dark_since_s_.reset();
         return;

@@ -44,7 +44,7 @@ public:
         int steps = 0;
         for (now_s_ = 0.0; now_s_ < seconds; now_s_ += step_s, ++steps) {
             sign_.step(now_s_, situation_);
-            if (reader_.valid(situation_)) {
+            if (reader_.whole(situation_)) {
                 ++whole;
                 be_content(result);
             } else {
@@ -92,7 +92,7 @@ private:
     void begin(const GuidedSituation& to, double lasts_s) {
         doing_ = Doing();
         doing_->motion = {situation_, to, lasts_s};
-        doing_->dark_px = reader_.unlit_px(situation_);
+        doing_->dark_px = reader_.lost_px(situation_);
     }
 
     void move_on() {
@@ -216,7 +216,7 @@ private:
         const bool goes_away =
             doing_->wrong && !GivenAdvice{doing_->asked, doing_->motion.from}.holds(situation_);
         const bool darkens = doing_->asked.action == Action::Wait &&
-                             reader_.unlit_px(situation_) > visibly_darker * doing_->dark_px;
+                             reader_.lost_px(situation_) > visibly_darker * doing_->dark_px;
         doing_->doubted = goes_away || darkens;
         return doing_->doubted;
     }

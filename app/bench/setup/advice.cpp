@@ -2,6 +2,7 @@
 
 #include "app/geometry/collineation.h"
 #include "app/settings/looking_at.h"
+#include "app/settings/whole_zone.h"
 
 #include <algorithm>
 #include <array>
@@ -98,7 +99,7 @@ bool covers(const Settings& settings) {
 }
 
 /// Zooms the lens, and shifts it if that is how it is mounted, so that the picture just covers the table.
-void fit_picture(Settings& settings, Mount mount) {
+void fit_picture(Settings& settings, Mount mount, double wider) {
     Pinhole& pinhole = settings.projector.pinhole;
     glm::dvec2 low(1e9);
     glm::dvec2 high(-1e9);
@@ -110,7 +111,7 @@ void fit_picture(Settings& settings, Mount mount) {
     const glm::dvec2 size(pinhole.width, pinhole.height);
     const glm::dvec2 middle = mount == Mount::Shifted ? 0.5 * (low + high) : glm::dvec2(0.0);
     const glm::dvec2 half = glm::max(high - middle, middle - low);
-    const double f = std::min(0.5 * size.x / half.x, 0.5 * size.y / half.y) / margin;
+    const double f = std::min(0.5 * size.x / half.x, 0.5 * size.y / half.y) / (margin * wider);
     pinhole.fx = pinhole.fy = f;
     pinhole.cx = 0.5 * size.x - f * middle.x;
     pinhole.cy = 0.5 * size.y - f * middle.y;
@@ -148,7 +149,25 @@ bool is_better(const SetUpChoice& a, const SetUpChoice& b) {
                    : a.figures.light.evenness > b.figures.light.evenness;
 }
 
-std::vector<PropSettings> props_to_try(const Settings& settings, const SetUpFigures& now) {
+double height_of(const std::vector<glm::dvec3>& artifact) {
+    double height = 0.0;
+    for (const glm::dvec3& corner : artifact) {
+        height = std::max(height, corner.z);
+    }
+    return height;
+}
+
+/// Whether the artifacts in a prop are as large as is asked for.
+bool is_large_enough(const PropShape& prop, const SetUpFigures& now, const AdviceOptions& options) {
+    if (options.asks_for_zone()) {
+        return height_of(usual_artifact(prop)) >= options.artifact_m - 1e-9;
+    }
+    return largest_box(prop, 1.0).high.z >= 0.995 * now.wide_height_m &&
+           largest_box(prop, 0.5).high.z >= 0.995 * now.slim_height_m;
+}
+
+std::vector<PropSettings> props_to_try(const Settings& settings, const SetUpFigures& now,
+                                       const AdviceOptions& options) {
     const double table = std::min(settings.table.width_m, settings.table.depth_m);
     std::vector<PropSettings> props;
     for (const double base_m : steps(0.1, 0.65 * table, 0.01)) { // a larger one could hardly be moved
@@ -159,9 +178,7 @@ std::vector<PropSettings> props_to_try(const Settings& settings, const SetUpFigu
                 prop.base_m = base_m;
                 prop.top_m = top_m;
                 prop.height_m = height_m;
-                const PropShape shape = make_prop(prop);
-                if (largest_box(shape, 1.0).high.z >= 0.995 * now.wide_height_m &&
-                    largest_box(shape, 0.5).high.z >= 0.995 * now.slim_height_m) {
+                if (is_large_enough(make_prop(prop), now, options)) {
                     props.push_back(prop);
                 }
             }
@@ -170,38 +187,7 @@ std::vector<PropSettings> props_to_try(const Settings& settings, const SetUpFigu
     return props;
 }
 
-/// The best prop for a projector; nothing if there is no prop to try. `props`: the smallest first.
-std::optional<SetUpChoice> best_prop(const Settings& projector, Mount mount,
-                                     const std::vector<PropSettings>& props, double evenness, double pixels) {
-    std::optional<SetUpChoice> best;
-    for (const PropSettings& prop : props) {
-        if (best && best->works && prop.base_m > best->settings.prop.base_m) {
-            break;
-        }
-        SetUpChoice choice{projector, mount, {}, false, std::nullopt};
-        choice.settings.prop = prop;
-        const glm::dvec3 lens = projector.projector.table_from_projector.translation;
-        choice.figures.light = light_range(make_prop(prop), lens, reach_on_table(prop, projector.table));
-        const bool even = choice.figures.light.evenness >= evenness;
-        if (even || !best || choice.figures.light.evenness > best->figures.light.evenness) {
-            fit_picture(choice.settings, mount);
-            choice.figures = examine(choice.settings);
-            choice.works = even && choice.figures.covered && choice.figures.pixels >= pixels;
-        }
-        if (!best || is_better(choice, *best)) {
-            best = std::move(choice);
-        }
-    }
-    return best;
-}
-
-} // namespace
-
-std::string_view name_of(Mount mount) {
-    return mount == Mount::Tilted ? "tilted" : "shifted";
-}
-
-SetUpFigures examine(const Settings& settings) {
+SetUpFigures examine_without_zone(const Settings& settings) {
     const PropShape prop = make_prop(settings.prop);
     SetUpFigures figures;
     figures.reach_m = reach_on_table(settings.prop, settings.table);
@@ -219,6 +205,58 @@ SetUpFigures examine(const Settings& settings) {
     return figures;
 }
 
+void find_zone(const Settings& settings, SetUpFigures& figures) {
+    const std::vector<glm::dvec3> artifact = usual_artifact(make_prop(settings.prop));
+    figures.usual_height_m = height_of(artifact);
+    figures.zone_m = 2.0 * whole_zone(settings, all_eyes(settings.eye), artifact).rectangle.half_m;
+}
+
+/// The best prop for a projector; nothing if there is no prop to try. `props`: the smallest first.
+std::optional<SetUpChoice> best_prop(const Settings& projector, Mount mount, double wider,
+                                     const std::vector<PropSettings>& props, const AdviceOptions& options,
+                                     double pixels) {
+    std::optional<SetUpChoice> best;
+    for (const PropSettings& prop : props) {
+        if (best && best->works && prop.base_m > best->settings.prop.base_m) {
+            break;
+        }
+        SetUpChoice choice{projector, mount, {}, false, std::nullopt};
+        choice.settings.prop = prop;
+        const glm::dvec3 lens = projector.projector.table_from_projector.translation;
+        choice.figures.light = light_range(make_prop(prop), lens, reach_on_table(prop, projector.table));
+        const bool even = choice.figures.light.evenness >= options.evenness;
+        if (even || !best || choice.figures.light.evenness > best->figures.light.evenness) {
+            fit_picture(choice.settings, mount, wider);
+            choice.figures = examine_without_zone(choice.settings);
+            choice.works = even && choice.figures.covered && choice.figures.pixels >= pixels;
+            if (choice.works && options.asks_for_zone()) {
+                find_zone(choice.settings, choice.figures);
+                choice.works = choice.figures.zone_m.x >= options.zone_m.x &&
+                               choice.figures.zone_m.y >= options.zone_m.y;
+            }
+        }
+        if (!best || is_better(choice, *best)) {
+            best = std::move(choice);
+        }
+    }
+    if (best && !options.asks_for_zone()) {
+        find_zone(best->settings, best->figures);
+    }
+    return best;
+}
+
+} // namespace
+
+std::string_view name_of(Mount mount) {
+    return mount == Mount::Tilted ? "tilted" : "shifted";
+}
+
+SetUpFigures examine(const Settings& settings) {
+    SetUpFigures figures = examine_without_zone(settings);
+    find_zone(settings, figures);
+    return figures;
+}
+
 SetUpChoice as_it_is(const Settings& settings) {
     const SetUpFigures figures = examine(settings);
     return {settings, Mount::Tilted, figures, figures.covered, std::nullopt};
@@ -227,7 +265,9 @@ SetUpChoice as_it_is(const Settings& settings) {
 std::vector<SetUpChoice> choices(const Settings& settings, const AdviceOptions& options,
                                  const std::function<void(double)>& progress) {
     const SetUpFigures now = examine(settings);
-    const std::vector<PropSettings> props = props_to_try(settings, now);
+    const std::vector<PropSettings> props = props_to_try(settings, now, options);
+    const std::vector<double> widths =
+        options.asks_for_zone() ? std::vector{1.0, 1.1, 1.2, 1.3, 1.4} : std::vector{1.0};
     Settings other = settings;
     if (options.width > 0) {
         other.projector.pinhole = other.projector.pinhole.scaled_to(options.width, options.height);
@@ -244,9 +284,11 @@ std::vector<SetUpChoice> choices(const Settings& settings, const AdviceOptions& 
                 continue; // the same as tilted by nothing
             }
             const Settings projector = with_projector(other, height_m, side_m, mount);
-            if (auto choice =
-                    best_prop(projector, mount, props, options.evenness, options.pixels * now.pixels)) {
-                found.push_back(std::move(*choice));
+            for (const double wider : widths) {
+                if (auto choice =
+                        best_prop(projector, mount, wider, props, options, options.pixels * now.pixels)) {
+                    found.push_back(std::move(*choice));
+                }
             }
         }
         progress(static_cast<double>(k + 1) / static_cast<double>(heights.size() * sides.size()));

@@ -27,7 +27,9 @@ struct SetUpFigures {
     /// Projector pixels that show an ellipsoid as large as the slim artifact, prop at the table's middle: the mean over the
     /// prop turned by 0 and 45 degrees, seen by the default eye.
     double pixels = 0.0;
-    bool covered = false; ///< the picture covers the table and the prop wherever it stands
+    double usual_height_m = 0.0; ///< of the artifact that the zone is for: usual_artifact
+    glm::dvec2 zone_m{0.0}; ///< where it is seen whole by all eyes, at any yaw: the zone's width and depth
+    bool covered = false;   ///< the picture covers the table and the prop wherever it stands
 };
 [[nodiscard]] SetUpFigures examine(const Settings& settings);
 
@@ -53,8 +55,13 @@ struct AdviceOptions {
     double sides_m = 0.3;      ///< the lens may lie this far behind or before the table's middle
     int width = 0, height = 0; ///< of the picture, pixels; 0: as it is
     double pixels = 1.0;       ///< on the artifact, times as many as now: the least that works
+    /// The least zone that works, width and depth, for an artifact of so many metres at least. Artifacts may then be smaller than they
+    /// are, and the picture may reach out over the table. 0: no zone is asked for.
+    glm::dvec2 zone_m{0.0};
+    double artifact_m = 0.12;
+    [[nodiscard]] bool asks_for_zone() const { return zone_m.x > 0.0 || zone_m.y > 0.0; }
 };
-/// For each height and side of the lens and each mount the smallest prop that works, because it can be slid farthest, and of
+/// For each height and side of the lens and each mount (and each width of the picture, where a zone is asked for) the smallest prop that works, because it can be slid farthest, and of
 /// equally large ones the one with most light; where none works, the one whose light is most even. The projector's picture
 /// just covers the table. `settings` has the table and the eyes, and says what is better than now. `progress`: 0..1.
 [[nodiscard]] std::vector<SetUpChoice> choices(const Settings& settings, const AdviceOptions& options,

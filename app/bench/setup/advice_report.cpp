@@ -24,12 +24,12 @@ std::string line_of(std::string_view name, const SetUpChoice& choice) {
     const glm::dvec3 lens = settings.projector.table_from_projector.translation;
     return fmt::format(
         "{:12} {:5.2f} {:+5.2f} {:5.2f}  {:4.0f} {:4.0f} {:4.0f}  {:6.2f} {:6.3f}  {:4.0f} {:4.0f}  {:6.0f}  "
-        "{:4.0f} x {:<4.0f} {}{}\n",
+        "{:4.0f} x {:<4.0f} {:4.0f} {:4.0f} x {:<4.0f} {}{}\n",
         name, lens.z, lens.y, throw_ratio(settings.projector.pinhole), 1e3 * settings.prop.base_m,
         1e3 * settings.prop.top_m, 1e3 * settings.prop.height_m, figures.light.evenness, figures.reference,
         1e3 * figures.wide_height_m, 1e3 * figures.slim_height_m, figures.pixels, 1e3 * figures.reach_m.x,
-        1e3 * figures.reach_m.y, cost_words(choice.cost),
-        figures.covered ? "" : " the picture misses a part of the table");
+        1e3 * figures.reach_m.y, 1e3 * figures.usual_height_m, 1e3 * figures.zone_m.x, 1e3 * figures.zone_m.y,
+        cost_words(choice.cost), figures.covered ? "" : " the picture misses a part of the table");
 }
 
 std::string row_of(std::string_view name, const SetUpChoice& choice) {
@@ -42,11 +42,12 @@ std::string row_of(std::string_view name, const SetUpChoice& choice) {
                                          : std::string(",,");
     return fmt::format(
         "{},{:.3f},{:.3f},{:.4f},{:.1f},{:.1f},{:.3f},{:.3f},{:.3f},{:.4f},{:.5f},{:.5f},{:.5f},"
-        "{:.4f},{:.4f},{:.1f},{:.4f},{:.4f},{},{},{}\n",
+        "{:.4f},{:.4f},{:.1f},{:.4f},{:.4f},{},{},{},{:.4f},{:.4f},{:.4f}\n",
         name, lens.z, lens.y, throw_ratio(pinhole), pinhole.cx, pinhole.cy, settings.prop.base_m,
         settings.prop.top_m, settings.prop.height_m, figures.light.evenness, figures.light.least,
         figures.light.most, figures.reference, figures.wide_height_m, figures.slim_height_m, figures.pixels,
-        figures.reach_m.x, figures.reach_m.y, figures.covered ? 1 : 0, choice.works ? 1 : 0, cost);
+        figures.reach_m.x, figures.reach_m.y, figures.covered ? 1 : 0, choice.works ? 1 : 0, cost,
+        figures.usual_height_m, figures.zone_m.x, figures.zone_m.y);
 }
 
 } // namespace
@@ -57,8 +58,10 @@ std::string setup_table(const SetUpChoice& now, const std::vector<SetUpChoice>& 
     const bool timed = now.cost.has_value();
     std::string table = fmt::format(
         "A table of {:g} x {:g} m; the picture is {} x {} pixels as it is, {} x {} in the choices.\n\n"
-        "             lens  side  throw  prop, mm        darkest  light  artifact, mm  pixels  slides, mm{}\n"
-        "             m     m     ratio  base top high   /bright. sent   wide slim     on it   +-X  +-Y{}\n",
+        "             lens  side  throw  prop, mm        darkest  light  artifact, mm  pixels  slides, mm   "
+        "seen whole, mm  {}\n"
+        "             m     m     ratio  base top high   /bright. sent   wide slim     on it   +-X  +-Y     "
+        "high within     {}\n",
         settings.table.width_m, settings.table.depth_m, settings.projector.pinhole.width,
         settings.projector.pinhole.height,
         options.width > 0 ? options.width : settings.projector.pinhole.width,
@@ -73,14 +76,19 @@ std::string setup_table(const SetUpChoice& now, const std::vector<SetUpChoice>& 
                                                              : " no");
         table += line_of(name, choice);
     }
-    table += fmt::format("\nlens, side: over the table, and behind its middle (before it: negative). "
-                         "darkest/bright.: of the faces in one\n"
-                         "pose, the least over the whole table. light sent: what the artifact sends back "
-                         "everywhere. artifact: the heights\n"
-                         "of one as wide as high and of one half as wide. 'no': it does not reach {:g} "
-                         "darkest/bright. with {:g} x the pixels\n"
-                         "and artifacts as large as they are.\n",
-                         options.evenness, options.pixels);
+    table += fmt::format(
+        "\nlens, side: over the table, and behind its middle (before it: negative). "
+        "darkest/bright.: of the faces in one\n"
+        "pose, the least over the whole table. light sent: what the artifact sends back "
+        "everywhere. artifact: the heights\n"
+        "of one as wide as high and of one half as wide. 'no': it does not reach {:g} "
+        "darkest/bright. with {:g} x the pixels\n"
+        "and {}. seen whole: an artifact so high, 0.65 as wide, by all eyes at any turn.\n",
+        options.evenness, options.pixels,
+        options.asks_for_zone()
+            ? fmt::format("artifacts of {:.0f} mm that are seen whole within {:.0f} x {:.0f} mm",
+                          1e3 * options.artifact_m, 1e3 * options.zone_m.x, 1e3 * options.zone_m.y)
+            : std::string("artifacts as large as they are"));
     if (timed) {
         table +=
             "frame: the time of one, the processor's time in brackets, over those of the settings as they "
@@ -95,7 +103,7 @@ std::string setup_csv(const SetUpChoice& now, const std::vector<SetUpChoice>& ch
     std::string csv =
         "choice,lens_height_m,lens_side_m,throw_ratio,cx_px,cy_px,base_m,top_m,height_m,evenness,least_light,"
         "most_light,reference_light,wide_height_m,slim_height_m,pixels,reach_x_m,reach_y_m,covered,works,"
-        "frame_times_now,frame_cpu_times_now,frame_samples\n";
+        "frame_times_now,frame_cpu_times_now,frame_samples,usual_height_m,zone_width_m,zone_depth_m\n";
     csv += row_of("as it is", now);
     for (const SetUpChoice& choice : choices) {
         csv += row_of(name_of(choice.mount), choice);

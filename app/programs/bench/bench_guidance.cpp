@@ -3,6 +3,7 @@
 #include "app/exhibit/guidance_setup.h"
 #include "app/programs/bench/bench_command.h"
 #include "app/programs/common/command_line.h"
+#include "app/settings/whole_zone.h"
 
 #include <memory>
 
@@ -16,17 +17,31 @@ struct Arguments {
     GuidanceOptions options;
 };
 
-Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    std::vector<std::pair<std::string, Settings>> props{{"frustum on the table", Settings{}},
-                                                        {"cube in the hand", cube_in_hand()}};
+/// Each prop twice: every seen face counts; what counts is an artifact in it.
+using NamedSetups = std::vector<std::pair<std::string, GuidanceSetup>>;
+NamedSetups without_and_with_artifact(const std::string& name, const Settings& settings) {
+    NamedSetups setups{{name, guidance_setup(settings)},
+                       {name + ", an artifact in it", guidance_setup(settings)}};
+    setups.back().second.hull = usual_artifact(setups.back().second.prop);
+    return setups;
+}
+
+Result<NamedSetups> setups_of(const Arguments& arguments) {
     if (!arguments.config.empty()) {
         TRY(const CheckedSettings checked, load_settings(arguments.config));
-        props = {{arguments.config.stem().string(), *checked}};
+        return without_and_with_artifact(arguments.config.stem().string(), *checked);
     }
+    NamedSetups setups = without_and_with_artifact("frustum on the table", Settings{});
+    setups.emplace_back("cube in the hand", guidance_setup(cube_in_hand()));
+    return setups;
+}
+
+Result<void> run(const Arguments& arguments, BenchProgress& progress) {
+    TRY(const NamedSetups props, setups_of(arguments));
     std::vector<GuidedProp> results;
-    for (const auto& [name, settings] : props) {
+    for (const auto& [name, setup] : props) {
         results.push_back(
-            measure_guidance(name, guidance_setup(settings), arguments.options,
+            measure_guidance(name, setup, arguments.options,
                              [&progress, &name = name](double done) { progress.show(name, done); }));
         progress.clear();
         fmt::print("{}{}\n", guidance_table(results.back()), lines_of(judge(results.back())));
@@ -42,8 +57,9 @@ BenchCommand guidance_command(CommandLine& app) {
         app.add_subcommand("guidance", "whether advice helps: seeded situations and simulated visitors");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the table and the plot").required();
-    command.add_option("--config", arguments->config,
-                       "settings; without it the shipped set-up and a cube in the hand");
+    command.add_option(
+        "--config", arguments->config,
+        "settings; without it the shipped set-up, without and with an artifact, and a cube in the hand");
     command.add_option("--situations", arguments->options.situations, "seeded situations of each prop")
         .within(1, 10000000)
         .capture_default_str();

@@ -15,6 +15,7 @@ struct Arguments {
     std::filesystem::path config;
     std::filesystem::path pack; ///< whose frames are timed; empty: none
     std::vector<int> picture;   ///< width, height; empty: that of the settings
+    std::vector<double> zone_m; ///< width, depth; empty: none is asked for
     AdviceOptions options;
 };
 
@@ -56,6 +57,9 @@ Result<void> run(const Arguments& arguments, BenchProgress& progress) {
         options.width = arguments.picture[0];
         options.height = arguments.picture[1];
     }
+    if (arguments.zone_m.size() == 2) {
+        options.zone_m = {arguments.zone_m[0], arguments.zone_m[1]};
+    }
     TRY(const std::optional<VerifiedPack> pack, load_if_named(arguments.pack));
     SetUpChoice now = as_it_is(settings);
     std::vector<SetUpChoice> found =
@@ -94,7 +98,16 @@ BenchCommand setup_command(CommandLine& app) {
     command.add_option("--picture", arguments->picture, "width and height of the projector's picture, pixels")
         .expected(2)
         .within(64, 8192);
+    command
+        .add_option("--zone-m", arguments->zone_m,
+                    "width and depth of a zone in which all eyes see an artifact whole: artifacts may get "
+                    "smaller, the picture wider")
+        .expected(2)
+        .within(0.01, 5.0);
     AdviceOptions& options = arguments->options;
+    command.add_option("--artifact-m", options.artifact_m, "its height at least, with --zone-m")
+        .within(0.02, 1.0)
+        .capture_default_str();
     command.add_option("--lowest-m", options.lowest_m, "of the lens over the table")
         .within(0.3, 5.0)
         .capture_default_str();

@@ -2,14 +2,17 @@
 
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
+#include "app/programs/frustumscreen/config/judgement.h"
 #include "app/programs/frustumscreen/drawing/setup_page.h"
 #include "app/settings/config_json.h"
 #include "app/settings/missing_files.h"
 #include "app/settings/settings_page.h"
+#include "firmware_host/base/local_time.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 
@@ -30,8 +33,9 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
         "frustumscreen config");
     app.add_option("--config", request.config, "the kiosk's settings, TOML");
     const CommandOption json = app.add_flag("--json", request.json, "the settings as JSON (the default)");
-    const CommandOption explain = app.add_flag(
-        "--explain", request.explain, "in words: the picture on the table, the light on the prop, the zone");
+    const CommandOption explain = app.add_flag("--explain", request.explain,
+                                               "in words: the picture on the table, the light on the prop, "
+                                               "the zone; what visitors get of it, and what to look into");
     app.add_flag("--describe", request.describe,
                  "every setting with its default and what it is; needs no --config")
         .excludes(json)
@@ -53,7 +57,14 @@ Result<void> print_config(const Request& request) {
     for (const std::string& missing : missing_files(*settings)) {
         say_line("frustumscreen", missing);
     }
-    fmt::print("{}", request.explain ? setup_page(*settings) : config_json(settings));
+    if (!request.explain) {
+        fmt::print("{}", config_json(settings));
+        return {};
+    }
+    const std::string& zone = settings->hours.time_zone;
+    static_cast<void>(zone.empty() || use_time_zone(zone)); // that it is missing was said
+    const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+    fmt::print("{}{}", setup_page(*settings), judgement_page(*settings, now));
     return {};
 }
 

@@ -2,6 +2,8 @@
 
 #include "app/exhibit/guidance_setup.h"
 #include "app/guidance/advise.h"
+#include "app/pack/pack_file.h"
+#include "app/pack/pack_hull.h"
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/frustumscreen/render/pose_input.h"
@@ -15,6 +17,7 @@
 #include <filesystem>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace frustumscreen {
@@ -26,6 +29,7 @@ using Json = nlohmann::ordered_json;
 struct Request {
     std::filesystem::path config;
     std::filesystem::path poses;
+    std::filesystem::path pack; ///< empty: no artifact is known
     bool json = false;
 };
 
@@ -34,6 +38,8 @@ struct Guided {
     std::int64_t t_us = 0;
     FaceSets faces;
     double unlit_px = 0.0;
+    bool knows_artifact = false;
+    bool whole = false; ///< where the artifact is known
     std::optional<Advice> advice;
 };
 
@@ -66,13 +72,16 @@ Json advice_json(const std::optional<Advice>& advice) {
 }
 
 std::string json_line(const Guided& guided, const PropShape& prop) {
-    return Json{{"t_us", guided.t_us},
-                {"seen", names_of(guided.faces.seen, prop)},
-                {"lit", names_of(guided.faces.lit, prop)},
-                {"valid", guided.faces.valid()},
-                {"unlit_px", guided.unlit_px},
-                {"advice", advice_json(guided.advice)}}
-        .dump();
+    Json line{{"t_us", guided.t_us},
+              {"seen", names_of(guided.faces.seen, prop)},
+              {"lit", names_of(guided.faces.lit, prop)},
+              {"valid", guided.faces.valid()},
+              {"unlit_px", guided.unlit_px}};
+    if (guided.knows_artifact) {
+        line["whole"] = guided.whole;
+    }
+    line["advice"] = advice_json(guided.advice);
+    return line.dump();
 }
 
 /// In words, seen from the table's front edge.
@@ -102,31 +111,52 @@ std::string words_of(const Move& move) {
     return "nothing that the visitor can do is known to help";
 }
 
-std::string text_line(const Guided& guided, const PropShape& prop) {
+std::string text_words(const Guided& guided, const PropShape& prop) {
     const auto unlit = names_of(guided.faces.unlit(), prop);
-    std::string line = fmt::format("{:.3f} s: sees {}", 1e-6 * static_cast<double>(guided.t_us),
-                                   fmt::join(names_of(guided.faces.seen, prop), " "));
-    if (!guided.advice) {
-        return line + "; all of it is lit";
+    std::string line = fmt::format("sees {}", fmt::join(names_of(guided.faces.seen, prop), " "));
+    if (!unlit.empty()) {
+        line += fmt::format("; {} {} not lit, or not all of it", fmt::join(unlit, " "),
+                            unlit.size() == 1 ? "is" : "are");
     }
-    line += fmt::format("; {} {} dark; {}", fmt::join(unlit, " "), unlit.size() == 1 ? "is" : "are",
-                        words_of(guided.advice->move));
+    if (!guided.advice) {
+        return line + (unlit.empty() ? "; all of it is lit" : ", but the artifact is seen whole");
+    }
+    line += "; " + words_of(guided.advice->move);
     return guided.advice->steps > 1 ? line + fmt::format(" (the first of {} steps)", guided.advice->steps)
                                     : line;
+}
+
+/// The artifact in the settings' prop: the corners of its hull.
+Result<std::vector<glm::dvec3>> read_hull(const std::filesystem::path& pack, const PropShape& prop) {
+    const auto only_default = [](const PackOutline& outline) {
+        return Result<std::vector<std::uint32_t>>(std::vector{outline.description.default_level});
+    };
+    TRY(const VerifiedPack read, load_pack(pack, only_default));
+    return hull_in(*read, prop);
 }
 
 /// Advice that stands is kept while it helps, from pose to pose, as in the exhibit.
 Result<void> guide(const Request& request) {
     TRY(const CheckedSettings settings, load_settings(request.config));
     TRY(const std::vector<Situation> frames, load_pose_frames(request.poses, settings->eye.default_m));
-    Advisor advisor(guidance_setup(*settings));
+    GuidanceSetup setup = guidance_setup(*settings);
+    if (!request.pack.empty()) {
+        TRY(setup.hull, read_hull(request.pack, setup.prop));
+    }
+    Advisor advisor(setup);
     const FaceReader& reader = advisor.reader();
-    const PropShape& prop = reader.setup().prop;
+    const PropShape& prop = setup.prop;
+    std::string said; ///< a line where it changes
     for (const Situation& frame : frames) {
         const GuidedSituation situation{frame.table_from_prop, frame.eye_m};
-        const Guided guided{to_microseconds(frame.time), reader.read(situation), reader.unlit_px(situation),
-                            advisor.advise(situation)};
-        fmt::print("{}\n", request.json ? json_line(guided, prop) : text_line(guided, prop));
+        const Guided guided{to_microseconds(frame.time), reader.read(situation),  reader.unlit_px(situation),
+                            !setup.hull.empty(),         reader.whole(situation), advisor.advise(situation)};
+        if (request.json) {
+            fmt::print("{}\n", json_line(guided, prop));
+        } else if (std::string words = text_words(guided, prop); words != said) {
+            fmt::print("{:.3f} s: {}\n", 1e-6 * static_cast<double>(guided.t_us), words);
+            said = std::move(words);
+        }
     }
     return {};
 }
@@ -141,6 +171,9 @@ int guide_command(int argc, char** argv) {
         "frustumscreen guide");
     app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
     app.add_option("--poses", request.poses, "poses, CSV").required();
+    app.add_option(
+        "--pack", request.pack,
+        "the artifact in the prop, a pack: what counts is whether it is seen whole, not every face");
     app.add_flag("--json", request.json, "one JSON object a line");
     if (const auto end = app.end_of_arguments(argc, argv)) {
         return *end;

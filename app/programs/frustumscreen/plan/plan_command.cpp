@@ -30,7 +30,8 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
         "measures what that saves.",
         "frustumscreen plan");
     app.add_option("--config", request.config, "the kiosk's settings, TOML").required();
-    app.add_option("--pack", request.pack, "the artifact, *.fspack").required();
+    app.add_option("--pack", request.pack,
+                   "the artifact, *.fspack; without it the first that the settings name");
     app.add_option("--technique", request.technique,
                    "auto, finest, level0, level1, ..., relief, relief96, ..., relief-gpu, relief96-gpu, ...")
         .check(is_technique_word())
@@ -39,8 +40,15 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     return app.end_of_arguments(argc, argv);
 }
 
-Result<void> plan(const Request& request) {
+Result<void> plan(Request request) {
     TRY(const CheckedSettings settings, load_settings(request.config));
+    if (request.pack.empty()) {
+        if (settings->exhibit.packs.empty()) {
+            return bad_input("plan.no_pack", "{}: the settings name no pack; name one with --pack",
+                             request.config.string());
+        }
+        request.pack = settings->exhibit.packs.front();
+    }
     TRY(const std::unique_ptr<Display> display, make_display(*settings, true));
     const DevicePlan devices = plan_devices(*settings, false, false);
     TRY(const PlanMeasurement measured,

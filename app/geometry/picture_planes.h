@@ -1,0 +1,21 @@
+/// The planes through the lens and the edges of a picture: what lies inside all four is in the picture.
+///
+/// Behind a lens that distorts the edges are bent. The planes are then straight ones that lie within the picture.
+///
+/// Frame    pinhole; or another one, by the pinhole's pose.
+/// Threads  pure; any.
+#pragma once
+
+#include "app/geometry/pinhole.h"
+#include "app/geometry/prop_shape.h"
+#include "app/geometry/transform.h"
+
+#include <array>
+
+namespace frustumscreen {
+
+/// Normals look into the picture: top, right, bottom, left.
+[[nodiscard]] std::array<Plane, 4> picture_planes(const Pinhole& pinhole,
+                                                  const RigidTransform& to_from_pinhole);
+
+} // namespace frustumscreen

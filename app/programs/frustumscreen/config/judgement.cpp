@@ -1,0 +1,235 @@
+#include "app/programs/frustumscreen/config/judgement.h"
+
+#include "app/exhibit/languages.h"
+#include "app/pack/words_file.h"
+#include "app/programs/frustumscreen/config/named_packs.h"
+#include "app/programs/frustumscreen/config/week_page.h"
+#include "app/settings/whole_zone.h"
+#include "app/typography/captions.h"
+#include "firmware_host/base/file.h"
+#include "firmware_host/base/local_time.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Below so many pixels an em, small letters lose their shape.
+constexpr double least_em_px = 18.0;
+/// ISO 9241-303: capitals need 16 minutes of arc to be read.
+constexpr double least_capital_arcmin = 16.0;
+constexpr double capital_em = 0.714; ///< of Noto Sans
+/// Where a caption finds room at fewer places, most visitors read none.
+constexpr double least_caption_share = 0.5;
+/// A hand that slides the prop to look at it goes 10 to 30 cm.
+constexpr glm::dvec2 least_zone_m(0.20, 0.10);
+
+struct Page {
+    std::string text;                ///< what is the case
+    std::vector<std::string> faults; ///< what to look into
+};
+
+double em_m(const Settings& settings) {
+    return std::max(settings.exhibit.caption_height_m, least_caption_em_m);
+}
+
+/// Letters flat on the table's middle, as the default eye sees them.
+double arcmin_per_em_m(const EyeSettings& eye) {
+    const double distance = glm::length(eye.default_m);
+    const double foreshortened = eye.default_m.z / distance;
+    return 60.0 * glm::degrees(capital_em * foreshortened / distance);
+}
+
+/// To whole millimetres.
+double rounded_up(double metres) {
+    constexpr double rounding = 1e-9;
+    return std::ceil(1e3 * metres - rounding) / 1e3;
+}
+
+void judge_letters(const Settings& settings, Page& page) {
+    if (!settings.exhibit.captions) {
+        page.text += "  Captions are left out.\n";
+        return;
+    }
+    const ProjectorSettings& projector = settings.projector;
+    const double px_per_m = std::min(projector.pinhole.fx, projector.pinhole.fy) /
+                            glm::length(projector.table_from_projector.translation);
+    const double em = em_m(settings);
+    const double px = em * px_per_m;
+    const double arcmin = em * arcmin_per_em_m(settings.eye);
+    page.text +=
+        fmt::format("  Letters are set {:.3g} mm high, {:.0f} pixels. Whose eyes are at eye.default_m sees a "
+                    "capital at {:.0f} minutes of arc.\n",
+                    1e3 * em, px, arcmin);
+    if (px < least_em_px) {
+        page.faults.push_back(
+            fmt::format("A caption's letters are {:.0f} pixels high, too few to read: they need {:g}. Hang "
+                        "the projector nearer, "
+                        "take one with more pixels, or set exhibit.caption_height_m = {:.3f}.",
+                        px, least_em_px, rounded_up(least_em_px / px_per_m)));
+    }
+    if (arcmin < least_capital_arcmin) {
+        page.faults.push_back(fmt::format(
+            "A caption is too small for eyes at eye.default_m: a capital is seen at {:.0f} "
+            "minutes of arc, and needs "
+            "{:g} (ISO 9241-303). Set exhibit.caption_height_m = {:.3f}.",
+            arcmin, least_capital_arcmin, rounded_up(least_capital_arcmin / arcmin_per_em_m(settings.eye))));
+    }
+}
+
+void judge_caption_room(const Settings& settings, const std::vector<NamedPack>& packs, const Rectangle& zone,
+                        Page& page) {
+    if (!settings.exhibit.captions || packs.empty() || settings.prop.zone == PropZone::Hand ||
+        packs.front().entry.languages.empty()) {
+        return;
+    }
+    const double share = caption_share(settings, packs, zone);
+    page.text += fmt::format("  The caption of \"{}\" finds room at {:.0f} % of the places of the zone.\n",
+                             packs.front().description.title, 100.0 * share);
+    if (share < least_caption_share) {
+        page.faults.push_back(fmt::format("A caption finds room at {:.0f} % of the places of the zone: "
+                                          "elsewhere none is shown. Shorten the texts, set "
+                                          "a smaller exhibit.caption_height_m, or leave the pictures on the "
+                                          "table out (exhibit.table_pictures).",
+                                          100.0 * share));
+    }
+}
+
+std::string size_words(const Rectangle& zone) {
+    return fmt::format("{:.0f} x {:.0f} cm", 200.0 * zone.half_m.x, 200.0 * zone.half_m.y);
+}
+
+bool is_narrow(const Rectangle& zone) {
+    return 2.0 * zone.half_m.x < least_zone_m.x || 2.0 * zone.half_m.y < least_zone_m.y;
+}
+
+/// The lens zoomed wider, until the zone is wide enough to play in.
+std::string wider_picture(Settings settings, const std::vector<glm::dvec3>& hull) {
+    const Pinhole& pinhole = settings.projector.pinhole;
+    for (int step = 0; step < 12; ++step) {
+        constexpr double wider = 0.95;
+        settings.projector.pinhole.fx *= wider;
+        settings.projector.pinhole.fy *= wider;
+        const Rectangle zone = whole_zone(settings, all_eyes(settings.eye), hull).rectangle;
+        if (!is_narrow(zone)) {
+            return fmt::format("With a throw ratio of {:.2f} in place of {:.2f} it is {}",
+                               pinhole.fx / pinhole.width,
+                               pinhole.fx / pinhole.width / std::pow(wider, step + 1), size_words(zone));
+        }
+    }
+    return "Hang the projector higher, take a larger table or a smaller prop";
+}
+
+/// Returns the zone of the first artifact; without packs that of one as good as any.
+Rectangle judge_zone(const Settings& settings, const std::vector<NamedPack>& packs, Page& page) {
+    std::optional<Rectangle> first;
+    const auto judge = [&](const std::string& name, const std::vector<glm::dvec3>& hull) {
+        const Rectangle zone = whole_zone(settings, all_eyes(settings.eye), hull).rectangle;
+        first = first.value_or(zone);
+        page.text +=
+            fmt::format("  {} is seen whole from all around while the prop is within {}; by eyes as high as "
+                        "eye.default_m, within {}.\n",
+                        name, size_words(zone),
+                        size_words(whole_zone(settings, eyes_like_default(settings.eye), hull).rectangle));
+        if (is_narrow(zone)) {
+            page.faults.push_back(
+                fmt::format("The zone is too narrow to play in: {} is seen whole within {}, and {:.0f} x "
+                            "{:.0f} cm are needed. {}.",
+                            name, size_words(zone), 100.0 * least_zone_m.x, 100.0 * least_zone_m.y,
+                            wider_picture(settings, hull)));
+        }
+    };
+    if (settings.prop.zone == PropZone::Hand) {
+        return whole_zone(settings, all_eyes(settings.eye), {}).rectangle; // the page has it
+    }
+    for (const NamedPack& pack : packs) {
+        judge("\"" + pack.description.title + "\"", pack.hull);
+    }
+    if (packs.empty()) {
+        const std::vector<glm::dvec3> usual = usual_artifact(make_prop(settings.prop));
+        judge(fmt::format("An artifact {:.0f} mm high and {:.0f} mm wide", 1e3 * settings.prop.height_m,
+                          650.0 * settings.prop.height_m),
+              usual);
+    }
+    return *first;
+}
+
+void judge_words(const Settings& settings, const std::vector<NamedPack>& packs, Page& page) {
+    if (settings.exhibit.words.empty()) {
+        page.text += "  The exhibit has no words of its own: exhibit.words is left out.\n";
+        return;
+    }
+    const Result<std::vector<WordsLanguage>> listed =
+        read_file(settings.exhibit.words).and_then([](const Bytes& file) { return list_words(file); });
+    if (!listed) {
+        page.text += "  exhibit.words cannot be read, and is not judged.\n";
+        return;
+    }
+    std::vector<std::string> there;
+    std::transform(listed->begin(), listed->end(), std::back_inserter(there),
+                   [](const WordsLanguage& language) { return language.language; });
+    page.text += fmt::format("  The exhibit's own words are in {}.\n", fmt::join(there, ", "));
+    std::vector<std::string> wanted{settings.exhibit.language};
+    for (const NamedPack& pack : packs) {
+        for (const std::string& language : pack.entry.languages) {
+            add_language(wanted, language);
+        }
+    }
+    std::vector<std::string> missing;
+    std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(missing),
+                 [&](const std::string& language) { return !has_language(there, language); });
+    if (missing.empty()) {
+        return;
+    }
+    const std::string instead = there[caption_for(missing.front(), there)];
+    std::vector<std::string> all = there;
+    all.insert(all.end(), missing.begin(), missing.end());
+    page.faults.push_back(fmt::format(
+        "The exhibit's own words lack {}: who reads captions in it is invited and advised in {}. Bake them: "
+        "frustumscreen-bake --words --languages {} -o {}.",
+        fmt::join(missing, ", "), instead, fmt::join(all, ","), settings.exhibit.words.string()));
+}
+
+void judge_language(const Settings& settings, const std::vector<NamedPack>& packs, Page& page) {
+    const bool has = packs.empty() || std::any_of(packs.begin(), packs.end(), [&](const NamedPack& pack) {
+                         return has_language(pack.entry.languages, settings.exhibit.language);
+                     });
+    if (!has) {
+        page.faults.push_back(
+            fmt::format("No artifact has captions in exhibit.language, {}.", settings.exhibit.language));
+    }
+}
+
+} // namespace
+
+std::string judgement_page(const Settings& settings, std::chrono::sys_seconds now) {
+    const std::vector<NamedPack> packs = named_packs(settings);
+    Page page;
+    page.text = "What visitors get\n";
+    if (const std::size_t unread = settings.exhibit.packs.size() - packs.size(); unread > 0) {
+        page.text += fmt::format("  Of {} packs {} cannot be read, and are not judged.\n",
+                                 settings.exhibit.packs.size(), unread);
+    }
+    const Rectangle zone = judge_zone(settings, packs, page);
+    judge_letters(settings, page);
+    judge_caption_room(settings, packs, zone, page);
+    judge_words(settings, packs, page);
+    judge_language(settings, packs, page);
+    page.text += week_page(settings.hours, now, local_offset_at);
+    page.text += "To look into\n";
+    for (const std::string& fault : page.faults) {
+        page.text += "  " + fault + "\n";
+    }
+    return page.text + (page.faults.empty() ? "  Nothing.\n" : "");
+}
+
+} // namespace frustumscreen

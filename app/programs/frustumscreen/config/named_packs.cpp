@@ -1,0 +1,89 @@
+#include "app/programs/frustumscreen/config/named_packs.h"
+
+#include "app/pack/pack_file.h"
+#include "app/pack/pack_hull.h"
+#include "app/residency/artifact_opener.h"
+#include "app/residency/artifact_texts.h"
+#include "app/show/exhibit_place.h"
+
+#include <algorithm>
+#include <iterator>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+std::optional<NamedPack> read(const Settings& settings, const std::filesystem::path& file) {
+    const PropShape prop = make_prop(settings.prop);
+    const auto no_levels = [](const PackOutline&) { return Result<std::vector<std::uint32_t>>(); };
+    const Result<VerifiedPack> pack = load_pack(file, no_levels);
+    if (!pack) {
+        return std::nullopt;
+    }
+    NamedPack named{**pack, {}, {}};
+    std::vector<std::size_t> captions(named.description.captions.size());
+    std::iota(captions.begin(), captions.end(), std::size_t{0});
+    const auto texts =
+        lay_out_texts({file, named.description, captions}, place(named.description, prop).metres_per_box,
+                      text_style(settings), false);
+    const auto hull = hull_in(named.description, prop);
+    if (!texts || !hull) {
+        return std::nullopt;
+    }
+    named.entry = texts->entry;
+    named.hull = *hull;
+    return named;
+}
+
+} // namespace
+
+std::vector<NamedPack> named_packs(const Settings& settings) {
+    std::vector<NamedPack> packs;
+    for (const std::filesystem::path& file : settings.exhibit.packs) {
+        if (std::optional<NamedPack> pack = read(settings, file)) {
+            packs.push_back(std::move(*pack));
+        }
+    }
+    return packs;
+}
+
+double caption_share(const Settings& settings, const std::vector<NamedPack>& packs, const Rectangle& zone) {
+    Catalogue catalogue;
+    std::transform(packs.begin(), packs.end(), std::back_inserter(catalogue),
+                   [](const NamedPack& pack) { return pack.entry; });
+    ExhibitPlace place = exhibit_place(settings);
+    place.guidance.reset(); // advice would take the caption's place
+    constexpr int columns = 7;
+    constexpr int rows = 5;
+    constexpr std::array turns{0.0, 0.25 * std::numbers::pi};
+    int shown = 0;
+    for (int k = 0; k < columns * rows; ++k) {
+        const glm::dvec2 at(2.0 * (k % columns) / (columns - 1) - 1.0,
+                            2.0 * (k / columns) / (rows - 1) - 1.0);
+        for (const double turn : turns) {
+            Situation situation;
+            situation.table_from_prop = {glm::angleAxis(turn, glm::dvec3(0.0, 0.0, 1.0)),
+                                         glm::dvec3(zone.centre_m + at * zone.half_m, 0.0)};
+            situation.eye_m = settings.eye.default_m;
+            situation.prop_known = situation.head_known = true;
+            // Long enough for all that fades in, and not for what is told.
+            constexpr int steps = 20;
+            constexpr Nanoseconds step = std::chrono::milliseconds(100);
+            Exhibit exhibit(catalogue, place, settings.exhibit.language, MonotonicTime());
+            bool lies = false;
+            for (int k_step = 0; k_step <= steps; ++k_step) {
+                constexpr double readable = 0.5;
+                const Presentation presented = exhibit.step(MonotonicTime() + k_step * step, {}, situation);
+                lies = presented.caption && presented.caption->brightness > readable;
+            }
+            shown += lies ? 1 : 0;
+        }
+    }
+    return static_cast<double>(shown) / (columns * rows * static_cast<int>(turns.size()));
+}
+
+} // namespace frustumscreen
