@@ -24,6 +24,7 @@ namespace {
 constexpr int width = 1920;
 constexpr int height = 1200;
 constexpr double above_m = 1.5;
+constexpr int touches = 15;
 constexpr double prop_px = 720.0;   ///< 30 cm under a projector of throw ratio 1.875
 constexpr double board_px = 1008.0; ///< 42 cm there
 
@@ -166,7 +167,7 @@ Result<void> draw_all(const std::filesystem::path& folder, std::span<char*> word
     pinhole.cx = 0.5 * width;
     pinhole.cy = 0.5 * height;
     const TouchModel kept = rough_model(pinhole, above_m, 0.085);
-    TouchProcedure procedure(choose_crosses(kept, shipped_crosses(CalibrationSettings().touches)));
+    TouchProcedure procedure(choose_crosses(kept, shipped_crosses(touches)));
     TRY_VOID(draw(procedure, means, folder / "calibrate_begin.png"));
     procedure.step({MonotonicTime{}, std::nullopt, true, false});
     TRY_VOID(draw(procedure, means, folder / "calibrate_cross.png"));
