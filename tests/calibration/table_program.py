@@ -39,6 +39,7 @@ library = "none"
 [calibration]
 folder = "kept"
 sensor_height_m = {sensor_m}
+touches = 15
 """
 
 
