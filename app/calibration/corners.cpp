@@ -108,7 +108,7 @@ Misfit misfit_of(Lines lines, std::size_t k) {
 
 /// The corner that fits the others least; nothing: a ruler explains them all.
 std::optional<Misfit> worst_misfit(const Lines& lines) {
-    constexpr double chi2_limit = 7.4; // of two residuals, one in forty is beyond, by a ruler that is as bad as that
+    constexpr double chi2_limit = 9.2; // of two residuals, one in a hundred is beyond
     Misfit worst;
     for (std::size_t k = 0; k < lines.size(); ++k) {
         const Misfit next = misfit_of(lines, k);

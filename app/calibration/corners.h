@@ -4,7 +4,7 @@
 /// and pose follow from the four rays, for a lens without distortion. There is no tracker in it.
 /// Frames   M: the frame in which the corners were measured, metres. The table's frame T: its z = 0 is M's z = 0.
 /// Errors   none: corners from which nothing follows are refused with a reason. So are those of which one does not fit: its line misses where the
-///          three others meet by more than errors of 5 mm in each coordinate explain once in forty times.
+///          three others meet by more than errors of 5 mm in each coordinate explain once in a hundred times.
 /// Threads  pure; any.
 /// Source   Kim, Shin, Kim, Using relief texture for interactive and tangible virtual environments, 2008, 'TangibleScreen', step 1
 #pragma once

@@ -85,6 +85,8 @@ TEST(Corners, TheirUncertaintyIsTheErrorThatTheRulerMakes) {
     double distorted = 0.0;
     double ruler_m = 0.0;
     double places = 0.0;
+    double tables = 0.0;
+    int refused = 0;
     constexpr int seeds = 200;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         for (const bool distorts : {false, true}) {
@@ -94,10 +96,14 @@ TEST(Corners, TheirUncertaintyIsTheErrorThatTheRulerMakes) {
             const Pinhole& p = table.truth.pinhole;
             const std::vector<MeasuredCorner> corners = measured_corners(table, 0.4, 0.005, numbers);
             const CornerCalibration found = calibrate_corners(corners, p.width, p.height);
-            ASSERT_TRUE(found.pinhole) << found.reason;
+            if (!found.pinhole) { // by chance a corner looks wrong
+                ++refused;
+                continue;
+            }
             const CornerUncertainty uncertainty = uncertainty_of(found, corners, 0.12);
             ASSERT_EQ(uncertainty.zone.size(), 3 * zone_columns * zone_rows);
-            ruler_m += distorts ? 0.0 : uncertainty.ruler_error_m / seeds;
+            ruler_m += distorts ? 0.0 : uncertainty.ruler_error_m;
+            tables += distorts ? 0.0 : 1.0;
             CalibratedTable calibrated = table.truth;
             calibrated.pinhole = *found.pinhole;
             calibrated.table_from_projector = found.measured_from_projector;
@@ -115,9 +121,12 @@ TEST(Corners, TheirUncertaintyIsTheErrorThatTheRulerMakes) {
                 "%.2f mm; the ruler "
                 "errs by %.2f mm\n",
                 1e3 * std::sqrt(made / places), 1e3 * std::sqrt(said / places),
-                1e3 * std::sqrt(distorted / places), 1e3 * ruler_m);
+                1e3 * std::sqrt(distorted / places), 1e3 * ruler_m / tables);
     EXPECT_NEAR(std::sqrt(made / said), 1.0, 0.2);
-    EXPECT_NEAR(ruler_m, 0.005, 0.0005);
+    EXPECT_NEAR(ruler_m / tables, 0.005, 0.0005);
+    EXPECT_LE(
+        refused,
+        28); // one corner in a hundred: 16 of 400 sets at most are expected, and once in a thousand times more than 28
 }
 
 TEST(Corners, ARulerThatSeemsExactIsHeldForAMillimetre) {
