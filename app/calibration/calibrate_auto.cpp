@@ -3,6 +3,7 @@
 #include "app/calibration/check_rests.h"
 #include "app/calibration/check_touches.h"
 #include "app/calibration/dense_solvers.h"
+#include "app/calibration/picture_shares.h"
 #include "app/calibration/reliability.h"
 #include "app/calibration/rest_agreement.h"
 #include "app/calibration/rest_starts.h"
@@ -188,6 +189,7 @@ AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, cons
     const std::vector<ZonePlace> places = zone_places(fit.model, fit.middle, zone);
     const Covariance covariance = found.scatter * found.scatter * inverse_of(fit.information());
     table.uncertainty = picture_uncertainty(places, covariance);
+    table.uncertainty.shares = picture_shares(places, covariance);
     table.zone = by_place(places, table.uncertainty.each_m);
     table.hidden_error_m = hidden_error_of(found, places);
     table.prior_shares = prior_shares(fit);

@@ -3,6 +3,7 @@
 #include "app/calibration/check_touches.h"
 #include "app/calibration/dense_solvers.h"
 #include "app/calibration/picture_limits.h"
+#include "app/calibration/picture_shares.h"
 #include "app/calibration/reliability.h"
 #include "app/calibration/starts.h"
 #include "app/calibration/upright_touches.h"
@@ -77,6 +78,38 @@ bool keeps(const TouchCalibration& calibration, const PictureLimits& limits) {
     return limits.keep(calibration.uncertainty, calibration.hidden_error_m);
 }
 
+/// Of three residuals of a touch that is right, one in a hundred is beyond: too often to call it wrong, and too seldom to pass over.
+constexpr double doubtful_chi2 = 11.3;
+
+/// The touch that fits the others least, if that is doubtful.
+std::optional<std::size_t> doubtful_one(std::span<const Touch> touches, const FitSetup& setup,
+                                        const Fit& fit) {
+    const WhitenedTouches whitened = whitened_touches(touches, setup, fit.model, fit.middle);
+    const Covariance covariance = inverse_of(fit.information());
+    std::optional<std::size_t> doubtful;
+    double most = doubtful_chi2;
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+        const double chi2 = left_out_chi2(whitened.rows[k], whitened.residuals[k], covariance);
+        doubtful = chi2 > most ? std::optional(k) : doubtful;
+        most = std::fmax(most, chi2);
+    }
+    return doubtful;
+}
+
+/// One verdict worse: a slip of some millimetres looks like that.
+void doubt(TouchCalibration& calibration, std::size_t touch) {
+    if (calibration.verdict == Verdict::Good) {
+        calibration.verdict = Verdict::Usable;
+        calibration.reason += fmt::format(
+            "; touch {} fits the others less well than it should: done again, it may be good", touch + 1);
+    } else if (calibration.verdict == Verdict::Usable) {
+        calibration.verdict = Verdict::Repeat;
+        calibration.repeat = {touch};
+        calibration.reason =
+            fmt::format("touch {} fits the others less well than it should: do it again", touch + 1);
+    }
+}
+
 /// Means and worst ones, but for those to repeat.
 void summarise_residuals(TouchCalibration& calibration) {
     double count = 0.0;
@@ -112,9 +145,11 @@ TouchResidual residual_of(const TouchModel& model, const glm::dvec3& place, doub
 }
 
 std::string in_words(const PictureUncertainty& uncertainty) {
+    const PictureShares& shares = uncertainty.shares;
     return fmt::format(
-        "the picture lies about {:.1f} mm beside its place on average, {:.1f} mm at the worst place",
-        1e3 * uncertainty.mean_m, 1e3 * uncertainty.worst_m);
+        "the picture usually lies within {:.1f} mm of its place; 95 of 100 places within {:.1f} mm, "
+        "the worst place within {:.1f} mm",
+        1e3 * shares.usual_m, 1e3 * shares.most_m, 1e3 * shares.worst_m);
 }
 
 bool BoardsHeight::differ() const {
@@ -295,6 +330,7 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
     const Covariance covariance = found.scatter * found.scatter * inverse_of(found.fit.information());
     const std::vector<ZonePlace> places = zone_places(found.fit.model, found.fit.middle, zone);
     calibration.uncertainty = picture_uncertainty(places, covariance);
+    calibration.uncertainty.shares = picture_shares(places, covariance);
     calibration.zone = by_place(places, calibration.uncertainty.each_m);
     calibration.hidden_error_m = hidden_error_of(touches, fit_setup, found.fit, zone);
     calibration.prior_shares = prior_shares(found.fit);
@@ -303,6 +339,10 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
         touches.begin(), touches.end(), [](const Touch& a, const Touch& b) { return a.block_m < b.block_m; });
     calibration.boards = boards_of(found.fit.model, covariance, highest->block_m);
     judge(calibration, crosses, found, row_names(found.wrong));
+    if (const auto touch =
+            found.agreement == Agreement::All ? doubtful_one(touches, fit_setup, found.fit) : std::nullopt) {
+        doubt(calibration, *touch);
+    }
     calibration.reason += in_words(calibration.boards);
     return calibration;
 }

@@ -3,7 +3,7 @@
 /// Frames   calibrated_table.h.
 /// Units    metres, pixels.
 /// Errors   none: touches from which nothing follows are refused with a reason for the technician. docs/calibration.md says what each verdict promises.
-/// Time     a millisecond or two for touches that agree; below a second for those that do not.
+/// Time     some ten milliseconds for touches that agree; below a second for those that do not.
 /// Threads  pure; any.
 #pragma once
 
@@ -72,7 +72,7 @@ struct TouchCalibration {
     std::vector<PlaceUncertainty> zone; ///< zone_columns x zone_rows of each height, from the table up
 };
 
-/// How far the picture lies beside its place, half a sentence.
+/// How far the picture lies beside its place, half a sentence; its shares are known.
 [[nodiscard]] std::string in_words(const PictureUncertainty& uncertainty);
 /// The words for what was measured, touches or rests, in the sentences of a verdict.
 struct MeasuredKind {

@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -24,19 +25,53 @@ Touch perfect_touch(const TouchModel& model, const Cross& cross) {
     return {{turn, *place - turn * model.sensor_offset_m}, cross.pixel, cross.block_m};
 }
 
+/// A rectangle of the picture.
+struct PixelRange {
+    glm::dvec2 from;
+    glm::dvec2 to;
+};
+
+/// Where crosses may lie at a height: within the picture's margin, and within reach; of a rotated picture the part of which that is sure.
+PixelRange range_at(const TouchModel& model, const CrossSetup& setup, double height_m) {
+    constexpr double least_range = 0.1; // widths
+    const Pinhole& p = model.pinhole;
+    const glm::dvec2 margin(setup.margin * p.width);
+    PixelRange range{margin, glm::dvec2(p.width, p.height) - margin};
+    if (!setup.reach_m) {
+        return range;
+    }
+    std::array<double, 4> u{};
+    std::array<double, 4> v{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const glm::dvec2 sign(k % 2 == 0 ? -1.0 : 1.0, k / 2 == 0 ? -1.0 : 1.0);
+        const glm::dvec2 place = sign * glm::max(*setup.reach_m, glm::dvec2(0.0));
+        const std::optional<glm::dvec2> corner = model.pixel(glm::dvec3(place, height_m));
+        u[k] = corner ? corner->x : 0.5 * p.width;
+        v[k] = corner ? corner->y : 0.5 * p.height;
+    }
+    std::sort(u.begin(), u.end());
+    std::sort(v.begin(), v.end());
+    const glm::dvec2 middle(0.25 * (u[0] + u[1] + u[2] + u[3]), 0.25 * (v[0] + v[1] + v[2] + v[3]));
+    const glm::dvec2 half =
+        glm::max(glm::min(glm::dvec2(u[2], v[2]) - middle, middle - glm::dvec2(u[1], v[1])),
+                 glm::dvec2(0.5 * least_range * p.width));
+    return {glm::max(range.from, middle - half), glm::min(range.to, middle + half)};
+}
+
 std::vector<Cross> grid_of(const TouchModel& model, const CrossSetup& setup) {
     constexpr int columns = 8;
     constexpr int rows = 6;
-    const Pinhole& p = model.pinhole;
-    const double margin = setup.margin * p.width;
     std::vector<Cross> crosses;
-    constexpr int steps =
-        3; // from eight touches on none of those between is chosen; on the way they lead to better choices
+    // All over the picture none of those between is chosen from eight touches on, but on the way they lead to better choices. Within reach they
+    // gain nothing, and a technician would need boards of more heights.
+    const int steps = setup.reach_m ? 1 : 3;
     for (int step = 0; step <= steps; ++step) {
         const double block = step * setup.block_m / steps;
+        const PixelRange range = range_at(model, setup, block);
         for (int k = 0; k < (columns + 1) * (rows + 1); ++k) {
-            const glm::dvec2 pixel(margin + (p.width - 2.0 * margin) * (k % (columns + 1)) / columns,
-                                   margin + (p.height - 2.0 * margin) * (k / (columns + 1)) / rows);
+            const glm::dvec2 share(static_cast<double>(k % (columns + 1)) / columns,
+                                   static_cast<double>(k / (columns + 1)) / rows);
+            const glm::dvec2 pixel = range.from + (range.to - range.from) * share;
             for (int quarter = 0; quarter < 4; ++quarter) {
                 crosses.push_back({pixel, block, 0.5 * std::numbers::pi * quarter});
             }
@@ -192,6 +227,22 @@ std::vector<Cross> crosses_of(const Choice& choice, std::span<const std::size_t>
 }
 
 } // namespace
+
+glm::dvec2 reach_of(const glm::dvec2& table_m, double prop_base_m) {
+    return 0.5 * table_m - glm::dvec2(0.5 * prop_base_m + stand_margin_m);
+}
+
+double overhang_m(const TouchModel& rough, std::span<const Cross> crosses, const glm::dvec2& reach_m) {
+    constexpr double rounding_m = 1e-6;
+    double most_m = 0.0;
+    for (const Cross& cross : crosses) {
+        if (const std::optional<glm::dvec3> place = rough.lit(cross.pixel, cross.block_m)) {
+            const glm::dvec2 over = glm::abs(glm::dvec2(*place)) - reach_m;
+            most_m = std::fmax(most_m, std::fmax(over.x, over.y));
+        }
+    }
+    return most_m > rounding_m ? most_m : 0.0;
+}
 
 TouchModel rough_model(const Pinhole& pinhole, double above_m, double sensor_height_m) {
     TouchModel model;

@@ -1,5 +1,6 @@
 #include "app/calibration/corner_uncertainty.h"
 
+#include "app/calibration/picture_shares.h"
 #include "app/geometry/table_plane.h"
 
 #include <array>
@@ -21,6 +22,11 @@ std::optional<glm::dvec2> light_of(const CornerCalibration& calibration, const g
     return lights_table(*calibration.pinhole, level_from_projector, pixel);
 }
 
+/// Residuals less unknowns: a corner counts in the two directions across its line; four lines through one point have eleven unknowns.
+int freedom_of(std::span<const MeasuredCorner> corners) {
+    return 2 * static_cast<int>(corners.size()) - 11;
+}
+
 /// Standard deviation of each coordinate: how far the corners lie beside the four lines from the centre of projection to their middles.
 double ruler_error_m(const glm::dvec3& centre_m, std::span<const MeasuredCorner> corners) {
     std::array<glm::dvec3, 4> along{};
@@ -34,22 +40,22 @@ double ruler_error_m(const glm::dvec3& centre_m, std::span<const MeasuredCorner>
         const glm::dvec3 off = from - glm::dot(from, line) * line;
         squares += glm::dot(off, off);
     }
-    // A corner counts in the two directions across its line; four lines through one point have eleven unknowns.
-    const double left_over = 2.0 * static_cast<double>(corners.size()) - 11.0;
-    return std::fmax(std::sqrt(squares / left_over), least_ruler_error_m);
+    return std::fmax(std::sqrt(squares / freedom_of(corners)), least_ruler_error_m);
 }
 
-/// What one coordinate's error adds to the square of each place's, in metres.
-void add_error(std::vector<PlaceUncertainty>& zone, const CornerCalibration& less,
-               const CornerCalibration& more, double errors_apart) {
-    for (PlaceUncertainty& place : zone) {
-        const auto from = light_of(less, place.pixel, place.height_m);
-        const auto to = light_of(more, place.pixel, place.height_m);
+/// How one coordinate's error of one standard deviation moves each place: two rows for a place, metres.
+Eigen::VectorXd moves_by(const std::vector<PlaceUncertainty>& zone, const CornerCalibration& less,
+                         const CornerCalibration& more, double errors_apart) {
+    Eigen::VectorXd moves = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * zone.size()));
+    for (std::size_t k = 0; k < zone.size(); ++k) {
+        const auto from = light_of(less, zone[k].pixel, zone[k].height_m);
+        const auto to = light_of(more, zone[k].pixel, zone[k].height_m);
         if (from && to) {
             const glm::dvec2 moved = (*to - *from) / errors_apart;
-            place.rms_m += glm::dot(moved, moved);
+            moves.segment<2>(static_cast<Eigen::Index>(2 * k)) << moved.x, moved.y;
         }
     }
+    return moves;
 }
 
 } // namespace
@@ -72,22 +78,28 @@ CornerUncertainty uncertainty_of(const CornerCalibration& calibration,
     const auto calibrated = [&] {
         return calibrate_corners(changed, calibration.pinhole->width, calibration.pinhole->height);
     };
+    Eigen::MatrixXd moves(static_cast<Eigen::Index>(2 * uncertainty.zone.size()),
+                          static_cast<Eigen::Index>(3 * corners.size()));
+    Eigen::Index column = 0;
     for (MeasuredCorner& corner : changed) {
         for (int axis = 0; axis < 3; ++axis) {
             const double measured = corner.place_m[axis];
             corner.place_m[axis] = measured - step_m;
             const CornerCalibration less = calibrated();
             corner.place_m[axis] = measured + step_m;
-            add_error(uncertainty.zone, less, calibrated(), 2.0 * step_m / uncertainty.ruler_error_m);
+            moves.col(column++) =
+                moves_by(uncertainty.zone, less, calibrated(), 2.0 * step_m / uncertainty.ruler_error_m);
             corner.place_m[axis] = measured;
         }
     }
-    for (PlaceUncertainty& place : uncertainty.zone) {
-        place.rms_m = std::sqrt(place.rms_m);
+    for (std::size_t k = 0; k < uncertainty.zone.size(); ++k) {
+        PlaceUncertainty& place = uncertainty.zone[k];
+        place.rms_m = moves.middleRows(static_cast<Eigen::Index>(2 * k), 2).norm();
         uncertainty.picture.mean_m += place.rms_m / static_cast<double>(uncertainty.zone.size());
         uncertainty.picture.worst_m = std::fmax(uncertainty.picture.worst_m, place.rms_m);
         uncertainty.picture.each_m.push_back(place.rms_m);
     }
+    uncertainty.picture.shares = picture_shares(moves, freedom_of(corners));
     return uncertainty;
 }
 

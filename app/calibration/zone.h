@@ -35,11 +35,19 @@ struct ZoneSetup {
 /// A height's places are a grid over the picture, row by row from its top left corner to the bottom right one.
 inline constexpr std::size_t zone_columns = 7, zone_rows = 5;
 
+/// How far the light is off at most, by shares (picture_shares.h).
+struct PictureShares {
+    double usual_m = 0.0; ///< at 68 of 100 places
+    double most_m = 0.0;  ///< at 95 of 100 places
+    double worst_m = 0.0; ///< at the worst place, in 95 of 100 calibrations
+};
+
 /// Root mean square of how far the light is off, one standard deviation.
 struct PictureUncertainty {
     double mean_m = 0.0;          ///< over the zone
     double worst_m = 0.0;         ///< where it is largest
     std::vector<double> each_m{}; ///< of each place
+    PictureShares shares{};       ///< where they were asked for
 };
 [[nodiscard]] PictureUncertainty picture_uncertainty(std::span<const ZonePlace> places,
                                                      const Covariance& covariance);

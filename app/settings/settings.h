@@ -199,7 +199,7 @@ struct CalibrationSettings {
     std::filesystem::path folder = "/var/lib/frustumscreen/calibration";
     bool by_buttons = true;       ///< the staff may begin one with the buttons
     double sensor_height_m = 0.0; ///< above the prop's bottom; 0: as tracker.sensor_from_prop has it
-    int touches = 9;
+    int touches = 15;
     double block_m = 0.12;           ///< how high boards raise the prop for half of them
     std::optional<Calibration> used; ///< it stands in `projector` and `tracker` already
     std::string used_name;           ///< of its file

@@ -9,6 +9,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import tomllib
 
 try:
     import numpy as np
@@ -240,11 +241,43 @@ def test_corners(programs):
         picture.unlink()
         refused = json.loads(corners(rows[:4], "--json", status=1))
         assert refused["uncertainty_mm"] is None and not picture.exists(), refused
+        within = found["within_mm"]
+        assert 0.3 < within["places_68"] < within["places_95"] < within["worst_place_95"] < 15.0, within
+        wrong = [row if row[:2] != (2, "bottom_left") else (*row[:2], row[2] + 0.03, row[3] - 0.04, row[4]) for row in rows]
+        refused = json.loads(corners(wrong, "--json", status=1))
+        assert refused["verdict"] == "refused" and "the bottom left corner" in refused["reason"], refused
+        assert refused["repeat"] == [4, 8] and refused["projector"] is None, refused
+        text = corners(rows)
+        assert "in the frame that the corners were measured in" in text and "of its picture's middle" in text, text
+
+
+def test_corners_are_kept(programs):
+    """In the settings' frame: wherever the ruler's origin was, the light of the picture's middle is where the settings have it."""
+    truth = Truth()
+    truth.k1 = truth.k2 = 0.0
+    rows = [(distance, name, *(truth.lit(pixel, height) + np.array([1.0, -2.0, 0.0])))
+            for distance, height in ((1, 0.0), (2, 0.4))
+            for name, pixel in (("top_left", (0, 0)), ("top_right", (WIDTH, 0)), ("bottom_right", (WIDTH, HEIGHT)), ("bottom_left", (0, HEIGHT)))]
+    with tempfile.TemporaryDirectory() as folder:
+        file, config = (pathlib.Path(folder) / name for name in ("corners.csv", "kiosk.toml"))
+        file.write_text("distance,corner,x_m,y_m,z_m\n" + "".join(",".join(map(str, row)) + "\n" for row in rows))
+        config.write_text(f'[projector]\nwidth = {WIDTH}\nheight = {HEIGHT}\n[calibration]\nfolder = "kept"\n')
+        words = [programs / "frustumscreen-calibrate", "corners", "--from", file, "--config", config, "--keep"]
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+        assert done.returncode == 0 and "kept as" in done.stderr, (done.stdout, done.stderr)
+        kept = tomllib.loads((pathlib.Path(folder) / "kept/calibration-0001.toml").read_text())
+        assert kept["method"] == "corners" and kept["places"] == 8, kept
+        projector = kept["projector"]
+        pose = np.array(projector["table_from_projector"]).reshape(4, 4).T
+        middle = np.array([(WIDTH / 2 - projector["cx"]) / projector["fx"], (HEIGHT / 2 - projector["cy"]) / projector["fy"], 1.0])
+        ray = pose[:3, :3] @ middle
+        light = pose[:3, 3] - ray * pose[2, 3] / ray[2]
+        assert np.abs(light).max() < 1e-6, light
 
 
 def main():
     programs = pathlib.Path(sys.argv[1])
-    for test in (test_exact, test_scipy, test_refused, test_command_line, test_corners):
+    for test in (test_exact, test_scipy, test_refused, test_command_line, test_corners, test_corners_are_kept):
         test(programs)
         print(f"{test.__name__}: well")
 

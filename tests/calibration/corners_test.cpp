@@ -1,5 +1,6 @@
 // By hand with a ruler: exact without error, and what 5 mm cost beside touches.
 #include "app/calibration/corner_uncertainty.h"
+#include "tests/calibration/measured_corners.h"
 #include "tests/calibration/simulated_touches.h"
 
 #include <gtest/gtest.h>
@@ -11,22 +12,6 @@
 namespace frustumscreen {
 namespace {
 
-/// The picture's corners on the table and on a board above it, by the truth's own ray, with a ruler's error.
-std::vector<MeasuredCorner> measured(const SimulatedTable& table, double board_m, double ruler_m,
-                                     SeededNumbers& numbers) {
-    const Pinhole& p = table.truth.pinhole;
-    const std::array<glm::dvec2, 4> pixels{
-        {{0.0, 0.0}, {p.width, 0.0}, {p.width, p.height}, {0.0, p.height}}};
-    std::vector<MeasuredCorner> corners;
-    for (int distance = 1; distance <= 2; ++distance) {
-        for (std::size_t k = 0; k < 4; ++k) {
-            const glm::dvec3 place = true_light(table.truth, pixels[k], distance == 1 ? 0.0 : board_m);
-            corners.push_back({distance, static_cast<PictureCorner>(k), place + ruler_m * numbers.normals()});
-        }
-    }
-    return corners;
-}
-
 TEST(Corners, WithoutErrorTheProjectorIsFound) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         SimulatedTable table = some_table(seed);
@@ -34,7 +19,7 @@ TEST(Corners, WithoutErrorTheProjectorIsFound) {
         SeededNumbers numbers(seed);
         const Pinhole& p = table.truth.pinhole;
         const CornerCalibration found =
-            calibrate_corners(measured(table, 0.4, 0.0, numbers), p.width, p.height);
+            calibrate_corners(measured_corners(table, 0.4, 0.0, numbers), p.width, p.height);
         ASSERT_TRUE(found.pinhole) << found.reason;
         EXPECT_NEAR(found.pinhole->fx, p.fx, 1e-7 * p.fx);
         EXPECT_NEAR(found.pinhole->fy, p.fy, 1e-7 * p.fy);
@@ -49,10 +34,10 @@ TEST(Corners, WhatSaysNothingIsRefused) {
     const SimulatedTable table = some_table(3);
     SeededNumbers numbers(3);
     const Pinhole& p = table.truth.pinhole;
-    std::vector<MeasuredCorner> corners = measured(table, 0.4, 0.0, numbers);
+    std::vector<MeasuredCorner> corners = measured_corners(table, 0.4, 0.0, numbers);
     const std::vector<MeasuredCorner> once(corners.begin(), corners.begin() + 4);
     EXPECT_EQ(calibrate_corners(once, p.width, p.height).verdict, Verdict::Refused);
-    EXPECT_EQ(calibrate_corners(measured(table, 0.001, 0.0, numbers), p.width, p.height).verdict,
+    EXPECT_EQ(calibrate_corners(measured_corners(table, 0.001, 0.0, numbers), p.width, p.height).verdict,
               Verdict::Refused);
     for (MeasuredCorner& corner : corners) {
         corner.corner = static_cast<PictureCorner>((5 - static_cast<int>(corner.corner)) % 4); // mirrored
@@ -72,7 +57,7 @@ TEST(Corners, ByHandThePictureIsFiveTimesWorseThanByTouch) {
         SeededNumbers numbers(4000 + seed);
         const Pinhole& p = table.truth.pinhole;
         const CornerCalibration hand =
-            calibrate_corners(measured(table, 0.4, 0.005, numbers), p.width, p.height);
+            calibrate_corners(measured_corners(table, 0.4, 0.005, numbers), p.width, p.height);
         const TouchCalibration touch =
             calibrate_touch(touches_of(table, crosses.of(table, 9), {}, numbers), setup_for(table));
         ASSERT_TRUE(touch.table);
@@ -100,6 +85,8 @@ TEST(Corners, TheirUncertaintyIsTheErrorThatTheRulerMakes) {
     double distorted = 0.0;
     double ruler_m = 0.0;
     double places = 0.0;
+    double tables = 0.0;
+    int refused = 0;
     constexpr int seeds = 200;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         for (const bool distorts : {false, true}) {
@@ -107,12 +94,16 @@ TEST(Corners, TheirUncertaintyIsTheErrorThatTheRulerMakes) {
             table.truth.pinhole.lens = distorts ? table.truth.pinhole.lens : Lens{};
             SeededNumbers numbers(4000 + seed);
             const Pinhole& p = table.truth.pinhole;
-            const std::vector<MeasuredCorner> corners = measured(table, 0.4, 0.005, numbers);
+            const std::vector<MeasuredCorner> corners = measured_corners(table, 0.4, 0.005, numbers);
             const CornerCalibration found = calibrate_corners(corners, p.width, p.height);
-            ASSERT_TRUE(found.pinhole) << found.reason;
+            if (!found.pinhole) { // by chance a corner looks wrong
+                ++refused;
+                continue;
+            }
             const CornerUncertainty uncertainty = uncertainty_of(found, corners, 0.12);
             ASSERT_EQ(uncertainty.zone.size(), 3 * zone_columns * zone_rows);
-            ruler_m += distorts ? 0.0 : uncertainty.ruler_error_m / seeds;
+            ruler_m += distorts ? 0.0 : uncertainty.ruler_error_m;
+            tables += distorts ? 0.0 : 1.0;
             CalibratedTable calibrated = table.truth;
             calibrated.pinhole = *found.pinhole;
             calibrated.table_from_projector = found.measured_from_projector;
@@ -130,9 +121,12 @@ TEST(Corners, TheirUncertaintyIsTheErrorThatTheRulerMakes) {
                 "%.2f mm; the ruler "
                 "errs by %.2f mm\n",
                 1e3 * std::sqrt(made / places), 1e3 * std::sqrt(said / places),
-                1e3 * std::sqrt(distorted / places), 1e3 * ruler_m);
+                1e3 * std::sqrt(distorted / places), 1e3 * ruler_m / tables);
     EXPECT_NEAR(std::sqrt(made / said), 1.0, 0.2);
-    EXPECT_NEAR(ruler_m, 0.005, 0.0005);
+    EXPECT_NEAR(ruler_m / tables, 0.005, 0.0005);
+    EXPECT_LE(
+        refused,
+        28); // one corner in a hundred: 16 of 400 sets at most are expected, and once in a thousand times more than 28
 }
 
 TEST(Corners, ARulerThatSeemsExactIsHeldForAMillimetre) {
@@ -140,7 +134,7 @@ TEST(Corners, ARulerThatSeemsExactIsHeldForAMillimetre) {
     table.truth.pinhole.lens = {};
     SeededNumbers numbers(2);
     const Pinhole& p = table.truth.pinhole;
-    const std::vector<MeasuredCorner> corners = measured(table, 0.4, 0.0, numbers);
+    const std::vector<MeasuredCorner> corners = measured_corners(table, 0.4, 0.0, numbers);
     const CornerUncertainty exact =
         uncertainty_of(calibrate_corners(corners, p.width, p.height), corners, 0.12);
     EXPECT_EQ(exact.ruler_error_m, least_ruler_error_m);

@@ -39,6 +39,7 @@ library = "none"
 [calibration]
 folder = "kept"
 sensor_height_m = {sensor_m}
+touches = 15
 """
 
 
@@ -79,20 +80,25 @@ class Table(unittest.TestCase):
         printed = self.run_program("table", "--config", self.config, "--json")
         self.assertEqual(printed.returncode, 0, printed.stderr)
         crosses = json.loads(printed.stdout)["crosses"]
-        self.assertEqual(len(crosses), 9)
-        self.assertGreater(len({cross["block_m"] for cross in crosses}), 1)
+        self.assertEqual(len(crosses), 15)
+        self.assertEqual({cross["block_m"] for cross in crosses}, {0.0, 0.12})
+        for cross in crosses:  # the prop, 30 cm wide, stands on the table of 80 x 50 cm, by the settings' own projector
+            height = 1.5 - cross["block_m"]
+            x, y = (cross["u_px"] - 640) / 2400 * height, (400 - cross["v_px"]) / 2400 * height
+            self.assertLessEqual(abs(x), 0.25, cross)
+            self.assertLessEqual(abs(y), 0.10, cross)
         self.record(crosses, TrueTable(1280, 0.4))
-        self.write([BEGIN_S] + [EACH_S * k + PRESS_S for k in range(9)] + [EACH_S * 9 + 2.0])
+        self.write([BEGIN_S] + [EACH_S * k + PRESS_S for k in range(15)] + [EACH_S * 15 + 2.0])
         done = self.run_program("table", "--config", self.config, "--headless", "--out", self.folder / "touches.csv")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(len((self.folder / "touches.csv").read_text().splitlines()), 10)
+        self.assertEqual(len((self.folder / "touches.csv").read_text().splitlines()), 16)
         self.assertNotIn("where are the eyes", done.stderr)  # there is no head's sensor
         self.check_kept(0.4)
         self.check_listed()
 
     def check_kept(self, yaw_of_tracker):
         kept = tomllib.loads((self.folder / "kept/calibration-0001.toml").read_text())
-        self.assertEqual((kept["method"], kept["places"]), ("touch", 9))
+        self.assertEqual((kept["method"], kept["places"]), ("touch", 15))
         self.check_picture(kept, TrueTable(1280, yaw_of_tracker))
         self.assertAlmostEqual(kept["tracker"]["sensor_from_prop"][14], -SENSOR_M, delta=1e-3)
 

@@ -75,9 +75,10 @@ TEST(TouchPicture, WhereThePropsFrontGoesIsSeenBesideIt) {
     const Result<Typesetter> typesetter = Typesetter::open();
     ASSERT_TRUE(typesetter);
     constexpr double prop_px = 0.3 / 1.5 * 1.875 * width;
-    for (const int count : {6, 9, 15}) {
+    for (const int count : {6, 9, 15, -15}) {
         CrossSetup setup;
-        setup.count = count;
+        setup.count = std::abs(count);
+        setup.reach_m = count < 0 ? std::optional(reach_of({0.8, 0.5}, 0.3)) : std::nullopt;
         const auto look = [&](const TouchProcedure& procedure) {
             if (procedure.stage() == CalibrationStage::Place) {
                 const Image8 picture = table_picture(

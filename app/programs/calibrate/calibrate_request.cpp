@@ -29,14 +29,18 @@ void add_map_option(CommandLine& command, CalibrateRequest& request) {
         .needs("--from");
 }
 
+void add_keep_option(CommandLine& command, CalibrateRequest& request) {
+    command
+        .add_flag("--keep", request.keep, "keeps what is good or usable, in the settings' calibration.folder")
+        .needs("--config");
+}
+
 void add_touch_options(CommandLine& command, CalibrateRequest& request) {
     command
         .add_option("--sensor-height", request.sensor_height_m,
                     "the sensor above the touched place while the prop stands upright, metres")
         .within(-2.0, 2.0);
-    command
-        .add_flag("--keep", request.keep, "keeps what is good or usable, in the settings' calibration.folder")
-        .needs("--config");
+    add_keep_option(command, request);
     add_map_option(command, request);
 }
 

@@ -52,6 +52,7 @@ struct Described {
 
 void add_common_options(CommandLine& command, CalibrateRequest& request);
 void add_map_option(CommandLine& command, CalibrateRequest& request);
+void add_keep_option(CommandLine& command, CalibrateRequest& request);
 /// --sensor-height, --keep and --map.
 void add_touch_options(CommandLine& command, CalibrateRequest& request);
 /// Throws a WrongUse at what does not go.

@@ -2,6 +2,7 @@
 
 #include "app/calibration/corner_uncertainty.h"
 #include "app/calibration/point_files.h"
+#include "app/programs/calibrate/kept_command.h"
 #include "app/programs/calibrate/touch_command.h"
 #include "app/programs/calibrate/uncertainty_picture.h"
 #include "app/programs/common/command_line.h"
@@ -20,8 +21,11 @@ Json corners_json(const CornerCalibration& c, const CornerUncertainty& uncertain
     Json json{{"projector", nullptr},   {"table_from_tracker", nullptr}, {"sensor_offset_m", nullptr},
               {"residual_mm", nullptr}, {"residual_px", nullptr},        {"centre_m", nullptr},
               {"angles_deg", nullptr},  {"condition", nullptr},          {"uncertainty_mm", nullptr},
-              {"ruler_mm", nullptr},    {"verdict", name_of(c.verdict)}, {"reason", c.reason},
-              {"repeat", Json::array()}};
+              {"within_mm", nullptr},   {"ruler_mm", nullptr},           {"verdict", name_of(c.verdict)},
+              {"reason", c.reason},     {"repeat", Json::array()}};
+    for (const std::size_t row : c.repeat) {
+        json["repeat"].push_back(row + 1);
+    }
     if (c.pinhole) {
         json["projector"] = projector_json(*c.pinhole, c.table_from_projector);
         json["residual_mm"] = mm_json(c.mean_residual_m, c.worst_residual_m);
@@ -30,6 +34,7 @@ Json corners_json(const CornerCalibration& c, const CornerUncertainty& uncertain
         json["angles_deg"] = {{"horizontal", c.horizontal_deg}, {"vertical", c.vertical_deg}};
         json["condition"] = c.condition;
         json["uncertainty_mm"] = mm_json(uncertainty.picture.mean_m, uncertainty.picture.worst_m);
+        json["within_mm"] = within_json(uncertainty.picture.shares);
         json["ruler_mm"] = 1e3 * uncertainty.ruler_error_m;
     }
     return json;
@@ -38,15 +43,16 @@ Json corners_json(const CornerCalibration& c, const CornerUncertainty& uncertain
 std::string corners_text(const CornerCalibration& c, const CornerUncertainty& uncertainty) {
     std::string text = fmt::format("{}: {}\n", name_of(c.verdict), c.reason);
     if (c.pinhole) {
-        text += fmt::format(
-            "The light comes from ({:.3f}, {:.3f}, {:.3f}) m, {:.1f} degrees wide and {:.1f} high.\n",
-            c.centre_m.x, c.centre_m.y, c.centre_m.z, c.horizontal_deg, c.vertical_deg);
+        text += fmt::format("The light comes from ({:.3f}, {:.3f}, {:.3f}) m in the frame that the corners "
+                            "were measured in, {:.1f} degrees "
+                            "wide and {:.1f} high.\n",
+                            c.centre_m.x, c.centre_m.y, c.centre_m.z, c.horizontal_deg, c.vertical_deg);
+        text += projector_text(c.table_from_projector);
         text += fmt::format("Along its axis that is {:.0f} times as uncertain as across it.\n", c.condition);
-        text += fmt::format("A corner is measured to {:.1f} mm, and the light lies {:.1f} mm beside its "
-                            "place on average over "
-                            "the zone, {:.1f} mm at the worst place (one standard deviation).\n",
-                            1e3 * uncertainty.ruler_error_m, 1e3 * uncertainty.picture.mean_m,
-                            1e3 * uncertainty.picture.worst_m);
+        text += fmt::format(
+            "A corner is measured to {:.1f} mm (one standard deviation); with a lens that does not "
+            "distort {}.\n",
+            1e3 * uncertainty.ruler_error_m, in_words(uncertainty.picture));
     }
     return text;
 }
@@ -66,7 +72,11 @@ Result<int> corners(const CalibrateRequest& request) {
         const MeasuredPlaces places = places_of(measured, described.width, described.height);
         TRY_VOID(write_uncertainty(request.map, map_of(calibration, uncertainty), places, described.top_m));
     }
-    return status_of(calibration.verdict, request, calibration.reason);
+    const int status = status_of(calibration.verdict, request, calibration.reason);
+    if (status == 0 && request.keep) {
+        return keep_corners(*described.settings, calibration, measured.size()).map([] { return 0; });
+    }
+    return status;
 }
 
 } // namespace
@@ -75,6 +85,7 @@ void add_corners_command(CommandLine& app, CalibrateRequest& request, std::funct
     CommandLine command = app.add_subcommand(
         "corners", "from the picture's four corners, measured by hand at two distances: the projector");
     add_common_options(command, request);
+    add_keep_option(command, request);
     add_map_option(command, request);
     command.callback([&] { chosen = [&] { return end_with(corners(request)); }; });
 }

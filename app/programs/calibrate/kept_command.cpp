@@ -117,6 +117,20 @@ Result<void> keep_auto(const Settings& settings, const AutoCalibration& calibrat
     return keep(settings, calibration.found, calibration.found.residuals.size(), std::move(next));
 }
 
+Result<void> keep_corners(const Settings& settings, const CornerCalibration& calibration,
+                          std::size_t corners) {
+    Calibration next;
+    next.method = CalibrationMethod::Corners;
+    next.places = static_cast<int>(corners);
+    next.mean_mm = 1e3 * calibration.mean_residual_m;
+    next.worst_mm = 1e3 * calibration.worst_residual_m;
+    next.mean_px = calibration.mean_residual_px;
+    next.pinhole = *calibration.pinhole;
+    next.table_from_projector = settings_from_measured(settings.projector) * calibration.table_from_projector;
+    next.registration = settings.tracker.registration;
+    return keep_next(settings, std::move(next));
+}
+
 std::string why_no_eye(const Settings& settings) {
     return settings.calibration.used
                ? ""

@@ -6,6 +6,7 @@
 
 #include "app/calibration/calibrate_auto.h"
 #include "app/calibration/calibrate_touch.h"
+#include "app/calibration/corners.h"
 #include "app/programs/calibrate/calibrate_request.h"
 #include "app/programs/common/command_line.h"
 
@@ -20,6 +21,9 @@ void add_kept_command(CommandLine& app, CalibrateRequest& request, std::function
 /// Keeps a calibration that is good or usable in the settings' folder, dated by this machine's clock, and says where.
 [[nodiscard]] Result<void> keep_touch(const Settings& settings, const TouchCalibration& calibration,
                                       std::span<const Touch> touches);
+/// The projector alone: the tracker stays where it was.
+[[nodiscard]] Result<void> keep_corners(const Settings& settings, const CornerCalibration& calibration,
+                                        std::size_t corners);
 [[nodiscard]] Result<void> keep_auto(const Settings& settings, const AutoCalibration& calibration);
 
 /// Why the eye cannot be kept, as a half sentence: there is no calibration to keep it with. Empty: it can.

@@ -34,9 +34,9 @@ public:
     ProcedureTable(TableDevices& devices, const Settings& settings, Manner manner)
         : devices_(devices), manner_(std::move(manner)) {
         const double focal_px = settings.projector.pinhole.fx;
-        const double above_m = settings.projector.table_from_projector.translation.z;
-        prop_px_ = settings.prop.base_m * focal_px / above_m;
-        board_px_ = Board::size_m.x * focal_px / above_m;
+        above_m_ = settings.projector.table_from_projector.translation.z;
+        prop_px_ = settings.prop.base_m * focal_px / above_m_;
+        board_px_ = Board::size_m.x * focal_px / above_m_;
     }
 
     /// From the first word on the table to what is kept. Nothing: it ended without.
@@ -102,6 +102,7 @@ private:
             devices_.show(table_picture(way, {.width = devices_.width(),
                                               .height = devices_.height(),
                                               .prop_px = prop_px_,
+                                              .above_m = above_m_,
                                               .board_px = board_px_,
                                               .typesetter = devices_.typesetter(),
                                               .house = devices_.house()}));
@@ -115,8 +116,8 @@ private:
 
     TableDevices& devices_;
     Manner manner_;
-    double prop_px_, board_px_; ///< on the table, about
-    TableWords words_;          ///< that are shown
+    double above_m_, prop_px_, board_px_; ///< of the projector; on the table, about
+    TableWords words_;                    ///< that are shown
     std::optional<CalibrationInput::Lit> lit_;
 };
 

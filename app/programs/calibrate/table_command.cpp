@@ -26,31 +26,43 @@ namespace {
 constexpr int few_crosses = 7;
 constexpr int more_crosses = 2;
 
+/// Where the middle of the prop's bottom may lie.
+glm::dvec2 reach_in(const Settings& settings) {
+    return reach_of(glm::dvec2(settings.table.width_m, settings.table.depth_m), settings.prop.base_m);
+}
+
 CrossSetup cross_setup(const Settings& settings, const CalibrateRequest& request) {
     CrossSetup setup;
     setup.count = request.touches.value_or(settings.calibration.touches);
     setup.block_m = request.block_m.value_or(settings.calibration.block_m);
     setup.top_m = settings.prop.height_m;
+    setup.reach_m = reach_in(settings);
     return setup;
+}
+
+/// The projector as the settings have it, and a tracker that stands in the table's frame.
+TouchModel described_table(const Settings& settings, double sensor_height_m) {
+    TouchModel model;
+    model.pinhole = settings.projector.pinhole;
+    model.projector_from_tracker = settings.projector.table_from_projector.inverse();
+    model.sensor_offset_m = {0.0, 0.0, -sensor_height_m};
+    return model;
 }
 
 /// The projector as the settings describe it decides where the crosses lie: what a cross tells hardly depends on it.
 std::vector<Cross> crosses_for(const Settings& settings, const CalibrateRequest& request) {
-    const double above_m = settings.projector.table_from_projector.translation.z;
-    return choose_crosses(
-        rough_model(settings.projector.pinhole.ideal(), above_m, request.sensor_height_m.value_or(0.0)),
-        cross_setup(settings, request));
+    TouchModel rough = described_table(settings, request.sensor_height_m.value_or(0.0));
+    rough.pinhole = rough.pinhole.ideal();
+    return choose_crosses(rough, cross_setup(settings, request));
 }
 
-/// Those of a touch-up: the kept projector is known. As if the tracker stood in the table's frame.
+/// Those of a touch-up: the kept projector is known.
 std::vector<Cross> touch_up_crosses_for(const Settings& settings, const CalibrateRequest& request) {
-    TouchModel kept;
-    kept.pinhole = settings.projector.pinhole;
-    kept.projector_from_tracker = settings.projector.table_from_projector.inverse();
-    kept.sensor_offset_m = {0.0, 0.0, settings.tracker.registration.sensor_from_prop.translation.z};
     CrossSetup setup = cross_setup(settings, request);
     setup.count = few_crosses;
-    return choose_touch_up_crosses(kept, setup, more_crosses);
+    return choose_touch_up_crosses(
+        described_table(settings, -settings.tracker.registration.sensor_from_prop.translation.z), setup,
+        more_crosses);
 }
 
 /// Of the sensor above the prop's bottom: as it is asked for, else as the settings have it, else as it was measured before.
@@ -69,7 +81,9 @@ constexpr const char* no_sensor_height =
     "nobody knows how high the sensor is above the prop's bottom; measure it with a ruler and set "
     "calibration.sensor_height_m";
 
-nlohmann::ordered_json crosses_json(const std::vector<Cross>& crosses) {
+/// `reach_m`, and how far prop or boards hang over the table's edge at the worst cross.
+nlohmann::ordered_json crosses_json(const Settings& settings, const std::vector<Cross>& crosses) {
+    const glm::dvec2 reach_m = reach_in(settings);
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Cross& cross : crosses) {
         list.push_back({{"u_px", cross.pixel.x},
@@ -77,7 +91,9 @@ nlohmann::ordered_json crosses_json(const std::vector<Cross>& crosses) {
                         {"block_m", cross.block_m},
                         {"turn_deg", glm::degrees(cross.yaw_rad)}});
     }
-    return {{"crosses", list}};
+    return {{"crosses", list},
+            {"boards_side_m", boards_side_m(settings.prop.base_m)},
+            {"overhang_m", overhang_m(described_table(settings, 0.0), crosses, reach_m)}};
 }
 
 /// A table with a technician at it, and what is asked of both.
@@ -191,7 +207,7 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     if (request.json) {
         const std::vector<Cross> crosses =
             touches_up ? touch_up_crosses_for(settings, request) : crosses_for(settings, request);
-        fmt::print("{}\n", crosses_json(crosses).dump(2));
+        fmt::print("{}\n", crosses_json(settings, crosses).dump(2));
         return 0;
     }
     const std::vector<Cross> crosses = crosses_for(settings, request);

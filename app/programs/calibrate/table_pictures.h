@@ -4,6 +4,8 @@
 ///
 /// Light    by a camera the ground is grey and not black, so that it sees the tags meanwhile. By eye the corner is lit by a dot, and an arrow on the
 ///          prop's top leads to it.
+/// Aim      the prop covers its cross: the arms reach out from under it, and a square shows where it stands. Marks in the middles of its bottom
+///          edges are laid on the arms.
 /// Units    pixels of the projector's picture.
 /// Words    in English, as in the alignment pattern; above them one sentence in the house's language, where that is another one. By touch and by a
 ///          camera where the prop hides none of them; by eye beside the prop, where no cross is, as large as they fit.
@@ -34,7 +36,9 @@ namespace frustumscreen {
 /// What a picture is drawn with. By eye it is as large as the scene's.
 struct TableDrawing {
     int width = 0, height = 0;
-    double prop_px = 0.0; ///< about the width of the prop's bottom, from under which a cross's arms reach out
+    double prop_px = 0.0; ///< about the width of the prop's bottom on the table
+    double above_m =
+        0.0; ///< about how high the projector hangs: what lies on boards is wider by that; 0: not told
     double board_px = 0.0; ///< about the width of the board
     const Typesetter& typesetter;
     const LanguageWords* house = nullptr; ///< the house's words

@@ -24,6 +24,9 @@ std::string touch_text(const TouchCalibration& c) {
     text += fmt::format("Each touch lies {:.1f} mm ({:.1f} pixels) from where the others expect it, on "
                         "average; {:.1f} mm at worst.\n",
                         1e3 * c.mean_residual_m, c.mean_residual_px, 1e3 * c.worst_residual_m);
+    text += fmt::format(
+        "A single wrong touch that went unnoticed could move the picture by {:.0f} mm at its worst place.\n",
+        1e3 * c.hidden_error_m);
     for (const std::size_t row : c.repeat) {
         text +=
             fmt::format("Touch {} lies {:.1f} mm from there.\n", row + 1, 1e3 * c.residuals[row].on_table_m);
@@ -59,6 +62,12 @@ nlohmann::ordered_json mm_json(double mean_m, double worst_m) {
     return {{"mean", 1e3 * mean_m}, {"worst", 1e3 * worst_m}};
 }
 
+nlohmann::ordered_json within_json(const PictureShares& shares) {
+    return {{"places_68", 1e3 * shares.usual_m},
+            {"places_95", 1e3 * shares.most_m},
+            {"worst_place_95", 1e3 * shares.worst_m}};
+}
+
 nlohmann::ordered_json rows_json(std::span<const TouchResidual> residuals) {
     Json rows = Json::array();
     for (std::size_t k = 0; k < residuals.size(); ++k) {
@@ -70,11 +79,11 @@ nlohmann::ordered_json rows_json(std::span<const TouchResidual> residuals) {
 }
 
 nlohmann::ordered_json touch_json(const TouchCalibration& c) {
-    Json json{{"projector", nullptr},       {"table_from_tracker", nullptr}, {"sensor_offset_m", nullptr},
-              {"residual_mm", nullptr},     {"residual_px", nullptr},        {"uncertainty_mm", nullptr},
-              {"hidden_error_mm", nullptr}, {"prior_share", nullptr},        {"boards_mm", nullptr},
-              {"rows", Json::array()},      {"verdict", name_of(c.verdict)}, {"reason", c.reason},
-              {"repeat", Json::array()}};
+    Json json{{"projector", nullptr},   {"table_from_tracker", nullptr}, {"sensor_offset_m", nullptr},
+              {"residual_mm", nullptr}, {"residual_px", nullptr},        {"uncertainty_mm", nullptr},
+              {"within_mm", nullptr},   {"hidden_error_mm", nullptr},    {"prior_share", nullptr},
+              {"boards_mm", nullptr},   {"rows", Json::array()},         {"verdict", name_of(c.verdict)},
+              {"reason", c.reason},     {"repeat", Json::array()}};
     for (const std::size_t row : c.repeat) {
         json["repeat"].push_back(row + 1);
     }
@@ -86,6 +95,7 @@ nlohmann::ordered_json touch_json(const TouchCalibration& c) {
         json["residual_mm"] = mm_json(c.mean_residual_m, c.worst_residual_m);
         json["residual_px"] = {{"mean", c.mean_residual_px}, {"worst", c.worst_residual_px}};
         json["uncertainty_mm"] = mm_json(c.uncertainty.mean_m, c.uncertainty.worst_m);
+        json["within_mm"] = within_json(c.uncertainty.shares);
         json["hidden_error_mm"] = 1e3 * c.hidden_error_m;
         json["prior_share"] = {{"aspect", c.prior_shares.aspect},
                                {"cx", c.prior_shares.centre_u},

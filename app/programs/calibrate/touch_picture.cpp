@@ -41,11 +41,18 @@ std::set<int> block_heights_mm(const TouchProcedure& procedure) {
     return heights_mm;
 }
 
+/// Some thirty seconds a touch.
+std::size_t minutes_for(std::size_t touches) {
+    return (touches + 1) / 2;
+}
+
 TableWords words_of_begin(const TouchProcedure& procedure) {
     if (!procedure.problem().empty()) {
         return why_not("The table cannot be measured", procedure.problem(), "Back returns to the exhibit.");
     }
-    const std::string boards = fmt::format("You need the prop and boards that make {} mm.",
+    const std::string boards = fmt::format("You need the prop, with a mark in the middle of each of its "
+                                           "bottom edges, and boards that make {} mm, "
+                                           "a little wider than the prop.",
                                            fmt::join(block_heights_mm(procedure), ", "));
     if (procedure.task() == TouchTask::TouchUp) {
         return {
@@ -60,8 +67,8 @@ TableWords words_of_begin(const TouchProcedure& procedure) {
     return {"calibration.begin",
             {"Staff: measure the table anew",
              fmt::format("Projector, tracker and the prop's sensor are measured with {} touches; that takes "
-                         "about five minutes. {}",
-                         procedure.count(), boards),
+                         "about {} minutes. {}",
+                         procedure.count(), minutes_for(procedure.count()), boards),
              "Next begins. Back returns to the exhibit; so does a minute without a press."}};
 }
 
@@ -71,10 +78,11 @@ TableWords words_of_cross(const TouchProcedure& procedure) {
     if (procedure.stage() == Stage::HoldStill) {
         words.add("calibration.hold_still", "Hold still: one second.");
     } else {
-        words.add("calibration.lay",
-                  fmt::format("Lay the middle of the prop's bottom on the cross, {}, its front "
-                              "along the arrow. Then press Next.",
-                              height_of(cross)));
+        words.add(
+            "calibration.lay",
+            fmt::format("Lay the prop on the cross, {}: the marks of its bottom edges on the four arms, its "
+                        "front along the arrow. Then press Next.",
+                        height_of(cross)));
     }
     words.add(message_of(touch_messages, procedure.word()));
     if (procedure.word() == TouchWord::Taken && procedure.at() > 0 &&
@@ -122,16 +130,22 @@ glm::dvec2 turned(const glm::dvec2& direction, double yaw_rad) {
     return {c * direction.x + s * direction.y, -s * direction.x + c * direction.y};
 }
 
-/// Its arms reach out from under the prop, along whose sides they lie; the thick one leads to its front. Where that one leaves the picture,
-/// an arrow head on a side arm, beyond the prop, says the same: of two arms that are opposite each other at most one leaves it.
+/// Its arms reach out from under the prop, square to its sides; the thick one leads to its front. A square shows where the prop stands. Where the
+/// front's arm leaves the picture, an arrow head on a side arm, beyond the prop, says the same: of two arms that are opposite each other at most one
+/// leaves it.
 void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, double prop_px) {
     const Cross& cross = procedure.cross();
     const Colour colour = colour_of(procedure);
     const double arm = std::fmax(0.75 * prop_px, 16.0 * unit);
+    const double edge = 0.5 * prop_px;
     const auto line = [&](const glm::dvec2& from, const glm::dvec2& to, double width, Colour of) {
         canvas.line(cross.pixel + turned(from, cross.yaw_rad), cross.pixel + turned(to, cross.yaw_rad), width,
                     of);
     };
+    for (const double side : {-1.0, 1.0}) {
+        line({side * edge, -edge}, {side * edge, edge}, 1.0, TableColours::dim);
+        line({-edge, side * edge}, {edge, side * edge}, 1.0, TableColours::dim);
+    }
     line({-arm, 0.0}, {arm, 0.0}, 1.0, colour);
     line({0.0, -arm}, {0.0, arm}, 1.0, colour);
     line({0.0, 2.0 * unit}, {0.0, arm}, 3.0, TableColours::front);
@@ -143,6 +157,12 @@ void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, do
     arrow_head({-0.85 * arm, 2.0 * unit});
     arrow_head({0.85 * arm, 2.0 * unit});
     canvas.circle(cross.pixel, 1.5 * unit, 1.0, colour);
+}
+
+/// The prop's width there: boards lie nearer to the projector.
+double prop_px_at(const Cross& cross, const TableDrawing& with) {
+    return with.above_m > cross.block_m ? with.prop_px * with.above_m / (with.above_m - cross.block_m)
+                                        : with.prop_px;
 }
 
 std::string what_moved(Moved moved) {
@@ -221,7 +241,7 @@ Image8 table_picture(const TouchProcedure& procedure, const TableDrawing& with) 
     const double unit = width / 160.0;
     const bool has_cross = procedure.stage() == Stage::Place || procedure.stage() == Stage::HoldStill;
     if (has_cross) {
-        draw_cross(canvas, procedure, unit, with.prop_px);
+        draw_cross(canvas, procedure, unit, prop_px_at(procedure.cross(), with));
     }
     // The words stand in the half of the picture where the cross is not, so that the prop hides none of them.
     const bool below = !has_cross || procedure.cross().pixel.y < 0.5 * height;

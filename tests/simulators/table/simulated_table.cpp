@@ -46,6 +46,37 @@ glm::dquat small_turn(const glm::dvec3& v) {
     return angle > 0.0 ? glm::angleAxis(angle, v / angle) : glm::dquat(1.0, 0.0, 0.0, 0.0);
 }
 
+/// A projector that looks down, and any tracker beside the table, the sensor somewhere in the prop.
+SimulatedTable table_under(const Pinhole& pinhole, const glm::dvec3& lens_m, const glm::dvec3& off_rad,
+                           const glm::dvec2& sensor_heights_m, SeededNumbers& numbers) {
+    SimulatedTable table;
+    CalibratedTable& truth = table.truth;
+    truth.pinhole = pinhole;
+    const glm::dquat down(0.0, 1.0, 0.0, 0.0);
+    truth.table_from_projector = {glm::normalize(down * small_turn(off_rad)), lens_m};
+    // Then the table's frame is what the conventions say, whatever the aim.
+    TouchModel model;
+    model.pinhole = truth.pinhole;
+    model.projector_from_tracker = truth.table_from_projector.inverse();
+    truth.table_from_projector = in_table_frame(model)->table_from_projector;
+    truth.table_from_tracker = {
+        numbers.rotation(),
+        {numbers.between(-0.6, 0.6), numbers.between(-0.6, 0.6), numbers.between(-0.3, 0.4)}};
+    table.sensor_height_m = numbers.between(sensor_heights_m.x, sensor_heights_m.y);
+    table.sensor_from_prop = numbers.rotation();
+    const glm::dvec3 in_prop{numbers.between(-0.02, 0.02), numbers.between(-0.02, 0.02),
+                             table.sensor_height_m};
+    truth.sensor_offset_m = table.sensor_from_prop * -in_prop;
+    return table;
+}
+
+/// Up to a share at the picture's corner.
+Lens some_lens(double share, int width, int height, double throw_ratio, SeededNumbers& numbers) {
+    const double sides = static_cast<double>(height) / width;
+    const double corner2 = (0.25 + 0.25 * sides * sides) / (throw_ratio * throw_ratio);
+    return {std::fmax(-0.1, std::fmin(0.1, numbers.between(-share, share) / corner2)), 0.0};
+}
+
 } // namespace
 
 glm::dvec2 calibrated_pixel(const CalibratedTable& calibrated, const glm::dvec3& table_point) {
@@ -103,39 +134,36 @@ SimulatedTable some_table(std::uint64_t seed) {
     const double table_width_m = numbers.between(0.7, 1.1);
     const double shift =
         numbers.between(0.0, 1.0) < 0.5 ? numbers.between(-0.1, 0.1) : numbers.between(0.3, 0.6);
-    SimulatedTable table;
-    CalibratedTable& truth = table.truth;
     const double fx = throw_ratio * width;
-    truth.pinhole = {size.x,
-                     size.y,
-                     fx,
-                     fx * std::exp(5e-4 * numbers.normal()),
-                     (0.5 + numbers.between(-0.03, 0.03)) * width,
-                     (0.5 + shift) * size.y};
-    // At the corner of the picture: some per mille to a per cent.
-    const double corner2 = (0.25 + 0.25 * size.y * size.y / (width * width)) / (throw_ratio * throw_ratio);
-    truth.pinhole.lens = {numbers.between(-0.01, 0.01) / corner2, 0.0};
-    truth.pinhole.lens.k1 = std::fmax(-0.1, std::fmin(0.1, truth.pinhole.lens.k1));
-    // Looking down, aimed at the table's middle within some degrees.
-    const glm::dquat down(0.0, 1.0, 0.0, 0.0);
+    Pinhole pinhole{size.x,
+                    size.y,
+                    fx,
+                    fx * std::exp(5e-4 * numbers.normal()),
+                    (0.5 + numbers.between(-0.03, 0.03)) * width,
+                    (0.5 + shift) * size.y};
+    pinhole.lens = some_lens(0.01, size.x, size.y, throw_ratio, numbers); // some per mille to a per cent
+    // Aimed at the table's middle within some degrees.
     const glm::dvec3 off{numbers.between(-0.15, 0.15), numbers.between(-0.15, 0.15),
                          numbers.between(-0.05, 0.05)};
-    truth.table_from_projector.rotation = glm::normalize(down * small_turn(off));
-    truth.table_from_projector.translation = {0.0, 0.0, throw_ratio * table_width_m};
-    // Then the table's frame is what the conventions say, whatever the aim.
-    TouchModel model;
-    model.pinhole = truth.pinhole;
-    model.projector_from_tracker = truth.table_from_projector.inverse();
-    truth.table_from_projector = in_table_frame(model)->table_from_projector;
-    truth.table_from_tracker = {
-        numbers.rotation(),
-        {numbers.between(-0.6, 0.6), numbers.between(-0.6, 0.6), numbers.between(-0.3, 0.4)}};
-    table.sensor_height_m = numbers.between(0.03, 0.09);
-    table.sensor_from_prop = numbers.rotation();
-    const glm::dvec3 in_prop{numbers.between(-0.02, 0.02), numbers.between(-0.02, 0.02),
-                             table.sensor_height_m};
-    truth.sensor_offset_m = table.sensor_from_prop * -in_prop;
-    return table;
+    return table_under(pinhole, {0.0, 0.0, throw_ratio * table_width_m}, off, {0.03, 0.09}, numbers);
+}
+
+SimulatedTable shipped_table(std::uint64_t seed) {
+    SeededNumbers numbers(seed);
+    constexpr int width = 1920;
+    constexpr int height = 1200;
+    const double throw_ratio = 1.875 * numbers.between(0.98, 1.02);
+    const double fx = throw_ratio * width;
+    Pinhole pinhole{width,
+                    height,
+                    fx,
+                    fx * std::exp(5e-4 * numbers.normal()),
+                    (0.5 + numbers.between(-0.02, 0.02)) * width,
+                    (0.5 + numbers.between(-0.02, 0.02)) * height};
+    pinhole.lens = some_lens(0.01, width, height, throw_ratio, numbers);
+    const glm::dvec3 off{numbers.between(-0.03, 0.03), numbers.between(-0.03, 0.03),
+                         numbers.between(-0.02, 0.02)};
+    return table_under(pinhole, {0.0, 0.0, numbers.between(1.48, 1.52)}, off, {0.08, 0.09}, numbers);
 }
 
 Touch simulated_touch(const SimulatedTable& table, const PlacedProp& placed, const TouchNoise& noise,

@@ -39,6 +39,10 @@ struct SimulatedTable {
 /// offset, aimed roughly at the table, distortion up to a per cent at the corner.
 [[nodiscard]] SimulatedTable some_table(std::uint64_t seed);
 
+/// A table as shipped (config/kiosk.toml), built by hand: the projector a few centimetres and degrees beside where the settings have it, its
+/// zoom, lens shift and distortion of its own; any tracker, and the sensor somewhere in the prop.
+[[nodiscard]] SimulatedTable shipped_table(std::uint64_t seed);
+
 /// The pixel that a calibration lights for a point of its table's space.
 [[nodiscard]] glm::dvec2 calibrated_pixel(const CalibratedTable& calibrated, const glm::dvec3& table_point);
 /// Where the true light of a pixel is at a height above the table.
