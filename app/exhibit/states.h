@@ -67,7 +67,8 @@ inline constexpr std::array<StateNote, state_count> state_notes{{
      "nobody knows where the prop is: the artifact turns at a place of its own; what to do, in words, aloud"},
     {State::Fault, "fault", false, false, Words::Fault, false,
      "no artifact can be shown: words that say so; silent"},
-    {State::Staff, "staff", false, false, Words::None, false, "the staff's picture, with pages; a test tone where they ask for it"},
+    {State::Staff, "staff", false, false, Words::None, false,
+     "the staff's picture, with pages; a test tone where they ask for it"},
 }};
 
 struct EventNote {

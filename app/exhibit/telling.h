@@ -26,9 +26,9 @@ namespace frustumscreen {
 /// What there is to tell of an artifact in one language.
 struct Tellable {
     std::vector<Nanoseconds>
-        portions;               ///< of the description: how long each is read; none: there is no description
+        portions; ///< of the description: how long each is read; none: there is no description
     std::vector<Nanoseconds> hotspots; ///< how long the label of each is read
-    bool ends_unspoken = false; ///< the last portion, the attribution, is read and never heard
+    bool ends_unspoken = false;        ///< the last portion, the attribution, is read and never heard
     [[nodiscard]] std::size_t count() const { return (portions.empty() ? 0 : 1) + hotspots.size(); }
 };
 

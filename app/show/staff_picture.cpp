@@ -198,8 +198,7 @@ private:
 void put(Canvas& canvas, const Image<std::uint8_t>& words, const glm::ivec2& corner) {
     constexpr int margin_px = 8;
     const glm::dvec2 low(corner - margin_px);
-    canvas.fill(low, low + glm::dvec2(words.width + 2 * margin_px, words.height + 2 * margin_px), Colour(0),
-                0.85);
+    canvas.fill(low, low + glm::dvec2(words.width + 2 * margin_px, words.height + 2 * margin_px), Colour(0));
     canvas.coverage(words, corner, white);
 }
 

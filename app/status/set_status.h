@@ -19,7 +19,8 @@ struct SetStatus {
     std::vector<InstalledPack> packs;
     SetVerdict newest;     ///< of the set that was installed last
     bool on_trial = false; ///< that one: there is another set to go back to, and no verdict yet
-    std::string of_ended_keys; ///< packs on show whose key does not count any more (pack_signers.h); empty: none
+    std::string
+        of_ended_keys;   ///< packs on show whose key does not count any more (pack_signers.h); empty: none
     std::string trouble; ///< a sentence: set.txt or the verdict cannot be read or written; empty: all is well
     [[nodiscard]] bool operator==(const SetStatus&) const = default;
 };

@@ -43,12 +43,13 @@ std::string status_card(std::string_view verdict, const StatusReport& status,
                         std::span<const StatusLine> lines, std::time_t now) {
     constexpr std::string_view cut = "...\n";
     std::string card;
+    bool is_full = false;
     const auto add = [&](std::string_view text) {
         const std::string line = plain(text) + "\n";
-        if (card.ends_with(cut)) {
-            return;
+        if (!is_full) {
+            is_full = card.size() + line.size() + cut.size() > most_card_bytes;
+            card += is_full ? std::string(cut) : line;
         }
-        card += card.size() + line.size() + cut.size() <= most_card_bytes ? line : std::string(cut);
     };
     add(fmt::format("FrustumScreen {}, {:%Y-%m-%d %H:%M}", status.versions.program,
                     fmt::localtime(std::max<std::time_t>(now, 0))));

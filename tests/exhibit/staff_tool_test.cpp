@@ -170,7 +170,7 @@ TEST(StaffTool, AWhiteAndABlackPictureLoseTheirWordsToBeMeasured) {
         return played.shown().has_words;
     };
     EXPECT_TRUE(words_after(StaffTool::words_stay - milliseconds(1)));
-    EXPECT_FALSE(words_after(StaffTool::words_stay));
+    EXPECT_FALSE(words_after(StaffTool::words_stay + StaffTool::between_views));
     played.now += seconds(10);
     played.play("1");
     EXPECT_TRUE(played.shown().has_words) << "black, and what it is";

@@ -19,7 +19,8 @@ struct RunPlaces {
     std::filesystem::path config;
     std::filesystem::path mode_file;                            ///< empty: the mode is normal
     std::filesystem::path shipped = "/usr/share/frustumscreen"; ///< built_in.fspack, kiosk.toml
-    std::filesystem::path cache; ///< settings_last_good.toml, volume.txt, compiled shaders; empty: none are kept
+    std::filesystem::path
+        cache; ///< settings_last_good.toml, volume.txt, compiled shaders; empty: none are kept
     /// Of the volume that the staff chose (kept_volume.h).
     [[nodiscard]] std::filesystem::path volume_file() const {
         return cache.empty() ? std::filesystem::path() : cache / "volume.txt";

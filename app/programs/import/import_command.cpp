@@ -247,9 +247,10 @@ Result<std::string> list_installed(const ImportArguments& arguments) {
     const InstalledSet* set = &found.set;
     const bool knows_settings = !arguments.config.empty() || !arguments.keys.empty();
     const std::vector<ListedKey> listed = list_keys(request.keys, found.file.keys);
-    const SignerList signers(
-        arguments.into, listed, knows_settings, trusted_keys(request.keys, found.file.keys),
-        day_here(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()), found.file.latest_day));
+    const SignerList signers(arguments.into, listed, knows_settings,
+                             trusted_keys(request.keys, found.file.keys),
+                             day_here(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()),
+                                      found.file.latest_day));
     auto packs = nlohmann::ordered_json::array();
     std::string text;
     for (const InstalledPack& pack : set->packs) {
@@ -261,8 +262,9 @@ Result<std::string> list_installed(const ImportArguments& arguments) {
                          {"id", pack.id},
                          {"bytes", pack.bytes},
                          {"signed_by", json_of(signer)}});
-        text += fmt::format("{}  {}  serial {}  {}  {}\n", pack.sha256.substr(0, 12),
-                            pack.id.empty() ? "-" : pack.id, pack.serial, printable(pack.title), text_of(signer));
+        text +=
+            fmt::format("{}  {}  serial {}  {}  {}\n", pack.sha256.substr(0, 12),
+                        pack.id.empty() ? "-" : pack.id, pack.serial, printable(pack.title), text_of(signer));
     }
     auto keys = nlohmann::ordered_json::array();
     for (const ListedKey& key : listed) {

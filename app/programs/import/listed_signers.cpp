@@ -53,8 +53,8 @@ std::string text_of(const ListedSigner& signer) {
     if (!signer.id) {
         return signer.is_signed ? "its file cannot be read" : "unsigned";
     }
-    const std::string who = signer.name.empty() ? fmt::format("the key {}", *signer.id)
-                                                : printable(signer.name, 100);
+    const std::string who =
+        signer.name.empty() ? fmt::format("the key {}", *signer.id) : printable(signer.name, 100);
     if (signer.counts.value_or(true)) {
         return "signed by " + who;
     }
