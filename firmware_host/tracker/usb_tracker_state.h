@@ -1,4 +1,4 @@
-/// What is the matter with a USB tracker, and the sentence that says so to the person beside it.
+/// The state of a USB tracker, and its sentence for the person next to the device.
 ///
 /// Threads  values.
 #pragma once
@@ -31,7 +31,7 @@ enum class UsbTrackerState {
     MetalNear,
 };
 
-/// One plain sentence: what, and what to do. Streaming, where all is well, says so too.
+/// One plain sentence: the state, and what to do about it.
 [[nodiscard]] constexpr std::string_view sentence_of(UsbTrackerState state) {
     switch (state) {
     case UsbTrackerState::NotConnected:
@@ -98,7 +98,7 @@ enum class UsbTrackerState {
     }
 }
 
-/// It is plugged in, may be opened, and does not do what it should: a reset of its port may help.
+/// The device is plugged in, may be opened, and does not work: a reset of its port may help.
 [[nodiscard]] constexpr bool hangs(UsbTrackerState state) {
     return state == UsbTrackerState::CannotBeOpened || state == UsbTrackerState::SetUpRefused ||
            state == UsbTrackerState::Silent || state == UsbTrackerState::DeviceFault;
