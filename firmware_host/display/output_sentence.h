@@ -1,4 +1,4 @@
-/// The output's state in one sentence for the person beside it.
+/// The output's state in one sentence, for the person next to the projector.
 ///
 /// Threads  pure.
 #pragma once
@@ -13,16 +13,16 @@ namespace frustumscreen {
 struct LitOutput {
     std::string_view connector;
     ModeTiming mode;
-    bool as_requested = true;     ///< it is the mode that the settings ask for
-    bool blindly = false;         ///< the connector says that nothing is connected
-    std::string_view shortcoming; ///< what may be wrong with it, as KmsDevice tells it
+    bool as_requested = true;     ///< the mode satisfies the settings
+    bool blindly = false;         ///< the connector reports that nothing is connected
+    std::string_view shortcoming; ///< possible fault, from KmsDevice::shortcoming
 };
 [[nodiscard]] Sentence sentence_of(const LitOutput& output);
 
-/// Why nothing is lit, or that it is about to be.
+/// Why nothing is lit, or that the projector is about to be lit.
 [[nodiscard]] Sentence why_dark(const CardSeen& card, const OutputRequest& request);
 
-/// Why the connector chosen was not lit; `reason`: a clause, or empty.
+/// Why the chosen connector was not lit; `reason` is a clause, or empty.
 [[nodiscard]] Sentence why_refused(const ConnectorSeen& connector, const OutputRequest& request,
                                    std::string_view reason);
 
