@@ -1,7 +1,7 @@
-/// The state of a device in one plain sentence for the person beside it, as a value of fixed size.
+/// The state of a device in one plain sentence for the person next to it, as a value of fixed size.
 ///
-/// `Sentence` cuts what is too long between two UTF-8 characters: systemd refuses half a character.
-/// `SharedSentence` carries the latest one from the device's thread to the exhibit's.
+/// `Sentence` cuts a text that is too long between two UTF-8 characters, because systemd rejects a partial
+/// character. `SharedSentence` carries the latest one from the device's thread to the exhibit's.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ public:
     [[nodiscard]] bool operator==(const Sentence& other) const { return view() == other.view(); }
 
 private:
-    /// How many bytes of `text` fit, in whole characters.
+    /// Number of bytes of `text` that fit, in whole characters.
     [[nodiscard]] static constexpr std::size_t fitting(std::string_view text) {
         std::size_t end = std::min(text.size(), longest);
         while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
@@ -43,7 +43,7 @@ public:
         const std::lock_guard lock(mutex_);
         latest_ = Sentence(text);
     }
-    /// Leaves `sentence` as it is while the other side is setting one.
+    /// Leaves `sentence` unchanged while the other side is setting one.
     void read(Sentence& sentence) const {
         if (const std::unique_lock lock(mutex_, std::try_to_lock); lock.owns_lock()) {
             sentence = latest_;
