@@ -1,4 +1,4 @@
-/// What is the matter with a camera, and the sentence that says so to the person beside it.
+/// The state of a camera, and its sentence for the person next to the device.
 ///
 /// Threads  values.
 #pragma once
@@ -26,7 +26,7 @@ enum class CameraState : std::uint8_t {
     Silent,
 };
 
-/// One plain sentence: what, and what to do. Running, where all is well, says so too.
+/// One plain sentence: the state, and what to do about it.
 [[nodiscard]] constexpr std::string_view sentence_of(CameraState state) {
     switch (state) {
     case CameraState::NotConnected:
@@ -69,11 +69,11 @@ enum class CameraState : std::uint8_t {
     return "";
 }
 
-/// What of a camera can be used.
+/// How usable a camera is.
 enum class CameraHealth : std::uint8_t {
     Well,
     Impaired, ///< frames come, but too few, or they show nothing
-    Away,     ///< no frame comes
+    Away,     ///< no frames come
 };
 
 [[nodiscard]] constexpr CameraHealth health_of(CameraState state) {
@@ -91,7 +91,7 @@ enum class CameraHealth : std::uint8_t {
     }
 }
 
-/// Its frames show what is before it now, even if they come slowly or are too bright.
+/// Whether the frames show the current scene, even if they come slowly or are too bright.
 [[nodiscard]] constexpr bool shows_something(CameraState state) {
     return health_of(state) == CameraHealth::Well || state == CameraState::Slow ||
            state == CameraState::Blinded;
