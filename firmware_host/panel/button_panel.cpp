@@ -9,7 +9,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr Nanoseconds look_again = std::chrono::milliseconds(500);
-constexpr Nanoseconds longest_wait = std::chrono::milliseconds(100); ///< a stop is noticed after that
+constexpr Nanoseconds longest_wait = std::chrono::milliseconds(100); ///< delay until a stop is noticed
 constexpr std::string_view all_well = "its buttons are there";
 
 std::string_view state_of(const Buttons& buttons, std::string_view well) {
@@ -25,12 +25,12 @@ std::string_view state_of(const Buttons& buttons, std::string_view well) {
                : well;
 }
 
-/// What the lamps show; sent to them when it changes.
+/// State of the lamps; sent to them when it changes.
 class Lamps {
 public:
     explicit Lamps(std::size_t count) : count_(count), lit_(std::make_unique<bool[]>(count)) {}
 
-    /// Lit where the button is asked for and not broken.
+    /// Lights the requested buttons that are not broken.
     [[nodiscard]] Result<void> follow(std::uint32_t asked, const Buttons& buttons, ButtonLines& lines) {
         bool changed = false;
         for (std::size_t k = 0; k < count_; ++k) {
@@ -43,7 +43,7 @@ public:
 
 private:
     std::size_t count_;
-    std::unique_ptr<bool[]> lit_; ///< dark at the beginning, as they are when they are opened
+    std::unique_ptr<bool[]> lit_; ///< dark at first, as after opening
 };
 
 } // namespace
@@ -65,7 +65,7 @@ void ButtonPanel::watch(const std::stop_token& stop) {
         Result<std::unique_ptr<ButtonLines>> lines = open_();
         said_.set(lines ? serve(**lines, stop).message : lines.error().message);
         held_until_.promise(MonotonicTime{});
-        lines = {}; // the chip is closed before it is looked for again
+        lines = {}; // close the chip before searching for it again
         sleep_until_stop(stop, look_again);
     }
 }
