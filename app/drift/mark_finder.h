@@ -59,7 +59,7 @@ private:
     int width_ = 0, height_ = 0;
     Counts counts_;
     std::vector<std::uint16_t> before_, lit_, after_; ///< sums of frames
-    // Of a window, row by row:
+    // Values of a window, row by row:
     std::vector<float> light_, change_, means_, change_means_;
     std::vector<float> rows_, room_;
     std::vector<std::uint8_t> taken_;

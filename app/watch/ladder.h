@@ -12,7 +12,7 @@
 /// has been absent for ten minutes.
 /// Safe     the safe picture stays until the pause is over; then the remaining actions follow, a reboot last.
 ///          After a reboot the exhibit's own set is tried. If no reboot is allowed, the safe picture stays.
-/// Down     from the last good set, plain drawing and the built-in artifact the ladder returns to normal
+/// Down     from the fallback set, plain drawing and the built-in artifact the ladder returns to normal
 ///          after ten good minutes; the next time after twenty, and so on, up to a day.
 /// Time     `awake`: the kiosk's total time of operation, over all boots. It never jumps, whatever the wall
 ///          clock shows, and never runs faster than real time, so a day's limits hold for real days too.

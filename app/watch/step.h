@@ -23,7 +23,7 @@ enum class Step : std::uint8_t {
 };
 inline constexpr std::size_t step_count = 8;
 
-/// What the kiosk shows.
+/// The mode of the kiosk's picture.
 enum class Mode : std::uint8_t { Normal, LastGoodSet, Plain, BuiltIn, Safe };
 inline constexpr std::size_t mode_count = 5;
 
@@ -34,7 +34,7 @@ inline constexpr std::size_t mode_count = 5;
 [[nodiscard]] std::string_view sentence_of(Step step);
 /// One word: normal, last_good_set, plain, built_in, safe.
 [[nodiscard]] std::string_view word_of(Mode mode);
-/// What the watchdog does in this mode; completes "the watchdog ...".
+/// The watchdog's behaviour in this mode; completes "the watchdog ...".
 [[nodiscard]] std::string_view sentence_of(Mode mode);
 [[nodiscard]] std::optional<Mode> mode_named(std::string_view word);
 

@@ -28,7 +28,7 @@ struct CameraFrame {
 };
 
 /// Called with each frame on the device's thread, before the frame is handed on. It may take long; frames are
-/// then overtaken or passed over.
+/// then overtaken or skipped.
 using FrameUse = std::function<void(const CameraFrame& frame)>;
 
 /// Counts since the exhibit started.

@@ -47,7 +47,7 @@ public:
     [[nodiscard]] CameraState state() const { return state_; }
     [[nodiscard]] bool is_open() const { return stream_ != nullptr; }
     [[nodiscard]] const CameraCounts& counts() const { return counts_; }
-    /// Of the open camera, or of the previous one.
+    /// Settings of the open camera, or of the previous one.
     [[nodiscard]] const std::optional<CameraSetUp>& set_up() const { return set_up_; }
     [[nodiscard]] double rate_hz();
 

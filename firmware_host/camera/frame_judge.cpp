@@ -15,7 +15,7 @@ constexpr int clipped_code = 250; ///< of 255
 constexpr int video_white = 235;  ///< largest code of cameras with video range
 constexpr int flat = 4;           ///< codes; an evenly lit wall has more
 constexpr double least_share = 0.5;
-constexpr std::size_t stride = 7; ///< sample every 7th pixel; prime, so that no column aliases
+constexpr std::size_t stride = 7; ///< sample every 7th pixel; prime, so no column aliases
 
 bool is_dark(const FrameLook& look) {
     return look.brightest < dark_code && look.brightest - look.darkest < no_contrast;

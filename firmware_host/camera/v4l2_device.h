@@ -1,4 +1,4 @@
-/// The kernel's calls for a V4L2 camera, as an interface, so that tests replace the device.
+/// The kernel's calls for a V4L2 camera, as an interface that tests can replace.
 ///
 /// Source   the kernel's documentation, userspace-api/media/v4l.
 /// Threads  the camera's own; `control` may block for seconds at a USB device that does not answer.

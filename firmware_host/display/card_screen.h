@@ -23,7 +23,7 @@ public:
     /// Errors   a clause, for the output's state.
     [[nodiscard]] Result<std::unique_ptr<ScanoutPair>> make_pair(PixelSize size) const;
 
-    // For the framebuffers:
+    // Used by the framebuffers:
     [[nodiscard]] int card() const { return card_; }
     [[nodiscard]] const DrawingGpu& gpu() const { return gpu_; }
     [[nodiscard]] const EglContext& copying() const { return copying_; }

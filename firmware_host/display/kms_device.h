@@ -29,7 +29,7 @@ enum class KmsAnswer : std::uint8_t {
 /// The kernel's number of a framebuffer.
 using FramebufferId = std::uint32_t;
 
-/// What the card scans out: a whole framebuffer, at `place` on the screen, with black around it.
+/// A scanned-out framebuffer: shown whole, at `place` on the screen, with black around it.
 struct ScannedOut {
     FramebufferId framebuffer = 0;
     PixelSize size;

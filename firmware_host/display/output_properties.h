@@ -1,4 +1,4 @@
-/// The connector properties to set so that every code and every pixel arrives unaltered.
+/// The connector properties that make every code and every pixel arrive unaltered.
 ///
 /// Threads  pure.
 /// Source   the kernel's "Standard Connector Properties" and Documentation/gpu/kms-properties.csv: "Broadcast

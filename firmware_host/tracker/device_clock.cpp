@@ -31,7 +31,7 @@ void DeviceClock::begin(std::uint32_t tick, MonotonicTime arrival) {
     block_count_ = 0;
     block_.reset();
     block_number_ = 0;
-    height_ns_ = 0.0; // the drift stays: the quartz is still the same one
+    height_ns_ = 0.0; // the drift stays: the quartz has not changed
 }
 
 DeviceClock::Point DeviceClock::point_of(std::int64_t ticks, MonotonicTime arrival) const {

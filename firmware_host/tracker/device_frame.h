@@ -1,4 +1,4 @@
-/// What a tracker of any make sends at one instant. Codecs produce it; `FrameIntake` consumes it.
+/// A frame of a tracker of any make: its poses at one instant. Codecs produce it; `FrameIntake` consumes it.
 ///
 /// Frame    tracker K, metres, quaternion w x y z.
 /// Threads  values.

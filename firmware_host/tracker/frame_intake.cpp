@@ -19,7 +19,8 @@ constexpr Nanoseconds most_patience = std::chrono::seconds(4);
 constexpr int frames_to_forget = 10; ///< after which a long gap is forgotten
 /// A pose that arrives this late cannot show where the prop is now.
 constexpr Nanoseconds old_age = std::chrono::milliseconds(500);
-/// Of 255. Sensors in clean surroundings stay near 0. Not yet confirmed with a real device near metal.
+/// Limit on a scale to 255. Sensors in clean surroundings stay near 0. Not yet confirmed with a real device
+/// near metal.
 constexpr int metal_near_distortion = 64;
 
 } // namespace

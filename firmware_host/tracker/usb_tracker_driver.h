@@ -31,7 +31,7 @@ public:
     [[nodiscard]] UsbTrackerState state() const { return state_; }
     /// Whether a device is open, set up or not.
     [[nodiscard]] bool is_open() const { return transport_ != nullptr; }
-    /// Of all devices since the start.
+    /// Counts of all devices since the start.
     [[nodiscard]] TrackerCounts counts() const;
 
 private:

@@ -14,7 +14,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr double used_share = 0.90; ///< limit of the prop's extent in the picture
-/// Of 100 and 6. Maximum effort takes ten times as long and saves almost nothing.
+/// On scales to 100 and 6. Maximum effort takes ten times as long and saves almost nothing.
 constexpr float lossless_effort = 30.0F;
 constexpr int lossless_method = 3;
 constexpr int least_frame_ms = 20; ///< browsers slow down shorter frames

@@ -21,7 +21,7 @@ std::string_view Orders::order_for(Step step) {
     case Step::Return:
         break;
     }
-    return "restart-exhibit"; // with another mode
+    return "restart-exhibit"; // the mode changes with the restart
 }
 
 Result<void> Orders::set_mode(Mode mode) const {

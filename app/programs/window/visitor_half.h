@@ -23,7 +23,7 @@ public:
     [[nodiscard]] VisitorCamera camera(const glm::dvec3& eye_m, PixelSize half) const;
     /// Adds the table, the prop's shadow, its visible faces, and their edges.
     void see(const PoseSample& prop, const glm::dvec3& eye_m, PixelSize half, SeenSurfaces& seen) const;
-    /// The point of the table at a pixel; nullopt above the horizon or outside the table.
+    /// The point of the table at a pixel; nullopt above the horizon.
     [[nodiscard]] std::optional<glm::dvec2> on_table(const glm::dvec2& pixel, const glm::dvec3& eye_m,
                                                      PixelSize half) const;
 
