@@ -9,7 +9,7 @@
 ///          is shown first.
 /// Reboots  at most one in ten minutes and six in 24 hours, and only if the reboot can be recorded before.
 /// Given up a fault with a lit picture is given up after all its actions have failed: it is ignored until it
-/// has been absent for ten minutes.
+///          has been absent for ten minutes.
 /// Safe     the safe picture stays until the pause is over; then the remaining actions follow, a reboot last.
 ///          After a reboot the exhibit's own set is tried. If no reboot is allowed, the safe picture stays.
 /// Down     from the fallback set, plain drawing and the built-in artifact the ladder returns to normal

@@ -4,7 +4,7 @@
 /// Clicks   every begin, end and change is a smooth step x^2 (3 - 2 x), or a straight ramp of the volume:
 ///          between two samples a fade changes by at most 1.5 / its length.
 /// Loudness the output is linear up to `linear_up_to`, and bends smoothly below full scale above it. A prompt
-/// of -2 dBTP (the bake's) at 0 dB is unchanged bit by bit.
+///          of -2 dBTP (the bake's) at 0 dB is unchanged bit by bit.
 /// Threads  a value; one caller. Allocates nothing.
 #pragma once
 

@@ -20,7 +20,7 @@ namespace frustumscreen {
 class UsbTracker final : public Tracker {
 public:
     static constexpr std::size_t most_waiting = 256;
-    /// Longest search and opening: a control transfer times out in the kernel after 5 s, twice.
+    /// Longest search and opening: two control transfers, which the kernel gives up after 5 s each.
     static constexpr Nanoseconds longest_search = std::chrono::seconds(10);
     /// One write and one read of an open device, with the driver's limits for both. Closing a dying device
     /// takes the kernel longer; the service manager's watchdog allows for that.
