@@ -60,7 +60,7 @@ private:
     DriftSetUp set_up_;
     MarkSchedule schedule_;                 ///< used by the render thread
     DriftVerdict told_;                     ///< used by the render thread
-    std::atomic<std::int64_t> began_ns_{0}; ///< begin of the current set; 0: none
+    std::atomic<std::int64_t> began_ns_{0}; ///< start of the current set; 0: none
 
     // Used by the camera's thread:
     DriftCheck check_;

@@ -15,12 +15,12 @@
 
 namespace frustumscreen {
 
-/// Times within a set, from its begin.
+/// Times within a set, from its start.
 struct MarkTimes {
     static constexpr Nanoseconds lead = std::chrono::milliseconds(500);
     static constexpr Nanoseconds each = std::chrono::milliseconds(1000);
     static constexpr Nanoseconds lit = std::chrono::milliseconds(500);
-    static constexpr Nanoseconds fade = std::chrono::milliseconds(80); ///< at the begin and the end of `lit`
+    static constexpr Nanoseconds fade = std::chrono::milliseconds(80); ///< at both ends of `lit`
     /// Delay until a shown mark is surely in the camera's frames: the latency of display and camera.
     static constexpr Nanoseconds settles = std::chrono::milliseconds(200);
 
@@ -33,7 +33,7 @@ struct MarkTimes {
         MarkPhase phase = MarkPhase::Before;
     };
     [[nodiscard]] static std::optional<Moment> moment(Nanoseconds since_begin, std::size_t marks);
-    /// Brightness of a mark, `since_lit` after its begin, 0..1.
+    /// Brightness of a mark, `since_lit` after its start, 0..1.
     [[nodiscard]] static double brightness(Nanoseconds since_lit);
 };
 
@@ -51,14 +51,14 @@ public:
     /// `quiet`: no visitor is present, and the table is as usual. Otherwise a current set is cancelled at
     /// once.
     [[nodiscard]] std::optional<Mark> step(MonotonicTime now, bool quiet);
-    /// Begin of the current or the previous set; nullopt: it was cancelled.
+    /// Start of the current or the previous set; nullopt: it was cancelled.
     [[nodiscard]] const std::optional<MonotonicTime>& began() const { return began_; }
 
 private:
     std::size_t marks_;
     std::optional<MonotonicTime> began_;
     std::optional<MonotonicTime> quiet_since_;
-    std::optional<MonotonicTime> next_; ///< earliest begin of the next set
+    std::optional<MonotonicTime> next_; ///< earliest start of the next set
 };
 
 } // namespace frustumscreen

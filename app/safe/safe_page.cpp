@@ -20,8 +20,7 @@ constexpr std::string_view no_reason = "No reason was given.";
 /// Shares of the picture.
 constexpr double margin_of_side = 0.05;       ///< of the shorter side, on all edges
 constexpr double visitors_of_height = 0.52;   ///< at most
-constexpr double largest_type_of_side = 0.08; ///< of the shorter side; limits the type if there is only one
-                                              ///< language
+constexpr double largest_type_of_side = 0.08; ///< of the shorter side; for a single language
 constexpr double staff_type_of_side = 0.026; ///< of the shorter side: more than 24 points on a table of 0.5 m
 constexpr double staff_type_of_visitors = 0.8; ///< at most
 constexpr double visitors_pitch_em = 1.5;      ///< for every script

@@ -68,8 +68,8 @@ private:
     std::uint64_t eye_goals_ = 1; ///< number of goals so far; the default eye is the first
 };
 
-/// Estimates the time from `now`, the begin of a frame, until its picture is lit: the display's own latency
-/// plus a slow average of the measured time from the begin of a frame to its flip. The average uses the exact
+/// Estimates the time from `now`, the start of a frame, until its picture is lit: the display's own latency
+/// plus a slow average of the measured time from the start of a frame to its flip. The average uses the exact
 /// solution over the time between two flips, so displays of 30 Hz and of 120 Hz converge equally.
 class LightDelay {
 public:
@@ -85,7 +85,7 @@ public:
 private:
     Nanoseconds display_latency_;
     double flip_s_ = 0.0;
-    std::optional<MonotonicTime> last_; ///< begin of the last frame
+    std::optional<MonotonicTime> last_; ///< start of the last frame
 };
 
 } // namespace frustumscreen

@@ -29,8 +29,8 @@ public:
 private:
     ShownPoseOptions options_;
     RigidTransform shown_;
-    PoseStep left_;        ///< from the estimate to the old pose at the begin of the return
-    MonotonicTime return_; ///< begin of the return
+    PoseStep left_;        ///< from the estimate to the old pose at the start of the return
+    MonotonicTime return_; ///< start of the return
     std::uint64_t reinitialisations_ = 0;
 };
 

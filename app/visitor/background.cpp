@@ -17,8 +17,7 @@ constexpr float least_variance = 0.5F;
 constexpr float darkest = 16.0F; ///< codes; darker pixels determine the gain poorly
 constexpr float least_gain = 0.05F;
 constexpr std::size_t gain_step = 13;  ///< sample every 13th pixel for the gain
-constexpr double projector_s = 2.0;    ///< time constant of the squared change of the table, and of the
-                                       ///< shares
+constexpr double projector_s = 2.0;    ///< time constant of the squared change, and of the shares
 constexpr float little_change = 25.0F; ///< codes^2 of the table; smaller changes determine the shares poorly
 constexpr double all_changed = 0.7;    ///< of the pixels
 constexpr Nanoseconds all_changed_for = std::chrono::seconds(1);

@@ -52,8 +52,7 @@ private:
     Patience patience_;
     MonotonicTime looked_;
     MonotonicTime counted_;      ///< when the picture counter last moved
-    MonotonicTime judged_since_; ///< the start, the latest action, or the latest start of the exhibit's
-                                 ///< process
+    MonotonicTime judged_since_; ///< latest of the start, an action, and a start of the process
     bool has_lived_ = false;     ///< since `judged_since_`
     std::int32_t process_ = 0;
     MonotonicTime process_since_; ///< when it was first seen; an older status is of the previous process

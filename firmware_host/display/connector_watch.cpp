@@ -9,8 +9,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr Nanoseconds between_looks_in_the_dark = std::chrono::seconds(2);
-constexpr Nanoseconds between_looks_while_lit = std::chrono::seconds(1); ///< cheap: reads the kernel's
-                                                                         ///< knowledge
+constexpr Nanoseconds between_looks_while_lit = std::chrono::seconds(1); ///< cheap: no probing
 /// Over a bad cable the kernel reads a projector's EDID repeatedly, with a time limit for each try.
 constexpr Nanoseconds longest_look = std::chrono::seconds(20);
 /// Reading the kernel's knowledge is immediate, unless the kernel is probing a projector on its own; the

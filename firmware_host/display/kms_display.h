@@ -53,8 +53,7 @@ private:
 
     KmsCard card_;
     OutputRequest request_;
-    std::optional<OtherCards> other_cards_; ///< used by the watch's thread only; none: the settings name this
-                                            ///< card
+    std::optional<OtherCards> other_cards_; ///< used by the watch's thread; none: a named card
     std::unique_ptr<CardScreen> screen_;
     std::unique_ptr<KmsDevice> kms_;
     Presenter presenter_;

@@ -35,8 +35,7 @@ public:
     [[nodiscard]] std::uint32_t object() const { return object_; }
     [[nodiscard]] std::span<const KmsProperty> all() const { return all_; }
     [[nodiscard]] const KmsProperty* find(std::string_view name) const&;
-    const KmsProperty* find(std::string_view name) const&& = delete; ///< the result would not outlive the
-                                                                     ///< statement
+    const KmsProperty* find(std::string_view name) const&& = delete; ///< it would not outlive the call
     /// 0 if the object lacks the property.
     [[nodiscard]] std::uint64_t value(std::string_view name) const;
 

@@ -1,7 +1,7 @@
 /// Interprets levels on lines: contact bounce, presses, long presses, the staff's chord, and buttons that
 /// stick or chatter.
 ///
-/// A level counts once it has lasted for the debounce time; its time is that of its begin. A button that is
+/// A level counts once it has lasted for the debounce time; its time is that of its start. A button that is
 /// down at the first sample reports only Stuck until it has been up: a chip's spurious first edge is not a
 /// press, and swapped or shorted wires are not a chord.
 ///
@@ -80,7 +80,7 @@ private:
     void calm_down(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events);
     void hold(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events);
     void hold_chord(MonotonicTime now, std::vector<PanelEvent>& events);
-    /// Begin of the chord; nullopt = the chord is not held.
+    /// Start of the chord; nullopt = the chord is not held.
     [[nodiscard]] std::optional<MonotonicTime> chord_since() const;
 
     ButtonTimes times_;

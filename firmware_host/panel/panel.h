@@ -17,8 +17,7 @@ namespace frustumscreen {
 enum class PressKind : std::uint8_t {
     Press,
     LongPress, ///< follows the press while the button is still down
-    Chord,     ///< the staff hold the first and the last button; their presses were reported; `button` is the
-               ///< first
+    Chord,     ///< first and last button held by the staff, after their presses; `button` is the first
     Stuck,     ///< down implausibly long: it counts as broken and is ignored
     Chatters,  ///< implausibly many edges: it counts as broken and is ignored
     Freed,     ///< a stuck button came up, or a chattering one is quiet: it counts again

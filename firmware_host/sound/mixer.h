@@ -1,7 +1,7 @@
 /// Makes samples of a SoundWish: one prompt after the other, at the requested volume.
 ///
 /// Units    samples of 1/48,000 s, mono, 16-bit. The output does not depend on the block sizes.
-/// Clicks   every begin, end and change is a smooth step x^2 (3 - 2 x), or a straight ramp of the volume:
+/// Clicks   every start, end and change is a smooth step x^2 (3 - 2 x), or a straight ramp of the volume:
 ///          between two samples a fade changes by at most 1.5 / its length.
 /// Loudness the output is linear up to `linear_up_to`, and bends smoothly below full scale above it. A prompt
 ///          of -2 dBTP (the bake's) at 0 dB is unchanged bit by bit.
@@ -30,12 +30,10 @@ private:
 
 class Mixer {
 public:
-    static constexpr std::uint32_t fade_samples = sample_rate_hz / 200; ///< 5 ms: fade at the begin and end
-                                                                        ///< of a prompt
+    static constexpr std::uint32_t fade_samples = sample_rate_hz / 200; ///< 5 ms: both ends of a prompt
     /// Silence between a prompt that ended, or was left, and the next one.
     static constexpr std::uint32_t breath_samples = sample_rate_hz * 60 / 1000;
-    static constexpr std::uint32_t gain_samples = sample_rate_hz / 2; ///< time for the volume to go from 0 to
-                                                                      ///< 1
+    static constexpr std::uint32_t gain_samples = sample_rate_hz / 2; ///< for the volume from 0 to 1
     static constexpr float linear_up_to = 0.8F;
 
     /// The wish from the next sample on.

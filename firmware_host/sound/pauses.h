@@ -21,7 +21,7 @@ struct PauseLimits {
     Nanoseconds shortest = std::chrono::milliseconds(160);
 };
 
-/// The places in each pause at which a fade may begin: from 20 ms after the pause's begin, where sounds die
+/// The places in each pause at which a fade may begin: from 20 ms after the pause's start, where sounds die
 /// away, until a fade would end 10 ms before the pause's end.
 [[nodiscard]] std::vector<Mark> find_pauses(std::span<const std::int16_t> samples,
                                             const PauseLimits& limits = {});

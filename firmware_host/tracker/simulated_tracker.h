@@ -5,7 +5,7 @@
 ///          samples. During rests the pose does not change at all.
 /// Threads  one caller; the functions are pure.
 /// Method   each movement follows the minimum-jerk profile of human reaching (Flash and Hogan 1985, eq. 8)
-///          along a parabola. Target, begin and length are hashes of the seed and the movement's number.
+///          along a parabola. Target, start and length are hashes of the seed and the movement's number.
 #pragma once
 
 #include "firmware_host/tracker/tracker.h"

@@ -26,8 +26,7 @@ struct Fault {
     std::optional<Cause> cause; ///< none: ten good minutes
     Step step = Step::RestartExhibit;
     std::string detail;         ///< further facts, a few words
-    std::optional<bool> helped; ///< ten good minutes followed, or another action was needed; none: not known
-                                ///< yet
+    std::optional<bool> helped; ///< true: ten good minutes followed; false: another action did
 };
 
 class FaultBook {
