@@ -1,4 +1,4 @@
-/// What both A3 sheets have: the frame, the field with the names, the pens.
+/// Common parts of the A3 sheets: frame, title block, pens.
 ///
 /// Frame    paper, millimetres.
 /// Threads  as SvgSheet.
@@ -18,7 +18,7 @@ inline constexpr Pen fine{"#444444", 0.13};
 inline constexpr Pen hidden{"#444444", 0.25, "none", "2 1"};
 inline constexpr Lettering heading{4.0, TextAnchor::Start, 0.0, true};
 
-/// `title` says what is drawn, `name` of which settings.
+/// `title` names the drawing, `name` the settings.
 inline SvgSheet a3_sheet(std::string_view title, std::string_view name) {
     constexpr double margin_mm = 10.0;
     constexpr glm::dvec2 low(margin_mm);

@@ -13,8 +13,8 @@ namespace {
 constexpr Pen thin{"#444444", 0.13};
 constexpr double arrow_mm = 2.2;
 constexpr double letters_mm = 2.8;
-constexpr double gap_mm = 1.0;       ///< between the thing and its extension line
-constexpr double overshoot_mm = 1.2; ///< of the extension line behind the arrow
+constexpr double gap_mm = 1.0;       ///< between the object and its extension line
+constexpr double overshoot_mm = 1.2; ///< of the extension line beyond the arrow
 
 void draw_arrow(SvgSheet& sheet, const glm::dvec2& tip, const glm::dvec2& pointing) {
     const glm::dvec2 side(-pointing.y, pointing.x);
@@ -48,7 +48,7 @@ void draw_dimension(SvgSheet& sheet, const glm::dvec2& from, const glm::dvec2& t
     draw_arrow(sheet, end, fits ? along : -along);
     const double tail = fits ? 0.0 : outside + length_mm(words, letters_mm);
     sheet.line(begin - outside * along, end + tail * along, thin);
-    // Words are read from below or from the right, and stand above their line as they are read.
+    // Words are read from below or from the right, and stand above their line in that direction.
     double turned_deg = glm::degrees(std::atan2(along.y, along.x));
     constexpr double just_off = 1e-6;
     const bool backwards = turned_deg > 90.0 - just_off || turned_deg <= -90.0 - just_off;

@@ -1,4 +1,4 @@
-/// Dimensions of a technical drawing: extension lines, arrows, and the measure beside them.
+/// Dimensions of a technical drawing: extension lines, arrows, and the measure next to them.
 ///
 /// Frame    paper, millimetres.
 /// Threads  as SvgSheet.
@@ -10,12 +10,14 @@
 
 namespace frustumscreen {
 
-/// Of the distance from `from` to `to`, `off` away from both; `off` is square to the line between them. The words stand above
-/// the line; where they have no room between the arrows, they stand behind `to`, and the arrows outside.
+/// Dimensions the distance from `from` to `to`, at the offset `off` from both; `off` is perpendicular to the
+/// line between them. The words are above the line; if they do not fit between the arrows, they follow `to`,
+/// and the arrows are outside.
 void draw_dimension(SvgSheet& sheet, const glm::dvec2& from, const glm::dvec2& to, const glm::dvec2& off,
                     std::string_view words);
 
-/// Of the angle at `vertex` between the directions to `from` and to `to`, less than 180 degrees; the words stand inside it.
+/// Dimensions the angle at `vertex` between the directions to `from` and to `to`, less than 180 degrees; the
+/// words are inside it.
 void draw_angle(SvgSheet& sheet, const glm::dvec2& vertex, const glm::dvec2& from, const glm::dvec2& to,
                 double radius_mm);
 

@@ -1,4 +1,4 @@
-/// Technical drawings of an exhibit, to build it from: made from its settings, with the geometry that the exhibit itself uses.
+/// Technical drawings for building an exhibit, made from its settings with the exhibit's own geometry.
 ///
 /// Shape    SVG, to scale: printed at 100 % its lengths are those on the sheet. Dimensions in millimetres.
 /// Threads  pure; any.
@@ -11,14 +11,14 @@
 
 namespace frustumscreen {
 
-/// A3: the table, the projector and its light, the tracker and the visitors' eyes, from the side and from above.
-/// `name` says which settings these are.
+/// A3: the table, the projector and its light, the tracker and the visitors' eyes, from the side and from
+/// above. `name` names the settings.
 [[nodiscard]] std::string table_sheet(const Settings& settings, std::string_view name);
 
 /// A3: the prop from the front and from above, one of its faces, and all of them unfolded.
 [[nodiscard]] std::string prop_sheet(const Settings& settings, std::string_view name);
 
-/// The prop's faces unfolded in true size, with folds and glue tabs, to cut along; as large as it must be.
+/// The prop's faces unfolded in true size, with folds and glue tabs, to cut out; as large as necessary.
 [[nodiscard]] std::string net_sheet(const Settings& settings, std::string_view name);
 
 } // namespace frustumscreen

@@ -34,7 +34,8 @@ std::array<glm::dvec2, 4> flat(const PropFace& face) {
     return corners;
 }
 
-/// The edge of `face` that runs from `to` to `from`: two faces that meet go along their edge in opposite ways.
+/// The edge of `face` that runs from `to` to `from`: adjacent faces traverse their common edge in opposite
+/// directions.
 std::optional<std::size_t> edge_between(const PropFace& face, const glm::dvec3& to, const glm::dvec3& from) {
     for (std::size_t k = 0; k < 4; ++k) {
         if (glm::distance(face.corners[k], to) < rounding_m &&
@@ -45,7 +46,7 @@ std::optional<std::size_t> edge_between(const PropFace& face, const glm::dvec3& 
     return std::nullopt;
 }
 
-/// The flat `corners` turned and moved so that the edge at `own` lies from `begin` to `end`.
+/// The flat `corners`, rotated and moved so that the edge at `own` runs from `begin` to `end`.
 std::array<glm::dvec2, 4> moved(const std::array<glm::dvec2, 4>& corners, std::size_t own,
                                 const glm::dvec2& begin, const glm::dvec2& end) {
     const glm::dvec2 was = glm::normalize(corners[(own + 1) % 4] - corners[own]);
@@ -82,7 +83,7 @@ double angle_at(const std::array<glm::dvec2, 4>& corners, std::size_t k) {
     return std::acos(std::clamp(glm::dot(a, b) / (glm::length(a) * glm::length(b)), -1.0, 1.0));
 }
 
-/// How much of the plane around a corner of the net no face takes.
+/// The angle around a corner of the net that no face covers.
 double free_angle(const PropNet& net, const glm::dvec2& at) {
     double taken = 0.0;
     for (const NetFace& face : net.faces) {
@@ -93,7 +94,7 @@ double free_angle(const PropNet& net, const glm::dvec2& at) {
     return 2.0 * std::numbers::pi - taken;
 }
 
-/// On the edge from `begin` to `end`, outward; at each end it stays in its half of what is free there.
+/// A tab on the edge from `begin` to `end`, outward; at each end it takes at most half of the free angle.
 NetTab tab_on(const PropNet& net, const glm::dvec2& begin, const glm::dvec2& end) {
     const double at_begin = std::fmin(steepest_tab, 0.5 * free_angle(net, begin));
     const double at_end = std::fmin(steepest_tab, 0.5 * free_angle(net, end));
@@ -102,7 +103,7 @@ NetTab tab_on(const PropNet& net, const glm::dvec2& begin, const glm::dvec2& end
     constexpr double most_of_edge = 0.8;
     const double depth = std::fmin(most_tab_m, most_of_edge * length / slant);
     const glm::dvec2 along = (end - begin) / length;
-    const glm::dvec2 outward(along.y, -along.x); // the face lies to the left of its edges
+    const glm::dvec2 outward(along.y, -along.x); // the face is to the left of its edges
     return {{begin, begin + depth * (outward + along / std::tan(at_begin)),
              end + depth * (outward - along / std::tan(at_end)), end}};
 }
@@ -117,7 +118,7 @@ bool is_fold(const PropNet& net, const glm::dvec2& begin, const glm::dvec2& end)
     });
 }
 
-/// Of two faces that meet at a cut edge, the one that comes later in the net gets the tab.
+/// If two faces meet at a cut edge, the later one in the net gets the tab.
 void add_tabs(PropNet& net, const PropShape& prop) {
     for (std::size_t later = 0; later < net.faces.size(); ++later) {
         const PropFace& face = face_named(prop, net.faces[later].name);

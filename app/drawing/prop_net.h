@@ -1,7 +1,9 @@
 /// The prop's faces laid out flat, as one piece to cut out and fold.
 ///
-/// Frame    the net's plane: origin at the middle of the top face, x and y as the prop's; seen from outside the prop. Metres.
-/// Shape    the sides hang on the top; of a cube, the bottom hangs on the side -Y. A frustum has no bottom in the net.
+/// Frame    the net's plane: origin at the middle of the top face, x and y as the prop's; seen from outside
+///          the prop. Metres.
+/// Shape    the sides are attached to the top; a cube's bottom is attached to its side -Y. A frustum's net
+///          has no bottom.
 /// Threads  values; any.
 #pragma once
 
@@ -24,7 +26,7 @@ struct NetFold {
     glm::dvec2 from{0.0};
     glm::dvec2 to{0.0};
 };
-/// A flap on a face's edge, for the glue that holds it to the face that meets it there.
+/// A flap on a face's edge, glued to the adjacent face.
 struct NetTab {
     std::array<glm::dvec2, 4> corners{}; ///< the first and the last one are the edge's
 };

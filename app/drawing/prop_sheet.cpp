@@ -18,14 +18,14 @@ constexpr Pen cut{"#000000", 0.35};
 constexpr Pen fold{"#c02020", 0.25, "none", "3 1.5"};
 constexpr Pen glue{"#808080", 0.25, "#f0f0f0"};
 
-/// The prop's three sizes, whatever it is.
+/// The prop's three sizes, for a cube or a frustum.
 struct Sizes {
     explicit Sizes(const PropSettings& prop)
         : bottom_m(prop.base_m), top_m(prop.kind == PropKind::Cube ? prop.base_m : prop.top_m),
           height_m(prop.kind == PropKind::Cube ? prop.base_m : prop.height_m) {}
     /// From the bottom's edge to the top's, along a side.
     [[nodiscard]] double slant_m() const { return std::hypot(height_m, 0.5 * (bottom_m - top_m)); }
-    /// Between two sides.
+    /// Along the edge between two sides.
     [[nodiscard]] double edge_m() const { return std::hypot(slant_m(), 0.5 * (bottom_m - top_m)); }
 
     double bottom_m, top_m, height_m;
@@ -55,7 +55,7 @@ Extent extent_of(const PropNet& net) {
     return extent;
 }
 
-/// The numbers are those of the staff's picture (app/typography/pattern.h).
+/// The numbers are those of the staff picture (app/typography/pattern.h).
 std::string_view words_of(std::string_view face) {
     constexpr std::array<std::pair<std::string_view, std::string_view>, 6> words{{{"+X", "1, right"},
                                                                                   {"-X", "2, left"},
@@ -68,7 +68,7 @@ std::string_view words_of(std::string_view face) {
     return found != words.end() ? found->second : face;
 }
 
-/// Of type that has room in every face.
+/// Largest type size that fits every face.
 double lettering_mm(const PropNet& net, const View& view) {
     double shortest_m = std::numeric_limits<double>::infinity();
     for (const NetFace& face : net.faces) {
@@ -77,7 +77,7 @@ double lettering_mm(const PropNet& net, const View& view) {
     }
     constexpr double most_mm = 4.0;
     constexpr double least_mm = 1.2;
-    constexpr double letters = 7.0; // to a side
+    constexpr double letters = 7.0; // per side
     return std::clamp(view.mm_per_m * shortest_m / letters, least_mm, most_mm);
 }
 
@@ -123,7 +123,7 @@ void draw_above(SvgSheet& sheet, const Sizes& sizes, double heading_mm, const Vi
     }
     sheet.polygon(view(top), outline, "top");
     sheet.end_view();
-    // The sensor's place and axes: those of the prop.
+    // The sensor's position and axes: those of the prop.
     const double arm_m = std::fmin(0.2 * sizes.bottom_m, 0.5 * sizes.top_m);
     sheet.line(view(glm::dvec2(0.0)), view(glm::dvec2(arm_m, 0.0)), {"#a02020", 0.5});
     sheet.line(view(glm::dvec2(0.0)), view(glm::dvec2(0.0, arm_m)), {"#a02020", 0.5});
@@ -147,7 +147,7 @@ void draw_side(SvgSheet& sheet, const Sizes& sizes, double heading_mm, const Vie
     draw_angle(sheet, view(side[0]), view(side[1]), view(side[3]), 9.0);
 }
 
-/// One below the other, all in the scale at which they have room together.
+/// One below the other, all in the largest common scale.
 View draw_views(SvgSheet& sheet, const Sizes& sizes) {
     constexpr double top_mm = 18.0;
     constexpr double around_mm = 27.0; // heading and dimensions of each view

@@ -13,7 +13,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// No digits that nobody can print, and never -0.
+/// No more digits than can be printed, and never -0.
 std::string number(double value) {
     return fmt::format("{:.9g}", std::round(1e3 * value) / 1e3 + 0.0);
 }
@@ -26,18 +26,19 @@ std::string style(const Pen& pen) {
 
 std::size_t letters_of(std::string_view words) {
     return static_cast<std::size_t>(std::count_if(words.begin(), words.end(), [](char c) {
-        return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; // of UTF-8, the first byte of each
+        // Counts the first byte of each UTF-8 character.
+        return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U;
     }));
 }
 
 constexpr std::array anchors{"start", "middle", "end"};
-/// Millimetres of paper for a metre.
+/// Millimetres of paper per metre.
 constexpr std::array usual_scales{5000.0, 2000.0, 1000.0, 500.0, 200.0, 100.0, 50.0, 20.0, 10.0, 5.0};
 
 } // namespace
 
 double length_mm(std::string_view words, double height_mm) {
-    constexpr double mean_width = 0.6; // of DejaVu Sans, which is the widest one that is asked for
+    constexpr double mean_width = 0.6; // of DejaVu Sans, the widest requested typeface
     return mean_width * height_mm * static_cast<double>(letters_of(words));
 }
 

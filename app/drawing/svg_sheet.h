@@ -1,6 +1,7 @@
 /// A sheet of paper with a technical drawing on it, written as SVG.
 ///
-/// Frame    paper: origin at the top left, x to the right, y down; millimetres. A viewer that prints at 100 % prints true size.
+/// Frame    paper: origin at the top left, x to the right, y down; millimetres. Printed at 100 %, lengths are
+///          true.
 /// Threads  values; any.
 #pragma once
 
@@ -17,18 +18,18 @@ struct Pen {
     std::string_view stroke = "#000000";
     double width_mm = 0.25;
     std::string_view fill = "none";
-    std::string_view dashes = ""; ///< lengths in mm, as SVG has them; empty: a full line
+    std::string_view dashes = ""; ///< lengths in mm, as in SVG; empty: a solid line
 };
 
-/// The part of the text that its place is.
+/// The part of a text that is at its position.
 enum class TextAnchor { Start, Middle, End };
 struct Lettering {
-    double height_mm = 2.8; ///< of the type; capitals are 0.73 of it
+    double height_mm = 2.8; ///< type size; capitals are 0.73 of it
     TextAnchor anchor = TextAnchor::Start;
-    double turned_deg = 0.0; ///< clockwise, about its place
+    double turned_deg = 0.0; ///< clockwise, about its position
     bool bold = false;
 };
-/// About how long a text is: never shorter in the typefaces that a drawing asks for.
+/// Upper bound of a text's length in the typefaces that a drawing requests.
 [[nodiscard]] double length_mm(std::string_view words, double height_mm);
 
 class SvgSheet {
@@ -36,12 +37,12 @@ public:
     explicit SvgSheet(const glm::dvec2& size_mm);
 
     void line(const glm::dvec2& from, const glm::dvec2& to, const Pen& pen);
-    /// `name` is kept in the file, for programs that read it; empty: none.
+    /// `name` is written to the file, for programs that read it; empty: none.
     void polygon(std::span<const glm::dvec2> corners, const Pen& pen, std::string_view name = "");
     void circle(const glm::dvec2& middle, double radius_mm, const Pen& pen);
-    /// The baseline begins at `at`.
+    /// The baseline is at `at`, which the anchor refers to.
     void text(const glm::dvec2& at, std::string_view words, const Lettering& lettering = {});
-    /// What follows is drawn in a frame of its own; the file says which.
+    /// Begins a view: the following elements have its frame, which the file records.
     void begin_view(std::string_view name, const glm::dvec2& origin_mm, double mm_per_m);
     void end_view();
 
@@ -53,7 +54,7 @@ private:
     std::string body_;
 };
 
-/// Where a drawn view lies on the paper: its own axes are to the right and up, in metres.
+/// Position of a view on the paper: its axes point to the right and up, in metres.
 struct View {
     glm::dvec2 origin_mm{0.0};
     double mm_per_m = 1000.0;
@@ -63,20 +64,21 @@ struct View {
     [[nodiscard]] std::vector<glm::dvec2> operator()(std::span<const glm::dvec2> places_m) const;
 };
 
-/// What a view has to hold, in metres.
+/// The bounding box of a view's content, in metres.
 struct Extent {
     glm::dvec2 low{0.0};
     glm::dvec2 high{0.0};
     void include(const glm::dvec2& at);
 };
 
-/// The view that shows `extent` in the middle of a field of the paper, in the largest usual scale (ISO 5455) at which it fits.
+/// The view that shows `extent` in the middle of a field of the paper, in the largest standard scale (ISO
+/// 5455) that fits.
 [[nodiscard]] View fitted_view(const Extent& extent, const glm::dvec2& field_low_mm,
                                const glm::dvec2& field_high_mm);
 /// "1 : 10", "2 : 1".
 [[nodiscard]] std::string scale_words(const View& view);
 
-/// A length as drawings have it: in millimetres, to a tenth where it is no whole one.
+/// A length as drawings write it: in millimetres, to a tenth if it is not whole.
 [[nodiscard]] std::string mm_words(double metres);
 
 } // namespace frustumscreen

@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// "12 to the right of the table's middle, 30 in front of it, 500 above"; what is nothing is left out.
+/// "12 to the right of the table's middle, 30 in front of it, 500 above"; zeros are omitted.
 std::string place_words(const glm::dvec3& at) {
     constexpr double nothing_m = 5e-5;
     std::string words;

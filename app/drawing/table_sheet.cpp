@@ -11,9 +11,9 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double board_m = 0.03; ///< how thick the table's top is drawn; no setting says it
+constexpr double board_m = 0.03; ///< drawn thickness of the table top; not a setting
 constexpr double symbol_mm = 2.0;
-constexpr double most_of_eye_zone_m = 2.5; ///< what lies farther is told in words
+constexpr double most_of_eye_zone_m = 2.5; ///< a larger distance is only in the notes
 constexpr Pen light{"#b08000", 0.25, "#fff3b8"};
 constexpr Pen light_edge{"#b08000", 0.25};
 constexpr Pen zone_pen{"#107030", 0.35, "#c8ecd0"};
@@ -70,7 +70,7 @@ public:
 private:
     [[nodiscard]] double half_width() const { return 0.5 * settings_.table.width_m; }
     [[nodiscard]] double half_depth() const { return 0.5 * settings_.table.depth_m; }
-    /// The prop's outline in a view along an axis: places across and up.
+    /// The prop's outline in a view along an axis, around `across_m`.
     [[nodiscard]] std::vector<glm::dvec2> prop_outline(double across_m) const {
         const PropSettings& prop = settings_.prop;
         const double bottom = 0.5 * prop.base_m;
@@ -81,7 +81,7 @@ private:
                 {across_m - top, prop.height_m}};
     }
 
-    /// On the visitor's side of the prop, from the lowest elevation up to the vertical.
+    /// The eye zone on the visitor's side of the prop, from the lowest elevation up to the vertical.
     [[nodiscard]] std::vector<glm::dvec2> eye_zone_outline() const {
         const EyeSettings& eye = settings_.eye;
         const double lowest = glm::radians(eye.lowest_elevation_deg);
@@ -154,7 +154,7 @@ private:
         const glm::dvec2 low = view(extent.low);   // bottom left on the paper
         const glm::dvec2 high = view(extent.high); // top right
         const double right = high.x + 6.0;
-        // From the table's top up to a place; the dimension stands at x_mm of the paper.
+        // Dimension from the table top up to a place, at x_mm of the paper.
         const auto upright = [&](const glm::dvec2& at_m, double table_y_m, double x_mm) {
             const glm::dvec2 foot = view({table_y_m, 0.0});
             const glm::dvec2 head = view(at_m);
@@ -174,10 +174,10 @@ private:
             draw_dimension(sheet_, from, to, {0.0, lane_mm}, mm_words(std::abs(to_m - from_m)));
         };
         across(-half_depth(), half_depth(), 8.0);
-        // From the front edge: a line at the middle would run through the words of the table's own dimension.
+        // From the front edge: a line at the middle would cross the words of the table's own dimension.
         constexpr double least_m = 5e-4;
         if (eye.y < -half_depth() - least_m) {
-            across(-half_depth(), eye.y, 8.0); // words without room stand on the visitor's side
+            across(-half_depth(), eye.y, 8.0); // words that do not fit are on the visitor's side
         } else if (eye.y > -half_depth() + least_m) {
             across(-half_depth(), eye.y, 16.0);
         }
@@ -185,7 +185,7 @@ private:
             across(std::fmin(lens_.y, -half_depth()), std::fmax(lens_.y, -half_depth()), 24.0);
         }
         const double left_m = std::fmin(-half_depth(), eye.y);
-        constexpr double leftmost_mm = 44.0; // where these words end at the frame
+        constexpr double leftmost_mm = 44.0; // these words end at the frame
         sheet_.text({std::fmax(leftmost_mm, view({left_m, 0.0}).x - 3.0), table_y + 4.0}, "visitor's side",
                     {2.8, TextAnchor::End});
     }
@@ -200,7 +200,8 @@ private:
         return extent;
     }
 
-    /// Where lens, eyes and tracker are; what is far away would make the table small, and is told in words alone.
+    /// Symbols of lens, eyes and tracker. Distant ones would reduce the table's scale, and are only in the
+    /// notes.
     [[nodiscard]] std::vector<Symbol> symbols_from_above() const {
         std::vector<Symbol> symbols{{glm::dvec2(lens_), draw_lens},
                                     {glm::dvec2(settings_.eye.default_m), draw_eye}};
@@ -244,7 +245,7 @@ private:
                        mm_words(settings_.table.depth_m));
     }
 
-    /// `sample` draws what the lines speak of beside the first one.
+    /// `sample` draws the symbol that the lines describe, next to the first line.
     void note(double& y_mm, const std::vector<std::string>& lines, const auto& sample) {
         constexpr double line_mm = 4.4;
         constexpr glm::dvec2 left(284.0, 0.0);

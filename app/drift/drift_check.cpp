@@ -12,7 +12,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t least_anchors = 3; // tags; fewer say little of what lies away from them
+constexpr std::size_t least_anchors = 3; // tags; fewer determine little away from themselves
 constexpr double most_anchor_misfit_px = 1.5;
 
 Eigen::Vector2d eigen(const glm::dvec2& v) {
@@ -32,7 +32,7 @@ glm::dvec2 median(const std::vector<glm::dvec2>& places) {
     return {median(std::move(x)), median(std::move(y))};
 }
 
-/// From the camera's pixels to the table, as the reference saw it.
+/// Homography from the camera's pixels to the table, from the reference.
 std::optional<Eigen::Matrix3d> table_from_pixels(const DriftReference& reference) {
     std::vector<Eigen::Vector2d> pixels, places;
     for (std::size_t k = 0; k < reference.marks_px.size(); ++k) {
@@ -68,14 +68,14 @@ CameraWay camera_way(const std::vector<AnchorTag>& before, const std::vector<Anc
     for (std::size_t k = 0; k < from.size(); ++k) {
         misfit += (mapped(*found, from[k]) - to[k]).norm() / static_cast<double>(from.size());
     }
-    way.known = misfit <= most_anchor_misfit_px; // else somebody moved one of them
+    way.known = misfit <= most_anchor_misfit_px; // otherwise one of the tags was moved
     if (way.known) {
         way.reference_from_now = *found;
     }
     return way;
 }
 
-/// Each mark in the middle of where the sets saw it, and the tags of the last one.
+/// Sets each mark to the median of its places in the sets, and the tags to those of the last set.
 void fill(DriftReference& reference, const std::vector<MarkSet>& sets) {
     for (std::size_t mark = 0; mark < reference.marks_m.size(); ++mark) {
         std::vector<glm::dvec2> seen;
@@ -89,7 +89,8 @@ void fill(DriftReference& reference, const std::vector<MarkSet>& sets) {
     reference.anchors = sets.back().anchors;
 }
 
-/// How far each mark lies from where a homography of four of them has it, metres; empty: none can be found.
+/// Distance of each mark from its place by a homography of four marks, in metres; empty: there is no such
+/// homography.
 std::vector<double> misfits_m(const DriftReference& reference, const std::vector<std::size_t>& four) {
     std::vector<Eigen::Vector2d> pixels, places;
     for (const std::size_t k : four) {
@@ -107,8 +108,8 @@ std::vector<double> misfits_m(const DriftReference& reference, const std::vector
     return misfits;
 }
 
-/// Marks that something lifted or moved while it was learned are left out: those that lie far from where most others have them (least median
-/// of squares; a lens bends by some millimetres).
+/// Removes marks that were lifted or displaced while learning: those far from the places given by most others
+/// (least median of squares; a lens distorts by some millimetres).
 void leave_out_strays(DriftReference& reference) {
     constexpr double most_misfit_m = 0.012;
     std::vector<std::size_t> seen;
@@ -122,7 +123,7 @@ void leave_out_strays(DriftReference& reference) {
               chosen.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(4, seen.size())), true);
     std::vector<double> best;
     double least = std::numeric_limits<double>::infinity();
-    do { // all fours: 210 of ten marks
+    do { // all combinations of four: 210 for ten marks
         std::vector<std::size_t> four;
         for (std::size_t k = 0; k < seen.size(); ++k) {
             if (chosen[k]) {
@@ -146,7 +147,7 @@ void leave_out_strays(DriftReference& reference) {
     }
 }
 
-/// Whether what both saw lies at the same places; one mark may be another thing.
+/// Whether the marks seen in both sets are at equal places; one mark may differ.
 bool agree(const MarkSet& a, const MarkSet& b, double most_px) {
     std::size_t same = 0, apart = 0;
     for (std::size_t k = 0; k < a.marks_px.size(); ++k) {
@@ -203,7 +204,7 @@ bool DriftCheck::take(const MarkSet& set) {
     return false;
 }
 
-/// The first ones may have been seen while somebody was still at work on the table: only sets that agree count.
+/// The first sets may be from a time when people still worked at the table, so only sets that agree count.
 bool DriftCheck::learn(const MarkSet& set) {
     if (set.marks_px.size() != reference_.marks_m.size()) {
         return false;
@@ -224,7 +225,7 @@ bool DriftCheck::learn(const MarkSet& set) {
     return known_;
 }
 
-/// What is told changes only where all of the latest sets say the same.
+/// The verdict changes only if all of the latest sets agree.
 void DriftCheck::judge() {
     const bool enough =
         latest_.size() >= agreeing && latest_.back().time - latest_.front().time >= least_time;

@@ -1,13 +1,17 @@
-/// Whether the picture still lies where it was calibrated, by where a camera sees marks of light that the projector shows.
+/// Drift: whether the picture has moved since calibration, measured by drift marks that the projector shows
+/// to a camera.
 ///
-/// Learned   The first sets after a calibration that agree become the reference; each later one is held against it: a homography takes
-///           the camera's pixels to the table as the reference had it, so that a mark's way is known in metres.
-/// Camera    stands still above the table, and need not be calibrated. Where tags lie on the table for good (three at least, around the picture),
-///           they tell how the camera itself moved, and that is taken out. Without them nobody can tell whether camera or projector did.
-/// Told      once `agreeing` sets in a row, over `least_time`, say the same: a hand, a shadow or a prop that hides some marks does not.
-/// Units     metres on the table.
-/// Time      a parameter: that of the sets.
-/// Threads   one caller.
+/// Learned  the first sets after a calibration that agree become the reference; each later set is compared
+///          with it. A homography maps the camera's pixels to the table as in the reference, so a mark's
+///          displacement is known in metres.
+/// Camera   stands still above the table and need not be calibrated. If at least three tags are fixed on the
+///          table around the picture, they show the camera's own movement, which is then removed. Without
+///          them the movements of camera and projector cannot be told apart.
+/// Told     a verdict changes once `agreeing` consecutive sets, over `least_time`, agree; a hand, a shadow or
+///          a prop that hides some marks does not change it.
+/// Units    metres on the table.
+/// Time     a parameter: that of the sets.
+/// Threads  one caller.
 #pragma once
 
 #include "app/drift/drift_reference.h"
@@ -18,25 +22,25 @@ namespace frustumscreen {
 
 enum class DriftState : std::uint8_t {
     Learning, ///< there is no reference yet
-    Looking,  ///< there is one, and too few sets to say more
+    Looking,  ///< there is a reference, but too few sets for a verdict
     Well,     ///< the picture is where it was calibrated
-    Moved,    ///< it is not
+    Moved,    ///< the picture has moved
     Blind     ///< too few marks are seen
 };
 
-/// How one set lies beside the reference.
+/// Displacement of one set from the reference.
 struct DriftMeasure {
-    double off_m = 0.0;      ///< median of the marks' ways
+    double off_m = 0.0;      ///< median length of the marks' displacements
     glm::dvec2 shift_m{0.0}; ///< median of each coordinate
-    std::size_t marks = 0;   ///< that were seen in both
-    bool anchored = false;   ///< the camera's own way is taken out
+    std::size_t marks = 0;   ///< seen in both
+    bool anchored = false;   ///< the camera's own movement is removed
 };
-/// Nothing: too few marks.
+/// nullopt: too few marks.
 [[nodiscard]] std::optional<DriftMeasure> measure_drift(const DriftReference& reference, const MarkSet& set);
 
 struct DriftVerdict {
     DriftState state = DriftState::Learning;
-    double off_m = 0.0; ///< of the latest sets, their median
+    double off_m = 0.0; ///< median of the latest sets
     bool anchored = false;
     std::size_t marks = 0; ///< seen in the latest set
     std::size_t looks = 0; ///< sets since the start
@@ -46,19 +50,20 @@ class DriftCheck {
 public:
     static constexpr double tolerance_m = 2e-3;
     static constexpr double well_again_m = 1.5e-3;
-    static constexpr double agree_m = 1e-3;        ///< sets that say the same
-    static constexpr std::size_t agreeing = 5;     ///< sets in a row
-    static constexpr std::size_t learned_from = 3; ///< sets that agree become the reference
+    static constexpr double agree_m = 1e-3;        ///< largest difference of sets that agree
+    static constexpr std::size_t agreeing = 5;     ///< consecutive sets
+    static constexpr std::size_t learned_from = 3; ///< agreeing sets that become the reference
     static constexpr double learn_agree_px = 1.0;
-    static constexpr Nanoseconds least_time = std::chrono::minutes(3); ///< from the first of them to the last
+    static constexpr Nanoseconds least_time = std::chrono::minutes(3); ///< from the first of the agreeing
+                                                                       ///< sets to the last
     static constexpr std::size_t least_marks = 4;
 
-    /// `blank`: calibration, frames and marks without places.
+    /// `blank`: a reference with the places of the marks, without pixels.
     explicit DriftCheck(DriftReference blank) : reference_(std::move(blank)) {}
-    /// A reference that was stored; it fits the calibration.
+    /// Sets a stored reference, which must fit the calibration.
     void know(DriftReference reference);
 
-    /// Returns whether the reference is new, and to be stored.
+    /// Returns whether the reference is new and must be stored.
     [[nodiscard]] bool take(const MarkSet& set);
     [[nodiscard]] const DriftVerdict& verdict() const { return verdict_; }
     [[nodiscard]] bool knows() const { return known_; }
@@ -74,7 +79,7 @@ private:
     };
     DriftReference reference_;
     bool known_ = false;
-    std::vector<MarkSet> first_; ///< while it learns
+    std::vector<MarkSet> first_; ///< the sets while learning
     std::deque<Dated> latest_;
     DriftVerdict verdict_;
 };

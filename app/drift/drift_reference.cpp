@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int version = 1;
 constexpr std::size_t most_anchors = 64;
-constexpr int most_pixels = 16384; // of a camera's side
+constexpr int most_pixels = 16384; // limit of a camera's side
 
 Json json_of(const glm::dvec2& place) {
     return {place.x, place.y};
@@ -75,7 +75,7 @@ std::size_t MarkSet::seen() const {
 }
 
 bool DriftReference::fits(const std::vector<glm::dvec2>& places_m) const {
-    constexpr double same_m = 1e-7; // what writing and reading a calibration again leaves is far below
+    constexpr double same_m = 1e-7; // far above the rounding of a calibration that was written and read
     return std::equal(marks_m.begin(), marks_m.end(), places_m.begin(), places_m.end(),
                       [](const glm::dvec2& a, const glm::dvec2& b) { return glm::distance(a, b) < same_m; });
 }

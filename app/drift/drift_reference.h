@@ -1,6 +1,6 @@
-/// Where a camera saw the marks of light right after a calibration: what later looks are held against.
+/// Pixels of the drift marks right after a calibration; later sets are compared with them.
 ///
-/// Form     JSON, a small file beside the kept calibrations; places alone, no picture.
+/// Form     JSON, a small file next to the kept calibrations; positions only, no picture.
 /// Frames   the camera's pixels; the table T, metres.
 /// Threads  values; any.
 #pragma once
@@ -23,28 +23,29 @@ inline constexpr std::size_t most_marks = 10;
 /// In the folder of the kept calibrations.
 inline constexpr const char* drift_file = "drift.json";
 
-/// A tag that lies on the table for good.
+/// A tag that is fixed on the table.
 struct AnchorTag {
     int id = 0;
     std::array<glm::dvec2, 4> corners_px{};
 };
 
-/// What one look at all marks found.
+/// The result of one look at all marks.
 struct MarkSet {
     MonotonicTime time{};
-    std::vector<std::optional<glm::dvec2>> marks_px; ///< by mark; nothing: it was not seen
+    std::vector<std::optional<glm::dvec2>> marks_px; ///< by mark; nullopt: not seen
     std::vector<AnchorTag> anchors;
     [[nodiscard]] std::size_t seen() const;
 };
 
 struct DriftReference {
     int width = 0, height = 0;                       ///< of the camera's frames
-    std::vector<glm::dvec2> marks_m;                 ///< where they were lit on the table
-    std::vector<std::optional<glm::dvec2>> marks_px; ///< as many
+    std::vector<glm::dvec2> marks_m;                 ///< lit places on the table
+    std::vector<std::optional<glm::dvec2>> marks_px; ///< one for each mark
     std::vector<AnchorTag> anchors;
 
-    /// Whether it is of a projector that lights the marks there. Another calibration of it lights them at least a little beside; one that
-    /// has another eye or tracker alone leaves them where they are.
+    /// Whether the reference belongs to a projector calibration that lights the marks at `marks_m`. Another
+    /// projector calibration shifts them at least slightly; one that only changes the eye or the tracker does
+    /// not.
     [[nodiscard]] bool fits(const std::vector<glm::dvec2>& marks_m) const;
 };
 

@@ -12,7 +12,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// A mark is looked for so far around where it was, in shares of the frame's width: some 15 cm on a table.
+/// Search radius around a mark's last place, as a share of the frame's width: some 15 cm on a table.
 constexpr double window_share = 0.125;
 
 DriftReference blank_of(const DriftSetUp& set_up) {
@@ -93,7 +93,7 @@ const DriftVerdict& DriftWatch::verdict() {
 
 void DriftWatch::use(const CameraFrame& frame) {
     const std::int64_t began_ns = began_ns_;
-    if (began_ns != follows_ns_) { // another one, or it was given up
+    if (began_ns != follows_ns_) { // another set, or the set was cancelled
         follows_ns_ = began_ns;
         ended_ = began_ns == 0;
         mark_.reset();
@@ -169,7 +169,7 @@ void DriftWatch::keep_reference() {
     check_.know(std::move(reference));
 }
 
-/// Pixels of another size are other pixels: somebody has set the camera anew.
+/// A change of the frame's size means that the camera was set up again, so old pixels are invalid.
 void DriftWatch::follow_size(const CameraFrame& frame) {
     const DriftReference& reference = check_.reference();
     if (check_.knows() && (frame.width != reference.width || frame.height != reference.height)) {

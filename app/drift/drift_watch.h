@@ -1,10 +1,10 @@
-/// The check whether the picture still lies where it was calibrated, while the exhibit runs: the render thread shows marks of light now
-/// and then, the camera's thread finds them and judges.
+/// The drift check while the exhibit runs: the render thread shows drift marks now and then; the camera's
+/// thread finds them and judges.
 ///
-/// Threads  `use`: the camera's; no frame leaves it, and it alone writes the reference's file, once after a calibration. All else: the
-///          render thread, which waits for nothing and allocates nothing.
-/// Errors   none; `verdict` says what is the matter. A reference that cannot be read is learned anew; one that cannot be written is a line
-///          on standard error, and is learned anew with the next start.
+/// Threads  `use`: the camera's; no frame leaves it, and only it writes the reference's file, once after a
+///          calibration. Everything else: the render thread, which neither waits nor allocates.
+/// Errors   none; `verdict` describes them. An unreadable reference is learned again; a failed write is
+///          reported on standard error, and the reference is learned again after the next start.
 #pragma once
 
 #include "app/drift/drift_check.h"
@@ -22,30 +22,30 @@
 namespace frustumscreen {
 
 struct DriftSetUp {
-    std::vector<glm::dvec2> marks_m; ///< by the kept calibration
-    std::vector<int> moving_tags;    ///< ids that do not lie on the table for good: the prop's
-    std::filesystem::path file;      ///< where the reference is stored
+    std::vector<glm::dvec2> marks_m; ///< from the kept calibration
+    std::vector<int> moving_tags;    ///< ids that are not fixed on the table: the prop's
+    std::filesystem::path file;      ///< of the reference
 };
 
-/// A mark that is to be lit in this frame.
+/// A mark to light in this frame.
 struct ShownMark {
     glm::dvec2 place_m{0.0};
     double brightness = 0.0; ///< above 0, up to 1
 };
 
-/// What is told of it.
+/// The verdict in one sentence.
 [[nodiscard]] Sentence sentence_of(const DriftVerdict& verdict);
 
 class DriftWatch {
 public:
-    /// Reads the reference, if there is one of these marks.
+    /// Reads the reference, if there is one for these marks.
     explicit DriftWatch(DriftSetUp set_up);
 
     void use(const CameraFrame& frame);
 
-    /// `quiet`: as MarkSchedule.
+    /// `quiet`: as in MarkSchedule.
     [[nodiscard]] std::optional<ShownMark> step(MonotonicTime now, bool quiet);
-    /// The latest one.
+    /// The latest verdict.
     [[nodiscard]] const DriftVerdict& verdict();
 
 private:
@@ -58,22 +58,22 @@ private:
     void find_anchors(MarkSet& set);
 
     DriftSetUp set_up_;
-    MarkSchedule schedule_;                 ///< the render thread's
-    DriftVerdict told_;                     ///< the same
-    std::atomic<std::int64_t> began_ns_{0}; ///< of the set that is shown; 0: none
+    MarkSchedule schedule_;                 ///< used by the render thread
+    DriftVerdict told_;                     ///< used by the render thread
+    std::atomic<std::int64_t> began_ns_{0}; ///< start of the current set; 0: none
 
-    // The camera's thread:
+    // Used by the camera's thread:
     DriftCheck check_;
     MarkFinder finder_;
     TagDetector tags_;
     std::vector<FoundTag> found_tags_;
     std::vector<std::uint8_t> dark_;
-    std::int64_t follows_ns_ = 0; ///< the set that it follows, or has followed to its end
+    std::int64_t follows_ns_ = 0; ///< the set that it follows or has finished
     bool ended_ = true;
-    std::optional<std::size_t> mark_; ///< whose frames are gathered
+    std::optional<std::size_t> mark_; ///< the mark of the current frames
     MarkSet set_;
 
-    std::mutex mutex_; ///< held for a copy only
+    std::mutex mutex_; ///< held only for a copy
     DriftVerdict verdict_;
 };
 

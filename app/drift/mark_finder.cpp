@@ -10,16 +10,16 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int reach = 3; ///< of the box that noise is averaged over, to each side
+constexpr int reach = 3; ///< half width of the box that noise is averaged over
 constexpr int box = 2 * reach + 1;
 constexpr double least_height = 1.5;          ///< codes
 constexpr double least_height_in_noise = 5.0; ///< standard deviations of the box's mean
 constexpr double least_radius_px = 1.5, most_radius_px = 40.0;
-constexpr double outline = 0.25;        ///< of its height: what belongs to the mark
-constexpr double most_change = 0.25;    ///< of its height, that came or went meanwhile
-constexpr double most_elongation = 4.0; ///< of its variances
+constexpr double outline = 0.25;        ///< of its height; brighter pixels belong to the mark
+constexpr double most_change = 0.25;    ///< of its height, from before to after
+constexpr double most_elongation = 4.0; ///< ratio of its variances
 
-/// Box means of a picture, into `out`; near its edges of what there is. `rows` is room.
+/// Box means of a picture, into `out`; near the edges over the available pixels. `rows` is scratch memory.
 void box_means(std::span<const float> from, int width, int height, std::vector<float>& rows,
                std::vector<float>& out) {
     rows.resize(from.size());
@@ -49,7 +49,7 @@ void box_means(std::span<const float> from, int width, int height, std::vector<f
     }
 }
 
-/// Standard deviation of what is mostly noise, by the median of its sizes.
+/// Standard deviation of values that are mostly noise, from the median of their magnitudes.
 double noise_of(std::span<const float> values, std::vector<float>& room) {
     room.clear();
     const std::size_t step = std::max<std::size_t>(1, values.size() / 4096);
@@ -110,7 +110,7 @@ void MarkFinder::dark_picture(std::vector<std::uint8_t>& luma) const {
     }
 }
 
-/// The mark's light, and what changed from before it to after it.
+/// Computes the mark's light, and the change from before it to after it.
 void MarkFinder::take_difference(const PixelWindow& window) {
     const glm::ivec2 size = window.high - window.low;
     light_.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
@@ -162,7 +162,7 @@ std::optional<FoundMark> MarkFinder::find(const std::optional<PixelWindow>& near
     return mark;
 }
 
-/// The pixels around the peak that are part of the mark, found by going from one to its neighbours.
+/// Collects the mark's pixels around the peak by flood fill; returns false if they are not a mark.
 bool MarkFinder::gather(std::size_t peak, const glm::ivec2& size) {
     const float least = static_cast<float>(outline) * means_[peak];
     const std::size_t most =
@@ -174,7 +174,7 @@ bool MarkFinder::gather(std::size_t peak, const glm::ivec2& size) {
         const int x = static_cast<int>(part_[next] % static_cast<std::size_t>(size.x));
         const int y = static_cast<int>(part_[next] / static_cast<std::size_t>(size.x));
         if (x == 0 || y == 0 || x + 1 == size.x || y + 1 == size.y || part_.size() > most) {
-            return false; // it goes on beyond the picture, or is no mark
+            return false; // it continues beyond the picture, or is too large for a mark
         }
         for (const int step : {-1, 1, -size.x, size.x}) {
             const std::size_t beside = part_[next] + static_cast<std::size_t>(step);

@@ -9,9 +9,9 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double rim_m = 0.012; // of the table that stays free: a mark is 16 mm wide
+constexpr double rim_m = 0.012; // free edge of the table; a mark is 16 mm wide
 
-/// Shares of the picture. Neighbours in time are far apart, so that nobody sees a light that wanders.
+/// Shares of the picture. Successive marks are far apart, so they do not look like a moving light.
 constexpr std::array<glm::dvec2, 10> shares{{{0.04, 0.06},
                                              {0.96, 0.94},
                                              {0.96, 0.06},

@@ -1,4 +1,5 @@
-/// Where on the table marks of light are shown: near the picture's corners and edges, where a move shows most and least lies.
+/// Places of the drift marks on the table: near the picture's corners and edges, where a movement shows most
+/// and disturbs least.
 ///
 /// Frames   table T, metres.
 /// Threads  pure; any.
@@ -12,7 +13,7 @@
 
 namespace frustumscreen {
 
-/// At most most_marks. What would fall beside the table is left out.
+/// At most most_marks; places outside the table are skipped.
 [[nodiscard]] std::vector<glm::dvec2> mark_places(const Settings& settings);
 
 } // namespace frustumscreen

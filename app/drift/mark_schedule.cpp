@@ -5,7 +5,7 @@
 namespace frustumscreen {
 
 std::optional<MarkTimes::Moment> MarkTimes::moment(Nanoseconds since_begin, std::size_t marks) {
-    if (since_begin < lead) { // nothing was lit before
+    if (since_begin < lead) { // no mark was lit before
         return since_begin >= Nanoseconds::zero() ? std::optional(Moment{0, MarkPhase::Before})
                                                   : std::nullopt;
     }

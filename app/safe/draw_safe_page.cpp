@@ -13,7 +13,7 @@ namespace {
 
 constexpr int samples = 2; ///< along a pixel's side: small letters have strokes thinner than a pixel
 
-/// Where a letter's rectangle of the atlas lies in the picture.
+/// A letter's rectangle in the picture.
 struct Area {
     float left = 0.0F, top = 0.0F; ///< pixels
     float px_of_texel = 1.0F;
@@ -27,7 +27,7 @@ Area area_of(const PlacedLetter& letter, const SafeWords& words) {
             scale, &box};
 }
 
-/// The distance at (u, v) in the box, in texels from its top left; between the texels' centres linear.
+/// The distance at (u, v) in the box, in texels from its top left; bilinear interpolation.
 float distance_at(const SafeWords& words, const BakedBox& box, float u, float v) {
     u = std::clamp(u - 0.5F, 0.0F, static_cast<float>(box.width - 1));
     v = std::clamp(v - 0.5F, 0.0F, static_cast<float>(box.height - 1));
@@ -48,7 +48,7 @@ float distance_at(const SafeWords& words, const BakedBox& box, float u, float v)
 
 /// The share of the pixel that the letter covers.
 float cover(const SafeWords& words, const Area& area, int x, int y) {
-    // How far a sample's cover changes with one code of distance.
+    // Change of a sample's coverage per code of distance.
     const float of_code =
         area.px_of_texel * samples * static_cast<float>(words.spread_texels) / baked_outline_code;
     float sum = 0.0F;
@@ -62,7 +62,7 @@ float cover(const SafeWords& words, const Area& area, int x, int y) {
     return sum / (samples * samples);
 }
 
-/// The code of a grey's share of light, for shares of 1/255.
+/// The sRGB code of each share of a grey's light, for shares of 1/255.
 std::array<std::uint8_t, 256> shares_of(std::uint8_t grey) {
     const double light = linear_from_srgb(grey / 255.0);
     std::array<std::uint8_t, 256> codes{};

@@ -1,7 +1,7 @@
-/// Draws a safe page, some rows at a time, so that no whole picture must be in memory.
+/// Draws a safe page, some rows at a time, so the whole picture need not be in memory.
 ///
-/// Shape    rows from the picture's top; one byte a pixel.
-/// Colour   greys as sRGB codes on black; what a letter covers of a pixel is its share of light.
+/// Shape    rows from the picture's top; one byte per pixel.
+/// Colour   greys as sRGB codes on black; a pixel's light is proportional to its coverage by a letter.
 /// Threads  pure; any.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// Rows `first_row` and following, as many as fit `greys`, whose size is a multiple of the page's width.
+/// Draws the rows from `first_row` that fit `greys`, whose size is a multiple of the page's width.
 void draw_safe_rows(const SafePage& page, int first_row, std::span<std::uint8_t> greys);
 
 } // namespace frustumscreen

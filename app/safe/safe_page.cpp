@@ -18,14 +18,14 @@ constexpr std::size_t most_reason_lines = 4;
 constexpr std::string_view no_reason = "No reason was given.";
 
 /// Shares of the picture.
-constexpr double margin_of_side = 0.05;       ///< of the shorter side, all around
+constexpr double margin_of_side = 0.05;       ///< of the shorter side, on all edges
 constexpr double visitors_of_height = 0.52;   ///< at most
-constexpr double largest_type_of_side = 0.08; ///< of the shorter side: one language alone would be huge
+constexpr double largest_type_of_side = 0.08; ///< of the shorter side; for a single language
 constexpr double staff_type_of_side = 0.026; ///< of the shorter side: more than 24 points on a table of 0.5 m
 constexpr double staff_type_of_visitors = 0.8; ///< at most
-constexpr double visitors_pitch_em = 1.5;      ///< whatever each script's own is
-constexpr double longest_line_em = 56.0;       ///< for the staff: longer ones are hard to read
-constexpr double shrink = 0.94;                ///< from one try to the next
+constexpr double visitors_pitch_em = 1.5;      ///< for every script
+constexpr double longest_line_em = 56.0;       ///< for the staff; longer lines are hard to read
+constexpr double shrink = 0.94;                ///< factor between two attempts
 
 const BakedLetter* letter_of(char32_t character) {
     const std::span<const BakedLetter> letters = safe_words().letters;
@@ -45,7 +45,7 @@ std::int32_t width_of(std::u32string_view line) {
     return width;
 }
 
-/// `character`: whole, as character_bytes found it.
+/// `character`: one whole character, as from character_bytes.
 char32_t code_point(std::string_view character) {
     const auto byte = [character](std::size_t k) { return static_cast<unsigned char>(character[k]); };
     char32_t code = character.size() == 1 ? byte(0) : byte(0) & (0x7FU >> character.size());
@@ -55,7 +55,8 @@ char32_t code_point(std::string_view character) {
     return code;
 }
 
-/// How many characters of `text` go into one line: whole words where one fits, else as many as fit.
+/// Number of characters of `text` in its first line: whole words if one fits, otherwise as many characters as
+/// fit.
 std::size_t first_line(std::u32string_view text, std::int32_t width) {
     std::size_t words = 0;
     std::size_t fits = 0;
@@ -91,7 +92,7 @@ std::vector<std::u32string> broken_into_lines(std::u32string text, std::int32_t 
     return lines;
 }
 
-/// Sets texts below each other, each centred.
+/// Sets texts one below the other, each centred.
 class Column {
 public:
     explicit Column(SafePage& page, double top_px) : page_(page), y_px_(top_px) {}
@@ -104,7 +105,7 @@ public:
         }
         y_px_ += setting.height * scale;
     }
-    /// A single line, whose script's own height does not matter.
+    /// A single line with a fixed pitch, whatever the script's height.
     void add_row(const BakedSetting& line, double em_px, std::uint8_t grey) {
         const double top_px = y_px_;
         y_px_ += (safe_words().ascent - line.baseline) * em_px / baked_em_units;
@@ -154,7 +155,7 @@ Sizes largest_sizes(int width, int height, const Languages& languages) {
     return sizes;
 }
 
-/// The widest that fits; the narrowest where none does.
+/// The widest setting that fits; otherwise the narrowest.
 const BakedSetting& fitting(std::span<const BakedSetting> settings, double width_px, double em_px) {
     const auto fits = [&](const BakedSetting& setting) {
         return setting.width * em_px / baked_em_units <= width_px;

@@ -1,8 +1,8 @@
-/// What the safe picture says and where: for visitors in each language, and below, smaller, for the staff.
+/// Layout of the safe picture: words for visitors in each language, and below them, smaller, for the staff.
 ///
 /// Frame    pixels of the picture, x to the right, y down from its top left corner.
-/// Shape    any size; everything lies inside a margin, so the picture's corner stays black for the probe's code.
-/// Errors   none: a reason that cannot be shown as it is is shown as far as it can be.
+/// Shape    any size; everything is inside a margin, so the picture's corner stays black for the probe code.
+/// Errors   none: a reason with unknown characters is shown with replacements.
 /// Threads  pure; any.
 #pragma once
 
@@ -16,9 +16,9 @@
 
 namespace frustumscreen {
 
-/// What changes from one safe picture to the next.
+/// The variable texts of a safe picture.
 struct SafeText {
-    std::string reason;                 ///< one sentence, UTF-8; empty: none is known
+    std::string reason;                 ///< one sentence, UTF-8; empty: unknown
     std::chrono::minutes since_boot{0}; ///< of the machine
     [[nodiscard]] bool operator==(const SafeText&) const = default;
 };
@@ -36,15 +36,15 @@ struct SafePage {
     std::vector<PlacedLetter> letters;
 };
 
-/// All languages that the program has words in, in their order.
+/// All languages of the program, in their order.
 [[nodiscard]] std::vector<std::string_view> safe_languages();
 
-/// `languages`: those for visitors, at least one; the first one's words tell the staff what to do.
+/// `languages`: those for visitors, at least one; the first one is also used for the staff's instructions.
 [[nodiscard]] SafePage lay_out_safe_page(int width, int height, const SafeText& text,
                                          const std::vector<std::string_view>& languages);
 
-/// The first line of `bytes`, with what no baked letter shows replaced by U+FFFD, white space by single spaces, and cut to
-/// `longest_reason` characters.
+/// The first line of `bytes`: characters without a baked letter become U+FFFD, white space becomes single
+/// spaces, and the text is cut to `longest_reason` characters.
 [[nodiscard]] std::u32string shown_reason(std::string_view bytes);
 inline constexpr std::size_t longest_reason = 300;
 

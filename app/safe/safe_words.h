@@ -1,11 +1,11 @@
-/// The safe picture's words as the build leaves them in the program: shaped lines of numbered glyphs, a letter for each character
-/// that a reason may have, and one picture of distances. frustumscreen-safe-words (assets_baked/safe) writes them as C++, so
-/// that nothing is read or parsed when they are shown.
+/// The safe picture's words, which the build compiles into the program: shaped lines of numbered glyphs, a
+/// letter for each character of a reason, and one picture of distances. frustumscreen-safe-words
+/// (assets_baked/safe) writes them as C++, so nothing is read or parsed at run time.
 ///
-/// Frame    a setting: x to the right from the left edge of its box, y down from the top of it.
+/// Frame    a setting: x to the right from the left edge of its box, y down from its top.
 /// Units    1/1024 of the type size (`baked_em_units`), or texels of the atlas where the name says so.
 /// Threads  constants; any.
-/// Source   as app/pack/glyph_runs.h, whose distances these are.
+/// Source   as app/pack/glyph_runs.h, from which the distances come.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,9 @@
 namespace frustumscreen {
 
 inline constexpr std::int32_t baked_em_units = 1024;
-inline constexpr int baked_outline_code = 128; ///< of the distances; more inside
+inline constexpr int baked_outline_code = 128; ///< distance code of the outline; larger inside
 
-/// A glyph's rectangle in the atlas; one of no size draws nothing.
+/// A glyph's rectangle in the atlas; an empty one draws nothing.
 struct BakedBox {
     std::uint16_t x = 0, y = 0, width = 0, height = 0;
     std::int16_t left = 0; ///< texels from the pen to the rectangle's left edge
@@ -31,7 +31,7 @@ struct BakedGlyph {
     std::int32_t y = 0;    ///< of the pen, down from the top of the setting
 };
 
-/// A text broken into lines for one width, each line centred.
+/// A text broken into lines for one width; each line is centred.
 struct BakedSetting {
     std::int32_t width = 0, height = 0; ///< of its box
     std::int32_t baseline = 0;          ///< of its first line, down from the top
@@ -44,7 +44,7 @@ struct BakedLanguage {
     std::span<const BakedSetting> for_staff; ///< the widest first
 };
 
-/// What a reason is set of, letter by letter.
+/// The letters of a reason.
 struct BakedLetter {
     char32_t character = 0;
     std::uint16_t box = 0;

@@ -13,43 +13,44 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int unknowns = 6; ///< a shift and a turn in the camera's axes, as PoseStep
+constexpr int unknowns = 6; ///< a shift and a rotation in the camera's axes, as PoseStep
 using Vector = Eigen::Matrix<double, unknowns, 1>;
 using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Tags from which a fit starts, the largest ones: each further one costs time and finds no other pose.
+/// Number of tags to start a fit from, largest first: each further one takes time and finds no other pose.
 constexpr std::size_t most_starts = 3;
-/// A corner farther off than this many times its noise, RMS over a tag, is no noise.
+/// A tag whose RMS corner error exceeds this many times its noise is wrong.
 constexpr double most_sd_off = 6.0;
 constexpr double least_px_off = 1.5;
 
 struct Corner {
     glm::dvec3 prop_m;
     glm::dvec2 px;
-    double later_s = 0.0; ///< its row's moment, after that of the pose
+    double later_s = 0.0; ///< time of its row, relative to that of the pose
 };
 struct SeenTag {
     std::array<Corner, 4> corners;
-    std::array<glm::dvec2, 4> directions; ///< the lens taken out
+    std::array<glm::dvec2, 4> directions; ///< undistorted
     const PropTag* tag = nullptr;
 };
 using SeenTags = std::vector<SeenTag>;
 
 struct Fit {
     RigidTransform pose;
-    double cost = infinite;         ///< sum of squared distances, pixels
-    Matrix normal = Matrix::Zero(); ///< of the equations at the pose, in pixels
+    double cost = infinite;         ///< sum of squared distances, pixels^2
+    Matrix normal = Matrix::Zero(); ///< normal matrix at the pose, in pixels
 };
 
-/// The camera, and where the prop was before, if its rows are read one after the other.
+/// The camera; for a rolling shutter also the previous pose of the prop.
 struct View {
     const Pinhole& camera;
     std::optional<RigidTransform> before;
-    double since_s = 1.0; ///< from `before` to the pose that is looked for
+    double since_s = 1.0; ///< from `before` to the unknown pose
 };
 
-/// Where the corners are seen of a prop that has a pose at its moment, and goes on as it went since the one before.
+/// Projects the corners of a prop that has a pose at its time, and continues its motion since the previous
+/// one.
 class SeenProp {
 public:
     SeenProp(const RigidTransform& pose, const View& view) : pose_(pose), view_(view) {
@@ -95,7 +96,8 @@ PoseStep step_of(const Vector& v) {
     return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
-/// A pose and its neighbours to both sides along each unknown, for derivatives by central differences, which are good to nine digits here.
+/// A pose and its neighbours on both sides along each unknown, for derivatives by central differences, which
+/// are accurate to nine digits here.
 struct Neighbours {
     static constexpr double step = 1e-6; // metres and radians
     SeenProp here;
@@ -112,7 +114,7 @@ Neighbours beside(const RigidTransform& pose, const View& view) {
     return all;
 }
 
-/// Adds a corner's share of the normal equations.
+/// Adds a corner's contribution to the normal equations.
 void add_corner(const Corner& corner, const Neighbours& props, Matrix& normal, Vector& gradient) {
     Eigen::Matrix<double, 2, unknowns> slope = Eigen::Matrix<double, 2, unknowns>::Zero();
     for (int k = 0; k < unknowns; ++k) {
@@ -128,10 +130,10 @@ void add_corner(const Corner& corner, const Neighbours& props, Matrix& normal, V
     normal += slope.transpose() * slope;
 }
 
-/// From `start` downhill.
+/// Descends from `start`.
 Fit refined(const SeenTags& tags, const RigidTransform& start, const View& view) {
     constexpr int most_rounds = 40;
-    constexpr double least_gain = 1e-9; // of the cost: nothing is left to win
+    constexpr double least_gain = 1e-9; // of the cost: converged
     Fit fit{start, cost_of(tags, start, view)};
     double damping = 1e-3;
     bool done = !std::isfinite(fit.cost);
@@ -166,7 +168,7 @@ Fit refined(const SeenTags& tags, const RigidTransform& start, const View& view)
     return fit;
 }
 
-/// How far two poses are apart, in the measure of what the corners can tell: below one they are the same.
+/// Squared distance of two poses in units of the corners' accuracy; below one they are equal.
 double apart(const Fit& a, const Fit& b, double variance) {
     const PoseStep step = step_between(a.pose, b.pose);
     Vector v;
@@ -176,7 +178,7 @@ double apart(const Fit& a, const Fit& b, double variance) {
 
 struct BestFits {
     Fit best;
-    Fit second; ///< another pose; its cost is infinite if there is none
+    Fit second; ///< a different pose; its cost is infinite if there is none
 };
 
 BestFits fit_all(const SeenTags& tags, const View& view, double variance) {
@@ -190,7 +192,7 @@ BestFits fit_all(const SeenTags& tags, const View& view, double variance) {
         const RigidTransform tag_from_prop = prop_from_tag.inverse();
         fits.push_back(refined(tags, *start * tag_from_prop, view));
         fits.push_back(refined(tags, mirrored(*start) * tag_from_prop, view));
-        // The mirror of what fits is nearer to the other pose than that of a start.
+        // The mirror image of a fitted pose is nearer to the other pose than that of a start.
         fits.push_back(refined(tags, mirrored(fits.front().pose * prop_from_tag) * tag_from_prop, view));
     }
     std::sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
@@ -231,7 +233,7 @@ SeenTags seen_tags(std::span<const FoundTag> found, std::span<const PropTag> pro
     return seen;
 }
 
-/// Gives each corner its row's moment, and returns that of the row amid them, after the frame's first.
+/// Sets each corner's time by its row, and returns the time of their mean row, after the frame's first.
 double set_moments(SeenTags& tags, const Pinhole& camera, double readout_s) {
     const double corners = 4.0 * static_cast<double>(tags.size());
     double moment_s = 0.0;
@@ -248,7 +250,7 @@ double set_moments(SeenTags& tags, const Pinhole& camera, double readout_s) {
     return moment_s;
 }
 
-/// The spread of the best fit, with what a second one adds.
+/// The spread of the best fit, with the contribution of the second one.
 TagPose with_spread(const BestFits& fits, const SeenTags& tags, double variance) {
     const double corners = 4.0 * static_cast<double>(tags.size());
     TagPose pose{fits.best.pose, infinite, infinite, tags.size()};
@@ -262,7 +264,8 @@ TagPose with_spread(const BestFits& fits, const SeenTags& tags, double variance)
     double place = variances.head<3>().sum();
     double turn = variances.tail<3>().sum();
     if (std::isfinite(fits.second.cost)) {
-        // Half of what independent noise would say: a corner's errors in blur, gamma and glare go together.
+        // Half of the exponent for independent noise: a corner's errors by blur, gamma and glare are
+        // correlated.
         const double odds = std::exp(-0.25 * (fits.second.cost - fits.best.cost) / inflated);
         const double share = odds / (1.0 + odds);
         const PoseStep other = step_between(fits.best.pose, fits.second.pose);
@@ -302,7 +305,7 @@ std::optional<TagPose> pose_from_tags(std::span<const FoundTag> found, std::span
             pose.moment_s = moment_s;
             return pose;
         }
-        // Two that contradict each other: which of them is right, nothing says.
+        // If two tags contradict each other, the wrong one cannot be identified.
         if (tags.size() <= 2) {
             return std::nullopt;
         }

@@ -7,10 +7,10 @@ namespace frustumscreen {
 
 namespace {
 
-/// A whole picture that takes longer does not keep the pace of 30 frames a second within the share.
+/// A slower whole search exceeds the share at 30 frames a second.
 constexpr double longest_whole_s = TagReader::most_share / 30.0;
-constexpr int frames_at_once = 100; ///< at one size
-/// An older pose says nothing of how the prop moves now.
+constexpr int frames_at_once = 100; ///< searched at one size
+/// An older pose does not tell the current motion of the prop.
 constexpr Nanoseconds oldest_before = std::chrono::milliseconds(200);
 
 Nanoseconds nanoseconds_of(double seconds) {
@@ -38,7 +38,7 @@ void TagReader::follow_size(bool posed, double took_s) {
     if (half_for_ > 0) {
         ++counts_.at_half_size;
         --half_for_;
-        if (!posed && whole_posed_) { // its tags are too small for that
+        if (!posed && whole_posed_) { // its tags are too small for half size
             half_for_ = 0;
             whole_for_ = frames_at_once;
         }

@@ -1,14 +1,18 @@
-/// A camera's frame into the prop's pose on the table: finds the tags, fits the pose, and keeps its hands off the processor.
+/// Turns a camera's frame into the prop's pose on the table: finds the tags, fits the pose, and limits its
+/// processor time.
 ///
-/// Frames   table T; a frame of another size than the pinhole's, but of its shape, is read as the same view.
-/// Time     a pose has its frame's time: when the kernel says that it was taken. With a shutter that reads row after row that is the time of its middle
-///          row, and a pose that of the row amid its tags; poses in sequence tell how the prop moves meanwhile.
-/// Share    after a frame that took some time it passes over those that come within four times that: it never takes more than a
-///          quarter of one core, however full of edges a picture is. Where the whole picture costs more than that at 30 frames a
-///          second, the next hundred are searched at half size: that costs less than half, and finds fewer of the tags that are small,
-///          blurred or dark. Where it finds no pose and the whole picture gave one, the next hundred are whole again, and come less often.
+/// Frames   table T; a frame of another size than the pinhole's, but of equal aspect ratio, is read as the
+///          same view.
+/// Time     a pose has its frame's capture time, from the kernel. With a rolling shutter that is the time of
+///          the frame's middle row, and the pose has the time of the mean row of its tags; successive poses
+///          give the motion during a frame.
+/// Share    a quarter of one core, however full of edges a picture is: after a frame that took some time it
+///          skips those within four times that time. If the whole picture exceeds that at 30 frames a second,
+///          the next hundred frames are searched at half size. That costs less than half, but finds fewer
+///          small, blurred or dark tags. If it finds no pose although the whole picture gave one, the next
+///          hundred are whole again, at a lower rate.
 /// Threads  one caller: the camera's own thread. Allocates.
-/// Errors   none: no pose. One that is not sure (tag_pose.h) is not handed on.
+/// Errors   none: no pose. An uncertain pose (tag_pose.h) is not returned.
 #pragma once
 
 #include "app/tags/tag_pose.h"
@@ -26,23 +30,23 @@ struct TagSetUp {
     Pinhole camera;
     RigidTransform table_from_camera;
     std::vector<PropTag> tags;
-    double readout_s = 0.0; ///< of the camera's rows, from the first to the last; 0: all at once
+    double readout_s = 0.0; ///< of the camera's rows, from the first to the last; 0: global shutter
 };
 
-/// What became of the frames, since the start.
+/// Counts of frames since the start.
 struct TagCounts {
     std::uint64_t looked_at = 0;
-    std::uint64_t passed_over = 0;  ///< to keep its share
-    std::uint64_t posed = 0;        ///< gave a pose that was handed on
-    std::uint64_t at_half_size = 0; ///< of those looked at
-    std::uint64_t misshapen = 0;    ///< of another shape than the settings say
+    std::uint64_t passed_over = 0;  ///< skipped to stay within the share
+    std::uint64_t posed = 0;        ///< gave a returned pose
+    std::uint64_t at_half_size = 0; ///< included in `looked_at`
+    std::uint64_t misshapen = 0;    ///< of another aspect ratio than in the settings
 };
 
 class TagReader {
 public:
     static constexpr double most_share = 0.25; ///< of one core
 
-    /// `busy`: seconds of the processor that this thread has used.
+    /// `busy` returns the processor time of this thread in seconds.
     explicit TagReader(TagSetUp set_up, std::function<double()> busy = thread_seconds);
 
     [[nodiscard]] std::optional<UncertainPose> read(const CameraFrame& frame);
@@ -50,21 +54,21 @@ public:
 
 private:
     [[nodiscard]] std::optional<UncertainPose> look(const CameraFrame& frame);
-    /// Chooses how large the next picture is searched, after one that gave a pose or not and took so long.
+    /// Chooses the search size of the next picture, from the result and the time of this one.
     void follow_size(bool posed, double took_s);
 
     TagSetUp set_up_;
     FramePace pace_;
     TagDetector whole_;
     TagDetector half_;
-    int half_for_ = 0;         ///< frames to come are searched at half size
-    int whole_for_ = 0;        ///< frames to come are searched whole, whatever they cost
-    bool whole_posed_ = false; ///< the latest one that was searched whole gave a pose
+    int half_for_ = 0;         ///< frames still to be searched at half size
+    int whole_for_ = 0;        ///< frames still to be searched whole, whatever they cost
+    bool whole_posed_ = false; ///< the latest whole search gave a pose
     struct Before {
         RigidTransform camera_from_prop;
         MonotonicTime time;
     };
-    std::optional<Before> before_; ///< the latest pose that was handed on
+    std::optional<Before> before_; ///< the latest returned pose
     std::vector<FoundTag> found_;
     TagCounts counts_;
 };

@@ -6,7 +6,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// Columns of the homography from (0..1, 0..1), x to the right and y down as printed, to directions, up to a factor.
+/// Columns of the homography from (0..1, 0..1), x to the right and y down as printed, to directions, up to a
+/// factor.
 std::optional<glm::dmat3> homography(const std::array<glm::dvec2, 4>& c) {
     const glm::dvec2 d1 = c[1] - c[2];
     const glm::dvec2 d2 = c[3] - c[2];
@@ -29,7 +30,7 @@ RigidTransform mirrored(const RigidTransform& camera_from_tag) {
     const glm::dvec3 other = 2.0 * glm::dot(normal, sight) * sight - normal;
     const glm::dvec3 axis = glm::cross(normal, other);
     const double sine = glm::length(axis);
-    if (!(sine > 0.0)) { // seen from straight above: one pose
+    if (!(sine > 0.0)) { // seen from straight above: only one pose
         return camera_from_tag;
     }
     const glm::dquat turn = glm::angleAxis(std::atan2(sine, glm::dot(normal, other)), axis / sine);
@@ -43,7 +44,7 @@ std::optional<RigidTransform> tag_start(const std::array<glm::dvec2, 4>& corners
     }
     const glm::dmat3& columns = *h;
     const glm::dvec3 middle = 0.5 * columns[0] + 0.5 * columns[1] + columns[2];
-    // The two sides of a square are equally long: the factor is the mean of what they say.
+    // Both sides of a square are equally long; the factor is the mean of their estimates.
     const double scale = 2.0 * size_m / (glm::length(columns[0]) + glm::length(columns[1]));
     const glm::dvec3 right = glm::normalize(columns[0]);
     const glm::dvec3 down_raw = columns[1] - glm::dot(columns[1], right) * right;

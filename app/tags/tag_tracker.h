@@ -1,8 +1,10 @@
-/// The prop's second tracker: the tags that a camera sees, found on the camera's own thread. Their poses wait here for the render thread.
+/// The prop's second tracker: tags that a camera sees, found on the camera's own thread. A mailbox holds
+/// their poses for the render thread.
 ///
 /// Frames   table T, metres.
-/// Threads  `use` is for the camera's thread; all else for one caller, which waits for nothing. No frame leaves the camera's thread.
-/// Errors   none; `trouble` says what is the matter.
+/// Threads  `use`: the camera's thread. Everything else: one caller, which never waits. No frame leaves the
+///          camera's thread.
+/// Errors   none; `trouble` describes them.
 #pragma once
 
 #include "app/tags/tag_reader.h"
@@ -20,9 +22,9 @@ public:
     explicit TagTracker(TagSetUp set_up) : reader_(std::move(set_up)) {}
 
     void use(const CameraFrame& frame);
-    /// Appends every pose with time <= now that was not handed out before, in ascending time.
+    /// Appends every pose with time <= now that was not returned yet, in ascending time.
     void poll(MonotonicTime now, std::vector<UncertainPose>& poses) { mailbox_.take(now, poses); }
-    /// In one plain sentence; empty: there is none.
+    /// A fault in one plain sentence; empty: no fault.
     [[nodiscard]] std::string_view trouble() const;
 
 private:

@@ -8,7 +8,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// `ease` is at most so steep.
+/// Largest slope of `ease`.
 constexpr double steepest = 1.5;
 
 bool is_seen(const PoseEstimate& estimate) {
@@ -71,7 +71,7 @@ PoseEstimate HandOver::follow(const SourcePose& tracker, const SourcePose& tags,
         change(sources[leads]->estimate, sources[1 - leads]->estimate, time);
     }
     PoseEstimate estimate = sources[static_cast<std::size_t>(leader_)]->estimate;
-    if (estimate.reinitialisations != seen_) { // the leader itself begins anew, perhaps with a jump
+    if (estimate.reinitialisations != seen_) { // the leader itself reinitialises, perhaps with a jump
         seen_ = estimate.reinitialisations;
         fades_s_ = 0.0;
         ++reinitialisations_;

@@ -1,14 +1,18 @@
-/// Two trackers of one prop, of which one leads: who, and how the picture goes over from one to the other without a jump.
+/// The source arbiter: chooses between two trackers of one prop, and changes from one to the other without a
+/// jump of the picture.
 ///
-/// Leads    the tracker whose pose is less likely to be wrong, by the spreads that both say. It keeps the lead until the other one has
-///          been better by `clearly` for `dwell`, so that two that are alike do not take turns. One that is lost gives the lead
-///          away at once, if the other is there.
-/// Glide    at a change of lead the pose stays where it was: the difference of the two at that moment is kept, and fades along a
-///          smooth step. Its rate is at most `fastest_m_s`, measured at the prop, or what brings it in within `longest`.
-/// Jump     where the pose that was shown is stale there is nothing to go over from: that is a reinitialisation, and ShownPose glides.
+/// Leads    the tracker with the smaller expected error, by the spreads of both. It keeps the lead until the
+///          other one has been better by the factor `clearly` for `dwell`, so two similar trackers do not
+///          alternate. A lost tracker passes the lead on at once, if the other one is there.
+/// Glide    at a change of lead the shown pose stays: the difference of the two poses at that moment is kept,
+///          and fades along a smooth step. Its rate is at most `fastest_m_s`, measured at the prop, unless
+///          that takes more than `longest`.
+/// Jump     if the shown pose is stale, there is nothing to blend from: that is a reinitialisation, and
+///          ShownPose glides.
 /// Frames   table T, metres.
-/// Time     of the pictures: the result at a time depends on the times of what came before and not on how many pictures there were,
-///          but for the picture at which a change of lead is seen. Time that goes back changes no lead.
+/// Time     of the pictures. The result depends on the times of the samples and not on the number of
+///          pictures, except for the picture that notices a change of lead. A decreasing time changes no
+///          lead.
 /// Threads  one caller. Allocates nothing.
 #pragma once
 
@@ -22,15 +26,15 @@ namespace frustumscreen {
 
 enum class Source : std::size_t { Tracker, Tags };
 
-/// What one of the two says of the time that is asked for.
+/// The pose of one source at the requested time.
 struct SourcePose {
     PoseEstimate estimate;
-    double sd_m = 0.0;         ///< how far it may be off, at the prop, standard deviation
-    Nanoseconds lost_after{0}; ///< an older pose is no measurement any more
+    double sd_m = 0.0;         ///< expected error at the prop, standard deviation
+    Nanoseconds lost_after{0}; ///< an older pose is not a measurement any more
 };
 
 struct HandOverOptions {
-    double clearly = 1.5; ///< times less spread
+    double clearly = 1.5; ///< ratio of the spreads
     Nanoseconds dwell = std::chrono::milliseconds(500);
     double fastest_m_s = 0.02;
     Nanoseconds shortest = std::chrono::milliseconds(250);
@@ -42,8 +46,8 @@ class HandOver {
 public:
     explicit HandOver(const HandOverOptions& options = {}) : options_(options) {}
 
-    /// The prop's pose at `time`: the leader's, with what is left of the difference. While only one of the two was ever
-    /// seen it is that one's, bit for bit.
+    /// The prop's pose at `time`: the leader's, plus the rest of the difference. While only one of the two
+    /// sources was ever seen, it is that one's pose, bit for bit.
     [[nodiscard]] PoseEstimate follow(const SourcePose& tracker, const SourcePose& tags, MonotonicTime time);
     [[nodiscard]] Source leader() const { return leader_; }
     [[nodiscard]] std::uint64_t changes() const { return changes_; }
@@ -55,13 +59,13 @@ private:
 
     HandOverOptions options_;
     Source leader_ = Source::Tracker;
-    std::optional<MonotonicTime> better_since_; ///< the other one
-    PoseStep left_;                             ///< from the leader's pose to the one shown, at the change
+    std::optional<MonotonicTime> better_since_; ///< the other source
+    PoseStep left_;                             ///< from the leader's pose to the shown one, at the change
     MonotonicTime changed_;
-    double fades_s_ = 0.0; ///< 0: nothing is left
+    double fades_s_ = 0.0; ///< 0: no difference is left
     std::uint64_t changes_ = 0;
     std::uint64_t seen_ = 0;              ///< the leader's count of reinitialisations, at the latest picture
-    std::uint64_t reinitialisations_ = 0; ///< of what is shown
+    std::uint64_t reinitialisations_ = 0; ///< of the shown pose
 };
 
 } // namespace frustumscreen

@@ -12,20 +12,21 @@ namespace frustumscreen {
 namespace {
 
 constexpr double longest_flip_s = 0.1;
-/// The lever is 0, because only the place of the head counts and not its turn.
+/// The lever is 0, because only the position of the head counts, not its rotation.
 constexpr double head_lever_m = 0.0;
 
-/// What no filter sees of the tracker: its registration, and its field bent by metal. Polhemus calls poses with a distortion that it
-/// reports wrong by some millimetres.
+/// Errors that a filter cannot see: the tracker's registration, and its field bent by metal. Polhemus states
+/// that poses with a reported distortion are wrong by some millimetres.
 constexpr double tracker_off_m = 0.0005;
 constexpr double metal_off_m = 0.006;
-/// The same of tags: where the camera is, how the tags were glued.
+/// As above, for tags: the camera's position, and how the tags were glued.
 constexpr double tags_off_m = 0.0015;
-/// A tracker of 30 Hz is at most 90 ms old when the picture is lit; tags, at 8 Hz on a slow processor, 230 ms.
+/// A tracker of 30 Hz is at most 90 ms old when the picture is lit; tags at 8 Hz, on a slow processor, 230
+/// ms.
 constexpr Nanoseconds tracker_lost_after = std::chrono::milliseconds(150);
 constexpr Nanoseconds tags_lost_after = std::chrono::milliseconds(300);
 
-/// Heads as a camera sees them scatter more than sensors do, and move less than hands.
+/// Heads seen by a camera scatter more than sensors, and move less than hands.
 constexpr std::array seen_head_models = {MotionModel{MotionModel::Kind::Rest, 0.004},
                                          MotionModel{MotionModel::Kind::Glide, 1.0}};
 
@@ -38,7 +39,7 @@ MotionFilterOptions seen_head_filter() {
 
 PoseEstimatorOptions seen_head_options() {
     PoseEstimatorOptions options;
-    options.surprise_m = 0.12; // its distance is the least sure
+    options.surprise_m = 0.12; // the distance from the camera is the least certain
     options.forgotten_after = std::chrono::milliseconds(600);
     return options;
 }
@@ -73,7 +74,7 @@ bool LiveSituation::take_tags(const UncertainPose& pose) {
     return taken == Taken::Used || taken == Taken::Late;
 }
 
-/// Where people look.
+/// The point that visitors look at.
 glm::dvec3 LiveSituation::middle_of_prop() const {
     return prop_is_at_.point({0.0, 0.0, lever_m_});
 }

@@ -1,12 +1,12 @@
-/// Prop pose and eye at the time at which the picture is lit: a live tracker's samples, smoothed and
-/// predicted. An offline picture uses SituationTracker, which does neither.
+/// The tracked state, prop pose and eye, at the time at which the picture is lit: from a live tracker's
+/// samples, smoothed and predicted. An offline picture uses SituationTracker, which does neither.
 ///
-/// Tags     a second tracker of the prop, which may be there. Each of the two has an estimator of its own; hand_over.h says whose
-///          pose is shown.
-/// Visitor  heads that a camera sees, with nothing on them. While no sensor says where the visitor's head is, the eye is that of
-///          whoever holds the prop (holder.h); from one person to another it glides.
+/// Tags     an optional second tracker of the prop. Each of the two has its own estimator; the source arbiter
+///          (hand_over.h) chooses between them.
+/// Visitor  heads that a camera sees, without a marker on them. While no sensor reports the visitor's head,
+///          the eye is that of the active visitor (holder.h); it glides from one person to another.
 /// Frames   table T, metres; samples too (registered_tracker.h).
-/// Time     a sample counts from its own time on; `at(lit)` asks for the time at which the picture is lit.
+/// Time     a sample takes effect at its own time; `at(lit)` asks for the time at which the picture is lit.
 /// Threads  values; one caller. Allocates nothing after construction.
 #pragma once
 
@@ -28,25 +28,25 @@ public:
 
     /// Returns false for a sample that claims to be usable but is not a pose, or moves as no hand can.
     bool take(const PoseSample& sample);
-    /// The same of the tags' poses.
+    /// As `take`, for a pose from the tags.
     bool take_tags(const UncertainPose& pose);
-    /// A head in the order of its time. Returns false for one that is no place.
+    /// Takes a head; heads come in ascending time. Returns false if its position is invalid.
     bool take_visitor(const SeenHead& head);
-    /// How the tracker itself is, from now on; metal near it makes its poses less sure.
+    /// Sets the tracker's health; metal near the tracker increases the spread of its poses.
     void tracker_is(TrackerHealth health) { health_ = health; }
-    /// How often the tags took over from the tracker, or it from them.
+    /// Number of changes between tracker and tags.
     [[nodiscard]] std::uint64_t hand_overs() const { return hand_over_.changes(); }
-    /// A lost prop stays where it was; at first it still counts as known, then `prop_known` is false. The eye
-    /// of a lost head glides to one that is seen, or else to the default eye, and from there to a head that is found. Time does not go
-    /// back from call to call.
+    /// The tracked state at `lit`. A lost prop stays where it was; `prop_known` becomes false after a while.
+    /// The eye of a lost head glides to a seen head, otherwise to the default eye, and from there to a head
+    /// that is found. `lit` must not decrease from call to call.
     [[nodiscard]] Situation at(MonotonicTime lit);
 
 private:
     enum class EyeOf { Default, Sensor, SeenHead };
     [[nodiscard]] glm::dvec3 middle_of_prop() const;
-    /// Sets what is known of the eye.
+    /// Sets the eye of `situation`.
     void look_for_eye(Situation& situation);
-    /// What is lost after which time, and how far off each may be.
+    /// The pose of each source, with its spread and the age at which it is lost.
     [[nodiscard]] SourcePose by_tracker(MonotonicTime lit) const;
     [[nodiscard]] SourcePose by_tags(MonotonicTime lit) const;
 
@@ -54,38 +54,38 @@ private:
     PoseEstimator prop_;
     PoseEstimator tags_;
     PoseEstimator head_;
-    PoseEstimator visitor_;     ///< the holder's head, as it is seen
-    double visitor_sd_m_ = 0.0; ///< that its latest sighting says
+    PoseEstimator visitor_;     ///< the active visitor's head, as seen by a camera
+    double visitor_sd_m_ = 0.0; ///< from its latest sighting
     Holder holder_;
     double lever_m_;
     TrackerHealth health_ = TrackerHealth::Well;
-    double tags_sd_m_ = 0.0; ///< that the latest of their poses says
+    double tags_sd_m_ = 0.0; ///< from the latest pose of the tags
     HandOver hand_over_;
     ShownPose shown_prop_;
-    RigidTransform prop_is_at_; ///< in the latest situation
+    RigidTransform prop_is_at_; ///< in the latest tracked state
     ShownPose shown_head_;
     EyeOf eye_of_ = EyeOf::Default;
-    std::uint64_t eye_goals_ = 1; ///< how many until now; the default eye is the first
+    std::uint64_t eye_goals_ = 1; ///< number of goals so far; the default eye is the first
 };
 
-/// The time from `now`, at which a frame begins, until its picture is lit: the display's own latency plus a
-/// slow average of the measured time from the beginning of a frame to its flip, which follows by the exact
-/// solution over the time between two flips: a display of 30 Hz and one of 120 Hz end at the same.
+/// Estimates the time from `now`, the start of a frame, until its picture is lit: the display's own latency
+/// plus a slow average of the measured time from the start of a frame to its flip. The average uses the exact
+/// solution over the time between two flips, so displays of 30 Hz and of 120 Hz converge equally.
 class LightDelay {
 public:
     static constexpr double time_constant_s = 0.16;
 
     explicit LightDelay(Nanoseconds display_latency) : display_latency_(display_latency) {}
 
-    /// A frame that began at `now` was flipped at `flipped`. The time between is clamped to 0 to 100 ms; the first counts in full.
-    /// A `now` that goes back changes nothing.
+    /// A frame that began at `now` was flipped at `flipped`. The time between is clamped to 0 to 100 ms; the
+    /// first one counts in full. A decreasing `now` has no effect.
     void flipped(MonotonicTime now, MonotonicTime flipped);
     [[nodiscard]] Nanoseconds from_now() const;
 
 private:
     Nanoseconds display_latency_;
     double flip_s_ = 0.0;
-    std::optional<MonotonicTime> last_; ///< frame
+    std::optional<MonotonicTime> last_; ///< start of the last frame
 };
 
 } // namespace frustumscreen

@@ -10,8 +10,8 @@ namespace {
 
 using Kind = MotionModel::Kind;
 
-// Creep is so tight that the picture does not tremble on a prop that is slid slowly; Glide is so loose that it is the model of a knock;
-// Manoeuvre mostly explains a hand that moves.
+// Creep is tight, so the picture does not tremble on a slowly sliding prop. Glide is loose, as the model of a
+// knock. Manoeuvre mostly explains a moving hand.
 constexpr std::array place_models = {MotionModel{Kind::Rest, 0.0001}, MotionModel{Kind::Creep, 0.0125, 0.45},
                                      MotionModel{Kind::Glide, 3.0}, MotionModel{Kind::Manoeuvre, 7.4}};
 constexpr std::array turn_models = {MotionModel{Kind::Rest, 0.0003}, MotionModel{Kind::Glide, 0.02},
@@ -19,8 +19,8 @@ constexpr std::array turn_models = {MotionModel{Kind::Rest, 0.0003}, MotionModel
 constexpr std::array place_glide = {MotionModel{Kind::Glide, 0.1}};
 constexpr std::array turn_glide = {MotionModel{Kind::Glide, 0.3}};
 
-/// A motion that fades with time constant `lasts_s` goes as far in `ahead_s` as a steady one in the time
-/// returned.
+/// Time in which a steady motion covers the distance of one that decays with time constant `lasts_s` in
+/// `ahead_s`.
 double faded(double ahead_s, double lasts_s) {
     return lasts_s > 0.0 ? -lasts_s * std::expm1(-ahead_s / lasts_s) : ahead_s;
 }

@@ -1,10 +1,11 @@
-/// The exhibit's filter of poses: a MotionTrack for the place and one for the turn.
+/// The exhibit's pose filter: one MotionTrack for the position and one for the rotation.
 ///
-/// Models   rest, creep (of the place), glide and manoeuvre; the defaults were tuned with frustumscreen-bench latency and expect
-///          its noise. With the one model Glide it is the constant-velocity Kalman filter.
+/// Models   rest, creep (position only), glide and manoeuvre; the defaults were tuned with
+///          frustumscreen-bench latency and match its noise. With the single model Glide it is the
+///          constant-velocity Kalman filter.
 /// Threads  one caller. Allocates nothing.
-/// Source   motion_track.h; the turn is the error state of Sola, Quaternion kinematics for the error-state
-///          Kalman filter, 2017, 5, its angular velocity in the table's axes.
+/// Source   motion_track.h; the rotation is the error state of Sola, Quaternion kinematics for the
+///          error-state Kalman filter, 2017, 5, with its angular velocity in the table's axes.
 #pragma once
 
 #include "app/tracking/motion_track.h"
@@ -15,12 +16,12 @@ namespace frustumscreen {
 struct MotionFilterOptions {
     MotionTrackOptions place; ///< metres
     MotionTrackOptions turn;  ///< radians
-    /// While it manoeuvres, its motion fades with this time constant: a hand that changes its direction may
-    /// stop. 0 = it does not fade.
+    /// While it manoeuvres, the motion decays with this time constant, because a hand that changes its
+    /// direction may stop. 0 = no decay.
     double manoeuvre_lasts_s = 0.0;
 };
 
-/// How much a tracker's poses scatter at rest, on each axis, RMS.
+/// Scatter of a tracker's poses at rest, on each axis, RMS.
 struct PoseNoise {
     double place_m = 0.0003;
     double turn_rad = 0.0026; ///< 0.15 degrees
@@ -43,7 +44,7 @@ private:
     MotionTrack place_;
     MotionTrack turn_;
     double manoeuvre_lasts_s_;
-    RigidTransform pose_; ///< the tracks' reference
+    RigidTransform pose_; ///< reference of both tracks
 };
 
 } // namespace frustumscreen

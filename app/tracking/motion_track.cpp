@@ -8,13 +8,14 @@ namespace frustumscreen {
 
 namespace {
 
-/// No model's weight goes to zero: the model could not come back.
+/// Keeps each weight above zero: a model with weight zero could not recover.
 constexpr double least_weight = 1e-9;
 
-/// Steps that are a smaller share of a velocity's time constant: its fading is not worth the digits that its integral loses.
+/// For steps below this fraction of a velocity's time constant the decay is negligible, and its integral
+/// would lose digits.
 constexpr double least_fading = 1e-4;
 
-/// Columns as glm has them: transition[column][row].
+/// glm's order: transition[column][row].
 glm::dmat3 transition(const MotionModel& model, double dt) {
     switch (model.kind) {
     case MotionModel::Kind::Rest:
@@ -31,13 +32,13 @@ glm::dmat3 transition(const MotionModel& model, double dt) {
     return {{1.0, 0.0, 0.0}, {dt, 1.0, 0.0}, {0.5 * dt * dt, dt, 1.0}};
 }
 
-/// A model that leaves out velocity or acceleration knows no more of it than at the beginning: the variances
-/// `velocity` and `acceleration`.
+/// A model without velocity or acceleration knows no more of it than at the start: the variances `velocity`
+/// and `acceleration`.
 glm::dmat3 driving_noise(const MotionModel& model, double dt, double velocity, double acceleration) {
     const double q = model.noise * model.noise;
     const double dt2 = dt * dt;
     const double dt3 = dt2 * dt;
-    const double steps = dt / model.fades_s; // of Creep
+    const double steps = dt / model.fades_s; // for Creep
     switch (model.kind) {
     case MotionModel::Kind::Creep:
         if (steps > least_fading) {
@@ -48,7 +49,7 @@ glm::dmat3 driving_noise(const MotionModel& model, double dt, double velocity, d
                     {both, q * t * faded * (2.0 - faded) / 2.0, 0.0},
                     {0.0, 0.0, acceleration}};
         }
-        [[fallthrough]]; // it glides
+        [[fallthrough]]; // as Glide
     case MotionModel::Kind::Glide:
         return {{q * dt3 / 3.0, q * dt2 / 2.0, 0.0}, {q * dt2 / 2.0, q * dt, 0.0}, {0.0, 0.0, acceleration}};
     case MotionModel::Kind::Rest:
@@ -88,7 +89,7 @@ void MotionTrack::restart() {
 }
 
 void MotionTrack::mix(double dt_s) {
-    // The exponential of a generator that leaves every model at the same rate: exact for any step.
+    // The exponential of a generator that leaves every model at an equal rate: exact for any step.
     const double n = static_cast<double>(count_);
     const double other = -std::expm1(-options_.changes_per_s * dt_s) / n;
     const double same = 1.0 - (n - 1.0) * other;
@@ -156,7 +157,7 @@ glm::dvec3 MotionTrack::correct(const glm::dvec3& measured) {
         for (std::size_t k = 0; k < 3; ++k) {
             mode.mean[k] += gain[static_cast<int>(k)] * surprise;
         }
-        // Joseph's form: symmetric and positive whatever the rounding.
+        // Joseph's form: symmetric and positive in spite of rounding.
         glm::dmat3 keep(1.0);
         keep[0] -= gain;
         mode.covariance =
@@ -189,7 +190,7 @@ double MotionTrack::place_sd(double ahead_s) const {
         static_cast<void>(later.advance(ahead_s));
     }
     double variance = 0.0;
-    for (const ModeState& mode : later.modes()) { // their places count from the weighted mean
+    for (const ModeState& mode : later.modes()) { // positions relative to the weighted mean
         variance += mode.weight * (mode.covariance[0][0] + spread(mode.mean[0], mode.mean[0]));
     }
     return std::sqrt(variance);

@@ -1,20 +1,20 @@
-/// Where a point in three dimensions is and goes, from noisy measurements: several models of how a hand
-/// moves, each a Kalman filter, weighted by how well they predict the measurements.
+/// Position and motion of a point in three dimensions, from noisy measurements: several models of a hand's
+/// motion, each a Kalman filter, weighted by how well they predict the measurements.
 ///
-/// The three axes share one covariance, since noise and motion prefer no axis: a model is three vectors
-/// (place, velocity, acceleration) and a 3 x 3 matrix. Places count from a reference that the caller keeps,
-/// so that the same arithmetic serves positions and, as rotation vectors, orientations.
+/// The three axes share one covariance, since noise and motion prefer no axis: a model's state is three
+/// vectors (position, velocity, acceleration) and a 3 x 3 matrix. Positions are relative to a reference that
+/// the caller keeps, so the arithmetic serves positions and, as rotation vectors, orientations.
 ///
 /// Units    the caller's: metres or radians, and seconds.
-/// Time     steps above 0; state transition and process noise are the exact integrals over a step, so that
-///          no step is too long or too short to be stable.
+/// Time     steps above 0; state transition and process noise are the exact integrals over a step, so a step
+///          of any length is stable.
 /// Threads  one caller. Allocates nothing.
 /// Source   Blom and Bar-Shalom, The interacting multiple model algorithm for systems with Markovian
 ///          switching coefficients, 1988; models after Bar-Shalom, Li and Kirubarajan, Estimation with
-///          Applications to Tracking and Navigation, 2001, 6.2; Creep is the process of Uhlenbeck and Ornstein, On the theory of the
-///          Brownian motion, 1930. Differs in that the chance of a change of
-///          model is the exact exponential of a rate, not a number per step. One model alone is the ordinary
-///          Kalman filter.
+///          Applications to Tracking and Navigation, 2001, 6.2; Creep is the process of Uhlenbeck and
+///          Ornstein, On the theory of the Brownian motion, 1930. Differs in that the probability of a change
+///          of model is the exact exponential of a rate, not a number per step. A single model is the
+///          ordinary Kalman filter.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -24,17 +24,17 @@
 
 namespace frustumscreen {
 
-/// How a hand may move.
+/// One model of a hand's motion.
 struct MotionModel {
     enum class Kind {
-        Rest,      ///< it stands; the place walks randomly
-        Creep,     ///< a slow, steady hand: a velocity that fades, driven by white acceleration
+        Rest,      ///< it stands still; its position is a random walk
+        Creep,     ///< a slow, steady hand: a decaying velocity, driven by white acceleration
         Glide,     ///< constant velocity, driven by white acceleration
         Manoeuvre, ///< constant acceleration, driven by white jerk
     };
     Kind kind = Kind::Glide;
     double noise = 1.0;   ///< root of the driving noise's density: unit / s^0.5, / s^1.5, / s^2.5
-    double fades_s = 1.0; ///< Creep: time constant of its velocity; what is fast is then not taken for steady
+    double fades_s = 1.0; ///< Creep: time constant of its velocity, so fast motion is not taken for creep
 };
 
 struct MotionTrackOptions {
@@ -42,7 +42,7 @@ struct MotionTrackOptions {
     double measured_sd = 1.0;            ///< of each axis
     double first_velocity_sd = 1.0;
     double first_acceleration_sd = 1.0;
-    double changes_per_s = 1.0; ///< of model
+    double changes_per_s = 1.0; ///< rate of changes of the model
 };
 
 class MotionTrack {
@@ -51,33 +51,33 @@ public:
 
     explicit MotionTrack(const MotionTrackOptions& options);
 
-    /// Begins anew: the reference is a first measurement, and nothing else is known.
+    /// Restarts: the reference is a first measurement, and nothing else is known.
     void restart();
-    /// Time passes: returns the expected movement of the reference; the caller must move it by that.
+    /// Lets time pass: returns the expected movement of the reference; the caller must apply it.
     [[nodiscard]] glm::dvec3 advance(double dt_s);
-    /// Takes a measurement, relative to the reference; returns the correction, by which the caller must move
-    /// the reference.
+    /// Takes a measurement relative to the reference; returns the correction of the reference, which the
+    /// caller must apply.
     [[nodiscard]] glm::dvec3 correct(const glm::dvec3& measured);
 
     /// The motion of the weighted mean of the models.
     [[nodiscard]] const glm::dvec3& velocity() const { return velocity_; }
     [[nodiscard]] const glm::dvec3& acceleration() const { return acceleration_; }
 
-    /// Of each axis, that its place is off by `ahead_s` after the latest measurement, standard deviation.
+    /// Error of the position on each axis, `ahead_s` after the latest measurement, standard deviation.
     [[nodiscard]] double place_sd(double ahead_s) const;
-    /// How likely it manoeuvres, 0 to 1.
+    /// Probability of a manoeuvre, 0 to 1.
     [[nodiscard]] double manoeuvring() const;
 
 private:
     struct ModeState {
-        std::array<glm::dvec3, 3> mean{}; ///< place, velocity, acceleration
+        std::array<glm::dvec3, 3> mean{}; ///< position, velocity, acceleration
         glm::dmat3 covariance{0.0};       ///< of each axis
         double weight = 1.0;
     };
     using ModeStates = std::array<ModeState, most_models>;
 
     void mix(double dt_s);
-    /// Takes the weighted mean place out of every model's and returns it.
+    /// Subtracts the weighted mean position from every model's, and returns it.
     glm::dvec3 rebase();
     [[nodiscard]] std::span<ModeState> modes() { return {modes_.data(), count_}; }
 

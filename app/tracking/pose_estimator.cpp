@@ -34,7 +34,7 @@ void PoseEstimator::remember(const Moment& moment) {
 
 Taken PoseEstimator::take_up(const Moment& measured) {
     filter_->restart(measured.pose);
-    count_ = 0; // nothing is known between then and now
+    count_ = 0; // the pose between the samples is unknown
     remember(measured);
     ++reinitialisations_;
     return Taken::Used;

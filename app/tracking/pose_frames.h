@@ -1,9 +1,8 @@
-/// The frames that an offline picture run makes of a pose file: one for every time at which the prop has a
-/// pose.
+/// The frames of an offline picture run, from a pose file: one for every time at which the prop has a pose.
 ///
-/// Frames   table T, metres; neither filtered nor predicted. Ascending, unique times; of several usable rows
-///          with the same time and station the first counts. The eye is the head's row of the same time, else
-///          the default eye. Rows with ok = 0 are ignored.
+/// Frames   table T, metres; neither filtered nor predicted. Times are ascending and unique; of several
+///          usable rows with equal time and station the first counts. The eye is the head's row of that time,
+///          otherwise the default eye. Rows with ok = 0 are ignored.
 /// Threads  pure; any.
 #pragma once
 

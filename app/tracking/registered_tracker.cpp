@@ -4,7 +4,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// What a station's poses are of, in its sensor.
+/// Pose of the station's target (prop or eye) in its sensor's frame.
 RigidTransform sensor_from_target(int station, const Registration& registration) {
     if (station == prop_station) {
         return registration.sensor_from_prop;

@@ -1,9 +1,9 @@
-/// A tracker whose poses are in table coordinates, whichever frame its device reports in: the one place where
-/// a registration is applied.
+/// A tracker whose poses are in table coordinates, whatever frame its device reports; the only place that
+/// applies a registration.
 ///
-/// Frame    table T. A device that reports in its own frame K is placed by its registration; one that reports
-///          in table coordinates is handed on as it is.
-/// Threads  those of the device's interface: one caller. Allocates nothing of its own.
+/// Frame    table T. Poses in a device's own frame K are transformed by its registration; poses in table
+///          coordinates are unchanged.
+/// Threads  those of the device's interface: one caller. Allocates nothing itself.
 /// Errors   the device's.
 #pragma once
 
@@ -16,13 +16,14 @@
 
 namespace frustumscreen {
 
-/// Places poses of a device's own frame on the table: those of the prop's sensor become the prop's, those of the head's
-/// the eye's; another sensor's stay the sensor's. A pose that is not ok has none and stays as it is.
+/// Transforms poses from a device's own frame to the table: those of the prop's sensor become the prop's,
+/// those of the head's the eye's; those of other sensors stay the sensor's. A pose that is not ok is
+/// unchanged.
 void place_on_table(std::span<PoseSample> samples, const Registration& registration);
 
 class RegisteredTracker final : public Tracker {
 public:
-    /// `registration` is not used where the device reports in table coordinates.
+    /// `registration` is ignored if the device reports in table coordinates.
     RegisteredTracker(std::unique_ptr<Tracker> device, const Registration& registration);
 
     [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override;
@@ -35,7 +36,7 @@ public:
     [[nodiscard]] TrackerCounts counts() const override { return device_->counts(); }
     [[nodiscard]] std::optional<MonotonicTime> alive_until() const override { return device_->alive_until(); }
 
-    /// The registration that is applied; nothing: the device reports in table coordinates.
+    /// The applied registration; nullopt: the device reports in table coordinates.
     [[nodiscard]] const std::optional<Registration>& registration() const { return registration_; }
 
 private:

@@ -6,9 +6,8 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double head_turns = 0.6; ///< share of the way down that the head goes
-constexpr double ahead_m =
-    0.08; ///< of the eyes from the middle of head and hair, in the head's own directions
+constexpr double head_turns = 0.6; ///< share of the downward angle that the head turns
+constexpr double ahead_m = 0.08;   ///< of the eyes from the middle of head and hair, in the head's axes
 constexpr double down_m = 0.024;
 
 } // namespace

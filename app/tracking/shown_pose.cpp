@@ -6,7 +6,7 @@ namespace frustumscreen {
 
 const RigidTransform& ShownPose::follow(const PoseEstimate& estimate, MonotonicTime time) {
     if (reinitialisations_ == 0) {
-        shown_ = estimate.pose; // nothing was shown that it could glide from
+        shown_ = estimate.pose; // there is no shown pose yet to glide from
     }
     if (estimate.status == PoseStatus::Stale) {
         return shown_;

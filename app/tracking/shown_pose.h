@@ -1,10 +1,10 @@
-/// The pose that the picture is drawn for. It follows the estimate, but does not move at rest, and where the
-/// estimate jumps, because the prop was lost and found elsewhere, it glides there.
+/// The pose that the picture is drawn for. It follows the estimate but stands still at rest; if the estimate
+/// jumps, because the prop was lost and found elsewhere, it glides there.
 ///
-/// Rest     while the estimate is within `slack_m` of the shown pose, measured at the prop, the shown pose
-///          stays bit for bit, and a picture at rest is not drawn again. It is never farther off than that.
+/// Rest     while the estimate is within `slack_m` of the shown pose, measured at the prop, the shown pose is
+///          constant bit for bit, and the picture is not drawn again. The shown pose is never farther off.
 /// Return   the difference to the old pose fades along a smooth step.
-/// Time     of the pictures; time that goes back moves nothing.
+/// Time     of the pictures; a decreasing time moves nothing.
 /// Threads  one caller. Allocates nothing.
 #pragma once
 
@@ -23,14 +23,14 @@ class ShownPose {
 public:
     explicit ShownPose(const ShownPoseOptions& options = {}) : options_(options) {}
 
-    /// The pose to draw at `time`. A stale estimate changes nothing.
+    /// The pose to draw at `time`. A stale estimate has no effect.
     [[nodiscard]] const RigidTransform& follow(const PoseEstimate& estimate, MonotonicTime time);
 
 private:
     ShownPoseOptions options_;
     RigidTransform shown_;
-    PoseStep left_;        ///< from the estimate to the old pose when the return began
-    MonotonicTime return_; ///< when it began
+    PoseStep left_;        ///< from the estimate to the old pose at the start of the return
+    MonotonicTime return_; ///< start of the return
     std::uint64_t reinitialisations_ = 0;
 };
 

@@ -1,7 +1,7 @@
-/// Prop pose and eye at one time: where the prop stands and where the visitor's eye is.
+/// The tracked state: the pose of the prop and the position of the visitor's eye at one time.
 ///
 /// Frames   table T, metres; samples too (registered_tracker.h).
-/// Time     a sample counts from its own time on; `at(now)` asks for any later time.
+/// Time     a sample takes effect at its own time; `at(now)` asks for any later time.
 /// Threads  values; one caller.
 #pragma once
 
@@ -17,16 +17,15 @@ namespace frustumscreen {
 struct Situation {
     RigidTransform table_from_prop;
     glm::dvec3 eye_m{0.0};   ///< between the visitor's eyes
-    MonotonicTime time;      ///< for which this holds
-    bool prop_known = false; ///< a usable pose of the prop was seen, and it is not too old
-    bool head_known = false; ///< by a sensor on the visitor's head
+    MonotonicTime time;      ///< time of this state
+    bool prop_known = false; ///< a usable pose of the prop was seen and is not too old
+    bool head_known = false; ///< from a sensor on the visitor's head
     bool head_seen =
-        false; ///< else: by a camera. If neither, `eye_m` is the default eye, or live on its way there
-    double eye_sd_m =
-        0.0; ///< of a head that is seen: how far `eye_m` may be off across its line to the prop, RMS on each axis
+        false; ///< eye from a camera; if neither, `eye_m` is the default eye, or easing towards it
+    double eye_sd_m = 0.0; ///< of a seen head: error of `eye_m` across its line to the prop, RMS on each axis
     Nanoseconds prop_age{0}; ///< of the pose used
     TrackerHealth tracker = TrackerHealth::Well;
-    bool by_tags = false; ///< `table_from_prop` is by the tags
+    bool by_tags = false; ///< `table_from_prop` is from the tags
 
     [[nodiscard]] bool eye_known() const { return head_known || head_seen; }
 };
@@ -40,9 +39,9 @@ class SituationTracker {
 public:
     explicit SituationTracker(const glm::dvec3& default_eye_m, const SituationLimits& limits = {});
 
-    /// Samples with ok = false, of other stations, or older than the last one of their station change
-    /// nothing. Rotations of any length are made unit. Returns false for a sample that claims to be usable
-    /// but is not a pose (not finite, a quaternion of zero); it changes nothing either.
+    /// Samples with ok = false, of other stations, or older than the last one of their station are ignored.
+    /// Rotations are normalised. Returns false for a sample that claims to be usable but is not a pose (not
+    /// finite, or a zero quaternion); it is ignored too.
     bool take(const PoseSample& sample);
     /// The latest pose, neither filtered nor predicted.
     [[nodiscard]] Situation at(MonotonicTime now) const;

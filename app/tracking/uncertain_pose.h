@@ -1,4 +1,4 @@
-/// The prop's pose as a tracker measured it that says how sure it is: tags in a camera's frame.
+/// The prop's pose with its uncertainty, as measured by tags in a camera's frame.
 ///
 /// Frame    table T, metres.
 /// Threads  values.
@@ -12,8 +12,8 @@ namespace frustumscreen {
 struct UncertainPose {
     MonotonicTime time;
     RigidTransform table_from_prop;
-    double place_sd_m = 0.0;  ///< RMS distance from the true place
-    double turn_sd_rad = 0.0; ///< RMS angle from the true turn
+    double place_sd_m = 0.0;  ///< RMS distance from the true position
+    double turn_sd_rad = 0.0; ///< RMS angle from the true rotation
 };
 
 } // namespace frustumscreen

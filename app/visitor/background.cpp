@@ -11,18 +11,18 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr float least_off = 6.0F; ///< codes; below it nothing is foreground
+constexpr float least_off = 6.0F; ///< codes; smaller differences are not foreground
 constexpr float spreads = 4.0F;
 constexpr float least_variance = 0.5F;
-constexpr float darkest = 16.0F; ///< codes; a darker pixel says little of the gain
+constexpr float darkest = 16.0F; ///< codes; darker pixels determine the gain poorly
 constexpr float least_gain = 0.05F;
-constexpr std::size_t gain_step = 13;  ///< every so many pixels are asked for the gain
-constexpr double projector_s = 2.0;    ///< time constant of the table's change squared, and of the shares
-constexpr float little_change = 25.0F; ///< codes^2 of the table; such changes say little of the shares
+constexpr std::size_t gain_step = 13;  ///< sample every 13th pixel for the gain
+constexpr double projector_s = 2.0;    ///< time constant of the squared change, and of the shares
+constexpr float little_change = 25.0F; ///< codes^2 of the table; smaller changes determine the shares poorly
 constexpr double all_changed = 0.7;    ///< of the pixels
 constexpr Nanoseconds all_changed_for = std::chrono::seconds(1);
 
-/// Codes that a pixel may be off and yet be background.
+/// Largest difference of a background pixel, in codes.
 float most_off(float variance) {
     return std::max(least_off, spreads * std::sqrt(variance));
 }
@@ -65,7 +65,7 @@ void Background::measure_table(const SmallFrame& frame) {
         static_cast<float>(follow_share(dt_s_, projector_s)) * (change_ * change_ - change_square_);
 }
 
-/// Their median, of pixels that were background.
+/// The gain is the median over background pixels.
 void Background::measure_gain(const SmallFrame& frame) {
     ratios_.clear();
     for (std::size_t k = 0; k < heads_.size(); k += gain_step) {
@@ -109,7 +109,7 @@ std::span<const std::uint8_t> Background::find(MonotonicTime time, const SmallFr
     return foreground_;
 }
 
-/// A pixel is what most of its neighbours are, it among them: noise makes single ones.
+/// Majority filter over a pixel and its neighbours: noise makes single foreground pixels.
 void Background::clean(const SmallFrame& frame) {
     constexpr int most = 4; // of nine
     for (const std::uint32_t at : heads_) {
@@ -162,13 +162,13 @@ void Background::learn(const SmallFrame& frame, std::span<const PixelBox> people
         Pixel& pixel = model_[at];
         const float error = off(at, frame.luma[at]);
         const float most = most_off(pixel.variance);
-        pixel.share += projector * std::clamp(error, -most, most); // what passes counts little
+        pixel.share += projector * std::clamp(error, -most, most); // limits the effect of passing objects
         if (knows_ && (raw_[at] != 0 || foreground_[at] != 0)) {
             pixel.usual += hold(pixel, error) ? error / gain_ : 0.0F;
             continue;
         }
         const float share = knows_ ? daylight : first;
-        const float square = frames_ > 1 ? error * error : 0.0F; // at first nothing is expected
+        const float square = frames_ > 1 ? error * error : 0.0F; // the first frame has no prediction
         pixel.usual += share * error / gain_;
         pixel.variance = std::max(least_variance, pixel.variance + share * (square - pixel.variance));
         pixel.held_s = 0.0F;

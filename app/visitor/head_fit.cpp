@@ -9,18 +9,18 @@ namespace frustumscreen {
 namespace {
 
 constexpr double height_of_width = 1.3;
-/// A head's breadth with hair, as seen from in front: mean, and spread of its logarithm (people, hair).
+/// Breadth of a head with hair, from in front: mean, and spread of its logarithm (people, hair).
 constexpr double usual_width_m = 0.172;
 constexpr double width_log_sd = 0.10;
-/// How far beyond the table's edge the middle of a head is that belongs to it: people lean on it, or stand a step away.
+/// Distance of a visitor's head centre from the table's edge: people lean on the table, or stand a step away.
 constexpr double usual_outside_m = 0.17;
 constexpr double outside_sd_m = 0.10;
-constexpr double not_at_table = 0.1; ///< chance that a head is anywhere
-constexpr double worst_fit = 0.09;   ///< RMS distance from the ellipse, of its half width
-/// What an outline does not show: hair that is not as usual, a head that is held otherwise.
+constexpr double not_at_table = 0.1; ///< probability that a head is anywhere
+constexpr double worst_fit = 0.09;   ///< RMS distance from the ellipse, relative to its half width
+/// Error that an outline does not show: unusual hair, a tilted head.
 constexpr double hidden_sd_m = 0.012;
 
-/// A plane before the camera, upright, at distance 1 along `forward`.
+/// An upright image plane in front of the camera, at distance 1 along `forward`.
 struct View {
     glm::dvec3 forward{0.0}, right{0.0}, up{0.0};
 
@@ -39,13 +39,14 @@ struct View {
 struct Ellipse {
     glm::dvec2 middle{0.0};
     double half_width = 0.0;
-    double fit = 0.0; ///< RMS distance of the points, of its half width
+    double fit = 0.0; ///< RMS distance of the points, relative to its half width
 };
 
-/// Distance of each point from the ellipse as a share of its size: |((x - x0) / a, (y - y0) / (h a))| - 1.
+/// Fits the ellipse. Residual of a point, relative to the ellipse's size: |((x - x0) / a, (y - y0) / (h a))|
+/// - 1.
 Ellipse fitted(const std::vector<glm::dvec2>& points, Ellipse ellipse) {
     constexpr int steps = 8;
-    constexpr double far_off = 0.05; // beyond it a point counts less
+    constexpr double far_off = 0.05; // a larger residual has less weight
     for (int step = 0; step < steps; ++step) {
         Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;
         Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -75,7 +76,8 @@ struct Distance {
     bool at_table = false;
 };
 
-/// Of the head along its ray: every distance, weighted by how likely so wide a head and somebody there are.
+/// Distance of the head along its ray: the mean over all distances, weighted by the probabilities of that
+/// width and that place.
 Distance distance_along(const glm::dvec3& origin, const glm::dvec3& ray, double half_width,
                         const HeadZone& zone) {
     double total = 0.0, sum = 0.0, squares = 0.0;
@@ -119,7 +121,7 @@ std::optional<FittedHead> fit_head(const HeadOutline& outline, const Pinhole& ca
     const Ellipse ellipse = fitted(points, {glm::dvec2(0.0), half_width});
     const bool is_one = ellipse.fit < worst_fit && ellipse.half_width < 1.6 * half_width &&
                         glm::length(ellipse.middle) < 2.0 * half_width;
-    if (!is_one) { // also where it is not a number
+    if (!is_one) { // also true for NaN
         return std::nullopt;
     }
     const glm::dvec3 ray = view.ray(ellipse.middle);

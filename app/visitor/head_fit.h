@@ -1,8 +1,9 @@
-/// A head's outline into where the head is.
+/// Position of a head from its outline.
 ///
-/// Model    an upright ellipse 1.3 times as high as wide, seen through the camera's lens: its middle and width are fitted to the outline,
-///          by Gauss-Newton with a robust loss (Huber). Its middle is the head's direction. How far away it is follows from how wide
-///          it looks, since heads with their hair are alike within a tenth, and from where people stand who are at a table.
+/// Model    an upright ellipse 1.3 times as high as wide, seen through the camera's lens: its centre and
+///          width are fitted to the outline, by Gauss-Newton with a robust loss (Huber). The centre gives the
+///          head's direction. Its distance follows from its apparent width, since heads with their hair vary
+///          by a tenth, and from where people stand at a table.
 /// Frames   table T, metres.
 /// Threads  pure; any.
 #pragma once
@@ -20,11 +21,11 @@ struct FittedHead {
     glm::dvec3 middle_m{0.0}; ///< of the head with its hair
     double across_sd_m = 0.0; ///< across the camera's ray, on each axis
     double along_sd_m = 0.0;  ///< along it
-    glm::dvec2 pixel{0.0};    ///< of the middle, in the frame of the outline
+    glm::dvec2 pixel{0.0};    ///< of the centre, in the outline's frame
     double width_px = 0.0;
 };
 
-/// `camera`: of the frame in which the outline is. Nothing: no head, or not of somebody at the table.
+/// `camera`: that of the outline's frame. nullopt: not a head, or not at the table.
 [[nodiscard]] std::optional<FittedHead> fit_head(const HeadOutline& outline, const Pinhole& camera,
                                                  const RigidTransform& table_from_camera,
                                                  const HeadZone& zone);

@@ -9,20 +9,20 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int widest_gap = 2; ///< pixels that noise may take out of a row
+constexpr int widest_gap = 2; ///< pixels that noise may remove from a row
 constexpr int narrowest = 6;  ///< pixels; a narrower head is too far away to be at the table
-constexpr int least_bump = 5; ///< rows; what is lower beside a head is hair or an ear
+constexpr int least_bump = 5; ///< rows; a lower bump next to a head is hair or an ear
 
-/// Foreground in a row; right is outside.
+/// Foreground in a row; right is exclusive.
 struct Run {
     int left = 0, right = 0;
-    std::size_t top = 0; ///< index of the top that it hangs below
+    std::size_t top = 0; ///< index of the top that it belongs to
 };
-/// Rows that hang together below a place where nothing is above.
+/// Connected rows below a place without foreground above.
 struct Top {
     int row = 0;
-    std::vector<Run> runs; ///< one a row
-    bool ends = false;     ///< something else is beside it from there on
+    std::vector<Run> runs; ///< one per row
+    bool ends = false;     ///< something else is next to it from there on
 };
 
 std::vector<Run> runs_of(const std::uint8_t* row, int width) {
@@ -40,7 +40,7 @@ std::vector<Run> runs_of(const std::uint8_t* row, int width) {
     return runs;
 }
 
-/// Of the tops above a run, the one that goes on in it: the tallest. If another is tall too, both end here.
+/// Among the tops above a run, the tallest continues in it. If another one is tall too, both end here.
 std::size_t go_on(std::vector<Top>& tops, std::span<const std::size_t> above, const Run& run) {
     const auto rows = [&tops](std::size_t top) { return tops[top].runs.size(); };
     const std::size_t tallest = *std::max_element(
@@ -82,11 +82,12 @@ std::vector<Top> tops_of(std::span<const std::uint8_t> foreground, int width, in
     return tops;
 }
 
-/// Rows from the top until it is as wide as a head gets: an ellipse 1.3 times as high as wide is widest 0.65 widths below its top, and
-/// nearly so from half a width on. Nothing: it never is, as an arm that is stretched out or a wall's corner.
+/// The rows from the top to where a head is widest: an ellipse 1.3 times as high as wide is widest 0.65
+/// widths below its top, and nearly so from half a width on. nullopt: there is no such row, as for a
+/// stretched-out arm or a wall's corner.
 std::optional<HeadOutline> outline_of(const Top& top) {
     constexpr double widest_from = 0.5;
-    constexpr double used_to = 0.95; // widths below the top; there a chin or hair begins to differ
+    constexpr double used_to = 0.95; // widths below the top; further down chin or hair differ
     double widest = 0.0;
     std::size_t used = 0;
     for (std::size_t k = 0; k < top.runs.size(); ++k) {

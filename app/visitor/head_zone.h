@@ -1,7 +1,8 @@
-/// Which of a camera's pixels can show the head of somebody at the table, and which show the table itself.
+/// Classifies a camera's pixels: those that can show a visitor's head, and those that show the table.
 ///
-/// A head is beside the table, no farther from its edge than somebody stands whose hand reaches the prop, and above its top; whatever else the camera sees,
-/// the far wall's lower part, the ceiling, the projector, is left out.
+/// A head is beyond the table's edge, no farther than a person whose hand reaches the prop, and above the
+/// table top. Everything else that the camera sees, such as the far wall's lower part, the ceiling or the
+/// projector, is excluded.
 /// Frames   table T, metres.
 /// Threads  pure; any.
 #pragma once
@@ -18,11 +19,11 @@ enum class Shows : std::uint8_t { Neither, Head, Table };
 
 struct HeadZone {
     glm::dvec2 table_size_m{0.8, 0.5};
-    double farthest_m = 0.5; ///< of a head's middle from the table's edge
+    double farthest_m = 0.5; ///< of a head's centre from the table's edge
     double lowest_m = 0.1;   ///< above the table: a child's chin
     double highest_m = 1.3;
 
-    /// Distance of the place below a point from the table's edge; below 0: above the table.
+    /// Distance of a point's vertical projection from the table's edge; negative: on the table.
     [[nodiscard]] double outside_m(const glm::dvec3& point_m) const;
     [[nodiscard]] bool holds(const glm::dvec3& point_m) const;
 };

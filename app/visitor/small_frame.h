@@ -1,5 +1,5 @@
-/// A camera's frame made small: blocks of its pixels averaged, until it has at most 320 columns. A head at the table is 20 to 50 of
-/// them wide, and noise is less in the average.
+/// A camera's frame reduced to at most 320 columns by averaging blocks of pixels. A head at the table is 20
+/// to 50 pixels wide, and the average has less noise.
 ///
 /// Units    luma codes.
 /// Threads  pure; any.
@@ -22,9 +22,9 @@ struct SmallFrame {
     }
 };
 
-/// How many columns and rows of a frame with so many columns make one.
+/// Side of the block of pixels that becomes one pixel, for a frame with `columns` columns.
 [[nodiscard]] int block_of(int columns);
-/// Columns and rows that fill no block are left out. Reuses the memory of `small`.
+/// Incomplete blocks at the right and bottom edges are dropped. Reuses the memory of `small`.
 void shrink(const CameraFrame& frame, SmallFrame& small);
 
 } // namespace frustumscreen

@@ -10,9 +10,9 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double same_head = 0.8;    ///< widths that a head may go from frame to frame
-constexpr double still_mean_s = 2.0; ///< time constant of the mean by which a head is held still
-/// What a person hides of the background, in widths of the head.
+constexpr double same_head = 0.8;    ///< largest movement of a head between frames, in head widths
+constexpr double still_mean_s = 2.0; ///< time constant of the mean position that detects stillness
+/// Area that a person hides, in widths of the head.
 constexpr double half_body = 1.7;
 constexpr double above_middle = 1.2;
 
@@ -100,7 +100,7 @@ void VisitorReader::see(Person& person, const FittedHead& head, MonotonicTime ti
     }
 }
 
-/// Each head goes to the nearest person within a head's width, the nearest pair first.
+/// Assigns each head to the nearest person within `same_head` widths, nearest pair first.
 void VisitorReader::follow(MonotonicTime time) {
     while (!fitted_.empty()) {
         Person* nearest = nullptr;
@@ -135,7 +135,8 @@ void VisitorReader::follow(MonotonicTime time) {
     }
 }
 
-/// What is unknown of the distance shows only as far as the camera does not stand in the line from the table to the head.
+/// The uncertainty of the distance counts only by the angle between the camera's ray and the line from the
+/// table to the head.
 SeenHead VisitorReader::seen(const Person& person) const {
     const glm::dvec3& middle = person.head.middle_m;
     const glm::dvec3 ray = glm::normalize(middle - set_up_.table_from_camera.translation);

@@ -1,11 +1,12 @@
-/// A camera's frames into the heads of those who stand at the table: what is not background, what of it has a head's outline, and
-/// whose head that is from frame to frame.
+/// Turns a camera's frames into the heads of the visitors at the table: finds the foreground, head outlines
+/// in it, and the identity of each head from frame to frame.
 ///
-/// Frames   table T; a frame of another size than the pinhole's, but of its shape, is read as the same view.
-/// Time     a head has its frame's time: when the kernel says that it was taken. Time that goes back begins anew.
-/// Sure     a head is handed on once it was seen for a third of a second. One that has not moved at all for a minute is no head but a
-///          thing, such as a coat on a chair; it becomes background.
-/// Share    after a frame that took some time it passes over those that come within ten times that: a tenth of one core at most.
+/// Frames   table T; a frame of another size than the pinhole's, but of equal aspect ratio, is read as the
+///          same view.
+/// Time     a head has its frame's capture time, from the kernel. A decreasing time restarts everything.
+/// Sure     a head is returned once it was seen for a third of a second. A head that has not moved for a
+///          minute is an object, such as a coat on a chair, and becomes background.
+/// Share    a tenth of one core: after a frame that took some time it skips those within ten times that time.
 /// Threads  one caller: the camera's own thread.
 /// Errors   none: no heads.
 #pragma once
@@ -29,11 +30,11 @@ struct VisitorSetUp {
     HeadZone zone;
 };
 
-/// What became of the frames, since the start.
+/// Counts of frames since the start.
 struct VisitorCounts {
     std::uint64_t looked_at = 0;
-    std::uint64_t passed_over = 0; ///< to keep its share
-    std::uint64_t misshapen = 0;   ///< of another shape than the settings say
+    std::uint64_t passed_over = 0; ///< skipped to stay within the share
+    std::uint64_t misshapen = 0;   ///< of another aspect ratio than in the settings
 };
 
 class VisitorReader {
@@ -44,20 +45,20 @@ public:
     static constexpr Nanoseconds thing_after = std::chrono::seconds(60);
     static constexpr double moved_px = 0.8; ///< of the small frame
 
-    /// `busy`: seconds of the processor that this thread has used.
+    /// `busy` returns the processor time of this thread in seconds.
     explicit VisitorReader(VisitorSetUp set_up, std::function<double()> busy = thread_seconds);
 
-    /// Those seen in this frame, until the next call.
+    /// The heads seen in this frame; valid until the next call.
     [[nodiscard]] std::span<const SeenHead> read(const CameraFrame& frame);
     [[nodiscard]] const VisitorCounts& counts() const { return counts_; }
 
 private:
-    /// Somebody, from frame to frame.
+    /// A person, followed from frame to frame.
     struct Person {
         std::uint32_t number = 0;
         FittedHead head;
         MonotonicTime first, last;
-        glm::dvec2 still_at{0.0}; ///< pixel, the mean of some seconds, where it was last seen to move
+        glm::dvec2 still_at{0.0}; ///< mean pixel over some seconds when it was last seen to move
         glm::dvec2 mean{0.0};
         MonotonicTime moved;
         [[nodiscard]] bool is_thing() const { return last - moved >= thing_after; }

@@ -1,8 +1,10 @@
-/// Who stands at the table, seen by a camera with nothing on their heads. What the camera's thread sees waits here for the render thread.
+/// The visitors at the table, seen by a camera, without markers on their heads. A mailbox holds the results
+/// of the camera's thread for the render thread.
 ///
 /// Frames   table T, metres.
-/// Threads  `use` is for the camera's thread; all else for one caller, which waits for nothing. No frame leaves the camera's thread.
-/// Errors   none; `trouble` says what is the matter.
+/// Threads  `use`: the camera's thread. Everything else: one caller, which never waits. No frame leaves the
+///          camera's thread.
+/// Errors   none; `trouble` describes them.
 #pragma once
 
 #include "app/visitor/visitor_reader.h"
@@ -19,9 +21,9 @@ public:
     explicit VisitorTracker(VisitorSetUp set_up) : reader_(std::move(set_up)) {}
 
     void use(const CameraFrame& frame);
-    /// Appends every head with time <= now that was not handed out before, in ascending time.
+    /// Appends every head with time <= now that was not returned yet, in ascending time.
     void poll(MonotonicTime now, std::vector<SeenHead>& heads) { mailbox_.take(now, heads); }
-    /// In one plain sentence; empty: there is none.
+    /// A fault in one plain sentence; empty: no fault.
     [[nodiscard]] std::string_view trouble() const;
 
 private:

@@ -1,7 +1,8 @@
-/// The last crashes of the exhibit, as their files say (firmware_host/service/crash_record.h has the format).
+/// The last crashes of the exhibit, read from their files (firmware_host/service/crash_record.h has the
+/// format).
 ///
 /// Threads  any; reads small files.
-/// Errors   none: a file that is no such record counts for nothing; one that was cut off says `whole` = false.
+/// Errors   none: a file that is not such a record is ignored; a truncated one has `whole` = false.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace frustumscreen {
 
 inline constexpr std::string_view usual_crash_folder = "/var/cache/frustumscreen/crashes";
 
-/// Texts are one printable line each.
+/// Each text is one printable line.
 struct Crash {
     std::int64_t unix_s = 0;
     double monotonic_s = 0.0;
@@ -23,12 +24,12 @@ struct Crash {
     std::string signal, thread;
     std::string program, system, driver; ///< versions; `driver` may be empty
     std::vector<std::string> frames;     ///< `MODULE+0xOFFSET`, from the crash outwards
-    std::vector<std::string> guesses;    ///< return addresses on the stack, where the frames stop early
+    std::vector<std::string> guesses;    ///< return addresses on the stack, if the frames stop early
     bool whole = false;
 };
 
 [[nodiscard]] std::optional<Crash> parse_crash(std::string_view text);
-/// The latest is the first.
+/// The crashes, latest first.
 [[nodiscard]] std::vector<Crash> read_crashes(const std::filesystem::path& folder);
 /// Signal, place and thread: `SIGSEGV in swrast_dri.so+0x1f3a0, thread llvmpipe-0`.
 [[nodiscard]] std::string sentence_of(const Crash& crash);

@@ -56,7 +56,7 @@ bool Judge::lasts(Cause cause, bool bad, MonotonicTime now, Nanoseconds patience
 
 std::optional<Cause> Judge::trouble_of(MonotonicTime now, const Outcome& outcome, bool lives) {
     const bool ends = endings_ > most_endings;
-    // A start takes longer than a break in a picture that was there.
+    // A start takes longer than an interruption of a living picture.
     const MonotonicTime given = has_lived_ ? now : judged_since_ + patience_.start;
     const bool dark = lasts(Cause::NoPicture, !lives, now, patience_.picture) && now >= given;
     const bool empty =
@@ -83,7 +83,7 @@ Seen Judge::look(MonotonicTime now, Mode mode, const Outcome& outcome) {
     looked_ = now;
     count_endings(now, outcome.failures);
     if (mode == Mode::Safe) {
-        // Without a projector there is nothing to show, and no reboot brings one.
+        // Without a projector the safe picture is not needed, and a reboot does not help.
         if (outcome.projector == false || (outcome.safe_pictures && *outcome.safe_pictures != pictures_)) {
             pictures_ = outcome.safe_pictures.value_or(pictures_);
             counted_ = now;

@@ -1,11 +1,13 @@
-/// Sums up what is seen of the kiosk: is something wrong, what, and is the picture alive?
+/// Sums up the observations of the kiosk: whether there is a fault, which one, and whether the picture is
+/// alive.
 ///
-/// Picture  lives while the exhibit's status is fresh, well, and counts new pictures. It may be dead for `picture`; after the
-///          start of the exhibit's process for `start`.
-/// Endings  a bucket: each unwanted end of the process adds one, one drops out every `between_endings`. From three on the exhibit
-///          keeps ending.
-/// Rest     memory and device must be bad for `memory` or `device` without a break.
-/// Time     monotonic, a parameter. A look that comes late (this program or the machine stood still) starts all patience anew.
+/// Picture  is alive while the exhibit's status is fresh, well, and counts new pictures. It may be dead for
+///          `picture`; after a start of the exhibit's process, for `start`.
+/// Endings  a leaky bucket: each unwanted end of the process adds one, and one drains every
+///          `between_endings`. From three on the exhibit keeps ending.
+/// Rest     memory and device must be bad for `memory` or `device` without interruption.
+/// Time     monotonic, a parameter. A late look (this program or the machine was suspended) restarts all
+///          patience.
 /// Threads  values; one caller. Allocates nothing.
 #pragma once
 
@@ -17,10 +19,10 @@
 namespace frustumscreen {
 
 struct Patience {
-    Nanoseconds picture = std::chrono::seconds(15); ///< longer than systemd's watchdog takes
+    Nanoseconds picture = std::chrono::seconds(15); ///< longer than systemd's watchdog needs
     Nanoseconds start = std::chrono::seconds(60);
     Nanoseconds safe_picture = std::chrono::seconds(30);
-    Nanoseconds device = std::chrono::seconds(15); ///< the tracker's driver tries by itself first
+    Nanoseconds device = std::chrono::seconds(15); ///< the tracker's driver retries by itself first
     Nanoseconds memory = std::chrono::seconds(30);
     Nanoseconds nothing_to_show = std::chrono::seconds(45); ///< longer than the trial of a new set
     Nanoseconds between_endings = std::chrono::minutes(10);
@@ -31,12 +33,12 @@ public:
     static constexpr Nanoseconds late_look = std::chrono::seconds(5);
     static constexpr double least_memory_free = 0.04;
     static constexpr double most_exhibit_memory = 0.92;
-    static constexpr double most_endings = 2.5; ///< three, less what drops out between them
+    static constexpr double most_endings = 2.5; ///< three, less what drains between them
 
     Judge(const Patience& patience, MonotonicTime start);
 
     [[nodiscard]] Seen look(MonotonicTime now, Mode mode, const Outcome& outcome);
-    /// A step is taken now: what follows is judged anew.
+    /// An action is taken now: judge again from here on.
     void step_taken(MonotonicTime now);
 
 private:
@@ -49,11 +51,11 @@ private:
 
     Patience patience_;
     MonotonicTime looked_;
-    MonotonicTime counted_;      ///< when the counter of pictures last moved
-    MonotonicTime judged_since_; ///< the start, the latest step, or the latest start of the exhibit's process
-    bool has_lived_ = false;     ///< since then
+    MonotonicTime counted_;      ///< when the picture counter last moved
+    MonotonicTime judged_since_; ///< latest of the start, an action, and a start of the process
+    bool has_lived_ = false;     ///< since `judged_since_`
     std::int32_t process_ = 0;
-    MonotonicTime process_since_; ///< when it was first seen; what was said before is of the one before it
+    MonotonicTime process_since_; ///< when it was first seen; an older status is of the previous process
     std::uint64_t pictures_ = 0;
     double endings_ = 0.0;
     MonotonicTime drained_;

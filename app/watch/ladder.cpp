@@ -9,9 +9,10 @@ namespace {
 
 using std::chrono::seconds;
 
-// Why this order: systemd has started an exhibit that ends anew already, so a restart is no step for it; a hung device ends it
-// again and again, and switching its port takes a second. A set that cannot be shown is not mended by a restart. A graphics driver
-// that crashes at each start does so with any set: drawn plainly, the museum's own set is on the table.
+// Reasons for the order: systemd restarts an exhibit that ends, so a restart is no remedy for `keeps_ending`.
+// A hung device makes the exhibit end repeatedly, and switching its port takes a second. A restart does not
+// repair a set that cannot be shown. A graphics driver that crashes at each start does so with any set; plain
+// drawing keeps the museum's own set on the table.
 constexpr std::array safe_picture_fails{Step::Reboot};
 constexpr std::array keeps_ending{Step::ResetDevice, Step::LastGoodSet, Step::DrawPlainly,
                                   Step::BuiltIn,     Step::SafePicture, Step::Reboot};
@@ -35,7 +36,7 @@ template <typename Enum> constexpr bool holds(std::uint8_t bits, Enum value) {
     return (bits & bit(value)) != 0;
 }
 
-/// `first` twice as long for each of `times`, up to `longest`.
+/// Doubles `first` `times` times, up to `longest`.
 Awake doubled(Awake first, unsigned times, Awake longest) {
     Awake result = first;
     for (unsigned k = 0; k < times && result < longest; ++k) {
@@ -64,7 +65,7 @@ Awake Ladder::return_after(std::uint8_t returns) {
 
 Ladder::Ladder(const LadderMemory& memory, bool is_boot) : memory_(memory) {
     if (is_boot && memory_.mode == Mode::Safe) {
-        memory_.mode = Mode::Normal; // whoever switched it on wants to see the exhibit
+        memory_.mode = Mode::Normal; // after switching on, the staff expect the exhibit
     }
     seen_at_.fill(memory_.awake);
 }
@@ -167,7 +168,7 @@ std::optional<Act> Ladder::climb(Cause cause, const Means& means) {
         return take(*next, cause);
     }
     if (would_rest_in_the_dark) {
-        return take(Step::SafePicture, cause); // again: it was left, and that did not help
+        return take(Step::SafePicture, cause); // again: it was left without success
     }
     if (is_dark(cause)) {
         return may_reboot(means) ? std::optional(take(Step::Reboot, cause)) : std::nullopt;

@@ -1,19 +1,21 @@
-/// The recovery ladder: which step follows which trouble, and when.
+/// The recovery ladder: which action follows which fault, and when.
 ///
-/// Table    for each cause the steps that may mend it, gentlest first (`steps_for`). A step that helped is tried first the next
-///          time for the same cause. A step is tried once; ten good minutes end the episode, and all may be tried again.
-/// Pauses   between two steps lie at least `settling` of the first one and `pause_after` as many steps as were taken; that
-///          doubles with each step, up to four hours, and halves with each ten good minutes. Of a pause in the dark that is
-///          longer than `longest_dark_pause` nobody has anything: the safe picture comes at once, and the pause after it.
-/// Reboots  at most one in ten minutes and six in 24 hours, and only if that can be written down before.
-/// Given up a trouble that leaves the picture lit, once all its steps were in vain: it counts for nothing until it was away for
-///          ten minutes.
-/// Safe     words for the staff stay until the pause is over; then comes what was not tried yet, at last a reboot. After a reboot
-///          the exhibit's own set is tried. Where no reboot is allowed, they stay.
-/// Down     from the last good set, plain drawing and the built-in artifact the ladder leads back after ten good minutes; after twenty the next
-///          time, and so on, up to a day.
-/// Time     `awake`: how long the kiosk has been on in all, over all boots. It never jumps, whatever the clock on the wall says,
-///          and never runs faster than time does: so a day's limits hold for real days, too.
+/// Table    for each cause the actions that may remedy it, mildest first (`steps_for`). An action that helped
+///          is tried first when the cause recurs. Each action is tried once per episode; ten good minutes end
+///          the episode.
+/// Pauses   between two actions: `settling` of the first one, and `pause_after` the number of actions taken.
+///          The pause doubles with each action, up to four hours, and halves with each ten good minutes. If
+///          the next pause would keep the screen dark for longer than `longest_dark_pause`, the safe picture
+///          is shown first.
+/// Reboots  at most one in ten minutes and six in 24 hours, and only if the reboot can be recorded before.
+/// Given up a fault with a lit picture is given up after all its actions have failed: it is ignored until it
+///          has been absent for ten minutes.
+/// Safe     the safe picture stays until the pause is over; then the remaining actions follow, a reboot last.
+///          After a reboot the exhibit's own set is tried. If no reboot is allowed, the safe picture stays.
+/// Down     from the fallback set, plain drawing and the built-in artifact the ladder returns to normal
+///          after ten good minutes; the next time after twenty, and so on, up to a day.
+/// Time     `awake`: the kiosk's total time of operation, over all boots. It never jumps, whatever the wall
+///          clock shows, and never runs faster than real time, so a day's limits hold for real days too.
 /// Threads  values; one caller. Allocates nothing.
 #pragma once
 
@@ -28,42 +30,43 @@
 
 namespace frustumscreen {
 
-/// Since the kiosk was first switched on, without the times that it was off.
+/// Time of operation since the kiosk was first switched on.
 using Awake = std::chrono::milliseconds;
 
 inline constexpr std::size_t reboots_a_day = 6;
 
-/// What survives a reboot.
+/// State that survives a reboot.
 struct LadderMemory {
     Awake awake{0};
     Mode mode = Mode::Normal;
-    std::uint8_t climb = 0; ///< steps taken, less one for each ten good minutes
-    std::uint8_t returns =
-        0; ///< how often a return was tried since the last ten good minutes of the normal mode
-    std::uint8_t tried = 0;     ///< steps of this episode, a bit each
-    std::optional<Cause> cause; ///< that began this episode
-    std::optional<Step> latest; ///< step of this episode
-    Awake latest_at{0};         ///< when it was taken, in this episode or before
+    std::uint8_t climb = 0;     ///< actions taken, less one for each ten good minutes
+    std::uint8_t returns = 0;   ///< returns tried since the last ten good minutes in normal mode
+    std::uint8_t tried = 0;     ///< actions of this episode, one bit each
+    std::optional<Cause> cause; ///< cause that began this episode
+    std::optional<Step> latest; ///< latest action of this episode
+    Awake latest_at{0};         ///< time of the latest action, in this episode or earlier
     std::array<std::optional<Step>, cause_count> helped{};
-    std::uint8_t given_up = 0; ///< causes, a bit each
-    /// When the latest reboots were; the latest is the first.
+    std::uint8_t given_up = 0; ///< causes, one bit each
+    /// Times of the latest reboots, latest first.
     std::array<std::optional<Awake>, reboots_a_day> reboots{};
     [[nodiscard]] bool operator==(const LadderMemory&) const = default;
 };
 
-/// What is seen now, as a judge sums it up (judge.h).
+/// The current observation, as the judge sums it up (judge.h).
 struct Seen {
     std::optional<Cause> trouble;
     bool lit =
-        false; ///< the exhibit's own picture lives; false without trouble: it starts, or the safe picture is shown
+        false; ///< the exhibit's own picture is alive; false without a fault: it is starting, or the safe
+               ///< picture is shown
 };
-/// What can be done now.
+/// Capabilities: what is possible now.
 struct Means {
-    bool last_good_set = false; ///< there is one, and it is not the set on show
+    bool last_good_set = false; ///< it exists, and is not the active set
     bool device = false;        ///< the tracker is plugged in
-    bool reboot = false;        ///< a reboot could be written down
+    bool reboot = false;        ///< a reboot could be recorded
 };
-/// A step to take now; the caller takes it, whether it succeeds or not, and asks again a second later.
+/// An action to take now; the caller takes it, whether it succeeds or not, and calls `look` again a second
+/// later.
 struct Act {
     Step step = Step::RestartExhibit;
     std::optional<Cause> cause; ///< none: ten good minutes
@@ -78,23 +81,23 @@ public:
     static constexpr Awake longest_return = std::chrono::hours(24);
     static constexpr Awake between_reboots = std::chrono::minutes(10);
     static constexpr Awake day = std::chrono::hours(24);
-    static constexpr std::uint8_t highest_climb = 12; ///< more makes no pause longer
+    static constexpr std::uint8_t highest_climb = 12; ///< higher values do not lengthen the pause
     static constexpr std::uint8_t most_returns = 8;   ///< as above
 
-    /// The kiosk was switched on, or only this program was started again: `is_boot`.
+    /// `is_boot`: the kiosk was switched on; false: only this program was restarted.
     Ladder(const LadderMemory& memory, bool is_boot);
 
-    /// About once a second; `awake` never goes back.
+    /// Call it about once a second; `awake` never decreases.
     [[nodiscard]] std::optional<Act> look(Awake awake, const Seen& seen, const Means& means);
     [[nodiscard]] const LadderMemory& memory() const { return memory_; }
     [[nodiscard]] std::size_t reboots_within_day() const;
 
     [[nodiscard]] static std::span<const Step> steps_for(Cause cause);
-    /// How long a step takes to show what it does.
+    /// Time until an action shows its effect.
     [[nodiscard]] static Awake settling(Step step);
-    /// Before the next step, once `climb` steps were taken.
+    /// Pause before the next action, once `climb` actions were taken.
     [[nodiscard]] static Awake pause_after(std::uint8_t climb);
-    /// How long a degraded mode must be good before it is left again.
+    /// Time that a degraded mode must be good before it is left.
     [[nodiscard]] static Awake return_after(std::uint8_t returns);
 
 private:
@@ -112,8 +115,8 @@ private:
 
     LadderMemory memory_;
     std::optional<Awake> good_since_;
-    Awake went_down_at_{0};                    ///< for the latest ten good minutes
-    std::array<Awake, cause_count> seen_at_{}; ///< each cause, at the latest
+    Awake went_down_at_{0};                    ///< time of the latest step down the ladder
+    std::array<Awake, cause_count> seen_at_{}; ///< last occurrence of each cause
 };
 
 } // namespace frustumscreen

@@ -30,7 +30,7 @@ template <typename Value> std::int64_t number_of(const std::optional<Value>& val
     return value ? static_cast<std::int64_t>(*value) : nothing;
 }
 
-/// In the order in which `Numbers` takes them.
+/// In the order in which `take_memory` reads them.
 std::vector<std::int64_t> numbers_of(const KeptMemory& kept) {
     const LadderMemory& memory = kept.memory;
     std::vector<std::int64_t> numbers{static_cast<std::int64_t>(kept.writes),
@@ -54,7 +54,7 @@ std::vector<std::int64_t> numbers_of(const KeptMemory& kept) {
     return numbers;
 }
 
-/// Takes whole numbers off the front of a text; once one is not as allowed, none is.
+/// Takes whole numbers from the front of a text; after an invalid one all reads fail.
 class Numbers {
 public:
     explicit Numbers(std::string_view text) : rest_(text) {}
@@ -72,7 +72,7 @@ public:
     }
     std::uint8_t byte(std::int64_t most) { return static_cast<std::uint8_t>(take(0, most)); }
     Awake awake(Awake latest) { return Awake(take(0, latest.count())); }
-    /// Of `count` values.
+    /// One of `count` values.
     template <typename Enum> std::optional<Enum> one_of(std::size_t count) {
         const std::int64_t value = take(nothing, static_cast<std::int64_t>(count) - 1);
         return value == nothing ? std::nullopt : std::optional(static_cast<Enum>(value));
@@ -87,7 +87,7 @@ constexpr std::int64_t all_bits(std::size_t count) {
     return (std::int64_t{1} << count) - 1;
 }
 
-/// Latest first, and none after the latest step.
+/// Latest first, and none later than `awake`.
 void take_reboots(Numbers& numbers, LadderMemory& memory) {
     Awake latest = memory.awake;
     for (std::optional<Awake>& at : memory.reboots) {

@@ -1,10 +1,11 @@
-/// The ladder's memory as a file keeps it, so that a power cut at any moment leaves the former one or the new one.
+/// The ladder's memory as a file. A power cut at any moment leaves the previous or the new state.
 ///
-/// File     two slots of `slot_bytes` in turn, each a line of text that is filled up with blanks: `frustumscreen-ladder-2`, a
-///          checksum (FNV-1a, 64 bits) of what follows, and whole numbers, -1 for nothing. A slot is written as a whole, over the
-///          older one, into a file of fixed size: a full disk does not hinder it.
+/// File     two slots of `slot_bytes`, written in turn. Each is a line of text, padded with blanks:
+///          `frustumscreen-ladder-2`, a checksum (FNV-1a, 64 bits) of the rest, and whole numbers, -1 for
+///          nullopt. A slot is written as a whole, over the older one, in a file of fixed size, so a full
+///          disk is no obstacle.
 /// Threads  pure; any.
-/// Errors   a slot that is not as above counts for nothing; two such are a kiosk without a past.
+/// Errors   an invalid slot is ignored; two invalid slots mean an empty memory.
 /// Source   Fowler, Noll, Vo: the FNV non-cryptographic hash algorithm, draft-eastlake-fnv.
 #pragma once
 
@@ -22,22 +23,22 @@ inline constexpr std::size_t slot_bytes = 4096; ///< a block of the disk
 inline constexpr std::size_t slot_count = 2;
 
 struct KeptMemory {
-    std::uint64_t writes = 0; ///< a counter; the slot is its remainder
-    std::uint64_t boot = 0;   ///< in which it was written, see `number_of_boot`
-    Awake since_boot{0};      ///< then
+    std::uint64_t writes = 0; ///< a counter; modulo `slot_count` it selects the slot
+    std::uint64_t boot = 0;   ///< the boot that wrote it, see `number_of_boot`
+    Awake since_boot{0};      ///< time of the write
     LadderMemory memory;
     [[nodiscard]] bool operator==(const KeptMemory&) const = default;
 };
 
-/// Exactly `slot_bytes`.
+/// A slot of exactly `slot_bytes`.
 [[nodiscard]] std::string slot_of(const KeptMemory& kept);
 [[nodiscard]] std::optional<KeptMemory> read_slot(std::string_view slot);
-/// The later one of a file's slots; nothing: there is none.
+/// The later one of a file's slots; nullopt: no slot is valid.
 [[nodiscard]] std::optional<KeptMemory> read_slots(std::string_view file);
-/// Brings it up to now: in the boot in which it was written the time since then was awake, in another one the time since the
-/// boot. What was awake after the last write is lost.
+/// Advances `awake` to now: in the same boot by the time since the write, in another one by the time since
+/// the boot. The time of operation after the last write is lost.
 [[nodiscard]] LadderMemory remembered(const KeptMemory& kept, std::uint64_t boot, Awake since_boot);
-/// A number for the kernel's name of a boot (random(4), boot_id).
+/// A number for the kernel's id of a boot (random(4), boot_id).
 [[nodiscard]] std::uint64_t number_of_boot(std::string_view boot_id);
 
 } // namespace frustumscreen

@@ -1,9 +1,9 @@
-/// How often and why the exhibit's process has ended since the machine was started.
+/// Number and reasons of the ends of the exhibit's process since the machine was started.
 ///
-/// File     a line for each end, appended by the service manager: the monotonic clock in seconds, and SERVICE_RESULT, EXIT_CODE
-///          and EXIT_STATUS of systemd.exec(5): `1234.56 watchdog killed KILL`.
+/// File     a line for each end, appended by the service manager: the monotonic clock in seconds, and
+///          SERVICE_RESULT, EXIT_CODE and EXIT_STATUS of systemd.exec(5): `1234.56 watchdog killed KILL`.
 /// Threads  values; any.
-/// Errors   lines that are none of these are not counted.
+/// Errors   other lines are ignored.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace frustumscreen {
 
-/// The words of SERVICE_RESULT, and what they say to a person; the last one stands for all others.
+/// The values of SERVICE_RESULT, with their meaning; the last one stands for all others.
 struct ServiceResult {
     std::string_view word;
     std::string_view sentence;
@@ -36,20 +36,20 @@ inline constexpr std::array<ServiceResult, 11> service_results{{
 
 struct ServiceEnd {
     double monotonic_s = 0.0;
-    std::size_t result = 0;  ///< of service_results
+    std::size_t result = 0;  ///< index into service_results
     std::string code;        ///< exited, killed, dumped; printable
     std::string exit_status; ///< a number, or a signal's name; printable
 };
 
 struct ServiceEnds {
-    std::array<std::uint64_t, service_results.size()> counts{}; ///< for each of service_results
+    std::array<std::uint64_t, service_results.size()> counts{}; ///< for each entry of service_results
     std::optional<ServiceEnd> last;
     [[nodiscard]] std::uint64_t count() const;
 };
 
-/// Nothing: the line is none.
+/// nullopt: the line is not an end.
 [[nodiscard]] std::optional<ServiceEnd> parse_service_end(std::string_view line);
-/// Nobody told it to stop.
+/// True unless it was told to stop.
 [[nodiscard]] inline bool is_failure(const ServiceEnd& end) {
     return service_results.at(end.result).word != "success";
 }

@@ -1,4 +1,4 @@
-/// The rungs of the recovery ladder, and what they leave on the table.
+/// The actions of the recovery ladder, and the modes that they lead to.
 ///
 /// Threads  values; any.
 #pragma once
@@ -10,31 +10,31 @@
 
 namespace frustumscreen {
 
-/// From the gentlest to the hardest; the last one leads down again.
+/// From the mildest to the strongest; the last one leads back down.
 enum class Step : std::uint8_t {
     RestartExhibit,
     ResetDevice, ///< the tracker's USB port
     LastGoodSet, ///< and a restart
-    DrawPlainly, ///< with what a graphics driver does least (display/plain_drawing.h), and a restart
+    DrawPlainly, ///< with the most robust drawing (display/plain_drawing.h), and a restart
     BuiltIn,     ///< the built-in artifact with the last good settings, and a restart
-    SafePicture, ///< words for the staff in the exhibit's place
+    SafePicture, ///< a message to the staff in place of the exhibit
     Reboot,
     Return, ///< to the exhibit's own set, after a degraded mode was good for long enough
 };
 inline constexpr std::size_t step_count = 8;
 
-/// What the kiosk shows.
+/// The mode of the kiosk's picture.
 enum class Mode : std::uint8_t { Normal, LastGoodSet, Plain, BuiltIn, Safe };
 inline constexpr std::size_t mode_count = 5;
 
 /// One word: restart_exhibit, reset_device, last_good_set, draw_plainly, built_in, safe_picture, reboot, return.
 [[nodiscard]] std::string_view word_of(Step step);
 [[nodiscard]] std::optional<Step> step_named(std::string_view word);
-/// What is done, a sentence without its full stop.
+/// Description of the action, a sentence without its full stop.
 [[nodiscard]] std::string_view sentence_of(Step step);
 /// One word: normal, last_good_set, plain, built_in, safe.
 [[nodiscard]] std::string_view word_of(Mode mode);
-/// What the watchdog does in it, as in: the watchdog ...
+/// The watchdog's behaviour in this mode; completes "the watchdog ...".
 [[nodiscard]] std::string_view sentence_of(Mode mode);
 [[nodiscard]] std::optional<Mode> mode_named(std::string_view word);
 

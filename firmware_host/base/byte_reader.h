@@ -1,5 +1,5 @@
-/// Reads little-endian numbers from bytes and appends them to bytes. Reading past the end gives zeros and is
-/// remembered.
+/// Reads little-endian numbers from bytes and appends them to bytes. A read past the end gives zeros and sets
+/// an error that stays.
 ///
 /// Threads  values; any.
 #pragma once
@@ -20,7 +20,7 @@ class ByteReader {
 public:
     explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
-    /// The next number, or zero past the end (then `ok` is false for good).
+    /// The next number; zero past the end, and `ok` is false from then on.
     template <typename T> [[nodiscard]] T read() {
         static_assert(std::is_trivially_copyable_v<T>);
         T value{};
@@ -33,7 +33,7 @@ public:
         bytes_ = bytes_.subspan(sizeof(T));
         return value;
     }
-    /// The next `count` of them, or none past the end.
+    /// The next `count` numbers; none past the end.
     template <typename T> [[nodiscard]] std::vector<T> read_all(std::size_t count) {
         static_assert(std::is_trivially_copyable_v<T>);
         if (count > bytes_.size() / sizeof(T)) {

@@ -1,4 +1,4 @@
-/// A day of the Gregorian calendar as a text of ISO 8601, "2030-12-31", and back.
+/// Conversion between a day of the Gregorian calendar and its ISO 8601 text, "2030-12-31".
 ///
 /// Threads  pure; any.
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace frustumscreen {
 
-/// No clock that is right, and nothing that is signed, is older than this program.
+/// A correct clock, and any signature, is no older than this program.
 inline constexpr std::chrono::sys_days earliest_plausible_day = std::chrono::year(2026) / 1 / 1;
 
 [[nodiscard]] inline std::string text_of_day(std::chrono::sys_days day) {
@@ -23,7 +23,7 @@ inline constexpr std::chrono::sys_days earliest_plausible_day = std::chrono::yea
                        static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
 }
 
-/// Nothing unless it is written exactly so, and is a day that there is.
+/// nullopt unless the text has exactly this form and names an existing day.
 [[nodiscard]] inline std::optional<std::chrono::sys_days> parse_day(std::string_view text) {
     constexpr std::string_view form = "0000-00-00";
     const auto fits = [](char c, char place) { return place == '-' ? c == '-' : c >= '0' && c <= '9'; };

@@ -1,4 +1,5 @@
-/// The files that hold the last crashes: written by service/crash_record.h, which has their format, and read by app/watch/crash.h.
+/// Names of the files that hold the last crashes. service/crash_record.h writes them and documents their
+/// format; app/watch/crash.h reads them.
 ///
 /// Threads  pure; any.
 #pragma once

@@ -1,4 +1,4 @@
-/// A file descriptor that is closed with its owner.
+/// A file descriptor that its owner closes.
 ///
 /// Threads  one caller.
 #pragma once
@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 class Descriptor {
 public:
-    /// Below 0: there is none.
+    /// A negative number stands for no descriptor.
     explicit Descriptor(int number = -1) : number_(number) {}
     Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
     Descriptor& operator=(Descriptor&& other) noexcept {
@@ -24,7 +24,7 @@ public:
         }
     }
     [[nodiscard]] int number() const { return number_; }
-    /// Whoever takes it closes it.
+    /// Transfers the descriptor to the caller, who must close it.
     [[nodiscard]] int release() { return std::exchange(number_, -1); }
 
 private:

@@ -18,7 +18,8 @@ void begin_device_thread(const char* name, ThreadPriority priority) {
     ::pthread_sigmask(SIG_BLOCK, &stops, nullptr);
     if (priority == ThreadPriority::Low) {
         constexpr int niceness = 5;
-        static_cast<void>(::setpriority(PRIO_PROCESS, 0, niceness)); // on Linux of the calling thread alone
+        // On Linux, affects only the calling thread.
+        static_cast<void>(::setpriority(PRIO_PROCESS, 0, niceness));
     }
 }
 
@@ -31,7 +32,7 @@ void sleep_until_stop(const std::stop_token& stop, Nanoseconds length) {
         is_stopped = true;
         changed.notify_one();
     });
-    std::unique_lock lock(mutex); // after `wake`, whose end waits for a call that needs the mutex
+    std::unique_lock lock(mutex); // after `wake`, whose destructor waits for a callback that needs the mutex
     changed.wait_for(lock, length, [&] { return is_stopped; });
 }
 

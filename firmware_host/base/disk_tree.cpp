@@ -18,7 +18,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr mode_t file_mode = 0644; // the exhibit, another user, reads them
+constexpr mode_t file_mode = 0644; // the exhibit runs as another user and must read them
 constexpr mode_t folder_mode = 0755;
 
 FileResult<void> done(int returned) {
@@ -44,7 +44,8 @@ public:
     }
     FileResult<void> sync() override {
         const FileResult<void> synced = done(::fsync(file_.number()));
-        // Who reads it now is to see what the disk has, not what was meant to be written. This is advice: it may fail.
+        // Drop the cached pages, so a later read sees what the disk has, not what was meant to be written.
+        // This is advice; it may fail.
         static_cast<void>(::posix_fadvise(file_.number(), 0, 0, POSIX_FADV_DONTNEED));
         return synced;
     }
@@ -53,7 +54,7 @@ private:
     Descriptor file_;
 };
 
-/// Where a path's last name lies.
+/// The folder and the name of a path's last component.
 struct Place {
     Descriptor folder;
     std::string name;
@@ -79,7 +80,7 @@ private:
     Descriptor root_;
 };
 
-/// One name at a time: a link in the middle of a path must not lead elsewhere.
+/// Opens one component at a time: a link in the middle of a path must not lead elsewhere.
 FileResult<Descriptor> DiskTree::open_folder(std::string_view path) const {
     constexpr int flags = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
     Descriptor folder(::openat(root_.number(), ".", flags));
@@ -123,7 +124,7 @@ FileResult<void> DiskTree::list(const std::string& folder,
     if (!stream) {
         return file_fault(errno);
     }
-    static_cast<void>(opened.release()); // the stream's now
+    static_cast<void>(opened.release()); // the stream owns it now
     for (;;) {
         errno = 0;
         const dirent* entry = ::readdir(stream.get());
@@ -140,7 +141,7 @@ FileResult<void> DiskTree::list(const std::string& folder,
 
 FileResult<std::unique_ptr<const FileContent>> DiskTree::open(const std::string& path) {
     TRY(const Place place, place_of(path));
-    // A pipe or a device must not hold the program up before it is refused.
+    // Opening a pipe or a device must not block before it is refused.
     Descriptor file(::openat(place.folder.number(), place.name.c_str(),
                              O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
     struct stat status {};

@@ -1,4 +1,4 @@
-/// A folder of the machine as a WritableTree.
+/// A folder on disk as a WritableTree.
 ///
 /// Threads  one caller.
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace frustumscreen {
 
-/// Errors: not there, not a folder, not to be opened. Messages begin with its name.
+/// Errors: missing, not a folder, cannot be opened. Messages begin with its name.
 [[nodiscard]] Result<std::unique_ptr<WritableTree>> open_tree(const std::filesystem::path& folder);
 
 } // namespace frustumscreen

@@ -16,10 +16,10 @@ namespace frustumscreen {
 
 namespace {
 
-/// Between the target's name and the number of the process that writes.
+/// Between the target's name and the number of the writing process.
 constexpr std::string_view part_suffix = ".part";
 
-/// An output file under its temporary name; unlinked unless `keep` was called.
+/// An output file under its temporary name; deleted unless `keep_as` succeeded.
 class TemporaryFile {
 public:
     explicit TemporaryFile(const std::filesystem::path& target)
@@ -64,8 +64,8 @@ private:
     int descriptor_;
 };
 
-/// Whether the bytes are now those of a file that was there. Its blocks are taken before a byte is written, so that a failure
-/// leaves it as it was.
+/// Overwrites an existing file in place; returns whether that succeeded. The blocks are allocated before the
+/// first byte is written, so a full disk leaves the file unchanged.
 bool write_over(const std::filesystem::path& path, std::span<const std::byte> bytes) {
     const Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
     const auto size = static_cast<off_t>(bytes.size());
@@ -78,7 +78,8 @@ std::string system_reason() {
     return std::strerror(errno);
 }
 
-/// Whether `name` is a temporary name of `target` whose process is gone. A process of another user is there.
+/// Whether `name` is a temporary name of `target` whose process no longer exists. A process of another user
+/// counts as existing.
 bool is_left_behind(std::string_view name, const std::string& target) {
     const std::string begin = target + std::string(part_suffix);
     if (!name.starts_with(begin)) {
@@ -94,7 +95,7 @@ bool is_left_behind(std::string_view name, const std::string& target) {
 } // namespace
 
 Result<Bytes> read_file(const std::filesystem::path& path, std::uintmax_t limit_bytes) {
-    // Its size is that of the file that is open: another may be put in its place at any time.
+    // The size is that of the open file; another file may replace it at any time.
     TRY(const OpenFile file, OpenFile::open(path, limit_bytes));
     Bytes bytes(static_cast<std::size_t>(file.bytes()));
     if (!file.read(0, bytes)) {
@@ -131,7 +132,7 @@ Result<void> write_file_with(const std::filesystem::path& path,
 
 void clear_partial_files(const std::filesystem::path& path) {
     const std::string target = path.filename().string();
-    std::error_code stop; // what cannot be listed or removed stays
+    std::error_code stop; // files that cannot be listed or removed stay
     std::filesystem::directory_iterator entry(path.has_parent_path() ? path.parent_path() : ".", stop);
     for (; !stop && entry != std::filesystem::directory_iterator(); entry.increment(stop)) {
         std::error_code kept;

@@ -1,4 +1,4 @@
-/// Reads and writes whole files. A written file appears by rename: complete or not at all.
+/// Reads and writes whole files. A written file appears by rename, either complete or not at all.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -14,19 +14,20 @@ namespace frustumscreen {
 
 using Bytes = std::vector<std::byte>;
 
-/// Errors: not there, not readable, not a regular file, larger than `limit_bytes`.
+/// Errors: missing, not readable, not a regular file, larger than `limit_bytes`.
 [[nodiscard]] Result<Bytes> read_file(const std::filesystem::path& path,
                                       std::uintmax_t limit_bytes = std::uintmax_t{4} << 30);
 
-/// Writes beside `path`, fsyncs, renames over it. On any error nothing is left behind; a process that is killed
-/// leaves `path`.part<its number>.
+/// Writes a temporary file next to `path`, fsyncs it, and renames it to `path`. An error leaves no file
+/// behind; a killed process leaves `path`.part<its number>.
 [[nodiscard]] Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-/// For a small file that is renewed again and again, as a status is: as `write_file`, but where the disk is full, the bytes go over
-/// those that are there, as far as these have room. Who reads it in that moment may find a mixture of both.
+/// For a small file that is rewritten often, such as a status. As `write_file`, but if that fails and the
+/// bytes fit into the existing file or the free space, they overwrite the file in place. A concurrent reader
+/// may then see a mixture of old and new.
 [[nodiscard]] Result<void> renew_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-/// Removes what killed processes left beside `path`; what a living process writes stays.
+/// Removes temporary files that killed processes left next to `path`; those of running processes stay.
 void clear_partial_files(const std::filesystem::path& path);
 
 [[nodiscard]] std::span<const std::byte> as_bytes(std::string_view text);

@@ -1,10 +1,10 @@
-/// A folder and all that lies in it, as little of a file system as an importer needs: so that what it does with a stick and
-/// with a disk is also tested with files that only exist in memory.
+/// A folder and its contents: the part of a file system that an importer needs. Tests replace it by files in
+/// memory.
 ///
-/// Paths    relative to the folder, "a/b"; "" is the folder itself. No link is ever followed.
-/// Order    as POSIX has it: what was appended is on the disk after sync(); that a name is there, gone or another's only
-///          after sync_folder() of the folder that holds it. rename() replaces at once or not at all.
-/// Errors   an errno (FileFault). Retries nothing.
+/// Paths    relative to the folder, "a/b"; "" is the folder itself. Links are never followed.
+/// Order    as in POSIX: appended bytes are on the disk after sync(). A new, removed or renamed name is on
+///          the disk only after sync_folder() of its folder. rename() replaces atomically or not at all.
+/// Errors   an errno (FileFault). No retries.
 /// Threads  one caller.
 #pragma once
 
@@ -41,7 +41,7 @@ public:
     FileTree& operator=(const FileTree&) = delete;
     virtual ~FileTree() = default;
 
-    /// In no order, without "." and "..", until `visit` returns false.
+    /// Visits the entries in any order, without "." and "..", until `visit` returns false.
     virtual FileResult<void> list(const std::string& folder,
                                   const std::function<bool(const FolderEntry&)>& visit) = 0;
     /// EINVAL: not a regular file.
@@ -61,14 +61,14 @@ public:
 
 class WritableTree : public FileTree {
 public:
-    /// What was there under this name is emptied.
+    /// An existing file of this name is truncated.
     virtual FileResult<std::unique_ptr<NewFile>> create(const std::string& path) = 0;
     virtual FileResult<void> rename(const std::string& from, const std::string& to) = 0;
     virtual FileResult<void> remove(const std::string& path) = 0;
-    /// All is well if it is there already.
+    /// Succeeds if the folder exists already.
     virtual FileResult<void> make_folder(const std::string& path) = 0;
     virtual FileResult<void> sync_folder(const std::string& path) = 0;
-    /// That this process may still fill.
+    /// Bytes that this process may still write.
     virtual FileResult<std::uint64_t> free_bytes() = 0;
 };
 

@@ -60,7 +60,7 @@ Result<void> GrowingFile::append(std::span<const std::byte> bytes) {
 Result<void> GrowingFile::sync() const {
     while (::fdatasync(descriptor_) != 0) {
         if (errno == EINVAL) {
-            return {}; // a pipe, or something else that stores nothing
+            return {}; // a pipe, or another object without storage
         }
         if (errno != EINTR) {
             return failure();

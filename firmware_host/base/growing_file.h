@@ -1,8 +1,8 @@
 /// A file that grows in place, for data that must survive a power cut up to the last second.
 ///
-/// The one exception to 'files appear by rename': its format must be readable up to any cut.
+/// The one exception to "files appear by rename": its format must be readable after a cut at any byte.
 /// Threads  one caller.
-/// Errors   one sentence; a full disk has a sentence of its own.
+/// Errors   one sentence; a full disk has its own sentence.
 #pragma once
 
 #include "firmware_host/base/file.h"
@@ -11,9 +11,9 @@ namespace frustumscreen {
 
 class GrowingFile {
 public:
-    /// Makes a new file: `wanted`, or, where that exists, the first of `wanted`.2, `wanted`.3, ...
+    /// Creates a new file: `wanted`, or if that exists, the first free name of `wanted`.2, `wanted`.3, ...
     [[nodiscard]] static Result<GrowingFile> create(const std::filesystem::path& wanted);
-    /// Takes over an open descriptor; `name` stands in messages.
+    /// Takes over an open descriptor; `name` appears in messages.
     GrowingFile(int descriptor, std::filesystem::path name);
     ~GrowingFile();
     GrowingFile(GrowingFile&& other) noexcept;
@@ -22,7 +22,7 @@ public:
     GrowingFile& operator=(GrowingFile&&) = delete;
 
     [[nodiscard]] Result<void> append(std::span<const std::byte> bytes);
-    /// From here on, what was appended survives a power cut. A disk may report an earlier error only here.
+    /// After this call all appended bytes survive a power cut. A disk may report an earlier error only here.
     [[nodiscard]] Result<void> sync() const;
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 

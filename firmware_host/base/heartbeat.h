@@ -1,7 +1,7 @@
-/// A device thread's promise of when it will be heard from again. The thread renews it before each call that
-/// may take long. While a promise is broken the service manager's watchdog is not fed, which has patience for ten
-/// seconds more: together they are longer than the kernel lets any one call take, so what ends the exhibit is a thread
-/// that hangs, not a device.
+/// A device thread's promise of when it will give its next sign of life. The thread renews the promise before
+/// each call that may take long. While a promise is broken, the exhibit does not feed the service manager's
+/// watchdog, which waits another ten seconds. Both times together exceed the kernel's limit for any one call,
+/// so only a hanging thread ends the exhibit, not a slow device.
 ///
 /// Threads  one thread promises, any thread reads; neither waits.
 #pragma once

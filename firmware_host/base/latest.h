@@ -1,8 +1,7 @@
-/// Hands the latest value from one thread to another. Values that were not taken in time are lost, the latest
-/// never is.
+/// Hands the latest value from one thread to another. A newer value replaces one that was not taken.
 ///
-/// Threads  one side is in a hurry and uses `try_...` alone, which never waits; the other side waits for no
-///          longer than a copy takes.
+/// Threads  the time-critical side uses only `try_...`, which never waits; the other side waits no longer
+///          than a copy takes.
 #pragma once
 
 #include <mutex>
@@ -17,7 +16,7 @@ public:
         std::swap(value_, value); // the old value is destroyed after the lock
         fresh_ = true;
     }
-    /// False: the other side is at it; put it again later.
+    /// False: the other side holds the lock; try again later.
     [[nodiscard]] bool try_put(const T& value) {
         T copy = value;
         const std::unique_lock lock(mutex_, std::try_to_lock);
@@ -28,12 +27,12 @@ public:
         fresh_ = true;
         return true;
     }
-    /// False: nothing was put since the last time, and `value` stays as it is.
+    /// False: no value was put since the last call, and `value` is unchanged.
     [[nodiscard]] bool take(T& value) {
         const std::lock_guard lock(mutex_);
         return take_fresh(value);
     }
-    /// False also when the other side is at it.
+    /// As `take`; false also while the other side holds the lock.
     [[nodiscard]] bool try_take(T& value) {
         const std::unique_lock lock(mutex_, std::try_to_lock);
         return lock.owns_lock() && take_fresh(value);

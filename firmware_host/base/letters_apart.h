@@ -1,4 +1,4 @@
-/// How far a mistyped word is from the right one.
+/// Edit distance between a mistyped word and the right one.
 ///
 /// Threads  pure; any.
 /// Source   Levenshtein, Binary codes capable of correcting deletions, insertions and reversals, 1966.
@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// Letters that must be put in, left out or changed to make one word of the other.
+/// Number of insertions, deletions and changes of letters that turn one word into the other.
 [[nodiscard]] inline std::size_t letters_apart(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     for (std::size_t k = 0; k < row.size(); ++k) {

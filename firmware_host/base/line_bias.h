@@ -1,4 +1,4 @@
-/// What holds a button's line while the button is up; the settings and the GPIO chip use these words.
+/// The bias of a button's line while the button is up; the settings and the GPIO chip use these terms.
 #pragma once
 
 #include <cstdint>

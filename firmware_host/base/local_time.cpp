@@ -22,7 +22,7 @@ bool has_time_zone(const std::string& name) {
 }
 
 bool use_time_zone(const std::string& name) {
-    if (!has_time_zone(name)) { // libc would take UTC and say nothing
+    if (!has_time_zone(name)) { // libc would silently use UTC
         return false;
     }
     ::setenv("TZ", (":" + name).c_str(), 1);

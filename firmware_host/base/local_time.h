@@ -1,11 +1,11 @@
-/// The wall clock where the kiosk stands: the system's time zones, through libc, which also knows the rules of the years that no
-/// table has.
+/// The wall clock at the kiosk's site: the system's time zones through libc, which also extrapolates their
+/// rules beyond its tables.
 ///
-/// A process has one time zone. It is the machine's until `use_time_zone`.
+/// A process has one time zone: the machine's, until `use_time_zone`.
 ///
-/// Units    seconds; east of Greenwich is positive.
-/// Threads  `use_time_zone` before there is a second thread; the rest any.
-/// Errors   there is no such time zone on this machine: nothing is changed.
+/// Units    seconds; positive east of Greenwich.
+/// Threads  `use_time_zone` before a second thread starts; everything else: any.
+/// Errors   false if this machine lacks the time zone; then nothing changes.
 #pragma once
 
 #include <chrono>
@@ -15,10 +15,10 @@ namespace frustumscreen {
 
 /// `name`: such as "Europe/Berlin".
 [[nodiscard]] bool use_time_zone(const std::string& name);
-/// Whether the machine has it.
+/// Whether the machine has this time zone.
 [[nodiscard]] bool has_time_zone(const std::string& name);
 
-/// How far local time is ahead of UTC then.
+/// Offset of local time from UTC at `time`.
 [[nodiscard]] std::chrono::seconds local_offset_at(std::chrono::sys_seconds time);
 
 /// "2026-11-23T17:00:00Z"

@@ -1,7 +1,7 @@
-/// Carries the latest items from a device's thread to the exhibit's; when it is full, the oldest are
-/// overwritten.
+/// Carries the latest items from a device's thread to the exhibit's. When the mailbox is full, new items
+/// overwrite the oldest.
 ///
-/// Item     has a `time`; put in ascending time.
+/// Item     has a `time`; items are put in ascending time.
 /// Threads  one puts, one takes. Taking never waits; it takes nothing while the other side is putting.
 /// Memory   fixed.
 #pragma once
@@ -28,7 +28,7 @@ public:
         }
         taken_ = put_ > capacity ? std::max(taken_, put_ - capacity) : taken_;
     }
-    /// Appends those with time <= now that were not taken before.
+    /// Appends the items with time <= now that were not taken yet.
     void take(MonotonicTime now, std::vector<Item>& items) {
         const std::unique_lock lock(mutex_, std::try_to_lock);
         while (lock.owns_lock() && taken_ < put_ && items_[taken_ % capacity].time <= now) {

@@ -44,7 +44,7 @@ std::unique_ptr<const FileContent> content_of(int descriptor, std::uint64_t byte
 }
 
 Result<OpenFile> OpenFile::open(const std::filesystem::path& path, std::uint64_t limit_bytes) {
-    // A pipe or a device must not hold the program up before it is refused.
+    // Opening a pipe or a device must not block before it is refused.
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (descriptor < 0) {
         return bad_input("file.not_opened",

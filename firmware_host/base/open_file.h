@@ -1,6 +1,6 @@
-/// A file that is read piece by piece, where reading all of it would take too much memory.
+/// A file that is read piece by piece, because the whole would take too much memory.
 ///
-/// Errors   as read_file. What the file says may change between two reads: who uses a piece checks that piece.
+/// Errors   as read_file. The content may change between two reads: check each piece after reading it.
 /// Threads  one caller.
 #pragma once
 
@@ -15,16 +15,16 @@
 
 namespace frustumscreen {
 
-/// What a file holds, wherever it lies.
+/// The content of a file, on disk or in memory.
 class FileContent {
 public:
     FileContent() = default;
     FileContent(const FileContent&) = delete;
     FileContent& operator=(const FileContent&) = delete;
     virtual ~FileContent() = default;
-    /// As it was opened.
+    /// The size when the file was opened.
     [[nodiscard]] virtual std::uint64_t bytes() const = 0;
-    /// 0, or why not all of `out` could be filled from `offset` on: an errno, ENODATA for a file that ends before.
+    /// Fills all of `out` from `offset` on; returns 0 or an errno, ENODATA for a file that ends too early.
     [[nodiscard]] virtual int read(std::uint64_t offset, std::span<std::byte> out) const = 0;
 };
 
@@ -34,18 +34,18 @@ public:
     [[nodiscard]] static Result<OpenFile> open(const std::filesystem::path& path, std::uint64_t limit_bytes);
     explicit OpenFile(std::unique_ptr<const FileContent> content) : content_(std::move(content)) {}
 
-    /// As it was opened.
+    /// The size when the file was opened.
     [[nodiscard]] std::uint64_t bytes() const { return content_->bytes(); }
-    /// False unless all of `out` could be filled from `offset` on.
+    /// Returns false unless all of `out` was filled from `offset` on.
     [[nodiscard]] bool read(std::uint64_t offset, std::span<std::byte> out) const {
         return content_->read(offset, out) == 0;
     }
 
 private:
-    std::unique_ptr<const FileContent> content_; ///< never null, but in what was moved from
+    std::unique_ptr<const FileContent> content_; ///< null only after a move
 };
 
-/// What an open descriptor of a regular file holds; it is closed at the end.
+/// The content of a regular file; takes over the descriptor and closes it.
 [[nodiscard]] std::unique_ptr<const FileContent> content_of(int descriptor, std::uint64_t bytes);
 
 } // namespace frustumscreen

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Makes an empty file and removes it: not only missing rights can forbid a file.
+/// Creates an empty file and removes it: missing rights are not the only obstacle.
 Result<void> try_to_write_in(const fs::path& folder) {
     const std::string probe = (folder / (".frustumscreen" + std::to_string(::getpid()))).string();
     const int descriptor = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
@@ -56,13 +56,13 @@ Result<void> check_output_place(const fs::path& output, std::uintmax_t bytes) {
                          output.string() + ": there is no folder " + folder.string() + "; make it first");
     }
     TRY_VOID(try_to_write_in(folder));
-    clear_partial_files(output); // before the room is counted
+    clear_partial_files(output); // before the free space is measured
     return check_space(folder, bytes);
 }
 
 Result<void> check_output_is_no_input(const fs::path& output, std::span<const fs::path> inputs) {
     for (const fs::path& input : inputs) {
-        std::error_code ignored; // if one of them does not exist, they are not the same file
+        std::error_code ignored; // if one of them does not exist, they differ
         if (fs::equivalent(output, input, ignored)) {
             return bad_input("output.is_input", output.string() + ": this would replace the input " +
                                                     input.string() + "; choose another name for the output");

@@ -1,8 +1,8 @@
-/// Checks before the work whether its result can be written where a person wants it, so that neither an hour
-/// of work nor an input is lost.
+/// Checks before the work whether its result can be written, so that neither an hour of work nor an input is
+/// lost.
 ///
 /// Errors   one line: the place, what is wrong with it, what to do.
-/// Threads  any. Makes and removes an empty file beside the output.
+/// Threads  any. Creates and removes an empty file next to the output.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -14,10 +14,10 @@
 namespace frustumscreen {
 
 /// Checks that the folder exists, is writable and has `bytes` left, and that `output` is a regular file or
-/// does not exist. Clears away what killed runs left of it.
+/// does not exist. Removes temporary files that killed runs left of it.
 [[nodiscard]] Result<void> check_output_place(const std::filesystem::path& output, std::uintmax_t bytes = 0);
 
-/// Checks that `output` is none of `inputs`, under any name or link.
+/// Checks that `output` is none of `inputs`, by any name or link.
 [[nodiscard]] Result<void> check_output_is_no_input(const std::filesystem::path& output,
                                                     std::span<const std::filesystem::path> inputs);
 

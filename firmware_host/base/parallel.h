@@ -1,4 +1,4 @@
-/// Splits offline work over the cores that it may use. Never used on the kiosk's render path.
+/// Distributes offline work over the usable cores. Never used on the kiosk's render path.
 ///
 /// Threads  the caller's and one more for each further core; returns when all are done.
 #pragma once

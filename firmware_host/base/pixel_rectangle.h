@@ -12,7 +12,7 @@ struct PixelSize {
     int width = 0, height = 0;
     [[nodiscard]] bool operator==(const PixelSize&) const = default;
 };
-/// As wide as the wider and as high as the higher.
+/// The smallest size that contains both.
 [[nodiscard]] inline PixelSize united(const PixelSize& a, const PixelSize& b) {
     return {std::max(a.width, b.width), std::max(a.height, b.height)};
 }
@@ -23,7 +23,7 @@ struct PixelRectangle {
     [[nodiscard]] bool operator==(const PixelRectangle&) const = default;
 };
 
-/// The smallest rectangle around both; an empty one adds nothing.
+/// The smallest rectangle that contains both; an empty one is ignored.
 [[nodiscard]] inline PixelRectangle united(const PixelRectangle& a, const PixelRectangle& b) {
     if (a.empty() || b.empty()) {
         return a.empty() ? b : a;

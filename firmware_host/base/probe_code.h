@@ -1,11 +1,12 @@
-/// The code in a picture's corner that changes with every picture presented, so that a watchdog can tell a resting
-/// picture from a hung one. Here is what needs neither OpenGL nor a picture type; app/render/probe.h draws it.
+/// The code in a picture's corner that changes with every presented picture, so that a watchdog can tell a
+/// still picture from a hung one. This header needs neither OpenGL nor a picture type; app/render/probe.h
+/// draws the code.
 ///
-/// Shape    a row of `probe_pixels` pixels from the picture's top left corner; pixel k is grey of sRGB code 1
-///          where bit k of the code is 0, and of code 2 where it is 1: hardly visible on a table, and never
-///          black, so that a picture without a probe has no code. The code counts presents modulo 256; a
-///          watchdog that looks more rarely than every 255th picture may meet the same code by chance, so it
-///          looks at two in a row, one second of rest apart.
+/// Shape    a row of `probe_pixels` pixels from the picture's top left corner. Pixel k is grey of sRGB code 1
+///          if bit k of the code is 0, and of code 2 if it is 1: hardly visible on a table, but never black,
+///          so a picture without a probe has no code. The code counts presents modulo 256. A watchdog that
+///          samples less often than every 255th picture may see an equal code by chance, so it compares two
+///          samples one second apart.
 /// Threads  pure; any.
 #pragma once
 
@@ -18,8 +19,9 @@
 namespace frustumscreen {
 
 inline constexpr int probe_pixels = 8;
-inline constexpr std::size_t probe_bytes = 4 * std::size_t{probe_pixels}; ///< of RGBA
-/// sRGB codes of a 0 and a 1, of the exhibit's picture and of the safe one: who looks at the screen tells them apart.
+inline constexpr std::size_t probe_bytes = 4 * std::size_t{probe_pixels}; ///< RGBA
+/// sRGB codes of a 0 and a 1 in the exhibit's picture and in the safe picture; the difference tells the
+/// watchdog which one is on the screen.
 inline constexpr std::array<std::uint8_t, 2> probe_greys{1, 2};
 inline constexpr std::array<std::uint8_t, 2> safe_probe_greys{3, 4};
 
@@ -33,7 +35,7 @@ inline constexpr std::array<std::uint8_t, 2> safe_probe_greys{3, 4};
     return greys[probe_bit(code, pixel) ? 1 : 0];
 }
 
-/// The code in the corner's pixels, RGBA codes; nothing if there is none. Alpha does not matter.
+/// The code in the corner's pixels, given as RGBA codes; nullopt if they hold no code. Alpha is ignored.
 [[nodiscard]] constexpr std::optional<std::uint8_t>
 read_probe(std::span<const std::byte, probe_bytes> corner) {
     unsigned code = 0;

@@ -23,7 +23,7 @@ template <typename Number> [[nodiscard]] double quantile_in(std::span<Number> va
     std::nth_element(values.begin(), place, values.end());
     return static_cast<double>(*place);
 }
-/// The same on a copy of the values.
+/// As `quantile_in`, on a copy of the values.
 [[nodiscard]] inline double quantile(std::vector<double> values, double share) {
     return quantile_in(std::span(values), share);
 }

@@ -1,14 +1,14 @@
-/// Result<T>: a value, or an Error that says who must act.
+/// Result<T>: a value, or an Error that names who must act.
 ///
-/// Errors that a person can cause (files, settings, devices) travel as values with one sentence for that
-/// person: what, where, what is allowed, what to do next. Programming errors assert.
+/// Errors that a person can cause (files, settings, devices) are values with one sentence for that person:
+/// what, where, what is allowed, what to do next. Programming errors assert.
 ///
-/// Each sentence has an id, which stays when its wording changes: tests, the guide and other programs go by the id. Programs print it
-/// in brackets behind the sentence.
+/// Each sentence has an id that stays when the wording changes: tests, the guide and other programs use the
+/// id. Programs print it in brackets after the sentence.
 ///
-/// TRY(const X x, f()); is `const X x` with the value of f(), or ends the function with f()'s error.
-/// TRY_VOID(g()); is the same where there is no value. The compiler refuses a value that holds something, such as a context or
-/// a lock: name it with TRY, or drop it with TRY_VOID(without_value(g())).
+/// TRY(const X x, f()); declares `const X x` with the value of f(), or returns f()'s error from the function.
+/// TRY_VOID(g()); does so without a value. The compiler rejects TRY_VOID for a value that owns something,
+/// such as a context or a lock: name it with TRY, or drop it with TRY_VOID(without_value(g())).
 #pragma once
 
 #include <fmt/format.h>
@@ -21,21 +21,22 @@
 
 namespace frustumscreen {
 
-/// Who acts on an error.
+/// Who must act on an error.
 enum class ErrorKind {
-    BadInput,         ///< outside bytes are wrong: refuse them, keep running
+    BadInput,         ///< bad bytes from outside: refuse them, keep running
     DeviceLost,       ///< a device went away: reconnect
-    BadConfiguration, ///< a person must change something; a service is restarted until that is done
-    Internal,         ///< this program cannot go on: the service manager restarts it
+    BadConfiguration, ///< a person must change something; a service is restarted until then
+    Internal,         ///< this program cannot continue: the service manager restarts it
 };
 
-/// `subject.problem`, in small letters, digits and `_`; written as a literal beside its sentence, and checked when it is compiled.
+/// `subject.problem`, in small letters, digits and `_`; a literal next to its sentence, checked at compile
+/// time.
 class MessageId {
 public:
-    /// Implicit: a literal is an id wherever one is asked for.
+    /// Implicit, so a literal converts to an id wherever one is expected.
     consteval MessageId(const char* id) : id_(id) {
         if (!is_well_formed(id_)) {
-            throw "a message's id is subject.problem, in small letters, digits and _"; // ends the compilation
+            throw "a message's id is subject.problem, in small letters, digits and _"; // stops the compilation
         }
     }
     [[nodiscard]] constexpr std::string_view view() const { return id_; }
@@ -78,18 +79,18 @@ template <typename First, typename... Others>
     return fail(ErrorKind::BadInput, id, sentence, std::forward<First>(first),
                 std::forward<Others>(others)...);
 }
-/// Another kind of the same error, since another person acts on it here.
+/// The error with another kind, because another person must act on it here.
 [[nodiscard]] inline tl::unexpected<Error> as_kind(ErrorKind kind, Error error) {
     error.kind = kind;
     return tl::unexpected<Error>(std::move(error));
 }
 
-/// Puts `place` (a file, a part of it) in front of an error's message.
+/// Puts `place` (a file, or a part of it) in front of an error's message.
 [[nodiscard]] inline tl::unexpected<Error> at(const std::string& place, Error error) {
     error.message = place + ": " + error.message;
     return tl::unexpected<Error>(std::move(error));
 }
-/// The same for a result, if it is an error.
+/// As above, for a result that is an error.
 template <typename T> [[nodiscard]] Result<T> at(const std::string& place, Result<T> result) {
     if (!result) {
         result.error().message = place + ": " + result.error().message;
@@ -97,13 +98,14 @@ template <typename T> [[nodiscard]] Result<T> at(const std::string& place, Resul
     return result;
 }
 
-/// A result without its value, which ends here.
+/// A result without its value, which is destroyed here.
 template <typename T, typename E>
 [[nodiscard]] tl::expected<void, E> without_value(tl::expected<T, E> result) {
     return std::move(result).map([](T&&) {});
 }
 
-/// Whether nothing ends with a result's value: there is none, it holds nothing, or the result has a name and keeps it.
+/// Whether TRY_VOID may drop a result's value: it has none, the value owns nothing, or the result is an
+/// lvalue and keeps it.
 template <typename ResultReference>
 inline constexpr bool may_be_dropped =
     std::is_lvalue_reference_v<ResultReference> ||
@@ -112,8 +114,9 @@ inline constexpr bool may_be_dropped =
 
 } // namespace frustumscreen
 
-/// The value is moved out of its result; both live to the end of the scope. `variable` is a declaration without a
-/// comma (auto, where the type has one) or something to assign to; the function may return a Result of any type.
+/// Moves the value out of its result; both live to the end of the scope. `variable` is a declaration without
+/// a comma (auto if the type has one) or an assignable expression; the function may return a Result of any
+/// type.
 #define TRY(variable, ...) FRUSTUMSCREEN_TRY_COUNTED(__COUNTER__, variable, __VA_ARGS__)
 #define FRUSTUMSCREEN_TRY_COUNTED(count, variable, ...) FRUSTUMSCREEN_TRY_NAMED(count, variable, __VA_ARGS__)
 #define FRUSTUMSCREEN_TRY_NAMED(count, variable, ...)                                                        \
@@ -123,7 +126,7 @@ inline constexpr bool may_be_dropped =
     }                                                                                                        \
     variable = *std::move(result_of_try_##count)
 
-/// A result that has a name keeps its value.
+/// A named result keeps its value.
 #define TRY_VOID(...)                                                                                        \
     if (auto&& result_of_try = __VA_ARGS__; !result_of_try) {                                                \
         static_assert(frustumscreen::may_be_dropped<decltype(result_of_try)>,                                \

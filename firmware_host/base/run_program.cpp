@@ -28,7 +28,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A file in memory, which a program can read however slowly.
+/// A file in memory, which a program can read at any speed.
 Descriptor memory_file(std::string_view text) {
     Descriptor file(::memfd_create("text", MFD_CLOEXEC));
     std::size_t written = 0;
@@ -43,7 +43,7 @@ Descriptor memory_file(std::string_view text) {
     return file;
 }
 
-/// A program and what it started, which end with this.
+/// A running program and its children; the destructor kills them.
 class Running {
 public:
     explicit Running(pid_t process) : process_(process) {}
@@ -56,7 +56,7 @@ public:
             ::waitpid(process_, &status, 0);
         }
     }
-    /// Its status once it has ended; nothing while it runs.
+    /// Its status once it has ended; nullopt while it runs.
     [[nodiscard]] std::optional<int> status() {
         int status = 0;
         if (!status_ && ::waitpid(process_, &status, WNOHANG) == process_) {
@@ -70,14 +70,15 @@ private:
     std::optional<int> status_;
 };
 
-/// What the program is started with.
+/// Parameters of a start.
 struct Start {
     char* const* arguments;
     std::array<int, 3> streams; ///< its standard input, output and error
     std::uint64_t memory_bytes;
 };
 
-/// Becomes the program; reports an error number if it cannot. Only calls that are safe after a fork among threads.
+/// Becomes the program; reports an error number on failure. Uses only calls that are safe after a fork in a
+/// threaded process.
 [[noreturn]] void become(const Start& how, int report) {
     if (how.memory_bytes > 0) {
         const rlimit limit{how.memory_bytes, how.memory_bytes};
@@ -94,10 +95,10 @@ struct Start {
     ::_exit(127);
 }
 
-/// Ends as the program did.
+/// Ends this process with the status of the program.
 [[noreturn]] void end_like(int status) {
     if (WIFSIGNALED(status)) {
-        const rlimit no_dump{0, 0}; // the program has made one, if any is wanted
+        const rlimit no_dump{0, 0}; // the program wrote one already, if enabled
         ::setrlimit(RLIMIT_CORE, &no_dump);
         ::signal(WTERMSIG(status), SIG_DFL);
         ::kill(::getpid(), WTERMSIG(status));
@@ -105,17 +106,17 @@ struct Start {
     ::_exit(WEXITSTATUS(status));
 }
 
-/// A process between us and the program, in a group of its own with all that the program starts. When we end, however that
-/// happens, the kernel tells it, and it ends the group.
+/// A process between ours and the program, in its own group together with everything that the program starts.
+/// When our process ends for any reason, the kernel signals the guard, and the guard kills the group.
 [[noreturn]] void guard(const Start& how, int report, pid_t us) {
     ::setpgid(0, 0);
-    sigset_t none; // our caller may wait for signals itself
+    sigset_t none; // our caller may block signals
     ::sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
     ::signal(SIGTERM, [](int) { ::kill(0, SIGKILL); });
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (::getppid() != us) {
-        ::_exit(127); // it happened before
+        ::_exit(127); // our process ended before the prctl
     }
     const pid_t program = ::fork();
     if (program == 0) {
@@ -126,7 +127,7 @@ struct Start {
         [[maybe_unused]] const ssize_t written = ::write(report, &error, sizeof(error));
         ::_exit(127);
     }
-    ::close_range(0, ~0U, 0); // or pipes of ours would not end before this process
+    ::close_range(0, ~0U, 0); // otherwise it would hold our pipes open
     int status = 0;
     while (::waitpid(program, &status, 0) < 0 && errno == EINTR) {
     }
@@ -138,13 +139,13 @@ struct Pipe {
     Descriptor in = Descriptor();
 };
 
-/// Numbers of -1 where there can be none.
+/// Both numbers are -1 on failure.
 Pipe open_pipe() {
     std::array<int, 2> ends{-1, -1};
     return ::pipe2(ends.data(), O_CLOEXEC) == 0 ? Pipe{Descriptor(ends[0]), Descriptor(ends[1])} : Pipe{};
 }
 
-/// The process; or an error number. It ends with the thread that calls this.
+/// Returns the process, or an error number. The program ends with the calling thread.
 tl::expected<pid_t, int> start(const std::vector<std::string>& command, const std::array<int, 3>& streams,
                                std::uint64_t memory_bytes) {
     std::vector<std::string> words = command;
@@ -162,7 +163,7 @@ tl::expected<pid_t, int> start(const std::vector<std::string>& command, const st
     if (process < 0) {
         return tl::unexpected<int>(errno);
     }
-    ::setpgid(process, process); // here too, so that it has its group before anybody ends it
+    ::setpgid(process, process); // here too, so the group exists before it can be killed
     report.in = Descriptor();
     int error = 0;
     if (::read(report.out.number(), &error, sizeof(error)) == sizeof(error)) {
@@ -172,7 +173,7 @@ tl::expected<pid_t, int> start(const std::vector<std::string>& command, const st
     return process;
 }
 
-/// Reads what there is; what has ended is closed.
+/// Reads the available bytes; closes `from` at its end.
 std::span<const std::byte> read_some(Descriptor& from, std::span<std::byte> block) {
     const ssize_t count = ::read(from.number(), block.data(), block.size());
     if (count <= 0) {
@@ -182,11 +183,11 @@ std::span<const std::byte> read_some(Descriptor& from, std::span<std::byte> bloc
     return block.first(static_cast<std::size_t>(count));
 }
 
-/// Follows a program until it has ended and said all.
+/// Follows a program until it has ended and its output is read.
 ProgramEnd::How listen(Running& running, Descriptor& output, Descriptor& complaints,
                        const ProgramLimits& limits, ProgramEnd& heard) {
-    constexpr int nap_ms = 5;             // the end of a program wakes nobody
-    constexpr std::int64_t look_ms = 100; // nor does who gives up
+    constexpr int nap_ms = 5;             // the end of a program does not wake the poll
+    constexpr std::int64_t look_ms = 100; // neither does `given_up`
     const Clock::time_point deadline = Clock::now() + limits.time;
     std::array<std::byte, 65536> block{};
     for (;;) {
@@ -242,7 +243,7 @@ Result<ProgramEnd> follow_program(const std::vector<std::string>& command, std::
                     "{}: cannot be started: {}; install it, or name another program", name_of(command),
                     std::strerror(process.error()));
     }
-    output.in = Descriptor(); // else the pipes would never end
+    output.in = Descriptor(); // otherwise the pipes would never end
     complaints.in = Descriptor();
     Running running(*process);
     ProgramEnd end;

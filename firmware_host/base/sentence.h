@@ -1,4 +1,4 @@
-/// The state of a device in one plain sentence for the person beside it, as a value of fixed size.
+/// The state of a device in one plain sentence for the person next to it, as a value of fixed size.
 ///
 /// `Sentence` cuts what is too long between two UTF-8 characters: systemd refuses half a character.
 #pragma once
@@ -20,7 +20,7 @@ public:
     [[nodiscard]] bool operator==(const Sentence& other) const { return view() == other.view(); }
 
 private:
-    /// How many bytes of `text` fit, in whole characters.
+    /// Number of bytes of `text` that fit, in whole characters.
     [[nodiscard]] static constexpr std::size_t fitting(std::string_view text) {
         std::size_t end = std::min(text.size(), longest);
         while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {

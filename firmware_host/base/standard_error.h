@@ -1,4 +1,4 @@
-/// Writes a line to standard error with one write; where nobody reads it, the line is lost.
+/// Writes a line to standard error with one write; without a reader the line is lost.
 ///
 /// Threads  any.
 /// Errors   none: a full disk behind standard error must not end the exhibit.
@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// `line` has no line break at its end; what is longer than 1000 bytes is cut.
+/// `line` has no line break at its end; a line longer than 1000 bytes is cut.
 inline void say_line(std::string_view program, std::string_view line) {
     std::array<char, 1000> text{};
     char* const end = fmt::format_to_n(text.data(), text.size() - 1, "{}: {}", program, line).out;

@@ -1,5 +1,5 @@
-/// A file that is written piece by piece, where holding all of it would take too much memory, and appears by rename all the same:
-/// complete or not at all.
+/// A file that is written piece by piece, because the whole would take too much memory. It appears by rename,
+/// either complete or not at all.
 ///
 /// Threads  one caller.
 /// Errors   as write_file.
@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// `write` fills the empty file; where it fails, nothing is left behind, and its error is told.
+/// `write` fills the empty file. If it fails, no file is left behind, and its error is returned.
 [[nodiscard]] Result<void> write_file_with(const std::filesystem::path& path,
                                            const std::function<Result<void>(int descriptor)>& write);
 

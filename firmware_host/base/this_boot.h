@@ -1,7 +1,7 @@
-/// The time since this machine was started: the kernel's name for it, and how long it is.
+/// The current boot of this machine: the kernel's id of it, and the time since.
 ///
 /// Threads  any.
-/// Errors   the name is empty where the kernel does not say it.
+/// Errors   the id is empty if the kernel does not provide it.
 /// Source   boot_id in random(4), CLOCK_BOOTTIME in clock_gettime(2).
 #pragma once
 
@@ -13,14 +13,14 @@
 
 namespace frustumscreen {
 
-/// `root`: a folder that stands for /, for tests.
+/// `root`: a folder in place of /, for tests.
 [[nodiscard]] inline std::string boot_id(const std::filesystem::path& root = "/") {
     std::string id;
     std::getline(std::ifstream(root / "proc/sys/kernel/random/boot_id"), id);
     return id;
 }
 
-/// With the time that the machine slept.
+/// Includes time that the machine slept.
 [[nodiscard]] inline std::chrono::milliseconds since_boot() {
     std::timespec time{};
     ::clock_gettime(CLOCK_BOOTTIME, &time);

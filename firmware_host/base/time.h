@@ -1,4 +1,4 @@
-/// Monotonic time in integer nanoseconds; every clock reading comes in from outside as a parameter.
+/// Monotonic time in integer nanoseconds; functions take clock readings as parameters.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@ using MonotonicTime = std::chrono::time_point<std::chrono::steady_clock, Nanosec
 [[nodiscard]] inline std::int64_t to_microseconds(MonotonicTime time) {
     return std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch()).count();
 }
-/// The only reading of the monotonic clock; only what paces the exhibit or waits for a device calls it.
+/// The only reading of the monotonic clock; called only by code that paces the exhibit or waits for a device.
 [[nodiscard]] inline MonotonicTime monotonic_now() {
     return std::chrono::time_point_cast<Nanoseconds>(std::chrono::steady_clock::now());
 }

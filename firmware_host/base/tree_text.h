@@ -1,4 +1,4 @@
-/// Small files of a tree, whole.
+/// Reads and replaces whole small files of a tree.
 ///
 /// Threads  one caller.
 /// Errors   as FileTree.
@@ -11,10 +11,11 @@
 
 namespace frustumscreen {
 
-/// EFBIG: it has more than `most_bytes`.
+/// EFBIG: the file has more than `most_bytes`.
 [[nodiscard]] FileResult<std::string> read_text(FileTree& tree, std::string_view path,
                                                 std::size_t most_bytes);
-/// Written under the name `next`, synced, renamed to `path`. That the name is on the disk says sync_folder alone.
+/// Writes the file `next`, syncs it, and renames it to `path`. Only sync_folder puts the new name on the
+/// disk.
 [[nodiscard]] FileResult<void> replace_text(WritableTree& tree, std::string_view path, std::string_view next,
                                             std::string_view text);
 

@@ -1,7 +1,7 @@
 /// A text without the blanks around it.
 ///
 /// Threads  pure; any.
-/// Source   Unicode, White_Space; and the marks without a width that editors leave behind.
+/// Source   Unicode, White_Space; and the zero-width marks that editors leave behind.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace frustumscreen {
 
-/// Part of `text`, UTF-8; empty if there are only blanks.
+/// A part of `text`, UTF-8; empty if `text` has only blanks.
 [[nodiscard]] inline std::string_view trimmed(std::string_view text) {
     constexpr std::array<std::string_view, 24> blanks{
         " ",      "\t",     "\n",     "\v",     "\f",     "\r",     "\u0085", "\u00a0",

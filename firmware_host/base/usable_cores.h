@@ -1,4 +1,5 @@
-/// How many of the machine's cores this process may use: those that its scheduler, a container or `taskset` left it.
+/// Number of the machine's cores that this process may use, as limited by its scheduler, a container or
+/// `taskset`.
 ///
 /// Threads  any.
 #pragma once
@@ -13,7 +14,8 @@ namespace frustumscreen {
 /// At least 1.
 [[nodiscard]] inline unsigned usable_cores() {
     cpu_set_t set;
-    const bool is_known = ::sched_getaffinity(0, sizeof(set), &set) == 0; // not on machines of more than 1024
+    // Fails on machines with more than 1024.
+    const bool is_known = ::sched_getaffinity(0, sizeof(set), &set) == 0;
     return std::max(1U,
                     is_known ? static_cast<unsigned>(CPU_COUNT(&set)) : std::thread::hardware_concurrency());
 }

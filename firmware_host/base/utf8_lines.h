@@ -1,4 +1,4 @@
-/// Whether a file of text is what it should be.
+/// Checks that a text is UTF-8.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -12,7 +12,8 @@
 
 namespace frustumscreen {
 
-/// The first line, counted from 1, that is not UTF-8; nothing if all are. A zero byte is the half of a letter in UTF-16.
+/// The first line, counted from 1, that is not UTF-8; nullopt if all are. A zero byte counts as an error: it
+/// is half of a character in UTF-16.
 [[nodiscard]] inline std::optional<std::size_t> line_that_is_not_utf8(std::string_view text) {
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t bytes = character_bytes(text.substr(at));

@@ -1,4 +1,4 @@
-/// A time as a person says it: '40 s', '4 min', '2 h 5 min'.
+/// A duration in spoken form: '40 s', '4 min', '2 h 5 min'.
 ///
 /// Threads  pure; any.
 #pragma once

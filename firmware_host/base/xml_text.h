@@ -1,4 +1,4 @@
-/// Escapes words for XML and HTML: for text, and for attributes in double quotes.
+/// Escapes text for XML and HTML content, and for attributes in double quotes.
 #pragma once
 
 #include <string>

@@ -13,7 +13,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The kernel's names end with a 0, unless they are as long as their field.
+/// The kernel's names end with a 0, unless they fill their field.
 template <std::size_t size> std::string text_of(const __u8 (&field)[size]) {
     const char* const text = reinterpret_cast<const char*>(field);
     return {text, ::strnlen(text, size)};
@@ -22,7 +22,7 @@ template <std::size_t size> std::string text_of(const __u8 (&field)[size]) {
 struct Identity {
     std::string name, bus;
 };
-/// Nothing: it is no camera; some of the kernel's video devices send other things.
+/// nullopt: not a camera; some of the kernel's video devices provide other data.
 std::optional<Identity> identity_of(V4l2Device& device) {
     v4l2_capability capability{};
     if (device.ask(VIDIOC_QUERYCAP, capability) != 0) {
@@ -53,7 +53,8 @@ CameraState state_of_open(int error) {
     }
 }
 
-/// A camera without white balance may be one that sees no colour.
+/// Whether the picture may change by itself. A camera without white balance may be monochrome and does not
+/// count.
 bool changes_by_itself(const CameraSetUp& set_up) {
     return std::any_of(set_up.controls.begin(), set_up.controls.end(), [](const LockedControl& control) {
         return control.lock == Lock::Refused ||
@@ -144,9 +145,9 @@ Nanoseconds CameraDriver::search() {
             heard_ = clock_();
             has_sent_ = false;
             broken_before_ = counts_.broken;
-            // Where the driver does not say how fast it sends, it is held to the wish.
+            // If the driver does not report its rate, the requested rate applies.
             judge_.emplace(set_up_->mode.rate_hz > 0.0 ? set_up_->mode.rate_hz : wish_.rate_hz, heard_);
-            // What was wrong with it says more, until it has sent.
+            // Until the first frame, a previous fault tells more than SettingUp.
             state_ = state_ == CameraState::Silent || state_ == CameraState::Broken ? state_
                                                                                     : CameraState::SettingUp;
             return Nanoseconds(0);

@@ -1,11 +1,13 @@
-/// The policy above a camera: it searches, sets up and streams, and searches again after a loss. Of several cameras that may be
-/// meant it takes the first that can be set up; one that failed is tried last.
+/// The driver of a camera: it searches, sets up, streams, and searches again after a loss. It takes the first
+/// matching camera that can be set up; one that failed is tried last.
 ///
-/// Time     read from `clock`, because a wait takes time. A camera that is back is found within `between_searches`, and frames
-///          follow after one set-up; it is called well once they have come for FrameJudge::dwell: together below 2 s.
-/// Share    frames are passed over, so that decoding, judging and using the others takes no more than `share` of one core (frame_pace.h).
-/// Threads  one caller; a step waits for one frame at most, and a set-up for some twenty control transfers.
-/// Errors   none; `state` says what is the matter.
+/// Time     read from `clock`, because a wait takes time. A camera that returns is found within
+///          `between_searches` and streams after one set-up; it counts as well after FrameJudge::dwell of
+///          good frames: together below 2 s.
+/// Share    frames are skipped, so that decoding, judging and using the others takes at most `share` of one
+///          core (frame_pace.h).
+/// Threads  one caller; a step waits for at most one frame, and a set-up for some twenty control transfers.
+/// Errors   none; `state` describes them.
 #pragma once
 
 #include "firmware_host/camera/camera.h"
@@ -17,19 +19,19 @@
 
 namespace frustumscreen {
 
-/// A camera that the kernel knows of.
+/// A camera that the kernel lists.
 struct FoundCamera {
     std::string path, name, bus;
-    std::vector<CameraMode> modes; ///< those that can be read
+    std::vector<CameraMode> modes; ///< only those in a readable format
 };
-/// All of them. Those that cannot be opened are left out.
+/// All cameras that can be opened.
 [[nodiscard]] std::vector<FoundCamera> list_cameras(V4l2Devices& devices, const CameraWish& wish);
 
 class CameraDriver {
 public:
     static constexpr Nanoseconds between_searches = std::chrono::milliseconds(250);
     static constexpr Nanoseconds frame_timeout = std::chrono::milliseconds(50);
-    /// A camera that is silent or sends broken frames for longer is set up anew.
+    /// A camera that is silent or sends broken frames for longer is set up again.
     static constexpr Nanoseconds most_silence = std::chrono::seconds(3);
 
     using Clock = std::function<MonotonicTime()>;
@@ -38,14 +40,14 @@ public:
 
     struct Step {
         bool fresh = false; ///< a frame was taken
-        Nanoseconds rest{}; ///< before the next step
+        Nanoseconds rest{}; ///< pause before the next step
     };
-    /// One round; a frame that was taken has been used.
+    /// One round; a frame that was taken has already been used.
     [[nodiscard]] Step step(CameraFrame& frame);
     [[nodiscard]] CameraState state() const { return state_; }
     [[nodiscard]] bool is_open() const { return stream_ != nullptr; }
     [[nodiscard]] const CameraCounts& counts() const { return counts_; }
-    /// Of the open camera, or the one before.
+    /// Settings of the open camera, or of the previous one.
     [[nodiscard]] const std::optional<CameraSetUp>& set_up() const { return set_up_; }
     [[nodiscard]] double rate_hz();
 
@@ -58,16 +60,16 @@ private:
     std::unique_ptr<V4l2Devices> devices_;
     CameraWish wish_;
     Clock clock_;
-    FrameUse use_; ///< may be none
+    FrameUse use_; ///< may be empty
     FramePace pace_;
     std::unique_ptr<V4l2Stream> stream_;
     std::optional<FrameJudge> judge_; ///< of the open camera
     std::optional<CameraSetUp> set_up_;
     std::string path_;                ///< of the open camera
     std::string failed_;              ///< the path that failed last
-    MonotonicTime heard_;             ///< the last whole frame, or the beginning
-    bool has_sent_ = false;           ///< a whole frame
-    std::uint64_t broken_before_ = 0; ///< as counted at the last whole frame
+    MonotonicTime heard_;             ///< time of the last whole frame, or of the opening
+    bool has_sent_ = false;           ///< a whole frame has come
+    std::uint64_t broken_before_ = 0; ///< count at the last whole frame
     CameraCounts counts_;
     CameraState state_ = CameraState::NotConnected;
 };

@@ -1,4 +1,4 @@
-/// What is wished of a camera, and what it was set to in the end.
+/// The requested settings of a camera, and the resulting ones.
 ///
 /// Threads  values.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// In the order in which they are preferred: the first ones cost least to read.
+/// In order of preference: the formats that are cheapest to decode come first.
 enum class PixelFormat : std::uint8_t { Grey, Yuyv, Mjpeg };
 
 [[nodiscard]] constexpr std::string_view name_of(PixelFormat format) {
@@ -22,24 +22,24 @@ enum class PixelFormat : std::uint8_t { Grey, Yuyv, Mjpeg };
 struct CameraMode {
     PixelFormat format = PixelFormat::Grey;
     int width = 0, height = 0;
-    double rate_hz = 0.0; ///< 0: the driver does not say
+    double rate_hz = 0.0; ///< 0: not reported by the driver
     [[nodiscard]] bool operator==(const CameraMode&) const = default;
 };
 
 struct CameraWish {
-    std::string device = "any"; ///< or a path, or the camera's name
+    std::string device = "any"; ///< "any", a path, or the camera's name
     int width = 1280, height = 720;
     double rate_hz = 30.0;
-    /// Nothing: the camera's own value, but locked.
+    /// nullopt: keep the camera's own value, but lock it.
     std::optional<double> exposure_ms;
     std::optional<int> gain;            ///< in the camera's own steps
     std::optional<int> white_balance_k; ///< kelvin
 };
 
 enum class Lock : std::uint8_t {
-    Locked,   ///< read back as it was wished, from the driver, which may answer from memory
-    Changed,  ///< locked, but the camera has taken another value than the one wished
-    Refused,  ///< the camera goes on changing it, or does not say
+    Locked,   ///< read back as requested; the driver may answer from memory
+    Changed,  ///< locked, but at another value than requested
+    Refused,  ///< the camera continues to change it, or does not report it
     NotThere, ///< the camera has no such control
 };
 
@@ -66,9 +66,9 @@ struct LockedControl {
 
 struct CameraSetUp {
     std::string path; ///< /dev/video0
-    std::string name; ///< as the camera calls itself
-    std::string bus;  ///< where it is plugged in
-    CameraMode mode;  ///< as the driver has taken it
+    std::string name; ///< name reported by the camera
+    std::string bus;  ///< port that it is plugged into
+    CameraMode mode;  ///< as accepted by the driver
     std::vector<LockedControl> controls;
 };
 

@@ -1,4 +1,4 @@
-/// What is the matter with a camera, and the sentence that says so to the person beside it.
+/// The state of a camera, and its sentence for the person next to the device.
 ///
 /// Threads  values.
 #pragma once
@@ -87,11 +87,11 @@ enum class CameraState : std::uint8_t {
     return note_of(state).sentence;
 }
 
-/// What of a camera can be used.
+/// How usable a camera is.
 enum class CameraHealth : std::uint8_t {
     Well,
     Impaired, ///< frames come, but too few, or they show nothing
-    Away,     ///< no frame comes
+    Away,     ///< no frames come
 };
 
 [[nodiscard]] constexpr CameraHealth health_of(CameraState state) {

@@ -9,14 +9,13 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int dark_code = 48;     ///< black is 16 in video's range, and noise and a leak of light lie on top
+constexpr int dark_code = 48;     ///< black is 16 in video range; noise and stray light add to it
 constexpr int no_contrast = 24;   ///< codes between the darkest and the brightest hundredth
 constexpr int clipped_code = 250; ///< of 255
-constexpr int video_white = 235;  ///< where cameras with video's range end
-constexpr int flat = 4;           ///< codes; a wall that is lit evenly has more
+constexpr int video_white = 235;  ///< largest code of cameras with video range
+constexpr int flat = 4;           ///< codes; an evenly lit wall has more
 constexpr double least_share = 0.5;
-constexpr std::size_t stride =
-    7; ///< every so manieth pixel is enough for the codes; prime, so that no column is preferred
+constexpr std::size_t stride = 7; ///< sample every 7th pixel; prime, so no column aliases
 
 bool is_dark(const FrameLook& look) {
     return look.brightest < dark_code && look.brightest - look.darkest < no_contrast;
@@ -27,7 +26,7 @@ bool is_blinded(const FrameLook& look) {
            (look.median >= video_white && look.brightest - look.darkest <= flat);
 }
 
-/// Of eight bytes at a time; a step of it loses nothing, so different bytes give the same number by a chance of 2^-64.
+/// Hashes eight bytes per step. Each step is invertible, so different bytes collide with probability 2^-64.
 std::uint64_t hash_of(std::span<const std::uint8_t> bytes) {
     constexpr std::uint64_t odd = 0x9E3779B97F4A7C15ULL; // 2^64 over the golden ratio
     std::uint64_t hash = bytes.size();
@@ -40,7 +39,7 @@ std::uint64_t hash_of(std::span<const std::uint8_t> bytes) {
     return hash;
 }
 
-/// The code below which `below` of the counted pixels lie.
+/// The code that more than `below` of the counted pixels do not exceed.
 std::uint8_t code_at(const std::array<std::uint32_t, 256>& counted, std::uint64_t below) {
     std::uint64_t sum = 0;
     for (std::size_t code = 0; code < counted.size(); ++code) {
@@ -78,7 +77,7 @@ FrameJudge::FrameJudge(double rate_hz, MonotonicTime start)
 
 void FrameJudge::hear(MonotonicTime now, std::uint64_t frames) {
     if (arrivals_.empty() || now >= silent_from_) {
-        arrivals_.clear(); // a pause is no slow stream
+        arrivals_.clear(); // a pause is not a slow stream
         counted_since_ = now;
     }
     arrivals_.insert(arrivals_.end(), frames, now);

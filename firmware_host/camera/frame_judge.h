@@ -1,13 +1,13 @@
-/// Whether a camera's frames show anything: covered, blinded, frozen, slow, silent.
+/// Frame health: whether a camera's frames are usable, or covered, blinded, frozen, slow or silent.
 ///
-/// Dark     the brightest hundredth is dark and the picture has no contrast: covered, or there is no light.
-/// Blinded  half of the picture is as bright as a code can be; or all of it is equally bright, near that.
-/// Frozen   the same bytes for a second and ten frames. A sensor's noise changes some code in each frame; where the picture is dark
-///          or blinded it may not, so such a picture is called that and never frozen. A test pattern without noise that stands
-///          still is called frozen, rightly or not.
-/// Slow     in the last two seconds less than half of the frames that the camera said it would send.
-/// Silent   no frame for a second, or for five frames' time.
-/// Each is told once it has held for `dwell`, and so is its end.
+/// Dark     the brightest hundredth is dark and the picture has no contrast: covered, or without light.
+/// Blinded  half of the picture has the largest code; or all of it is equally bright, close to that.
+/// Frozen   the same bytes for a second and ten frames. A sensor's noise changes some code in each frame. In
+///          a dark or blinded picture it may not, so Dark and Blinded take precedence. A static, noiseless
+///          test pattern is reported as frozen too.
+/// Slow     in the last two seconds fewer than half of the frames at the announced rate.
+/// Silent   no frame for a second, or for the time of five frames.
+/// Each verdict, and its end, is reported once it has lasted for `dwell`.
 ///
 /// Time     a parameter throughout, monotonic.
 /// Threads  one caller.
@@ -21,11 +21,11 @@
 
 namespace frustumscreen {
 
-/// What a frame shows, in a few numbers.
+/// Statistics of a frame.
 struct FrameLook {
-    std::uint8_t darkest = 0;   ///< code that a hundredth of the pixels stay below
-    std::uint8_t median = 0;    ///< as many pixels are brighter as are darker
-    std::uint8_t brightest = 0; ///< code that a hundredth of the pixels exceed
+    std::uint8_t darkest = 0;   ///< a hundredth of the pixels are darker
+    std::uint8_t median = 0;    ///< half of the pixels are darker
+    std::uint8_t brightest = 0; ///< a hundredth of the pixels are brighter
     std::uint64_t bytes_hash = 0;
 };
 [[nodiscard]] FrameLook look_at(std::span<const std::uint8_t> luma);
@@ -38,19 +38,19 @@ public:
     static constexpr Nanoseconds rate_window = std::chrono::seconds(2);
     static constexpr Nanoseconds frozen_after = std::chrono::seconds(1);
     static constexpr int frozen_frames = 10;
-    /// Cameras take so long to send their first frame.
+    /// Time that cameras may take to send their first frame.
     static constexpr Nanoseconds first_frame = std::chrono::seconds(2);
 
-    /// `rate_hz`: as negotiated, above 0.
+    /// `rate_hz`: the negotiated rate, above 0.
     FrameJudge(double rate_hz, MonotonicTime start);
 
-    /// Frames came that were not looked at.
+    /// Reports frames that were not looked at.
     void hear(MonotonicTime now, std::uint64_t frames);
-    /// `overtaken`: frames that came with it and were not looked at, because this one was there already.
+    /// Reports a frame. `overtaken`: earlier frames that came with it and were not looked at.
     void see(MonotonicTime now, const FrameLook& look, std::uint64_t overtaken = 0);
-    /// To be asked now and then, also while no frame comes.
+    /// Call it regularly, also while no frames come.
     [[nodiscard]] FrameVerdict verdict(MonotonicTime now);
-    /// Frames a second, of those that came in the last two seconds.
+    /// Rate of the frames of the last two seconds, per second.
     [[nodiscard]] double rate_hz(MonotonicTime now);
 
 private:
@@ -59,9 +59,9 @@ private:
 
     double promised_hz_;
     Nanoseconds silence_;
-    MonotonicTime silent_from_; ///< if no frame comes until then
+    MonotonicTime silent_from_; ///< unless a frame comes before
     MonotonicTime counted_since_;
-    std::deque<MonotonicTime> arrivals_; ///< of the last two seconds, from `counted_since_` on
+    std::deque<MonotonicTime> arrivals_; ///< those of the last two seconds, since `counted_since_`
     FrameLook look_;
     MonotonicTime same_since_;
     int same_frames_ = 0;

@@ -1,7 +1,8 @@
-/// Hands the latest frame from the camera's thread to another by exchanging memory: no frame is copied, and once three have their
-/// size nothing is allocated.
+/// Hands the latest frame from the camera's thread to another by swapping memory: no frame is copied, and
+/// once three buffers have their size nothing is allocated.
 ///
-/// Threads  one puts, one takes; the latter never waits.
+///
+/// Threads  one puts, one takes; taking never waits.
 #pragma once
 
 #include "firmware_host/camera/camera.h"
@@ -13,13 +14,13 @@ namespace frustumscreen {
 
 class FrameMailbox {
 public:
-    /// `frame` becomes one whose memory may be filled anew.
+    /// `frame` becomes an old one, whose memory can be reused.
     void put(CameraFrame& frame) {
         const std::lock_guard lock(mutex_);
         std::swap(frame_, frame);
         fresh_ = true;
     }
-    /// False: none was put since, or the other side is at it; then `frame` stays as it is.
+    /// False: there is no new frame, or the other side is putting one; `frame` is then unchanged.
     [[nodiscard]] bool try_take(CameraFrame& frame) {
         const std::unique_lock lock(mutex_, std::try_to_lock);
         if (!lock.owns_lock() || !fresh_) {

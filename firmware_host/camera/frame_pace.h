@@ -1,8 +1,8 @@
-/// Keeps what is done with a camera's frames within a share of one core: after a frame that took some time, those that come too soon
-/// are passed over. What of the share was left unused while it waited for a frame counts for the next ones, up to `most_credit`: a frame that costs
-/// a little too much takes away one of many, and not every other one.
+/// CPU throttle: keeps the processing of a camera's frames within a share of one core. After a frame that
+/// took some time, frames that come too soon are skipped. Unused processor time accumulates as credit, up to
+/// `most_credit`, so a frame that costs slightly too much skips one frame in many, not every second one.
 ///
-/// Time     the frames' own. Where it goes back by much, as another clock's would, the frame is looked at.
+/// Time     the frames' own. A frame whose time is much earlier, as with another clock, is processed.
 /// Threads  one caller: the camera's own thread.
 #pragma once
 
@@ -13,28 +13,28 @@
 
 namespace frustumscreen {
 
-/// Of the processor, that this thread has used.
+/// Processor time used by this thread.
 [[nodiscard]] double thread_seconds();
 
 class FramePace {
 public:
     static constexpr Nanoseconds most_credit = std::chrono::milliseconds(50);
 
-    /// `busy`: seconds of the processor, ascending.
+    /// `busy` returns used processor time in seconds, ascending.
     explicit FramePace(double most_share, std::function<double()> busy = thread_seconds)
         : most_share_(most_share), busy_(std::move(busy)) {}
 
-    /// Whether the frame of that time is to be looked at; then the look begins.
+    /// Whether to process the frame of that time; if so, the processing begins now.
     [[nodiscard]] bool begin(MonotonicTime frame);
-    /// The look has ended; returns the seconds that it took.
+    /// The processing has ended; returns its seconds.
     double end();
 
 private:
     double most_share_;
     std::function<double()> busy_;
     double began_s_ = 0.0;
-    MonotonicTime frame_;               ///< that is looked at
-    std::optional<MonotonicTime> next_; ///< earlier frames are passed over
+    MonotonicTime frame_;               ///< the frame that is being processed
+    std::optional<MonotonicTime> next_; ///< skip frames before this time
 };
 
 } // namespace frustumscreen

@@ -32,7 +32,7 @@ bool read_jpeg(void* handle, const FrameFormat& format, std::span<const std::byt
         width != format.width || height != format.height) {
         return false;
     }
-    // What libjpeg warns of (a frame that is cut off, bits that make no sense) leaves a picture of which a part is invented.
+    // After a warning of libjpeg (a truncated frame, invalid bits) a part of the picture would be invented.
     return ::tjDecompress2(handle, data, bytes.size(), luma.data(), width, width, height, TJPF_GRAY,
                            TJFLAG_FASTDCT | TJFLAG_LIMITSCANS | TJFLAG_STOPONWARNING) == 0;
 }

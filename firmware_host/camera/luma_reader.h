@@ -1,6 +1,7 @@
-/// A camera's bytes into luma: GREY as it is, YUYV's every second byte, MJPEG's brightness alone.
+/// Converts a camera's bytes to luma: GREY unchanged, every second byte of YUYV, only the brightness of
+/// MJPEG.
 ///
-/// Bytes    come from outside: whatever they are, nothing is read beyond them or written beyond the frame.
+/// Bytes    come from outside: whatever they are, no access exceeds them or the frame.
 /// Threads  one caller.
 #pragma once
 
@@ -20,8 +21,8 @@ public:
     LumaReader(LumaReader&&) noexcept;
     LumaReader& operator=(LumaReader&&) noexcept;
 
-    /// False: too few bytes, or no JPEG of this size; `luma` is then of no use. It is resized to [height][width]; bytes behind a
-    /// frame are ignored, as cameras pad them.
+    /// Resizes `luma` to [height][width] and fills it. Returns false for too few bytes, or a JPEG of another
+    /// size or none; `luma` is then useless. Bytes after a frame are ignored, because cameras pad frames.
     [[nodiscard]] bool read(const FrameFormat& format, std::span<const std::byte> bytes,
                             std::vector<std::uint8_t>& luma);
 

@@ -1,8 +1,8 @@
 /// A V4L2 camera as the exhibit sees it: the device has its own thread, which also judges its frames.
 ///
-/// Threads  the device is opened, read and closed on the thread that this class starts and joins; what is declared here waits for
-///          nothing, whatever the device does. The destructor waits for the one call of the kernel under way.
-/// Errors   none; `state` says what is the matter.
+/// Threads  the class starts and joins a thread that opens, reads and closes the device. The other functions
+///          never wait, whatever the device does. The destructor waits for the kernel call in progress.
+/// Errors   none; `state` describes them.
 #pragma once
 
 #include "firmware_host/base/heartbeat.h"
@@ -18,13 +18,13 @@ namespace frustumscreen {
 
 class V4l2Camera final : public Camera {
 public:
-    /// A set-up makes some twenty control transfers, and the kernel gives up after 5 s for each: a device that is that slow is
-    /// hardly ever seen, so a minute is promised.
+    /// A set-up makes some twenty control transfers, and the kernel gives up each after 5 s. Devices that
+    /// slow are very rare, so a minute is promised.
     static constexpr Nanoseconds longest_search = std::chrono::seconds(60);
-    /// A wait for a frame, its decoding, and the closing of a camera that is lost.
+    /// Longest wait for a frame, its decoding, and the closing of a lost camera.
     static constexpr Nanoseconds longest_round = std::chrono::seconds(10);
 
-    /// `most_share`: of one core, that its thread takes at most.
+    /// `most_share`: limit of the thread's processor time, as a share of one core.
     V4l2Camera(std::unique_ptr<V4l2Devices> devices, CameraWish wish, FrameUse use = {},
                double most_share = 1.0);
 
@@ -44,11 +44,11 @@ private:
     FrameMailbox mailbox_;
     std::atomic<CameraState> state_{CameraState::NotConnected};
     std::atomic<double> rate_hz_{0.0};
-    mutable std::mutex told_mutex_; ///< held for a copy only
+    mutable std::mutex told_mutex_; ///< held only for a copy
     CameraCounts counts_;
     std::optional<CameraSetUp> set_up_;
     Heartbeat heartbeat_{monotonic_now() + longest_search};
-    std::jthread thread_; ///< last: it uses all of the above
+    std::jthread thread_; ///< last: it uses all members above
 };
 
 } // namespace frustumscreen

@@ -13,8 +13,8 @@ constexpr double ticks_per_ms = 10.0;
 
 struct Recipe {
     std::string_view name, unit;
-    std::uint32_t automatic; ///< the control that makes it automatic
-    std::int32_t manual;     ///< the value of it that does not
+    std::uint32_t automatic; ///< the control that selects automatic mode
+    std::int32_t manual;     ///< its value for manual mode
     std::uint32_t value;
     double steps_per_unit;
 };

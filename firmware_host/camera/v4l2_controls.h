@@ -1,8 +1,9 @@
-/// Exposure, gain and white balance of a V4L2 camera: no longer automatic, set, and read back. A camera that changes them by itself
-/// would see the projector's picture as a change of light.
+/// Locks exposure, gain and white balance of a V4L2 camera: automatic off, value set, and read back. A camera
+/// that changes them by itself would mistake the projector's picture for a change of light.
+///
 ///
 /// Threads  the camera's own.
-/// Errors   none: what could not be locked says so in its row.
+/// Errors   none: each control's row reports a failure.
 #pragma once
 
 #include "firmware_host/camera/camera_set_up.h"

@@ -44,7 +44,7 @@ public:
         if (ready < 0) {
             return errno == EINTR ? EAGAIN : errno;
         }
-        return ready == 0 ? EAGAIN : 0; // what is the matter with it, the next ioctl says
+        return ready == 0 ? EAGAIN : 0; // the next ioctl reports an error
     }
     [[nodiscard]] tl::expected<std::span<const std::byte>, int> map(std::size_t offset,
                                                                     std::size_t size) override {

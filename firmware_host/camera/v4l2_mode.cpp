@@ -13,10 +13,10 @@ namespace frustumscreen {
 
 namespace {
 
-/// More than any camera has: a device whose descriptors lie may claim many more.
+/// Larger than any real camera's lists; a device with false descriptors may claim many more.
 constexpr std::uint32_t most_formats = 64, most_sizes = 128, most_rates = 64;
 constexpr int longest_side = 8192;
-/// A camera of 29.97 Hz is one of 30.
+/// 29.97 Hz counts as 30 Hz.
 constexpr double near_enough = 0.99;
 
 std::optional<PixelFormat> format_of(std::uint32_t fourcc) {
@@ -43,7 +43,7 @@ double hertz(const v4l2_fract& interval) {
     return interval.numerator > 0 ? static_cast<double>(interval.denominator) / interval.numerator : 0.0;
 }
 
-/// The value next to `wished` that such a range has.
+/// The value in the range that is nearest to `wished`.
 int in_range(int wished, std::uint32_t least, std::uint32_t most, std::uint32_t step) {
     const std::int64_t unit = std::max<std::int64_t>(step, 1);
     const std::int64_t inside = std::clamp<std::int64_t>(wished, least, std::max(least, most));
@@ -66,7 +66,7 @@ void list_rates(V4l2Device& device, std::uint32_t fourcc, CameraMode mode, doubl
         mode.rate_hz = hertz(rate.discrete);
         modes.push_back(mode);
     }
-    if (rate.index == 0) { // a camera of one rate need not list it
+    if (rate.index == 0) { // a camera with one rate need not list it
         modes.push_back(mode);
     }
 }
@@ -90,7 +90,7 @@ void list_sizes(V4l2Device& device, std::uint32_t fourcc, PixelFormat format, co
         }
         add(size.discrete.width, size.discrete.height);
     }
-    if (size.index == 0) { // the driver does not list sizes: it may take the one that is wished
+    if (size.index == 0) { // the driver lists no sizes; it may accept the wished one
         add(wish.width, wish.height);
     }
 }
@@ -115,7 +115,8 @@ std::optional<CameraMode> choose_mode(std::span<const CameraMode> modes, const C
         const int off = std::abs(mode.width - wish.width) + std::abs(mode.height - wish.height);
         const double reached = std::fmin(mode.rate_hz / wish.rate_hz, 1.0);
         const double missing = reached >= near_enough ? 0.0 : 1.0 - reached;
-        // Of rates that suffice, the one next to the wish: more light for each frame, less to carry.
+        // Among sufficient rates, the nearest to the wish: more light for each frame, fewer bytes to
+        // transfer.
         const double beyond = std::fabs(mode.rate_hz - wish.rate_hz);
         return std::tuple(off, missing, mode.format, beyond);
     };
@@ -147,7 +148,7 @@ tl::expected<SetMode, CameraState> set_mode(V4l2Device& device, const CameraMode
         constexpr double thousand = 1000.0;
         parameters.parm.capture.timeperframe = {
             1000, static_cast<std::uint32_t>(std::lround(thousand * mode.rate_hz))};
-        // A camera that cannot be told its rate has one all the same; what it says is read next.
+        // A camera without an adjustable rate still has a rate; it is read next.
         static_cast<void>(device.ask(VIDIOC_S_PARM, parameters));
     }
     const bool says = device.ask(VIDIOC_G_PARM, parameters) == 0;

@@ -1,4 +1,4 @@
-/// Which format, size and rate a V4L2 camera sends: listed, chosen, and read back.
+/// Format, size and rate of a V4L2 camera: listed, chosen, and read back.
 ///
 /// Threads  the camera's own.
 /// Errors   a CameraState: InUse, NoFormat, SetUpRefused.
@@ -13,7 +13,7 @@
 
 namespace frustumscreen {
 
-/// What comes out of a camera's buffer.
+/// Layout of a frame in a camera's buffer.
 struct FrameFormat {
     PixelFormat format = PixelFormat::Grey;
     int width = 0, height = 0;
@@ -22,18 +22,18 @@ struct FrameFormat {
 
 struct SetMode {
     FrameFormat frame;
-    double rate_hz = 0.0; ///< 0: the driver does not say
+    double rate_hz = 0.0; ///< 0: not reported by the driver
 };
 
-/// All that the camera offers in a format that can be read; where it offers a range, what comes next to the wish.
+/// All modes in a readable format; for a range, the value nearest to the wish.
 [[nodiscard]] std::vector<CameraMode> list_modes(V4l2Device& device, const CameraWish& wish);
 
-/// Of the size that is nearest to the wish, the mode that reaches the rate, or is fastest; of those the format that costs least.
-/// Nothing: there are none.
+/// Among the modes of the size nearest to the wish, the one that reaches the rate, or is fastest; then the
+/// format that is cheapest to decode. nullopt: there are no modes.
 [[nodiscard]] std::optional<CameraMode> choose_mode(std::span<const CameraMode> modes,
                                                     const CameraWish& wish);
 
-/// Returns what the driver has made of it.
+/// Returns the mode that the driver has accepted.
 [[nodiscard]] tl::expected<SetMode, CameraState> set_mode(V4l2Device& device, const CameraMode& mode);
 
 } // namespace frustumscreen

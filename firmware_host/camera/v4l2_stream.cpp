@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// A time stamp that is older is another clock's.
+/// An older time stamp is from another clock.
 constexpr Nanoseconds oldest_stamp = std::chrono::seconds(1);
 
 v4l2_buffer buffer_number(std::uint32_t index) {
@@ -68,7 +68,7 @@ tl::expected<std::unique_ptr<V4l2Stream>, CameraState> V4l2Stream::start(std::un
 V4l2Stream::~V4l2Stream() {
     if (streams_) {
         int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-        static_cast<void>(device_->ask(VIDIOC_STREAMOFF, type)); // it may be unplugged
+        static_cast<void>(device_->ask(VIDIOC_STREAMOFF, type)); // the camera may be unplugged
     }
 }
 
@@ -80,7 +80,8 @@ V4l2Stream::Taken V4l2Stream::take(Nanoseconds timeout, const std::function<Mono
     }
     std::optional<v4l2_buffer> latest;
     int error = waited;
-    // No more than there are buffers: a camera that is faster than its reader would hold it here.
+    // At most one round over the buffers: a camera that is faster than its reader would keep the loop
+    // running.
     for (std::size_t k = 0; error == 0 && k < buffers_.size(); ++k) {
         v4l2_buffer buffer = buffer_number(0);
         error = device_->ask(VIDIOC_DQBUF, buffer);

@@ -1,6 +1,6 @@
-/// A V4L2 camera that sends: its buffers in our memory, and the latest whole frame of them.
+/// A streaming V4L2 camera: its mapped buffers, and their latest whole frame.
 ///
-/// Threads  the camera's own; `take` waits as long as it is told.
+/// Threads  the camera's own; `take` waits no longer than `timeout`.
 #pragma once
 
 #include "firmware_host/camera/camera.h"
@@ -26,8 +26,8 @@ public:
     V4l2Stream& operator=(const V4l2Stream&) = delete;
 
     enum class Taken : std::uint8_t { Frame, PassedOver, Nothing, Lost };
-    /// The latest frame of those that wait; adds to `counts`. `now` is read after the wait. With a Frame the pace's look has begun; one that the
-    /// pace passes over is not even decoded.
+    /// Takes the latest of the waiting frames; adds to `counts`. `now` is called after the wait. For a Frame,
+    /// `pace.begin` was called; a frame that `pace` skips is not decoded.
     [[nodiscard]] Taken take(Nanoseconds timeout, const std::function<MonotonicTime()>& now, FramePace& pace,
                              CameraFrame& frame, CameraCounts& counts);
 

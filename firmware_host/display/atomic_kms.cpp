@@ -19,7 +19,8 @@ namespace {
 using PlaneList = std::unique_ptr<drmModePlaneRes, decltype(&drmModeFreePlaneResources)>;
 using Plane = std::unique_ptr<drmModePlane, decltype(&drmModeFreePlane)>;
 
-/// Properties to set at once. A property that an object lacks, or that already has its value, is left out.
+/// Properties to set in one commit. Properties that an object lacks are skipped; `reset` also skips those
+/// that already have their value.
 class Commit {
 public:
     explicit Commit(int file) : file_(file), request_(drmModeAtomicAlloc(), drmModeAtomicFree) {}
@@ -39,7 +40,7 @@ public:
             count_ = drmModeAtomicAddProperty(request_.get(), object, property, value);
         }
     }
-    /// What is not whole is not sent; libdrm would call an empty request done.
+    /// Sends only a complete request; libdrm would report success for an empty one.
     [[nodiscard]] KmsAnswer send(std::uint32_t flags, std::uint64_t ticket) const {
         if (count_ <= 0) {
             return answer_to_a_lack(file_);
@@ -50,7 +51,7 @@ public:
 
 private:
     int file_;
-    int count_ = 0; ///< of properties; negative: one could not be added
+    int count_ = 0; ///< number of properties; negative: one could not be added
     std::unique_ptr<drmModeAtomicReq, decltype(&drmModeAtomicFree)> request_;
 };
 
@@ -64,7 +65,7 @@ void turn_off_crtc(Commit& commit, const KmsProperties& crtc) {
     commit.set(crtc, "MODE_ID", 0);
 }
 
-/// The plane shows the whole framebuffer, whatever an earlier program did with it.
+/// Shows the whole framebuffer on the plane, whatever an earlier program has set there.
 void show_on_plane(Commit& commit, const KmsProperties& plane, std::uint32_t crtc, const ScannedOut& shown) {
     const auto number = [](int pixels) { return static_cast<std::uint64_t>(pixels); };
     commit.set(plane, "FB_ID", shown.framebuffer);
@@ -98,7 +99,7 @@ bool shows_our_format(const drmModePlane& plane) {
     return std::find(first, end, std::uint32_t{DRM_FORMAT_XRGB8888}) != end;
 }
 
-/// The plane that carries the CRTC's picture; 0 = none.
+/// The CRTC's primary plane; 0 = none.
 std::uint32_t primary_plane(int file, const std::vector<Plane>& planes, int crtc_index) {
     for (const Plane& plane : planes) {
         const bool fits = ((plane->possible_crtcs >> static_cast<unsigned>(crtc_index)) & 1U) != 0;
@@ -144,7 +145,7 @@ KmsAnswer AtomicKms::light(std::uint32_t connector, const ModeTiming& mode, cons
     if (!route || drmModeCreatePropertyBlob(file_, &info, sizeof info, &blob) != 0) {
         return answer_to_a_lack(file_);
     }
-    forget_mode(); // the kernel keeps the mode that is set
+    forget_mode(); // the kernel keeps the current mode alive
     mode_blob_ = blob;
     const KmsProperties properties(file_, connector, DRM_MODE_OBJECT_CONNECTOR);
     const std::vector<PropertySetting> settings = exact_picture(properties.all());
@@ -175,7 +176,7 @@ KmsAnswer AtomicKms::light(const Route& route, const ScannedOut& shown, std::uin
             continue;
         }
         commit.set(connector, "CRTC_ID", route.crtc);
-        commit.reset(connector, "link-status", 0); // 0 is good: the link is trained again
+        commit.reset(connector, "link-status", 0); // 0 = good; makes the kernel train the link again
         for (const PropertySetting& setting : settings) {
             commit.set(connector.object(), setting.property, setting.value);
         }

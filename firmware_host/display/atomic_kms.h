@@ -1,4 +1,4 @@
-/// KMS by atomic commits that do not block: the kernel answers at once and does the work afterwards.
+/// KMS by non-blocking atomic commits: the kernel answers at once and does the work afterwards.
 ///
 /// Threads  the render thread.
 /// Source   the kernel's userspace API for KMS, "Atomic Mode Setting"; libdrm.
@@ -41,7 +41,7 @@ private:
         std::uint32_t plane_framebuffer = 0; ///< the property's number
     };
     [[nodiscard]] std::optional<Route> route_to(std::uint32_t connector) const;
-    /// One commit that lights `route` and turns off the rest; `settings` are the connector's.
+    /// One commit that lights `route` and turns off everything else; `settings` are the connector's.
     [[nodiscard]] KmsAnswer light(const Route& route, const ScannedOut& shown, std::uint64_t ticket,
                                   std::span<const PropertySetting> settings) const;
     void forget_mode();

@@ -27,8 +27,8 @@ Result<std::unique_ptr<CardScreen>> CardScreen::create(int card, PixelSize pictu
     return screen;
 }
 
-/// Drivers compile a program when it first draws, for the formats that it draws with: let that happen here
-/// and not when a projector comes. What cannot be made now is reported when a projector needs it.
+/// Drivers compile a program for each target format at its first draw. Do that here, not when a projector is
+/// plugged in. An error is reported when a projector needs the framebuffers.
 void CardScreen::warm_up() const {
     const PixelSize exact{picture_.width(), picture_.height()};
     const PixelSize scaled{std::max(exact.width / 2, 1), std::max(exact.height / 2, 1)};

@@ -1,8 +1,8 @@
-/// The exhibit's picture on a graphics card: what draws it, and how it gets into framebuffers that the card
-/// shows.
+/// The exhibit's picture on a graphics card: the GPU that draws it, and the way into the framebuffers that
+/// the card scans out.
 ///
-/// Threads  the render thread. The copying has its own context and leaves the renderer's state alone.
-/// Errors   no GBM and no EGL; framebuffers that the card cannot make.
+/// Threads  the render thread. The copy has its own context and does not touch the renderer's state.
+/// Errors   neither GBM nor EGL; framebuffers that the card cannot make.
 #pragma once
 
 #include "firmware_host/display/drawing_gpu.h"
@@ -16,14 +16,14 @@ namespace frustumscreen {
 
 class CardScreen {
 public:
-    /// `card` stays open for as long as this lives. The picture's context is current afterwards.
+    /// `card` must stay open for the lifetime of the result. The picture's context is current afterwards.
     [[nodiscard]] static Result<std::unique_ptr<CardScreen>> create(int card, PixelSize picture);
 
     [[nodiscard]] const PictureFramebuffer& picture() const { return picture_; }
     /// Errors   a clause, for the output's state.
     [[nodiscard]] Result<std::unique_ptr<ScanoutPair>> make_pair(PixelSize size) const;
 
-    // For the framebuffers:
+    // Used by the framebuffers:
     [[nodiscard]] int card() const { return card_; }
     [[nodiscard]] const DrawingGpu& gpu() const { return gpu_; }
     [[nodiscard]] const EglContext& copying() const { return copying_; }
@@ -42,7 +42,7 @@ private:
     PictureCopy copy_;
 };
 
-/// Makes the copying's context current for as long as this lives, and the picture's afterwards.
+/// Makes the copy's context current during its lifetime, and the picture's context afterwards.
 class CopyingNow {
 public:
     explicit CopyingNow(const CardScreen& screen) : CopyingNow(screen.copying(), screen.gpu().context()) {}

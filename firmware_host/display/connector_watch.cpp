@@ -9,11 +9,11 @@ namespace frustumscreen {
 namespace {
 
 constexpr Nanoseconds between_looks_in_the_dark = std::chrono::seconds(2);
-constexpr Nanoseconds between_looks_while_lit = std::chrono::seconds(1); ///< the kernel knows: cheap
-/// Where the cable is bad, the kernel reads a projector's EDID again and again, with a limit for each try.
+constexpr Nanoseconds between_looks_while_lit = std::chrono::seconds(1); ///< cheap: no probing
+/// Over a bad cable the kernel reads a projector's EDID repeatedly, with a time limit for each try.
 constexpr Nanoseconds longest_look = std::chrono::seconds(20);
-/// What the kernel knows is there at once. Where it asks a projector by itself meanwhile, a glance waits for that; the service
-/// manager's watchdog has patience enough for it.
+/// Reading the kernel's knowledge is immediate, unless the kernel is probing a projector on its own; the
+/// service manager's watchdog allows for that.
 constexpr Nanoseconds longest_glance = std::chrono::milliseconds(500);
 
 } // namespace
@@ -36,7 +36,7 @@ std::optional<CardSeen> ConnectorWatch::news() {
 void ConnectorWatch::run() {
     begin_device_thread("connectors");
     std::optional<CardSeen> last;
-    bool plugged = true; // what is connected at the start is news
+    bool plugged = true; // the connectors at the start are news
     while (!stop_) {
         const bool thoroughly = plugged || !lit_;
         heartbeat_.promise(monotonic_now() + (thoroughly ? longest_look : longest_glance));

@@ -1,10 +1,10 @@
-/// Watches what is connected to a graphics card on its own thread, because asking a projector may take long.
+/// Watches the connectors of a graphics card on its own thread, because probing a projector may take long.
 ///
-/// It looks at once after a hot-plug. While nothing is lit it asks the projectors again and again, because
-/// some plug in without an event; while one is lit it only reads what the kernel knows, because asking
-/// disturbs some.
+/// After a hot-plug event it probes at once. While no projector is lit it probes repeatedly, because some
+/// projectors cause no event; while one is lit it only reads the kernel's knowledge, because probing disturbs
+/// some projectors.
 ///
-/// Threads  `news`, `quiet`, `set_lit`: the render thread, never blocked.
+/// Threads  `news`, `quiet`, `set_lit`: the render thread; they never block.
 #pragma once
 
 #include "firmware_host/base/heartbeat.h"
@@ -30,13 +30,14 @@ public:
     ConnectorWatch(const ConnectorWatch&) = delete;
     ConnectorWatch& operator=(const ConnectorWatch&) = delete;
 
-    /// What is connected, if it changed or was plugged and was not handed out yet.
+    /// The state of the card, if it changed or an event came, and it was not returned yet.
     [[nodiscard]] std::optional<CardSeen> news();
-    /// While this lock is held nobody asks the card; if it could not be taken, the card is being asked now.
+    /// While the returned lock is held, this class does not ask the card. If the lock does not own its mutex,
+    /// the card is being asked now.
     [[nodiscard]] std::unique_lock<std::mutex> quiet() { return std::unique_lock(asking_, std::try_to_lock); }
-    /// Until when its thread promises to be heard from again.
+    /// Time until which the thread has promised a sign of life.
     [[nodiscard]] MonotonicTime alive_until() const { return heartbeat_.promised_until(); }
-    /// Is a projector lit?
+    /// Tells the watch whether a projector is lit.
     void set_lit(bool lit) { lit_ = lit; }
 
 private:
@@ -50,7 +51,7 @@ private:
     std::mutex asking_;
     std::mutex news_mutex_;
     std::optional<CardSeen> news_;
-    std::thread thread_; ///< last: it uses all of the above
+    std::thread thread_; ///< last: it uses all members above
 };
 
 } // namespace frustumscreen

@@ -17,7 +17,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Render nodes of the GPUs that are not the card's own, in the kernel's order.
+/// Render nodes of the other GPUs, in the kernel's order.
 std::vector<std::string> other_render_nodes(int card) {
     const std::unique_ptr<char, decltype(&std::free)> own(drmGetRenderDeviceNameFromFd(card), std::free);
     std::array<drmDevicePtr, 16> devices{};

@@ -1,12 +1,12 @@
-/// What draws the picture: the graphics card that shows it, where it can; else another GPU of this machine;
-/// else the processor.
+/// The GPU that draws the picture: the graphics card that shows it, if it can; otherwise another GPU of this
+/// machine; otherwise the processor.
 ///
-/// Mesa pairs the display and the GPU of many boards by itself (kmsro: vc4 and v3d of a Raspberry Pi, most
-/// ARM boards). What remains are cards that only display, without such a pair (bochs, ast, mgag200, udl,
-/// gud), in a machine with a GPU of its own.
+/// Mesa itself pairs the display and the GPU of many boards (kmsro: vc4 and v3d of a Raspberry Pi, most ARM
+/// boards). This class serves cards that only display, without such a pair (bochs, ast, mgag200, udl, gud),
+/// in a machine with a separate GPU.
 ///
 /// Threads  the render thread; afterwards the context is current.
-/// Errors   no GBM and no EGL at all.
+/// Errors   neither GBM nor EGL.
 /// Source   Mesa, src/gbm/backends/dri (kms_swrast draws for a card without a driver) and
 ///          src/gallium/winsys/kmsro.
 #pragma once
@@ -26,7 +26,7 @@ public:
     [[nodiscard]] static Result<DrawingGpu> choose_for(int card);
 
     [[nodiscard]] const EglContext& context() const { return context_; }
-    /// The card's own memory; nullptr: what is drawn must be copied into it.
+    /// The card's own memory; nullptr: pictures must be copied into it.
     [[nodiscard]] gbm_device* card_memory() const { return shows_ ? device_.get() : nullptr; }
 
 private:

@@ -1,8 +1,9 @@
-/// Plain memory of a graphics card that the processor writes and the card shows. All display drivers have it.
+/// Plain memory of a graphics card that the processor writes and the card scans out. All display drivers have
+/// it.
 ///
-/// Shape    rows from the top, `stride` bytes each, pixels of four bytes: blue, green, red, nothing.
+/// Shape    rows from the top, `stride` bytes each; pixels of four bytes: blue, green, red, unused.
 /// Threads  the render thread.
-/// Errors   nothing, or no memory: the card lacks it.
+/// Errors   nullopt, or an empty `memory`: the card lacks it.
 /// Source   the kernel's "Dumb Buffer Objects": DRM_IOCTL_MODE_CREATE_DUMB, _MAP_DUMB.
 #pragma once
 
@@ -17,7 +18,7 @@ namespace frustumscreen {
 
 class DumbBuffer {
 public:
-    /// `card` stays open for as long as this lives.
+    /// `card` must stay open for the lifetime of the result.
     [[nodiscard]] static std::optional<DumbBuffer> create(int card, PixelSize size);
     ~DumbBuffer();
     DumbBuffer(DumbBuffer&& other) noexcept;
@@ -27,9 +28,9 @@ public:
 
     [[nodiscard]] FramebufferId shown() const { return shown_; }
     [[nodiscard]] std::uint32_t stride() const { return stride_; }
-    /// Empty while it is not mapped.
+    /// Empty while the buffer is not mapped.
     [[nodiscard]] std::span<std::byte> memory() const { return memory_; }
-    /// Makes the memory reachable; it counts as this process's for as long. False: it could not be.
+    /// Maps the memory into this process, which accounts for it while it is mapped. Returns false on failure.
     [[nodiscard]] bool map();
     void unmap();
 

@@ -1,8 +1,8 @@
-/// Framebuffers in plain memory of a card for which another GPU or the processor draws: every picture is
+/// Framebuffers in plain memory of a card, for which another GPU or the processor draws; every picture is
 /// copied into them. All display drivers have such memory.
 ///
 /// Threads  the render thread.
-/// Errors   one clause: what the card lacks.
+/// Errors   one clause that names what the card lacks.
 /// Source   the kernel's "Dumb Buffer Objects": DRM_IOCTL_MODE_CREATE_DUMB, _MAP_DUMB.
 #pragma once
 

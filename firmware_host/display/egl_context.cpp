@@ -45,7 +45,7 @@ Result<EglContext> EglContext::without_screen() {
     if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE) {
         return no_display("EGL does not start without a screen");
     }
-    // This display is shared by the whole process; terminating it would end other contexts.
+    // The whole process shares this display; terminating it would end other contexts.
     return on(std::shared_ptr<void>(display, [](void*) {}), nullptr);
 }
 
@@ -119,7 +119,7 @@ std::string gl_driver_name() {
     return text(GL_RENDERER) + ", " + text(GL_VERSION);
 }
 
-/// Mesa's three names for it.
+/// The names of Mesa's three software renderers.
 bool draws_on_processor(std::string_view driver_name) {
     return driver_name.starts_with("llvmpipe") || driver_name.starts_with("softpipe") ||
            driver_name.starts_with("Software Rasterizer");

@@ -1,4 +1,4 @@
-/// An OpenGL ES 3 context that draws into framebuffer objects and no window.
+/// An OpenGL ES 3 context that draws into framebuffer objects, without a window.
 ///
 /// Threads  one context is current on one thread at a time.
 /// Errors   EGL or OpenGL ES 3 missing.
@@ -16,11 +16,11 @@ namespace frustumscreen {
 
 class EglContext {
 public:
-    /// Without a screen; it is current afterwards.
+    /// A context without a screen; current afterwards.
     [[nodiscard]] static Result<EglContext> without_screen();
-    /// On the card of a GBM device, which must outlive it; it is current afterwards.
+    /// A context on the card of a GBM device, which must outlive it; current afterwards.
     [[nodiscard]] static Result<EglContext> on_gbm(void* gbm_device);
-    /// Another context with the same textures and buffers but its own state; it is not current.
+    /// Another context with shared textures and buffers but its own state; not current.
     [[nodiscard]] Result<EglContext> sharing() const;
 
     ~EglContext();
@@ -30,7 +30,7 @@ public:
     EglContext& operator=(const EglContext&) = delete;
 
     [[nodiscard]] bool make_current() const;
-    [[nodiscard]] bool has_extension(std::string_view name) const; ///< of the EGL display
+    [[nodiscard]] bool has_extension(std::string_view name) const; ///< an extension of the EGL display
     [[nodiscard]] void* egl_display() const { return display_.get(); }
 
 private:
@@ -43,9 +43,9 @@ private:
 
 /// The name and version of the current context's driver.
 [[nodiscard]] std::string gl_driver_name();
-/// Does a driver of this name draw on the processor?
+/// Whether a driver of this name draws on the processor.
 [[nodiscard]] bool draws_on_processor(std::string_view driver_name);
-/// Does the current context have this extension?
+/// Whether the current context has this extension.
 [[nodiscard]] bool has_gl_extension(std::string_view name);
 
 } // namespace frustumscreen

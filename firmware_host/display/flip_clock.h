@@ -1,4 +1,4 @@
-/// Predicts a screen's refreshes: from the latest flip that was seen, in steps of the mode's period.
+/// Predicts a screen's refreshes from the latest observed flip, in steps of the mode's period.
 ///
 /// Time     CLOCK_MONOTONIC.
 /// Threads  values.
@@ -20,7 +20,7 @@ public:
 
     void flipped(MonotonicTime time) { last_ = time; }
     [[nodiscard]] bool known() const { return last_.has_value() && period_ > Nanoseconds(0); }
-    /// The first refresh later than `time`; `time` itself while none was seen.
+    /// The first refresh later than `time`; `time` itself before the first flip.
     [[nodiscard]] MonotonicTime first_after(MonotonicTime time) const {
         if (!known()) {
             return time;
@@ -30,8 +30,7 @@ public:
         refreshes += since >= Nanoseconds(0) ? 1 : 0;
         return *last_ + refreshes * period_;
     }
-    /// The refresh nearest to `period` after `time`, at least one refresh later than the one nearest to
-    /// `time`.
+    /// The refresh nearest to `time` + `period`, but at least one refresh after the one nearest to `time`.
     [[nodiscard]] MonotonicTime next_frame(MonotonicTime time, Nanoseconds period) const {
         if (!known()) {
             return time + period;

@@ -43,7 +43,7 @@ std::optional<Flipped> FlipEvents::wait(Nanoseconds at_most) {
 }
 
 bool FlipEvents::read() {
-    alignas(drm_event_vblank) std::array<char, 1024> bytes; // the kernel hands out whole events
+    alignas(drm_event_vblank) std::array<char, 1024> bytes; // the kernel returns whole events
     const ssize_t length = ::read(card_, bytes.data(), bytes.size());
     std::size_t at = 0;
     while (length > 0 && at + sizeof(drm_event) <= static_cast<std::size_t>(length)) {

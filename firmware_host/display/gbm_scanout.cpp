@@ -26,7 +26,7 @@ public:
     GbmScanoutPair(const GbmScanoutPair&) = delete;
     GbmScanoutPair& operator=(const GbmScanoutPair&) = delete;
 
-    /// What is missing; nullptr = nothing.
+    /// Returns the name of the missing feature; nullptr = success.
     [[nodiscard]] const char* make();
     [[nodiscard]] PixelSize size() const override { return size_; }
     [[nodiscard]] FramebufferId fill(int which, const PixelRectangle& part) override;
@@ -100,7 +100,7 @@ GbmScanoutPair::~GbmScanoutPair() {
         reinterpret_cast<PFNEGLDESTROYIMAGEKHRPROC>(eglGetProcAddress("eglDestroyImageKHR"));
     const CopyingNow copying(screen_);
     for (Buffer& buffer : buffers_) {
-        if (copying.current()) { // else they would be the renderer's of the same names
+        if (copying.current()) { // otherwise the names would be the renderer's
             glDeleteFramebuffers(1, &buffer.framebuffer);
             glDeleteRenderbuffers(1, &buffer.colour);
         }
@@ -115,7 +115,7 @@ GbmScanoutPair::~GbmScanoutPair() {
 }
 
 /// The picture is complete (KmsDisplay::present). The kernel shows the copy only when it is complete too,
-/// whether the card draws it or not.
+/// whether the card or the processor draws it.
 FramebufferId GbmScanoutPair::fill(int which, const PixelRectangle& part) {
     const Buffer& buffer = buffers_.at(static_cast<std::size_t>(which));
     const CopyingNow copying(screen_);

@@ -1,7 +1,8 @@
-/// Framebuffers in the memory of a card that draws for itself, through GBM: the picture is drawn into them.
+/// Framebuffers in the memory of a card that draws for itself, through GBM; the picture is copied into them
+/// by drawing.
 ///
 /// Threads  the render thread.
-/// Errors   one clause: what the card lacks.
+/// Errors   one clause that names what the card lacks.
 /// Source   EGL_KHR_image_pixmap (a GBM buffer as an EGL image), OES_EGL_image.
 #pragma once
 

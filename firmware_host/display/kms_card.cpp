@@ -73,7 +73,7 @@ Result<KmsCard> KmsCard::open(std::string_view name, const OutputRequest& reques
                 best = std::move(card);
             }
         } else if (!best && best.error().kind == ErrorKind::DeviceLost) {
-            best = std::move(card); // why there is none: that a card may not be opened says most
+            best = std::move(card); // a refused permission is the most useful reason
         }
     }
     return best;

@@ -1,8 +1,8 @@
-/// An open graphics card: its file, its name, and what is connected to it.
+/// An open graphics card: its file, its name, and its connectors.
 ///
-/// Threads  `look` on any one thread while the render thread sets modes: the kernel takes both.
-/// Errors   no permission (a person must act, or udev is not done yet): BadConfiguration; no card, or one
-///          without screens: DeviceLost.
+/// Threads  `look` on any one thread while the render thread sets modes; the kernel allows both.
+/// Errors   BadConfiguration: no permission (a person must act, or udev is not done yet). DeviceLost: no
+///          card, or one without connectors.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -18,7 +18,7 @@ namespace frustumscreen {
 
 class KmsCard {
 public:
-    /// `name`: a path, or "card1", or empty for the first one of the best `CardRank` in `folder`.
+    /// `name`: a path, or "card1", or empty for the first card of the best `CardRank` in `folder`.
     [[nodiscard]] static Result<KmsCard> open(std::string_view name, const OutputRequest& request,
                                               const std::string& folder = "/dev/dri");
     ~KmsCard();
@@ -29,10 +29,10 @@ public:
 
     [[nodiscard]] int file() const { return file_; }
     [[nodiscard]] const std::string& path() const { return path_; }
-    /// False: modes are set by the kernel's older calls.
+    /// False: modes are set by the kernel's legacy calls.
     [[nodiscard]] bool is_atomic() const { return atomic_; }
-    /// What is connected. `thoroughly`: asks the projectors, which takes up to some 100 ms for each; else
-    /// gives what the kernel already knows.
+    /// The state of the connectors. `thoroughly` probes the projectors, which takes up to some 100 ms each;
+    /// otherwise returns the kernel's knowledge.
     [[nodiscard]] CardSeen look(bool thoroughly) const;
 
 private:
@@ -48,33 +48,33 @@ private:
     bool atomic_ = false;
 };
 
-/// Looks whether another card has a projector, without disturbing the cards: one is opened only when what
-/// the kernel says of its connectors has changed.
+/// Finds out whether another card has a projector, without disturbing the cards: a card is opened only after
+/// a change of its connectors as listed by the kernel.
 class OtherCards {
 public:
-    /// The other cards lie beside `own_path`.
+    /// The other cards are in the folder of `own_path`.
     OtherCards(std::string own_path, OutputRequest request, std::string connectors = "/sys/class/drm")
         : own_path_(std::move(own_path)), connectors_(std::move(connectors)), request_(std::move(request)) {}
     [[nodiscard]] bool have_projector();
 
 private:
     std::string own_path_;
-    std::string connectors_; ///< the folder of `connected_connectors`
+    std::string connectors_; ///< the folder for `connected_connectors`
     OutputRequest request_;
     std::vector<std::string> looked_at_; ///< connected ones at the last look, which found no projector
 };
 
-/// What is connected to `card`, and, where nothing there can be lit, whether `others` have a projector; null: this card was asked
-/// for.
+/// The connectors of `card`. If none of them can be lit, also checks whether `others` have a projector; null:
+/// the settings name this card.
 [[nodiscard]] CardSeen look_for_projector(const KmsCard& card, OtherCards* others,
                                           const OutputRequest& request, bool thoroughly);
 
-/// Atomic commits where the driver has them. `card` must outlive the result.
+/// Uses atomic commits if the driver has them. `card` must outlive the result.
 [[nodiscard]] std::unique_ptr<KmsDevice> make_kms_device(const KmsCard& card);
 
-/// Makes this process the one that may set modes on an open card; true if no other process is. The kernel
-/// lets only the first process that opened the card do so, and one that was it before (drm_auth.c,
-/// drm_master_check_perm).
+/// Makes this process the DRM master of an open card, which may set modes; returns true unless another
+/// process is. The kernel allows it only to the first process that opened the card, and to one that was its
+/// master before (drm_auth.c, drm_master_check_perm).
 [[nodiscard]] bool take_screen(int card);
 
 } // namespace frustumscreen

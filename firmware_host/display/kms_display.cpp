@@ -18,9 +18,9 @@ Result<std::unique_ptr<KmsDisplay>> KmsDisplay::create(std::string_view card_nam
         return tl::unexpected<Error>(std::move(error));
     }
     if (!take_screen(card->file())) {
-        return fail(
-            ErrorKind::DeviceLost, "display.screen_held", // it may be free when it is opened again later
-            "display: another program holds the screen of {}; end it, or run with --headless", card->path());
+        return fail(ErrorKind::DeviceLost, "display.screen_held", // it may be free at a later attempt
+                    "display: another program holds the screen of {}; end it, or run with --headless",
+                    card->path());
     }
     TRY(std::unique_ptr<CardScreen> screen,
         CardScreen::create(card->file(), {request.picture_width, request.picture_height}));
@@ -47,7 +47,7 @@ void KmsDisplay::take_news() {
     }
 }
 
-/// Nobody asks a projector that sleeps: some wake by that.
+/// A projector that sleeps is not probed, because that wakes some.
 Result<void> KmsDisplay::stay_dark() {
     take_news();
     const std::unique_lock quiet = watch_.quiet();

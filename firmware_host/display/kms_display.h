@@ -1,13 +1,13 @@
 /// The projector on a connector of this machine's graphics card.
 ///
-/// The renderer draws into one framebuffer object of the picture's size; each picture is copied from there to
-/// what the card shows, scaled where the projector's mode is of another size, so that a projector that comes,
-/// goes or changes never affects the renderer.
+/// The renderer draws into one framebuffer object of the picture's size. Each picture is copied from there to
+/// the scanned-out framebuffer, scaled if the projector's mode has another size, so plugging, unplugging or
+/// exchanging the projector never affects the renderer.
 ///
 /// Time     CLOCK_MONOTONIC, from the card's page flips.
-/// Threads  the one that created it: the context is current there. Another thread asks what is connected.
-/// Errors   at the start: no card, no permission, no OpenGL ES 3. Later: the card is back after it was gone,
-///          it hangs, or another card has the projector now; `state` says the rest.
+/// Threads  the creating thread, on which the context is current. Another thread probes the connectors.
+/// Errors   at the start: no card, no permission, no OpenGL ES 3. Later: the card has returned after it was
+///          gone, it hangs, or the projector is now at another card. `state` describes all other faults.
 #pragma once
 
 #include "firmware_host/display/card_screen.h"
@@ -32,7 +32,7 @@ public:
     [[nodiscard]] unsigned framebuffer() const override { return screen_->picture().name(); }
     [[nodiscard]] int buffer_age() const override { return presented_ ? 1 : 0; }
     void changed(const PixelRectangle& part) override { changed_ = united(changed_, part); }
-    /// Waits until the picture is drawn, and at most `flip_patience` for the flip before.
+    /// Waits until the picture is drawn, and at most `flip_patience` for the previous flip.
     [[nodiscard]] Result<MonotonicTime> present(MonotonicTime now) override;
     [[nodiscard]] Result<void> stay_dark() override;
     [[nodiscard]] MonotonicTime next_frame(MonotonicTime now, Nanoseconds period) const override {
@@ -54,13 +54,13 @@ private:
 
     KmsCard card_;
     OutputRequest request_;
-    std::optional<OtherCards> other_cards_; ///< of the watch's thread alone; none: this card was asked for
+    std::optional<OtherCards> other_cards_; ///< used by the watch's thread; none: a named card
     std::unique_ptr<CardScreen> screen_;
     std::unique_ptr<KmsDevice> kms_;
     Presenter presenter_;
     bool presented_ = false;
-    PixelRectangle changed_; ///< empty: not told
-    ConnectorWatch watch_;   ///< last: it asks the card
+    PixelRectangle changed_; ///< empty: `changed` was not called
+    ConnectorWatch watch_;   ///< last: its thread uses the card
 };
 
 } // namespace frustumscreen

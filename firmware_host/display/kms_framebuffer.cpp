@@ -10,7 +10,7 @@ extern "C" {
 
 namespace frustumscreen {
 
-/// Without modifiers: the driver then lays memory out as the kernel expects it. Old drivers know only depth
+/// Passes no modifiers, so the driver lays memory out as the kernel expects. Old drivers only accept depth
 /// and bits.
 FramebufferId add_framebuffer(int card, PixelSize size, std::uint32_t handle, std::uint32_t stride) {
     const auto width = static_cast<std::uint32_t>(size.width);

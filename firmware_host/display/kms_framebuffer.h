@@ -1,8 +1,7 @@
-/// Makes a piece of a graphics card's memory a framebuffer that the kernel can show, 8 bits a channel,
-/// without alpha.
+/// Makes a piece of a graphics card's memory a framebuffer for scanout, 8 bits a channel, without alpha.
 ///
 /// Threads  the render thread.
-/// Errors   0: the card does not take it.
+/// Errors   0: the card refuses it.
 #pragma once
 
 #include "firmware_host/display/kms_device.h"

@@ -1,4 +1,4 @@
-/// Owners of libdrm's mode objects, and our ModeTiming converted to and from the kernel's.
+/// Owning handles of libdrm's mode objects, and the conversion between ModeTiming and the kernel's timing.
 #pragma once
 
 #include "firmware_host/display/kms_device.h"
@@ -20,14 +20,14 @@ using KmsEncoder = std::unique_ptr<drmModeEncoder, decltype(&drmModeFreeEncoder)
     return {drmModeGetResources(card), drmModeFreeResources};
 }
 
-/// What the kernel gives back with a flip; it is no address.
+/// The ticket as user data of a flip event; it is not an address.
 [[nodiscard]] inline void* bits_given_back(std::uint64_t ticket) {
     return reinterpret_cast<void*>(ticket); // NOLINT(performance-no-int-to-ptr)
 }
 [[nodiscard]] bool is_hdmi(int card, std::uint32_t connector);
-/// The answer for a call's negative error number; 0 = done.
+/// The answer for the negative error number of a call; 0 = done.
 [[nodiscard]] KmsAnswer kms_answer(int status);
-/// The answer where something that is needed was not found on the card: it lacks that, or it is gone.
+/// The answer if a required object was not found: the card lacks it, or the card is gone.
 [[nodiscard]] KmsAnswer answer_to_a_lack(int card);
 [[nodiscard]] ModeTiming timing_of(const drmModeModeInfo& mode);
 [[nodiscard]] drmModeModeInfo mode_info(const ModeTiming& timing);

@@ -15,11 +15,11 @@ namespace frustumscreen {
 
 namespace {
 
-/// 59.94, 59.81 and 60 Hz are the same request, 50 and 60 are not.
+/// 59.94, 59.81 and 60 Hz count as one rate; 50 and 60 do not.
 constexpr double same_refresh_hz = 0.5;
-constexpr double usual_refresh_hz = 60.0; ///< of a mode made here when no rate is asked for
+constexpr double usual_refresh_hz = 60.0; ///< of a mode made here without a requested rate
 
-/// CTA-861's formats 4 and 16: projectors that take HDMI know these to the pixel.
+/// CTA-861's formats 4 and 16; projectors with HDMI expect exactly these timings.
 constexpr ModeTiming hd_720{74250, 1280, 1390, 1430, 1650, 0,
                             720,   725,  730,  750,  0,    mode_hsync_positive | mode_vsync_positive,
                             false};
@@ -39,7 +39,8 @@ double off_rate(const ModeTiming& mode, const OutputRequest& request) {
     return std::abs(refresh_hz(mode) - (request.refresh_hz > 0.0 ? request.refresh_hz : request.picture_hz));
 }
 
-/// Smaller is nearer: progressive modes before halved ones, then size and shape, then refresh.
+/// Smaller is nearer: progressive modes before interlaced or double-scanned ones, then size and shape, then
+/// refresh.
 auto distance(const ModeTiming& mode, const OutputRequest& request) {
     const int width = request.width > 0 ? request.width : request.picture_width;
     const int height = request.height > 0 ? request.height : request.picture_height;
@@ -50,14 +51,14 @@ auto distance(const ModeTiming& mode, const OutputRequest& request) {
     return std::make_tuple(is_halved(mode), size, off_rate(mode, request));
 }
 
-/// Smaller is better, where a mode is asked for: that one, the preferred one, the nearest.
+/// Smaller is better, with a requested mode: that mode, the preferred one, the nearest.
 auto rank_asked(const ModeTiming& mode, const OutputRequest& request) {
     const bool asked = fulfils(mode, request);
     return std::make_tuple(!asked, !asked && !mode.preferred, distance(mode, request));
 }
 
-/// Smaller is better, where none is asked for: the picture's size at its rate (of these the preferred one) or
-/// at another, the preferred one, the nearest.
+/// Smaller is better, without a requested mode: the picture's size at its rate (the preferred one first), its
+/// size at another rate, the preferred mode, the nearest.
 auto rank_unasked(const ModeTiming& mode, const OutputRequest& request) {
     const bool fits =
         mode.width == request.picture_width && mode.height == request.picture_height && !is_halved(mode);
@@ -144,7 +145,7 @@ ModeTiming make_mode(int width, int height, double refresh_hz) {
             return standard;
         }
     }
-    // Reduced blanking is for digital connections and defined for multiples of 60 Hz.
+    // Reduced blanking is for digital connections, and defined only for multiples of 60 Hz.
     const bool reduced = std::abs(refresh_hz - usual_refresh_hz) <= same_refresh_hz;
     const std::unique_ptr<libxcvt_mode_info, decltype(&std::free)> made(
         libxcvt_gen_mode_info(width, height, static_cast<float>(refresh_hz), reduced, false), std::free);

@@ -1,8 +1,8 @@
-/// Chooses a connector and a mode from what a graphics card says is connected.
+/// Chooses a connector and a mode from the connectors that a graphics card reports.
 ///
 /// Units    pixels, lines, kilohertz, hertz.
 /// Threads  values; any.
-/// Source   struct drm_mode_modeinfo of the kernel's KMS; VESA CVT 1.2 for timings made here, CTA-861 for the
+/// Source   struct drm_mode_modeinfo of the kernel's KMS; VESA CVT 1.2 for timings made here; CTA-861 for the
 ///          two that digital projectors expect exactly.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// One mode's timing; the fields' meaning is the kernel's.
+/// One mode's timing; the fields have the kernel's meaning.
 struct ModeTiming {
     std::uint32_t clock_khz = 0;
     std::uint16_t width = 0;
@@ -45,7 +45,7 @@ enum class Plugged : std::uint8_t { No, Yes, Unknown };
 
 struct ConnectorSeen {
     std::uint32_t id = 0;
-    std::string name; ///< the kernel's, such as "HDMI-A-1"
+    std::string name; ///< the kernel's name, such as "HDMI-A-1"
     Plugged plugged = Plugged::No;
     bool built_in = false; ///< a panel of the machine itself
     bool link_bad = false; ///< the kernel asks for the mode to be set again
@@ -54,8 +54,8 @@ struct ConnectorSeen {
     [[nodiscard]] bool operator==(const ConnectorSeen&) const = default;
 };
 
-/// Back: it was gone and is there again. Elsewhere: nothing can be lit, and another card has a projector.
-/// Both need a new start of the program.
+/// Back: the card was gone and has returned. Elsewhere: no output can be lit, and another card has a
+/// projector. Both require a restart of the program.
 enum class CardState : std::uint8_t { There, Gone, Back, Elsewhere };
 
 struct CardSeen {
@@ -65,42 +65,42 @@ struct CardSeen {
     [[nodiscard]] bool operator==(const CardSeen&) const = default;
 };
 
-/// What the settings ask for.
+/// The settings of the output.
 struct OutputRequest {
-    std::string connector; ///< empty = whichever has a projector
-    int width = 0;         ///< of the mode; 0 = the picture's, else the projector's preferred one
+    std::string connector; ///< empty = any that has a projector
+    int width = 0;         ///< of the mode; 0 = the picture's, otherwise the projector's preferred one
     int height = 0;
     double refresh_hz = 0.0; ///< 0 = any
-    bool force = false; ///< use the mode even where the projector does not name it, and light the connector
-                        ///< named even where it says that nothing is connected
-    int picture_width = 0; ///< the exhibit's; the nearest size wins where nothing else decides; 0 = any
+    bool force = false;      ///< use the mode even if the projector does not list it, and light the named
+                             ///< connector even if it reports that nothing is connected
+    int picture_width = 0;   ///< the exhibit's; the nearest size wins if nothing else decides; 0 = any
     int picture_height = 0;
     double picture_hz = 60.0;
 };
 
-/// Is this the connector that is lit by force though it says that nothing is connected?
+/// Whether this connector is lit by force although it reports that nothing is connected.
 [[nodiscard]] bool is_lit_blindly(const ConnectorSeen& connector, const OutputRequest& request);
 
-/// The connector to light; nothing: no projector is there. One that is certainly connected goes before an
-/// unknown one, an external one before a built-in panel, then the first.
+/// The connector to light; nullptr: no projector is there. Preference: certainly connected before unknown,
+/// then external before a built-in panel, then the first.
 [[nodiscard]] const ConnectorSeen* choose_connector(const CardSeen& card, const OutputRequest& request);
 
-/// Which of several cards to take: the one of the lowest rank, among equals the first.
+/// Ranks the cards of a machine: the lowest rank wins; among equals, the first.
 enum class CardRank : std::uint8_t { Projector, Panel, NothingCertain, WithoutTheConnectorNamed };
 [[nodiscard]] CardRank rank_of(const CardSeen& card, const OutputRequest& request);
 
-/// The modes to try, best first: the one asked for; if none is asked for, those of the picture's own size,
-/// then the preferred one; the rest by nearness.
+/// The modes to try, best first: the requested one; without a request, those of the picture's own size, then
+/// the preferred one; then the rest by nearness.
 [[nodiscard]] std::vector<ModeTiming> modes_to_try(const ConnectorSeen& connector,
                                                    const OutputRequest& request);
 
-/// Does `mode` fulfil what the settings ask for?
+/// Whether `mode` satisfies the request.
 [[nodiscard]] bool fulfils(const ModeTiming& mode, const OutputRequest& request);
 
-/// Makes a timing where the projector's EDID has none; its clock is 0 if none can be made.
+/// Makes a timing that the projector's EDID lacks; its clock is 0 if none can be made.
 [[nodiscard]] ModeTiming make_mode(int width, int height, double refresh_hz);
 
-/// Gives each projector that is there and names no mode, because its EDID is missing, those that most take.
+/// Adds commonly accepted modes to each connected projector that lists none because its EDID is missing.
 void add_usual_modes(CardSeen& card);
 
 } // namespace frustumscreen

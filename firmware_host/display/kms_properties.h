@@ -1,8 +1,8 @@
-/// The properties of one KMS object (connector, CRTC, plane): their numbers by name, and their values when
-/// read.
+/// The properties of one KMS object (connector, CRTC, plane): their numbers by name, and their values at
+/// construction.
 ///
 /// Threads  values.
-/// Errors   none: a property that the driver does not have is not found.
+/// Errors   none: a property that the driver lacks is not found.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace frustumscreen {
 
-/// One of the values that a property may have.
+/// One of the allowed values of an enumeration.
 struct KmsChoice {
     std::string name;
     std::uint64_t value = 0;
@@ -35,8 +35,8 @@ public:
     [[nodiscard]] std::uint32_t object() const { return object_; }
     [[nodiscard]] std::span<const KmsProperty> all() const { return all_; }
     [[nodiscard]] const KmsProperty* find(std::string_view name) const&;
-    const KmsProperty* find(std::string_view name) const&& = delete; ///< it would not outlive the statement
-    /// 0 where there is none.
+    const KmsProperty* find(std::string_view name) const&& = delete; ///< it would not outlive the call
+    /// 0 if the object lacks the property.
     [[nodiscard]] std::uint64_t value(std::string_view name) const;
 
 private:

@@ -1,7 +1,7 @@
-/// The way from a graphics card's memory to a connector.
+/// The route from a graphics card's memory to a connector.
 ///
 /// Threads  the render thread.
-/// Errors   none: what the card does not report is left out.
+/// Errors   none: CRTCs that the card does not report are missing.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ struct KmsCrtc {
     int index = 0; ///< in the card's list
 };
 
-/// CRTCs that can feed the connector; one that already does comes first: an earlier program may have set it
-/// up.
+/// CRTCs that can feed the connector. The one that feeds it now comes first: an earlier program may have set
+/// it up.
 [[nodiscard]] std::vector<KmsCrtc> crtcs_for(int card, std::uint32_t connector);
 
 } // namespace frustumscreen

@@ -15,7 +15,7 @@ KmsAnswer turn_off(int card, std::uint32_t crtc) {
     return kms_answer(drmModeSetCrtc(card, crtc, 0, 0, 0, nullptr, 0, nullptr));
 }
 
-/// Makes the picture arrive as it is drawn; false: the driver refused some of it.
+/// Makes the picture arrive unaltered; returns false if the driver refused a setting.
 bool set_properties(int card, const KmsProperties& connector) {
     bool all = true;
     for (const PropertySetting& setting : exact_picture(connector.all())) {
@@ -28,8 +28,8 @@ bool set_properties(int card, const KmsProperties& connector) {
 
 } // namespace
 
-/// A framebuffer is shown only pixel for pixel. The first CRTC that accepts the mode becomes the connector's;
-/// all others are turned off first, because they may hold what this mode needs.
+/// Shows a framebuffer only without scaling. The connector's first CRTC is used; all others are turned off
+/// first, because they may hold resources that this mode needs.
 KmsAnswer LegacyKms::light(std::uint32_t connector, const ModeTiming& mode, const ScannedOut& shown,
                            std::uint64_t ticket) {
     const PixelSize screen{mode.width, mode.height};

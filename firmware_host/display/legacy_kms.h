@@ -1,6 +1,6 @@
-/// KMS without atomic commits, for the drivers that have none (nouveau as Debian ships it, radeon, gma500).
+/// KMS without atomic commits, for drivers that lack them (nouveau in Debian, radeon, gma500).
 ///
-/// Setting a mode blocks until it is set, up to some 100 ms; the flip that must follow is reported then.
+/// Setting a mode blocks until it is set, up to some 100 ms; `light` then reports the flip itself.
 ///
 /// Threads  the render thread.
 /// Source   the kernel's userspace API for KMS: SETCRTC, PAGE_FLIP; libdrm.
@@ -31,7 +31,7 @@ public:
 private:
     int file_;
     FlipEvents flips_;
-    std::uint32_t crtc_ = 0; ///< feeds what is lit; 0 = nothing is lit
+    std::uint32_t crtc_ = 0; ///< feeds the lit output; 0 = nothing is lit
     std::string_view shortcoming_;
 };
 

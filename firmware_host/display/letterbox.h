@@ -1,4 +1,4 @@
-/// Where a picture goes on a screen of another size: as large as it fits, centred, not distorted.
+/// The place of a picture on a screen of another size: as large as fits, centred, undistorted.
 #pragma once
 
 #include "firmware_host/base/pixel_rectangle.h"
@@ -8,7 +8,7 @@
 
 namespace frustumscreen {
 
-/// Both sizes at least 1 x 1.
+/// Both sizes are at least 1 x 1.
 [[nodiscard]] inline PixelRectangle letterbox(PixelSize picture, PixelSize screen) {
     const auto scaled = [](int length, int numerator, int denominator) {
         const std::int64_t rounded = (2LL * length * numerator + denominator) / (2LL * denominator);
@@ -25,8 +25,8 @@ namespace frustumscreen {
     return place;
 }
 
-/// The pixels of the screen on which `part` of the picture is seen when the picture is at `place`. A screen
-/// pixel between two pixels of the picture belongs to both.
+/// The pixels of the screen that show `part` of the picture when the picture is at `place`. A screen pixel
+/// between two pixels of the picture belongs to both.
 [[nodiscard]] inline PixelRectangle part_on_screen(const PixelRectangle& part, PixelSize picture,
                                                    const PixelRectangle& place) {
     const auto from = [](int at, int screen, int whole) {

@@ -14,8 +14,8 @@ struct Wanted {
     std::string_view property;
     std::string_view choice; ///< empty: the number 0
 };
-/// "Graphics" asks the projector not to cut, filter or smooth. Properties that are not listed ("max bpc",
-/// "scaling mode", "audio") change no pixel of a mode that the projector names.
+/// "Graphics" asks the projector not to crop, filter or smooth. Unlisted properties ("max bpc", "scaling
+/// mode", "audio") change no pixel of a mode that the projector lists.
 constexpr std::array<Wanted, 9> wanted{{
     {range, "Full"},
     {"underscan", "off"},
@@ -46,7 +46,7 @@ std::optional<std::uint64_t> value_of(const KmsProperty& property, std::string_v
     return std::nullopt;
 }
 
-/// The sizes of CTA-861's formats, whose codes are limited unless the projector is told otherwise; 640 x 480
+/// The sizes of CTA-861's formats; their codes are limited unless the projector is told otherwise. 640 x 480
 /// is the exception.
 bool is_television_mode(const ModeTiming& mode) {
     constexpr std::array<std::array<int, 2>, 8> sizes{{{720, 480},

@@ -1,9 +1,9 @@
-/// Which of a connector's properties to set, so that every code and every pixel arrives as it was drawn.
+/// The connector properties that make every code and every pixel arrive unaltered.
 ///
 /// Threads  pure.
 /// Source   the kernel's "Standard Connector Properties" and Documentation/gpu/kms-properties.csv: "Broadcast
 ///          RGB" (i915, gma500; vc4 from 6.8 on), "underscan" (amdgpu, radeon, nouveau), margins (vc4),
-///          "content type" and "Colorspace" (HDMI; CTA-861 has what they tell the projector).
+///          "content type" and "Colorspace" (HDMI; CTA-861 defines what they tell the projector).
 #pragma once
 
 #include "firmware_host/display/kms_mode.h"
@@ -22,12 +22,12 @@ struct PropertySetting {
     [[nodiscard]] bool operator==(const PropertySetting&) const = default;
 };
 
-/// The settings that the driver has and that are not in force yet.
+/// The settings that the driver supports and that do not have their value yet.
 [[nodiscard]] std::vector<PropertySetting> exact_picture(std::span<const KmsProperty> connector);
 
-/// A clause for a technician; empty: nothing is in doubt. Only HDMI has two ranges of codes, and the driver
-/// chooses the limited one by itself only for a television's mode (CTA-861, 5.1); `set`: what the driver has
-/// of `exact_picture` could be set.
+/// A clause for a technician; empty: the range is certain. Only HDMI has two ranges of codes; drivers choose
+/// the limited one only for television modes (CTA-861, 5.1). `set`: all settings of `exact_picture` were
+/// made.
 [[nodiscard]] std::string_view range_in_doubt(std::span<const KmsProperty> connector, bool hdmi,
                                               const ModeTiming& mode, bool set);
 

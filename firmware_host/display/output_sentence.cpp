@@ -10,7 +10,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The kernel's way to believe that something is connected (Documentation/fb/modedb.rst).
+/// Kernel argument that declares a connector connected (Documentation/fb/modedb.rst).
 std::string kernel_argument(std::string_view connector, int width, int height, double hz) {
     return fmt::format("video={}:{}x{}@{}e", connector, width, height,
                        hz > 0.0 ? std::lround(hz) : std::lround(OutputRequest{}.picture_hz));

@@ -13,9 +13,9 @@ namespace frustumscreen {
 struct LitOutput {
     std::string_view connector;
     ModeTiming mode;
-    bool as_requested = true;     ///< it is the mode that the settings ask for
-    bool blindly = false;         ///< the connector says that nothing is connected
-    std::string_view shortcoming; ///< what may be wrong with it, as KmsDevice tells it
+    bool as_requested = true;     ///< the mode satisfies the settings
+    bool blindly = false;         ///< the connector reports that nothing is connected
+    std::string_view shortcoming; ///< possible fault, from KmsDevice::shortcoming
 };
 [[nodiscard]] DeviceState state_of(const LitOutput& output);
 

@@ -16,7 +16,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// One triangle over the whole viewport; `top_is_last` turns the picture upside down.
+/// One triangle that covers the viewport; `top_is_last` turns the picture upside down.
 constexpr std::string_view vertex_shader = R"(
 uniform bool top_is_last;
 out vec2 at;
@@ -36,7 +36,7 @@ void main() {
 }
 )";
 
-/// For drivers that decode every texel that is read.
+/// For drivers without EXT_texture_sRGB_decode, which decode every texel they read.
 constexpr std::string_view shader_of_light = R"(
 uniform sampler2D picture;
 in vec2 at;

@@ -1,15 +1,15 @@
-/// Copies the exhibit's picture into what a screen shows.
+/// Copies the exhibit's picture into the framebuffer of a screen.
 ///
-/// On a screen of the picture's size every sRGB code arrives unchanged. On another the picture is scaled as
-/// large as it fits, with black around it, and the first `probe_pixels` of its top row are written unchanged
-/// into the screen's top left corner.
+/// On a screen of the picture's size every sRGB code arrives unchanged. On any other screen the picture is
+/// scaled as large as fits, with black around it; the first `probe_pixels` of its top row are written
+/// unscaled into the screen's top left corner.
 ///
-/// Scaling interpolates codes and not light, as a card's own scaler does: where the processor draws, this
-/// takes half to a third of the time (800 x 600: 7 against 14 ms; on an emulated processor: 0.4 against 1.7
-/// s), and a mode of another size is the exception. Edges between bright and dark become a little darker.
+/// Scaling interpolates codes, not light, as a card's own scaler does. On the processor this takes half to a
+/// third of the time (800 x 600: 7 against 14 ms; on an emulated processor: 0.4 against 1.7 s), and a mode of
+/// another size is the exception. Edges between bright and dark become slightly darker.
 ///
-/// Threads  a separate context is current that shares the picture's texture; its GL state is left changed.
-/// Errors   the driver does not take the shaders.
+/// Threads  a separate context is current that shares the picture's texture; its GL state is changed.
+/// Errors   the driver rejects the shaders.
 /// Source   EXT_texture_sRGB_decode; IEC 61966-2-1 for the codes.
 #pragma once
 
@@ -20,7 +20,7 @@
 
 namespace frustumscreen {
 
-/// Which row of the target is the picture's top: the first in a buffer that is scanned out, the last in a
+/// The row of the target that holds the picture's top row: the first in a scanned-out buffer, the last in a
 /// window.
 enum class TopRow { First, Last };
 
@@ -28,9 +28,9 @@ class PictureCopy {
 public:
     [[nodiscard]] static Result<PictureCopy> create();
 
-    /// Draws into the bound framebuffer, whose colour has 8 bits a channel and holds codes as they are
-    /// written. `part` of the picture is what the framebuffer lacks; if it is the whole picture, what lies
-    /// around it is blackened too. Returns what was drawn into, row 0 at the top.
+    /// Draws into the bound framebuffer, whose colour has 8 bits a channel and stores codes as written.
+    /// `part` is the part of the picture that the framebuffer lacks; for the whole picture the surroundings
+    /// are blackened too. Returns the drawn rectangle, row 0 at the top.
     PixelRectangle draw(const PictureFramebuffer& picture, PixelSize target, TopRow top,
                         const PixelRectangle& part) const;
 

@@ -24,7 +24,8 @@ Result<PictureFramebuffer> PictureFramebuffer::create(int width, int height) {
                     width, height);
     }
     glBindTexture(GL_TEXTURE_2D, 0);
-    // A display may copy the picture before the renderer has drawn it: no memory is read that was never written.
+    // A display may copy the picture before the renderer has drawn it; clear it, so no uninitialised memory
+    // is read.
     glDisable(GL_SCISSOR_TEST);
     glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
     glClear(GL_COLOR_BUFFER_BIT);

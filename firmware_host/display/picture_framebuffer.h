@@ -1,8 +1,8 @@
-/// The framebuffer object that the renderer draws the exhibit's picture into, the same for every display.
+/// The framebuffer object that the renderer draws the exhibit's picture into, for every kind of display.
 ///
 /// Colour   a texture, SRGB8_ALPHA8: shaders write linear light, a read-back gives sRGB codes; depth 24,
-///          stencil 8. Row 0 is the picture's top row. It begins black.
-/// Threads  the context that made it is current.
+///          stencil 8. Row 0 is the picture's top row. Initially black.
+/// Threads  the creating context is current.
 /// Errors   a picture larger than the driver allows.
 #pragma once
 

@@ -63,7 +63,7 @@ void Presenter::take_flips() {
     wait_for_flip();
 }
 
-/// Somebody waits for the picture, so the projector is lit with the next one.
+/// A picture is due, so the projector is lit with it.
 void Presenter::wake() {
     if (rest_ != Rest::None) {
         rest_ = Rest::None;
@@ -195,7 +195,7 @@ bool Presenter::still_right() const {
     }
     const std::vector<ModeTiming> modes = modes_to_try(*connector, request_);
     if (!modes.empty() && fulfils(modes.front(), request_) && !lit_->as_requested) {
-        return false; // the mode that is asked for is possible now
+        return false; // the requested mode has become possible
     }
     return std::find(modes.begin(), modes.end(), lit_->mode) != modes.end();
 }
@@ -204,10 +204,10 @@ void Presenter::darken() {
     const KmsAnswer answer = device_.darken();
     if (answer == KmsAnswer::Busy) {
         went_wrong(answer);
-        return; // tried again next time
+        return; // retried with the next picture
     }
     if (answer == KmsAnswer::Refused && rest_ != Rest::None) {
-        try_again_ = device_.now() + between_tries; // it is lit still
+        try_again_ = device_.now() + between_tries; // it is still lit
         return;
     }
     stuck_since_.reset();
@@ -244,7 +244,7 @@ void Presenter::light() {
     state_ = why_refused(*connector, request_, no_memory_.view());
 }
 
-/// False: it failed, but another mode may work.
+/// Returns false after a failure if another mode may work.
 bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode) {
     const PixelSize picture{request_.picture_width, request_.picture_height};
     const PixelSize screen{mode.width, mode.height};
@@ -253,7 +253,7 @@ bool Presenter::light(const ConnectorSeen& connector, const ModeTiming& mode) {
         if (light(connector, mode, picture)) {
             return true;
         }
-        card_scales_ = false; // or it refuses the mode itself; the copy can scale as well
+        card_scales_ = false; // or the card refuses the mode itself; the copy can scale too
     }
     return light(connector, mode, screen);
 }
@@ -325,7 +325,7 @@ void Presenter::went_wrong(KmsAnswer answer) {
     switch (answer) {
     case KmsAnswer::Done:
         break;
-    case KmsAnswer::Busy: // this picture is skipped; the next one comes
+    case KmsAnswer::Busy: // skip this picture; the next one comes
         try_again_ = device_.now() + soon;
         stuck_since_ = stuck_since_.value_or(device_.now());
         break;

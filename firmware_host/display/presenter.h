@@ -1,16 +1,19 @@
-/// The output's state machine: turns the exhibit's pictures into flips on a projector that comes and goes.
+/// The presenter: the state machine that turns the exhibit's pictures into flips on a projector that may be
+/// plugged in and out at any time.
 ///
-/// Without a projector, pictures are accepted and not shown; when one comes, the next picture lights it.
+/// Without a projector, pictures are accepted but not shown; when a projector appears, the next picture
+/// lights it.
 ///
-/// Dark on purpose, with `stay_dark`, it is turned off as DPMS does, whatever comes and goes; the next picture lights it.
+/// `stay_dark` turns the projector off, as DPMS does, whatever is plugged in or out; the next picture lights
+/// it again.
 ///
-/// A picture without a size of its own is drawn in the mode's. A mode of another size than the picture's is filled by the card's own scaler where it has one, else the
-/// picture is scaled on its way into memory.
+/// A picture without a size is drawn in the mode's size. If picture and mode differ in size, the card's own
+/// scaler fills the mode if it can; otherwise the picture is scaled while it is copied.
 ///
-/// Time     the device's clock; `present` waits at most `flip_patience`, for the flip before.
+/// Time     the device's clock; `present` waits at most `flip_patience`, for the previous flip.
 /// Threads  the render thread.
-/// Errors   a card that is back after it was gone, or that takes no picture for `stuck_given_up`, or a
-///          projector at another card: the program must be started again.
+/// Errors   the card has returned after it was gone, or has taken no picture for `stuck_given_up`, or the
+///          projector is at another card: the program must be restarted.
 #pragma once
 
 #include "firmware_host/base/device_state.h"
@@ -23,37 +26,37 @@
 
 namespace frustumscreen {
 
-/// How long a flip may take before the exhibit goes on without it: fifteen refreshes of 60 Hz.
+/// Longest wait for a flip before the exhibit continues without it: fifteen refreshes of 60 Hz.
 inline constexpr Nanoseconds flip_patience = std::chrono::milliseconds(250);
-/// A flip that does not come for so long is given up and the projector lit anew.
+/// After this time a missing flip is given up, and the projector is lit again.
 inline constexpr Nanoseconds flip_given_up = std::chrono::seconds(2);
-/// A card that takes no picture for so long, though a projector is there, hangs.
+/// A card that takes no picture for this long, although a projector is there, hangs.
 inline constexpr Nanoseconds stuck_given_up = std::chrono::seconds(10);
-/// Between tries to light a projector that could not be lit.
+/// Pause between attempts to light a projector.
 inline constexpr Nanoseconds between_tries = std::chrono::seconds(1);
 
 class Presenter {
 public:
     Presenter(KmsDevice& device, MakeScanout make_scanout, OutputRequest request);
 
-    /// Takes what is connected, after each new look.
+    /// Takes the connectors' state after each probe.
     void connected(CardSeen seen);
-    /// Shows the picture where there is a projector; returns the time at which it flips, else now. `changed`:
-    /// the part of the picture that changed since the call before. `may_set`: this is a good moment to set a
-    /// mode, because nobody else is asking the card.
+    /// Shows the picture if there is a projector; returns the time of its flip, otherwise now. `changed` is
+    /// the part of the picture that changed since the previous call. `may_set`: a mode may be set now,
+    /// because no other thread is asking the card.
     [[nodiscard]] Result<MonotonicTime> present(const PixelRectangle& changed, bool may_set);
 
-    /// Keeps the projector dark, in place of `present`; `may_set` and errors as there.
+    /// Keeps the projector dark; call it in place of `present`. `may_set` and errors as there.
     [[nodiscard]] Result<void> stay_dark(bool may_set);
 
     /// Waits at most `flip_patience`; true: the picture presented last is on the screen.
     [[nodiscard]] bool wait_until_shown();
 
     [[nodiscard]] bool lit() const { return lit_.has_value(); }
-    /// The first picture is shown, or it is known that no projector takes one now.
+    /// Whether the first picture is shown, or no projector can take one now.
     [[nodiscard]] bool settled() const { return lit_ ? lit_->shown : looked_ && !about_to_light(); }
-    /// Reads the first pixels of the top row of the framebuffer that flipped last, RGBA codes; false: none is
-    /// lit.
+    /// Reads the first pixels of the top row of the framebuffer that flipped last, as RGBA codes; false: none
+    /// is lit.
     [[nodiscard]] bool read_shown(std::span<std::byte> rgba) const;
     [[nodiscard]] std::string_view state() const { return state_.sentence.view(); }
     [[nodiscard]] DeviceCondition condition() const { return state_.condition; }
@@ -66,9 +69,9 @@ private:
         std::uint32_t connector = 0;
         std::string name;
         ModeTiming mode;
-        bool as_requested = true; ///< it is the mode that the settings ask for
-        bool blindly = false;     ///< the connector says that nothing is connected
-        bool shown = false;       ///< its first picture was flipped to
+        bool as_requested = true; ///< the mode satisfies the settings
+        bool blindly = false;     ///< the connector reports that nothing is connected
+        bool shown = false;       ///< the flip to its first picture is done
         bool flips = false;       ///< it has shown more than its first picture
     };
     struct Queued {
@@ -85,7 +88,7 @@ private:
     void wake();
     void wait_for_flip();
     void take(const Flipped& flipped);
-    /// Is what is lit still what should be lit?
+    /// Whether the lit output is still the right one.
     [[nodiscard]] bool still_right() const;
     void darken();
     void light();
@@ -93,9 +96,9 @@ private:
     [[nodiscard]] bool light(const ConnectorSeen& connector, const ModeTiming& mode, PixelSize framebuffer);
     void flip();
     [[nodiscard]] bool make_scanout(PixelSize size);
-    /// Brings the framebuffer that is not shown up to date.
+    /// Updates the framebuffer that is not shown.
     [[nodiscard]] FramebufferId fill();
-    /// Acts on an answer other than Done.
+    /// Acts on any answer other than Done.
     void went_wrong(KmsAnswer answer);
     void lose(MessageId id, std::string_view why);
     void lose_card();
@@ -106,22 +109,22 @@ private:
     OutputRequest request_;
     CardSeen seen_;
     std::unique_ptr<ScanoutPair> scanout_;
-    std::unique_ptr<ScanoutPair> shown_before_; ///< until what is new is shown
+    std::unique_ptr<ScanoutPair> shown_before_; ///< the old pair, until the new one is shown
     std::array<PixelRectangle, 2> stale_{};     ///< the part of the picture that each framebuffer lacks
     std::optional<Lit> lit_;
     std::optional<Queued> queued_;
     FlipClock clock_;
-    std::optional<MonotonicTime> try_again_;   ///< not before
-    std::optional<MonotonicTime> stuck_since_; ///< the card took no picture since
-    bool looked_ = false;                      ///< what is connected is known
-    bool card_scales_ = true;                  ///< true until it refuses
-    Sentence no_memory_;            ///< why the last framebuffers could not be made; empty: they could
-    std::vector<ModeTiming> unfit_; ///< lit, but showed only one picture: the card has no memory for more
+    std::optional<MonotonicTime> try_again_;   ///< no attempt to light before this time
+    std::optional<MonotonicTime> stuck_since_; ///< the card has taken no picture since
+    bool looked_ = false;                      ///< the connectors' state is known
+    bool card_scales_ = true;                  ///< true until the card refuses
+    Sentence no_memory_;                       ///< why the last framebuffers could not be made; else empty
+    std::vector<ModeTiming> unfit_;            ///< showed only one picture: the card lacks memory for more
     std::uint64_t ticket_ = 0;
     int free_ = 0;      ///< the framebuffer that is not shown
     bool late_ = false; ///< the queued flip did not come in time
     bool master_ = true;
-    bool darken_ = false; ///< what was lit is to be turned off
+    bool darken_ = false; ///< turn off the lit output
     enum class Rest : std::uint8_t { None, Wanted, Dark };
     Rest rest_ = Rest::None; ///< dark on purpose: to be turned off, or turned off
     DeviceState state_;

@@ -1,10 +1,10 @@
-/// Brings the picture into memory that the drawing GPU cannot reach: draws it into a renderbuffer of the
-/// screen's size and reads it back.
+/// Copies the picture into memory that the drawing GPU cannot reach: draws it into a renderbuffer of the
+/// screen's size and reads that back.
 ///
-/// Shape    memory as KMS wants it: rows from the top, `stride` bytes each, pixels of four bytes: blue,
-///          green, red, nothing.
-/// Threads  the copying's context is current in every call and at the end.
-/// Errors   the driver does not read back in this order, or has no memory.
+/// Shape    memory as KMS expects it: rows from the top, `stride` bytes each; pixels of four bytes: blue,
+///          green, red, unused.
+/// Threads  the copy's context is current in every call and at destruction.
+/// Errors   the driver cannot read back in this order, or lacks memory.
 /// Source   EXT_read_format_bgra.
 #pragma once
 

@@ -13,12 +13,13 @@ namespace frustumscreen {
 
 namespace {
 
-/// 65536 keys of 20 bytes, and the size of the whole cache. A Mesa with another index makes its own, unguarded.
+/// 65536 keys of 20 bytes, and the size of the whole cache. A Mesa version with another index makes its own
+/// file, without allocated blocks.
 constexpr off_t index_bytes = 8 + 65536 * 20;
 
-/// 0, or why not.
+/// Returns 0 or the error number.
 int set_aside(const std::filesystem::path& folder) {
-    std::error_code failed; // told by `open`
+    std::error_code failed; // `open` reports the error
     std::filesystem::create_directories(folder, failed);
     const Descriptor index(::open((folder / "index").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
     return index.number() < 0 ? errno : ::posix_fallocate(index.number(), 0, index_bytes);

@@ -1,9 +1,11 @@
-/// Where the graphics driver (Mesa) keeps compiled shaders from one start to the next, so that it compiles them once.
+/// Compiled shaders of the graphics driver (Mesa), kept from one start to the next to save compiling them
+/// again.
 ///
-/// Mesa maps its index into memory without having set its blocks aside: on a full disk the program dies when it writes there. So
-/// they are set aside before, or there is no cache.
+/// Mesa maps its index file into memory without allocating its blocks, so a write to it on a full disk kills
+/// the program. The blocks are therefore allocated first; if that fails, there is no cache.
 ///
-/// Threads  `keep_shaders_in`, `keep_no_shaders`: while there is one thread and no display yet; Mesa reads the environment.
+/// Threads  `keep_shaders_in`, `keep_no_shaders`: call them while the process has one thread and no display;
+///          Mesa reads the environment.
 /// Source   Mesa 22.3, docs/envvars.rst and src/util/disk_cache_os.c.
 #pragma once
 
@@ -13,8 +15,8 @@
 
 namespace frustumscreen {
 
-/// Below `folder`, which is made if it is missing; 64 MB at most. Errors: the disk has no room, or cannot be written; then no
-/// shaders are kept.
+/// Keeps the cache below `folder`, which is made if missing; 64 MB at most. Errors: the disk is full or not
+/// writable; then no shaders are kept.
 [[nodiscard]] Result<void> keep_shaders_in(const std::filesystem::path& folder);
 
 void keep_no_shaders();

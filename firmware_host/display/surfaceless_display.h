@@ -1,10 +1,10 @@
-/// A display without a screen: an OpenGL ES context through EGL on no window, and one framebuffer object.
+/// A display without a screen: an OpenGL ES context through EGL without a window, and one framebuffer object.
 ///
-/// For tests, the offline renderer and the headless exhibit. The picture stays in the framebuffer until the
-/// next one is drawn, so its age is always 1.
+/// For tests, the offline renderer and the headless exhibit. The framebuffer keeps each picture until the
+/// next one is drawn, so its age is 1 after the first `present`.
 ///
-/// Threads  the one that created it: the context is current there.
-/// Errors   EGL or OpenGL ES 3 missing, a picture larger than the driver allows.
+/// Threads  the creating thread, on which the context is current.
+/// Errors   EGL or OpenGL ES 3 missing; a picture larger than the driver allows.
 #pragma once
 
 #include "firmware_host/display/display.h"
@@ -23,7 +23,7 @@ public:
     [[nodiscard]] int height() const override { return picture_.height(); }
     [[nodiscard]] unsigned framebuffer() const override { return picture_.name(); }
     [[nodiscard]] int buffer_age() const override { return presented_ ? 1 : 0; }
-    /// Waits until the picture is drawn. Nothing lights it, so the time is `now`.
+    /// Waits until the picture is drawn. It is lit nowhere, so the returned time is `now`.
     [[nodiscard]] Result<MonotonicTime> present(MonotonicTime now) override;
     /// The driver's own name and version.
     [[nodiscard]] std::string name() const override { return gl_driver_name(); }

@@ -66,7 +66,7 @@ private:
     [[nodiscard]] bool came() const {
         return Device(udev_monitor_receive_device(monitor_.get()), udev_device_unref) != nullptr;
     }
-    /// The kernel had no memory for an event, or more came than it keeps: netlink(7).
+    /// The kernel lacked memory for an event, or its queue overflowed: netlink(7).
     [[nodiscard]] static bool some_were_lost() { return errno == ENOBUFS; }
 
     int wake_;

@@ -1,6 +1,6 @@
 /// Names of OpenGL objects as move-only values.
 ///
-/// Threads  the render thread, with its context current, also where they are destroyed.
+/// Threads  the render thread, with its context current, also at destruction.
 #pragma once
 
 #include <GLES3/gl31.h>
@@ -34,7 +34,7 @@ private:
 };
 
 namespace gl_kind {
-// glGenX has one shape for most kinds of object.
+// glGenX and glDeleteX have one signature for most kinds of objects.
 template <auto Generate, auto Destroy> struct Counted {
     static GLuint generate() {
         GLuint name = 0;

@@ -1,7 +1,7 @@
 /// Shader programs.
 ///
 /// Threads  the render thread.
-/// Errors   Internal: the driver refused one of our own shaders, with the first line of what it said.
+/// Errors   Internal: the driver refused one of our own shaders; with the first line of its log.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -11,8 +11,8 @@
 
 namespace frustumscreen {
 
-/// Both stages get '#version 300 es', highp for everything (ES's default lowp samplers change results) and
-/// `defines`.
+/// Both stages get '#version 300 es', highp for all types (the lowp samplers that ES defaults to change
+/// results) and `defines`.
 [[nodiscard]] Result<GlProgram> make_program(std::string_view defines, std::string_view vertex,
                                              std::string_view fragment);
 

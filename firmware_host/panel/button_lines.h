@@ -1,7 +1,7 @@
-/// The wires of a button panel: levels, and waiting for them to change.
+/// The lines of a button panel: their levels, and waiting for a change.
 ///
-/// Threads  the one that opened them; `wait` blocks it.
-/// Errors   DeviceLost: the chip is gone, or not there yet; its message is a sentence for a technician.
+/// Threads  the opening thread; `wait` blocks it.
+/// Errors   DeviceLost: the chip is gone, or not there yet; the message is a sentence for a technician.
 #pragma once
 
 #include "firmware_host/base/line_bias.h"
@@ -20,24 +20,24 @@ namespace frustumscreen {
 class ButtonLines {
 public:
     virtual ~ButtonLines() = default;
-    /// True = down, one each line.
+    /// True = down, one for each line.
     [[nodiscard]] virtual Result<void> read(std::span<bool> down) = 0;
     /// Waits until a level changes, at most `timeout`.
     [[nodiscard]] virtual Result<void> wait(Nanoseconds timeout) = 0;
-    /// True = lit, one each button; buttons without a lamp ignore it.
+    /// True = lit, one for each button; buttons without a lamp ignore it.
     [[nodiscard]] virtual Result<void> light(std::span<const bool> /*lit*/) { return {}; }
-    /// What does not work although the lines are there, in one sentence for a technician; empty: all works.
+    /// A fault of open lines in one sentence for a technician; empty: no fault.
     [[nodiscard]] virtual std::string_view remark() const { return {}; }
 };
 
 struct LineRequest {
     std::string chip;               ///< path, name, label or number
-    std::vector<std::string> lines; ///< names, or offsets in digits; one each button
+    std::vector<std::string> lines; ///< names, or offsets in digits; one for each button
     LineBias bias = LineBias::PullUp;
     bool active_low = true;              ///< a pressed button pulls its line to ground
-    std::vector<std::string> lamps = {}; ///< as `lines`; in the order of the buttons, as many as there are
+    std::vector<std::string> lamps = {}; ///< as `lines`; in the order of the buttons, one for each
 };
-/// Through libgpiod 1.6, the version of Debian 12; 2.x would be another file with the same function.
+/// Uses libgpiod 1.6, the version in Debian 12; libgpiod 2 needs another file with this function.
 [[nodiscard]] Result<std::unique_ptr<ButtonLines>> open_gpio_lines(const LineRequest& request);
 
 using OpenLines = std::function<Result<std::unique_ptr<ButtonLines>>()>;

@@ -38,12 +38,12 @@ DeviceState state_of(const Buttons& buttons, const DeviceState& otherwise) {
                : otherwise;
 }
 
-/// What the lamps show; sent to them when it changes.
+/// State of the lamps; sent to them when it changes.
 class Lamps {
 public:
     explicit Lamps(std::size_t count) : count_(count), lit_(std::make_unique<bool[]>(count)) {}
 
-    /// Lit where the button is asked for and not broken.
+    /// Lights the requested buttons that are not broken.
     [[nodiscard]] Result<void> follow(std::uint32_t asked, const Buttons& buttons, ButtonLines& lines) {
         bool changed = false;
         for (std::size_t k = 0; k < count_; ++k) {
@@ -56,7 +56,7 @@ public:
 
 private:
     std::size_t count_;
-    std::unique_ptr<bool[]> lit_; ///< dark at the beginning, as they are when they are opened
+    std::unique_ptr<bool[]> lit_; ///< dark at first, as after opening
 };
 
 } // namespace
@@ -78,7 +78,7 @@ void ButtonPanel::watch(const std::stop_token& stop) {
         Result<std::unique_ptr<ButtonLines>> lines = open_();
         said_.put(away(lines ? serve(**lines, stop) : lines.error()));
         held_until_.promise(MonotonicTime{});
-        lines = {}; // the chip is closed before it is looked for again
+        lines = {}; // close the chip before searching for it again
         sleep_until_stop(stop, look_again);
     }
 }

@@ -1,8 +1,9 @@
-/// A panel of real buttons. Its own thread waits for them, and looks for an unplugged chip until it is back.
+/// A panel of real buttons. Its own thread waits for them, and searches for an unplugged chip until it is
+/// back.
 ///
-/// Threads  `poll`, `state`: one caller, never blocked by the device. At most `most_waiting` events wait; the
-///          oldest are overwritten.
-/// Time     events bear the monotonic clock's time.
+/// Threads  `poll`, `state`: one caller, never blocked by the device. At most `most_waiting` events wait; new
+///          ones overwrite the oldest.
+/// Time     events have the monotonic clock's time.
 #pragma once
 
 #include "firmware_host/base/heartbeat.h"
@@ -21,10 +22,10 @@ namespace frustumscreen {
 class ButtonPanel final : public Panel {
 public:
     static constexpr std::size_t most_waiting = 64;
-    /// Opening, or asking for all levels, takes no longer: a USB bridge that does not answer costs 5 s a
-    /// transfer, until the kernel gives up, and each line takes several.
+    /// Longest opening, or reading of all levels: a USB bridge that does not answer costs 5 s per transfer,
+    /// until the kernel gives up, and each line takes several transfers.
     static constexpr Nanoseconds longest_round = std::chrono::seconds(60);
-    /// The chord counts as let go if the levels were not read for so long.
+    /// The chord counts as released if the levels were not read for this long.
     static constexpr Nanoseconds held_for = std::chrono::milliseconds(500);
 
     ButtonPanel(OpenLines open, std::size_t buttons, const ButtonTimes& times);
@@ -43,7 +44,7 @@ public:
 
 private:
     void watch(const std::stop_token& stop);
-    /// Runs until the device is lost or `stop` is requested.
+    /// Serves the buttons until the device is lost or `stop` is requested.
     [[nodiscard]] Error serve(ButtonLines& lines, const std::stop_token& stop);
 
     OpenLines open_;
@@ -55,8 +56,8 @@ private:
                        Sentence("its buttons are not opened yet")}; ///< the latest that `poll` saw
     std::atomic<std::uint32_t> wished_{0};                          ///< lamps
     Heartbeat heartbeat_{monotonic_now() + longest_round};
-    Heartbeat held_until_{MonotonicTime{}}; ///< the chord is held at least until then, unless it is let go
-    std::jthread thread_;                   ///< last: it uses all of the above
+    Heartbeat held_until_{MonotonicTime{}}; ///< the chord counts as held until then
+    std::jthread thread_;                   ///< last: it uses all members above
 };
 
 } // namespace frustumscreen

@@ -40,7 +40,7 @@ void Buttons::sample(MonotonicTime now, std::span<const bool> down, std::vector<
                      [](const PanelEvent& a, const PanelEvent& b) { return a.time < b.time; });
 }
 
-/// A level that has held long enough counts.
+/// Accepts a level that has lasted for the debounce time.
 void Buttons::settle(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events) {
     Button& button = buttons_[which];
     if (button.level == button.down || now - button.level_since < times_.debounce) {
@@ -62,7 +62,7 @@ void Buttons::settle(MonotonicTime now, std::size_t which, std::vector<PanelEven
     button.stuck = false;
 }
 
-/// True: one edge too many. What bounces within the debounce time is one edge.
+/// Returns true for one edge too many. Bounces within the debounce time count as one edge.
 bool Buttons::edge(Button& button) {
     const MonotonicTime time = button.level_since;
     const std::size_t latest = (button.edge_count + button.edges.size() - 1) % button.edges.size();
@@ -77,7 +77,7 @@ bool Buttons::edge(Button& button) {
 }
 
 /// A button that became quiet is treated as at the first sample: if it is down, it reports nothing until it
-/// was up.
+/// has been up.
 void Buttons::calm_down(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events) {
     Button& button = buttons_[which];
     if (now - button.level_since < times_.quiet) {
@@ -90,7 +90,7 @@ void Buttons::calm_down(MonotonicTime now, std::size_t which, std::vector<PanelE
     events.push_back({button.level_since + times_.quiet, static_cast<int>(which), PressKind::Freed});
 }
 
-/// Reports what it means that a button stays down.
+/// Reports the events of a button that stays down.
 void Buttons::hold(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events) {
     Button& button = buttons_[which];
     if (!button.down || button.stuck || button.chatters) {

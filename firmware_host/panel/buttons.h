@@ -1,26 +1,26 @@
-/// What levels on wires mean: contact bounce, presses, long presses, the staff's chord, buttons that stick or
-/// chatter.
+/// Interprets levels on lines: contact bounce, presses, long presses, the staff's chord, and buttons that
+/// stick or chatter.
 ///
-/// A level counts once it has held for the debounce time; its time is when it began. A button that is down at
-/// the first sample reports nothing but being stuck until it was up: a chip's spurious first edge is no
-/// press, and wires that are swapped or shorted are no chord.
+/// A level counts once it has lasted for the debounce time; its time is that of its start. A button that is
+/// down at the first sample reports only Stuck until it has been up: a chip's spurious first edge is not a
+/// press, and swapped or shorted wires are not a chord.
 ///
-/// A press is reported at once, even if the button may turn out to be held for the chord: no visitor waits
-/// for the staff. A chord begins with the latest press of each of its buttons; whoever acted on those presses
-/// undoes it.
+/// A press is reported at once, even if the button may later turn out to be held for the chord, so visitors
+/// do not wait for a staff function. A chord begins with the latest press of its buttons; the client that
+/// acted on those presses must undo its actions.
 ///
-/// A loose contact gets through any debounce: one of 5 kHz, looked at every 20 ms, presses up to nine times a
-/// second for as long as it has power. So a button of `too_many_edges` within `chatter_window` is ignored
-/// until its level has been still for `quiet`. Forty edges are twenty presses, two a second for ten seconds,
-/// which is more than anyone needs: a change of artifact takes half a second, so nobody sees artifacts that
-/// pass so fast. A child that hammers at it (six to seven presses a second are about as fast as a finger
-/// goes) is ignored after three seconds, and counts again three seconds after it lets go. Edges are counted,
-/// not presses, because a loose contact has many more of them: it is found within a few seconds, even if it
-/// rarely holds long enough to press.
+/// Debouncing does not stop a loose contact: one of 5 kHz, sampled every 20 ms, presses up to nine times a
+/// second while it is powered. A button with `too_many_edges` within `chatter_window` is therefore ignored
+/// until its level has been still for `quiet`. Forty edges are twenty presses, two a second for ten seconds.
+/// No visitor needs more: a change of artifact takes half a second, so faster presses show nothing. A child
+/// that hammers on a button (a finger reaches six to seven presses a second) is ignored after three seconds,
+/// and counts again three seconds after the last press. Edges are counted instead of presses, because a loose
+/// contact causes many more edges and is thus found within a few seconds, even if it rarely lasts long enough
+/// for a press.
 ///
-/// Time     a parameter, monotonic; samples may come at any interval; one that is older than the last is
+/// Time     a parameter, monotonic; samples may come at any interval; one that is older than the previous is
 ///          ignored.
-/// Threads  values; any. Allocates nothing after construction but for the caller's events.
+/// Threads  values; any. After construction, allocates only for the caller's events.
 #pragma once
 
 #include "firmware_host/panel/panel.h"
@@ -47,15 +47,15 @@ public:
 
     Buttons(std::size_t count, const ButtonTimes& times);
 
-    /// The levels at `now`, true = down, one each button. Appends what they mean, in ascending time.
+    /// The levels at `now`, true = down, one for each button. Appends their events, in ascending time.
     void sample(MonotonicTime now, std::span<const bool> down, std::vector<PanelEvent>& events);
-    /// When something happens next even if no level changes; nothing = never.
+    /// Time of the next event if no level changes; nullopt = never.
     [[nodiscard]] std::optional<MonotonicTime> due() const;
-    /// The button counts as broken.
+    /// Whether the button counts as broken.
     [[nodiscard]] bool ignored(std::size_t which) const {
         return buttons_[which].stuck || buttons_[which].chatters;
     }
-    /// The first and the last button are down, as the latest sample has them: both counted, and neither is let go.
+    /// Whether the first and the last button are down in the latest sample, and their presses were reported.
     [[nodiscard]] bool chord_held() const {
         return chord_since() && buttons_.front().level && buttons_.back().level;
     }
@@ -64,23 +64,23 @@ public:
 
 private:
     struct Button {
-        bool level = false;   ///< as sampled last
-        bool down = false;    ///< as it counts
-        bool pressed = false; ///< down, after it was up: its press was reported
-        bool mute = false;    ///< no long press until it comes up
+        bool level = false;   ///< in the latest sample
+        bool down = false;    ///< after debouncing
+        bool pressed = false; ///< down after it was up; the press was reported
+        bool mute = false;    ///< no long press until it is up again
         bool stuck = false;
-        bool chatters = false; ///< until it is quiet, only `level` is followed
+        bool chatters = false; ///< until it is quiet, only `level` is updated
         MonotonicTime level_since{};
         MonotonicTime down_since{};
-        std::array<MonotonicTime, too_many_edges - 1> edges{}; ///< the latest, in a ring
-        std::size_t edge_count = 0;                            ///< since it chattered last
+        std::array<MonotonicTime, too_many_edges - 1> edges{}; ///< the latest ones, in a ring
+        std::size_t edge_count = 0;                            ///< since it last chattered
     };
     void settle(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events);
     [[nodiscard]] bool edge(Button& button);
     void calm_down(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events);
     void hold(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events);
     void hold_chord(MonotonicTime now, std::vector<PanelEvent>& events);
-    /// Since when the chord is held; nothing = it is not.
+    /// Start of the chord; nullopt = the chord is not held.
     [[nodiscard]] std::optional<MonotonicTime> chord_since() const;
 
     ButtonTimes times_;

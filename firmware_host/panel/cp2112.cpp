@@ -32,7 +32,7 @@ bool is_configuration(std::span<const std::byte> bytes) {
     return bytes.size() >= report_bytes && bytes.front() == report_number;
 }
 
-/// In sysfs a GPIO chip lies below the HID device that it is part of, beside the device's hidraw.
+/// In sysfs a GPIO chip is below its HID device, next to the device's hidraw.
 fs::path hidraw_of(const std::string& gpio_chip) {
     std::error_code failed;
     const fs::path chip = fs::canonical(fs::path("/sys/bus/gpio/devices") / gpio_chip, failed);

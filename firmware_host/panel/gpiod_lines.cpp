@@ -87,8 +87,8 @@ int flags_of(const LineRequest& request) {
     return flags;
 }
 
-/// Levels are read this often instead of asking for edges: Linux 6.1's hid-cp2112 sleeps in an atomic context
-/// when a line with edges is released, and sometimes crashes the whole kernel. A finger is slower than this,
+/// Interval of polling. Edge events are not used: Linux 6.1's hid-cp2112 sleeps in an atomic context when a
+/// line with edges is released, which sometimes crashes the kernel. A finger is slower than this interval,
 /// and reading three lines costs almost nothing.
 constexpr Nanoseconds between_reads = std::chrono::milliseconds(20);
 

@@ -66,7 +66,7 @@ File open_device(const fs::path& path) {
     return File(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
 }
 
-/// Opens the first device in /dev/input with this name; else the error number says why there is none.
+/// Opens the first device in /dev/input with this name; otherwise returns an error number with the reason.
 tl::expected<File, int> find(const std::string& name) {
     int trouble = ENOENT;
     std::error_code failed;
@@ -156,14 +156,14 @@ Result<std::unique_ptr<ButtonLines>> open_key_lines(const KeyRequest& request) {
                     "keyboard {}: it is no event device; see {}", request.device, folder);
     }
     KeyLevels there(request.codes);
-    there.set(keys); // the same bits, but of the keys that it has
+    there.set(keys); // the same bits, but for existing keys
     for (std::size_t k = 0; k < request.codes.size(); ++k) {
         if (!there.down(k)) {
             return fail(ErrorKind::DeviceLost, "panel.no_key", "keyboard {}: it has no key {}",
                         request.device, libevdev_event_code_get_name(EV_KEY, request.codes[k]));
         }
     }
-    if (::ioctl(file.get(), EVIOCGRAB, 1) < 0) { // until it is closed
+    if (::ioctl(file.get(), EVIOCGRAB, 1) < 0) { // grabs the keyboard until the file is closed
         return lost(request.device, errno);
     }
     return std::make_unique<KeyLines>(std::move(file), request.device, request.codes);

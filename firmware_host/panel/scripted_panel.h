@@ -1,6 +1,6 @@
-/// A panel whose buttons are pressed by a script.
+/// A panel that a script operates.
 ///
-/// Time     presses count from `start`; if `repeat` is above zero the script begins again after that time,
+/// Time     presses count from `start`. If `repeat` is above zero, the script begins again after that time,
 ///          which must be later than its last press.
 /// Threads  one caller.
 #pragma once

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t most_head_bytes = 400;
 
-/// Reads what the exhibit sends until it closes the connection; nothing: not in time, or too much.
+/// Reads until the exhibit closes the connection; nullopt: a timeout, or too many bytes.
 std::optional<Bytes> read_all(int socket, std::size_t most_bytes, MonotonicTime until) {
     Bytes bytes;
     std::array<std::byte, 65536> part{};
@@ -39,7 +39,7 @@ std::optional<Bytes> read_all(int socket, std::size_t most_bytes, MonotonicTime 
     return std::nullopt;
 }
 
-/// `answer`: all that came. Errors   one sentence.
+/// `answer` is the complete answer. Errors: one sentence.
 Result<Bytes> content_of(Bytes answer) {
     const std::string_view text = as_text(answer);
     const std::size_t end = text.substr(0, most_head_bytes).find('\n');
@@ -84,14 +84,14 @@ Result<Bytes> ask_staff_socket(const std::filesystem::path& path, std::string_vi
         return bad_input("staff.socket_path", place + ": a socket's path has 1 to 107 bytes");
     }
     const Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
-    // A socket whose queue is full holds the caller up no longer than this.
+    // Limits the wait at a socket whose queue is full.
     const timeval longest{std::chrono::ceil<std::chrono::seconds>(patience).count(), 0};
     static_cast<void>(::setsockopt(socket.number(), SOL_SOCKET, SO_SNDTIMEO, &longest, sizeof(longest)));
     if (::connect(socket.number(), address->get(), address->size()) != 0) {
         return bad_input("staff.unreachable", "{}: {}", place, why_unreachable());
     }
     const std::string line = std::string(question) + "\n";
-    // Where it was closed already, the answer says why.
+    // If the exhibit has closed the connection already, its answer gives the reason.
     static_cast<void>(::send(socket.number(), line.data(), line.size(), MSG_NOSIGNAL));
     std::optional<Bytes> answer =
         read_all(socket.number(), most_bytes + most_head_bytes, monotonic_now() + patience);

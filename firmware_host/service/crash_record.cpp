@@ -43,20 +43,20 @@ constexpr bool has_sanitizer = false;
 #endif
 
 constexpr std::size_t max_frames = 48;
-constexpr std::size_t max_stack_words = 256; ///< looked at where the unwinder stops at compiled code
+constexpr std::size_t max_stack_words = 256; ///< to search if the unwinder stops at compiled code
 constexpr std::size_t max_guesses = 6;
-constexpr std::size_t min_unwound = 3; ///< fewer frames: the unwinder stopped early
+constexpr std::size_t min_unwound = 3; ///< fewer frames mean that the unwinder stopped early
 constexpr unsigned max_handler_s = 3;
 
-/// One address and the module that it lies in.
+/// An address and its module.
 struct Place {
     std::uintptr_t address = 0;
     std::uintptr_t offset = 0;
-    std::array<char, 48> module{}; ///< empty: of no file
+    std::array<char, 48> module{}; ///< empty: no file
     bool executable = false;
 };
 
-/// All that the handler needs, set aside before a crash.
+/// Memory for the handler, reserved in advance.
 struct State {
     std::array<char, 512> file{};
     std::array<char, 64> boot{};
@@ -64,13 +64,13 @@ struct State {
     std::array<char, 256> system{};
     std::array<char, 256> driver{};
     std::array<Place, max_frames + max_stack_words> places{};
-    std::size_t unwound = 0; ///< of `places`; those behind are of the stack
+    std::size_t unwound = 0; ///< of `places`; later entries are words of the stack
     std::size_t count = 0;
     std::array<char, 8192> text{};
     std::size_t length = 0;
 };
-State state;                           // a handler is given nothing
-std::array<char, 65536> handler_stack; // a stack that has overflowed is no place for a handler
+State state;                           // global, because a handler has no parameters for it
+std::array<char, 65536> handler_stack; // alternate stack, needed after a stack overflow
 std::atomic_flag is_writing = ATOMIC_FLAG_INIT;
 
 template <std::size_t size> void keep(std::array<char, size>& place, std::string_view text) {
@@ -80,7 +80,7 @@ template <std::size_t size> void keep(std::array<char, size>& place, std::string
     place[length] = '\0';
 }
 
-// From here to `handle`, only what a signal handler may do.
+// From here to `handle`: only async-signal-safe code.
 
 void add(std::string_view text) {
     const std::size_t fits = std::min(text.size(), state.text.size() - state.length);
@@ -127,7 +127,7 @@ _Unwind_Reason_Code take_frame(_Unwind_Context* frame, void* /*unused*/) {
     return _URC_NO_REASON;
 }
 
-/// The frames from the crash outwards; those of the handler itself are dropped.
+/// Collects the frames from the crash outwards, without the handler's own.
 void unwind(std::uintptr_t crashed_at) {
     state.unwound = 0;
     _Unwind_Backtrace(take_frame, nullptr);
@@ -146,11 +146,11 @@ void unwind(std::uintptr_t crashed_at) {
     state.unwound -= first;
 }
 
-/// Words of the stack that may be return addresses. Only those on the page of the stack pointer and behind it, up to `end`.
+/// Collects words of the stack that may be return addresses, from the stack pointer up to `end`.
 void take_stack(std::uintptr_t from, std::uintptr_t end) {
     for (std::uintptr_t at = from & ~std::uintptr_t{7};
          at + 8 <= end && state.count < state.unwound + max_stack_words; at += 8) {
-        // The stack as it lies in memory. NOLINTNEXTLINE(performance-no-int-to-ptr)
+        // Reads raw stack memory. NOLINTNEXTLINE(performance-no-int-to-ptr)
         std::memcpy(&state.places[state.count++].address, reinterpret_cast<const void*>(at), 8);
     }
 }
@@ -174,7 +174,7 @@ Mapping parse_mapping(std::string_view line) {
             }
             value = value * 16 + static_cast<std::uintptr_t>(digit);
         }
-        line.remove_prefix(std::min(k + 1, line.size())); // and what follows it
+        line.remove_prefix(std::min(k + 1, line.size())); // the number and the following character
         return value;
     };
     Mapping mapping;
@@ -189,7 +189,7 @@ Mapping parse_mapping(std::string_view line) {
     return mapping;
 }
 
-/// Calls with each mapping of the process.
+/// Calls `visit` for each mapping of the process.
 template <typename Visit> void for_each_mapping(const Visit& visit) {
     static std::array<char, 4096> buffer;
     const int maps = ::open("/proc/self/maps", O_RDONLY | O_CLOEXEC);
@@ -202,13 +202,13 @@ template <typename Visit> void for_each_mapping(const Visit& visit) {
             visit(parse_mapping(rest.substr(0, end)));
             rest.remove_prefix(end + 1);
         }
-        held = rest.size() < buffer.size() ? rest.size() : 0; // a line that fills it is none
+        held = rest.size() < buffer.size() ? rest.size() : 0; // drop a line that fills the buffer
         std::memmove(buffer.data(), rest.data(), held);
     }
     ::close(maps);
 }
 
-/// Offsets count from where the module's first byte is mapped, as addr2line takes them.
+/// Offsets count from the mapping of the module's first byte, as addr2line expects.
 void find_modules() {
     std::uintptr_t base = 0;
     for_each_mapping([&base](const Mapping& mapping) {
@@ -318,10 +318,10 @@ extern "C" void handle(int signal, siginfo_t* /*info*/, void* context) {
         }
     }
     ::signal(signal, SIG_DFL);
-    ::raise(signal); // blocked until this returns; then it ends the process
+    ::raise(signal); // blocked until this handler returns; then it ends the process
 }
 
-/// The slot that is free, else the oldest.
+/// A free slot, otherwise the oldest.
 std::filesystem::path next_file(const std::filesystem::path& folder) {
     std::filesystem::path oldest;
     std::filesystem::file_time_type oldest_at;
@@ -347,7 +347,7 @@ void record_crashes(const CrashRecordSetUp& set_up) {
         return;
     }
     if (!set_up.folder.empty()) {
-        std::error_code failed; // then the file cannot be opened either
+        std::error_code failed; // the file cannot be opened then either
         std::filesystem::create_directories(set_up.folder, failed);
         keep(state.file, next_file(set_up.folder).native());
     }
@@ -355,7 +355,7 @@ void record_crashes(const CrashRecordSetUp& set_up) {
     keep(state.program, set_up.program);
     keep(state.system, set_up.system);
     state.unwound = 0;
-    _Unwind_Backtrace(take_frame, nullptr); // the first one loads what it needs
+    _Unwind_Backtrace(take_frame, nullptr); // the first call loads libraries
     stack_t stack{};
     stack.ss_sp = handler_stack.data();
     stack.ss_size = handler_stack.size();

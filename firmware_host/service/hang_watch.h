@@ -1,8 +1,8 @@
-/// Reports a thread that was not heard from for too long. It has its own thread: one that hangs cannot
-/// report.
+/// Reports a thread that has given no sign of life for too long, from a thread of its own, because a hanging
+/// thread cannot report itself.
 ///
 /// Time     a parameter of the policy; the watch reads the monotonic clock.
-/// Threads  `enters`: the thread that is watched; it waits for nothing. `tell` is called on the watch's own.
+/// Threads  `enters`: the watched thread; it never waits. `tell` is called on the watch's own thread.
 /// Errors   none.
 #pragma once
 
@@ -16,31 +16,31 @@
 
 namespace frustumscreen {
 
-/// Decides when silence is a hang. A watch that did not run itself, because the machine or the process stood
-/// still, has not seen the silence and starts counting again.
+/// Decides whether silence is a hang. If the watch itself did not run, because the machine or the process was
+/// suspended, it restarts its count, because the silence may not be the thread's fault.
 class HangPolicy {
 public:
     explicit HangPolicy(Nanoseconds patience) : patience_(patience) {}
     [[nodiscard]] Nanoseconds between_looks() const { return patience_ / 16; }
 
     enum class News { None, Hangs, HeardAgain };
-    /// `heard`: when the thread was last heard of.
+    /// `heard`: time of the thread's last sign of life.
     [[nodiscard]] News look(MonotonicTime now, MonotonicTime heard);
 
 private:
     Nanoseconds patience_;
     std::optional<MonotonicTime> looked_;
     MonotonicTime watched_since_;
-    std::optional<MonotonicTime> hung_; ///< when the thread was last heard from before the reported hang
+    std::optional<MonotonicTime> hung_; ///< last sign of life before the reported hang
 };
 
 class HangWatch {
 public:
-    /// `doing`: what the thread entered last, while it hangs; nothing = it is heard again.
+    /// `doing`: the thread's last entered activity, when it hangs; nullopt = it has recovered.
     using Tell = std::function<void(std::optional<const char*> doing)>;
     HangWatch(Nanoseconds patience, Tell tell);
 
-    /// The thread lives, and does this from now on; `doing` must live for ever.
+    /// A sign of life: the thread begins `doing` now. The string must be static.
     void enters(const char* doing);
 
 private:
@@ -50,7 +50,7 @@ private:
     Tell tell_;
     std::atomic<Nanoseconds::rep> heard_;
     std::atomic<const char*> doing_{""};
-    std::jthread thread_; ///< last: it uses all of the above
+    std::jthread thread_; ///< last: it uses all members above
 };
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-// Otherwise the journal would name this file as the source of every line.
+// Without this the journal names this file as the source of every line.
 #define SD_JOURNAL_SUPPRESS_LOCATION
 
 #include "firmware_host/service/journal.h"
@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t longest_value = 240;
 
-/// A line's fields one after the other in memory of fixed size; what is too long is cut.
+/// A line's fields, consecutive in memory of fixed size; an overlong line is cut.
 class Entry {
 public:
     void add(std::string_view name, std::string_view value) {
@@ -69,7 +69,7 @@ void Journal::note(LogPriority priority, std::string_view message,
     for (const JournalField& field : fields) {
         entry.add(field.name, field.value.substr(0, longest_value));
     }
-    entry.add("MESSAGE", message); // last: it takes the room that is left
+    entry.add("MESSAGE", message); // last: it takes the remaining space
     entry.send();
 }
 

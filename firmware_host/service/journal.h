@@ -1,8 +1,8 @@
-/// The journal: one line for each change of state, with fields to search by (`journalctl DEVICE=tracker`).
-/// Where standard error is not the journal, the line goes to standard error without its fields.
+/// The journal: one line for each change of state, with fields to search by (`journalctl DEVICE=tracker`). If
+/// standard error is not the journal, the line goes there without its fields.
 ///
 /// Threads  any; a line is one datagram, or one write.
-/// Errors   none: a line that nobody takes is lost.
+/// Errors   none: without a reader the line is lost.
 /// Source   JOURNAL_STREAM in systemd.exec(5); sd_journal_sendv(3).
 #pragma once
 
@@ -14,7 +14,7 @@ struct stat;
 
 namespace frustumscreen {
 
-/// Of syslog(3).
+/// Levels of syslog(3).
 enum class LogPriority { Error = 3, Warning = 4, Notice = 5, Info = 6 };
 
 struct JournalField {
@@ -24,7 +24,7 @@ struct JournalField {
 
 class Journal {
 public:
-    /// `program` begins each line on standard error, and is the line's SYSLOG_IDENTIFIER in the journal.
+    /// `program` begins each line on standard error, and is the SYSLOG_IDENTIFIER in the journal.
     explicit Journal(std::string_view program);
 
     void note(LogPriority priority, std::string_view message,
@@ -35,7 +35,7 @@ private:
     bool in_journal_;
 };
 
-/// `journal_stream`: the value of JOURNAL_STREAM, device:inode; null = not set.
+/// `journal_stream` is the value of JOURNAL_STREAM, device:inode; null = not set.
 [[nodiscard]] bool is_journal(const char* journal_stream, const struct stat& file);
 
 } // namespace frustumscreen

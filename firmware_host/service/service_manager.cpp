@@ -37,7 +37,8 @@ void ServiceManager::status(const Sentence& sentence) {
     }
     status_ = sentence;
     constexpr std::string_view name = "STATUS=";
-    std::array<char, name.size() + Sentence::longest + 1> message{}; // a whole sentence, and the end's zero
+    // A whole sentence, and the terminating zero.
+    std::array<char, name.size() + Sentence::longest + 1> message{};
     const auto end = fmt::format_to_n(message.data(), message.size() - 1, "{}{}", name, sentence.view()).out;
     std::replace(message.data(), end, '\n', ' '); // a line break would begin another message
     ::sd_notify(0, message.data());

@@ -1,7 +1,8 @@
-/// Tells the service manager the exhibit's state: sd_notify(3). Without a service manager it does nothing.
+/// Reports the exhibit's state to the service manager: sd_notify(3). Without a service manager it does
+/// nothing.
 ///
 /// Threads  one caller; a call sends one datagram.
-/// Errors   none: where nobody listens, a message is lost.
+/// Errors   none: without a listener a message is lost.
 #pragma once
 
 #include "firmware_host/base/sentence.h"
@@ -13,20 +14,20 @@ namespace frustumscreen {
 
 class ServiceManager {
 public:
-    /// Reads NOTIFY_SOCKET, WATCHDOG_USEC and WATCHDOG_PID as they are now.
+    /// Reads NOTIFY_SOCKET, WATCHDOG_USEC and WATCHDOG_PID once.
     ServiceManager();
 
-    /// How often its watchdog wants to be fed at least; nothing = it has none for this process.
+    /// Longest interval between two feedings of the watchdog; nullopt = no watchdog for this process.
     [[nodiscard]] std::optional<Nanoseconds> watchdog_interval() const { return watchdog_interval_; }
 
-    /// There is a service manager.
+    /// Whether there is a service manager.
     [[nodiscard]] bool listens() const { return listens_; }
-    /// The exhibit is not ready yet; it must not be given up for another `at_most`.
+    /// The exhibit is not ready yet; extends the start timeout by `at_most`.
     void still_starting(Nanoseconds at_most) const;
     void ready() const;
     void feed_watchdog() const;
     void stopping() const;
-    /// One line for `systemctl status`; sent when it differs from the one before.
+    /// One line for `systemctl status`; sent only when it changes.
     void status(const Sentence& sentence);
 
 private:

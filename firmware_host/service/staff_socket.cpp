@@ -30,7 +30,7 @@ tl::unexpected<Error> cannot_listen(const std::filesystem::path& path, std::stri
                 path.string(), reason);
 }
 
-/// Removes the socket that an exhibit left which was killed.
+/// Whether `path` is free. Removes the socket of an exhibit that was killed.
 bool is_free(const UnixAddress& address, const std::filesystem::path& path) {
     struct stat status {};
     if (::lstat(path.c_str(), &status) != 0) {
@@ -87,7 +87,7 @@ Result<std::unique_ptr<StaffSocket>> StaffSocket::open(const std::filesystem::pa
     }
     Descriptor listening(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     struct stat file {};
-    // Nobody can connect before it listens, and then its mode is right.
+    // No client can connect before listen(), and by then the mode is right.
     if (::bind(listening.number(), address->get(), address->size()) != 0 ||
         ::chmod(path.c_str(), 0660) != 0 || ::stat(path.c_str(), &file) != 0 ||
         ::listen(listening.number(), most_waiting) != 0) {
@@ -122,11 +122,12 @@ void StaffSocket::work(const std::stop_token& stop) {
                 serve(client.number(), stop);
             }
         }
-        static_cast<void>(wait_for(-1, 0, monotonic_now() + between_clients)); // whatever a client does
+        // A pause, whatever the client did.
+        static_cast<void>(wait_for(-1, 0, monotonic_now() + between_clients));
     }
 }
 
-/// False: it is not ready in time, or the thread is to stop. Below 0: waits alone.
+/// Returns false on a timeout, or if the thread must stop. A negative `descriptor` only waits.
 bool StaffSocket::wait_for(int descriptor, short events, MonotonicTime until) const {
     std::array<pollfd, 2> both{{{stopped_.number(), POLLIN, 0}, {descriptor, events, 0}}};
     const auto left_ms = [until] {

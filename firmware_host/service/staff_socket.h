@@ -1,13 +1,14 @@
-/// A local stream socket on which the staff ask the exhibit, one question for each connection.
+/// A local stream socket on which the staff ask the exhibit, one question per connection.
 ///
-/// Question `screenshot` and a line feed, 64 bytes at most, within a second.
+/// Question `screenshot` and a line feed, at most 64 bytes, within a second.
 /// Answer   `ok N`, a line feed and N bytes; or `no SENTENCE` and a line feed. Then the connection is closed.
-/// Access   the file's mode is 0660 and its group its folder's, where the folder hands that on (setgid). Who connects must also be
-///          root, the exhibit's own user, or in the file's group, by what the kernel says of the process.
-/// Limits   one connection at a time, at most twenty a second, each at most some seconds long: a client that stalls, floods or
-///          sends what is no question holds up nobody but the next one.
-/// Threads  its own, of low priority, also for `answer`. It makes no promise to be heard of again.
-/// Errors   the socket cannot be made. What goes wrong with a client ends its connection and is said nowhere else.
+/// Access   the file has mode 0660; its group is its folder's if the folder passes it on (setgid). In
+///          addition, the client must be root, the exhibit's own user, or a member of the file's group, as
+///          the kernel reports the process.
+/// Limits   one connection at a time, at most twenty per second, each at most some seconds long: a client
+///          that stalls, floods or sends an invalid question delays only the next client.
+/// Threads  its own, of low priority, also for `answer`. It has no heartbeat.
+/// Errors   the socket cannot be made. A client's error ends its connection and is not reported elsewhere.
 /// Source   unix(7): SO_PEERCRED; SO_PEERGROUPS of Linux 4.13.
 #pragma once
 
@@ -35,7 +36,7 @@ public:
     static constexpr Nanoseconds answer_taken_within = std::chrono::seconds(5);
     static constexpr Nanoseconds between_clients = std::chrono::milliseconds(50);
 
-    /// An error's message is the sentence. It returns soon after a stop is requested.
+    /// An error's message becomes the answer's sentence. Must return soon after a stop is requested.
     using Answer = std::function<Result<Bytes>(std::string_view question, const std::stop_token& stop)>;
 
     [[nodiscard]] static Result<std::unique_ptr<StaffSocket>> open(const std::filesystem::path& path,
@@ -55,17 +56,18 @@ private:
 
     std::filesystem::path path_;
     Descriptor listening_;
-    Descriptor stopped_; ///< an eventfd, readable once the thread is to stop
+    Descriptor stopped_; ///< an eventfd, readable once the thread must stop
     gid_t group_;        ///< of the socket's file
     Answer answer_;
-    std::jthread thread_; ///< last: it uses all of the above
+    std::jthread thread_; ///< last: it uses all members above
 };
 
-/// Asks and waits. Errors: nobody listens, no permission, the exhibit's own sentence, no answer in time, more than `most_bytes`.
+/// Asks and waits. Errors: no listener, no permission, the exhibit's own sentence, no answer in time, more
+/// than `most_bytes`.
 [[nodiscard]] Result<Bytes> ask_staff_socket(const std::filesystem::path& path, std::string_view question,
                                              std::size_t most_bytes, Nanoseconds patience);
 
-/// A process at the other end, as the kernel names it.
+/// The process at the other end, as the kernel reports it.
 struct SocketPeer {
     uid_t user = 0;
     gid_t group = 0;

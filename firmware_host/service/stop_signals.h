@@ -1,7 +1,7 @@
-/// SIGTERM and SIGINT: they stay pending for the loop that looks for them, or end the process at once while
-/// there is nothing to close yet.
+/// SIGTERM and SIGINT: they stay pending until the main loop looks for them. Before there is anything to
+/// close, they end the process at once.
 ///
-/// Threads  constructed before any other thread is started, so that the signals stay pending in all of them.
+/// Threads  construct it before any other thread starts, so the signals stay pending in all threads.
 /// Errors   none.
 #pragma once
 
@@ -17,10 +17,10 @@ public:
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;
 
-    /// A signal has come since the last call.
+    /// Whether a signal has come since the last call.
     [[nodiscard]] bool received() const;
 
-    /// While it lives, a stop signal ends the process at once.
+    /// During its lifetime a stop signal ends the process at once.
     class AtOnce {
     public:
         explicit AtOnce(const StopSignals& signals);
@@ -36,7 +36,7 @@ private:
     sigset_t set_{};
 };
 
-/// Ends the process after `time` with this status, even if a thread does not come back from its device.
+/// Ends the process after `time` with this status, even if a thread is stuck in a device.
 void end_within(Nanoseconds time, int status = 0);
 
 } // namespace frustumscreen

@@ -13,7 +13,7 @@ namespace frustumscreen {
 
 class UnixAddress {
 public:
-    /// Nothing where the path is empty or too long.
+    /// nullopt if the path is empty or too long.
     [[nodiscard]] static std::optional<UnixAddress> of(const std::filesystem::path& path) {
         UnixAddress address;
         const std::string& text = path.native();

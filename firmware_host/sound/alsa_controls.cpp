@@ -17,7 +17,7 @@ struct CloseMixer {
 };
 using Controls = std::unique_ptr<snd_mixer_t, CloseMixer>;
 
-/// What stands between a program and a loudspeaker; not what plays a microphone or beeps.
+/// Controls between a program and a loudspeaker; no microphone or beeper controls.
 constexpr std::array<std::string_view, 10> ways_out = {
     "Master", "PCM", "Front", "Speaker", "Headphone", "Line Out", "Lineout", "Digital", "IEC958", "HDMI"};
 
@@ -47,7 +47,7 @@ void wake(snd_mixer_elem_t* control) {
         long least = 0;
         long most = 0;
         ::snd_mixer_selem_get_playback_volume_range(control, &least, &most);
-        ::snd_mixer_selem_set_playback_volume_all(control, most); // it knows no decibels
+        ::snd_mixer_selem_set_playback_volume_all(control, most); // the control has no decibel scale
     }
     if (is_switched_off(control)) {
         ::snd_mixer_selem_set_playback_switch_all(control, 1);

@@ -1,14 +1,14 @@
-/// Wakes a sound card whose own controls are muted, as Linux leaves them when it meets a card for the first time.
+/// Unmutes a sound card whose mixer controls are muted, which is Linux' default for a new card.
 ///
-/// What     its 'Master', 'PCM', 'Speaker' and the like, where one is switched off or at its lowest: switched on
-///          and to 0 dB. A control that somebody has set, however low, stays as it is.
-/// Errors   none: a card without such controls, or one that refuses, is left as it is.
+/// What     its 'Master', 'PCM', 'Speaker' and similar controls, if one is switched off or at its minimum:
+///          switched on and set to 0 dB. A control that was set by hand, however low, stays unchanged.
+/// Errors   none: a card without such controls, or one that refuses, is left unchanged.
 /// Threads  one caller; it may take as long as opening the card.
 #pragma once
 
 namespace frustumscreen {
 
-/// `card` by its number in ALSA; negative: no card, nothing is done.
+/// `card` is ALSA's number; negative: no card, no effect.
 void wake_controls(int card);
 
 } // namespace frustumscreen

@@ -30,12 +30,12 @@ struct FreeInfo {
     void operator()(snd_pcm_info_t* info) const { ::snd_pcm_info_free(info); }
 };
 
-/// How a device was set up.
+/// The settings of an open device.
 struct SetUp {
     unsigned channels = 0;
     snd_pcm_uframes_t period = 0;
-    snd_pcm_uframes_t buffer = 0; ///< what the device holds
-    snd_pcm_uframes_t queue = 0;  ///< what is written ahead at most
+    snd_pcm_uframes_t buffer = 0; ///< capacity of the device
+    snd_pcm_uframes_t queue = 0;  ///< limit of queued samples
 };
 
 std::string reason(int error) {
@@ -81,7 +81,7 @@ int set_hardware(snd_pcm_t* pcm, SetUp& set_up) {
     const std::unique_ptr<snd_pcm_hw_params_t, FreeHardware> params(raw);
     unsigned period = period_us;
     unsigned buffer = std::chrono::duration_cast<std::chrono::microseconds>(longest_queue).count();
-    set_up.channels = 2; // most cards know no mono
+    set_up.channels = 2; // most cards have no mono
     return Calls()
         .then([&] { return ::snd_pcm_hw_params_any(pcm, raw); })
         .then([&] { return ::snd_pcm_hw_params_set_access(pcm, raw, SND_PCM_ACCESS_RW_INTERLEAVED); })
@@ -102,8 +102,8 @@ int set_software(snd_pcm_t* pcm, const SetUp& set_up) {
         return error;
     }
     const std::unique_ptr<snd_pcm_sw_params_t, FreeSoftware> params(raw);
-    // It starts when the queue is full, and wakes when there is room for a period in it; the device's own
-    // buffer may be longer.
+    // Playback starts when the queue is full; the device wakes us when the queue has room for a period. The
+    // device's own buffer may be longer than the queue.
     const snd_pcm_uframes_t wake_at = std::min(set_up.buffer - set_up.queue + set_up.period, set_up.buffer);
     return Calls()
         .then([&] { return ::snd_pcm_sw_params_current(pcm, raw); })
@@ -133,7 +133,7 @@ public:
     [[nodiscard]] Result<std::size_t> room() override {
         snd_pcm_sframes_t free = ::snd_pcm_avail(pcm_.get());
         if (free >= 0 && ::snd_pcm_state(pcm_.get()) == SND_PCM_STATE_SUSPENDED) {
-            free = -ESTRPIPE; // a plugin with a full queue does not say it by itself
+            free = -ESTRPIPE; // a plugin with a full queue does not report it by itself
         }
         if (free < 0) {
             if (const int error = recover(static_cast<int>(free)); error < 0) {
@@ -155,7 +155,7 @@ public:
         while (done < samples.size()) {
             const snd_pcm_sframes_t taken =
                 ::snd_pcm_writei(pcm_.get(), &frames_[done * channels], samples.size() - done);
-            if (taken == -EAGAIN) { // less than it had said: what is left is left out
+            if (taken == -EAGAIN) { // accepted less than announced: drop the rest
                 break;
             }
             if (taken < 0) {
@@ -175,7 +175,7 @@ public:
     void wait(Nanoseconds longest) override {
         const auto ms = std::chrono::ceil<std::chrono::milliseconds>(longest);
         if (::snd_pcm_wait(pcm_.get(), static_cast<int>(ms.count())) < 0) {
-            std::this_thread::sleep_for(longest); // `room` says what is the matter
+            std::this_thread::sleep_for(longest); // `room` reports the error
         }
     }
 
@@ -183,7 +183,7 @@ public:
     [[nodiscard]] DeviceState state() const override { return state_; }
 
 private:
-    /// Goes on after an underrun or a suspension of the machine; negative: the device is lost.
+    /// Recovers from an underrun or a suspension of the machine; negative: the device is lost.
     [[nodiscard]] int recover(int error) {
         switch (error) {
         case -EPIPE:
@@ -210,7 +210,7 @@ private:
     DeviceState state_;
 };
 
-/// The card that it plays on at last, by its number; -1: none.
+/// Number of the card that finally plays; -1: none.
 int card_of(snd_pcm_t* pcm) {
     snd_pcm_info_t* raw = nullptr;
     if (::snd_pcm_info_malloc(&raw) < 0) {
@@ -225,7 +225,7 @@ void say_nothing(const char*, int, const char*, int, const char*, ...) {}
 } // namespace
 
 Result<std::unique_ptr<PcmDevice>> open_alsa(const std::string& name) {
-    ::snd_lib_error_set_handler(say_nothing); // what is wrong stands in the state, not on standard error
+    ::snd_lib_error_set_handler(say_nothing); // the state reports errors, not standard error
     snd_pcm_t* raw = nullptr;
     if (const int error = ::snd_pcm_open(&raw, name.c_str(), SND_PCM_STREAM_PLAYBACK, SND_PCM_NONBLOCK);
         error < 0) {

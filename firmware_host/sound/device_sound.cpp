@@ -11,13 +11,14 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr Nanoseconds look_again = std::chrono::seconds(1);
-/// A device that takes long to say no stops the time of what is spoken meanwhile: it is asked seldom.
+/// Opening a device blocks the time of a spoken prompt, so a device that takes long to fail is tried less
+/// often.
 constexpr int rests_for_each_look = 10;
 constexpr Nanoseconds round = milliseconds(10);
 constexpr Nanoseconds stalls_after = milliseconds(500);
 
-/// What a device may take by the clock: 2 % more than the clock's samples, and a little at once. ALSA's 'null'
-/// takes all at once, for ever.
+/// Limits a device to the clock: 2 % more than real time, plus a small burst. ALSA's 'null' device accepts
+/// any number of samples at once.
 class Allowance {
 public:
     explicit Allowance(MonotonicTime now) : then_(now) {}
@@ -68,7 +69,7 @@ void DeviceSound::run(const std::stop_token& stop) {
         } else {
             said_.put(away(device.error()));
         }
-        device = {}; // it is closed before it is looked for again
+        device = {}; // close it before the next attempt
         rest(std::max(look_again, rests_for_each_look * took), stop);
     }
 }

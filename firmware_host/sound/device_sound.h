@@ -1,12 +1,12 @@
-/// A sound through a real device. Its own thread mixes and writes; it looks for a missing or lost device until
-/// it is back, and keeps time meanwhile.
+/// A sound through a real device. Its own thread mixes and writes samples; it searches for a missing or lost
+/// device until it is back, and keeps time meanwhile.
 ///
-/// Delay    speech begins within 150 ms of the `poll` that first wishes it: 10 ms until its thread looks, up to
-///          60 ms of breath if another prompt has just ended, 50 ms that wait in the device
-///          (`longest_queue`); the rest is for the thread to be late, and for amplifiers.
-/// Threads  `poll`, `state`: one caller. They wait for nothing, whatever the device does: what the other side is
-///          at in that moment is handed over by the next `poll`.
-/// Clock    that of the device. One that takes samples faster than a clock's could is none, and is held back.
+/// Delay    speech begins within 150 ms of the `poll` that first requests it: up to 10 ms until the thread
+///          looks, up to 60 ms of breath if another prompt has just ended, 50 ms in the device's queue
+///          (`longest_queue`); the rest is for a late thread and for amplifiers.
+/// Threads  `poll`, `state`: one caller. They never wait, whatever the device does; if the other side holds a
+///          lock, the next `poll` transfers the values.
+/// Clock    the device's. A device that takes samples faster than a clock could is throttled.
 #pragma once
 
 #include "firmware_host/base/heartbeat.h"
@@ -23,8 +23,8 @@ namespace frustumscreen {
 
 class DeviceSound final : public Sound {
 public:
-    /// Opening or closing takes no longer: a USB device that does not answer costs 5 s a transfer, until the
-    /// kernel gives up, and opening takes several.
+    /// Longest opening or closing: a USB device that does not answer costs 5 s per transfer, until the kernel
+    /// gives up, and opening takes several transfers.
     static constexpr Nanoseconds longest_round = std::chrono::seconds(60);
 
     explicit DeviceSound(OpenPcm open);
@@ -39,7 +39,7 @@ public:
 
 private:
     void run(const std::stop_token& stop);
-    /// Until the device is lost, which it returns, or `stop` is requested.
+    /// Plays until the device is lost, and returns that error, or until `stop` is requested.
     [[nodiscard]] Error play(PcmDevice& device, const std::stop_token& stop);
     /// Keeps time without a device.
     void rest(Nanoseconds length, const std::stop_token& stop);
@@ -48,22 +48,22 @@ private:
     void report(Nanoseconds queued, bool audible);
 
     OpenPcm open_;
-    // Between the threads:
+    // Shared between the threads:
     Latest<SoundWish> wishes_;
     Latest<SoundReport> reports_;
     Latest<DeviceState> said_;
     Heartbeat heartbeat_{monotonic_now() + longest_round};
-    // Of the caller:
-    SoundWish wished_; ///< the latest that was handed over
+    // Used by the caller:
+    SoundWish wished_; ///< the latest one handed over
     SoundReport report_;
     DeviceState state_{{DeviceHealth::Away, "sound.not_opened"},
                        Sentence("its sound device is not opened yet")};
     // Of the thread:
     Mixer mixer_;
-    SampleClock clock_{monotonic_now()}; ///< while there is no device
+    SampleClock clock_{monotonic_now()}; ///< used while there is no device
     std::uint64_t underruns_ = 0;        ///< of all devices
     std::uint64_t losses_ = 0;
-    std::jthread thread_; ///< last: it uses all of the above
+    std::jthread thread_; ///< last: it uses all members above
 };
 
 } // namespace frustumscreen

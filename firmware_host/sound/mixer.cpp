@@ -10,7 +10,7 @@ namespace {
 
 constexpr float full_scale = 32768.0F;
 
-/// Smooth step of k / n, at rest at both ends.
+/// Smooth step of k / n, with zero slope at both ends.
 float ease(std::uint32_t k, std::uint32_t n) {
     const float x = std::min(static_cast<float>(k) / static_cast<float>(n), 1.0F);
     return x * x * (3.0F - 2.0F * x);
@@ -38,7 +38,7 @@ float Ramp::next(float goal) {
 float amplitude_of(double gain_db) {
     constexpr double silence_db = -60.0;
     constexpr double most_db = 12.0;
-    if (!(gain_db > silence_db)) { // nor a number
+    if (!(gain_db > silence_db)) { // also true for NaN
         return 0.0F;
     }
     return static_cast<float>(std::pow(10.0, std::min(gain_db, most_db) / 20.0));
@@ -128,7 +128,7 @@ float Mixer::next_of_speech() {
     }
     const Prompt& prompt = *spoken_.prompt;
     const std::uint32_t length = length_of(prompt);
-    if (position_ >= length) { // it was empty
+    if (position_ >= length) { // an empty prompt
         end_speech();
         return 0.0F;
     }

@@ -20,7 +20,7 @@ struct CloseFile {
 using OpusFile = std::unique_ptr<OggOpusFile, CloseFile>;
 
 constexpr int most_channels = 2;
-constexpr std::size_t longest_packet = 5760; ///< samples of a channel: 120 ms, RFC 6716
+constexpr std::size_t longest_packet = 5760; ///< samples per channel: 120 ms, RFC 6716
 
 std::string_view reason(int error) {
     switch (error) {
@@ -45,8 +45,8 @@ tl::unexpected<Error> too_long(const OpusLimits& limits) {
                      std::chrono::duration_cast<std::chrono::seconds>(limits.longest).count());
 }
 
-/// Pages that begin a stream (RFC 3533, 'Beginning of stream'), wherever they lie. libopusfile 0.12 loses memory
-/// for each damaged stream behind the first, so there must not be any.
+/// Number of pages that begin a stream (RFC 3533, 'Beginning of stream'), anywhere in the file. libopusfile
+/// 0.12 leaks memory for each damaged stream after the first, so further streams are refused.
 std::size_t streams_in(std::span<const std::byte> bytes) {
     constexpr std::string_view capture = "OggS";
     constexpr std::size_t flags_at = 5;

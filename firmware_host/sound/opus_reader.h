@@ -1,10 +1,11 @@
 /// Reads an Ogg Opus recording (RFC 7845, RFC 6716; by libopusfile) into a prompt.
 ///
-/// Input    outside bytes: one recording of at most `OpusLimits::longest`, of one or two channels, which are
-///          averaged. What is claimed is checked before memory is taken, what is decoded while it is.
+/// Input    bytes from outside: one recording of at most `OpusLimits::longest`, with one or two channels,
+///          which are averaged. The claimed length is checked before memory is allocated, the real length
+///          during decoding.
 /// Errors   bad input, one sentence.
-/// Memory   96 kB for a second; while it is read, for as long as `longest` at most.
-/// Threads  pure; any but the exhibit's in its frame: a second takes some milliseconds.
+/// Memory   96 kB per second; during reading at most that of `longest`.
+/// Threads  pure; any except the exhibit's in its frame: one second of sound takes some milliseconds.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -19,7 +20,7 @@ struct OpusLimits {
     Nanoseconds longest = std::chrono::minutes(3);
 };
 
-/// Without marks; `find_pauses` finds them.
+/// Returns a prompt without marks; `find_pauses` finds them.
 [[nodiscard]] Result<Prompt> read_opus(std::span<const std::byte> bytes, const OpusLimits& limits = {});
 
 } // namespace frustumscreen

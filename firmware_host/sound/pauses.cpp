@@ -35,7 +35,7 @@ std::vector<Mark> find_pauses(std::span<const std::int16_t> samples, const Pause
     const double quiet = std::max(mean * power(-limits.below_mean_db), power(limits.always_quiet_db));
     const std::size_t shortest =
         std::max<std::size_t>(samples_in(limits.shortest), after_begin + before_end + 1);
-    std::size_t begin = 0; ///< of the quiet stretch under way
+    std::size_t begin = 0; ///< of the current quiet stretch
     const auto end_stretch = [&](std::size_t end) {
         if (end - begin >= shortest) {
             marks.push_back({static_cast<std::uint32_t>(begin) + after_begin,

@@ -1,6 +1,6 @@
-/// What `DeviceSound` needs of a sound device: a queue of samples that it plays at 48 kHz.
+/// The interface of `DeviceSound` to a sound device: a queue of samples that it plays at 48 kHz.
 ///
-/// Errors   DeviceLost, one sentence: it must be opened again. An underrun is no error.
+/// Errors   DeviceLost, one sentence: the device must be opened again. An underrun is not an error.
 /// Threads  one caller. Only opening and closing may take long.
 #pragma once
 
@@ -19,13 +19,13 @@ namespace frustumscreen {
 class PcmDevice {
 public:
     virtual ~PcmDevice() = default;
-    /// How many samples it takes now. Goes on after an underrun, and counts it.
+    /// Number of samples that it accepts now. Recovers from an underrun, and counts it.
     [[nodiscard]] virtual Result<std::size_t> room() = 0;
-    /// Takes `samples`, at most as many as there was room for.
+    /// Takes `samples`, at most as many as `room` returned.
     [[nodiscard]] virtual Result<void> write(std::span<const std::int16_t> samples) = 0;
-    /// Samples that wait in it since the last `room` and `write`.
+    /// Samples in its queue, as of the last `room` and `write`.
     [[nodiscard]] virtual std::size_t queued() const = 0;
-    /// Until there may be room, or `longest` has passed.
+    /// Waits until there may be room, or `longest` has passed.
     virtual void wait(Nanoseconds longest) = 0;
     [[nodiscard]] virtual std::uint64_t underruns() const = 0;
     [[nodiscard]] virtual DeviceState state() const = 0;
@@ -33,11 +33,12 @@ public:
 
 using OpenPcm = std::function<Result<std::unique_ptr<PcmDevice>>()>;
 
-/// A sound device of ALSA by its name: "default", "plughw:0,0", or any other that `aplay -L` lists.
+/// Opens a sound device of ALSA by its name: "default", "plughw:0,0", or any other that `aplay -L` lists.
 ///
-/// Mute     a card that is muted by its own controls is woken (alsa_controls.h).
-/// Delay    periods of 10 ms, and at most `longest_queue` in the device: what is written is heard within it.
-///          Where a device wants longer periods, two of them wait, and `state` says how long that is.
+/// Mute     a card that is muted by its own controls is unmuted (alsa_controls.h).
+/// Delay    periods of 10 ms, and at most `longest_queue` in the device: written samples are heard within
+///          that time. If a device requires longer periods, two of them are queued, and `state` gives the
+///          delay.
 [[nodiscard]] Result<std::unique_ptr<PcmDevice>> open_alsa(const std::string& name);
 
 inline constexpr Nanoseconds longest_queue = std::chrono::milliseconds(50);

@@ -1,6 +1,7 @@
-/// Counts the samples that are due by a clock: whole ones since its start, so that no rounding adds up.
+/// Counts the samples that a clock makes due: whole samples since its start, so rounding errors do not add
+/// up.
 ///
-/// Time     a parameter, monotonic; time that goes back makes nothing due.
+/// Time     a parameter, monotonic; an earlier time makes nothing due.
 /// Threads  a value; one caller.
 #pragma once
 

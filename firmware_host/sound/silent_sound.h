@@ -1,6 +1,6 @@
-/// A sound that nobody hears: it keeps time alone, for an exhibit without a loudspeaker.
+/// A silent sound, for an exhibit without a loudspeaker: it only keeps time.
 ///
-/// Time     that of `poll`, by whole samples since `start`: what is wished begins where the last `poll` ended.
+/// Time     that of `poll`, in whole samples since `start`; a wish takes effect where the last `poll` ended.
 #pragma once
 
 #include "firmware_host/sound/mixer.h"

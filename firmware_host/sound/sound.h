@@ -1,9 +1,9 @@
-/// What the exhibit says aloud, through a loudspeaker or something that stands in for one.
+/// The exhibit's speech, through a loudspeaker or a replacement.
 ///
-/// Time     a prompt goes on as if it was heard even while no loudspeaker is there, so that its caption may
-///          follow `SoundReport`.
-/// Threads  one caller; `poll` waits for nothing and allocates nothing.
-/// Errors   none; `state` says what is the matter.
+/// Time     a prompt advances as if heard even without a loudspeaker, so its caption can follow
+///          `SoundReport`.
+/// Threads  one caller; `poll` neither waits nor allocates.
+/// Errors   none; `state` describes them.
 #pragma once
 
 #include "firmware_host/base/device_state.h"
@@ -17,13 +17,13 @@
 namespace frustumscreen {
 
 struct SoundReport {
-    std::uint64_t number = 0;    ///< of the prompt that is spoken; 0: none
-    Nanoseconds heard{0};        ///< how much of it was heard
-    Nanoseconds length{0};       ///< of all of it
+    std::uint64_t number = 0;    ///< of the spoken prompt; 0: none
+    Nanoseconds heard{0};        ///< length of the part heard so far
+    Nanoseconds length{0};       ///< of the whole prompt
     std::uint64_t over = 0;      ///< prompts up to this number are over: heard, left, stopped or replaced
-    bool audible = false;        ///< there is a loudspeaker, or a file
-    std::uint64_t underruns = 0; ///< how often the device had nothing to play
-    std::uint64_t losses = 0;    ///< how often the device was lost
+    bool audible = false;        ///< a loudspeaker is there, or a file
+    std::uint64_t underruns = 0; ///< times that the device ran out of samples
+    std::uint64_t losses = 0;    ///< times that the device was lost
 
     [[nodiscard]] bool operator==(const SoundReport&) const = default;
 };
@@ -31,10 +31,11 @@ struct SoundReport {
 class Sound {
 public:
     virtual ~Sound() = default;
-    /// What is to be heard from `now` on; returns what is heard.
+    /// The wish takes effect at `now`; returns what is heard.
     virtual SoundReport poll(MonotonicTime now, const SoundWish& wish) = 0;
     [[nodiscard]] virtual std::string name() const = 0;
-    /// The device's state in one plain sentence, valid until the next `poll`; empty: there is nothing to say.
+    /// The device's state in one plain sentence, valid until the next `poll`; empty if there is nothing to
+    /// report.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
     /// Whether the device that the settings ask for can be used; its id is that of the sentence that `state` says.
     [[nodiscard]] virtual DeviceCondition condition() const { return {}; }

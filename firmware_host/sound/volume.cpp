@@ -9,7 +9,7 @@ namespace {
 
 constexpr double hours_a_day = 24.0;
 
-/// Hours from `from` forward to `to`, around midnight if need be.
+/// Hours from `from` forward to `to`, across midnight if necessary.
 double hours_between(double from, double to) {
     const double hours = std::fmod(to - from, hours_a_day);
     return hours < 0.0 ? hours + hours_a_day : hours;

@@ -1,4 +1,4 @@
-/// How loud the exhibit is, and when it is quieter.
+/// The exhibit's volume over the day.
 ///
 /// Units    decibels, hours of the local day.
 /// Threads  pure; any.
@@ -10,19 +10,19 @@ namespace frustumscreen {
 
 struct VolumeHour {
     double from_h = 0.0;  ///< 0 <= from_h < 24
-    double gain_db = 0.0; ///< on top of the volume's own, until the next row's hour
+    double gain_db = 0.0; ///< added to the volume's own, until the next row's hour
 };
 
 struct Volume {
-    /// A change of the hour is a slow ramp from that hour on: nobody hears it happen.
+    /// A change at an hour is a slow ramp from that hour on, too slow to be noticed.
     static constexpr double ramp_h = 0.25;
 
     double gain_db = 0.0;
     std::vector<VolumeHour>
-        hours; ///< ascending; the last row holds over midnight until the first. None: always 0 dB
+        hours; ///< ascending; the last row lasts over midnight until the first. None: always 0 dB
 };
 
-/// Continuous in time, over midnight too.
+/// Continuous in time, also over midnight.
 [[nodiscard]] double gain_db_at(const Volume& volume, double hour_of_day);
 
 } // namespace frustumscreen

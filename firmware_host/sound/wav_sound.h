@@ -1,9 +1,8 @@
-/// A sound that goes into a WAV file (RIFF, 16-bit PCM, mono, 48 kHz), sample by sample the same for the same
-/// polls.
+/// A sound that goes to a WAV file (RIFF, 16-bit PCM, mono, 48 kHz); equal polls give equal samples.
 ///
-/// Time     that of `poll`, by whole samples since `start`: what is wished begins where the last `poll` ended.
-/// Memory   96 kB for a second of time, until `write`; it holds `longest`, and leaves out what comes later.
-/// Errors   of the file, one sentence; it appears by rename.
+/// Time     that of `poll`, in whole samples since `start`; a wish takes effect where the last `poll` ended.
+/// Memory   96 kB per second, until `write`; it holds `longest` and drops later samples.
+/// Errors   those of the file, one sentence; the file appears by rename.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -24,7 +23,7 @@ public:
     SoundReport poll(MonotonicTime now, const SoundWish& wish) override;
     [[nodiscard]] std::string name() const override { return "wav"; }
     [[nodiscard]] std::string_view state() const override;
-    /// All that was heard until the last `poll`.
+    /// Writes all samples up to the last `poll`.
     [[nodiscard]] Result<void> write(const std::filesystem::path& path) const;
 
 private:

@@ -8,7 +8,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr int smallest_side = 16;
-/// More would find more in blur, and believe more by chance.
+/// A larger number finds more tags in blur, but also more by chance.
 constexpr int corrected_bits = 1;
 
 struct DeleteFamily {
@@ -25,7 +25,7 @@ FoundTag tag_of(const apriltag_detection_t& detection) {
     FoundTag tag;
     tag.id = detection.id;
     tag.margin = static_cast<double>(detection.decision_margin);
-    // The library's order begins at the bottom left of the tag as printed and goes to the bottom right.
+    // The library's corners begin at the bottom left of the printed tag and continue to the bottom right.
     constexpr std::array<std::size_t, 4> printed{3, 2, 1, 0};
     for (std::size_t k = 0; k < printed.size(); ++k) {
         const double(&corner)[2] = detection.p[printed[k]];
@@ -59,7 +59,7 @@ void TagDetector::find(std::span<const std::uint8_t> luma, int width, int height
         luma.size() < static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
         return;
     }
-    // The library reads the picture alone; its type has no const.
+    // The library only reads the picture, but its type has no const.
     image_u8_t picture{width, height, width, const_cast<std::uint8_t*>(luma.data())};
     const std::unique_ptr<zarray_t, DeleteDetections> detections(
         apriltag_detector_detect(library_->detector.get(), &picture));

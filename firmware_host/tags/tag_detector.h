@@ -1,10 +1,12 @@
-/// AprilTags of the family 36h11 in one grey picture, by libapriltag.
+/// Finds AprilTags of family 36h11 in one grey picture, by libapriltag.
 ///
-/// Frame    pixels of the picture, the centre of the top-left pixel at (0.5, 0.5).
-/// Threads  one caller: the camera's own thread. The detector and its family are made once; the library allocates for each
-///          picture and starts no thread.
-/// Errors   none: what is no tag is not found. A picture smaller than 16 x 16, or shorter than its size says, has none.
-/// Source   Wang and Olson, AprilTag 2: Efficient and robust fiducial detection, 2016; Debian's libapriltag 3.3.
+/// Frame    pixels of the picture; the centre of the top-left pixel is at (0.5, 0.5).
+/// Threads  one caller: the camera's own thread. The detector and its family are made once; the library
+///          allocates for each picture and starts no thread.
+/// Errors   none: anything else is not found. A picture smaller than 16 x 16, or with too few pixels for its
+///          size, has no tags.
+/// Source   Wang and Olson, AprilTag 2: Efficient and robust fiducial detection, 2016; Debian's libapriltag
+///          3.3.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -19,19 +21,19 @@ namespace frustumscreen {
 
 struct FoundTag {
     int id = 0;
-    /// Of the black square, as the tag is printed: top left, top right, bottom right, bottom left.
+    /// Corners of the black square, as the tag is printed: top left, top right, bottom right, bottom left.
     std::array<glm::dvec2, 4> corners_px{};
-    double margin = 0.0; ///< mean distance of its bits from the threshold, codes of luma
+    double margin = 0.0; ///< mean distance of its bits from the threshold, in luma codes
 };
 
 struct TagDetectorOptions {
-    /// Squares are looked for in a picture that is smaller by this factor; edges and bits are read in the whole one. 2 takes
-    /// a fraction of the time and finds no tag whose modules are smaller than about 4 pixels.
+    /// Squares are searched in a picture reduced by this factor; edges and bits are read at full size. 2
+    /// takes a fraction of the time, but finds no tag whose modules are smaller than about 4 pixels.
     double decimate = 1.0;
-    /// Where the picture changes by fewer codes there is no edge. The noise of a flat surface makes many small ones, which cost more
+    /// Smallest luma step of an edge. The noise of a flat surface causes many smaller ones, which take more
     /// time than all tags.
     int least_contrast = 40;
-    /// Below it a tag is not believed: chance finds have less.
+    /// Smallest accepted margin of a tag; chance finds have less.
     double least_margin = 15.0;
 };
 
@@ -42,7 +44,7 @@ public:
     TagDetector(const TagDetector&) = delete;
     TagDetector& operator=(const TagDetector&) = delete;
 
-    /// `luma[height][width]`, row-major. Puts what it finds into `found`, in no order; an id may come twice.
+    /// `luma[height][width]`, row-major. Stores the tags in `found`, in any order; an id may occur twice.
     void find(std::span<const std::uint8_t> luma, int width, int height, std::vector<FoundTag>& found);
 
 private:

@@ -17,7 +17,7 @@ TagModules tag_modules_of(int id) {
     for (auto& row : modules) {
         row.front() = row.back() = true;
     }
-    // The code's first bit is its highest.
+    // The code's first bit is its most significant one.
     for (std::uint32_t bit = 0; bit < family->nbits; ++bit) {
         const std::size_t row = margin + family->bit_y[bit];
         const std::size_t column = margin + family->bit_x[bit];

@@ -1,4 +1,4 @@
-/// A tag of the family 36h11 as it is printed.
+/// A tag of family 36h11 as printed.
 ///
 /// Threads  pure; any. Allocates.
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace frustumscreen {
 
-/// Modules in a row, with the white ones around the black square, which is `black_modules` wide.
+/// Modules per row: the black square of `black_modules`, with a white margin of one module.
 inline constexpr std::size_t tag_modules = 10;
 inline constexpr std::size_t black_modules = 8;
 

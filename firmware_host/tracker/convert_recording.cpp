@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<std::string_view, 8> columns{"t", "x", "y", "z", "qx", "qy", "qz", "qw"};
 constexpr double farthest_m = 1000.0;
-/// A longer time is a mistake; about 140 years.
+/// A longer recording is a mistake; about 140 years.
 constexpr double longest_s = 4.5e9;
 
 using Row = std::array<double, 8>;
@@ -52,7 +52,7 @@ bool names_columns(const TextRows& rows) {
 /// The part of `rotation` that turns about Z (swing-twist), as a rotation about Z.
 glm::dquat turn_about_z(const glm::dquat& rotation) {
     const double length = std::hypot(rotation.w, rotation.z);
-    // Upside down there is no such part.
+    // An upside-down rotation has no such part.
     return length > 1e-9 ? glm::dquat(rotation.w / length, 0.0, 0.0, rotation.z / length)
                          : glm::dquat(1, 0, 0, 0);
 }

@@ -1,4 +1,4 @@
-/// The checksums of the trackers' wire formats and of our recordings.
+/// Checksums of the trackers' wire formats and of packet recordings.
 ///
 /// Threads  pure functions; they allocate nothing.
 #pragma once
@@ -9,11 +9,11 @@
 
 namespace frustumscreen {
 
-/// CRC-16/ARC: reflected polynomial 0xA001, begins with 0. "123456789" is 0xBB3D.
+/// CRC-16/ARC: reflected polynomial 0xA001, initial value 0. "123456789" gives 0xBB3D.
 [[nodiscard]] std::uint16_t crc16_arc(std::span<const std::byte> bytes);
 
-/// CRC-32 of IEEE 802.3: reflected polynomial 0xEDB88320, begins with and is finished by all ones.
-/// "123456789" is 0xCBF43926.
+/// CRC-32 of IEEE 802.3: reflected polynomial 0xEDB88320, initial value and final XOR all ones. "123456789"
+/// gives 0xCBF43926.
 [[nodiscard]] std::uint32_t crc32_ieee(std::span<const std::byte> bytes);
 
 } // namespace frustumscreen

@@ -8,16 +8,17 @@ namespace frustumscreen {
 namespace {
 
 constexpr double block_ns = 1e9;
-/// Before this many seconds a slope says more about the delays than about the clock.
+/// With fewer blocks (seconds) a slope reflects the delays more than the clock.
 constexpr std::size_t fewest_blocks = 4;
-/// Quartz is within 1e-4. This limit is much wider, so that a slope measured on a busy machine passes, but a
-/// clock of another rate does not.
+/// Quartz is within 1e-4. The limit is much wider, so a slope measured on a busy machine passes, but a clock
+/// of another rate does not.
 constexpr double most_drift = 0.02;
-/// No arrival is this early, and none stays this late: the device's clock has jumped.
+/// An arrival this much too early, or this much too late for `longest_late`, means that the device's clock
+/// jumped.
 constexpr double jump_ns = 0.5e9;
 constexpr Nanoseconds longest_late = std::chrono::milliseconds(500);
-/// A clock that has run this long without a jump is believed. A rate that is too wrong to be seen by its
-/// slope, which takes `fewest_blocks` seconds, makes the clock jump sooner.
+/// A clock that runs this long without a jump is believed. Measuring a wrong rate by its slope takes
+/// `fewest_blocks` seconds; a grossly wrong rate makes the clock jump sooner.
 constexpr Nanoseconds settled = std::chrono::seconds(6);
 
 } // namespace
@@ -30,7 +31,7 @@ void DeviceClock::begin(std::uint32_t tick, MonotonicTime arrival) {
     block_count_ = 0;
     block_.reset();
     block_number_ = 0;
-    height_ns_ = 0.0; // the drift stays: it is the same quartz
+    height_ns_ = 0.0; // the drift stays: the quartz has not changed
 }
 
 DeviceClock::Point DeviceClock::point_of(std::int64_t ticks, MonotonicTime arrival) const {
@@ -38,8 +39,8 @@ DeviceClock::Point DeviceClock::point_of(std::int64_t ticks, MonotonicTime arriv
     return {device_ns, static_cast<double>((arrival - first_arrival_).count()) - device_ns};
 }
 
-/// An early arrival is a jump at once; a late one only after a while, because a stalled transfer is late too
-/// and catches up.
+/// An early arrival is a jump at once. A late one is a jump only after `longest_late`: a stalled transfer is
+/// late too, but catches up.
 bool DeviceClock::jumped(const Point& point, MonotonicTime arrival) {
     const double above_line = height_of(point) - height_ns_;
     if (above_line <= jump_ns) {
@@ -82,7 +83,8 @@ void DeviceClock::fit() {
         std::nth_element(slopes.begin(), middle, slopes.begin() + static_cast<std::ptrdiff_t>(pairs));
         drift_ = std::clamp(*middle, -most_drift, most_drift);
         wrong_rate_ = drift_ != *middle;
-        block_count_ = wrong_rate_ ? 0 : block_count_; // a doubted past must not outvote what follows
+        // Points measured at a wrong rate must not outvote the next ones.
+        block_count_ = wrong_rate_ ? 0 : block_count_;
     }
     height_ns_ = height_of(blocks_[0]);
     for (std::size_t k = 1; k < count; ++k) {
@@ -91,7 +93,7 @@ void DeviceClock::fit() {
 }
 
 void DeviceClock::restart(std::uint32_t tick, MonotonicTime arrival) {
-    restarts_ += believed() ? 1U : 0U; // a clock that is not believed jumps all the time
+    restarts_ += believed() ? 1U : 0U; // a clock that is not believed jumps all the time; do not count that
     quick_restarts_ = arrival - first_arrival_ < settled ? quick_restarts_ + 1 : 1;
     begin(tick, arrival);
 }
@@ -103,7 +105,7 @@ MonotonicTime DeviceClock::line_at(double device_ns) const {
 MonotonicTime DeviceClock::time_of(std::uint32_t tick, MonotonicTime arrival) {
     const auto step = static_cast<std::int32_t>(tick - last_tick_); // wraps as the device's tick does
     const bool doubted = !believed();
-    bool same = false; // the same tick as the time before
+    bool same = false; // the tick equals the previous one
     if (!last_time_) {
         begin(tick, arrival);
     } else if (step < 0 || jumped(point_of(ticks_ + step, arrival), arrival)) {
@@ -117,7 +119,7 @@ MonotonicTime DeviceClock::time_of(std::uint32_t tick, MonotonicTime arrival) {
         }
     }
     take(point_of(ticks_, arrival));
-    if (doubted && believed()) { // the line was fitted while the clock was not believed
+    if (doubted && believed()) { // the line was fitted before the clock was believed
         begin(tick, arrival);
         take(point_of(0, arrival));
     }

@@ -1,4 +1,4 @@
-/// What a tracker of any make sends at one instant: codecs make it, the policy uses it.
+/// A frame of a tracker of any make: its poses at one instant. Codecs produce it; `FrameIntake` consumes it.
 ///
 /// Frame    tracker K, metres, quaternion w x y z.
 /// Threads  values.
@@ -14,26 +14,26 @@
 namespace frustumscreen {
 
 struct SensorPose {
-    int sensor = 0; ///< as the connectors are numbered, from 1
+    int sensor = 0; ///< number of the connector, from 1
     glm::dvec3 position_m{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
-    int distortion = 0;  ///< 0 = an undisturbed field, 255 = the most that the device can say
-    bool usable = false; ///< finite, within reach, a rotation, and the device reports no fault of this sensor
-    bool present = true; ///< false: the device says that this sensor is not plugged in
+    int distortion = 0;  ///< 0 = an undisturbed field, 255 = the largest value the device reports
+    bool usable = false; ///< finite, in range, a rotation, and without a reported fault of this sensor
+    bool present = true; ///< false: the device reports that this sensor is not plugged in
 };
 
 struct DeviceFrame {
     static constexpr std::size_t most_sensors = 16;
 
-    std::uint32_t counter = 0; ///< counts frames, wraps; says what was lost, doubled or comes late
-    std::uint32_t tick = 0;    ///< the device's clock, wraps; the unit is the device's
+    std::uint32_t counter = 0; ///< counts frames, wraps; reveals lost, repeated and late frames
+    std::uint32_t tick = 0;    ///< the device's clock, wraps; in units of the device
     std::array<SensorPose, most_sensors> sensors;
-    std::size_t count = 0;    ///< of `sensors`
+    std::size_t count = 0;    ///< valid entries of `sensors`
     bool units_as_set = true; ///< false: not metres and quaternions; no pose of this frame is usable
-    bool fault = false;       ///< the device's own test has found one; that says nothing about the poses
+    bool fault = false;       ///< the device's self-test failed; the poses may still be good
 };
 
-/// Why bytes were thrown away.
+/// Why bytes were discarded.
 enum class DiscardReason {
     Garbage,  ///< no frame begins here
     Length,   ///< a header with an impossible size
@@ -41,8 +41,8 @@ enum class DiscardReason {
     Content,  ///< fields that contradict each other
 };
 
-/// Whether the rotation has length 1, as nearly as 32-bit numbers and a bent sensor allow, and a magnetic
-/// tracker reaches the position.
+/// Whether the rotation has length 1, as nearly as 32-bit numbers and a bent sensor allow, and the position
+/// is within a magnetic tracker's reach.
 [[nodiscard]] inline bool is_pose(const glm::dvec3& position_m, const glm::dquat& rotation) {
     constexpr double farthest_m = 10.0;
     constexpr double quaternion_tolerance = 0.01;

@@ -1,7 +1,6 @@
-/// The dialogue with one device after it is opened: set-up, verification, streaming. Bytes in, bytes out; no
-/// I/O.
+/// The dialogue with one open device: set-up, verification, streaming. Bytes in, bytes out; no I/O.
 ///
-/// Time     a parameter throughout, so that a session runs under a simulated clock.
+/// Time     always a parameter, so a session runs under a simulated clock.
 /// Threads  one caller; allocates nothing once `samples` has enough room.
 #pragma once
 
@@ -13,34 +12,34 @@
 
 namespace frustumscreen {
 
-/// What is asked of a tracker, whatever its make.
+/// Settings of a tracker of any make.
 struct UsbTrackerSetUp {
-    /// Points into the half space of the source that holds the sensors; the tracker cannot find it out.
+    /// Points from the source into the half space that holds the sensors; the tracker cannot determine it.
     glm::dvec3 hemisphere{1.0, 0.0, 0.0};
-    /// Half the table along X and Y: a SpaceMouse stays within.
+    /// Half the table along X and Y; the pose of a SpaceMouse stays within it.
     glm::dvec2 table_half_m{0.4, 0.25};
 };
 
 class DeviceSession {
 public:
     virtual ~DeviceSession() = default;
-    /// The command to send now; empty: none is due. Valid until the next call.
+    /// The command to send now; empty if none is due. Valid until the next call.
     [[nodiscard]] virtual std::span<const std::byte> due(MonotonicTime now) = 0;
     virtual void receive(std::span<const std::byte> bytes, MonotonicTime arrival,
                          std::vector<PoseSample>& samples) = 0;
     [[nodiscard]] virtual UsbTrackerState state(MonotonicTime now) const = 0;
-    /// This device will not stream: close it, and look for one again.
+    /// This device will not stream: close it and search again.
     [[nodiscard]] virtual bool failed() const = 0;
     [[nodiscard]] virtual const FrameIntake& intake() const = 0;
 };
 
-/// The session that a device of this model needs.
+/// The session for a device of this model.
 [[nodiscard]] std::unique_ptr<DeviceSession> make_session(UsbTrackerModel model,
                                                           const UsbTrackerSetUp& set_up);
 
-/// Times that the makes share.
+/// Times that all makes share.
 struct SessionTimes {
-    static constexpr Nanoseconds reply = std::chrono::milliseconds(500); ///< then a command is sent again
+    static constexpr Nanoseconds reply = std::chrono::milliseconds(500); ///< then the command is sent again
     static constexpr Nanoseconds booting = std::chrono::milliseconds(300);
     static constexpr int tries = 3;
 };

@@ -4,23 +4,23 @@ namespace frustumscreen {
 
 namespace {
 
-/// A counter this far off is broken, or the device started again.
+/// A counter this far off is corrupt, or the device restarted.
 constexpr std::int32_t far_off = 1000;
-/// After so many consistent ones in a row the device has started again.
+/// This many consistent counters in a row mean that the device restarted.
 constexpr int enough_to_believe = 4;
-/// How long a fault must be gone, or the prop's sensor silent, before the state says so; longer for a device
-/// of a slower pace.
+/// A fault must be gone, or the prop's sensor silent, for this long before the state changes; longer for a
+/// slow device.
 constexpr Nanoseconds settling = std::chrono::milliseconds(500);
-/// The patience with a device whose pace is not known yet: so long until its second frame.
+/// Patience with a device until its second frame, while its frame interval is unknown.
 constexpr Nanoseconds unknown_pace = std::chrono::milliseconds(1500);
 constexpr int gaps_of_patience = 3;
 constexpr Nanoseconds least_patience = std::chrono::milliseconds(250);
 constexpr Nanoseconds most_patience = std::chrono::seconds(4);
-constexpr int frames_to_forget = 10; ///< a long gap
-/// A pose that is this old when it comes is too old to show where the prop is.
+constexpr int frames_to_forget = 10; ///< after which a long gap is forgotten
+/// A pose that arrives this late cannot show where the prop is now.
 constexpr Nanoseconds old_age = std::chrono::milliseconds(500);
-/// Of 255. Sensors in clean surroundings stay near 0; a test with a real device beside metal must still
-/// confirm the figure.
+/// Limit on a scale to 255. Sensors in clean surroundings stay near 0. Not yet confirmed with a real device
+/// near metal.
 constexpr int metal_near_distortion = 64;
 
 } // namespace
@@ -86,7 +86,7 @@ bool FrameIntake::take(const DeviceFrame& frame, MonotonicTime arrival, std::vec
     }
     if (time || frame.count == 0) {
         ++counts_.frames;
-        if (latest_ && frame.counter != latest_counter_) { // else it is another sensor of the same instant
+        if (latest_ && frame.counter != latest_counter_) { // otherwise another sensor of the same instant
             longest_gap_ = std::max(arrival - *latest_, longest_gap_ - longest_gap_ / frames_to_forget);
         }
         latest_ = arrival;

@@ -1,7 +1,9 @@
-/// Turns a device's frames into samples: checks their sequence and converts the device's time to ours.
+/// The sequence checker: turns a device's frames into samples, checks their order and converts device time to
+/// ours.
 ///
 /// Frame    tracker K.
-/// Time     `arrival` is when the bytes came; a sample's time is the device's, on the monotonic clock.
+/// Time     `arrival` is the time at which the bytes came; a sample's time is the device's, mapped to the
+///          monotonic clock.
 /// Threads  one caller; allocates nothing once `samples` has enough room.
 #pragma once
 
@@ -17,14 +19,15 @@ class FrameIntake {
 public:
     explicit FrameIntake(double tick_ns) : clock_(tick_ns) {}
 
-    /// True if any pose of it was taken. Those that came twice, late or with a strange counter are refused.
+    /// Returns true if any pose of the frame was taken. Repeated, late and implausible counters are refused.
     bool take(const DeviceFrame& frame, MonotonicTime arrival, std::vector<PoseSample>& samples);
     void count_refusal() { ++counts_.broken; }
-    /// Of this one device.
+    /// Counts of this device alone.
     [[nodiscard]] TrackerCounts counts() const;
-    /// When a frame was taken last.
+    /// Time at which the last frame was taken.
     [[nodiscard]] std::optional<MonotonicTime> latest() const { return latest_; }
-    /// A device without a frame for longer than this is silent; it follows from the pace of its frames.
+    /// A device that sends no frame for longer than this is silent. Derived from the intervals between its
+    /// frames.
     [[nodiscard]] Nanoseconds patience() const;
     /// Streaming, SensorMissing, DeviceFault, PosesUnusable, PosesLate or MetalNear.
     [[nodiscard]] UsbTrackerState state(MonotonicTime now) const;
@@ -35,15 +38,15 @@ private:
 
     struct Sequence {
         std::optional<std::uint32_t> last;
-        std::optional<std::uint32_t> strange; ///< out of order; believed once enough later ones came
+        std::optional<std::uint32_t> strange; ///< out of order; accepted if enough consistent ones follow
         int strange_run = 0;
     };
     DeviceClock clock_;
     std::array<Sequence, 129> sequences_; ///< by sensor; 7 bits, from 1
-    TrackerCounts counts_;                ///< without the clock's
+    TrackerCounts counts_;                ///< without the clock's counts
     std::optional<MonotonicTime> latest_;
     std::uint32_t latest_counter_ = 0;
-    Nanoseconds longest_gap_{0}; ///< between two of the latest frames
+    Nanoseconds longest_gap_{0}; ///< between recent frames; decays slowly
     std::optional<MonotonicTime> began_;
     std::optional<MonotonicTime> prop_seen_;
     std::optional<MonotonicTime> prop_usable_;

@@ -10,7 +10,7 @@
 namespace frustumscreen {
 
 inline constexpr std::uint16_t space_mouse_vendor = 0x256f;
-/// Older models have the parent company's vendor id, all with products 0xc6xx.
+/// Older models have the parent company's vendor id, and products 0xc6xx.
 inline constexpr std::uint16_t old_space_mouse_vendor = 0x046d;
 inline constexpr unsigned old_space_mouse_products = 0xc6;
 inline constexpr std::uint16_t desktop_usage_page = 0x01;

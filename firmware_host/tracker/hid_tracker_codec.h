@@ -1,6 +1,7 @@
-/// The reports of the HID tracker that anybody can build; docs/hid_tracker.md has every byte.
+/// The reports of the HID tracker that anyone can build; docs/hid_tracker.md specifies every byte.
 ///
-/// Layout   little-endian, 10 um, quaternion times 32767, CRC-16/ARC at the end of each report.
+/// Layout   little-endian; position in units of 10 um, quaternion times 32767; each report ends with
+///          CRC-16/ARC.
 /// Errors   values; any bytes are safe.
 /// Threads  pure functions; they allocate nothing.
 #pragma once
@@ -12,10 +13,10 @@
 
 namespace frustumscreen {
 
-/// The usage of its top-level collection; vendor and product id are the maker's.
+/// Usage of its top-level collection; vendor and product id are the maker's.
 inline constexpr std::uint16_t hid_tracker_usage_page = 0xFF46;
 inline constexpr std::uint16_t hid_tracker_usage = 0x53;
-/// The id of the feature report, which is asked for when the device is opened.
+/// Id of the feature report, which is requested when the device is opened.
 inline constexpr std::uint8_t hid_tracker_info_report = 2;
 inline constexpr int hid_tracker_version = 1;
 
@@ -26,15 +27,15 @@ struct HidTrackerInfo {
     int rate_hz = 0;
     int stations = 0;
 };
-/// The input report: a frame of one sensor; its tick is a microsecond.
+/// The input report: a frame of one sensor. Its tick is one microsecond.
 struct HidTrackerPose {
     DeviceFrame frame;
     bool starting = false;
 };
 using HidTrackerMessage = std::variant<DiscardReason, HidTrackerInfo, HidTrackerPose>;
 
-/// `report` is one report, its id in front. One of another version still gives a HidTrackerInfo, whatever
-/// else it says.
+/// `report` is one report, with its id first. A report of another version still gives a HidTrackerInfo,
+/// whatever its other fields contain.
 [[nodiscard]] HidTrackerMessage parse_hid_tracker(std::span<const std::byte> report);
 
 } // namespace frustumscreen

@@ -8,7 +8,7 @@ constexpr double tick_ns = 1e3; ///< the time stamp counts microseconds
 constexpr int position_unit_um = 10;
 constexpr int fewest_hz = 30;
 constexpr int most_hz = 1000;
-/// A device that sends nothing for so long is opened again, unless its pace is that slow.
+/// A device that is silent for longer is reopened, unless it is slow by design.
 constexpr Nanoseconds longest_silence = std::chrono::seconds(1);
 
 } // namespace
@@ -35,7 +35,7 @@ Nanoseconds HidTrackerSession::silence(MonotonicTime now) const {
     return now - intake_.latest().value_or(*began_);
 }
 
-/// Nothing is ever sent; this only notices when nothing comes.
+/// Never sends anything; only detects a missing feature report and silence.
 std::span<const std::byte> HidTrackerSession::due(MonotonicTime now) {
     began_ = began_ ? began_ : now;
     if (!informed_ && now - *began_ > SessionTimes::reply) {

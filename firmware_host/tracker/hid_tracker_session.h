@@ -1,6 +1,7 @@
-/// The HID tracker's session: what the device says about itself is checked, then it streams unasked.
+/// The HID tracker's session: it verifies the device's description of itself; then the device streams without
+/// a request.
 ///
-/// The feature report is the first that the transport hands over. Frame, time, threads: see device_session.h.
+/// The transport hands over the feature report first. Frame, time, threads: see device_session.h.
 #pragma once
 
 #include "firmware_host/tracker/device_session.h"
@@ -28,7 +29,7 @@ private:
     bool informed_ = false; ///< the feature report was good
     bool failed_ = false;
     UsbTrackerState trouble_ = UsbTrackerState::SettingUp;
-    bool booting_ = false; ///< as the device itself said in its latest report
+    bool booting_ = false; ///< the device's latest report says so
     FrameIntake intake_;
 };
 

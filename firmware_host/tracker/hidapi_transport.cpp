@@ -28,7 +28,7 @@ using DeviceList = std::unique_ptr<hid_device_info, ListCloser>;
 
 class HidapiTransport final : public UsbTransport {
 public:
-    /// `first_report` is handed over before anything is read; empty: none is.
+    /// The first read returns `first_report`, unless it is empty.
     HidapiTransport(Device device, std::vector<std::byte> first_report)
         : device_(std::move(device)), first_report_(std::move(first_report)) {}
 
@@ -49,7 +49,7 @@ public:
         }
         return static_cast<std::size_t>(count);
     }
-    /// `bytes` are an output report with its id in front.
+    /// `bytes` are an output report, with its id first.
     [[nodiscard]] Result<void> write(std::span<const std::byte> bytes, Nanoseconds /*timeout*/) override {
         const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
         if (!device_ || hid_write(device_.get(), data, bytes.size()) < 0) {

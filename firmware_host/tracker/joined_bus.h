@@ -1,4 +1,4 @@
-/// Several buses as one: the first that finds a tracker opens it.
+/// Several buses as one. Searches them in order; the first one that opens a tracker wins.
 ///
 /// Threads  one.
 #pragma once
@@ -13,7 +13,7 @@ class JoinedBus final : public UsbBus {
 public:
     explicit JoinedBus(std::vector<std::unique_ptr<UsbBus>> buses) : buses_(std::move(buses)) {}
 
-    /// Trouble with a device that is there is reported before the absence of another one.
+    /// Trouble with a connected device takes precedence over the absence of another one.
     [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState>
     find(std::span<const std::string> but_not) override {
         UsbTrackerState trouble = UsbTrackerState::NotConnected;

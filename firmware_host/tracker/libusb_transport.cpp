@@ -58,7 +58,7 @@ Endpoints bulk_endpoints(libusb_device* device) {
 }
 
 unsigned milliseconds(Nanoseconds timeout) {
-    // 0 would mean for ever.
+    // For libusb 0 means no timeout.
     const auto count = std::chrono::ceil<std::chrono::milliseconds>(timeout).count();
     return static_cast<unsigned>(std::clamp<std::int64_t>(count, 1, 60'000));
 }
@@ -79,10 +79,11 @@ public:
                                            static_cast<int>(buffer.size()), &count, milliseconds(timeout))
                     : LIBUSB_ERROR_NO_DEVICE;
         if (error == LIBUSB_SUCCESS || error == LIBUSB_ERROR_TIMEOUT || error == LIBUSB_ERROR_INTERRUPTED) {
-            return static_cast<std::size_t>(std::max(count, 0)); // a timeout may have brought a part
+            // A transfer that timed out may have brought a part.
+            return static_cast<std::size_t>(std::max(count, 0));
         }
         if (error == LIBUSB_ERROR_PIPE && libusb_clear_halt(handle_.get(), endpoints_.in) == LIBUSB_SUCCESS) {
-            return 0U; // if it stays halted, nothing comes, and the policy starts again
+            return 0U; // if it stays halted, the session reports silence and the driver searches again
         }
         return lost("reading", error);
     }
@@ -91,12 +92,13 @@ public:
         const int size = static_cast<int>(bytes.size());
         int error = send(bytes, timeout);
         if (error == LIBUSB_SUCCESS && endpoints_.out_packet > 0 && size % endpoints_.out_packet == 0) {
-            error = send({}, timeout); // an empty packet tells that the transfer ended with a full one
+            // An empty packet marks the end of a transfer whose last packet is full.
+            error = send({}, timeout);
         }
         if (error != LIBUSB_SUCCESS && error != LIBUSB_ERROR_TIMEOUT) {
             return lost("writing", error);
         }
-        return {}; // a device that takes nothing in time does not answer either, and the session says so
+        return {}; // a device that takes nothing in time does not answer either, and the session reports that
     }
 
     void close() override {
@@ -136,7 +138,7 @@ tl::expected<std::unique_ptr<UsbTransport>, UsbTrackerState> open(libusb_device*
             return UsbTrackerState::InUse;
         case LIBUSB_ERROR_NO_DEVICE:
             return UsbTrackerState::NotConnected;
-        default: // trouble of this one device: its descriptors, its hub, its cable
+        default: // trouble of this one device: its descriptors, hub or cable
             return UsbTrackerState::CannotBeOpened;
         }
     };
@@ -156,9 +158,9 @@ tl::expected<std::unique_ptr<UsbTransport>, UsbTrackerState> open(libusb_device*
     return std::make_unique<LibusbTransport>(std::move(handle), endpoints);
 }
 
-/// The bus and the chain of ports.
+/// Bus number and chain of ports.
 std::string place_of(libusb_device* device) {
-    std::array<std::uint8_t, 7> ports{}; // as deep as hubs may be
+    std::array<std::uint8_t, 7> ports{}; // the deepest chain of hubs that USB allows
     const int count = libusb_get_port_numbers(device, ports.data(), static_cast<int>(ports.size()));
     return fmt::format("usb {}-{}", libusb_get_bus_number(device),
                        fmt::join(std::span(ports).first(static_cast<std::size_t>(std::max(count, 0))), "."));

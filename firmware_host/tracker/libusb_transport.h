@@ -1,6 +1,6 @@
-/// USB trackers through libusb 1.0: found by vendor and product id, read and written in bulk.
+/// USB trackers through libusb 1.0: found by vendor and product id, read and written by bulk transfers.
 ///
-/// Threads  one; libusb is not even initialised before the first search.
+/// Threads  one; libusb is initialised by the first search.
 #pragma once
 
 #include "firmware_host/tracker/usb_transport.h"

@@ -17,7 +17,7 @@ constexpr std::uint32_t version = 1;
 constexpr std::size_t header_bytes = 16;
 constexpr std::size_t head_bytes = 16;
 constexpr std::size_t crc_bytes = 4;
-/// About 140 years: sums with it do not overflow.
+/// About 140 years; sums with it do not overflow.
 constexpr std::int64_t latest_time_ns = std::int64_t{1} << 62;
 
 bool known(std::uint32_t kind) {

@@ -1,7 +1,6 @@
-/// Recordings of a tracker's packets; docs/packet_recording.md has every byte.
+/// Recordings of a tracker's packets; docs/packet_recording.md specifies every byte.
 ///
-/// Errors   a recording that was cut off, or damaged, is played up to there; only a wrong beginning is an
-///          error.
+/// Errors   a truncated or damaged recording is played up to that place; only a wrong header is an error.
 /// Threads  pure; any. The bytes must outlive the reader.
 #pragma once
 
@@ -15,12 +14,12 @@ namespace frustumscreen {
 inline constexpr std::size_t longest_packet = std::size_t{1} << 16;
 
 struct Packet {
-    PacketKind kind = PacketKind::Received; ///< the reader skips kinds of later versions
-    MonotonicTime time;                     ///< never earlier than the packet before
+    PacketKind kind = PacketKind::Received; ///< the reader skips unknown kinds of later versions
+    MonotonicTime time;                     ///< ascending or equal
     std::span<const std::byte> payload;
 };
 
-/// Whether `file` begins like a recording of any version.
+/// Whether `file` begins like a packet recording of any version.
 [[nodiscard]] bool is_packet_recording(std::span<const std::byte> file);
 
 void append_packet_header(Bytes& file);
@@ -31,12 +30,12 @@ void append_packet(Bytes& file, const Packet& packet);
 
 class PacketReader {
 public:
-    /// `name` is the file in the message.
+    /// `name` names the file in messages.
     [[nodiscard]] static Result<PacketReader> open(std::span<const std::byte> file, std::string_view name);
 
-    /// The next packet; nothing at the end, or where the recording is cut off or damaged.
+    /// The next packet; nullopt at the end, or at a truncated or damaged place.
     [[nodiscard]] std::optional<Packet> next();
-    /// Bytes that were not read as packets; 0 at the end of a whole recording.
+    /// Bytes that were not read as packets; 0 at the end of an intact recording.
     [[nodiscard]] std::size_t left() const { return rest_.size(); }
 
 private:

@@ -11,7 +11,7 @@ namespace {
 
 constexpr Nanoseconds between_writes = std::chrono::milliseconds(250);
 constexpr Nanoseconds between_syncs = std::chrono::seconds(1);
-constexpr std::size_t room_for_gap = 64; ///< for the packet that names a gap
+constexpr std::size_t room_for_gap = 64; ///< for the packet that records a gap
 
 } // namespace
 
@@ -100,7 +100,7 @@ void PacketRecorder::say() {
     }
 }
 
-/// A slow disk delays only the writing thread; the lock is held no longer than a copy takes.
+/// Never waits for the disk: the writing thread holds the lock no longer than a swap takes.
 std::string_view PacketRecorder::state() {
     if (const std::unique_lock lock(mutex_, std::try_to_lock); lock.owns_lock()) {
         say();

@@ -1,9 +1,9 @@
 /// Writes a tracker's packets into a recording while the exhibit runs.
 ///
-/// Threads  `packet` on the device's thread: it copies into a bounded queue and returns. The file is written
-///          on the class's own thread, and made safe against a power cut once a second. The rest: any.
-/// Errors   none to the caller. A disk that is too slow makes gaps, which the recording itself and `state`
-///          name; one that is full, or gone, ends the recording, and `state` says so.
+/// Threads  `packet` on the device's thread: it copies into a bounded queue and returns. The class's own
+///          thread writes the file and syncs it once a second. Everything else: any thread.
+/// Errors   none to the caller. A disk that is too slow causes gaps; the recording and `state` report them. A
+///          full or lost disk ends the recording; `state` says so.
 /// Memory   twice `most_waiting_bytes`, allocated at the beginning.
 #pragma once
 
@@ -19,45 +19,45 @@ namespace frustumscreen {
 
 class PacketRecorder final : public PacketTap {
 public:
-    /// Enough for minutes of any device.
+    /// Holds minutes of any device.
     static constexpr std::size_t most_waiting_bytes = std::size_t{4} << 20;
 
-    /// `about`: which program records, and when.
+    /// `about` names the recording program and the time.
     PacketRecorder(GrowingFile file, std::string_view about, MonotonicTime now);
 
     void packet(PacketKind kind, MonotonicTime time, std::span<const std::byte> payload) override;
     /// The recording's state in one sentence, valid until the next call. The number of missing packets
-    /// changes in it only when it has doubled, so that it can go to a journal at each change.
+    /// changes in it only when it has doubled, so each change can go to a journal.
     [[nodiscard]] std::string_view state();
-    /// Takes nothing more, writes what waits and syncs it; it does not close the file. Errors: what ended the
-    /// recording.
+    /// Takes no more packets, writes the queue and syncs the file, but does not close it. Errors: the one
+    /// that ended the recording.
     [[nodiscard]] Result<void> finish();
 
     struct Counts {
         std::uint64_t packets = 0; ///< taken into the recording
-        std::uint64_t dropped = 0; ///< found no room
+        std::uint64_t dropped = 0; ///< did not fit into the queue
     };
     [[nodiscard]] Counts counts() const;
     [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
 
 private:
     void write(const std::stop_token& stop);
-    // With the lock held.
+    // Call with the lock held.
     [[nodiscard]] bool has_room(std::size_t payload) const;
     void take(PacketKind kind, MonotonicTime time, std::span<const std::byte> payload);
     void name_gap(MonotonicTime time);
     void say();
 
-    GrowingFile file_; ///< the writing thread only, but for its name
+    GrowingFile file_; ///< the writing thread only, except for its name
     mutable std::mutex mutex_;
     Bytes waiting_;
     Counts counts_;
-    std::uint64_t gap_ = 0;   ///< dropped since the last packet that was taken
-    MonotonicTime gap_until_; ///< the last of them
-    bool finished_ = false;   ///< nothing more is taken
+    std::uint64_t gap_ = 0;   ///< packets dropped since the last one taken
+    MonotonicTime gap_until_; ///< time of the last dropped packet
+    bool finished_ = false;   ///< no more packets are taken
     std::optional<Error> ended_;
-    Sentence said_;       ///< of the caller of `state`
-    std::jthread thread_; ///< last: it uses all of the above
+    Sentence said_;       ///< used by the caller of `state` only
+    std::jthread thread_; ///< last: it uses all members above
 };
 
 } // namespace frustumscreen

@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Between the end of a round and the beginning of the next; it also keeps the shortest round above 0.
+/// Pause between two rounds; it also keeps the shortest round above 0.
 constexpr Nanoseconds between_rounds = std::chrono::seconds(1);
 
 } // namespace
@@ -26,7 +26,7 @@ Result<PacketReplay> PacketReplay::open(Bytes file, std::string_view name) {
     return replay;
 }
 
-/// False: the recording has no device.
+/// Returns false if the recording has no device.
 bool PacketReplay::survey() {
     PacketReader reader = first_;
     std::optional<UsbTrackerModel> model;
@@ -67,8 +67,8 @@ TrackerCounts PacketReplay::counts() const {
     return counts;
 }
 
-/// As then, the session is asked for due commands before each call: with the time of the call if it sent
-/// something then, else with the latest time at which it certainly had nothing to send.
+/// As in the recorded run, `due` is called before each `receive`: with the time of the packet if a command
+/// was sent then, otherwise with the latest time at which certainly none was due.
 void PacketReplay::feed(const Packet& packet, std::vector<PoseSample>& samples) {
     switch (packet.kind) {
     case PacketKind::Opened: {
@@ -118,7 +118,7 @@ MonotonicTime PacketReplayTracker::ours(MonotonicTime recorded) const {
 
 Result<void> PacketReplayTracker::poll(MonotonicTime now, std::vector<PoseSample>& samples) {
     const std::size_t before = samples.size();
-    if (now - start_ >= round_) { // whole rounds that nobody saw are left out
+    if (now - start_ >= round_) { // skip whole rounds that no poll saw
         start_ += ((now - start_) / round_) * round_;
         replay_.rewind();
     }

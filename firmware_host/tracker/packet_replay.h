@@ -1,8 +1,8 @@
-/// Plays a recording of packets through the sessions that the devices had, also as a tracker.
+/// Plays a recording of packets through the sessions that the devices had; also as a tracker.
 ///
-/// Frame    the device's; a SpaceMouse's is the table's.
-/// Time     the replay runs on the recording's clock and gives exactly the samples that the exhibit had then.
-///          The tracker maps them to our clock at any speed, as late as they came.
+/// Frame    the device's; the table's for a SpaceMouse.
+/// Time     the replay runs on the recording's clock and gives exactly the samples that the exhibit received.
+///          The tracker maps them to our clock at any speed, with their original delays.
 /// Threads  one caller.
 #pragma once
 
@@ -15,10 +15,10 @@ namespace frustumscreen {
 
 class PacketReplay {
 public:
-    /// `name` is the file in messages. Errors: no recording, or no device was found in it.
+    /// `name` names the file in messages. Errors: not a recording, or no device in it.
     [[nodiscard]] static Result<PacketReplay> open(Bytes file, std::string_view name);
 
-    /// Plays what came up to `until`, on the recording's clock; appends the samples.
+    /// Plays the packets up to `until`, on the recording's clock; appends the samples.
     void play(MonotonicTime until, std::vector<PoseSample>& samples);
     /// Back to the beginning.
     void rewind();
@@ -27,13 +27,13 @@ public:
     [[nodiscard]] MonotonicTime end() const { return end_; }
     [[nodiscard]] UsbTrackerModel model() const { return model_; } ///< of the first device
     [[nodiscard]] bool reports_table_frame() const { return model_ == UsbTrackerModel::SpaceMouse; }
-    /// The tracker's state as the exhibit said it then; valid until the next `play`.
+    /// The tracker's state as recorded; valid until the next `play`.
     [[nodiscard]] std::string_view state() const { return state_.view(); }
-    /// What the sessions counted up to where it has played, in this round.
+    /// Counts of the sessions up to the current position in this round.
     [[nodiscard]] TrackerCounts counts() const;
-    [[nodiscard]] std::uint64_t packets() const { return packets_; } ///< in the whole recording
-    [[nodiscard]] std::uint64_t dropped() const { return dropped_; } ///< that the recorder had no room for
-    [[nodiscard]] std::size_t left_bytes() const { return left_bytes_; } ///< behind a cut, or damage
+    [[nodiscard]] std::uint64_t packets() const { return packets_; }     ///< in the whole recording
+    [[nodiscard]] std::uint64_t dropped() const { return dropped_; }     ///< missing in the recording
+    [[nodiscard]] std::size_t left_bytes() const { return left_bytes_; } ///< after a truncation or damage
 
 private:
     PacketReplay(Bytes file, const PacketReader& packets)
@@ -47,8 +47,8 @@ private:
     PacketReader rest_;
     std::optional<Packet> next_;
     std::unique_ptr<DeviceSession> session_;
-    TrackerCounts counts_; ///< of the sessions that are over, and of what was opened
-    MonotonicTime called_; ///< when the session was called last
+    TrackerCounts counts_; ///< of the finished sessions, and the connections
+    MonotonicTime called_; ///< time of the last call to the session
     MonotonicTime begin_;
     MonotonicTime end_;
     UsbTrackerModel model_ = UsbTrackerModel::Viper;
@@ -60,7 +60,7 @@ private:
 
 class PacketReplayTracker final : public Tracker {
 public:
-    /// The recording begins at `start` and begins again when it has ended.
+    /// The recording begins at `start` and repeats.
     PacketReplayTracker(PacketReplay replay, MonotonicTime start, double speed);
 
     [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override;
@@ -73,9 +73,9 @@ private:
     [[nodiscard]] MonotonicTime ours(MonotonicTime recorded) const;
 
     PacketReplay replay_;
-    MonotonicTime start_; ///< of this round
+    MonotonicTime start_; ///< start of this round
     double speed_;
-    Nanoseconds round_; ///< in our time
+    Nanoseconds round_; ///< length of a round, in our time
 };
 
 } // namespace frustumscreen

@@ -1,7 +1,7 @@
-/// What passes between a tracker's transport and its session, for whoever records it.
+/// The packets between a tracker's transport and its session, for a recorder.
 ///
-/// Calls    in the order in which the session is called, with the same times: fed to another session in the
-///          same way they give the same samples.
+/// Calls    in the order of the session's calls, with their times; replayed into another session they give
+///          the same samples.
 /// Threads  the device's own; a tap returns at once.
 #pragma once
 
@@ -11,15 +11,15 @@
 
 namespace frustumscreen {
 
-/// The numbers are written into recordings.
+/// These numbers are stored in recordings.
 enum class PacketKind : std::uint32_t {
-    About = 1,    ///< text: which program recorded, and when
+    About = 1,    ///< text: recording program and time
     Opened = 2,   ///< OpenedDevice: a session begins
-    Received = 3, ///< bytes from the device; none: nothing came in time
+    Received = 3, ///< bytes from the device; empty: none came in time
     Sent = 4,     ///< bytes from the session to the device
-    Closed = 5,   ///< nothing: the session is over
-    State = 6,    ///< text: the sentence of the new state
-    Dropped = 7,  ///< u64: so many packets are missing here
+    Closed = 5,   ///< empty; the session is over
+    State = 6,    ///< text: sentence of the new state
+    Dropped = 7,  ///< u64: number of packets missing here
 };
 
 class PacketTap {
@@ -28,7 +28,7 @@ public:
     virtual void packet(PacketKind kind, MonotonicTime time, std::span<const std::byte> payload) = 0;
 };
 
-/// What a session is made of: u32 model, u32 0, f64[3] hemisphere, f64[2] half the table.
+/// Parameters of a session: u32 model, u32 0, f64[3] hemisphere, f64[2] half the table.
 struct OpenedDevice {
     static constexpr std::size_t size = 48;
 
@@ -36,7 +36,7 @@ struct OpenedDevice {
     UsbTrackerSetUp set_up;
 
     [[nodiscard]] std::array<std::byte, size> bytes() const;
-    /// Nothing: not of this size, a model that is not known, numbers that are none.
+    /// nullopt: wrong size, unknown model, or numbers that are not finite.
     [[nodiscard]] static std::optional<OpenedDevice> from(std::span<const std::byte> bytes);
 };
 

@@ -14,7 +14,7 @@ constexpr std::size_t whole_bytes = header_bytes + payload_bytes;
 constexpr double metres_per_centimetre = 0.01;
 constexpr std::array<std::array<char, 2>, 3> tags{{{'P', 'A'}, {'L', 'Y'}, {'L', 'U'}}};
 
-/// Whether the bytes that are there may begin a header. Checks every field whose value is known.
+/// Whether the available bytes may begin a header. Checks every field with a known value.
 bool may_be_header(std::span<const std::byte> stream) {
     const auto at = [&](std::size_t k) { return static_cast<unsigned>(stream[k]); };
     const bool tag = std::any_of(tags.begin(), tags.end(), [&](const std::array<char, 2>& letters) {

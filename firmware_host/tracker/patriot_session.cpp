@@ -7,7 +7,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr double tick_ns = 1e6; ///< the timestamp counts milliseconds
-/// The pause after a command that is not answered, in which the rest of an interrupted stream arrives.
+/// Pause after a command without an answer, in which the rest of an interrupted stream arrives.
 constexpr Nanoseconds between_commands = std::chrono::milliseconds(20);
 constexpr int centimetres = 1;
 
@@ -18,7 +18,7 @@ std::vector<PatriotSession::Step> PatriotSession::steps(const UsbTrackerSetUp& s
     return {
         {"P", Need::Nothing}, // stops a stream that an earlier program left running
         {"F0\r", Need::Nothing},
-        {"\x16\r", Need::AnyText}, // ^V: who are you
+        {"\x16\r", Need::AnyText}, // ^V: asks for the identification
         {"U1\r", Need::Nothing},
         {"U\r", Need::Metric},
         {fmt::format("H*,{:.4f},{:.4f},{:.4f}\r", half.x, half.y, half.z), Need::Nothing},
@@ -102,7 +102,7 @@ void PatriotSession::receive(std::span<const std::byte> bytes, MonotonicTime arr
             read_answer(arrival);
         }
         if (taken == 0) {
-            stream_.clear(); // an answer that does not end
+            stream_.clear(); // an answer without an end
         }
     }
 }

@@ -1,8 +1,8 @@
 /// A PATRIOT's or LIBERTY's session: text for the set-up, the units read back, then binary frames.
 ///
-/// These devices do not answer a command that they accept; they answer only questions. Settings other than
-/// the units show in the frames: their size is that of the chosen fields, their quaternion has length 1.
-/// Frame, units, time, threads: see device_session.h.
+/// These devices answer questions, but not a command that they accept. Settings other than the units are
+/// verified by the frames: the size is that of the chosen fields, and the quaternion has length 1. Frame,
+/// units, time, threads: see device_session.h.
 #pragma once
 
 #include "firmware_host/tracker/device_session.h"

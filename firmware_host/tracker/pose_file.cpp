@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<std::string_view, 10> columns{"t_us", "station", "px_m", "py_m", "pz_m",
                                                    "qw",   "qx",      "qy",   "qz",   "ok"};
 constexpr std::string_view header = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok";
-/// About 140 years either way: nanoseconds stay far from 64-bit overflow.
+/// About 140 years either way; nanoseconds stay far from 64-bit overflow.
 constexpr std::int64_t longest_us = std::int64_t{1} << 52;
 constexpr double farthest_m = 1000.0;
 

@@ -1,8 +1,8 @@
-/// Poses in files: CSV with the header `t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok`, `#` comments.
+/// Poses in CSV files with the header `t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok` and `#` comments.
 ///
-/// Frame    table T; metres; quaternions w x y z, made unit here. Times are integer microseconds.
-/// Errors   one line with the line's number: what was found, what is allowed. A row with ok = 0 carries no
-///          pose: its numbers may be anything that reads as a number, and it comes out at the origin.
+/// Frame    table T; metres; quaternions w x y z, normalised here. Times are integer microseconds.
+/// Errors   one line with the line's number, the value found and the allowed values. A row with ok = 0
+///          carries no pose: its fields may be any numbers, and its sample is at the origin.
 /// Threads  pure; any.
 #pragma once
 
@@ -18,10 +18,10 @@ namespace frustumscreen {
 
 enum class PoseOrder {
     AsWritten,
-    PropAscends, ///< refuse rows of station 1 whose time is not later than the one before
+    PropAscends, ///< refuse a row of station 1 whose time does not increase
 };
 
-/// `name` is the file in messages. The rows in the file's order.
+/// Returns the rows in the file's order. `name` names the file in messages.
 [[nodiscard]] Result<std::vector<PoseSample>> parse_poses(std::string_view text, std::string_view name,
                                                           PoseOrder order = PoseOrder::AsWritten);
 

@@ -26,7 +26,7 @@ PoseSample between(const PoseSample& from, const PoseSample& to, MonotonicTime t
     return sample;
 }
 
-/// The pose of one station at a time; nothing before its first key and behind its last one.
+/// Adds the pose of one station at `time`; none before its first key and after its last one.
 void add_pose(std::span<const PoseSample> keys, MonotonicTime time, std::vector<PoseSample>& path) {
     const auto after = std::upper_bound(keys.begin(), keys.end(), time,
                                         [](MonotonicTime t, const PoseSample& key) { return t < key.time; });

@@ -1,7 +1,9 @@
-/// A path through poses, as a hand moves that knows where it goes: from one to the next without a jerk.
+/// A path through poses, like the motion of a hand that knows its target: without a jerk from one pose to the
+/// next.
 ///
-/// Between two poses of a station the place follows 10 s^3 - 15 s^4 + 6 s^5 of the time's share s, the rotation turns the
-/// shorter way by the same share of its angle. Two equal poses rest.
+/// Between two poses of a station the position follows 10 s^3 - 15 s^4 + 6 s^5, where s is the fraction of
+/// the time; the rotation turns the shorter way by the same fraction of its angle. Between two equal poses
+/// the path rests.
 ///
 /// Frame    as the poses.
 /// Threads  pure; any.
@@ -17,8 +19,9 @@
 
 namespace frustumscreen {
 
-/// `keys`: of each station in the order of their times; those that are not ok end a path, and the next begins another.
-/// Returns poses of all stations at every period from the first key's time to the last key's, in the order of their times.
+/// `keys` are in the order of their times for each station. A key that is not ok ends its station's path; the
+/// next one begins a new path. Returns poses of all stations at every period from the first key's time to the
+/// last key's, in the order of their times.
 [[nodiscard]] Result<std::vector<PoseSample>> pose_path(std::span<const PoseSample> keys, Nanoseconds period);
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-/// Scales a length of time.
+/// Scales a duration.
 #pragma once
 
 #include "firmware_host/base/time.h"
@@ -8,7 +8,7 @@
 
 namespace frustumscreen {
 
-/// `length` times `factor`, at most 146 years either way, so that a recording's end can be added to its
+/// `length` times `factor`, limited to 146 years either way, so a recording's end can be added to its
 /// beginning.
 [[nodiscard]] inline Nanoseconds scaled(Nanoseconds length, double factor) {
     constexpr double most = 4611686018427387904.0; // 2^62

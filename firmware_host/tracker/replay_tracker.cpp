@@ -21,7 +21,7 @@ ReplayTracker::ReplayTracker(std::vector<PoseSample> samples, MonotonicTime star
     }
     shift_ = start - recording_.front().time;
     if (repeat) {
-        // One mean step after the last sample; a single pose comes once a second.
+        // The next round begins one mean step after the last sample; a single pose repeats once a second.
         const Nanoseconds span = recording_.back().time - recording_.front().time;
         const auto steps = static_cast<Nanoseconds::rep>(std::max<std::size_t>(recording_.size() - 1, 1));
         length_ = span > Nanoseconds::zero() ? span + std::max(span / steps, Nanoseconds(1))
@@ -29,7 +29,7 @@ ReplayTracker::ReplayTracker(std::vector<PoseSample> samples, MonotonicTime star
     }
 }
 
-/// Leaves out whole rounds that would come at once and that nobody could have seen.
+/// Skips whole rounds that became due at once between two polls.
 void ReplayTracker::pass_over_rounds(MonotonicTime now) {
     constexpr auto most_at_once = static_cast<Nanoseconds::rep>(most_rounds_samples);
     if (recording_.empty() || length_ <= Nanoseconds::zero()) {

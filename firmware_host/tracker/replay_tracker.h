@@ -1,8 +1,8 @@
 /// A tracker that replays poses, normally of a pose file, at their own speed or another.
 ///
 /// Time     the first sample comes at `start`; with `repeat` the recording begins again one step after its
-///          end. If a poll is so late that more than `most_rounds_samples` samples of repeated rounds are
-///          due, whole rounds are left out: a recording of microseconds would fill the memory.
+///          end. If a late poll makes more than `most_rounds_samples` samples of repeated rounds due, whole
+///          rounds are skipped: a recording of a few microseconds would fill the memory.
 /// Threads  one caller.
 #pragma once
 
@@ -30,7 +30,7 @@ private:
 
     std::vector<PoseSample> recording_;
     Nanoseconds shift_{0};  ///< from the recording's clock to ours
-    Nanoseconds length_{0}; ///< of one round; 0 = played once
+    Nanoseconds length_{0}; ///< of one round; 0 = no repetition
     std::size_t next_ = 0;
 };
 

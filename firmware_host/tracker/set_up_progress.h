@@ -1,4 +1,4 @@
-/// How far a device's set-up is: which step, whether it waits for an answer, what went wrong last.
+/// Progress of a device's set-up: the current step, whether it waits for an answer, and the last trouble.
 ///
 /// Time     a parameter throughout.
 /// Threads  values; one caller.
@@ -12,25 +12,25 @@ namespace frustumscreen {
 
 class SetUpProgress {
 public:
-    /// `steps`: after so many the device streams.
+    /// The device streams after `steps` steps.
     explicit SetUpProgress(std::size_t steps) : steps_(steps) {}
 
     [[nodiscard]] std::size_t step() const { return step_; }
     [[nodiscard]] bool streaming() const { return step_ == steps_; }
     [[nodiscard]] bool failed() const { return failed_; }
     [[nodiscard]] bool waits_for_answer() const { return sent_.has_value(); }
-    /// It streams, and nothing was heard for too long.
+    /// The device should stream, but has been silent for too long.
     [[nodiscard]] bool silent(MonotonicTime now, const FrameIntake& intake) const {
         return streaming() && now - std::max(intake.latest().value_or(awake_), awake_) > intake.patience();
     }
     [[nodiscard]] bool unanswered(MonotonicTime now) const {
         return sent_ && now - *sent_ > SessionTimes::reply;
     }
-    /// The step's command is due.
+    /// The current step's command is due.
     [[nodiscard]] bool may_send(MonotonicTime now) const {
         return !failed_ && !sent_ && !streaming() && now >= pause_;
     }
-    /// What to say about a device that did not answer.
+    /// The state to report for a device that did not answer.
     [[nodiscard]] UsbTrackerState trouble_without_answer() const {
         return trouble_ == UsbTrackerState::SettingUp ? UsbTrackerState::SetUpRefused : trouble_;
     }
@@ -39,16 +39,16 @@ public:
         return heard ? intake.state(now) : trouble_;
     }
 
-    /// The step's command was sent, and is to be answered.
+    /// The step's command was sent; wait for an answer.
     void sent(MonotonicTime now) { sent_ = now; }
-    /// The step is done; the next command not before `pause` has passed.
+    /// The step is done; the next command is not sent before `pause` has passed.
     void next(MonotonicTime now, Nanoseconds pause = {}) {
         ++step_;
         sent_.reset();
         pause_ = now + pause;
         awake_ = now;
     }
-    /// Does the same step again later; this does not count as a try.
+    /// Repeats the current step at `until`, without counting it as a try.
     void put_off(UsbTrackerState why, MonotonicTime until) {
         sent_.reset();
         trouble_ = why;
@@ -60,7 +60,7 @@ public:
         trouble_ = trouble;
         failed_ = ++tries_ >= SessionTimes::tries;
     }
-    /// A frame came as it should: resets the tries and the last trouble.
+    /// A good frame came: resets the tries and the last trouble.
     void well() {
         tries_ = 0;
         trouble_ = UsbTrackerState::SettingUp;
@@ -70,9 +70,9 @@ private:
     std::size_t steps_;
     std::size_t step_ = 0;
     int tries_ = 0;
-    std::optional<MonotonicTime> sent_; ///< the step's command
-    MonotonicTime pause_{};             ///< nothing is sent before
-    MonotonicTime awake_{};             ///< when the last step was done
+    std::optional<MonotonicTime> sent_; ///< time of the step's command
+    MonotonicTime pause_{};             ///< no command is sent before this time
+    MonotonicTime awake_{};             ///< time at which the last step was done
     UsbTrackerState trouble_ = UsbTrackerState::SettingUp;
     bool failed_ = false;
 };

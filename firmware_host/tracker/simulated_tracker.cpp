@@ -8,7 +8,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// What a random number is for; each purpose has its own sequence.
+/// Purposes of the random numbers; each has its own sequence.
 enum class Purpose : std::uint64_t {
     PropX,
     PropY,
@@ -23,11 +23,11 @@ enum class Purpose : std::uint64_t {
     HeadZ
 };
 
-/// A movement takes place once in each of these.
+/// Each slot contains one movement.
 constexpr double prop_slot_s = 4.0;
 constexpr double head_slot_s = 3.1;
 
-/// SplitMix64 (Steele, Lea and Flood 2014) of seed, purpose and number; 0 to 1.
+/// SplitMix64 (Steele, Lea and Flood 2014) of seed, purpose and number; from 0 to 1.
 double random(std::uint64_t seed, Purpose purpose, std::int64_t number) {
     std::uint64_t z = seed * 0x9E3779B97F4A7C15U + static_cast<std::uint64_t>(purpose) * 0xD1B54A32D192ED03U +
                       static_cast<std::uint64_t>(number) * 0x8CB92BA72F3D8DD7U + 0x9E3779B97F4A7C15U;
@@ -47,7 +47,7 @@ double minimum_jerk(double s) {
     return s * s * s * (10.0 + s * (-15.0 + 6.0 * s));
 }
 
-/// How far movement `slot` has come at `seconds`: 0 before it begins, 1 once it is over.
+/// Progress of movement `slot` at `seconds`: 0 before it begins, 1 after it ends.
 double progress(std::uint64_t seed, std::int64_t slot, double seconds, double slot_s) {
     const double length = random(seed, Purpose::Length, slot, 0.3, 0.65) * slot_s;
     const double begin = random(seed, Purpose::Begin, slot, 0.0, slot_s - length);
@@ -55,7 +55,7 @@ double progress(std::uint64_t seed, std::int64_t slot, double seconds, double sl
     return minimum_jerk(std::clamp((within - begin) / length, 0.0, 1.0));
 }
 
-/// Only odd movements may be turns on the spot, so that the prop's place needs no history.
+/// Only odd movements may be turns on the spot, so a place depends on at most one earlier movement.
 bool turns_only(std::uint64_t seed, std::int64_t slot) {
     return slot % 2 != 0 && random(seed, Purpose::TurnOnly, slot) < 0.5;
 }
@@ -91,7 +91,7 @@ PoseSample simulated_prop(const SimulatedVisitor& visitor, MonotonicTime start, 
     const glm::dvec2 to = place(visitor, slot + 1);
     glm::dvec2 at = from;
     if (!turns_only(visitor.seed, slot)) {
-        // A parabola's control point within the unit square keeps the whole path within it.
+        // A control point within the unit square keeps the whole parabola within it.
         const glm::dvec2 bend =
             0.6 * 0.5 * (from + to) + 0.4 * glm::dvec2(random(visitor.seed, Purpose::BendX, slot, -1.0, 1.0),
                                                        random(visitor.seed, Purpose::BendY, slot, -1.0, 1.0));

@@ -1,12 +1,11 @@
 /// A simulated visitor, who slides the prop about, rests, turns it, and moves the head.
 ///
 /// Frame    table T. The prop stands upright on the table; the head's rotation turns its +Y towards the prop.
-/// Time     everything is a function of the seed and of the time since `start`: polls at any rhythm hand out
-///          the same samples. In rests the pose does not change at all.
+/// Time     everything is a function of the seed and the time since `start`: polls at any rate give the same
+///          samples. During rests the pose does not change at all.
 /// Threads  one caller; the functions are pure.
 /// Method   each movement follows the minimum-jerk profile of human reaching (Flash and Hogan 1985, eq. 8)
-///          along a parabola; where to, when and for how long are hashes of the seed and the movement's
-///          number.
+///          along a parabola. Target, start and length are hashes of the seed and the movement's number.
 #pragma once
 
 #include "firmware_host/tracker/tracker.h"
@@ -17,14 +16,14 @@ namespace frustumscreen {
 
 struct SimulatedVisitor {
     std::uint64_t seed = 1;
-    glm::dvec2 centre_m{0.0};                 ///< middle of the places where the prop goes
-    glm::dvec2 half_extent_m{0.15, 0.10};     ///< the prop's centre stays within
-    glm::dvec3 eye_m{0.0, -0.55, 0.50};       ///< between the eyes, at rest
-    glm::dvec3 half_sway_m{0.10, 0.05, 0.05}; ///< the head stays within
-    double rate_hz = 120.0;                   ///< samples a second, of each station
+    glm::dvec2 centre_m{0.0};                 ///< middle of the area that the prop moves in
+    glm::dvec2 half_extent_m{0.15, 0.10};     ///< bounds of the prop's centre, from `centre_m`
+    glm::dvec3 eye_m{0.0, -0.55, 0.50};       ///< between the eyes, in the middle of the sway
+    glm::dvec3 half_sway_m{0.10, 0.05, 0.05}; ///< bounds of the head, from `eye_m`
+    double rate_hz = 120.0;                   ///< samples per second and station
 };
 
-/// Pose of the prop and of the head `since_start`; `time` is start + since_start.
+/// Poses of the prop and of the head at start + `since_start`.
 [[nodiscard]] PoseSample simulated_prop(const SimulatedVisitor& visitor, MonotonicTime start,
                                         Nanoseconds since_start);
 [[nodiscard]] PoseSample simulated_head(const SimulatedVisitor& visitor, MonotonicTime start,

@@ -1,9 +1,9 @@
-/// The reports of a 3Dconnexion SpaceMouse: how far its cap is pushed and turned just now.
+/// The reports of a 3Dconnexion SpaceMouse: the current deflection of its cap.
 ///
-/// Layout   little-endian: report 1 is i16[3] translation, report 2 i16[3] rotation; newer models send report
-///          1 with both, i16[6]. Full deflection is about 350. Axes of the wire, right-handed: x to the
-///          right, y towards the person, z down.
-/// Frame    the codec turns them into the table's: x right, y away from the person, z up.
+/// Layout   little-endian: report 1 is i16[3] translation, report 2 is i16[3] rotation; newer models send
+///          report 1 with both, i16[6]. Full deflection is about 350. The wire's axes are right-handed: x to
+///          the right, y towards the person, z down.
+/// Frame    the codec converts to the table's axes: x right, y away from the person, z up.
 /// Errors   values; any bytes are safe.
 /// Threads  pure functions; they allocate nothing.
 /// Source   public drivers. Not yet compared with a device: the axes' signs.
@@ -17,16 +17,16 @@
 
 namespace frustumscreen {
 
-/// In counts; empty where the report says nothing.
+/// In counts; nullopt if the report does not contain it.
 struct SpaceMouseMotion {
     std::optional<glm::dvec3> push;
     std::optional<glm::dvec3> turn;
 };
-/// Buttons, battery: not used here.
+/// Buttons and battery; ignored.
 struct SpaceMouseOther {};
 using SpaceMouseMessage = std::variant<DiscardReason, SpaceMouseOther, SpaceMouseMotion>;
 
-/// `report` is one report, its id in front.
+/// `report` is one report, with its id first.
 [[nodiscard]] SpaceMouseMessage parse_space_mouse(std::span<const std::byte> report);
 
 } // namespace frustumscreen

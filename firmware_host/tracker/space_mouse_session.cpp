@@ -4,17 +4,17 @@ namespace frustumscreen {
 
 namespace {
 
-/// A longer pause between two calls means that the machine slept. No samples are made for it.
+/// A longer pause between two calls means that the machine slept; it produces no samples.
 constexpr Nanoseconds longest_pause = std::chrono::seconds(1);
 
-/// Counts into a share of full deflection; the dead zone is subtracted, so that motion begins from rest.
+/// Counts to a fraction of full deflection; the dead zone is subtracted, so motion begins from rest.
 glm::dvec3 deflection(const glm::dvec3& counts) {
     constexpr double range = SpaceMouseSession::full_deflection - SpaceMouseSession::dead_zone;
     const glm::dvec3 beyond = glm::max(glm::abs(counts) - SpaceMouseSession::dead_zone, glm::dvec3(0.0));
     return glm::sign(counts) * glm::min(beyond / range, glm::dvec3(1.0));
 }
 
-/// The part of `from` .. `to` that lies before `until`.
+/// Length of the part of `from` .. `to` that lies before `until`.
 double seconds_before(MonotonicTime until, MonotonicTime from, MonotonicTime to) {
     return std::max(to_seconds(std::min(until, to) - from), 0.0);
 }
@@ -59,7 +59,7 @@ void SpaceMouseSession::receive(std::span<const std::byte> report, MonotonicTime
     }
     const SpaceMouseMessage message = parse_space_mouse(report);
     if (const auto* motion = std::get_if<SpaceMouseMotion>(&message)) {
-        advance(arrival); // with the motion that held until now
+        advance(arrival); // with the motion that was valid until now
         if (motion->push) {
             push_ = {full_push_m_per_s * deflection(*motion->push), arrival + report_holds};
         }

@@ -1,9 +1,9 @@
-/// A SpaceMouse as a stand-in for a tracker at the bench: the prop moves while the cap is held.
+/// A SpaceMouse in place of a tracker on a desk: the prop moves while the cap is deflected.
 ///
-/// Frame    table T: the prop begins at the table's centre and stays on and above the table.
-/// Time     samples lie on a grid of 8 ms from the first call on, also at rest, so they depend only on what
-///          came when. A report holds until the next one of its kind, and no longer than 100 ms: a mouse that
-///          is moved repeats its reports, and one that hangs does not.
+/// Frame    table T: the prop begins at the table's centre and stays on or above the table.
+/// Time     samples lie on a grid of 8 ms from the first call on, also at rest, so they depend only on the
+///          reports and their times. A report is valid until the next one of its kind, for at most 100 ms: a
+///          mouse repeats its reports while its cap is deflected; one that hangs does not.
 /// Threads  see device_session.h.
 /// Method   velocities are constant between reports, so the integral is exact: p + v t within the table's
 ///          box, exp(w t) R with w in the table's axes.
@@ -52,7 +52,7 @@ private:
     Motion turn_;
     MonotonicTime at_{}; ///< the time of the pose
     std::optional<MonotonicTime> next_sample_;
-    FrameIntake intake_; ///< only counts what was refused
+    FrameIntake intake_; ///< only counts refused reports
 };
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-/// The bytes that came and are not parsed yet, in memory of fixed size.
+/// Received bytes that are not parsed yet, in memory of fixed size.
 ///
 /// Threads  one caller; allocates nothing.
 #pragma once
@@ -15,7 +15,7 @@ class StreamBuffer {
 public:
     static constexpr std::size_t capacity = 8192;
 
-    /// Appends as many of `bytes` as fit; returns how many.
+    /// Appends as many of `bytes` as fit; returns their number.
     std::size_t append(std::span<const std::byte> bytes) {
         const std::size_t count = std::min(bytes.size(), capacity - size_);
         if (count > 0) {

@@ -1,6 +1,6 @@
 /// Rows of a text table, one after the other, and the numbers in them.
 ///
-/// Lines end in LF or CRLF; blank lines and lines that begin with `#` are passed over.
+/// Lines end in LF or CRLF; blank lines and lines that begin with `#` are skipped.
 /// Threads  one caller; the text must outlive the reader.
 #pragma once
 
@@ -14,12 +14,13 @@ namespace frustumscreen {
 
 class TextRows {
 public:
-    /// `name` stands in front of the line number in messages.
+    /// `name` precedes the line number in messages.
     TextRows(std::string_view text, std::string_view name);
 
     /// Goes to the next row; false at the end.
     [[nodiscard]] bool next();
-    /// The row's fields without surrounding blanks; separated by commas where it has any, else by blanks.
+    /// The row's fields without surrounding blanks. A row that contains a comma is split at commas, any other
+    /// at blanks.
     [[nodiscard]] const std::vector<std::string_view>& fields() const { return fields_; }
     /// `name:line: what`.
     [[nodiscard]] std::string located(std::string_view what) const;
@@ -33,10 +34,10 @@ private:
     std::vector<std::string_view> fields_;
 };
 
-/// The whole field as a number, "nan" and "inf" included; nothing if anything is left over.
+/// The whole field as a number, "nan" and "inf" included; nullopt if any character is left over.
 [[nodiscard]] std::optional<double> number_in(std::string_view field);
 [[nodiscard]] std::optional<std::int64_t> integer_in(std::string_view field);
-/// The field as it may stand in a message: printable, not long, in quotes.
+/// The field in a form fit for a message: printable, not long, in quotes.
 [[nodiscard]] std::string quoted(std::string_view field);
 
 } // namespace frustumscreen

@@ -26,30 +26,30 @@ struct PoseSample {
     int station = prop_station;
     glm::dvec3 position_m{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0}; ///< unit, w x y z
-    bool ok = true;                          ///< false: the device says that this pose is not to be used
+    bool ok = true;                          ///< false: the device marks this pose as invalid
 };
 
-/// How the tracker is, as far as a visitor meets it.
+/// The tracker's health, as far as it affects a visitor.
 enum class TrackerHealth : std::uint8_t {
-    Well,      ///< it may still not know where the prop is: that is covered or out of reach
+    Well,      ///< the prop's pose may still be unknown while the prop is covered or out of reach
     MetalNear, ///< metal bends its field: poses are wrong by some millimetres
-    Away       ///< it sends nothing of the prop: unplugged, booting, faulty, or without the prop's sensor
+    Away       ///< no poses of the prop: unplugged, booting, faulty, or without the prop's sensor
 };
 
-/// What a device's driver has counted since the exhibit started; zeros where there is no device.
+/// Counts of a device's driver since the exhibit started; zeros without a device.
 struct TrackerCounts {
-    std::uint64_t connections = 0;    ///< times that a device was opened
+    std::uint64_t connections = 0;    ///< devices opened
     std::uint64_t frames = 0;         ///< taken
-    std::uint64_t lost = 0;           ///< numbers missing between two taken frames of a sensor
+    std::uint64_t lost = 0;           ///< counter values missing between two taken frames of a sensor
     std::uint64_t duplicated = 0;     ///< came twice; refused
     std::uint64_t reordered = 0;      ///< came after a later one; refused
     std::uint64_t strange = 0;        ///< a counter far from the expected one; refused
-    std::uint64_t unusable = 0;       ///< invalid poses, or ones that the device marks as bad
-    std::uint64_t broken = 0;         ///< times that bytes were thrown away, most for a wrong checksum
-    std::uint64_t clock_restarts = 0; ///< times that the device's clock jumped
+    std::uint64_t unusable = 0;       ///< invalid poses, or poses that the device marks as bad
+    std::uint64_t broken = 0;         ///< discards of bytes, mostly for a wrong checksum
+    std::uint64_t clock_restarts = 0; ///< jumps of the device's clock
     double clock_drift = 0.0;         ///< our seconds for each of the latest device's, minus 1
 
-    /// Adds what a later device counted; the drift is the later one's.
+    /// Adds the counts of a later device; the drift becomes the later one's.
     TrackerCounts& operator+=(const TrackerCounts& later) {
         connections += later.connections;
         frames += later.frames;
@@ -68,22 +68,22 @@ struct TrackerCounts {
 class Tracker {
 public:
     virtual ~Tracker() = default;
-    /// Appends every sample with time <= now that was not handed out before, in ascending time.
+    /// Appends every sample with time <= now that was not returned yet, in ascending time.
     /// Errors: DeviceLost (poll again later), BadInput (counted by the caller).
     [[nodiscard]] virtual Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) = 0;
     [[nodiscard]] virtual std::string name() const = 0;
     [[nodiscard]] virtual bool reports_table_frame() const { return true; }
-    /// The state of the device, or of what replaces it, in one plain sentence that is valid until the next
-    /// `poll`; empty: there is nothing to say.
+    /// The state of the device, or of its replacement, in one plain sentence, valid until the next `poll`;
+    /// empty if there is nothing to report.
     [[nodiscard]] virtual std::string_view state() const { return {}; }
     /// Whether the device that the settings ask for can be used; its id is that of the sentence that `state` says.
     [[nodiscard]] virtual DeviceCondition condition() const { return {}; }
     [[nodiscard]] virtual TrackerHealth health() const { return TrackerHealth::Well; }
-    /// It is plugged in and does not do what it should, so that a reset of its port may help.
+    /// The device is plugged in but does not work; a reset of its port may help.
     [[nodiscard]] virtual bool hangs() const { return false; }
-    /// As they stood at the latest `poll`.
+    /// As of the latest `poll`.
     [[nodiscard]] virtual TrackerCounts counts() const { return {}; }
-    /// Until when its thread has promised to be heard from again; nothing: it has none.
+    /// Time until which the device's thread has promised a sign of life; nullopt: there is no such thread.
     [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return {}; }
 };
 

@@ -1,4 +1,4 @@
-/// The USB trackers that are known, by vendor and product id.
+/// The known USB trackers, by vendor and product id.
 #pragma once
 
 #include "firmware_host/tracker/usb_transport.h"
@@ -14,7 +14,7 @@ inline constexpr std::uint16_t polhemus_vendor = 0x0f44;
 struct KnownTracker {
     std::uint16_t product = 0;
     UsbTrackerModel model = UsbTrackerModel::Viper;
-    bool firmware_loaded = true; ///< false: the device's id before its volatile firmware is loaded
+    bool firmware_loaded = true; ///< false: id before the volatile firmware is loaded
 };
 
 inline constexpr std::array<KnownTracker, 9> known_trackers{{

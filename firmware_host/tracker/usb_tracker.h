@@ -1,9 +1,9 @@
-/// A USB tracker as the exhibit sees it: the device has its own thread, `poll` only reads the mailbox.
+/// A USB tracker as the exhibit sees it: the device has its own thread; `poll` only reads the mailbox.
 ///
 /// Frame    tracker K; VIPER, PATRIOT and LIBERTY by default have +Z pointing down. A SpaceMouse: table T.
-/// Threads  all USB work happens on the thread that this class starts and joins; `poll` and `state` wait for
-///          nothing, whatever the device does. The destructor waits for the one USB call under way.
-/// Errors   none; `state` says what is the matter.
+/// Threads  the class starts and joins a thread that does all USB work. `poll` and `state` never wait,
+///          whatever the device does. The destructor waits for the USB call in progress.
+/// Errors   none; `state` describes them.
 #pragma once
 
 #include "firmware_host/base/heartbeat.h"
@@ -20,10 +20,10 @@ namespace frustumscreen {
 class UsbTracker final : public Tracker {
 public:
     static constexpr std::size_t most_waiting = 256;
-    /// Searching and opening take no longer: the kernel gives up after 5 s for a control transfer, twice.
+    /// Longest search and opening: two control transfers, which the kernel gives up after 5 s each.
     static constexpr Nanoseconds longest_search = std::chrono::seconds(10);
-    /// One write and one read of a device that is open, with the driver's limits for both. A kernel that closes a dying device
-    /// takes longer; the service manager's watchdog has patience enough for that.
+    /// One write and one read of an open device, with the driver's limits for both. Closing a dying device
+    /// takes the kernel longer; the service manager's watchdog allows for that.
     static constexpr Nanoseconds longest_round = std::chrono::milliseconds(500);
 
     /// `tap`, if any, outlives the tracker and is called on the device's thread.
@@ -50,9 +50,9 @@ private:
     std::atomic<UsbTrackerState> state_{UsbTrackerState::NotConnected};
     TrackerCounts counts_; ///< with the lock held
     std::mutex counts_mutex_;
-    TrackerCounts seen_counts_; ///< of the caller of `poll`
+    TrackerCounts seen_counts_; ///< used by the caller of `poll` only
     Heartbeat heartbeat_{monotonic_now() + longest_search};
-    std::jthread thread_; ///< last: it uses all of the above
+    std::jthread thread_; ///< last: it uses all members above
 };
 
 } // namespace frustumscreen

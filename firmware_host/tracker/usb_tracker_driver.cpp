@@ -14,8 +14,8 @@ void UsbTrackerDriver::tell(PacketKind kind, MonotonicTime time, std::span<const
     }
 }
 
-/// A device that fails its set-up is set up again and again. The reason for the failure says more than
-/// SettingUp, so it stays.
+/// The driver retries a failed set-up without end. The reason for the failure tells more than SettingUp, so
+/// it stays.
 void UsbTrackerDriver::report(UsbTrackerState state) {
     const bool known_trouble = state_ == UsbTrackerState::WrongUnits ||
                                state_ == UsbTrackerState::SetUpRefused || state_ == UsbTrackerState::Silent ||
@@ -32,7 +32,7 @@ void UsbTrackerDriver::tell_state() {
     tell(PacketKind::State, clock_(), std::as_bytes(std::span(sentence.data(), sentence.size())));
 }
 
-/// Finds a device that has not failed; else the one whose failure is longest ago.
+/// Finds a device that has not failed; otherwise the one that failed longest ago.
 tl::expected<FoundTracker, UsbTrackerState> UsbTrackerDriver::find() {
     for (std::span<const std::string> but_not(failed_);; but_not = but_not.subspan(1)) {
         tl::expected<FoundTracker, UsbTrackerState> found = bus_->find(but_not);

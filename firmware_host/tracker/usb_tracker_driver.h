@@ -1,11 +1,11 @@
-/// The policy above a USB tracker: it searches, sets up and streams, and searches again after a loss. Of
-/// several trackers it takes the first that can be opened until that fails; then that one is tried last. A
-/// tap, if there is one, sees everything that passes between transport and session.
+/// The driver of a USB tracker: it searches, sets up, streams, and searches again after a loss. It takes the
+/// first tracker that can be opened; one that fails is tried last from then on. An optional tap sees
+/// everything between transport and session.
 ///
-/// Time     read from `clock`, because a read takes time. A device that is back is found within
-///          `between_searches` and streams after one set-up, together well below 2 s.
+/// Time     read from `clock`, because a read takes time. A device that returns is found within
+///          `between_searches` and streams after one set-up; both together take well below 2 s.
 /// Threads  one caller; a step blocks for at most one write and one read.
-/// Errors   none; `state` says what is the matter.
+/// Errors   none; `state` describes them.
 #pragma once
 
 #include "firmware_host/tracker/device_session.h"
@@ -26,12 +26,12 @@ public:
     UsbTrackerDriver(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_up, Clock clock,
                      PacketTap* tap = nullptr);
 
-    /// One round; appends what came in. Returns how long to rest before the next.
+    /// One round; appends the samples. Returns the pause before the next round.
     [[nodiscard]] Nanoseconds step(std::vector<PoseSample>& samples);
     [[nodiscard]] UsbTrackerState state() const { return state_; }
     /// Whether a device is open, set up or not.
     [[nodiscard]] bool is_open() const { return transport_ != nullptr; }
-    /// Of all devices since the beginning.
+    /// Counts of all devices since the start.
     [[nodiscard]] TrackerCounts counts() const;
 
 private:
@@ -47,14 +47,15 @@ private:
     std::unique_ptr<UsbBus> bus_;
     UsbTrackerSetUp set_up_;
     Clock clock_;
-    PacketTap* tap_; ///< may be none
+    PacketTap* tap_; ///< may be null
     std::unique_ptr<UsbTransport> transport_;
     std::unique_ptr<DeviceSession> session_;
-    std::string place_;               ///< of what is open
-    std::vector<std::string> failed_; ///< places of those that were lost, the latest last
-    TrackerCounts counts_;            ///< of the sessions that are over, and of what was opened
+    std::string place_;               ///< of the open device
+    std::vector<std::string> failed_; ///< places of failed devices, the latest last
+    TrackerCounts counts_;            ///< of the finished sessions, and the connections
     UsbTrackerState state_ = UsbTrackerState::NotConnected;
-    std::array<std::byte, 4096> buffer_{}; ///< a multiple of any bulk packet: a transfer never overflows it
+    /// A multiple of any bulk packet, so a transfer never overflows it.
+    std::array<std::byte, 4096> buffer_{};
 };
 
 } // namespace frustumscreen

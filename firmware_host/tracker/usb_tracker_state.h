@@ -1,4 +1,4 @@
-/// What is the matter with a USB tracker, and the sentence that says so to the person beside it.
+/// The state of a USB tracker, and its sentence for the person next to the device.
 ///
 /// Threads  values.
 #pragma once

@@ -17,7 +17,7 @@ constexpr std::size_t pose_head_bytes = 16;
 constexpr std::size_t sensor_bytes = 32;
 constexpr std::size_t command_head_bytes = 20;
 constexpr std::uint32_t standard_mode = 0; ///< the other mode has accelerations and shorter quaternions
-/// The longest reply known is a single pose of 16 sensors.
+/// The longest known reply is a single pose of 16 sensors.
 constexpr std::size_t most_reply_payload = 1024;
 
 std::uint32_t u32_at(std::span<const std::byte> bytes, std::size_t offset) {
@@ -28,7 +28,7 @@ bool is_preamble(std::uint32_t word) {
     return word == pose_preamble || word == command_preamble;
 }
 
-/// Bytes before the next place where a preamble stands, or where one may begin; at least 1.
+/// Bytes before the next place where a preamble stands or may begin; at least 1.
 std::size_t bytes_to_next_preamble(std::span<const std::byte> stream) {
     for (std::size_t at = 1; at < stream.size(); ++at) {
         const std::size_t left = std::min<std::size_t>(stream.size() - at, 4);
@@ -45,8 +45,8 @@ ViperStep refuse(std::span<const std::byte> stream, DiscardReason refusal) {
     return {bytes_to_next_preamble(stream), refusal};
 }
 
-/// Least significant first: sensor 7, virtual 1, position units 2, orientation units 2, buttons 2,
-/// distortion 8, aux 10 bits.
+/// The info word, least significant bits first: sensor 7, virtual 1, position units 2, orientation units 2,
+/// buttons 2, distortion 8, aux 10 bits.
 SensorPose sensor_pose(ByteReader& reader, bool& units_as_set) {
     const auto info = reader.read<std::uint32_t>();
     const bool is_virtual = (info >> 7U & 1U) != 0;
@@ -104,7 +104,7 @@ ViperStep parse_viper(std::span<const std::byte> stream) {
     if (size < head + crc_bytes || size > head + most + crc_bytes) {
         return refuse(stream, DiscardReason::Length);
     }
-    // The sensor count gives the size again, so a wrong size is found before the parser waits for the frame's
+    // The sensor count implies the size, so a wrong size is found before the parser waits for the frame's
     // end.
     if (poses && stream.size() >= header_bytes + pose_head_bytes) {
         const std::size_t count = u32_at(stream, header_bytes + 12);

@@ -20,12 +20,12 @@
 namespace frustumscreen {
 
 enum class ViperCommand : std::uint32_t {
-    Hemisphere = 0,  ///< a sensor's: u32 (bit 0 tracks, bit 1 automatic), f32[3] towards the half space in
-                     ///< which the sensors are
-    Filter = 1,      ///< a sensor's: u32 level (0 none), f32[4] that only level 4 uses; arg2 the target
+    Hemisphere = 0,  ///< of a sensor: u32 (bit 0 tracks, bit 1 automatic), f32[3] towards the half space of
+                     ///< the sensors
+    Filter = 1,      ///< of a sensor: u32 level (0 none), f32[4] used by level 4 only; arg2 is the target
     FrameRate = 6,   ///< u32: 30 Hz << value, 0 to 5
     Units = 7,       ///< u32 position (3 = metres), u32 orientation (2 = quaternion)
-    Continuous = 19, ///< arg2 0: frames as `Layout` has them
+    Continuous = 19, ///< arg2 0: frames in the above layout
     WhoAmI = 20,
 };
 enum class ViperAction : std::uint32_t {
@@ -34,13 +34,14 @@ enum class ViperAction : std::uint32_t {
     Reset = 2,
     Ack = 3,
     Nak = 4,
-    NakWarning = 5, ///< received and processed, and a warning; its payload is a Nak's
+    NakWarning = 5, ///< processed, with a warning; its payload is a Nak's
 };
-enum class ViperFilterTarget : std::uint32_t { Both = 0, Orientation = 1, Position = 2 }; ///< Both: no Get
+/// Get allows no Both.
+enum class ViperFilterTarget : std::uint32_t { Both = 0, Orientation = 1, Position = 2 };
 /// The first number in a Nak's payload.
 enum class ViperNak : std::uint32_t { General = 0, Booting = 1, Command = 2, BuiltInTest = 3 };
 
-inline constexpr std::uint32_t viper_all_sensors = 0xFFFFFFFFU; ///< not for Get, which asks one
+inline constexpr std::uint32_t viper_all_sensors = 0xFFFFFFFFU; ///< not for Get, which reads one sensor
 inline constexpr std::uint32_t viper_metres = 3;
 inline constexpr std::uint32_t viper_quaternion = 2;
 
@@ -51,18 +52,18 @@ struct ViperReply {
 };
 struct NeedMore {};
 using ViperMessage = std::variant<NeedMore, DiscardReason, DeviceFrame, ViperReply>;
-/// What the stream begins with, and how many of its bytes that used up.
+/// The first message of the stream, and the number of bytes it used.
 struct ViperStep {
     std::size_t consumed = 0; ///< 0 only with NeedMore
     ViperMessage message;
 };
-/// A broken frame costs no more than the bytes up to the next preamble, so a good one inside it is found.
+/// A broken frame discards only the bytes up to the next preamble, so a good frame inside it is found.
 [[nodiscard]] ViperStep parse_viper(std::span<const std::byte> stream);
 
 /// A command ready to be sent.
 class ViperCommandBytes {
 public:
-    /// `sensor`: from 0; 0 too where the command is the whole device's.
+    /// `sensor`: from 0; 0 also for commands to the whole device.
     ViperCommandBytes(ViperCommand command, ViperAction action, std::span<const std::byte> payload = {},
                       std::uint32_t sensor = 0, ViperFilterTarget target = ViperFilterTarget::Both);
     [[nodiscard]] std::span<const std::byte> bytes() const { return {bytes_.data(), size_}; }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t rate_120_hz = 2;
 constexpr double rate_hz = 120.0;
-constexpr double least_agreement = 0.999; ///< cosine between the hemispheres set and answered
+constexpr double least_agreement = 0.999; ///< cosine between the set and the confirmed hemisphere
 constexpr std::uint32_t no_filter = 0;
 
 template <typename T> std::span<const std::byte> bytes_of(const T& value) {
@@ -23,7 +23,7 @@ std::array<float, 3> direction(const glm::dvec3& v) {
 }
 
 struct HemispherePayload {
-    std::uint32_t flags = 0; ///< 0: the half space stays where it is
+    std::uint32_t flags = 0; ///< 0: the half space is fixed
     std::array<float, 3> direction{};
 };
 struct FilterPayload {
@@ -81,7 +81,7 @@ std::span<const std::byte> ViperSession::due(MonotonicTime now) {
         return {};
     }
     if (stream_stale_) {
-        stream_.clear(); // half a frame would swallow the answer
+        stream_.clear(); // half a frame would hide the answer
         stream_stale_ = false;
     }
     if (progress_.step() == 0) {
@@ -100,12 +100,13 @@ void ViperSession::fail_step(std::size_t back_to, UsbTrackerState trouble, Monot
         return;
     }
     filter_stays_on_ = filter_stays_on_ || step.name == ViperCommand::Filter;
-    do { // a setting that was not made is not read back either
+    do { // a setting that was not made is not read back
         progress_.next(now);
     } while (steps_[progress_.step()].need == Need::Same);
 }
 
-/// On a busy machine an answer may be late, and a filter that stays on lags for as long as the tracker is plugged in.
+/// On a busy machine an answer may be late, and a filter that stays on adds lag until the tracker is
+/// unplugged.
 bool ViperSession::asks_filter_again() {
     return steps_[progress_.step()].name == ViperCommand::Filter &&
            ++filter_unanswered_ < SessionTimes::tries;
@@ -146,7 +147,7 @@ bool ViperSession::repeats_what_was_set(const ViperReply& reply) const {
 void ViperSession::answer(const ViperReply& reply, MonotonicTime now) {
     if (!progress_.waits_for_answer() ||
         reply.command != static_cast<std::uint32_t>(steps_[progress_.step()].name)) {
-        return; // a late reply, or one that was not asked for
+        return; // a late reply, or an unsolicited one
     }
     const Step& step = steps_[progress_.step()];
     if (reply.action == static_cast<std::uint32_t>(ViperAction::Ack)) {
@@ -172,10 +173,10 @@ void ViperSession::refused(const ViperReply& reply, MonotonicTime now) {
     ByteReader reader(reply.payload);
     const auto code = static_cast<ViperNak>(reader.read<std::uint32_t>());
     if (reader.ok() && code == ViperNak::Booting) {
-        progress_.put_off(UsbTrackerState::Booting, now + SessionTimes::booting); // as often as needed
+        progress_.put_off(UsbTrackerState::Booting, now + SessionTimes::booting); // without a limit
     } else if (steps_[progress_.step()].action == ViperAction::Get) {
-        // It may have accepted the setting without saying so, which leaves doubt. WhoAmI is no setting and
-        // leaves none.
+        // The device may have accepted the setting without confirming it, which leaves doubt. WhoAmI is not a
+        // setting and leaves none.
         doubtful_ = doubtful_ || steps_[progress_.step()].need == Need::Same;
         progress_.next(now);
     } else {

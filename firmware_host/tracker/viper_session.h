@@ -1,6 +1,7 @@
-/// A VIPER's session: every setting is sent, then read back; the confirmed frame rate is the clock's tick.
-/// Its filters, which lag, are switched off; without an answer that is asked for three times. Where they stay on, or an answer is refused or comes with a
-/// warning, it streams all the same and says so.
+/// A VIPER's session: every setting is sent, then read back. The confirmed frame rate gives the clock's tick.
+/// The device's own filters add lag and are switched off; if they do not answer, the session asks three
+/// times. If a filter stays on, or an answer is refused or has a warning, the device streams all the same and
+/// the state says so.
 ///
 /// Frame, units, time, threads: see device_session.h.
 #pragma once
@@ -25,9 +26,9 @@ public:
 private:
     enum class Need {
         Ack,
-        Same, ///< the answer must repeat what the step before set
+        Same, ///< the answer must repeat the value set by the previous step
     };
-    /// What becomes of the set-up when a step fails.
+    /// Consequence of a failed step.
     enum class Failing { TriesAgain, GoesOn };
     struct Step {
         ViperCommandBytes command;
@@ -49,9 +50,9 @@ private:
     std::vector<Step> steps_;
     SetUpProgress progress_;
     bool filter_stays_on_ = false;
-    int filter_unanswered_ = 0; ///< times since the set-up began
-    bool doubtful_ = false;     ///< it warned, or did not say how it is set
-    bool stream_stale_ = false; ///< what came before is useless; cleared with the next command
+    int filter_unanswered_ = 0; ///< times, in this set-up
+    bool doubtful_ = false;     ///< the device warned, or did not confirm a setting
+    bool stream_stale_ = false; ///< the buffered bytes are useless; clear them with the next command
     StreamBuffer stream_;
     FrameIntake intake_;
 };

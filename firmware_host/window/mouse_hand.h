@@ -1,5 +1,5 @@
-/// Moves the prop and the visitor's eye with a mouse: one drag slides the prop, the wheel turns it, another drag takes
-/// the eye around the table.
+/// Moves the prop and the visitor's eye with a mouse: one drag slides the prop, the wheel turns it, another
+/// drag moves the eye around the table.
 ///
 /// Frame    table T, metres, radians; the prop stands upright on the table.
 /// Threads  values.
@@ -18,13 +18,13 @@ namespace frustumscreen {
 
 class MouseHand {
 public:
-    /// The prop's centre stays within `half_extent_m` of the table's. The eye begins at `eye_m` and keeps its distance
-    /// from the table's centre.
+    /// The prop's centre stays within `half_extent_m` of the table's centre. The eye begins at `eye_m` and
+    /// keeps its distance from the table's centre.
     explicit MouseHand(const glm::dvec2& half_extent_m, const glm::dvec3& eye_m = {0.0, -0.55, 0.5})
         : half_extent_m_(half_extent_m), eye_distance_m_(glm::length(eye_m)),
           eye_azimuth_(std::atan2(eye_m.y, eye_m.x)), eye_elevation_(std::asin(eye_m.z / eye_distance_m_)) {}
 
-    /// Takes hold at the mouse's place on the table; the prop does not jump there.
+    /// Grips the prop at the mouse's place on the table; the prop does not jump there.
     void take(const glm::dvec2& at_m) { grip_m_ = centre_m_ - at_m; }
     void let_go() { grip_m_.reset(); }
     void move(const glm::dvec2& at_m) {
@@ -33,7 +33,7 @@ public:
         }
     }
     void turn(double angle) { angle_ += angle; }
-    /// Takes the eye around the table and up; it stays between 5 and 85 degrees above it.
+    /// Moves the eye around the table and up; it stays between 5 and 85 degrees above the table.
     void look(double around, double up) {
         eye_azimuth_ += around;
         eye_elevation_ = std::clamp(eye_elevation_ + up, lowest_, highest_);

@@ -29,15 +29,14 @@ tl::unexpected<Error> no_window(const char* what) {
     return fail(ErrorKind::BadConfiguration, "window.sdl", "window: {}: {}", what, SDL_GetError());
 }
 
-/// Where there is nothing else, SDL falls back to drivers that show nothing; a person may ask for one by
-/// name.
+/// Whether SDL has fallen back to a driver that shows nothing, without a request for it by name.
 bool unseen_unasked(std::string_view driver) {
     const char* const asked = std::getenv("SDL_VIDEODRIVER");
     return (driver == "offscreen" || driver == "dummy") &&
            std::string_view(asked != nullptr ? asked : "").find(driver) == std::string_view::npos;
 }
 
-/// The window with two OpenGL ES contexts, the renderer's and the copy's, and what mouse and keys did.
+/// The window with two OpenGL ES contexts, the renderer's and the copy's, and the input of mouse and keys.
 class SdlWindow {
 public:
     explicit SdlWindow(const WindowSetUp& set_up)
@@ -71,18 +70,18 @@ private:
     std::optional<PictureFramebuffer> picture_;
     std::optional<PictureCopy> copy_;
     std::optional<SeenSurfacesPass> visitor_;
-    std::optional<GlTexture> help_texture_; ///< of codes, and the framebuffer that it is copied from
+    std::optional<GlTexture> help_texture_; ///< a texture of codes, and the framebuffer to copy it from
     std::optional<GlFramebuffer> help_;
     SeenSurfaces seen_;
     bool helps_ = false;
-    bool shown_ = false; ///< there was a picture to show
-    bool stale_ = false; ///< the window shows something else than it should
+    bool shown_ = false; ///< a picture has been shown
+    bool stale_ = false; ///< the window's content is out of date
     MouseHand hand_;
     std::vector<PanelEvent> presses_;
 };
 
 Result<void> SdlWindow::open() {
-    SDL_SetHint(SDL_HINT_VIDEO_X11_FORCE_EGL, "1"); // OpenGL ES comes through EGL everywhere
+    SDL_SetHint(SDL_HINT_VIDEO_X11_FORCE_EGL, "1"); // OpenGL ES requires EGL on every desktop
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     if (SDL_Init(SDL_INIT_VIDEO) != 0) {
         return no_window("there is no desktop here");
@@ -112,7 +111,7 @@ Result<void> SdlWindow::open() {
     return {};
 }
 
-/// Both halves side by side, as large as the picture where the desktop has room.
+/// Both halves next to each other, as large as the picture if the desktop has the space.
 Result<void> SdlWindow::create_window() {
     SDL_Rect room{0, 0, 2 * set_up_.width, set_up_.height};
     double scale = 1.0;
@@ -183,7 +182,7 @@ void SdlWindow::keep_help() {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-/// In the window's middle; the window's rows count from the bottom.
+/// Draws the help in the window's middle; the window's rows count from the bottom.
 void SdlWindow::draw_help(PixelSize target) const {
     const PixelSize& size = set_up_.help.size;
     const int x = (target.width - size.width) / 2;
@@ -222,7 +221,7 @@ void SdlWindow::moved(const SDL_MouseMotionEvent& motion) {
     if ((motion.state & SDL_BUTTON_RMASK) != 0) {
         hand_.turn(turn_of_a_pixel * motion.xrel);
     }
-    if ((motion.state & SDL_BUTTON_MMASK) != 0) { // as if the table were turned and tipped
+    if ((motion.state & SDL_BUTTON_MMASK) != 0) { // as if the table were turned and tilted
         hand_.look(-turn_of_a_pixel * motion.xrel, turn_of_a_pixel * motion.yrel);
     }
     stale_ = stale_ || motion.state != 0;
@@ -277,7 +276,7 @@ void SdlWindow::pump(MonotonicTime now) {
         }
     }
     if (stale_ && shown_) {
-        show(); // the exhibit presents only what it has drawn anew
+        show(); // the exhibit presents only new pictures
     }
 }
 

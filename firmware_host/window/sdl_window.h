@@ -1,12 +1,12 @@
 /// A window on a developer's desktop in place of the projector, the mouse in place of the tracker, keys in
-/// place of the buttons. Never in the kiosk's program.
+/// place of the buttons. Not part of the kiosk's program.
 ///
-/// Halves   left the projector's picture, right what the visitor's eye sees.
-/// Input    drag = slide the prop; wheel or right drag = turn it; middle drag = move the eye; keys 1 to 5 = buttons 0 to 4;
-///          H = help over the window; Esc, or closing the window, raises SIGTERM.
+/// Halves   left: the projector's picture; right: the view from the visitor's eye.
+/// Input    drag = slide the prop; wheel or right drag = turn it; middle drag = move the eye; keys 1 to 5 =
+///          buttons 0 to 4; H = help over the window; Esc, or closing the window, raises SIGTERM.
 /// Frame    table T.
 /// Threads  one: the display, the tracker and the panel share it and the window.
-/// Errors   no desktop, no OpenGL ES 3 on it.
+/// Errors   no desktop, or no OpenGL ES 3 on it.
 #pragma once
 
 #include "firmware_host/display/display.h"
@@ -24,7 +24,7 @@
 
 namespace frustumscreen {
 
-/// A picture laid over the window, pixel for pixel: sRGB codes, RGBA, row 0 at the top.
+/// A picture drawn over the window without scaling: sRGB codes, RGBA, row 0 at the top.
 struct WindowHelp {
     PixelSize size;
     std::vector<std::uint8_t> rgba;
@@ -32,13 +32,13 @@ struct WindowHelp {
 
 using TableFromPicture = std::function<std::optional<glm::dvec2>(const glm::dvec2& pixel)>;
 
-/// What the window shows and does not know itself. Pixels are of the picture and of the visitor's half, from their top
-/// left corners.
+/// Parameters of the window. Pixels are those of the picture and of the visitor's half, from their top left
+/// corners.
 struct WindowSetUp {
     int width = 0; ///< of the picture, pixels
     int height = 0;
-    glm::dvec2 half_extent_m{0.3, 0.2}; ///< where the prop can be slid to
-    glm::dvec3 eye_m{0.0, -0.55, 0.5};  ///< at first
+    glm::dvec2 half_extent_m{0.3, 0.2}; ///< bounds of the prop's centre
+    glm::dvec3 eye_m{0.0, -0.55, 0.5};  ///< initially
     TableFromPicture table_from_picture;
     std::function<std::optional<glm::dvec2>(const glm::dvec2& pixel, const glm::dvec3& eye_m, PixelSize half)>
         table_from_view;

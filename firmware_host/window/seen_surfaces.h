@@ -1,8 +1,9 @@
-/// Draws flat surfaces as an eye sees them, lit by the exhibit's picture: the visitor's half of the window.
+/// Draws flat surfaces as seen by an eye, lit by the exhibit's picture: the visitor's half of the window.
 ///
-/// Light    linear: a surface sends back `gain` times the picture's light and `own` besides; codes are written.
-/// Threads  the window's copying context is current; its GL state is left changed.
-/// Errors   the driver does not take the shaders.
+/// Light    linear: a surface reflects `gain` times the picture's light and adds `own`; the output is in sRGB
+///          codes.
+/// Threads  the window's copying context is current; its GL state is changed.
+/// Errors   the driver rejects the shaders.
 #pragma once
 
 #include "firmware_host/base/pixel_rectangle.h"
@@ -18,21 +19,21 @@ namespace frustumscreen {
 
 struct SeenVertex {
     glm::vec4 clip{0.0F};    ///< in the visitor's view, OpenGL's clip coordinates
-    glm::vec3 picture{0.0F}; ///< homogeneous: (u, v) = xy / z is the picture's (0..1, 0 at the top left)
+    glm::vec3 picture{0.0F}; ///< homogeneous: (u, v) = xy / z in the picture (0..1, 0 at the top left)
     float gain = 0.0F;
     glm::vec3 own{0.0F};
 };
 
 /// Drawn in their order, the later over the earlier; then the lines.
 struct SeenSurfaces {
-    std::vector<SeenVertex> triangles; ///< three each
-    std::vector<SeenVertex> lines;     ///< two each
+    std::vector<SeenVertex> triangles; ///< three vertices each
+    std::vector<SeenVertex> lines;     ///< two vertices each
 };
 
 class SeenSurfacesPass {
 public:
     [[nodiscard]] static Result<SeenSurfacesPass> create();
-    /// Into `place` of the bound framebuffer, over black; rows count from the bottom.
+    /// Draws into `place` of the bound framebuffer, over black; rows count from the bottom.
     void draw(const PictureFramebuffer& picture, const SeenSurfaces& seen, const PixelRectangle& place) const;
 
 private:

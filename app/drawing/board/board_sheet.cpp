@@ -21,7 +21,7 @@ std::array<glm::dvec2, 4> rectangle(const glm::dvec2& low, const glm::dvec2& hig
     return {low, {high.x, low.y}, high, {low.x, high.y}};
 }
 
-/// Calls `use(from, to)` for each run of columns that are black.
+/// Calls `use(from, to)` for each run of black columns.
 void for_each_run(const auto& is_black, const auto& use) {
     for (std::size_t from = 0; from < tag_modules; ++from) {
         std::size_t to = from;
@@ -35,7 +35,7 @@ void for_each_run(const auto& is_black, const auto& use) {
     }
 }
 
-/// Row by row; where black meets black between two rows a bridge lies over both, so that no hair of white is left there.
+/// Draws row by row; a bridge overlaps adjacent black modules of two rows, so no white hairline remains.
 void draw_tag(SvgSheet& sheet, const PropTag& tag, const glm::dvec2& middle_mm) {
     constexpr double bridge = 0.1;
     const TagModules modules = tag_modules_of(tag.id);
@@ -59,7 +59,7 @@ void draw_tag(SvgSheet& sheet, const PropTag& tag, const glm::dvec2& middle_mm) 
     }
 }
 
-/// The lines of the prop's bottom that lie on the paper; where it reaches over an edge, that line is not there.
+/// The lines of the prop's bottom that are on the paper; lines beyond an edge are omitted.
 void draw_outline(SvgSheet& sheet, const View& view, double base_m) {
     const glm::dvec2 low(view({-0.5 * base_m, 0.5 * base_m}));
     const glm::dvec2 high(view({0.5 * base_m, -0.5 * base_m}));
@@ -110,7 +110,7 @@ std::string board_sheet(const Board& board, std::string_view name) {
     const double type_mm = std::clamp(base_mm / 60.0, 1.2, 3.5);
     const glm::dvec2 middle = view.origin_mm;
     const double cut_mm = 0.5e3 * std::fmin(board.prop.top_m, 1.25 * board.top().size_m + 0.004);
-    // From the back to the front: what it is, the tag for the top, the ruler, the arrow.
+    // From back to front: title, the tag for the top, the ruler, the arrow.
     double y = middle.y - half_mm + 3.0 * type_mm;
     const glm::dvec2 left(middle.x - 0.5 * base_mm + 2.0 * type_mm, 0.0);
     sheet.text({left.x, y}, "Board of tags for frustumscreen-calibrate auto",

@@ -1,6 +1,7 @@
-/// The board of the automatic calibration as a sheet to print: its tags, where the prop stands, and the tag for the prop's top.
+/// The tag sheet of the automatic calibration, to print: its tags, the place of the prop, and the tag for the
+/// prop's top.
 ///
-/// Shape    SVG, A3, true size: printed at 100 % its lengths are those of the board.
+/// Shape    SVG, A3, true size when printed at 100 %.
 /// Threads  pure; any.
 #pragma once
 
@@ -11,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// `name` says of which settings it is.
+/// `name` names the settings.
 [[nodiscard]] std::string board_sheet(const Board& board, std::string_view name);
 
 } // namespace frustumscreen

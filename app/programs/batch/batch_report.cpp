@@ -47,7 +47,7 @@ std::string csv_field(std::string_view text) {
     return quoted + '"';
 }
 
-/// The figures of a good row; nothing of another.
+/// The figures of a good row; empty fields for any other.
 std::vector<std::string> figures(const BatchRow& row) {
     if (!is_good(row)) {
         return std::vector<std::string>(7);
@@ -58,7 +58,7 @@ std::vector<std::string> figures(const BatchRow& row) {
             fmt::format("{}", row.silent)};
 }
 
-/// RFC 3986: a name as a part of a link.
+/// Escapes a name as a part of a link, by RFC 3986.
 std::string link_to(const std::string& name) {
     std::string link;
     for (const char c : name) {
@@ -118,7 +118,7 @@ std::string report_csv(std::span<const BatchRow> rows) {
 std::string report_page(std::span<const BatchRow> rows, std::string_view title, double seconds,
                         std::span<const std::string> passed_over) {
     std::string lines;
-    for (const bool good : {false, true}) { // what needs somebody comes first
+    for (const bool good : {false, true}) { // rows that need attention come first
         for (const BatchRow& row : rows) {
             lines += is_good(row) == good ? page_row(row) : std::string();
         }

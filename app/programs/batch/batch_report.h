@@ -1,7 +1,7 @@
 /// The report of a batch: as CSV for programs, as a page for people.
 ///
-/// Format   CSV as RFC 4180 has it, in UTF-8, with a header line. The page needs no other file; it links to the objects' previews
-///          beside it.
+/// Format   CSV as in RFC 4180, UTF-8, with a header line. The page is self-contained; it links to the
+///          objects' previews next to it.
 /// Threads  pure; any.
 #pragma once
 
@@ -14,13 +14,13 @@
 namespace frustumscreen {
 
 [[nodiscard]] std::string report_csv(std::span<const BatchRow> rows);
-/// `seconds`: that the run took; `passed_over`: folders in which there was nothing to bake.
+/// `seconds`: duration of the run; `passed_over`: folders without anything to bake.
 [[nodiscard]] std::string report_page(std::span<const BatchRow> rows, std::string_view title, double seconds,
                                       std::span<const std::string> passed_over);
 
-/// How many rows have that status.
+/// Number of rows with this status.
 [[nodiscard]] std::size_t count_of(std::span<const BatchRow> rows, BatchStatus status);
-/// "12 objects: 10 baked, 1 unchanged, 1 failed"; nothing is said of what there is none of.
+/// "12 objects: 10 baked, 1 unchanged, 1 failed"; zero counts are omitted.
 [[nodiscard]] std::string summary(std::span<const BatchRow> rows);
 
 } // namespace frustumscreen

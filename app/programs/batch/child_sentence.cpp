@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t longest_sentence = 1000;
 
-/// The last line, without the program's name: it says why, the lines before it what else was lost.
+/// The last line, without the program's name: it gives the reason; earlier lines list losses.
 std::string last_line(std::string_view text) {
     constexpr std::string_view name = "frustumscreen-bake: ";
     while (text.ends_with('\n')) {
@@ -26,7 +26,7 @@ std::string last_line(std::string_view text) {
     return printable(line, longest_sentence);
 }
 
-/// Where too little memory was allowed, a bake may end in this way too.
+/// A memory limit that is too low can end a bake in this way too.
 std::string signal_sentence(int signal, const ProgramLimits& limits) {
     return fmt::format("the bake was ended by signal {} ({}){}", signal, ::strsignal(signal),
                        limits.memory_bytes > 0 || signal == SIGKILL

@@ -1,4 +1,4 @@
-/// What a bake that ran as a process of its own has to say for itself.
+/// The result of a bake that ran as a separate process, as a sentence.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -9,7 +9,7 @@
 
 namespace frustumscreen {
 
-/// Why it failed, one sentence; empty if it did not.
+/// Why it failed, one sentence; empty if it succeeded.
 [[nodiscard]] std::string sentence_of(const ProgramEnd& end, const ProgramLimits& limits);
 
 } // namespace frustumscreen

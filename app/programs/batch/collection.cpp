@@ -44,7 +44,7 @@ void add(const fs::directory_entry& entry, Collection& collection) {
     }
 }
 
-/// Two packs of one name would replace each other.
+/// Two packs with one name would replace each other.
 void refuse_twins(std::vector<BatchObject>& objects) {
     for (std::size_t k = 1; k < objects.size(); ++k) {
         const BatchObject& first = objects[k - 1];
@@ -57,7 +57,7 @@ void refuse_twins(std::vector<BatchObject>& objects) {
     }
 }
 
-/// The page of such an object would have the batch's own report's name.
+/// The page of such an object would have the name of the batch's own report.
 void refuse_reports(std::vector<BatchObject>& objects) {
     for (BatchObject& object : objects) {
         if (object.name == "report" || object.name.starts_with("report.")) {

@@ -20,15 +20,15 @@ namespace {
 namespace fs = std::filesystem;
 
 struct NamedFile {
-    std::string name; ///< in the folder
+    std::string name; ///< relative to the folder
     fs::path path;
 };
 
-/// By name, byte by byte.
+/// Sorted by name, bytewise.
 Result<std::vector<NamedFile>> files_of(const fs::path& folder) {
     std::vector<NamedFile> files;
     std::error_code error;
-    constexpr int most_depth = 16; // a link may lead back to where it lies
+    constexpr int most_depth = 16; // a link may lead back to its own folder
     fs::recursive_directory_iterator entries(folder, fs::directory_options::follow_directory_symlink, error);
     for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
         std::error_code none;

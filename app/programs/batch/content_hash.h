@@ -1,6 +1,6 @@
-/// SHA-256 of what an object is made of, so that a bake is not done twice.
+/// SHA-256 of an object's inputs, to avoid baking it twice.
 ///
-/// Errors   a file that cannot be read.
+/// Errors   an unreadable file.
 /// Threads  pure apart from reading; any. Files of any size, in little memory.
 /// Library  libsodium.
 #pragma once
@@ -13,13 +13,14 @@
 
 namespace frustumscreen {
 
-/// 64 hexadecimal digits, lower case, as of a file's own bytes.
+/// SHA-256 of the file's bytes: 64 hexadecimal digits, lower case.
 [[nodiscard]] Result<std::string> hash_of_file(const std::filesystem::path& file);
 
-/// Of a scan that lies alone: its own bytes. Of a folder: the names and bytes of all files in it, hidden ones left out.
+/// For a single scan: of its bytes. For a folder: of the names and bytes of all its files, except hidden
+/// ones.
 [[nodiscard]] Result<std::string> hash_of_object(const std::filesystem::path& input);
 
-/// Of several texts, so that no two lists of texts look alike.
+/// Hash of several texts, unambiguous for their boundaries.
 [[nodiscard]] std::string hash_of_texts(std::span<const std::string> texts);
 
 } // namespace frustumscreen

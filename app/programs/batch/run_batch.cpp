@@ -43,7 +43,7 @@ Result<std::string> key_of(const BatchPlan& plan, const BatchObject& object) {
     return hash_of_texts(texts);
 }
 
-/// The stamp's pack is there, byte for byte.
+/// Whether the stamp's pack exists, byte for byte.
 bool is_done(const std::optional<Stamp>& stamp, const std::string& key, const Outputs& outputs) {
     if (!stamp || stamp->key != key || stamp->pack_sha256.empty()) {
         return false;
@@ -77,8 +77,8 @@ BatchRow bake(const BatchPlan& plan, const BatchObject& object, const Outputs& o
     return row;
 }
 
-/// Whoever looks at the folder must not take the pack of before for this one's. `before`: its hash before the bake, if it was
-/// there.
+/// Adds a note if an old pack remains, so it is not mistaken for the result of this bake. `before`: the
+/// pack's hash before the bake, if it existed.
 std::string with_old_pack(std::string sentence, const Outputs& outputs, const Result<std::string>& before) {
     const Result<std::string> now = hash_of_file(outputs.pack);
     return before && now && *before == *now ? std::move(sentence) + " (the pack of before is still there)"

@@ -1,6 +1,7 @@
-/// What became of an object, beside its pack: NAME.stamp, JSON. By it a later run knows what is done, and what to report of it.
+/// The result of an object's bake, next to its pack: NAME.stamp, JSON. It tells a later run what is done, and
+/// what to report.
 ///
-/// Errors   a stamp that cannot be read counts as none: the object is baked again.
+/// Errors   an unreadable stamp is ignored: the object is baked again.
 /// Threads  any.
 #pragma once
 
@@ -14,7 +15,7 @@
 
 namespace frustumscreen {
 
-/// How an object stands at the end of a run.
+/// Status of an object at the end of a run.
 enum class BatchStatus : std::uint8_t { Baked, Unchanged, Failed, Missing };
 /// "baked", "unchanged", "failed", "missing".
 [[nodiscard]] std::string_view name_of(BatchStatus status);
@@ -23,18 +24,18 @@ enum class BatchStatus : std::uint8_t { Baked, Unchanged, Failed, Missing };
 struct BatchRow {
     std::string object;
     BatchStatus status = BatchStatus::Missing;
-    double seconds = 0.0; ///< that the bake took, when it was done
+    double seconds = 0.0; ///< duration of the bake
     std::string sentence; ///< why it failed
     std::string title;
     std::size_t levels = 0;
     std::uint64_t bytes = 0;                               ///< of the pack
-    double mean_mm = 0.0, p95_mm = 0.0, colour_rmse = 0.0; ///< of the level that is usually shown
-    std::size_t lost = 0, silent = 0;                      ///< sentences of the bake about it
+    double mean_mm = 0.0, p95_mm = 0.0, colour_rmse = 0.0; ///< of the level usually shown
+    std::size_t lost = 0, silent = 0;                      ///< sentences of the bake about losses
     bool has_page = false;
 };
 
 struct Stamp {
-    std::string key;         ///< of the object, the program and the options
+    std::string key;         ///< hash of the object, the program and the options
     std::string pack_sha256; ///< empty: the bake failed
     BatchRow row;
 };
@@ -42,7 +43,7 @@ struct Stamp {
 [[nodiscard]] std::optional<Stamp> read_stamp(const std::filesystem::path& file);
 [[nodiscard]] Result<void> write_stamp(const std::filesystem::path& file, const Stamp& stamp);
 
-/// Fills in what `frustumscreen-bake --json` says; false if it is not that.
+/// Fills in the output of `frustumscreen-bake --json`; returns false for anything else.
 [[nodiscard]] bool take_bake_report(std::string_view json, BatchRow& row);
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-/// Checks of arguments that several programs take, with a sentence for the person who wrote them.
+/// Checks of arguments that several programs share, with a sentence for the user.
 ///
 /// Threads  any.
 #pragma once
@@ -13,7 +13,7 @@
 
 namespace frustumscreen {
 
-/// Checks only the form of the word: which levels exist is known from the packs.
+/// Checks only the form of the word; the existing levels are known from the packs.
 [[nodiscard]] inline ArgumentCheck is_technique_word() {
     const auto check = [](const std::string& text) {
         return is_technique(text)

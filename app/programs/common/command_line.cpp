@@ -16,7 +16,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The option whose name is nearest to a mistyped one; empty where none is near.
+/// The option whose name is nearest to a mistyped one; empty if none is near.
 std::string nearest_option(const CLI::App& app, std::string_view mistyped) {
     std::vector<const CLI::App*> asked{&app};
     const std::vector<CLI::App*> parsed = app.get_subcommands();
@@ -37,7 +37,7 @@ std::string nearest_option(const CLI::App& app, std::string_view mistyped) {
     return nearest;
 }
 
-/// Where a command is missing; `word` may stand in its place.
+/// The error for a missing command; `word` was given in its place.
 std::string no_command(const CLI::App& app, const std::string& word) {
     std::string commands;
     for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {

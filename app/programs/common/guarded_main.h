@@ -1,7 +1,7 @@
-/// The last safety net of every program: an exception that no room turned into a Result ends in one line and
-/// status 1.
+/// The last safety net of every program: an exception that no module turned into a Result ends in one line
+/// and status 1.
 ///
-/// Threads  the main one.
+/// Threads  the main thread.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -19,7 +19,7 @@ inline void complain(const char* program, const Error& error) {
     fmt::print(stderr, "{}: {} [{}]\n", program, error.message, error.id.view());
 }
 
-/// 0; or 1 and the error in one line on standard error.
+/// 0; or 1, and the error in one line on standard error.
 [[nodiscard]] inline int exit_status(const char* program, const Result<void>& result) {
     if (!result) {
         complain(program, result.error());

@@ -16,13 +16,13 @@ public:
     ProgressLine& operator=(const ProgressLine&) = delete;
     void show(std::size_t done, std::size_t all);
     void say(std::string_view line);
-    /// What is being done, the share (0..1) of all that is done, and the time that the rest takes at that speed.
+    /// The current step, the share (0..1) of the work that is done, and the remaining time at that speed.
     void show_share(std::string_view step, double done);
-    /// Clears the line, so that the program can print.
+    /// Clears the line, so the program can print.
     void clear();
 
 private:
-    /// Whether a person has waited long enough for another line.
+    /// Whether enough time has passed for another line.
     [[nodiscard]] bool is_due() const;
 
     std::string what_;

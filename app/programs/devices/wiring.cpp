@@ -33,14 +33,14 @@ namespace frustumscreen {
 
 namespace {
 
-/// The share of the zone in which every face is lit: at the zone's edge the light only grazes a face.
+/// Used share of the zone in which every face is lit: at the zone's edge the light only grazes a face.
 constexpr double used_share_of_zone = 0.75;
 
 Nanoseconds nanoseconds(double seconds) {
     return Nanoseconds(static_cast<Nanoseconds::rep>(std::llround(seconds * 1e9)));
 }
 
-/// A pose file or a recording of packets.
+/// Opens a pose file or a packet recording.
 Result<std::unique_ptr<Tracker>> make_replay(const TrackerSettings& tracker, MonotonicTime start) {
     const std::string name = tracker.poses.string();
     TRY(Bytes bytes, read_file(tracker.poses));
@@ -146,7 +146,7 @@ DriftSetUp drift_set_up(const Settings& settings) {
     return set_up;
 }
 
-/// What uses the camera's frames, and the camera that hands them to it.
+/// Adds the camera, and the users of its frames.
 void add_camera(Inputs& inputs, const Settings& settings, const DevicePlan& plan) {
     std::vector<FrameUse> uses;
     if (plan.tags) {
@@ -227,8 +227,8 @@ CameraWish camera_wish(const CameraSettings& settings) {
 
 std::unique_ptr<Camera> make_camera(const CameraSettings& settings, std::vector<FrameUse> uses) {
     const rlimit none{0, 0};
-    static_cast<void>(::setrlimit(RLIMIT_CORE, &none));               // a frame would lie in it
-    const double most_share = uses.empty() ? 1.0 : most_camera_share; // a calibration wants each frame
+    static_cast<void>(::setrlimit(RLIMIT_CORE, &none));               // a dump would contain a frame
+    const double most_share = uses.empty() ? 1.0 : most_camera_share; // a calibration needs every frame
     const auto use_all = [uses = std::move(uses)](const CameraFrame& frame) {
         for (const FrameUse& use : uses) {
             use(frame);

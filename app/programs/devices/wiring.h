@@ -1,8 +1,8 @@
-/// The one place that names concrete devices.
+/// The only module that names concrete devices.
 ///
 /// Threads  the render thread: the display's context becomes current on it.
-/// Errors   a pose file or recording that cannot be read, a recording of a tracker that has no packets, no
-///          OpenGL ES, a display that this build does not have.
+/// Errors   an unreadable pose file or recording, packet recording from a tracker without packets, no OpenGL
+///          ES, a display that this build lacks.
 #pragma once
 
 #include "app/scene/device_plan.h"
@@ -22,23 +22,24 @@ namespace frustumscreen {
 
 [[nodiscard]] Result<std::unique_ptr<Display>> make_display(const Settings& settings, bool headless);
 
-/// A new file for the tracker's packets.
+/// Creates a new file for the tracker's packets.
 [[nodiscard]] Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind,
                                                                     const std::filesystem::path& path);
-/// Opens what the plan has and nothing else. `press_every`: presses 'next artifact' this often in place of
-/// the panel's script. `recorder`, if any, gets the tracker's packets.
+/// Opens only the devices of the plan. `press_every`: interval of presses of 'next artifact', in place of the
+/// panel's script. `recorder`, if any, gets the tracker's packets.
 [[nodiscard]] Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,
                                          std::optional<Nanoseconds> press_every, MonotonicTime start,
                                          std::unique_ptr<PacketRecorder> recorder = nullptr);
 
-/// None: the settings switch it off.
+/// nullptr: the settings switch sound off.
 [[nodiscard]] std::unique_ptr<Sound> make_sound(const SoundSettings& settings);
 
 [[nodiscard]] CameraWish camera_wish(const CameraSettings& settings);
-/// Of one core, that the camera's thread takes at most while the exhibit runs, decoding and all: frames are passed over.
+/// Limit of the camera's thread while the exhibit runs, decoding included, as a share of one core; frames are
+/// skipped to stay within it.
 inline constexpr double most_camera_share = 0.25;
-/// Starts its thread, which hands each frame to all uses, one after the other, and keeps its share of a core where there are uses. The settings have
-/// one. The process dumps no core from then on.
+/// Starts the camera's thread, which passes each frame to all uses in turn, and stays within its share of a
+/// core if there are uses. The settings must have a camera. The process writes no core dumps from then on.
 [[nodiscard]] std::unique_ptr<Camera> make_camera(const CameraSettings& settings,
                                                   std::vector<FrameUse> uses = {});
 

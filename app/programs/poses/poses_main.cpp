@@ -1,4 +1,5 @@
-/// frustumscreen-poses: pose files from recordings of other trackers, from the simulated visitor, and along a path.
+/// frustumscreen-poses: makes pose files from recordings of other trackers, from the simulated visitor, and
+/// along a path.
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/settings/lit_zone.h"
@@ -45,13 +46,13 @@ struct SimulateRequest {
 
 Result<void> write_pose_file(const std::string& path, const std::string& comment,
                              const std::vector<PoseSample>& samples) {
-    // The header stays the first line, for readers that know no comments before it.
+    // The header stays the first line, for readers that expect no comments before it.
     std::string text = write_poses(samples);
     text.insert(text.find('\n') + 1, "# " + comment + "\n");
     return write_file(path, as_bytes(text));
 }
 
-/// Converts packets of `frustumscreen record --raw` to the poses that the exhibit had then.
+/// Converts packets of `frustumscreen record --raw` to the poses that the exhibit received.
 Result<void> convert_packets(const ConvertRequest& request, Bytes bytes) {
     TRY(PacketReplay replay, PacketReplay::open(std::move(bytes), request.input));
     std::vector<PoseSample> samples;
@@ -115,7 +116,7 @@ Result<void> simulate(const SimulateRequest& request) {
     TRY_VOID(check_output_is_no_input(request.output, {{request.settings}}));
     TRY(const SimulatedVisitor visitor, visitor_for(request));
     std::vector<PoseSample> samples;
-    // The last pose is one period before the end: S seconds at H hertz are S x H poses of each station.
+    // The last pose is one period before the end: S seconds at H hertz give S x H poses of each station.
     const auto last_ns = static_cast<std::int64_t>((request.seconds - 0.5 / request.rate_hz) * 1e9);
     SimulatedTracker tracker(visitor, MonotonicTime{});
     TRY_VOID(tracker.poll(MonotonicTime(Nanoseconds(last_ns)), samples));

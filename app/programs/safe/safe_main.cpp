@@ -1,4 +1,5 @@
-/// frustumscreen-safe: a calm picture with words for visitors and staff, for when the exhibit itself cannot run.
+/// frustumscreen-safe: a calm picture with words for visitors and staff, for times when the exhibit itself
+/// cannot run.
 #include "app/image/image.h"
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"

@@ -12,10 +12,9 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int rows_at_once =
-    32; ///< a whole picture of greys would be the largest piece of this program's memory
+constexpr int rows_at_once = 32; ///< limits the memory for grey values
 
-/// Writes pixels from `x` on in row `y`; alpha is nothing.
+/// Writes pixels from `x` on in row `y`; the alpha byte is unused.
 void write_row(const DumbBuffer& buffer, int y, std::span<const std::uint8_t> greys,
                std::vector<std::uint32_t>& row) {
     row.resize(greys.size());
@@ -75,7 +74,7 @@ bool SafeScanout::draw(DumbBuffer& buffer) const {
         for (std::size_t k = 0; k < rows; ++k) {
             write_row(buffer, y + static_cast<int>(k), std::span(greys).subspan(k * width, width), row);
         }
-        buffer.unmap(); // what was written counts as this process's memory for as long as it is mapped
+        buffer.unmap(); // while it is mapped, the memory counts as this process's
     }
     return true;
 }

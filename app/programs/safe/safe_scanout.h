@@ -16,7 +16,7 @@
 
 namespace frustumscreen {
 
-/// What is to be shown now.
+/// The content of the safe picture.
 struct SafePicture {
     std::vector<std::string_view> languages;
     SafeText text;
@@ -25,12 +25,12 @@ struct SafePicture {
 
 class SafeScanout final : public ScanoutPair {
 public:
-    /// `picture` is looked at in each `fill` and must outlive this.
+    /// Each `fill` reads `picture`, which must outlive the result.
     [[nodiscard]] static Result<std::unique_ptr<ScanoutPair>> make(int card, PixelSize size,
                                                                    const SafePicture& picture);
 
     [[nodiscard]] PixelSize size() const override { return size_; }
-    /// Draws all of the picture where its text has changed, else its code alone.
+    /// Draws the whole picture if its text has changed, otherwise only its code.
     [[nodiscard]] FramebufferId fill(int which, const PixelRectangle& part) override;
 
 private:

@@ -29,8 +29,8 @@ SafeScreen::SafeScreen(KmsCard card, bool any_card, std::vector<std::string_view
                  {}) {}
 
 Result<bool> SafeScreen::show(const SafeText& text) {
-    // The kernel knows what was unplugged, but of another mode it learns only when the projector is asked, which disturbs some.
-    // Without udev nobody says when to ask.
+    // The kernel notices an unplugged projector by itself, but another mode only when the projector is
+    // probed, which disturbs some projectors. Without udev no event triggers the probe.
     const bool thoroughly = !presenter_.lit() || ++pictures_since_asked_ >= pictures_between_asking;
     pictures_since_asked_ = thoroughly ? 0 : pictures_since_asked_;
     CardSeen seen = look_for_projector(card_, other_cards_ ? &*other_cards_ : nullptr, {}, thoroughly);

@@ -1,8 +1,9 @@
-/// The safe picture on the first projector that there is, by the kernel's mode setting alone: no EGL, no OpenGL, no udev.
+/// The safe picture on the first projector found, only by the kernel's mode setting: no EGL, no OpenGL, no
+/// udev.
 ///
-/// Threads  one. `show` draws on it, asks the card what is connected, and waits for the flip.
-/// Errors   at the start: no card, no permission, another program holds the screen. Later: the card hangs or is back after it was
-///          gone, or a projector is at another card: the program must be started again.
+/// Threads  one. `show` draws on it, asks the card for its connectors, and waits for the flip.
+/// Errors   at the start: no card, no permission, another program holds the screen. Later: the card hangs,
+///          has returned after it was gone, or a projector is at another card: the program must be restarted.
 #pragma once
 
 #include "app/programs/safe/safe_scanout.h"
@@ -18,11 +19,11 @@ namespace frustumscreen {
 
 class SafeScreen {
 public:
-    /// `card`: as KmsCard::open. `languages`: of lay_out_safe_page.
+    /// `card`: as KmsCard::open. `languages`: as lay_out_safe_page.
     [[nodiscard]] static Result<std::unique_ptr<SafeScreen>> open(const std::string& card,
                                                                   std::vector<std::string_view> languages);
 
-    /// Takes up what is connected now and shows the picture with another code. True: it is on the screen.
+    /// Checks the connectors and shows the picture with the next code. Returns true if it is on the screen.
     [[nodiscard]] Result<bool> show(const SafeText& text);
     [[nodiscard]] bool lit() const { return presenter_.lit(); }
     /// A sentence about the projector.
@@ -32,12 +33,12 @@ private:
     SafeScreen(KmsCard card, bool any_card, std::vector<std::string_view> languages);
 
     KmsCard card_;
-    std::optional<OtherCards> other_cards_; ///< none: this card was asked for
+    std::optional<OtherCards> other_cards_; ///< none: the card was named
     SafePicture picture_;
     std::unique_ptr<KmsDevice> kms_;
     Presenter presenter_;
     std::optional<CardSeen> seen_;
-    int pictures_since_asked_ = 0; ///< what is connected
+    int pictures_since_asked_ = 0; ///< since the connectors were last probed
 };
 
 } // namespace frustumscreen

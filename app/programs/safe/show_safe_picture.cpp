@@ -22,13 +22,13 @@ namespace {
 
 constexpr Nanoseconds between_pictures = std::chrono::seconds(1);
 
-/// One line: how many pictures were shown, and CLOCK_MONOTONIC in ns at the latest.
+/// Writes one line: the number of pictures shown, and CLOCK_MONOTONIC of the latest one in ns.
 Result<void> say_alive(const std::filesystem::path& file, std::uint64_t shown) {
     const std::string line = fmt::format("{} {}\n", shown, monotonic_now().time_since_epoch().count());
     return file.empty() ? Result<void>() : renew_file(file, as_bytes(line));
 }
 
-/// To the service manager, and to the journal what is new.
+/// Reports to the service manager, and changes also to the journal.
 class Teller {
 public:
     void tell(std::string_view sentence) {
@@ -70,7 +70,7 @@ Result<void> show_safe_picture(const SafeArguments& arguments) {
             Result<std::unique_ptr<SafeScreen>> opened =
                 SafeScreen::open(arguments.card, arguments.languages);
             if (!opened) {
-                teller.tell(opened.error().message); // a card may come, and another program may end
+                teller.tell(opened.error().message); // a card may appear, and another program may end
             } else {
                 screen = *std::move(opened);
             }
@@ -80,8 +80,8 @@ Result<void> show_safe_picture(const SafeArguments& arguments) {
             TRY(const bool on, screen->show({read_reason(arguments.reason),
                                              std::chrono::floor<std::chrono::minutes>(since_boot())}));
             const Result<void> said = on ? say_alive(arguments.alive, ++shown) : Result<void>();
-            teller.tell(said ? screen->state() : said.error().message); // the picture goes on all the same
-            fed = on || !screen->lit(); // a lit projector that takes no pictures is what the watchdog is for
+            teller.tell(said ? screen->state() : said.error().message); // the picture continues in any case
+            fed = on || !screen->lit(); // the watchdog must notice a lit projector that takes no pictures
         }
         teller.ready();
         if (fed) {

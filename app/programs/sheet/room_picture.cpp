@@ -23,7 +23,7 @@ constexpr glm::ivec2 room_tile{760, 880};
 constexpr int right_width = 600;
 constexpr glm::ivec2 visitor_tile{right_width, 471};
 
-/// The edges of the light between the lens and the picture on the table.
+/// Draws the edges of the light between the lens and the picture on the table.
 void draw_beam(Canvas& canvas, const VisitorScene& scene, const VisitorCamera& camera) {
     const RigidTransform camera_from_table = camera.table_from_camera.inverse();
     const auto from = camera.pinhole.pixel(camera_from_table.point(scene.table_from_projector.translation));

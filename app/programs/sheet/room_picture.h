@@ -1,7 +1,7 @@
-/// One large picture of what the exhibit is: the table in its room, the projector's picture, the visitor's view.
+/// One large picture of the exhibit: the table in its room, the projector's picture, the visitor's view.
 ///
 /// Threads  one; the views use all cores inside.
-/// Errors   a picture that cannot be read.
+/// Errors   an unreadable picture.
 #pragma once
 
 #include "app/image/image.h"

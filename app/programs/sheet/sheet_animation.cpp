@@ -13,14 +13,14 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double used_share = 0.90; ///< of the picture that the prop may reach to
-/// Of 100 and 6. The most effort takes ten times as long and saves next to nothing.
+constexpr double used_share = 0.90; ///< limit of the prop's extent in the picture
+/// On scales to 100 and 6. Maximum effort takes ten times as long and saves almost nothing.
 constexpr float lossless_effort = 30.0F;
 constexpr int lossless_method = 3;
-constexpr int least_frame_ms = 20; ///< browsers play anything shorter more slowly
+constexpr int least_frame_ms = 20; ///< browsers slow down shorter frames
 constexpr int longest_frame_ms = 500;
 
-/// One camera for each frame: at its eye, all looking at the same place with the same focal length.
+/// One camera for each frame: at its eye; all look at one place with one focal length.
 std::vector<VisitorCamera> cameras_for(const Settings& settings, const std::vector<SheetFrame>& frames,
                                        const AnimationOptions& options) {
     const PropShape prop = make_prop(settings.prop);
@@ -30,7 +30,7 @@ std::vector<VisitorCamera> cameras_for(const Settings& settings, const std::vect
             frame.situation.table_from_prop.translation / static_cast<double>(frames.size());
     }
     std::vector<VisitorCamera> cameras;
-    double reach = 0.0; // farthest corner from the centre, in half pictures
+    double reach = 0.0; // distance of the farthest corner from the centre, in half pictures
     double focal_px = 1e30;
     for (const SheetFrame& frame : frames) {
         cameras.push_back(visitor_camera(prop, middle, frame.situation.eye_m, options.width, options.height));
@@ -87,7 +87,7 @@ public:
     explicit Encoder(const AnimationOptions& options) {
         WebPAnimEncoderOptions encoder_options;
         valid_ = WebPAnimEncoderOptionsInit(&encoder_options) != 0 && WebPConfigInit(&config_) != 0;
-        encoder_options.anim_params.loop_count = 0; // for ever
+        encoder_options.anim_params.loop_count = 0; // endless
         encoder_options.kmax = 30;
         config_.lossless = options.lossless ? 1 : 0;
         config_.quality = options.lossless ? lossless_effort : options.quality;
@@ -144,13 +144,13 @@ Result<Bytes> visitor_animation(const Settings& settings, const std::vector<Shee
     Encoder encoder(options);
     int at_ms = 0;
     bool sound = true;
-    for (std::size_t k = 0; k < views.size(); ++k) { // there
+    for (std::size_t k = 0; k < views.size(); ++k) { // forwards
         sound = sound && encoder.add(views[k], at_ms);
         const bool last = k + 1 == views.size();
         at_ms += options.closed && last && k > 0 ? duration_ms(frames, k - 1, k)
                                                  : duration_ms(frames, k, last ? k : k + 1);
     }
-    for (std::size_t k = options.closed ? 1 : views.size() - 1; k-- > 1;) { // and back
+    for (std::size_t k = options.closed ? 1 : views.size() - 1; k-- > 1;) { // backwards
         sound = sound && encoder.add(views[k], at_ms);
         at_ms += duration_ms(frames, k, k - 1);
     }

@@ -1,11 +1,11 @@
 /// A short looping animation of the visitor's view, as animated WebP.
 ///
-/// The camera stands at the visitor's eye and keeps looking at the middle of the places where the prop is, so
-/// that the prop is seen to move. It plays forwards and backwards, so that it loops without a jump; frames that close a
-/// loop by themselves play forwards alone.
+/// The camera is at the visitor's eye and looks at the middle of the prop's places, so the prop's movement is
+/// visible. It plays forwards and backwards, and thus loops without a jump; frames that close a loop by
+/// themselves only play forwards.
 ///
 /// Library  libwebp's WebPAnimEncoder.
-/// Errors   a picture that cannot be read; the encoder has no memory.
+/// Errors   an unreadable picture; the encoder has no memory.
 #pragma once
 
 #include "app/programs/sheet/sheet_frames.h"
@@ -23,7 +23,7 @@ struct AnimationOptions {
     int height = 350;
     float quality = 86.0F; ///< 0..100
     bool lossless = false;
-    bool closed = false; ///< the last frame leads to the first: it plays forwards alone
+    bool closed = false; ///< the last frame leads to the first: play forwards only
 };
 
 [[nodiscard]] Result<Bytes> visitor_animation(const Settings& settings, const std::vector<SheetFrame>& frames,

@@ -13,7 +13,7 @@ namespace {
 constexpr double behind_the_visitor = 4.5; ///< times the eye's distance from the prop
 constexpr double seen_share = 0.92;        ///< of the picture, from the table's legs to the projector
 
-/// Turns and zooms until the points fill `share` of the picture, at most, and stand in its middle.
+/// Turns and zooms until the points fill at most `share` of the picture and are centred.
 void frame(VisitorCamera& camera, std::span<const glm::dvec3> points, const glm::dvec2& share) {
     const RigidTransform camera_from_table = camera.table_from_camera.inverse();
     glm::dvec2 low(std::numeric_limits<double>::infinity());
@@ -52,7 +52,7 @@ VisitorCamera framed_camera(const VisitorScene& scene, const glm::ivec2& size) {
 }
 
 VisitorCamera table_camera(const VisitorScene& scene, const glm::ivec2& size) {
-    // As if the prop stood in the table's middle: the table does not turn in the picture while the prop is slid.
+    // For a prop in the table's middle, so the table stays still in the picture while the prop slides.
     VisitorCamera camera = visitor_camera(scene.prop, RigidTransform{}, scene.eye_m, size.x, size.y);
     std::vector<glm::dvec3> points = prop_corners(scene);
     for (const glm::dvec3& corner : lit_corners(scene)) {

@@ -1,6 +1,6 @@
-/// From where the sheet's pictures are seen.
+/// Viewpoints of the sheet's pictures.
 ///
-/// Frames   table T, metres; pixels of the picture that is made.
+/// Frames   table T, metres; pixels of the resulting picture.
 /// Threads  pure; any.
 #pragma once
 
@@ -14,21 +14,21 @@ namespace frustumscreen {
 /// The share of a picture's height that the prop fills.
 inline constexpr double prop_share_of_height = 0.85;
 
-/// The visitor's camera, turned a little and zoomed until the prop fills its share of the height; less if it is wider than
-/// the picture then.
+/// The visitor's camera, turned slightly and zoomed until the prop fills its share of the height, or less if
+/// it would be wider than the picture.
 [[nodiscard]] VisitorCamera framed_camera(const VisitorScene& scene, const glm::ivec2& size);
 
-/// The visitor's camera, turned and zoomed until the prop and all of the table that the projector lights are in the picture.
+/// The visitor's camera, turned and zoomed to show the prop and the whole lit part of the table.
 [[nodiscard]] VisitorCamera table_camera(const VisitorScene& scene, const glm::ivec2& size);
 
-/// A camera behind the visitor's shoulder, on the line of sight, so that the artifact looks as the visitor sees it; table
-/// and projector are in its picture.
+/// A camera behind the visitor's shoulder, on the line of sight, so the artifact looks as the visitor sees
+/// it; table and projector are in its picture.
 [[nodiscard]] VisitorCamera room_camera(const VisitorScene& scene, const glm::ivec2& size);
 
-/// Where the corners of the projector's picture lie on the table; those whose light reaches it.
+/// The corners of the projector's picture on the table, as far as its light reaches the table.
 [[nodiscard]] std::vector<glm::dvec3> lit_corners(const VisitorScene& scene);
 
-/// The prop's faces in the projector's picture, corner by corner; those in front of the lens.
+/// Corners of the prop's faces in the projector's picture; only faces in front of the lens.
 [[nodiscard]] std::vector<std::array<glm::dvec2, 4>> face_outlines(const VisitorScene& scene);
 
 } // namespace frustumscreen

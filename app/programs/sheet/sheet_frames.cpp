@@ -17,7 +17,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Fields of one line; quotes as RFC 4180 has them, but no line breaks inside.
+/// Fields of one line; quotes as in RFC 4180, but without line breaks inside.
 std::vector<std::string> csv_fields(std::string_view line) {
     std::vector<std::string> fields(1);
     bool quoted = false;

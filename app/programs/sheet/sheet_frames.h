@@ -1,7 +1,6 @@
-/// The frames that a sheet is made of: pictures of a folder with their poses and what frames.csv says of
-/// them.
+/// The frames of a sheet: pictures of a folder with their poses and their rows of frames.csv.
 ///
-/// Files    DIR/frame_00000.png ..., the k-th belongs to the k-th pose of station 1 in DIR/poses.csv (or
+/// Files    DIR/frame_00000.png ...; the k-th belongs to the k-th pose of station 1 in DIR/poses.csv (or
 ///          another pose file); DIR/frames.csv may be missing.
 /// Errors   one line: file, line, what is wrong.
 #pragma once
@@ -23,12 +22,12 @@ struct FrameRecord {
     std::int64_t t_us = 0;
     double ms = 0.0;
     std::string technique;
-    std::optional<double> estimated_error_mm; ///< nothing: the frame shows nothing of an artifact
+    std::optional<double> estimated_error_mm; ///< nullopt: the frame shows no artifact
     bool drawn = true;
-    std::string artifact; ///< empty if the file does not say
-    std::string state;    ///< of the exhibit; the same
-    std::string told;     ///< beside the short text or in its place; the same
-    std::string language; ///< the same
+    std::string artifact; ///< empty if the file has no such column
+    std::string state;    ///< of the exhibit; empty as above
+    std::string told;     ///< narration next to the short text or in its place; empty as above
+    std::string language; ///< empty as above
 };
 
 struct SheetFrame {
@@ -42,27 +41,27 @@ struct FrameFolder {
     std::vector<FrameRecord> records;
 };
 
-/// Columns are found by their names; those of `frustumscreen render` are enough.
+/// Columns are identified by their names; those of `frustumscreen render` suffice.
 [[nodiscard]] Result<std::vector<FrameRecord>> parse_frames_csv(std::string_view text,
                                                                 const std::string& name);
 
-/// `label`: for all frames; if empty the artifact of frames.csv, else the folder's name.
+/// `label`: for all frames; if empty, the artifact of frames.csv, otherwise the folder's name.
 [[nodiscard]] Result<FrameFolder> read_frame_folder(const std::filesystem::path& folder,
                                                     const std::filesystem::path& poses,
                                                     const std::string& label,
                                                     const glm::dvec3& default_eye_m);
 
-/// The middle frame of each of `count` equal parts; all frames if there are not more.
+/// The middle frame of each of `count` equal parts; all frames if there are at most `count`.
 [[nodiscard]] std::vector<SheetFrame> evenly(const std::vector<SheetFrame>& frames, std::size_t count);
 
-/// The frames that look different from all before: another label, place, turn or eye. The prop rests most of the time. Of those
-/// that follow each other and look alike it is the middle one, where nothing fades any more.
+/// The frames that differ from all earlier ones in label, place, rotation or eye, since the prop rests most
+/// of the time. From successive similar frames it takes the middle one, in which no fade is in progress.
 [[nodiscard]] std::vector<SheetFrame> distinct(const std::vector<SheetFrame>& frames);
 
-/// Errors: not a PNG; another size than the configured projector's shape.
+/// Errors: not a PNG; an aspect ratio other than the configured projector's.
 [[nodiscard]] Result<Image8> read_picture(const SheetFrame& frame, const Pinhole& projector);
 
-/// What stands around the visitor, for a picture of any size of the configured projector.
+/// The visitor's surroundings, for a picture of any size of the configured projector.
 [[nodiscard]] VisitorScene visitor_scene(const Settings& settings, const Situation& situation,
                                          int picture_width, int picture_height);
 

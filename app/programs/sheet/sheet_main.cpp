@@ -1,5 +1,5 @@
-/// frustumscreen-sheet: pictures for people, made from the projector's pictures, their poses and the settings
-/// alone.
+/// frustumscreen-sheet: makes pictures for people, only from the projector's pictures, their poses and the
+/// settings.
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"

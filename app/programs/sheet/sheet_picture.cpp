@@ -25,7 +25,7 @@ constexpr int header_height = 84;
 constexpr int label_height = 46;
 constexpr int between_tiles = 4;
 
-/// A frame's two pictures, equally high.
+/// A frame's two pictures, of equal height.
 struct Tiles {
     glm::ivec2 projector;
     glm::ivec2 visitor;
@@ -34,7 +34,7 @@ struct Tiles {
     }
 };
 constexpr Tiles around_prop{{400, 340}, {544, 340}};
-constexpr Tiles whole_table{{832, 520}, {832, 520}}; // the words can be read
+constexpr Tiles whole_table{{832, 520}, {832, 520}}; // large enough to read the words
 
 /// A part of the projector's picture, in its pixels.
 struct Crop {
@@ -42,7 +42,8 @@ struct Crop {
     glm::dvec2 size{1.0};
 };
 
-/// What a tile shows: the prop's outlines and a little more, or the whole picture; in the tile's shape.
+/// The part that a tile shows, in the tile's aspect ratio: the prop's outlines with a margin, or the whole
+/// picture.
 Crop crop_of(const std::vector<std::array<glm::dvec2, 4>>& outlines, const Image8& picture,
              const glm::ivec2& tile) {
     glm::dvec2 low(std::numeric_limits<double>::infinity());
@@ -70,7 +71,7 @@ std::string where(const Situation& situation) {
     const glm::dvec3 ahead = situation.table_from_prop.direction({1.0, 0.0, 0.0});
     const glm::dvec3 sight = situation.eye_m - prop;
     const double elevation = std::atan2(sight.z, std::hypot(sight.x, sight.y));
-    // Whole numbers, because a small negative one would be written as -0.
+    // Rounds to whole numbers, because a small negative value would be written as -0.
     return fmt::format("prop at {:+}, {:+} cm, turned {}\u00b0; eye {} cm away, {}\u00b0 up",
                        std::lround(prop.x * 100.0), std::lround(prop.y * 100.0),
                        std::lround(glm::degrees(std::atan2(ahead.y, ahead.x))),

@@ -1,8 +1,8 @@
-/// The contact sheet: for each frame the projector's picture, around the prop or the whole of it, and beside it the visitor's
+/// The contact sheet: for each frame the projector's picture, whole or around the prop, next to the visitor's
 /// view.
 ///
-/// Threads  one; the visitor's views use all cores inside.
-/// Errors   a picture that cannot be read.
+/// Threads  one; the visitor's views use all cores internally.
+/// Errors   an unreadable picture.
 #pragma once
 
 #include "app/image/image.h"
@@ -19,12 +19,11 @@ namespace frustumscreen {
 
 struct SheetOptions {
     std::string title = "FrustumScreen";
-    int columns = 0; ///< of frames; 0 = one for up to three frames, else two
-    bool whole_table =
-        false; ///< all that is projected, in place of what is projected on the prop and around it
+    int columns = 0;          ///< of frames; 0 = one for up to three frames, otherwise two
+    bool whole_table = false; ///< the whole projected picture instead of the part around the prop
 };
 
-/// `progress(done, all)` after each frame.
+/// Calls `progress(done, all)` after each frame.
 [[nodiscard]] Result<Image8> contact_sheet(const Settings& settings, const std::vector<SheetFrame>& frames,
                                            const SheetOptions& options, const Typesetter& typesetter,
                                            const std::function<void(std::size_t, std::size_t)>& progress);

@@ -12,12 +12,12 @@ namespace frustumscreen {
 struct TableLine {
     std::string artifact;
     std::string technique;
-    /// Drawn ones; the first of a run, which compiles shaders, is left out if there are more.
+    /// Drawn frames; excludes the first of a run, which compiles shaders, if there are more.
     std::size_t frames = 0;
     std::size_t unchanged = 0;
     double median_ms = 0.0;
     double p99_ms = 0.0;
-    std::optional<double> estimated_error_mm; ///< the mean over the frames that show something of it
+    std::optional<double> estimated_error_mm; ///< mean over the frames that show a part of it
 };
 
 /// In the order of first appearance.

@@ -33,7 +33,8 @@ bool is_passing_name(std::string_view name) {
                             std::all_of(name.begin() + static_cast<std::ptrdiff_t>(part) + 5, name.end(),
                                         [](char c) { return c >= '0' && c <= '9'; });
     return name.starts_with('.') || name.starts_with('#') || name.ends_with('~') || name.ends_with(".swp") ||
-           name.ends_with(".tmp") || name == "4913" || is_partial; // vim tries whether it may write by 4913
+           // Vim creates 4913 to test whether it may write.
+           name.ends_with(".tmp") || name == "4913" || is_partial;
 }
 
 Result<FolderWatch> FolderWatch::open(const std::filesystem::path& folder) {
@@ -66,7 +67,7 @@ Result<void> FolderWatch::add(const std::filesystem::path& folder) {
 Result<void> FolderWatch::add(const std::filesystem::path& folder, std::set<int>& seen) {
     const int number = ::inotify_add_watch(descriptor_, folder.c_str(), changes | IN_ONLYDIR);
     if (number < 0 && !watched_.empty() && (errno == ENOENT || errno == ENOTDIR || errno == ELOOP)) {
-        return {}; // it is gone already, which is told as a change, or a link that leads to no folder
+        return {}; // it is already gone, which causes another event, or a link without a folder
     }
     if (number < 0) {
         return bad_input("watch.folder", "{}: cannot be watched: {}", folder.string(), std::strerror(errno));
@@ -103,7 +104,7 @@ Result<bool> FolderWatch::take() {
             const bool is_new_link = is_new && place != watched_.end() && !is_passing_name(name) &&
                                      std::filesystem::is_symlink(place->second / name, none);
             const bool is_new_folder = is_new && ((event.mask & IN_ISDIR) != 0 || is_new_link);
-            const bool missed_some = (event.mask & IN_Q_OVERFLOW) != 0; // new folders perhaps
+            const bool missed_some = (event.mask & IN_Q_OVERFLOW) != 0; // new folders may be among them
             if (missed_some || (is_new_folder && place != watched_.end() && !is_passing_name(name))) {
                 TRY_VOID(add(missed_some ? folder_ : place->second / name));
             }

@@ -1,10 +1,10 @@
-/// Tells when a file of a folder, or of a folder in it, has changed: written and closed, renamed, removed.
+/// Reports changes of a folder's files, and of those in its subfolders: written and closed, renamed, removed.
 ///
-/// Files that editors keep only while they write, and hidden ones, do not count. Folders that links lead to are watched as if they
-/// lay there; of a file that a link leads to, only the link is.
+/// Ignores hidden files, and files that editors keep only while they write. Folders behind links are watched
+/// like subfolders; for a link to a file only the link itself is watched.
 ///
 /// Errors   no such folder, too many watches; later: the folder itself is gone.
-/// Threads  one caller. Nothing blocks.
+/// Threads  one caller. Never blocks.
 /// Source   inotify(7).
 #pragma once
 
@@ -17,7 +17,8 @@
 
 namespace frustumscreen {
 
-/// Whether a file of this name comes and goes with an editor or a copy: `.x`, `x~`, `#x#`, `x.part123`, `4913` and the like.
+/// Whether a file of this name is temporary, from an editor or a copy: `.x`, `x~`, `#x#`, `x.part123`, `4913`
+/// and the like.
 [[nodiscard]] bool is_passing_name(std::string_view name);
 
 class FolderWatch {
@@ -29,17 +30,17 @@ public:
     FolderWatch& operator=(const FolderWatch&) = delete;
     FolderWatch& operator=(FolderWatch&&) = delete;
 
-    /// Readable when there is something to take.
+    /// Readable if there are events.
     [[nodiscard]] int descriptor() const { return descriptor_; }
-    /// Takes all that was told; whether something changed that counts.
+    /// Takes all events; returns whether a relevant change was among them.
     [[nodiscard]] Result<bool> take();
 
 private:
     FolderWatch(int descriptor, std::filesystem::path folder)
         : descriptor_(descriptor), folder_(std::move(folder)) {}
-    /// Of a folder and those in it.
+    /// Watches a folder and its subfolders.
     [[nodiscard]] Result<void> add(const std::filesystem::path& folder);
-    /// `seen`: the kernel's numbers in this walk; a link may lead back to where it lies.
+    /// `seen`: the kernel's numbers in this traversal; a link may lead back to its own folder.
     [[nodiscard]] Result<void> add(const std::filesystem::path& folder, std::set<int>& seen);
 
     int descriptor_;

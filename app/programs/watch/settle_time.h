@@ -1,6 +1,6 @@
-/// Waits until a burst of changes is over: an editor that saves, a folder that is copied.
+/// Waits for the end of a burst of changes: an editor that saves, a folder that is copied.
 ///
-/// Time     `now` never goes back.
+/// Time     `now` never decreases.
 /// Threads  values; one caller.
 #pragma once
 
@@ -16,11 +16,11 @@ public:
     explicit SettleTime(Nanoseconds quiet) : quiet_(quiet) {}
 
     void changed(MonotonicTime now) { last_ = now; }
-    /// How long to wait until it is over; nothing if nothing has changed.
+    /// Time until the burst is over; nullopt without a change.
     [[nodiscard]] std::optional<Nanoseconds> left(MonotonicTime now) const {
         return last_ ? std::optional(std::max(Nanoseconds(0), quiet_ - (now - *last_))) : std::nullopt;
     }
-    /// True once for each burst, when nothing has changed for the quiet time.
+    /// Returns true once for each burst, when nothing has changed for the quiet time.
     [[nodiscard]] bool take(MonotonicTime now) {
         const bool over = left(now) == Nanoseconds(0);
         last_ = over ? std::nullopt : last_;

@@ -8,7 +8,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// Reads on without keeping anything: a status with a thousand packs takes no more memory than one with none.
+/// Streams the file without storing it: a status with a thousand packs takes no more memory than one with
+/// none.
 class Fields : public nlohmann::json_sax<nlohmann::json> {
 public:
     ExhibitStatus status;

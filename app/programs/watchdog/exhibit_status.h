@@ -1,7 +1,7 @@
-/// What the watchdog takes from the exhibit's status file: a few fields, whatever else it holds.
+/// The fields of the exhibit's status file that the watchdog uses.
 ///
 /// Threads  pure; any.
-/// Errors   nothing: it is no status.
+/// Errors   nullopt: it is not a status.
 #pragma once
 
 #include "app/watch/outcome.h"
@@ -13,7 +13,7 @@
 namespace frustumscreen {
 
 struct ExhibitStatus {
-    ExhibitSays says; ///< `age` is for the caller
+    ExhibitSays says; ///< the caller sets `age`
     std::string boot_id;
     MonotonicTime written_at;
 };

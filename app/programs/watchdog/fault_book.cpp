@@ -23,7 +23,7 @@ std::string line_of(std::uint64_t number, const Fault& fault) {
     return line + '\n';
 }
 
-/// The highest number at the front of a line; 0: there is none.
+/// The highest number at the beginning of a line; 0: there is none.
 std::uint64_t latest_in(int descriptor) {
     std::uint64_t latest = 0;
     std::array<char, FaultBook::line_bytes> line{};

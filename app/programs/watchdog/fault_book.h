@@ -1,11 +1,12 @@
-/// What went wrong and what was done about it: the latest in memory, for the status; all in a ring on the disk, for those who are
-/// called later.
+/// The log of faults and actions: the latest in memory, for the status; all of them in a ring on the disk,
+/// for later analysis.
 ///
-/// File     `most_lines` lines of `line_bytes`, filled up with blanks, in turn; each begins with its number, so that the latest
-///          one can be found. A person can read it with `sort -n`.
-/// Writes   at most one a minute; what comes in between waits, at most `most_waiting` lines, and the oldest of these are lost.
+/// File     `most_lines` lines of `line_bytes`, padded with blanks, written in turn; each begins with its
+///          number, which identifies the latest one. `sort -n` makes it readable.
+/// Writes   at most one a minute; further lines wait, at most `most_waiting`; beyond that the oldest are
+///          lost.
 /// Threads  one caller; a write waits for the disk.
-/// Errors   none: a line that cannot be written waits.
+/// Errors   none: a line that cannot be written stays in the queue.
 #pragma once
 
 #include "app/watch/ladder.h"
@@ -20,31 +21,31 @@
 namespace frustumscreen {
 
 struct Fault {
-    std::string at; ///< by the clock on the wall, UTC, as it was then
+    std::string at; ///< UTC, by the wall clock of that moment
     Awake awake{0};
     std::optional<Cause> cause; ///< none: ten good minutes
     Step step = Step::RestartExhibit;
-    std::string detail;         ///< what else is known, a few words
-    std::optional<bool> helped; ///< ten good minutes came of it, or another step had to; none: not known yet
+    std::string detail;         ///< further facts, a few words
+    std::optional<bool> helped; ///< true: ten good minutes followed; false: another action did
 };
 
 class FaultBook {
 public:
     static constexpr std::size_t line_bytes = 256;
-    static constexpr std::uint64_t most_lines = 4096; ///< 1 MiB
+    static constexpr std::uint64_t most_lines = 4096; ///< 1 MiB in all
     static constexpr std::size_t most_waiting = 64;
     static constexpr std::size_t most_latest = 16;
     static constexpr Nanoseconds between_writes = std::chrono::minutes(1);
 
     explicit FaultBook(const std::filesystem::path& file);
 
-    /// The step before it, unless it led down, did not help.
+    /// Adds a fault. The previous action, unless it led down, did not help.
     void enter(Fault fault);
-    /// Ten good minutes have come of the latest step.
+    /// Ten good minutes have followed the latest action.
     void note_good();
-    /// Writes what waits, if it is time.
+    /// Writes the queue if a write is due.
     void keep(MonotonicTime now, bool at_once);
-    /// Of this run of the program; the latest is the last.
+    /// Faults of this run of the program, the latest last.
     [[nodiscard]] const std::deque<Fault>& latest() const { return latest_; }
 
 private:

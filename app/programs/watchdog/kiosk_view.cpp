@@ -21,8 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t most_status_bytes = 1 << 20;
-constexpr std::streamsize most_ends_bytes = 1 << 16; ///< at a look; more comes at the next one
-constexpr double longest_end_s = 10.0; ///< from a crash until systemd has written down that the process ended
+constexpr std::streamsize most_ends_bytes = 1 << 16; ///< per look; the rest follows at the next look
+constexpr double longest_end_s = 10.0; ///< from a crash until systemd has recorded the end of the process
 constexpr double full_disk = 0.03;
 constexpr double worn_disk = 0.8;
 constexpr double hot_c = 90.0;
@@ -33,14 +33,14 @@ std::string first_line(const fs::path& file) {
     return line;
 }
 
-/// The whole number at the front of a file; `otherwise` if there is none.
+/// The number at the beginning of a file; `otherwise` if there is none.
 double number_in(const fs::path& file, double otherwise) {
     double value = 0.0;
     std::ifstream stream(file);
     return stream >> value ? value : otherwise;
 }
 
-/// The number behind a key at the front of a line: `MemTotal: 123 kB`, `anon 123`.
+/// The number after a key at the beginning of a line: `MemTotal: 123 kB`, `anon 123`.
 double value_of(const fs::path& file, std::string_view key, double otherwise) {
     std::ifstream stream(file);
     for (std::string word; stream >> word;) {
@@ -54,7 +54,7 @@ double value_of(const fs::path& file, std::string_view key, double otherwise) {
     return otherwise;
 }
 
-/// Calls with each entry of a folder whose name begins so.
+/// Calls `visit` for each entry of a folder whose name begins with `begin`.
 template <typename Visit>
 void for_each_in(const fs::path& folder, std::string_view begin, const Visit& visit) {
     std::error_code stop;
@@ -75,13 +75,14 @@ std::int32_t first_process(const fs::path& group) {
     return first;
 }
 
-/// Share of what it may take that the group's processes hold; the cache of files, which can be let go, is not counted.
+/// Share of the group's memory limit that its processes hold. Does not count the file cache, which can be
+/// released.
 double memory_of(const fs::path& group) {
     const double most = number_in(group / "memory.max", 0.0);
     return most > 0.0 ? value_of(group / "memory.stat", "anon", 0.0) / most : 0.0;
 }
 
-/// eMMC says in tenths how much of its life is over, for two kinds of its cells: `0x01 0x02`.
+/// eMMC reports the used part of its lifetime in tenths, for two kinds of cells: `0x01 0x02`.
 double worn(const fs::path& root) {
     double worst = 0.0;
     for_each_in(root / "sys/block", "mmcblk", [&](const fs::path& disk) {
@@ -102,8 +103,8 @@ std::optional<bool> projector(const fs::path& root) {
     return connected;
 }
 
-/// Whether a JSON file has an object under this key, somewhere. It is read from one quotation mark to the next, as it may be larger
-/// than this program may grow.
+/// Whether a JSON file has an object under this key, at any depth. Reads from one quotation mark to the next,
+/// because the file may be larger than this program's memory limit.
 bool has_object(const fs::path& file, std::string_view key) {
     std::ifstream stream(file, std::ios::binary);
     for (std::string piece; std::getline(stream, piece, '"');) {

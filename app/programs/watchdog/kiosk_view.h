@@ -1,9 +1,9 @@
-/// Looks at the kiosk from outside the exhibit: its status file, its control group, the kernel's own files.
+/// Observes the kiosk from outside the exhibit: its status file, its control group, the kernel's own files.
 ///
-/// Places   absolute paths, all under `root`, so that a test can have a kiosk of its own.
-/// Threads  one caller. Reads small files of the kernel and of memory only, but for the free space of the data's disk, which the
-///          kernel keeps in memory, too.
-/// Errors   none: what cannot be read is seen as well, or as not there, as its field says (app/watch/outcome.h).
+/// Places   absolute paths, all under `root`, so a test can have its own kiosk.
+/// Threads  one caller. Reads only small files of the kernel and in memory, and the free space of the data's
+///          disk, which the kernel also keeps in memory.
+/// Errors   none: an unreadable value counts as good, or as absent, as its field says (app/watch/outcome.h).
 #pragma once
 
 #include "app/watch/crash.h"
@@ -29,7 +29,8 @@ struct KioskPlaces {
     std::filesystem::path crashes = "var/cache/frustumscreen/crashes";
     std::filesystem::path last_good = "var/lib/frustumscreen/library/set.txt";
     std::filesystem::path data =
-        "var/lib/frustumscreen-watchdog"; ///< on the disk of all data; the one folder there that its sandbox lets it write
+        "var/lib/frustumscreen-watchdog"; ///< on the data disk; the only folder that the watchdog's sandbox
+                                          ///< allows it to write
 };
 
 class KioskView {
@@ -37,11 +38,11 @@ public:
     KioskView(KioskPlaces places, std::string boot_id);
 
     [[nodiscard]] Outcome look(MonotonicTime now, std::chrono::system_clock::time_point wall_clock);
-    /// All but whether a reboot can be written down.
+    /// All capabilities, except whether a reboot can be recorded.
     [[nodiscard]] Means means();
-    /// How the exhibit's process ended at last: `watchdog killed KILL`; empty: it did not.
+    /// The latest end of the exhibit's process: `watchdog killed KILL`; empty: there was none.
     [[nodiscard]] const std::string& last_end() const { return last_end_; }
-    /// The same as a clause for the staff, with the place of a crash; empty: it did not end.
+    /// The latest end as a clause for the staff, with the place of a crash; empty: there was none.
     [[nodiscard]] std::string why_it_ended() const;
 
 private:
@@ -50,17 +51,16 @@ private:
 
     KioskPlaces places_;
     std::string boot_id_;
-    std::uint64_t ends_read_ = 0; ///< bytes of the file of ends
+    std::uint64_t ends_read_ = 0; ///< bytes read of the file of ends
     std::uint32_t failures_ = 0;
     std::string last_end_;
     std::optional<ServiceEnd> last_failure_;
-    std::filesystem::file_time_type
-        set_changed_; ///< this and the next: the library's set, as it was looked at last
+    std::filesystem::file_time_type set_changed_; ///< this and the next: the library's set at the last look
     std::uintmax_t set_bytes_ = 0;
     bool has_last_good_ = false;
 };
 
-/// What no step mends, each a sentence for the staff.
+/// Faults that no action remedies, each as a sentence for the staff.
 [[nodiscard]] std::vector<std::string> notes_of(const Outcome& outcome);
 
 } // namespace frustumscreen

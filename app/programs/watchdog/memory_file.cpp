@@ -37,7 +37,7 @@ MemoryFile::MemoryFile(const std::filesystem::path& file, std::uint64_t boot)
     }
     const std::string content = content_of_file(descriptor_.number());
     kept_ = read_slots(content);
-    if (content.size() < file_bytes) { // its blocks are taken now, while the disk has some
+    if (content.size() < file_bytes) { // allocate its blocks now, while the disk has space
         write_all(descriptor_.number(), std::string(file_bytes - content.size(), ' '), content.size());
     }
 }

@@ -21,7 +21,7 @@ std::string_view Orders::order_for(Step step) {
     case Step::Return:
         break;
     }
-    return "restart-exhibit"; // with another mode
+    return "restart-exhibit"; // the mode changes with the restart
 }
 
 Result<void> Orders::set_mode(Mode mode) const {
@@ -29,10 +29,11 @@ Result<void> Orders::set_mode(Mode mode) const {
 }
 
 Result<void> Orders::begin(Mode mode) const {
-    std::error_code failed; // said by `set_mode`, as the folder it is in is missing then
+    std::error_code failed; // `set_mode` reports it, because its folder is missing then
     std::filesystem::remove_all(folder_ / "steps", failed);
     std::filesystem::create_directories(folder_ / "steps", failed);
-    // Who takes a step has this group, and no right to pass over permissions; it removes the order.
+    // The unit that takes an order has this group, but no right to override permissions; it must be able to
+    // remove the file.
     std::filesystem::permissions(folder_ / "steps", std::filesystem::perms::group_write,
                                  std::filesystem::perm_options::add, failed);
     return set_mode(mode);

@@ -1,11 +1,11 @@
-/// How the watchdog gets a step done: it leaves a file, and a path unit of the service manager starts what the file asks for. So
-/// the watchdog needs no right but to write into its own folder.
+/// How the watchdog triggers an action: it writes a file, and a path unit of the service manager starts the
+/// action. The watchdog thus needs no right except to write in its own folder.
 ///
-/// Files    `mode`: a word, what the exhibit shows from its next start on; `reason`: a sentence for the staff;
-///          `steps/restart-exhibit`, `steps/reset-device`, `steps/safe-picture`, `steps/reboot`: asked for; whoever does it
-///          removes the file first.
+/// Files    `mode`: a word, the exhibit's mode from its next start on; `reason`: a sentence for the staff;
+///          `steps/restart-exhibit`, `steps/reset-device`, `steps/safe-picture`, `steps/reboot`: requested
+///          actions; the unit that performs one removes its file first.
 /// Threads  one caller.
-/// Errors   one sentence: what cannot be written.
+/// Errors   one sentence: the file that cannot be written.
 #pragma once
 
 #include "app/watch/ladder.h"
@@ -21,8 +21,8 @@ class Orders {
 public:
     explicit Orders(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-    /// Makes the folder ready, with what the exhibit is to show from its next start on. An order that an earlier watchdog gave and
-    /// nobody took counts no more.
+    /// Prepares the folder, and sets the exhibit's mode from its next start on. Pending orders of an earlier
+    /// watchdog are void.
     [[nodiscard]] Result<void> begin(Mode mode) const;
     [[nodiscard]] Result<void> give(Step step, Mode mode, std::string_view reason) const;
 

@@ -1,5 +1,5 @@
-/// frustumscreen-watchdog: watches what comes of the exhibit, and climbs the recovery ladder. No GL, no USB, no packs, no
-/// settings; one thread; its memory is locked, so that a machine without memory cannot stop it.
+/// frustumscreen-watchdog: watches the exhibit from outside, and climbs the recovery ladder. No GL, no USB,
+/// no packs, no settings; one thread. Its memory is locked, so a shortage of memory cannot stop it.
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/watchdog/fault_book.h"
@@ -51,7 +51,7 @@ public:
           report_file_(arguments.run_folder / "status.json"),
           ladder_(memory_.remembered(since_boot()), !memory_.is_of_this_boot()) {}
 
-    /// What the exhibit is to show must be known before it starts.
+    /// The mode must be set before the exhibit starts.
     void begin() { complain_of(orders_.begin(ladder_.memory().mode)); }
 
     void look(MonotonicTime now) {
@@ -113,7 +113,7 @@ private:
         complain_of(renew_file(report_file_, as_bytes(watchdog_json(report, faults_.latest()))));
     }
 
-    /// Once for each message.
+    /// Reports each message once.
     void complain_of(const Result<void>& result) {
         if (!result && result.error().message != complaint_) {
             complaint_ = result.error().message;

@@ -31,7 +31,7 @@ Json trouble_of(const WatchdogReport& report) {
                    : Json(nullptr);
 }
 
-/// While it takes effect.
+/// The current action, while it takes effect.
 Json step_of(const WatchdogReport& report) {
     const LadderMemory& memory = report.memory;
     const Awake ago = memory.awake - memory.latest_at;

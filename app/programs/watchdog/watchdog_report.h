@@ -1,4 +1,4 @@
-/// What the watchdog says of itself and of the kiosk, as JSON: docs/status.md has the fields.
+/// The watchdog's report of itself and of the kiosk, as JSON; docs/status.md describes the fields.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -14,14 +14,14 @@ namespace frustumscreen {
 
 struct WatchdogReport {
     MonotonicTime now;
-    std::string at; ///< by the clock on the wall, UTC
+    std::string at; ///< by the wall clock, UTC
     std::string boot_id;
     LadderMemory memory;
     Seen seen;
-    Nanoseconds trouble_for{0}; ///< how long the trouble has been seen, if there is one
+    Nanoseconds trouble_for{0}; ///< duration of the current fault, if any
     std::size_t reboots_within_day = 0;
     std::uint32_t failures = 0; ///< of the exhibit's process since the boot
-    std::string last_end;       ///< how it failed at last; empty: it did not
+    std::string last_end;       ///< its latest end; empty: there was none
     std::vector<std::string> notes;
 };
 

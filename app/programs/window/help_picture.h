@@ -1,4 +1,4 @@
-/// What mouse and keys do, as a picture over the window.
+/// The functions of mouse and keys, as a picture over the window.
 ///
 /// Errors   the typeface's files are missing.
 #pragma once

@@ -9,11 +9,11 @@ namespace frustumscreen {
 
 namespace {
 
-using Quad = std::array<glm::dvec3, 4>; ///< table frame
+using Quad = std::array<glm::dvec3, 4>; ///< in the table's frame
 
 const glm::dvec3 up(0.0, 0.0, 1.0);
 const glm::vec3 outline_light(0.10F, 0.28F, 0.30F);
-/// Light is linear between a surface's corners; over a table it is not.
+/// Light is interpolated linearly between a surface's corners; over a whole table that is not accurate.
 constexpr int table_cells = 8;
 
 /// Turns points of the table frame into vertices.
@@ -24,7 +24,7 @@ public:
           projector_(projector), projector_from_table_(projector.table_from_projector.inverse()),
           exposure_(exposure) {}
 
-    /// A surface that sends back `albedo` of the light. `lit`: the projector's reaches it.
+    /// A surface that reflects `albedo` of the light. `lit`: the projector's light reaches it.
     [[nodiscard]] SeenVertex surface(const glm::dvec3& point, const glm::dvec3& normal, double albedo,
                                      bool lit) const {
         const double received = received_from(projector_.table_from_projector.translation, point, normal);
@@ -34,7 +34,7 @@ public:
     }
     [[nodiscard]] SeenVertex line(const glm::dvec3& point, const glm::vec3& light) const {
         glm::dvec4 clip = clip_from_table_ * glm::dvec4(point, 1.0);
-        clip.y = -clip.y; // the pinhole's is -1 at the top
+        clip.y = -clip.y; // the pinhole has -1 at the top
         const Pinhole& p = projector_.pinhole;
         glm::dvec3 ray = projector_from_table_.point(point);
         if (const auto bent = p.lens.distort(glm::dvec2(ray) / ray.z)) {
@@ -68,14 +68,14 @@ void add_table(const Viewer& viewer, const glm::dvec2& half, SeenSurfaces& seen)
     }
 }
 
-/// Where the prop keeps the projector's light from the table: each face's shadow.
+/// Adds the shadow of each face on the table.
 void add_shadow(const Viewer& viewer, const Quad& face, const glm::dvec3& lens, const glm::dvec2& half,
                 SeenSurfaces& seen) {
     Quad shadow{};
     for (std::size_t k = 0; k < face.size(); ++k) {
         const std::optional<glm::dvec2> meets = meets_table(lens, face[k] - lens);
         if (!meets) {
-            return; // higher than the lens
+            return; // the corner is higher than the lens
         }
         shadow[k] = glm::dvec3(glm::clamp(*meets, -half, half), 0.0);
     }

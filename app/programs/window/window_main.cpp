@@ -55,7 +55,7 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     return app.end_of_arguments(argc, argv);
 }
 
-/// Where a pixel of the projector's picture lies on the table.
+/// Maps a pixel of the projector's picture to the table.
 TableFromPicture table_from_picture(const ProjectorSettings& projector) {
     return [projector](const glm::dvec2& pixel) {
         return lights_table(projector.pinhole, projector.table_from_projector, pixel);
@@ -85,7 +85,7 @@ Result<std::unique_ptr<Show>> make_show(const Request& request, const Settings& 
     return std::make_unique<LiveExhibit>(settings, std::move(show), std::move(exhibit), display.name());
 }
 
-/// `visitor` outlives the window.
+/// `visitor` must outlive the window.
 WindowSetUp set_up_of(const Settings& settings, const VisitorHalf& visitor, WindowHelp help) {
     const glm::dvec2 table(settings.table.width_m, settings.table.depth_m);
     WindowSetUp set_up;
@@ -109,7 +109,8 @@ Result<void> run(const Request& request) {
     ServiceManager manager;
     TRY(const CheckedSettings checked, load_settings(request.config));
     Settings settings = *checked;
-    settings.tracker.kind = TrackerKind::Simulated; // the mouse goes anywhere on the table, as a hand does
+    // The mouse moves the prop anywhere on the table, like a hand.
+    settings.tracker.kind = TrackerKind::Simulated;
     settings.tracker.display_latency_ms = 0.0;
     settings.eye.tracked = true;
     TRY(WindowHelp help, help_picture());
