@@ -10,7 +10,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// The real direction's ideal one, by halving: slow, and nothing like the solver's own way.
+/// Inverts the distortion by bisection: slow, and independent of the solver's own method.
 double unbent(double goal, const Lens& lens) {
     double low = 0.0;
     double high = 3.0;
@@ -27,7 +27,7 @@ glm::dquat about_z(double angle) {
     return {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
 }
 
-/// The sensor of a prop whose touched place is at a point of the table's space.
+/// The sensor's pose for a prop whose touched place is at a point in table space.
 RigidTransform sensor_at(const SimulatedTable& table, const glm::dvec3& table_point, double yaw,
                          double lean) {
     const glm::dquat table_from_prop =
@@ -112,17 +112,17 @@ SimulatedTable some_table(std::uint64_t seed) {
                      fx * std::exp(5e-4 * numbers.normal()),
                      (0.5 + numbers.between(-0.03, 0.03)) * width,
                      (0.5 + shift) * size.y};
-    // At the corner of the picture: some per mille to a per cent.
+    // Distortion at the corner of the picture: 0.1 % to 1 %.
     const double corner2 = (0.25 + 0.25 * size.y * size.y / (width * width)) / (throw_ratio * throw_ratio);
     truth.pinhole.lens = {numbers.between(-0.01, 0.01) / corner2, 0.0};
     truth.pinhole.lens.k1 = std::fmax(-0.1, std::fmin(0.1, truth.pinhole.lens.k1));
-    // Looking down, aimed at the table's middle within some degrees.
+    // Looks down at the table's middle, with an aim error of a few degrees.
     const glm::dquat down(0.0, 1.0, 0.0, 0.0);
     const glm::dvec3 off{numbers.between(-0.15, 0.15), numbers.between(-0.15, 0.15),
                          numbers.between(-0.05, 0.05)};
     truth.table_from_projector.rotation = glm::normalize(down * small_turn(off));
     truth.table_from_projector.translation = {0.0, 0.0, throw_ratio * table_width_m};
-    // Then the table's frame is what the conventions say, whatever the aim.
+    // Re-derive the table's frame by the conventions, regardless of the aim.
     TouchModel model;
     model.pinhole = truth.pinhole;
     model.projector_from_tracker = truth.table_from_projector.inverse();
