@@ -29,7 +29,7 @@ TEST(ByteReader, PastTheEndReadsNothingAndRemembers) {
     EXPECT_FALSE(one.ok());
     EXPECT_EQ(one.read<std::uint8_t>(), 0U);
     for (const std::size_t count : {std::size_t{2}, std::numeric_limits<std::size_t>::max()}) {
-        ByteReader many(bytes); // whatever is asked for, no memory is taken for it
+        ByteReader many(bytes); // a huge count must not allocate memory
         EXPECT_TRUE(many.read_all<std::uint32_t>(count).empty());
         EXPECT_FALSE(many.ok());
     }

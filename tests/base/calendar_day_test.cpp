@@ -1,4 +1,4 @@
-// Days as texts, held against days counted from 1970 by other means (date -d).
+// Days as texts, compared with days since 1970 from another source (date -d).
 #include "firmware_host/base/calendar_day.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// How a worker's thread begins, and how its sleep ends.
+// The start of a worker's thread, and the end of its sleep.
 #include "firmware_host/base/device_thread.h"
 #include "tests/render/counted_new.h"
 
@@ -36,7 +36,7 @@ TEST(DeviceThread, HasItsNameItsPriorityAndNoStopSignals) {
     EXPECT_EQ(niceness(), usual) << "of the calling thread alone";
 }
 
-/// Where a stop did not end it, ctest's limit would end this test.
+/// If a stop did not end the sleep, ctest's timeout would end this test.
 TEST(SleepUntilStop, EndsWhenAStopIsRequestedBeforeOrMeanwhile) {
     constexpr Nanoseconds forever = std::chrono::hours(1000);
     std::stop_source before;

@@ -26,7 +26,7 @@ TEST(Latest, ValuesOfAThreadInAHurryArriveInOrderAndTheLastOneAlways) {
     std::thread hurried([&] {
         for (int k = 1; k <= count; ++k) {
             const auto value = std::make_shared<const int>(k);
-            while (!latest.try_put(value) && k == count) { // only the last one is put again
+            while (!latest.try_put(value) && k == count) { // only the last one is retried
                 std::this_thread::yield();
             }
         }

@@ -59,7 +59,7 @@ TEST(Mailbox, PutAndTakenFromTwoThreadsLosesNoOrder) {
             EXPECT_EQ(item.value, to_microseconds(item.time));
             last = item.time;
         }
-        std::this_thread::yield(); // a poll that spins would keep the lock to itself
+        std::this_thread::yield(); // a spinning poll would hold the lock almost permanently
     }
     device.join();
 }

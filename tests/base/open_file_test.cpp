@@ -1,4 +1,4 @@
-// Files that are read piece by piece.
+// Files that are read in pieces.
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/open_file.h"
 #include "tests/base/temporary_folder.h"
@@ -54,7 +54,7 @@ TEST_F(OpenFileTest, that_shrinks_meanwhile_gives_nothing_of_what_is_gone) {
     EXPECT_TRUE(file->read(1, piece));
 }
 
-/// A status file is put in the place of another while it is read.
+/// A status file is replaced by another while it is read.
 TEST_F(OpenFileTest, is_read_whole_though_another_takes_its_place) {
     const std::string names[] = {"0123456789", "01234"};
     std::atomic<bool> over = false;

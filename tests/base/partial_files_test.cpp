@@ -1,4 +1,4 @@
-// What a killed run leaves beside its output, and what the next run may clear away.
+// Files that a killed run leaves next to its output, and which of them the next run may delete.
 
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/output_file.h"
@@ -20,7 +20,7 @@ protected:
     void put(const std::string& name) const {
         ASSERT_TRUE(write_file(folder / name, as_bytes("half of a pack")));
     }
-    /// The number of a process that has ended and was waited for.
+    /// The id of a process that has ended and was waited for.
     static std::string gone() {
         const pid_t child = ::fork();
         if (child == 0) {
@@ -61,7 +61,7 @@ TEST_F(PartialFiles, OfALivingProcessAndOfOtherNamesStay) {
     EXPECT_TRUE(fs::exists(folder / ("scan.fspack.part" + number)));
 }
 
-/// Nothing can be written beside it, as on a full disk.
+/// No file can be created next to it, as on a full disk.
 TEST_F(PartialFiles, AFileThatIsRenewedIsWrittenOverWhereNothingFitsBesideIt) {
     const fs::path status = folder / "status.json";
     ASSERT_TRUE(renew_file(status, as_bytes("a long one")));

@@ -13,10 +13,10 @@ TEST(Printable, KeepsWhatAPersonWroteInAnyLanguage) {
 TEST(Printable, HasNothingThatATerminalActsOnOrThatIsNoCharacter) {
     EXPECT_EQ(printable("clear \x1b[2J"), "clear ?[2J");
     EXPECT_EQ(printable("a\nb\tc\x7f"), "a?b?c?");
-    EXPECT_EQ(printable("pack\u202Egpj.exe"), "pack?gpj.exe"); // would be shown as packexe.jpg
+    EXPECT_EQ(printable("pack\u202Egpj.exe"), "pack?gpj.exe"); // would be displayed as packexe.jpg
     EXPECT_EQ(printable("\u2028\u202A\u2066\u2069\u202F"), "??\u2066\u2069\u202F");
     EXPECT_EQ(printable("\xC2\x9B"), "?");            // CSI in 8 bits
-    EXPECT_EQ(printable("\xC2\xA0"), "\xC2\xA0");     // the first one behind them
+    EXPECT_EQ(printable("\xC2\xA0"), "\xC2\xA0");     // the first printable one after the control characters
     EXPECT_EQ(printable("\xC0\xAF"), "??");           // an overlong slash
     EXPECT_EQ(printable("\xED\xA0\x80"), "???");      // a surrogate
     EXPECT_EQ(printable("\xF4\x90\x80\x80"), "????"); // above U+10FFFF

@@ -1,4 +1,5 @@
-// The code in a picture's corner, byte by byte; tests/render holds what the renderer writes against the same reading.
+// The code in a picture's corner, byte by byte; tests/render checks the renderer's output with the same
+// reader.
 #include "firmware_host/base/probe_code.h"
 
 #include <gtest/gtest.h>

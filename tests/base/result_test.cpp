@@ -1,4 +1,4 @@
-// TRY gives the value of a result; TRY_VOID drops it. Both return from the function with its error.
+// TRY gives the value of a result; TRY_VOID discards it. Both return the error from the enclosing function.
 #include "firmware_host/base/result.h"
 #include "tests/base/told.h"
 

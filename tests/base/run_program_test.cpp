@@ -1,4 +1,4 @@
-// Other programs run by ours: how each way of ending is told. Their voices are in tests/texts.
+// Running other programs: how each way of ending is reported. Voices are tested in tests/texts.
 #include "firmware_host/base/run_program.h"
 
 #include <gtest/gtest.h>

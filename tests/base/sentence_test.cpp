@@ -7,7 +7,7 @@
 namespace frustumscreen {
 namespace {
 
-/// Two bytes each in UTF-8.
+/// Two bytes per character in UTF-8.
 const std::string amphora = "Αμφορέας";
 
 std::string repeated(std::string_view text, int times) {
@@ -27,7 +27,8 @@ TEST(Sentence, HoldsWhatFitsToTheLastByte) {
     EXPECT_EQ(Sentence("").view(), "");
 }
 
-/// Characters of one to four bytes, moved byte by byte over the end: whole ones stay, and as many as fit.
+/// Characters of one to four bytes, shifted byte by byte across the limit: only whole characters remain, as
+/// many as fit.
 TEST(Sentence, IsCutBetweenTwoCharacters) {
     for (const std::string_view character : {"a", "έ", "画", "𝄞"}) {
         for (int before = 0; before < 8; ++before) {

@@ -1,4 +1,4 @@
-/// A test with a folder of its own, which goes with all that is in it.
+/// A test with its own folder, which is deleted with its contents.
 #pragma once
 
 #include <gtest/gtest.h>

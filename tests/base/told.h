@@ -1,4 +1,5 @@
-/// An error as a program prints it, for tests that look for its id and for the names and numbers in its sentence.
+/// An error as printed by a program, for tests that look for its id and for names and numbers in its
+/// sentence.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -17,7 +18,7 @@ namespace frustumscreen::test {
     return fmt::format("{} [{}]", error.message, error.id.view());
 }
 
-/// Whether every part stands in what is told: the id, and the names and numbers that it must tell.
+/// Whether `told` contains every part: the id, and the required names and numbers.
 [[nodiscard]] inline bool tells(std::string_view told, std::initializer_list<std::string_view> parts) {
     return std::all_of(parts.begin(), parts.end(),
                        [&](std::string_view part) { return told.find(part) != std::string_view::npos; });

@@ -18,7 +18,8 @@ Settings old_table() {
     return settings;
 }
 
-/// Pixels whose ray ends on a face through which the eye sees the ellipsoid: the ordinary way, pixel by pixel.
+/// Counts pixels whose ray ends on a face through which the eye sees the ellipsoid, in the ordinary way,
+/// pixel by pixel.
 double counted_pixels(const Settings& settings, double yaw, const glm::dvec3& half) {
     const RigidTransform prop_from_table =
         RigidTransform{glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), glm::dvec3(0.0)}.inverse();
@@ -41,7 +42,7 @@ double counted_pixels(const Settings& settings, double yaw, const glm::dvec3& ha
             if (prop.faces[static_cast<std::size_t>(hit.face)].plane.distance(eye) <= 0.0) {
                 continue;
             }
-            double nearest = 1e9; // to the ellipsoid's middle, in its radii, along the eye's ray
+            double nearest = 1e9; // distance to the ellipsoid's middle, in its radii, along the eye's ray
             for (int k = 0; k <= 600; ++k) {
                 const glm::dvec3 at = eye + (lit - eye) * (0.5 + k / 400.0);
                 nearest = std::min(nearest, glm::length((at - glm::dvec3(0.0, 0.0, half.z)) / half));
@@ -119,7 +120,7 @@ TEST(Advice, WhatAFrameCostsStandsInTableAndCsvIfItWasMeasured) {
     SetUpChoice now = as_it_is(old_table());
     std::vector<SetUpChoice> found(3, now);
     found[0].works = false;
-    found[1].settings.prop.base_m = 0.15; // can be slid farther
+    found[1].settings.prop.base_m = 0.15; // smaller, so it can be slid farther
     found[1].figures = examine(found[1].settings);
     const std::vector<SetUpChoice*> best = best_working(found, 5);
     ASSERT_EQ(best.size(), 2U) << "one does not work";

@@ -13,7 +13,7 @@ namespace {
 constexpr int side = 32;
 constexpr double codes = 65535.0;
 
-/// Hills of several sizes; every height occurs.
+/// Hills of several sizes that cover every height.
 Image16 hills(std::uint64_t seed) {
     std::mt19937_64 engine(seed);
     std::uniform_real_distribution<double> random(0.0, 2.0 * std::numbers::pi);
@@ -35,7 +35,7 @@ Image16 hills(std::uint64_t seed) {
     return depth;
 }
 
-/// The widest cone, at most 1, that no texel of `narrows` lies in; all pairs.
+/// The widest cone, at most 1, that contains no texel of `narrows`; tests all pairs.
 template <typename Narrows> double widest(const Image16& depth, int x, int y, const Narrows& narrows) {
     double ratio = 1.0;
     for (int v = 0; v < side; ++v) {
@@ -93,7 +93,7 @@ TEST(ConeMap, ARelaxedConeIsAtLeastAsWideAsTheEmptyOne) {
     EXPECT_GT(sum_relaxed, 1.1 * sum_empty);
 }
 
-/// Surface between the texels' middles.
+/// Surface interpolated between the texels' middles.
 double bilinear(const Image16& depth, double x, double y) {
     const int left = std::clamp(static_cast<int>(std::floor(x)), 0, side - 2);
     const int top = std::clamp(static_cast<int>(std::floor(y)), 0, side - 2);
@@ -119,7 +119,8 @@ TEST(ConeMap, ARayCrossesTheSurfaceOnceAtMostInsideARelaxedCone) {
             const double turn = 2.0 * std::numbers::pi * random(engine);
             const double fall = std::tan(0.5 * std::numbers::pi * random(engine)); // depth / distance
             const double ratio = cones.at(x, y) / codes;
-            const double reach = ratio * (apex - start) / (1.0 + ratio * fall); // where it leaves the cone
+            const double reach = ratio * (apex - start) / (1.0 + ratio * fall); // distance at which the ray
+                                                                                // leaves the cone
             bool was_inside = false;
             double deepest = 0.0;
             for (int k = 0; k <= 400; ++k) {
@@ -132,7 +133,7 @@ TEST(ConeMap, ARayCrossesTheSurfaceOnceAtMostInsideARelaxedCone) {
                 const double inside = start + fall * distance - bilinear(depth, u, v);
                 deepest = std::fmax(deepest, inside);
                 was_inside = was_inside || inside > 0.0;
-                // Where it came out again it had but cut a corner smaller than the texels tell.
+                // A ray that re-emerges may only have cut a corner smaller than the texels resolve.
                 if (was_inside && inside < 0.0) {
                     EXPECT_LT(deepest, 0.02) << seed << " at " << x << ' ' << y;
                     break;

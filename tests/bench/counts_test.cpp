@@ -18,7 +18,7 @@ SetUp set_up_of(const char* name) {
     return {name, **settings};
 }
 
-/// The reference's small amphora, baked anew.
+/// The reference's small amphora, baked for this test.
 const Pack& small_amphora() {
     static const Pack pack = [] {
         const Result<SourceMesh> mesh = make_builtin("amphora", 20'000);
@@ -59,7 +59,7 @@ TEST(Counts, ATriangleIsNeverCountedMoreOftenThanThePropHasFaces) {
     const PackLevel& level = small_amphora().levels[small_amphora().default_level];
     const FrameCounts& counts = counted->counts;
     EXPECT_GT(counts.triangles,
-              0.25 * static_cast<double>(level.indices.size()) / 3.0); // a side of it is seen
+              0.25 * static_cast<double>(level.indices.size()) / 3.0); // one side of it is visible
     EXPECT_LT(counts.triangles, counts.draw_calls * static_cast<double>(level.indices.size()) / 3.0);
     EXPECT_LE(counts.vertices, static_cast<double>(level.vertices.size()));
     EXPECT_LE(counts.vertices, 3.0 * counts.triangles);
@@ -79,7 +79,7 @@ TEST(Counts, WhatIsWrittenIsReadAgain) {
 TEST(Counts, GrowthBeyondAFewPercentIsSaid) {
     const std::vector<CountedPack> before{{"a", "near", {100, 100, 4, 1000, 1e6}}, {"b", "near", {}}};
     std::vector<CountedPack> now{{"a", "near", {104, 100, 4, 1000, 1e6}}, {"c", "near", {1, 1, 1, 1, 1}}};
-    ASSERT_EQ(changes(now, before).size(), 1U); // only what both have
+    ASSERT_EQ(changes(now, before).size(), 1U); // only packs in both
     EXPECT_FALSE(changes(now, before)[0].grown);
     now[0].counts.samples = 1100;
     EXPECT_TRUE(changes(now, before)[0].grown);

@@ -1,4 +1,5 @@
-// The estimate of a frame's error against the ray cast, on shapes that it was not made with; and what counts as covered.
+// The estimate of a frame's error against the ray cast, on shapes that were not used to derive it; and the
+// rule for covered poses.
 
 #include "app/bench/measures/coverage.h"
 #include "app/pack/pack_relief.h"
@@ -37,7 +38,7 @@ TEST(Coverage, CountsThePosesWhoseTruthIsNearTheEstimateAndBelowItsP95) {
     EXPECT_EQ(coverage.covered, 3U);
     EXPECT_EQ(coverage.below_p95, 5U);
     EXPECT_NEAR(coverage.ratio.median, 1.0, 0.2);
-    EXPECT_EQ(coverage_of(technique_of({1.0}, {})).poses, 0U); // a peer says nothing
+    EXPECT_EQ(coverage_of(technique_of({1.0}, {})).poses, 0U); // a peer has no estimates
 }
 
 TEST(Coverage, IsHeldAtNineOfTenPosesOfAllTogether) {
@@ -51,7 +52,7 @@ TEST(Coverage, IsHeldAtNineOfTenPosesOfAllTogether) {
     EXPECT_NE(coverage_csv(with(8)).find("\"b, c\",\"kiosk\",\"mesh 1\",10,8,10,"), std::string::npos);
 }
 
-/// A ball, a box and a thin plate, apart: convex, with edges that hide each other.
+/// Separate convex bodies, a ball, a box and a thin plate, with edges that hide each other.
 std::shared_ptr<SourceMesh> things() {
     auto mesh = std::make_shared<SourceMesh>(test::empty_mesh());
     test::add_sphere(*mesh, {-0.2, 0.0, 0.3}, 0.25, 40);
@@ -71,7 +72,8 @@ void expect_covered(const std::shared_ptr<const SourceMesh>& mesh, double most_m
                                                  [](const std::string&, double) {})
                                    .value();
     const std::vector<NamedCoverage> rows = coverages_of("shape", result);
-    EXPECT_EQ(rows.size(), pack.levels.size() + reliefs_of(pack).value().size() + 1); // and what `auto` takes
+    EXPECT_EQ(rows.size(), pack.levels.size() + reliefs_of(pack).value().size() + 1); // plus the choice of
+                                                                                      // `auto`
     double poses = 0.0;
     double covered = 0.0;
     for (const NamedCoverage& row : rows) {
@@ -81,8 +83,8 @@ void expect_covered(const std::shared_ptr<const SourceMesh>& mesh, double most_m
         poses += static_cast<double>(row.coverage.poses);
         covered += static_cast<double>(row.coverage.covered);
     }
-    // A small shape has a few pixels on the edges that hide something, and each is much of the mean. What scans must reach,
-    // `frustumscreen-bench estimate` holds.
+    // A small shape has few pixels on occluding edges, and each is a large share of the mean.
+    // `frustumscreen-bench estimate` checks the limit for scans.
     EXPECT_GT(covered, 0.6 * poses) << coverage_table(rows);
 }
 
@@ -90,7 +92,8 @@ TEST(Coverage, HoldsForARing) {
     expect_covered(ring(), most_of_estimate);
 }
 
-/// Boxes have no error but at their edges: of the finest two levels the estimate is 1.6 and 1.7 times too small.
+/// Boxes have errors only at their edges: for the two finest levels the estimate is 1.6 and 1.7 times too
+/// small.
 TEST(Coverage, HoldsForThingsThatHideEachOther) {
     expect_covered(things(), 1.8);
 }

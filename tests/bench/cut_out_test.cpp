@@ -8,7 +8,7 @@
 namespace frustumscreen {
 namespace {
 
-/// An upright rectangle across Y at `y_m`, from the table up; its texture's u runs along X.
+/// An upright rectangle perpendicular to Y at `y_m`, from the table up; its texture's u runs along X.
 void add_board(SourceMesh& mesh, double y_m, std::int32_t material) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)}) {
@@ -20,8 +20,8 @@ void add_board(SourceMesh& mesh, double y_m, std::int32_t material) {
     mesh.triangle_materials.insert(mesh.triangle_materials.end(), 2, static_cast<std::uint32_t>(material));
 }
 
-/// Red pickets, six in a row, with an arch cut out of their middle; what is cut is bright green, to be seen
-/// by nobody.
+/// Six red pickets in a row, with an arch cut out of their middle; the cut-out texels are bright green and
+/// must stay invisible.
 std::shared_ptr<const Image8> pickets() {
     auto image = std::make_shared<Image8>(192, 192);
     for (int y = 0; y < 192; ++y) {
@@ -94,12 +94,12 @@ TEST_F(CutOut, WhatStandsBehindShowsThroughTheGapsWithoutAFringe) {
     for (const BenchPose& pose : *poses) {
         const PictureError error = error_of(finest, pose);
         EXPECT_GT(error.truth_pixels, 50);
-        EXPECT_LT(error.sixteen_rays.rmse, 14.0); // the green of the cut texels would be 100 and more
-        EXPECT_LT(error.geometric_mean_mm, 0.5);  // the boards stand 20 mm apart
+        EXPECT_LT(error.sixteen_rays.rmse, 14.0); // the green of the cut-out texels would be 100 and more
+        EXPECT_LT(error.geometric_mean_mm, 0.5);  // the boards are 20 mm apart
     }
 }
 
-/// Rays pass the holes when the relief is made; so do those that it is cast with.
+/// Rays pass through the holes when the relief is made, and when it is compared.
 TEST_F(CutOut, AReliefHasTheGapsAndWhatShowsThroughThem) {
     for (const bool with_wall : {false, true}) {
         ASSERT_NO_FATAL_FAILURE(bake_fence(with_wall, true));
@@ -116,8 +116,9 @@ TEST_F(CutOut, AReliefHasTheGapsAndWhatShowsThroughThem) {
             EXPECT_GT(error.truth_pixels, 30);
             EXPECT_TRUE(error.silhouette_percent <= 0.6 || error.outline_shift_px <= 0.2)
                 << error.silhouette_percent << " % " << error.outline_shift_px << " px";
-            EXPECT_LT(error.geometric_mean_mm, 0.5); // the boards stand 20 mm apart
-            // A corner's colour reaches a cell far, also across the edge of a picket: up to 16.1 here; green would be 100 and more.
+            EXPECT_LT(error.geometric_mean_mm, 0.5); // the boards are 20 mm apart
+            // A corner's colour extends over a cell, also across the edge of a picket: up to 16.1 here; green
+            // would be 100 and more.
             EXPECT_LT(error.sixteen_rays.rmse, 20.0);
         }
     }

@@ -1,4 +1,4 @@
-// Who dominates whom, on results that were made up.
+// Dominance between made-up results.
 
 #include "app/bench/measures/dominance.h"
 #include "app/bench/measures/report.h"
@@ -43,7 +43,7 @@ SetUpResult with(std::vector<TechniqueResult> peers) {
     return result;
 }
 
-/// By shape, then by colour.
+/// Two verdicts: by shape, then by colour.
 std::vector<LimitVerdict> verdicts_beside(const TechniqueResult& peer) {
     std::vector<LimitVerdict> verdicts = judge_dominance(with({peer}));
     EXPECT_EQ(verdicts.size(), 2U);
@@ -91,7 +91,7 @@ TEST(Dominance, ShapeIsJudgedAmongPicturesOfAsManySamples) {
     TechniqueResult peer = technique("LOD", TechniqueKind::Lod, 1.5, {0.0, 0.0, 0.0});
     peer.samples = 4;
     const std::vector<LimitVerdict> verdicts = judge_dominance(with({peer}));
-    ASSERT_EQ(verdicts.size(), 1U); // none has one sample, as the level
+    ASSERT_EQ(verdicts.size(), 1U); // no peer has one sample per pixel, like the level
     EXPECT_NE(verdicts[0].what.find("colour"), std::string::npos);
     EXPECT_FALSE(verdicts[0].held);
     const SetUpResult result = with({peer});
@@ -146,7 +146,7 @@ TEST(Dominance, TheBestEyeImageIsTheCheapestThatNoOtherBettersAtItsCost) {
         return names;
     };
     EXPECT_EQ(best_of(30.0, 40.0, 50.0), "640;640 of another mesh;");
-    EXPECT_EQ(best_of(30.0, 31.0, 50.0), "1024;640 of another mesh;"); // as good as for nothing
+    EXPECT_EQ(best_of(30.0, 31.0, 50.0), "1024;640 of another mesh;"); // equally good at no extra cost
     EXPECT_EQ(best_of(30.0, 31.0, 32.0), "1600;640 of another mesh;");
 }
 

@@ -1,4 +1,4 @@
-// The bench's side of its plots, with scripts that stand in for the real one (tests/bench/plots has that).
+// The bench's side of its plots, with fake scripts (tests/bench/plots tests the real one).
 
 #include "app/bench/plots/draw_tables.h"
 

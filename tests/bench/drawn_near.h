@@ -1,4 +1,4 @@
-/// For the bench's tests that draw: the picture of near_stage.h's small projector.
+/// Fixture for the bench's tests that draw: the picture of near_stage.h's small projector.
 #pragma once
 
 #include "app/bench/measures/measure.h"
@@ -19,7 +19,7 @@ protected:
     [[nodiscard]] TruthPicture ray_cast(const Truth& truth, const BenchPose& pose) const {
         return truth.cast(stage_.prop, view_of(stage_.settings, pose), true);
     }
-    /// The error of the picture that `technique` draws for `pose`.
+    /// The error of the picture drawn by `technique` for `pose`.
     [[nodiscard]] PictureError error_of(Technique& technique, const BenchPose& pose,
                                         const TruthPicture& truth) const {
         technique.draw(pose);

@@ -1,4 +1,5 @@
-// Pixels that two faces share: where they lie, by hand; their changes, by pictures made by hand and by drawn ones.
+// Pixels shared by two faces: their positions, computed by hand; their changes, in hand-made and in drawn
+// pictures.
 
 #include "app/bench/measures/edge_sparkle.h"
 #include "assets_baked/bake/bake.h"
@@ -38,8 +39,8 @@ TEST(ChangeHistogram, SaysWhatTheListOfChangesSays) {
 
 TEST(EdgeZones, LieAtTheEdgesOfFacesThatEyeAndLensSee) {
     const Settings settings = near_settings();
-    // The top is 0.09 m wide, 0.78 m below the lens, and 1400 pixels are a metre at 1 m: its front edge is the row of
-    // 200 + 1400 * 0.045 / 0.78 = 280.77, and its columns reach from 239.2 to 400.8.
+    // The top is 0.09 m wide, 0.78 m below the lens, and a metre at 1 m spans 1400 pixels: its front edge is
+    // in row 200 + 1400 * 0.045 / 0.78 = 280.77, and its columns extend from 239.2 to 400.8.
     const Image<EdgeZone> zones = edge_zones(settings, make_prop(settings.prop), pose_at(0.0, 0.0, 0.0));
     EXPECT_EQ(zones.at(320, 280), EdgeZone::Shared);
     EXPECT_EQ(zones.at(320, 279), EdgeZone::Near); // 1.27 pixels away
@@ -59,15 +60,15 @@ TEST(EdgeSparkle, CountsWhatChangesOnEdgesAndBesideThem) {
     std::array<Image8, 2> sharp{Image8(9, 5, grey), Image8(9, 5, grey)};
     std::array<Image8, 2> feathered = sharp;
     std::array<Image<EdgeZone>, 2> zones{Image<EdgeZone>(9, 5), Image<EdgeZone>(9, 5)};
-    zones[0].at(2, 2) = EdgeZone::Shared; // before the step alone
+    zones[0].at(2, 2) = EdgeZone::Shared; // only before the step
     zones[0].at(4, 2) = zones[1].at(4, 2) = EdgeZone::Beside;
-    zones[0].at(5, 2) = EdgeZone::Beside; // and after it away: not judged
+    zones[0].at(5, 2) = EdgeZone::Beside; // away after it: not judged
     zones[1].at(7, 2) = EdgeZone::Shared;
     sharp[1].at(2, 2) = {50, 90, 41, 255};
     feathered[1].at(2, 2) = {50, 55, 60, 255};
     sharp[1].at(4, 2) = feathered[1].at(4, 2) = {53, 50, 50, 255};
     sharp[1].at(5, 2) = {99, 99, 99, 255};
-    sharp[1].at(8, 3) = {0, 0, 0, 255}; // beside (7, 2): the artifact ends there
+    sharp[1].at(8, 3) = {0, 0, 0, 255}; // next to (7, 2): the artifact ends there
     EdgeSparkle sparkle;
     add_step(sharp, feathered, zones, sparkle);
     EXPECT_EQ(sparkle.sharp.changes(), 1);

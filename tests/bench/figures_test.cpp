@@ -1,4 +1,4 @@
-// True figures are held, false ones are caught.
+// True figures are accepted, false ones are detected.
 
 #include "app/bench/measures/figures.h"
 #include "assets_baked/bake/bake.h"
@@ -28,7 +28,7 @@ TEST(PackFigures, FalseOnesAreCaughtByMeasuring) {
     }
     EXPECT_TRUE(require_true(judge(figures, mm_per_box), "cat.fspack"));
     const float true_p95 = figures[0].said.p95_box;
-    ASSERT_GT(true_p95, 5e-4F); // of the coarsest, far above the slack
+    ASSERT_GT(true_p95, 5e-4F); // of the coarsest level, far above the slack
     for (const float lie : {0.0F, 0.3F * true_p95, 3.0F * true_p95, std::nanf("")}) {
         figures[0].said.p95_box = lie;
         const std::vector<LimitVerdict> verdicts = judge(figures, mm_per_box);

@@ -24,7 +24,7 @@ protected:
 
 constexpr std::array filters = {FloorFilter::Trilinear, FloorFilter::OneLevel};
 
-/// What averaging in linear light would not keep: black and white make 188 there.
+/// Averaging in linear light would fail this: black and white would give 188.
 TEST_F(Floor, ItsCodesAreAveragedAsCodesAndLieOnThePropAlone) {
     for (const FloorFilter filter : filters) {
         const std::unique_ptr<Technique> technique = floor(filter);
@@ -41,7 +41,7 @@ TEST_F(Floor, ItsCodesAreAveragedAsCodesAndLieOnThePropAlone) {
                 sum += code;
                 lit += code != 0 ? 1 : 0;
             }
-            EXPECT_LE(beside, 2); // of centres that lie on an edge
+            EXPECT_LE(beside, 2); // pixel centres on an edge
             ASSERT_GT(lit, 5000);
             EXPECT_NEAR(sum / lit, 127.5, 4.0) << technique->name();
         }

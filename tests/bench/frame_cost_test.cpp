@@ -1,4 +1,4 @@
-// What frames cost in several set-ups: ratios to the first, and samples against a ray cast.
+// The cost of frames in several set-ups: ratios to the first, and samples against a ray cast.
 
 #include "app/bench/setup/frame_cost.h"
 #include "app/bench/truth/truth.h"
@@ -30,7 +30,7 @@ const Pack& ring_pack() {
 class FrameCosts : public ::testing::Test {
 protected:
     FrameCosts() { large_.projector.pinhole = settings_.projector.pinhole.scaled_to(1280, 800); }
-    /// Pixels that show the ring, a mean over a turn of the prop at the table's middle.
+    /// Pixels that show the ring, averaged over one rotation of the prop at the table's middle.
     [[nodiscard]] double pixels_hit(const Settings& settings) const {
         const PropShape prop = make_prop(settings.prop);
         const Result<Truth> truth = Truth::build(ring(), place(pack_, prop).prop_from_artifact);
@@ -47,7 +47,7 @@ protected:
     }
 
     Settings settings_ = near_settings();
-    Settings large_ = near_settings(); ///< the same in four times the pixels
+    Settings large_ = near_settings(); ///< with four times as many pixels
     const Pack& pack_ = ring_pack();
 };
 

@@ -15,7 +15,7 @@
 namespace frustumscreen {
 namespace {
 
-/// A hand that goes along a screw: around a point, upwards, and turning with it.
+/// A hand that moves along a screw: around a point, upwards, and rotating with it.
 RigidTransform screw(double t_s) {
     return {rotation_of({0.0, 0.0, 0.5 * t_s}), {0.2 * std::cos(t_s), 0.2 * std::sin(t_s), 0.1 * t_s}};
 }
@@ -47,7 +47,7 @@ TEST(HandMotion, ARecordingGoesStraightFromPoseToPose) {
     EXPECT_EQ(recorded(poses)(9.0).translation.x, 0.1);
 }
 
-/// At the speeds that the recordings have (docs/tags.md).
+/// The speeds of the recordings (docs/tags.md).
 TEST(HandMotion, RecordedHandsAreSlidAtTheirSpeed) {
     const std::filesystem::path folder = shared_dir() + "/data/tracker";
     if (!std::filesystem::exists(folder)) {

@@ -1,4 +1,5 @@
-// The museum's light at a ray's hit, against a sum over far more directions and boxes that are met by arithmetic.
+// The museum's light at a ray's hit, against a sum over far more directions and boxes intersected
+// analytically.
 
 #include "app/bench/truth/lit_source.h"
 #include "app/bench/truth/truth.h"
@@ -17,7 +18,7 @@ struct Block {
 
     [[nodiscard]] bool is_met(const glm::dvec3& from, const glm::dvec3& direction) const {
         double enter = 0.0;
-        double leave = 1.5; // what is farther away casts no shadow
+        double leave = 1.5; // anything farther away casts no shadow
         for (int axis = 0; axis < 3; ++axis) {
             const double a = (low[axis] - from[axis]) / direction[axis];
             const double b = (high[axis] - from[axis]) / direction[axis];
@@ -28,7 +29,8 @@ struct Block {
     }
 };
 
-/// On a place that faces up, beside the block: 90,000 directions, each as the museum is described.
+/// At a place that faces up, next to the block: 90,000 directions, each with the definition of the museum's
+/// light.
 double light_of_dome(const glm::dvec3& place, const Block& block) {
     const glm::dvec3 key = glm::normalize(glm::dvec3(-0.45, -0.60, 0.80));
     constexpr int side = 300;
@@ -47,7 +49,7 @@ double light_of_dome(const glm::dvec3& place, const Block& block) {
 
 const Block block{{0.1, -0.4, 0.0}, {0.2, 0.4, 0.5}};
 
-/// A floor, and the block on it. In one piece, with the box's frame as the file's.
+/// A floor and the block on it, as one mesh; the box's frame is the file's.
 std::shared_ptr<SourceMesh> floor_and_block() {
     auto mesh = std::make_shared<SourceMesh>(test::empty_mesh());
     mesh->positions = {{-0.5, -0.5, 0.0}, {0.5, -0.5, 0.0}, {0.5, 0.5, 0.0}, {-0.5, 0.5, 0.0}};
@@ -58,7 +60,7 @@ std::shared_ptr<SourceMesh> floor_and_block() {
     return mesh;
 }
 
-/// Weights of the floor's first triangle, (-.5, -.5), (.5, -.5), (.5, .5), at a place.
+/// Barycentric weights at a place in the floor's first triangle, (-.5, -.5), (.5, -.5), (.5, .5).
 glm::dvec2 weights_at(double x, double y) {
     return {x - y, y + 0.5};
 }

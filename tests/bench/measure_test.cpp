@@ -10,7 +10,7 @@ namespace {
 
 constexpr float nan_f = std::numeric_limits<float>::quiet_NaN();
 
-/// A truth of 6 x 6 pixels whose artifact is where `rows` has '#'; its points are (x, y, 0) mm.
+/// A truth of 6 x 6 pixels with artifact where `rows` has '#'; its points are (x, y, 0) mm.
 TruthPicture truth_of(const std::array<std::string_view, 6>& rows) {
     TruthPicture truth{{6, 6, 1}, {6, 6}, {6, 6, glm::vec3(nan_f)}, {6, 6, glm::u8vec4(0, 0, 0, 255)}, {}};
     for (int y = 0; y < 6; ++y) {
@@ -66,7 +66,7 @@ TEST(Measure, ColourErrorsCountChannelsAndPixels) {
     Drawn drawn{truth.colour, truth.point_m};
     drawn.colour.at(0, 0).r = 110;                // 10 codes in one of 12 channels
     drawn.colour.at(1, 1).b = 80;                 // 20 codes: one bad pixel of four
-    drawn.colour.at(3, 3) = {255, 255, 255, 255}; // no hit there: does not count
+    drawn.colour.at(3, 3) = {255, 255, 255, 255}; // no hit there: not counted
     const PictureError error = measure(truth, drawn);
     EXPECT_NEAR(error.one_ray.rmse, std::sqrt((100.0 + 400.0) / 12.0), 1e-12);
     EXPECT_DOUBLE_EQ(error.one_ray.bad_percent, 25.0);
@@ -101,11 +101,11 @@ TEST(Measure, TheShownPicturesLightIsTheShareThatIsCovered) {
             of_samples.at(x, y) = 1.0F;
         }
     }
-    truth.met_by_16.at(5, 1) = 4;                                   // a quarter that is not shown,
+    truth.met_by_16.at(5, 1) = 4;                                   // a missing quarter,
     shown.white.at(0, 0) = {srgb8_from_linear(0.5), 188, 188, 255}; // half a pixel too much
     of_samples.at(5, 1) = 0.5F;             // exact rays would show a quarter too much
     shown.colour.at(2, 2).g = 112;          // 12 codes in one of 45 channels,
-    shown.colour.at(1, 1) = {0, 0, 0, 255}; // and what is not hit in both does not count
+    shown.colour.at(1, 1) = {0, 0, 0, 255}; // and pixels not hit in both are not counted
     ImageFloat points = truth.point_m;
     points.at(1, 1) = glm::vec3(nan_f);
     const ShownError error = measure_shown(truth, shown, of_samples, points);

@@ -1,4 +1,4 @@
-/// A small projector that hangs over the table, for the bench's tests. Frames: table T, metres.
+/// A small, low projector for the bench's tests. Frames: table T, metres.
 #pragma once
 
 #include "app/bench/truth/poses.h"
@@ -14,7 +14,7 @@ inline Settings near_settings() {
     return settings;
 }
 
-/// The prop on the table, turned by `yaw` radians; a visitor's eye.
+/// The prop on the table, rotated by `yaw` radians; a visitor's eye.
 inline BenchPose pose_at(double x_m, double y_m, double yaw) {
     return {{glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), {x_m, y_m, 0.0}}, {0.1, -0.5, 0.5}};
 }

@@ -1,4 +1,4 @@
-// A pack's own reliefs as the bench draws them: against the ray cast of what was baked.
+// A pack's own reliefs drawn by the bench, against the ray cast of the baked mesh.
 
 #include "app/bench/measures/comparison.h"
 #include "app/bench/techniques/relief_cast.h"
@@ -82,7 +82,8 @@ TEST_F(PackRelief, ThereIsARowForEachByTheNameThatDrawsIt) {
     EXPECT_LT(reliefs[1].error.mean.sixteen_rays.rmse, reliefs[0].error.mean.sixteen_rays.rmse);
 }
 
-/// With light baked into its colours and without: light that falls off towards an outline is none that moves it.
+/// With and without light baked into the colours: light that falls off towards an outline must not count as a
+/// shift.
 TEST_F(PackRelief, LevelsAndReliefsAreDrawnWhereTheirSurfacesAre) {
     const Pack with_light = baked(96, false);
     for (const Pack* const pack : std::array<const Pack*, 2>{&pack_, &with_light}) {
@@ -108,7 +109,7 @@ TEST_F(PackRelief, LevelsAndReliefsAreDrawnWhereTheirSurfacesAre) {
     }
 }
 
-/// What the bench bakes by itself is what the bake puts into a pack.
+/// Reliefs baked by the bench equal those in the pack.
 TEST_F(PackRelief, TheBenchBakesTheReliefsThatThePackHas) {
     const std::vector<ReliefOutline> outlines = reliefs_of(pack_).value();
     ASSERT_FALSE(outlines.empty());

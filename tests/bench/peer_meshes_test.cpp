@@ -1,5 +1,5 @@
-// Peers that draw something else than the source mesh by rasterizing it: a ray cast, simplified meshes; and
-// which of them a person asks for.
+// Peers that draw something other than the rasterized source mesh: a ray cast, simplified meshes; and the
+// selection of peers by option.
 
 #include "app/bench/techniques/level_of_detail.h"
 #include "app/bench/techniques/peer_choice.h"
@@ -13,7 +13,7 @@
 namespace frustumscreen {
 namespace {
 
-/// Between a corner circle's chord and its arc, both ways round.
+/// Greatest distance between chord and arc, around both of the torus's circles.
 constexpr double facets_m = (ring_major_m + ring_minor_m) * (1.0 - 0.99946) + ring_minor_m * (1.0 - 0.9951);
 
 double distance_from_ring(const glm::dvec3& point) {
@@ -113,9 +113,9 @@ TEST_F(PeerMeshes, SimplifyingKeepsSeamsAndMaterials) {
     for (std::size_t t = 0; t < level.triangles.size(); ++t) {
         for (const std::uint32_t corner : level.triangles[t]) {
             const double x = level.positions[corner].x;
-            EXPECT_TRUE(level.triangle_materials[t] == 1 ? x > -0.004 : x < 0.004); // a quad's width
+            EXPECT_TRUE(level.triangle_materials[t] == 1 ? x > -0.004 : x < 0.004); // within a quad's width
         }
-        // No triangle spans the texture: around the seam, u runs from 31/32 to 1, never from 31/32 to 0.
+        // No triangle spans the texture: around the seam, u goes from 31/32 to 1, never from 31/32 to 0.
         const auto u = [&](std::size_t k) { return level.uvs[level.triangles[t][k]].x; };
         const auto [low, high] = std::minmax({u(0), u(1), u(2)});
         EXPECT_LT(high - low, 0.5F);
@@ -124,7 +124,7 @@ TEST_F(PeerMeshes, SimplifyingKeepsSeamsAndMaterials) {
 
 TEST_F(PeerMeshes, CullingLeavesOutNothingThatShows) {
     for (const bool closed : {true, false}) {
-        if (!closed) { // without some triangles the inside shows
+        if (!closed) { // with triangles missing, the inside is visible
             mesh_->triangles.resize(mesh_->triangles.size() / 2);
             mesh_->triangle_materials.resize(mesh_->triangles.size());
         }
@@ -139,7 +139,7 @@ TEST_F(PeerMeshes, CullingLeavesOutNothingThatShows) {
             ASSERT_TRUE(points);
             const PictureError error = measure(picture, {picture.colour, *points});
             EXPECT_LT(error.outline_shift_px, 0.02);
-            EXPECT_LT(error.geometric_p95_mm, 0.002); // 16 bits a coordinate are 0.0012 mm apart
+            EXPECT_LT(error.geometric_p95_mm, 0.002); // steps of 16 bits per coordinate are 0.0012 mm
         }
     }
 }

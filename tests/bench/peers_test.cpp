@@ -26,7 +26,7 @@ TEST_F(Peers, TheFullMeshThroughTheCollineationIsTheRayCast) {
         const PictureError error = error_of(**full, pose, ray_cast(truth_, pose));
         EXPECT_GT(error.truth_pixels, 300);
         EXPECT_LT(error.outline_shift_px, 0.01);
-        EXPECT_LT(error.geometric_p95_mm, 0.002); // 16 bits a coordinate are 0.0012 mm apart
+        EXPECT_LT(error.geometric_p95_mm, 0.002); // steps of 16 bits per coordinate are 0.0012 mm
         EXPECT_LT(error.geometric_mean_mm, 0.05); // a pixel on an inner edge may show the far rim instead
         EXPECT_LT(error.one_ray.rmse, 6.0);       // mipmaps
     }
@@ -73,7 +73,7 @@ TEST_F(Peers, SeveralSamplesComeNearerToSixteenRaysAtTheSamePlaces) {
     }
 }
 
-/// Only what is lit is cleared: nothing of the pose before may stay.
+/// Only lit pixels are cleared: nothing of the previous pose may remain.
 TEST_F(Peers, APictureDoesNotDependOnTheOneBefore) {
     const auto poses = draw_poses(stage_.settings, stage_.prop, 3, 9);
     ASSERT_TRUE(poses);
@@ -107,7 +107,7 @@ TEST_F(Peers, TheRayCastsSamplesComeNearerToSixteenRays) {
             ASSERT_TRUE(cast);
             const PictureError error = error_of(**cast, pose, truth);
             EXPECT_LT(error.sixteen_rays.rmse, 0.85 * before) << samples;
-            if (samples > 1) { // one ray a pixel tells too little of a place between pixels
+            if (samples > 1) { // one ray per pixel gives too little information about places between pixels
                 EXPECT_LT(error.picture_shift_px, 0.05) << samples;
             }
             before = error.sixteen_rays.rmse;

@@ -1,4 +1,4 @@
-// Discs and stripes whose place is known exactly: their coverage is computed anew at each place.
+// Discs and stripes with exactly known positions: their coverage is computed for each position.
 
 #include "app/bench/measures/picture_shift.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int size = 48;
 
-/// A picture of what `inside` says of 256 points a pixel.
+/// A picture from 256 points per pixel tested with `inside`.
 template <typename Inside> Image8 picture_of(const Inside& inside, double brightness = 1.0) {
     Image8 picture(size, size, glm::u8vec4(0, 0, 0, 255));
     for (int y = 0; y < size; ++y) {
@@ -42,7 +42,8 @@ TEST(PictureShift, OfTheSamePictureIsNothing) {
     EXPECT_EQ(glm::length(*shift), 0.0);
 }
 
-/// An edge is steeper within its pixel than two pixels' difference says, so a shift is found up to a fifth too large.
+/// An edge is steeper within its pixel than the difference of two pixels suggests, so the shift is up to a
+/// fifth too large.
 TEST(PictureShift, IsFoundToAHundredthOfAPixelAndAFifthOfItself) {
     for (const glm::dvec2 moved : {glm::dvec2(0.02, 0.0), glm::dvec2(-0.05, 0.05), glm::dvec2(0.0, 0.2),
                                    glm::dvec2(0.5, 0.0), glm::dvec2(-0.5, 0.5)}) {
@@ -69,7 +70,7 @@ TEST(PictureShift, IsOpenWhereNoEdgeTellsIt) {
     const Image8 black(size, size, glm::u8vec4(0, 0, 0, 255));
     EXPECT_FALSE(picture_shift(black, black));
     const Image8 stripe = picture_of([](double x, double) { return x > 10.0 && x < 20.5; });
-    EXPECT_FALSE(picture_shift(stripe, stripe)); // it may have moved along itself
+    EXPECT_FALSE(picture_shift(stripe, stripe)); // it may have moved along its direction
 }
 
 } // namespace

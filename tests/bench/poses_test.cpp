@@ -77,11 +77,11 @@ TEST(Poses, EveryFaceThatTheEyeSeesIsLit) {
     const PropShape prop = make_prop(settings.prop);
     BenchPose pose{{glm::dquat(1.0, 0.0, 0.0, 0.0), {0.0, 0.0, 0.0}}, {0.6, 0.0, 0.3}};
     EXPECT_TRUE(in_zone(settings, prop, pose));
-    // The face +X leans inwards by 35 mm over 120 mm: its plane meets height 0.95 m at x = 0.08 - 0.277 m
+    // The face +X leans inwards by 35 mm over 120 mm: its plane reaches height 0.95 m at x = 0.08 - 0.277 m
     // from the prop's axis, so a prop shifted by 0.2 m to the right turns that face away from the light.
     pose.table_from_prop.translation.x = 0.2;
     EXPECT_FALSE(in_zone(settings, prop, pose));
-    pose.eye_m = {-0.6, 0.0, 0.3}; // but from the left it is not seen
+    pose.eye_m = {-0.6, 0.0, 0.3}; // but it is not visible from the left
     EXPECT_TRUE(in_zone(settings, prop, pose));
 }
 

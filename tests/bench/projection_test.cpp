@@ -68,7 +68,7 @@ TEST(Projection, TheVisitorsRayCastMeetsABallWhereAlgebraSaysSo) {
                 glm::normalize(camera.table_from_camera.direction(camera.pinhole.ray({x + 0.5, y + 0.5})));
             const double beside = glm::length(glm::cross(ray, centre - pose.eye_m));
             if (picture.prop.at(x, y) == 0 || std::abs(beside - ball_radius_m) < 2e-5) {
-                continue; // the polyhedron's rim lies inside the ball's
+                continue; // the polyhedron's outline lies inside the ball's
             }
             const bool hit = beside < ball_radius_m;
             judged += hit ? 1 : 0;
@@ -87,7 +87,7 @@ TEST(Projection, RightPixelsAreCountedOnThePropAndOnTheArtifact) {
     Image8 view(4, 1, glm::u8vec4(0, 0, 0, 255));
     view.at(0, 0) = {116, 100, 84, 255};  // 16 codes off: right
     view.at(1, 0) = {100, 117, 100, 255}; // 17: wrong
-    view.at(3, 0) = {255, 255, 255, 255}; // beside the prop
+    view.at(3, 0) = {255, 255, 255, 255}; // outside the prop
     const PixelAccuracy found = pixel_accuracy(view, truth);
     EXPECT_EQ(found.prop_pixels, 3);
     EXPECT_EQ(found.prop_right, 2);
@@ -113,8 +113,8 @@ TEST(Projection, NoPixelOfTheVisitorsPictureIsFinerThanTheProjectors) {
     }
 }
 
-/// The share of the prop's pixels that are right when the ring is projected for `drawn` and the prop stands
-/// at `stands`.
+/// The percentage of the prop's pixels that are right if the ring is projected for `drawn` and the prop
+/// stands at `stands`.
 class ProjectedRing : public ::testing::Test {
 protected:
     [[nodiscard]] static double right_percent(const BenchPose& drawn, const BenchPose& stands) {

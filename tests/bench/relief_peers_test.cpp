@@ -12,11 +12,11 @@
 namespace frustumscreen {
 namespace {
 
-/// How far (x, z) is from the middle circle of the ring's tube.
+/// Distance of (x, z) from the middle circle of the ring's tube.
 double off_circle(double x, double z) {
     return std::abs(std::hypot(x, z - ring_middle_m) - ring_major_m);
 }
-/// How high the tube is above its middle plane there, from its equation; nothing where it is not.
+/// Height of the tube above its middle plane there, from its equation; nullopt outside the tube.
 std::optional<double> ring_height(double x, double z) {
     const double off = off_circle(x, z);
     return off > ring_minor_m ? std::nullopt
@@ -56,7 +56,7 @@ TEST(ReliefImages, HoldTheFirstHitOfEveryTexel) {
         }
     }
     EXPECT_GT(hits, 1000);
-    // The ring is as thick on either side of its middle plane; each texel of it was hit in both images.
+    // The ring is equally thick on both sides of its middle plane; each of its texels was hit in both images.
     const Image<glm::u16vec2> material = material_along(images, 1);
     int solid = 0;
     for (const glm::u16vec2& texel : material.texels) {
@@ -112,7 +112,7 @@ TEST(ReliefImages, AFaceIsCutToThePixelsWhoseRaysMeetTheBox) {
 
 class ReliefPeers : public DrawnNear {};
 
-/// The ring is a relief from two sides, so that every method can show it whole.
+/// The ring is a relief from two sides, so every method can show it whole.
 TEST_F(ReliefPeers, EachComesNearToTheRayCastOfARing) {
     const auto mesh = ring();
     const auto truth = Truth::build(mesh, glm::dmat4(1.0));

@@ -9,7 +9,7 @@
 
 namespace frustumscreen {
 
-/// The ring's radii, and how high its middle is above the table, metres.
+/// The ring's radii and the height of its middle above the table, metres.
 inline constexpr double ring_major_m = 0.030, ring_minor_m = 0.010, ring_middle_m = 0.045;
 
 /// A closed, concave object: a ring (torus) standing in the prop, with a smooth texture.

@@ -10,7 +10,7 @@
 namespace frustumscreen {
 namespace {
 
-/// One pixel after the other takes the codes of `sequence`, in all three channels.
+/// A pixel that takes the codes of `sequence` one after another, in all three channels.
 Image<float> flicker_of(const std::vector<int>& sequence) {
     Flicker flicker;
     for (const int code : sequence) {
@@ -23,7 +23,7 @@ Image<float> flicker_of(const std::vector<int>& sequence) {
 TEST(Flicker, EvenChangeIsNoShimmer) {
     EXPECT_FLOAT_EQ(flicker_of({10, 13, 16, 19, 22}).at(0, 0), 0.0F);
     EXPECT_FLOAT_EQ(flicker_of({200, 150, 100, 50}).at(1, 0), 0.0F);
-    EXPECT_FLOAT_EQ(flicker_of({0, 255}).at(0, 0), 0.0F); // two pictures say nothing
+    EXPECT_FLOAT_EQ(flicker_of({0, 255}).at(0, 0), 0.0F); // two pictures are not enough
 }
 
 TEST(Flicker, IsTheRootMeanSquareOfSecondDifferences) {
@@ -61,7 +61,7 @@ TEST(Shimmer, ASpeckleIsAnExcessAndAnEdgeBesideTheTruthsIsNot) {
         drawn.at(7, y) = 90.0F; // the same edge two pixels off
     }
     drawn.at(14, 9) = 40.0F;
-    drawn.at(17, 9) = 10.0F; // within the 8 codes
+    drawn.at(17, 9) = 10.0F; // within 8 codes
     const Image<std::uint8_t> found = excess(drawn, truth, judged);
     EXPECT_EQ(std::count(found.texels.begin(), found.texels.end(), 1), 1);
     EXPECT_EQ(found.at(14, 9), 1);
@@ -77,8 +77,8 @@ TEST(Shimmer, EachStepMovesThePropsMiddleByATenthOfAPixel) {
         const ShimmerSequence sequence(settings, prop, pose_at(0.04, -0.02, 0.7), direction, 20);
         ASSERT_EQ(sequence.poses().size(), 21U);
         for (std::size_t k = 0; k < 21; ++k) {
-            // The lens hangs 0.9 m above the table and looks straight down, the middle of the prop is 0.06 m
-            // up: one metre is 1400 / 0.84 pixels there, and the picture's rows run along X.
+            // The lens is 0.9 m above the table and looks straight down, the middle of the prop is 0.06 m up:
+            // one metre is 1400 / 0.84 pixels there, and the picture's rows run along X.
             const BenchPose& pose = sequence.poses()[k];
             const glm::dvec3 moved = pose.table_from_prop.translation - glm::dvec3(0.04, -0.02, 0.0);
             const double along = direction == PushDirection::Row ? moved.x : -moved.y;
@@ -134,7 +134,7 @@ TEST_F(ShimmerOfTheTruth, APictureThatJittersByHalfAPixelIsCaught) {
 
 TEST_F(ShimmerOfTheTruth, PixelsThatBlinkWhereTheArtifactIsSmoothAreFoundOneByOne) {
     const TruthPicture first = truth_->cast(prop_, view_of(settings_, sequence_->poses().front()), false);
-    // Far inside the ring's body, where nothing near shimmers: 5 x 5 pixels that all show it.
+    // Far inside the ring's body, where no neighbour shimmers: 11 x 11 pixels that all show it.
     const auto inside = [&](int x, int y) {
         for (int k = 0; k < 121; ++k) {
             if (first.hit.at(x - 5 + k % 11, y - 5 + k / 11) == 0) {

@@ -1,4 +1,5 @@
-// The picture as the kiosk shows it, lit and with its samples: against the truth's rays, whose light is worked out at each ray's point.
+// The picture as shown by the kiosk, lit and with its samples, against the truth's rays, whose light is
+// computed at each ray's point.
 
 #include "app/bench/measures/comparison.h"
 #include "app/render/read_back.h"
@@ -16,7 +17,7 @@ namespace {
 class ShownPictureTest : public DrawnNear {
 protected:
     void SetUp() override { mesh_->default_up = 'z'; }
-    /// Of so much of its light. What is dim is shown brighter.
+    /// Bakes the ring with `share` of its colour. Dim artifacts get a higher exposure.
     void bake_in(float share) {
         mesh_->materials[0].base_colour = glm::vec4(glm::vec3(share), 1.0F);
         BakeOptions options;
@@ -28,7 +29,7 @@ protected:
         pack_ = std::move(*pack);
     }
 
-    /// Of the pack's level and its finest relief; the worst of some poses.
+    /// Errors of the pack's level and its finest relief; the worst of several poses.
     struct Errors {
         ShownError level, relief;
     };
@@ -85,7 +86,7 @@ TEST_F(ShownPictureTest, FewSamplesCostWhatExactRaysAtTheirPlacesDo) {
     }
 }
 
-/// Light that is not aimed at, and edges that are soft where they should not be, are found.
+/// Light other than the target, and edges that are wrongly soft, must be detected.
 TEST_F(ShownPictureTest, AnotherLightIsAnError) {
     bake_in(1.0F);
     const Result<Comparison> opened =
@@ -110,7 +111,7 @@ TEST_F(ShownPictureTest, AnotherLightIsAnError) {
     const LightAim aim = shown.light(pose);
     EXPECT_LT(error_in(aim).colour.rmse, 1.0);
     LightAim brighter = aim;
-    brighter.exposure *= 1.1; // codes that are some 4 % larger
+    brighter.exposure *= 1.1; // codes that are about 4 % larger
     EXPECT_GT(error_in(brighter).colour.rmse, 3.0);
     LightAim sharp = aim;
     sharp.soft_edges = false;

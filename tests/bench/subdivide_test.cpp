@@ -1,4 +1,4 @@
-// More triangles of the same surface.
+// More triangles for an unchanged surface.
 #include "app/bench/measures/subdivide.h"
 #include "tests/bake/shapes.h"
 

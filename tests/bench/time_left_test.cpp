@@ -1,4 +1,4 @@
-// The time left of a run, at times that were made up.
+// The remaining time of a run, with made-up times.
 
 #include "app/bench/measures/time_left.h"
 #include "firmware_host/base/words_of_time.h"
@@ -13,8 +13,8 @@ TEST(TimeLeft, CountsTheStepsToCome) {
                    {"near: times", "times", 20.0},
                    {"kiosk: errors", "errors", 10.0},
                    {"kiosk: times", "times", 20.0}});
-    EXPECT_FALSE(left.update("near: errors", 0.0, 100.0)); // nothing is known
-    // A quarter in 5 s: 15 s of it left, and 5 guesses as long again as it, 2 s each.
+    EXPECT_FALSE(left.update("near: errors", 0.0, 100.0)); // no duration is known
+    // A quarter in 5 s: 15 s of this step are left; the other steps take their guesses times 2.
     EXPECT_DOUBLE_EQ(*left.update("near: errors", 0.25, 105.0), 15.0 + 40.0 + 20.0 + 40.0);
     (void)left.update("near: errors", 1.0, 120.0);
     EXPECT_DOUBLE_EQ(*left.update("near: times", 0.5, 220.0 - 100.0), 0.0 + 20.0 + 0.0);
@@ -31,7 +31,7 @@ TEST(TimeLeft, AStepTakesAsLongAsTheLastOfItsKind) {
     EXPECT_DOUBLE_EQ(*left.update("near: times", 0.5, 60.0), 50.0 + 20.0 + 100.0);
     (void)left.update("near: times", 1.0, 110.0);
     EXPECT_DOUBLE_EQ(*left.update("kiosk: errors", 0.0, 110.0), 20.0 + 100.0);
-    EXPECT_DOUBLE_EQ(*left.update("kiosk: errors", 0.5, 130.0), 20.0 + 100.0); // slower than it was thought
+    EXPECT_DOUBLE_EQ(*left.update("kiosk: errors", 0.5, 130.0), 20.0 + 100.0); // slower than predicted
 }
 
 TEST(TimeLeft, WithoutAPlanItIsThatOfTheStepAlone) {
@@ -40,7 +40,7 @@ TEST(TimeLeft, WithoutAPlanItIsThatOfTheStepAlone) {
     EXPECT_DOUBLE_EQ(*left.update("a", 0.5, 3.0), 3.0);
     EXPECT_FALSE(left.update("b", 0.0, 10.0));
     EXPECT_DOUBLE_EQ(*left.update("b", 0.25, 11.0), 3.0);
-    EXPECT_FALSE(left.update("a", 0.0, 20.0)); // it is done once more
+    EXPECT_FALSE(left.update("a", 0.0, 20.0)); // the step runs once more
     EXPECT_DOUBLE_EQ(*left.update("a", 0.5, 21.0), 1.0);
     EXPECT_EQ(words_of_time(3.2), "3 s");
     EXPECT_EQ(words_of_time(239.0), "4 min");

@@ -9,7 +9,7 @@
 namespace frustumscreen {
 namespace {
 
-/// A picture that takes the driver a while, and whether the one before was finished when the next began.
+/// A picture that keeps the driver busy; records whether the previous one was finished when the next began.
 class Heavy final : public Technique {
 public:
     explicit Heavy(std::vector<const Technique*>& log) : log_(log) {
@@ -83,7 +83,7 @@ std::vector<BenchPose> three_poses() {
 TEST_F(Timing, EachDrawIsFinishedBeforeTheNextBegins) {
     Heavy heavy(log_);
     heavy.draw({});
-    heavy.draw({}); // nobody waits for the first
+    heavy.draw({}); // no caller waits for the first
     ASSERT_GT(heavy.unfinished(), 0)
         << "this driver draws at once, so this test cannot see a missing glFinish";
     glFinish();
@@ -119,7 +119,8 @@ TEST_F(Timing, EachTechniqueDrawsEachPoseOnceARound) {
         EXPECT_EQ(one.cpu_ms.size(), std::size_t{3 * rounds});
         EXPECT_GT(*std::min_element(one.wall_ms.begin(), one.wall_ms.end()), 0.0);
     }
-    // Neither always follows the other: of 60 pairs in a shuffled order, far from all begin with the same one.
+    // Neither always follows the other: of 60 pairs in a shuffled order, far from all begin with the same
+    // one.
     int first = 0;
     for (std::size_t k = 2 * warm_up; k < log_.size(); k += 2) {
         EXPECT_NE(log_[k], log_[k + 1]);

@@ -44,7 +44,7 @@ int code_of(double linear) {
     return static_cast<int>(std::lround(255.0 * std::fmin(std::fmax(c, 0.0), 1.0)));
 }
 
-/// The plain reading of bilinear: a tent of one texel over the wrapped plane of texels.
+/// Straightforward bilinear filter: a tent of one texel over the wrapped plane of texels.
 glm::dvec4 texture_at(const SourceTexture& texture, double u, double v) {
     const Image8& image = *texture.image;
     const auto wrap = [](int k, int n, Wrap mode) {
@@ -74,7 +74,7 @@ glm::dvec4 texture_at(const SourceTexture& texture, double u, double v) {
 
 struct BruteHit {
     double t = 0.0;
-    double margin = 0.0; ///< least of: barycentric to an edge, alpha to the cut-off
+    double margin = 0.0; ///< minimum of: barycentric distance to an edge, alpha's distance to the cut-off
     glm::dvec3 point{0.0};
     glm::dvec3 linear{0.0};
 };
@@ -129,7 +129,7 @@ std::optional<BruteHit> brute_cast(const SourceMesh& mesh, const glm::dmat4& pla
     return best;
 }
 
-/// First face of the prop that a ray crosses from outside, by the corners' winding alone.
+/// First face of the prop that a ray crosses from outside, from the corners' winding alone.
 std::optional<std::pair<glm::dvec3, std::size_t>> brute_prop(const PropShape& prop, glm::dvec3 o,
                                                              glm::dvec3 d) {
     for (std::size_t f = 0; f < prop.faces.size(); ++f) {
@@ -150,8 +150,8 @@ std::optional<std::pair<glm::dvec3, std::size_t>> brute_prop(const PropShape& pr
     return std::nullopt;
 }
 
-/// A projector above the prop, a little aside, turned about its axis; 64 x 48 pixels that the prop nearly
-/// fills.
+/// A projector above the prop, slightly off-centre, rotated about its axis; 64 x 48 pixels that the prop
+/// nearly fills.
 TruthView view_from(const glm::dvec3& eye) {
     const glm::dquat down(0.0, 1.0, 0.0, 0.0);
     const glm::dquat turn =
@@ -159,7 +159,7 @@ TruthView view_from(const glm::dvec3& eye) {
     return {{64, 48, 220.0, 216.0, 34.0, 22.0}, {down * turn, {0.05, -0.03, 0.9}}, eye};
 }
 
-glm::dmat4 into_prop() { // a mirror-free placement with a turn and a scale
+glm::dmat4 into_prop() { // a placement without reflection, with a rotation and a scale
     glm::dmat4 placed = glm::mat4_cast(glm::angleAxis(0.7, glm::dvec3(0.0, 0.0, 1.0)));
     placed *= 0.1;
     placed[3] = glm::dvec4(-0.02, -0.07, 0.005, 1.0);
@@ -191,7 +191,7 @@ TEST(Truth, EqualsABruteForceCastInDouble) {
                     expected = brute_cast(*mesh, into_prop(), view.eye_m, lit->first - view.eye_m, margin);
                 }
                 if (margin < 1e-4) {
-                    continue; // so near an edge that float may decide otherwise
+                    continue; // so close to an edge that float may decide otherwise
                 }
                 ++judged;
                 ASSERT_EQ(picture.hit.at(x, y) != 0, expected.has_value()) << x << ' ' << y << " eye " << k;
@@ -219,7 +219,7 @@ TEST(Truth, SixteenRaysAreTheMeanOfAGridInLinearLight) {
     ASSERT_TRUE(truth);
     const TruthView view = view_from(eyes[0]);
     const TruthPicture picture = truth->cast(prop, view, true);
-    TruthView fine = view; // four times the pixels: its centres are the sub-pixels' centres
+    TruthView fine = view; // 16 times the pixels: their centres are the centres of the sub-pixels
     fine.projector = view.projector.scaled_to(256, 192);
     const TruthPicture grid = truth->cast(prop, fine, false);
     EXPECT_EQ(grid.colour16.width, 0);
@@ -304,8 +304,7 @@ TEST(Truth, TheRayGoesOnBehindTheProp) {
 }
 
 TEST(Truth, ScaleAndPlaceOfTheFileDoNotMatter) {
-    // The same mesh in a file's frame a thousand times larger and far off: 64-bit set-up gives the same
-    // picture.
+    // The mesh in a file's frame a thousand times larger and far off: 64-bit set-up gives an equal picture.
     const PropShape prop = make_frustum({});
     const auto mesh = random_mesh(5);
     auto moved = std::make_shared<SourceMesh>(*mesh);

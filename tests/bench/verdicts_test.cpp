@@ -70,7 +70,7 @@ TEST(Verdicts, WhatAutoDrawsIsUnderTheDefaultLevelsLimits) {
     std::vector<LimitVerdict> verdicts = judge(result);
     std::erase_if(verdicts,
                   [](const LimitVerdict& verdict) { return verdict.what.find("auto (mesh 0): ") != 0; });
-    // Where nobody asked where it is drawn, nothing is said of it.
+    // Without the drawn shift there is no verdict on it.
     EXPECT_EQ(verdicts.size() + 1, judge(result.techniques[1], default_level_limits).size());
     EXPECT_EQ(missed(verdicts), 2U); // silhouette and geometry
     EXPECT_EQ(missed(judge(result)), 2U);
@@ -110,14 +110,15 @@ TEST(Verdicts, APictureLiesWhereItsMeshDoesAndMayLieBesideTheScanAsItsOutlineMay
     EXPECT_EQ(missed_at(0.049, 0.29), 0U);
     EXPECT_EQ(missed_at(0.051, 0.29), 1U);
     EXPECT_EQ(missed_at(0.0, 0.31), 1U);
-    EXPECT_EQ(missed_at(0.5, 0.5), 2U); // half a pixel beside its place
+    EXPECT_EQ(missed_at(0.5, 0.5), 2U); // half a pixel displaced
 }
 
 TEST(Verdicts, ThePictureThatIsShownIsUnderTheSameLimits) {
     PictureError error = picture_error(0, 0, 0.01, 1.0);
     error.shown = ShownError{};
     error.shown->cover_px = 0.42;
-    error.shown->cover_of_samples_px = 0.125; // with two samples: what they cost is no fault of the outlines
+    error.shown->cover_of_samples_px = 0.125; // with two samples: the error of sampling is not an error of
+                                              // the outlines
     const auto missed_by = [&](double ShownError::*figure, double value) {
         PictureError one = error;
         *one.shown.*figure = value;
@@ -129,7 +130,8 @@ TEST(Verdicts, ThePictureThatIsShownIsUnderTheSameLimits) {
     EXPECT_EQ(missed_by(&ShownError::cover_px, 0.43), 1U);
     error.shown->colour.rmse = 14.1;
     EXPECT_EQ(missed_by(&ShownError::shift_px, 0.0), 1U);
-    // Of each pose its own samples: another pose whose samples cost more excuses nothing.
+    // Each pose is judged by its own samples: another pose with a larger sampling error does not excuse this
+    // one.
     PictureError other = error;
     error.shown->colour.rmse = other.shown->colour.rmse = 1.0;
     other.shown->cover_px = 0.5;
@@ -144,7 +146,7 @@ TEST(Verdicts, TheTwoPassMethodIsComparedWithTheCheapestLevelThatIsAsGood) {
     const SetUpResult result = example();
     const TechniqueResult* level = cheapest_as_good(result, result.techniques[3]);
     ASSERT_NE(level, nullptr);
-    EXPECT_EQ(level->name, "mesh 1"); // mesh 0 is cheaper but its colours are worse
+    EXPECT_EQ(level->name, "mesh 1"); // mesh 0 is cheaper, but its colours are worse
     SetUpResult none = result;
     none.techniques[3].error.mean.geometric_mean_mm = 0.01;
     EXPECT_EQ(cheapest_as_good(none, none.techniques[3]), nullptr);
@@ -153,9 +155,9 @@ TEST(Verdicts, TheTwoPassMethodIsComparedWithTheCheapestLevelThatIsAsGood) {
     none.techniques[3].times_floor = 39.0;
     EXPECT_EQ(missed(judge(none)), 1U);
     none.techniques[3].times_floor = 100.0;
-    none.techniques[3].triangles = 4'000'000; // 25 times are asked for here
+    none.techniques[3].triangles = 4'000'000; // 25 times are required here
     EXPECT_EQ(missed(judge(none)), 1U);
-    none.techniques[3].triangles = 100'000; // the limit is not set for so small a source
+    none.techniques[3].triangles = 100'000; // no limit for so small a source
     EXPECT_EQ(missed(judge(none)), 0U);
 }
 
@@ -186,7 +188,7 @@ TEST(Verdicts, TheFasterFloorIsTheUnit) {
     EXPECT_EQ(results[1].times_floor, 1.0);
     EXPECT_EQ(results[2].times_floor, 0.5);
     EXPECT_EQ(results[0].cpu_times_floor,
-              1.0); // the unit of processor time is the floor that takes least of it
+              1.0); // the unit of CPU time is the floor that takes the least of it
     EXPECT_EQ(results[2].cpu_times_floor, 9.0 / 7.0);
 }
 
@@ -210,7 +212,7 @@ TEST(Verdicts, AReliefMayBeTheFineOne) {
     result.techniques.push_back(
         technique("relief192", TechniqueKind::PackRelief, -1, 7.0, {picture_error(0.1, 0.1, 0.04, 9.0)}));
     EXPECT_EQ(missed(judge(result)), 0U);
-    result.techniques.back().kind = TechniqueKind::ReliefCast; // not the pack's
+    result.techniques.back().kind = TechniqueKind::ReliefCast; // not from the pack
     EXPECT_EQ(missed(judge(result)), 1U);
 }
 

@@ -12,7 +12,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// A driver over fake cameras, by simulated time: the first camera's clock.
+/// A driver over fake cameras, on simulated time: the first camera's clock.
 struct Driven {
     explicit Driven(CameraWish wish = {}, std::vector<FakeCamera*> more = {}, FrameUse use = {},
                     FramePace share = FramePace(1.0))
@@ -28,7 +28,7 @@ struct Driven {
               }(),
               std::move(wish), [this] { return now(); }, std::move(use), std::move(share)) {}
 
-    /// Steps for so long; returns how many frames came.
+    /// Steps for this time; returns the number of frames.
     int run(Nanoseconds time) {
         int frames = 0;
         for (const MonotonicTime end = now() + time; now() < end;) {
@@ -38,7 +38,7 @@ struct Driven {
         }
         return frames;
     }
-    /// Steps until it says so; returns how long that took, a minute at most.
+    /// Steps until the driver reports `state`; returns the time this took, a minute at most.
     Nanoseconds until(CameraState state) {
         const MonotonicTime begin = now();
         MonotonicTime told = begin;
@@ -73,7 +73,8 @@ TEST(CameraDriver, SetsACameraUpAndHandsItsFramesOn) {
     EXPECT_NEAR(driven.driver.rate_hz(), 30.0, 1.0);
 }
 
-/// Each frame takes 20 ms of the processor, which is 80 ms at a quarter of a core: of 30 a second 12.5 are used, and the camera is well.
+/// Each frame takes 20 ms of CPU time, i.e. 80 ms at a quarter of a core: 12.5 of 30 frames per second are
+/// used, and the camera is healthy.
 TEST(CameraDriver, PassesFramesOverSoThatItsThreadKeepsItsShare) {
     double busy_s = 0.0;
     int used = 0;
@@ -92,11 +93,12 @@ TEST(CameraDriver, PassesFramesOverSoThatItsThreadKeepsItsShare) {
     EXPECT_NEAR(static_cast<double>(driven.driver.counts().passed_over), 60.0 - used, 2.0);
     driven.run(seconds(3));
     EXPECT_EQ(driven.driver.state(), CameraState::Running);
-    EXPECT_NEAR(driven.driver.rate_hz(), 30.0, 1.0); // what came, not what was used
+    EXPECT_NEAR(driven.driver.rate_hz(), 30.0, 1.0); // arrived frames, not used ones
     EXPECT_NEAR(busy_s / 5.0, 0.25, 0.01);
 }
 
-/// Nine milliseconds are 27 per cent of a core at 30 Hz: that takes one frame of thirteen away, and not every other one.
+/// Nine milliseconds are 27 per cent of a core at 30 Hz: one frame of thirteen is skipped, not every other
+/// one.
 TEST(CameraDriver, AFrameThatCostsALittleTooMuchTakesFewAway) {
     double busy_s = 0.0;
     Driven driven(
@@ -203,7 +205,7 @@ TEST(CameraDriver, WhatPreventsItsOpeningIsSaid) {
     driven.camera.start_error = EBUSY;
     static_cast<void>(driven.run(seconds(1)));
     EXPECT_EQ(driven.driver.state(), CameraState::InUse);
-    driven.camera.start_error = ENOSPC; // too little room on the bus
+    driven.camera.start_error = ENOSPC; // not enough USB bandwidth
     static_cast<void>(driven.run(seconds(1)));
     EXPECT_EQ(driven.driver.state(), CameraState::SetUpRefused);
     driven.camera.start_error = 0;

@@ -1,8 +1,9 @@
-// What the camera's thread takes of one core with everything on that the exhibit does with its frames: MJPEG of 1280 x 720 at 30 Hz, decoded, judged, and
-// handed to the prop's tags, the visitor's eye and the check for drift, by the exhibit's own code from the kernel's buffer on.
+// CPU time of the camera's thread, in shares of one core, with every use of its frames on: MJPEG of 1280 x
+// 720 at 30 Hz, decoded, checked, and passed to the prop's tags, the visitor's eye and the drift check, by
+// the exhibit's own code from the kernel's buffer on.
 //
-// No place of a camera suits all uses: tags and marks are looked for on a table seen from above, heads in a room seen from the table's far edge.
-// The figures of docs/measurements.md: `ctest -C long -R camera_share`.
+// No camera place suits all uses: tags and drift marks are detected on a table seen from above, heads in a
+// room seen from the table's far edge. Figures of docs/measurements.md: `ctest -C long -R camera_share`.
 #include "app/drift/drift_watch.h"
 #include "app/drift/mark_places.h"
 #include "app/programs/devices/wiring.h"
@@ -31,7 +32,7 @@ using std::chrono::seconds;
 constexpr int width = 1280, height = 720;
 constexpr double rate_hz = 30.0;
 
-/// As a webcam packs a picture: half the colour along rows.
+/// Compressed like a webcam's picture: chroma at half width.
 Picture jpeg_of(const Picture& grey) {
     Picture colours;
     for (const std::uint8_t code : grey) {
@@ -47,7 +48,7 @@ Picture jpeg_of(const Picture& grey) {
     return bytes;
 }
 
-/// The tags around a prop, all turned alike.
+/// The tags around a prop, all with equal orientation.
 std::vector<PropTag> prop_tags() {
     std::vector<PropTag> tags = tags_of({});
     for (PropTag& tag : tags) {
@@ -56,7 +57,7 @@ std::vector<PropTag> prop_tags() {
     return tags;
 }
 
-/// They lie flat on the table's middle; noise alone differs from picture to picture.
+/// The tags lie flat in the table's middle; only noise differs between the pictures.
 std::vector<Picture> table_pictures(std::size_t count) {
     std::vector<SceneTag> tags;
     for (const PropTag& tag : prop_tags()) {
@@ -81,7 +82,7 @@ struct Room {
     std::vector<Picture> pictures;
 };
 
-/// Two seconds without anybody; then somebody stands there and sways for two more.
+/// Two seconds without visitors; then a person stands there and sways for two more.
 Room room_of(int columns, int rows) {
     std::mt19937_64 random(1);
     Person person = any_person(Build::Adult, random);
@@ -105,7 +106,7 @@ Room room_of(int columns, int rows) {
     return room;
 }
 
-/// As TableScene looks; where it stands makes no difference here.
+/// The view of TableScene; the camera's place makes no difference here.
 TagSetUp tag_set_up() {
     const double focal = 1.3 * width / 0.95;
     return {{width, height, focal, focal, 0.5 * width, 0.5 * height, {-0.08, 0.0}}, {}, prop_tags()};
@@ -124,7 +125,7 @@ struct On {
 
 struct Spent {
     double share = 0.0;    ///< of one core
-    double frame_ms = 0.0; ///< of the processor, for a frame that is used
+    double frame_ms = 0.0; ///< CPU time per used frame
     double used_hz = 0.0;
     double poses_hz = 0.0;
     double heads_hz = 0.0;
@@ -134,7 +135,7 @@ using Busy = std::function<double()>;
 
 class Kiosk {
 public:
-    /// `busy`: seconds of the processor, of the thread; `each`: as each use, which has a share of its own, reads them.
+    /// `busy`: CPU seconds of the thread; `each`: the CPU clock of each use, which has a share of its own.
     Kiosk(const std::vector<Picture>& table, const Room& room, On on, double share,
           const Busy& busy = thread_seconds, const Busy& each = thread_seconds)
         : room_(room), on_(on), seen_{{}, 1, room.columns, room.rows, {}}, tags_(tag_set_up(), each),
@@ -146,7 +147,7 @@ public:
               devices(table), {}, [this] { return *camera_.now; },
               [this](const CameraFrame& frame) { use(frame); }, FramePace(share, busy)) {}
 
-    /// Ten seconds, of which the first four, until the room is known and somebody is there, do not count.
+    /// Ten seconds; the first four, in which the background is learnt and the visitor arrives, do not count.
     Spent run() {
         CameraFrame frame;
         const MonotonicTime begin = *camera_.now;
@@ -179,7 +180,8 @@ private:
         if (on_.tags) {
             poses_ += tags_.read(frame) ? 1.0 : 0.0;
         }
-        if (on_.visitor) { // its own picture; once all were seen, the last second again and again, there and back
+        if (on_.visitor) { // a separate picture; after the last one, the final second repeats forwards and
+                           // backwards
             const auto at = static_cast<std::size_t>(to_seconds(frame.time - begin_) * rate_hz);
             const std::size_t last = room_.pictures.size() - 1;
             const std::size_t back = at % 60 < 30 ? at % 60 : 59 - at % 60;
@@ -209,7 +211,7 @@ void print(const char* on, const Spent& spent) {
                 100.0 * spent.share, spent.poses_hz, spent.heads_hz);
 }
 
-/// Each frame takes 16 ms, so that 15 or 16 of 30 are used: as many poses and heads come as frames.
+/// Each frame takes 16 ms, so 15 or 16 of 30 are used: each gives a pose and a head.
 TEST(CameraShare, WhatIsPassedOverTakesNeitherTheTagsNorTheVisitorAway) {
     double busy_s = 0.0;
     const std::vector<Picture> table = table_pictures(10);

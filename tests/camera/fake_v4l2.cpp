@@ -70,7 +70,7 @@ private:
         }
         return EINVAL;
     }
-    /// Like uvcvideo: what it has not it replaces by what is nearest.
+    /// Like uvcvideo: unsupported values are replaced by the nearest ones.
     int set_format(v4l2_pix_format& pixels) {
         if (camera_.format_error != 0 || !memory_.empty()) {
             return camera_.format_error != 0 ? camera_.format_error.load() : EBUSY;
@@ -244,7 +244,7 @@ int FakeDevice::wait(Nanoseconds timeout) {
         sent_ + std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(interval_s));
     const MonotonicTime now = camera_.clock();
     if (!camera_.plugged) {
-        return 0; // as poll does: there is an error to be read
+        return 0; // like poll: an error can be read
     }
     if (!camera_.sends || !streams_ || queued_.empty() || due > now + timeout) {
         rest(timeout);

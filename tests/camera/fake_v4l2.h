@@ -1,8 +1,9 @@
-/// A camera as the kernel's V4L2 would offer it, for tests: it keeps the kernel's rules (a buffer is filled only while it is queued,
-/// a format cannot be set while buffers are there), and does wrong what a test tells it.
+/// A fake camera behind the kernel's V4L2 interface. It follows the kernel's rules (a buffer is filled only
+/// while it is queued, a format cannot be set while buffers exist), and has the faults that a test sets.
 ///
-/// Time     a clock that only its waits move on, or the machine's.
-/// Threads  the camera's and the test's: what a test changes while a camera runs is atomic or behind `mutex`.
+/// Time     a clock that only its waits advance, or the machine's.
+/// Threads  the camera's and the test's: members that a test changes while a camera runs are atomic or
+///          guarded by `mutex`.
 #pragma once
 
 #include "firmware_host/camera/v4l2_device.h"
@@ -29,7 +30,7 @@ struct FakeFormat {
 };
 struct FakeControl {
     std::int32_t value = 0, least = 0, most = 0;
-    bool stubborn = false; ///< takes a value and keeps its own
+    bool stubborn = false; ///< accepts a value but keeps its own
 };
 
 struct FakeCamera {
@@ -45,19 +46,19 @@ struct FakeCamera {
     std::atomic<int> open_error{0};
     std::atomic<int> format_error{0}, start_error{0};
     std::atomic<bool> marks_broken{false};
-    std::atomic<double> slower{1.0};     ///< its interval is so many times as long as negotiated
-    std::atomic<std::uint32_t> skips{0}; ///< numbers left out once
+    std::atomic<double> slower{1.0};     ///< factor of its negotiated interval
+    std::atomic<std::uint32_t> skips{0}; ///< frame numbers skipped once
     std::atomic<int> opened{0}, started{0}, unmapped{0};
-    std::atomic<int> streams{0}; ///< those that are on
+    std::atomic<int> streams{0}; ///< number of active streams
 
-    /// Simulated; several cameras share one.
+    /// Simulated time; several cameras may share it.
     std::shared_ptr<MonotonicTime> now = std::make_shared<MonotonicTime>(std::chrono::seconds(100));
     [[nodiscard]] MonotonicTime clock() const { return real_time ? monotonic_now() : *now; }
 };
 
 class FakeDevices final : public V4l2Devices {
 public:
-    /// `cameras` outlive it; they are /dev/video0, 1, ...
+    /// `cameras` must outlive this; they are /dev/video0, 1, ...
     explicit FakeDevices(std::vector<FakeCamera*> cameras) : cameras_(std::move(cameras)) {}
     [[nodiscard]] std::vector<std::string> list() override;
     [[nodiscard]] tl::expected<std::unique_ptr<V4l2Device>, int> open(const std::string& path) override;
@@ -66,10 +67,11 @@ private:
     std::vector<FakeCamera*> cameras_;
 };
 
-/// GREY and YUYV of 64 x 48 at 30 and 15 Hz, with all controls on automatic; a picture with noise.
+/// GREY and YUYV of 64 x 48 at 30 and 15 Hz, with all controls on automatic; a noisy picture.
 void make_usual(FakeCamera& camera);
 
-/// A grey ramp with noise that differs from frame to frame, each luma byte followed by `bytes_each - 1` others.
+/// A grey ramp with noise that changes from frame to frame, each luma byte followed by `bytes_each - 1`
+/// others.
 [[nodiscard]] Picture noisy_ramp(int width, int height, std::uint64_t number, int bytes_each = 1);
 
 } // namespace frustumscreen

@@ -11,13 +11,13 @@ using std::chrono::seconds;
 
 constexpr double rate_hz = 30.0;
 
-/// Feeds a judge by simulated time.
+/// Feeds a FrameJudge in simulated time.
 struct Stream {
     MonotonicTime now{seconds(50)};
     FrameJudge judge{rate_hz, now};
     std::uint64_t number = 0;
 
-    /// Frames of this look for so long, one each `interval`; returns the last verdict.
+    /// Sends frames of this look for `time`, one each `interval`; returns the last verdict.
     template <typename Look>
     FrameVerdict send(Nanoseconds time, const Look& look, Nanoseconds interval = milliseconds(33)) {
         const MonotonicTime end = now + time;
@@ -61,7 +61,7 @@ TEST(FrameLook, SaysWhatAPictureShows) {
 }
 
 TEST(FrameLook, EachByteCountsInItsHash) {
-    const Picture picture = noisy_ramp(61, 3, 1); // a length that no word divides
+    const Picture picture = noisy_ramp(61, 3, 1); // a length not divisible by a word
     const std::uint64_t hash = look_at(picture).bytes_hash;
     EXPECT_EQ(look_at(Picture(picture)).bytes_hash, hash);
     for (std::size_t k = 0; k < picture.size(); ++k) {
@@ -127,7 +127,7 @@ TEST(FrameJudge, TheSameBytesForASecondAreFrozen) {
     EXPECT_EQ(stream.send(milliseconds(900), same), FrameVerdict::Well);
     EXPECT_EQ(stream.send(milliseconds(900), same), FrameVerdict::Frozen);
     EXPECT_EQ(stream.send(milliseconds(700), well), FrameVerdict::Well);
-    // Now and then the same twice, as a camera that doubles frames in the dark.
+    // Occasionally repeated frames, like a camera that duplicates frames in the dark.
     EXPECT_EQ(stream.send(seconds(5), [](std::uint64_t number) { return well(number / 2); }),
               FrameVerdict::Well);
 }
@@ -151,7 +151,7 @@ TEST(FrameJudge, LessThanHalfOfTheFramesIsSlow) {
 TEST(FrameJudge, FramesThatWereOvertakenCountForTheRate) {
     Stream stream;
     FrameVerdict verdict = FrameVerdict::Well;
-    for (int k = 0; k < 60; ++k, stream.now += milliseconds(100)) { // ten looks a second, of thirty frames
+    for (int k = 0; k < 60; ++k, stream.now += milliseconds(100)) { // ten checks per second of thirty frames
         stream.judge.see(stream.now, well(stream.number++), 2);
         verdict = stream.judge.verdict(stream.now);
     }

@@ -1,7 +1,7 @@
-// Takes frames for a second, in each format and while the camera is covered, frozen and unplugged, and prints how many.
-// keeps_nothing_test runs it under strace.
+// Takes frames for a second, in each format and while the camera is covered, frozen and unplugged, and prints
+// their number. keeps_nothing_test runs it under strace.
 //
-//   frames_in_memory [FILE]     FILE: what must not be done: one frame is written there
+//   frames_in_memory [FILE]     FILE: does the forbidden thing: one frame is written there
 #include "firmware_host/camera/v4l2_camera.h"
 #include "tests/camera/fake_v4l2.h"
 
@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
     for (const std::uint32_t fourcc : {V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_MJPEG}) {
         frames += frames_of(fourcc, frame);
     }
-    // The machine's own devices too: whatever is there is only looked at.
+    // The machine's own devices too: only queries them.
     const auto devices = kernel_v4l2_devices();
     static_cast<void>(list_cameras(*devices, {}));
     static_cast<void>(devices->open("/dev/video_that_is_none"));

@@ -1,5 +1,5 @@
-// A camera's frames live in memory alone. The judge is the kernel: strace shows every call that a process makes while frames pass
-// through this room, and each must be one of those that neither write nor send.
+// A camera's frames stay in memory. The kernel is the witness: strace records every call of a process while
+// frames pass through this module, and each call must be one that neither writes nor sends.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Memory, threads, time and reading. What is not here writes, sends, or has no business there.
+/// Calls for memory, threads, time and reading. All others write, send, or are unexpected.
 const std::set<std::string> harmless{"access",
                                      "arch_prctl",
                                      "brk",
@@ -62,12 +62,12 @@ bool has(const std::string& text, const std::string& word) {
     return text.find(word) != std::string::npos;
 }
 
-/// What strace says of one call: its name, then its arguments.
+/// Classifies one strace line: the call's name, then its arguments.
 bool is_harmless(const std::string& call) {
     const std::string name = call.substr(0, call.find('('));
     if (name == "openat" && has(call, "\"/dev/video")) {
         return has(call, "O_RDWR") &&
-               !has(call, "O_CREAT"); // the camera itself; writing to it is another call
+               !has(call, "O_CREAT"); // the camera itself; writing to it is a different call
     }
     if (name == "open" || name == "openat") {
         return has(call, "O_RDONLY") && !has(call, "O_CREAT") && !has(call, "O_TRUNC");
@@ -79,7 +79,7 @@ bool is_harmless(const std::string& call) {
         return call.rfind("write(1, ", 0) == 0 && has(call, " frames\\n\""); // its only line
     }
     if (name == "fcntl") {
-        return has(call, "F_GETFL") || has(call, "F_SETFD"); // a folder that is listed
+        return has(call, "F_GETFL") || has(call, "F_SETFD"); // listing a folder
     }
     if (name == "prctl") {
         return has(call, "PR_SET_NAME"); // of a thread
@@ -98,7 +98,7 @@ std::vector<std::string> calls_of(const std::string& program, const fs::path& fo
     for (std::string line; std::getline(file, line);) {
         const std::size_t begin = line.find_first_not_of("0123456789 ");
         const std::string call = begin == std::string::npos ? "" : line.substr(begin);
-        const bool ends_another = call.rfind("<... ", 0) == 0; // "resumed": its beginning was there
+        const bool ends_another = call.rfind("<... ", 0) == 0; // "resumed": the call's beginning was counted
         if (!ends_another && call.rfind("+++", 0) != 0 && call.rfind("---", 0) != 0) {
             calls.push_back(call);
         }
@@ -145,12 +145,12 @@ TEST_F(KeepsNothing, AFrameThatIsWrittenIsSeen) {
         << "its opening and its writing";
 }
 
-/// Everything that the exhibit does with frames. Of the drift's marks one small file is kept: it is opened, written and named, and nothing
-/// else is; a frame is 57 600 bytes.
+/// Every use of the exhibit's frames. One small file of drift marks is kept: it is opened, written and
+/// renamed, and nothing else may be; a frame is 57 600 bytes.
 class UsesKeepNothing : public KeepsNothing {
 protected:
     UsesKeepNothing() { fs::create_directories(kept_); }
-    /// Calls that write, in turn; those that do something with the drift's file are left out of the others.
+    /// Collects the writing calls in order, separately for the drift file and the rest.
     void run(const std::string& option) {
         for (const std::string& call :
              calls_of(FRUSTUMSCREEN_USES_IN_MEMORY " " + kept_.string() + option, folder_)) {
@@ -161,10 +161,10 @@ protected:
     }
     fs::path kept_ = folder_ / "kept";
     std::vector<std::string> of_drift_, others_;
-    unsigned long written_ = 0; ///< bytes, into the drift's file
+    unsigned long written_ = 0; ///< bytes, into the drift file
 
 private:
-    /// Its opening and its renaming name it; between the two its descriptor is written.
+    /// Its opening and its renaming contain its name; between them its descriptor is written.
     bool is_of_drift(const std::string& call) {
         const std::string file = "\"" + (kept_ / "drift.json").string();
         const std::string result = call.substr(call.rfind("= ") + 2);

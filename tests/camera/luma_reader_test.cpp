@@ -11,14 +11,14 @@ namespace frustumscreen {
 namespace {
 
 constexpr int width = 64, height = 48;
-/// Codes; of quality 95, whose steps are 1 to 10 codes, and of the rounding of RGB.
+/// Codes; tolerance for quality 95, with quantisation steps of 1 to 10 codes, and for rounding of RGB.
 constexpr double quantised = 5.0;
 
 std::span<const std::byte> bytes_of(const Picture& picture) {
     return std::as_bytes(std::span(picture));
 }
 
-/// A smooth picture in colour whose luma by BT.601 is known, as JPEG.
+/// A smooth colour picture with known BT.601 luma, as JPEG.
 struct Jpeg {
     Picture file;
     std::vector<double> luma;
@@ -87,7 +87,7 @@ TEST(LumaReader, AFrameThatIsTooShortIsRefusedByTheByte) {
         const auto bytes = bytes_of(picture).first(row * height);
         EXPECT_TRUE(reader.read({format, width, height, row}, bytes, luma));
         EXPECT_FALSE(reader.read({format, width, height, row}, bytes.first(bytes.size() - 1), luma));
-        // A row of fewer bytes than it has pixels is a driver's nonsense, and taken as a whole row.
+        // A row stride smaller than its pixels is a driver's error, and read as a whole row.
         EXPECT_FALSE(reader.read({format, width, height, 1}, bytes.first(bytes.size() - 1), luma));
     }
     EXPECT_FALSE(reader.read({PixelFormat::Mjpeg, width, height, 0}, {}, luma));
@@ -101,7 +101,7 @@ TEST(LumaReader, OfAJpegItTakesTheBrightness) {
     EXPECT_LT(worst(luma, jpeg.luma), quantised);
 }
 
-/// Cameras leave the Huffman tables out, which are always the same (USB Video Class, Motion-JPEG payload).
+/// Cameras omit the Huffman tables, which are always equal (USB Video Class, Motion-JPEG payload).
 TEST(LumaReader, AJpegWithoutItsHuffmanTablesIsReadWithTheUsualOnes) {
     LumaReader reader;
     Jpeg jpeg = coloured_jpeg(width, height);

@@ -1,7 +1,9 @@
-// Hands the frames of a minute or more to everything that the exhibit does with a camera's frames: the prop's tags, the visitor's eye, the
-// drift's marks, which are learned, and what the staff see; prints how many. keeps_nothing_test runs it under strace.
+// Passes the frames of a minute or more to every use of the exhibit's camera frames: the prop's tags, the
+// visitor's eye, the drift marks, which are learnt, and the staff's view; prints their number.
+// keeps_nothing_test runs it under strace.
 //
-//   uses_in_memory FOLDER [FILE]     FOLDER: where drift.json comes to lie; FILE: what must not be done: one frame is written there
+//   uses_in_memory FOLDER [FILE] FOLDER: for drift.json; FILE: does the forbidden thing: one frame is written
+//   there
 #include "app/drift/drift_watch.h"
 #include "app/drift/mark_places.h"
 #include "app/settings/looking_at.h"
@@ -29,7 +31,7 @@ std::vector<glm::dvec2> marks() {
     return mark_places(settings);
 }
 
-/// True: a pose was found.
+/// Returns whether a pose was found.
 bool find_tags() {
     SceneCamera camera;
     camera.table_from_camera = *looking_at({0.1, -0.2, 1.25}, {0.0, 0.0, 0.0}, 0.0);
@@ -47,7 +49,7 @@ bool find_tags() {
     return !poses.empty();
 }
 
-/// Frames of a table with nobody there, until the marks' places were learned.
+/// Frames of an empty table, until the marks' places are learnt.
 class Frames {
 public:
     explicit Frames(const std::filesystem::path& folder)
@@ -63,7 +65,7 @@ public:
             static_cast<void>(shadow_.step(now_, true));
             if (!shadow_.began() ||
                 now_ - *shadow_.began() > MarkTimes::length(marks_.size()) + milliseconds(200)) {
-                continue; // nothing is looked for
+                continue; // no mark is expected
             }
             std::optional<TableScene::Light> light;
             if (mark) {
@@ -85,7 +87,7 @@ public:
 private:
     std::filesystem::path folder_;
     std::vector<glm::dvec2> marks_ = marks();
-    MarkSchedule shadow_{marks_.size()}; ///< steps as the watch's own
+    MarkSchedule shadow_{marks_.size()}; ///< steps in parallel with the watch's own
     DriftWatch drift_;
     VisitorTracker visitor_;
     Viewfinder viewfinder_{{320, 240}, 1};

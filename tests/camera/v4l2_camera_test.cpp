@@ -11,7 +11,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// Asks until `done` or for twenty seconds: no time is asserted.
+/// Polls until `done` or for twenty seconds; asserts no duration.
 template <typename Done> bool eventually(const Done& done) {
     const auto give_up = std::chrono::steady_clock::now() + seconds(20);
     while (!done()) {
@@ -48,7 +48,7 @@ TEST(V4l2Camera, FramesComeThroughWholeEachOnceAndACameraIsFoundAgain) {
 
     fake.plugged = false;
     ASSERT_TRUE(eventually([&] { return camera.state() == CameraState::NotConnected; }));
-    static_cast<void>(next()); // one may have waited
+    static_cast<void>(next()); // one frame may have been waiting
     EXPECT_FALSE(camera.poll(frame)) << "an old frame is handed on once";
     fake.plugged = true;
     ASSERT_TRUE(eventually([&] { return next(); }));

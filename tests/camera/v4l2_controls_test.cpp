@@ -34,7 +34,7 @@ TEST(CameraControls, WishesAreSetAndReadBack) {
     make_usual(camera);
     CameraWish wish;
     wish.exposure_ms = 8.0;
-    wish.gain = 1000; // more than it has
+    wish.gain = 1000; // more than its maximum
     wish.white_balance_k = 5200;
     const auto controls = locked(camera, wish);
     EXPECT_EQ(camera.controls[V4L2_CID_EXPOSURE_ABSOLUTE].value, 80) << "tenths of a millisecond";

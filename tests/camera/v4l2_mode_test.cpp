@@ -15,7 +15,7 @@ std::unique_ptr<V4l2Device> device_of(FakeCamera& camera) {
     return std::move(*device);
 }
 
-/// A webcam as they are sold: raw pictures fast only while they are small.
+/// A typical webcam: uncompressed pictures are fast only at small sizes.
 void make_webcam(FakeCamera& camera) {
     make_usual(camera);
     camera.formats = {{V4L2_PIX_FMT_MJPEG, {{1920, 1080, {30, 15}}, {1280, 720, {60, 30}}, {640, 480, {30}}}},
@@ -56,7 +56,7 @@ TEST(CameraMode, TheSizeComesFirstThenTheRateThenTheFormatThatCostsLeast) {
     EXPECT_FALSE(choose_mode({}, {}));
 }
 
-/// vivid, and cameras on a chip's own bus, give ranges.
+/// vivid, and cameras on a chip's own bus, report ranges.
 class RangeDevice final : public V4l2Device {
 public:
     int control(unsigned long request, void* argument) override {
@@ -92,7 +92,7 @@ TEST(CameraMode, OfARangeItTakesWhatIsNextToTheWish) {
     EXPECT_EQ(modes(wish_of(64, 64, 1)), (std::vector{CameraMode{PixelFormat::Grey, 64, 64, 5}}));
 }
 
-/// A device whose lists never end.
+/// A device with endless lists.
 class EndlessDevice final : public V4l2Device {
 public:
     int control(unsigned long request, void* argument) override {
@@ -106,7 +106,7 @@ public:
         } else if (request == VIDIOC_ENUM_FRAMEINTERVALS) {
             auto& rate = *static_cast<v4l2_frmivalenum*>(argument);
             rate.type = V4L2_FRMIVAL_TYPE_DISCRETE;
-            rate.discrete = {rate.index % 2, 0}; // no rate, or none at all
+            rate.discrete = {rate.index % 2, 0}; // rate zero or invalid
         }
         return 0;
     }

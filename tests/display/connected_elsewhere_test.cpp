@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder as /sys/class/drm.
+/// A folder like /sys/class/drm.
 class ConnectedElsewhere : public testing::Test {
 protected:
     ConnectedElsewhere() : folder_(fs::path(testing::TempDir()) / "connected_elsewhere_test") {

@@ -8,7 +8,7 @@
 namespace frustumscreen {
 namespace {
 
-/// Something is plugged when the test says so; no time passes otherwise.
+/// Hotplug events occur only when the test triggers them; no time passes otherwise.
 class ScriptedHotplug final : public Hotplug {
 public:
     bool wait(Nanoseconds /*at_most*/) override {
@@ -36,7 +36,7 @@ private:
     bool woken_ = false;
 };
 
-/// A card whose connectors the test changes while the watch looks.
+/// A card whose connectors the test changes while the watch checks them.
 struct Card {
     CardSeen look(bool thoroughly) {
         const std::lock_guard lock(mutex);

@@ -15,7 +15,7 @@ namespace frustumscreen {
 
 using Texel = std::array<unsigned char, 4>;
 
-/// A screen's framebuffer: 8 bits a channel, codes as they are written.
+/// A screen's framebuffer: 8 bits per channel, codes stored unchanged.
 class Screen {
 public:
     explicit Screen(PixelSize size) : size_(size) {
@@ -26,7 +26,7 @@ public:
         glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size.width, size.height);
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_);
         glDisable(GL_SCISSOR_TEST);
-        glClearColor(1.0F, 0.0F, 1.0F, 1.0F); // stands for what was there before
+        glClearColor(1.0F, 0.0F, 1.0F, 1.0F); // stands for earlier contents
         glClear(GL_COLOR_BUFFER_BIT);
     }
     ~Screen() {
@@ -63,7 +63,7 @@ protected:
         copy_.reset();
     }
 
-    /// Every pixel has its own colour; row 0 is the top row.
+    /// Every pixel has a unique colour; row 0 is the top row.
     static Texel colour_of(int x, int y) {
         return {static_cast<unsigned char>(x), static_cast<unsigned char>(y),
                 static_cast<unsigned char>((x * 7 + y * 13) % 256), 255};
@@ -99,7 +99,7 @@ protected:
     Result<EglContext> drawing_;
     std::optional<EglContext> copying_;
     std::optional<PictureCopy> copy_;
-    PixelRectangle drawn_; ///< as the last copy returned it
+    PixelRectangle drawn_; ///< as returned by the last copy
 };
 
 } // namespace frustumscreen

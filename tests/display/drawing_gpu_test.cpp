@@ -1,4 +1,4 @@
-// What draws for a card, and how its pictures get into memory that the card shows.
+// Choice of the GPU that draws for a card, and the transfer of its pictures into memory that the card shows.
 #include "firmware_host/display/card_screen.h"
 #include "tests/display/fake_desk.h"
 
@@ -22,7 +22,7 @@ protected:
     [[nodiscard]] long opened() const {
         return std::count(kernel.calls().begin(), kernel.calls().end(), "open");
     }
-    /// The name of what draws; it is current.
+    /// The name of the renderer, which is current.
     std::string draws(bool shows) {
         const Result<DrawingGpu> gpu = DrawingGpu::choose_for(card_.file());
         if (!gpu) {
@@ -84,7 +84,7 @@ TEST_F(Drawing, AContextThatIsLostOnTheWayIsAnErrorOfTheProgram) {
     const auto steps =
         std::find(std::find(begin, kernel.calls().end(), "eglMakeCurrent") + 1, kernel.calls().end(),
                   "eglMakeCurrent") -
-        begin + 2; // gbm_create_device counts, and from 1
+        begin + 2; // gbm_create_device counts too, and counting starts at 1
     kernel.fail(kernel.calls().size() + static_cast<std::size_t>(steps), EINVAL);
     const Result<DrawingGpu> gpu = DrawingGpu::choose_for(card_.file());
     ASSERT_FALSE(gpu);
@@ -92,7 +92,7 @@ TEST_F(Drawing, AContextThatIsLostOnTheWayIsAnErrorOfTheProgram) {
     EXPECT_TRUE(holds(gpu.error().message, "cannot be made current again")) << gpu.error().message;
 }
 
-/// The picture's colours, by place; none is another's mirror image.
+/// The picture's colour at a pixel; no symmetry maps the picture to itself.
 std::array<unsigned char, 4> colour_at(int x, int y) {
     return {static_cast<unsigned char>(3 * x + 1), static_cast<unsigned char>(5 * y + 2),
             static_cast<unsigned char>(x + y), 255};
@@ -111,7 +111,7 @@ void paint(const CardScreen& screen) {
     glFinish();
 }
 
-/// Is the top row of framebuffer `which` that of the picture?
+/// Whether the top row of framebuffer `which` is the picture's top row.
 bool shows_the_picture(const ScanoutPair& pair, int which) {
     std::vector<std::byte> row(static_cast<std::size_t>(picture_size.width) * 4);
     bool same = pair.read(which, row);
@@ -121,14 +121,15 @@ bool shows_the_picture(const ScanoutPair& pair, int which) {
     return same;
 }
 
-/// `GetParam`: the card draws by itself (GBM); else another GPU does, and its pictures are copied (dumb buffers).
+/// `GetParam`: true: the card draws by itself (GBM); false: another GPU draws, and its pictures are copied
+/// (dumb buffers).
 class Scanout : public Drawing, public testing::WithParamInterface<bool> {
 protected:
     Scanout() {
         desk.card.renderer = GetParam() ? "Mesa Intel(R) UHD Graphics" : "";
         kernel.add_gpu({"/dev/dri/renderD129", "NV136", nullptr});
     }
-    /// Why two framebuffers of this size cannot be had; empty: they can.
+    /// The reason why two framebuffers of this size are unavailable; empty: they are available.
     std::string lacks(PixelSize size = picture_size) {
         const auto screen = CardScreen::create(card_.file(), picture_size);
         if (!screen) {
@@ -202,8 +203,8 @@ TEST_P(Scanout, WithoutTheSecondContextNothingIsCopied) {
     ASSERT_TRUE(screen->gpu().context().make_current());
 }
 
-/// With any one call failing once, there are framebuffers that show the picture, or a sentence says what is missing, and nothing
-/// is lost.
+/// If any one call fails once, there are either framebuffers that show the picture, or a sentence that names
+/// the failure; and nothing leaks.
 TEST_P(Scanout, AnyCallMayFailOnce) {
     const auto once = [](std::size_t call, int error) {
         FakeKernel own;
@@ -231,7 +232,7 @@ TEST_P(Scanout, AnyCallMayFailOnce) {
     const auto [calls, undisturbed] = once(0, 0);
     ASSERT_EQ(undisturbed, "");
     for (std::size_t k = 1; k <= calls.size(); ++k) {
-        const int error = FakeKernel::errors_of(calls[k - 1]).back(); // which one makes no difference here
+        const int error = FakeKernel::errors_of(calls[k - 1]).back(); // which error makes no difference here
         EXPECT_EQ(once(k, error).second, "") << "call " << k << ", " << calls[k - 1] << ": " << error;
     }
 }

@@ -1,23 +1,28 @@
-/// A graphics card as the kernel's mode setting has it, for tests: objects with properties, framebuffers, flips; what a driver may
-/// refuse is the test's to set.
+/// A fake graphics card with the kernel's mode-setting behaviour: objects with properties, framebuffers,
+/// flips. The test sets what its driver refuses.
 ///
-/// Errors   negative error numbers, those of the kernel.
+/// Errors   negative error numbers of the kernel.
 /// Source   Linux 6.1, drivers/gpu/drm:
-///          drm_atomic_uapi.c    drm_mode_atomic_ioctl: unknown object or property ENOENT, unknown flag or a test with an event
-///                               EINVAL; drm_property_change_valid_get (drm_property.c): immutable or out of range EINVAL;
-///                               prepare_signaling: an event for each CRTC that the commit touches, EINVAL if there is none
-///          drm_atomic.c         a framebuffer without a CRTC or the reverse, or a plane that cannot feed the CRTC, EINVAL; a part
-///                               outside the framebuffer ENOSPC; a mode set without ALLOW_MODESET EINVAL; an event of a CRTC that
-///                               is off before and afterwards EINVAL
-///          drm_atomic_helper.c  an enabled CRTC without a connector or the reverse EINVAL; scaling that the driver lacks ERANGE;
-///                               a commit that does not block on a CRTC whose last one is not done EBUSY
-///          drm_crtc.c           drm_mode_setcrtc: no connector for a mode, or no mode for a connector, EINVAL; a framebuffer
-///                               that is too small ENOSPC
+///          drm_atomic_uapi.c    drm_mode_atomic_ioctl: unknown object or property ENOENT, unknown flag or a
+///                               test with an event EINVAL; drm_property_change_valid_get (drm_property.c):
+///                               immutable or out of range EINVAL; prepare_signaling: an event for each CRTC
+///                               that the commit touches, EINVAL if there is none
+///          drm_atomic.c         a framebuffer without a CRTC or the reverse, or a plane that cannot feed the
+///                               CRTC, EINVAL; a part outside the framebuffer ENOSPC; a mode set without
+///                               ALLOW_MODESET EINVAL; an event of a CRTC that is off before and afterwards
+///                               EINVAL
+///          drm_atomic_helper.c  an enabled CRTC without a connector or the reverse EINVAL; scaling that the
+///                               driver lacks ERANGE; a non-blocking commit on a CRTC whose previous commit
+///                               is not done EBUSY
+///          drm_crtc.c           drm_mode_setcrtc: no connector for a mode, or no mode for a connector,
+///                               EINVAL; a framebuffer that is too small ENOSPC
 ///          drm_plane.c          drm_mode_page_flip_ioctl: nothing is shown, or a flip is pending: EBUSY
-///          drm_framebuffer.c    a framebuffer that is removed, or whose file is closed, turns off its planes; without atomic
-///                               commits the CRTC
-///          drm_property.c       a blob lives as long as a file or a state holds it; foreign ones cannot be destroyed: EPERM
-///          drm_vblank.c         drm_crtc_get_sequence_ioctl: EOPNOTSUPP without vertical blanks, EINVAL while the CRTC is off
+///          drm_framebuffer.c    removing a framebuffer, or closing its file, turns off its planes; without
+///                               atomic commits the CRTC
+///          drm_property.c       a blob lives as long as a file or a state holds it; foreign ones cannot be
+///                               destroyed: EPERM
+///          drm_vblank.c         drm_crtc_get_sequence_ioctl: EOPNOTSUPP without vertical blanks, EINVAL
+///                               while the CRTC is off
 #pragma once
 
 #include <cstddef>
@@ -43,11 +48,11 @@ class FakeCard;
 /// An open file of a card.
 struct FakeFile {
     FakeCard* card = nullptr;
-    int events = -1; ///< the end of the file at which the kernel writes
+    int events = -1; ///< the end of the file to which the kernel writes
     bool universal_planes = false;
     bool atomic = false;
     bool was_master = false;
-    std::string renderer; ///< of a render node: what OpenGL says of its GPU; empty: the processor draws
+    std::string renderer; ///< of a render node: the GPU's name in OpenGL; empty: the processor draws
     std::set<std::uint32_t> framebuffers, blobs, handles;
 };
 
@@ -55,14 +60,15 @@ struct FakeProperty {
     std::uint32_t id = 0;
     std::string name;
     std::uint32_t flags = 0;                                    ///< DRM_MODE_PROP_...
-    std::vector<std::uint64_t> limits;                          ///< of a range; the kind of an object
+    std::vector<std::uint64_t> limits;                          ///< of a range; for an object property, the
+                                                                ///< object's type
     std::vector<std::pair<std::string, std::uint64_t>> choices; ///< of an enumeration or a bit mask
 };
 
 struct FakeConnector {
     std::uint32_t id = 0, type = 0, number = 0;
     std::vector<std::uint32_t> encoders;
-    drmModeConnection cable = DRM_MODE_DISCONNECTED; ///< as it is
+    drmModeConnection cable = DRM_MODE_DISCONNECTED; ///< the actual state
     std::vector<drmModeModeInfo> edid;
     drmModeConnection known = DRM_MODE_DISCONNECTED; ///< as of the last probe
     std::vector<drmModeModeInfo> modes;
@@ -90,20 +96,20 @@ struct FakeChange {
 
 class FakeCard {
 public:
-    // What its driver has and takes.
+    // Capabilities of its driver.
     bool atomic = true;
     bool universal_planes = true;
     bool vertical_blanks = true;
     bool scales = false;
     bool knows_fourcc = true; ///< false: ADDFB2 is refused
-    bool monotonic = true;    ///< its events' times
+    bool monotonic = true;    ///< its events' times are monotonic
     std::uint32_t most_khz = 300'000;
-    std::set<std::string> fixed; ///< properties that no commit may set to another value
+    std::set<std::string> fixed; ///< properties that no commit may change
     bool has_gbm = true;
-    std::string renderer; ///< what OpenGL says of its own GPU; empty: it has none, and the processor draws
-    // What happens to it.
+    std::string renderer; ///< its GPU's name in OpenGL; empty: no GPU, the processor draws
+    // Its state.
     bool gone = false;
-    bool flips_at_once = true; ///< as an emulated card; else when `refresh` is called
+    bool flips_at_once = true; ///< like an emulated card; otherwise flips happen in `refresh`
     std::uint64_t time_us = 1'000'000;
 
     std::uint32_t add_crtc();
@@ -114,12 +120,12 @@ public:
     void add_property(std::uint32_t object, const FakeProperty& property, std::uint64_t value);
     void take_property(std::uint32_t object, const std::string& name);
 
-    /// Pulls or plugs a cable: a probe sees it.
+    /// Plugs or unplugs a cable; takes effect at the next probe.
     void plug(std::uint32_t connector, std::vector<drmModeModeInfo> edid);
     void unplug(std::uint32_t connector);
-    /// Another program becomes the master and lets go again.
+    /// Another program becomes the master and drops the role again.
     void drop_master() { master_ = nullptr; }
-    /// What was committed reaches the screen, and its events the files.
+    /// Committed states reach the screen, and their events the files.
     void refresh();
 
     struct Shown {
@@ -130,7 +136,7 @@ public:
                    mode.vdisplay == other.mode.vdisplay && mode.clock == other.mode.clock;
         }
     };
-    /// What a monitor at the connector would show; nothing: it is dark.
+    /// What a monitor at the connector would show; nullopt: it is dark.
     [[nodiscard]] std::optional<Shown> shown(std::uint32_t connector) const;
     /// A framebuffer's memory, row by row.
     [[nodiscard]] std::span<const std::byte> pixels(std::uint32_t framebuffer) const {
@@ -138,13 +144,13 @@ public:
     }
     [[nodiscard]] std::uint64_t value(std::uint32_t object, const std::string& property) const;
     void set(std::uint32_t object, const std::string& property, std::uint64_t value);
-    /// A property's number; 0: the object has none of this name.
+    /// A property's id; 0: the object has no property of this name.
     [[nodiscard]] std::uint32_t id_of(std::uint32_t object, const std::string& property) const;
     [[nodiscard]] FakeConnector& connector(std::uint32_t id);
-    /// So many times a framebuffer was removed while it was shown.
+    /// How often a framebuffer was removed while it was shown.
     [[nodiscard]] int removed_while_shown() const { return removed_while_shown_; }
 
-    // The kernel's calls; fake_libdrm.cpp makes them.
+    // The kernel's calls, invoked by fake_libdrm.cpp.
     int commit(FakeFile& file, std::span<const FakeChange> changes, std::uint32_t flags,
                std::uint64_t given_back);
     int set_crtc(std::uint32_t crtc, std::uint32_t framebuffer, std::span<const std::uint32_t> connectors,
@@ -158,7 +164,7 @@ public:
     int create_blob(FakeFile& file, std::span<const std::byte> data, std::uint32_t* id);
     int destroy_blob(FakeFile& file, std::uint32_t id);
     int sequence(std::uint32_t crtc) const;
-    /// The number of a new piece of memory.
+    /// Returns the new buffer's handle.
     std::uint32_t create_buffer(FakeFile& file, std::uint32_t width, std::uint32_t height);
     int destroy_buffer(FakeFile& file, std::uint32_t handle);
     [[nodiscard]] const FakeBuffer* buffer(const FakeFile& file, std::uint32_t handle) const;
@@ -166,7 +172,7 @@ public:
     [[nodiscard]] bool is_master(const FakeFile& file) const { return master_ == &file; }
     void probe(FakeConnector& connector);
     void opened(FakeFile& file);
-    /// What a file still has, in words, is given up with it.
+    /// Releases the file's remaining objects and returns their description.
     [[nodiscard]] std::string closed(FakeFile& file);
 
     [[nodiscard]] const std::vector<std::uint32_t>& crtcs() const { return crtcs_; }
@@ -174,9 +180,9 @@ public:
     [[nodiscard]] const std::vector<FakeConnector>& connectors() const { return connectors_; }
     [[nodiscard]] const std::vector<FakePlane>& planes() const { return planes_; }
     [[nodiscard]] const FakeProperty* property(std::uint32_t id) const;
-    /// Properties and their values; nullptr: there is no such object.
+    /// Properties and their values; nullptr: no such object.
     [[nodiscard]] const std::map<std::uint32_t, std::uint64_t>* values_of(std::uint32_t object) const;
-    /// The CRTC that an encoder is fed by; 0: none.
+    /// The CRTC that feeds an encoder; 0: none.
     [[nodiscard]] std::uint32_t crtc_of(std::uint32_t encoder) const;
     [[nodiscard]] std::uint32_t encoder_of(const FakeConnector& connector) const;
 
@@ -185,10 +191,10 @@ private:
     using State = std::map<std::uint32_t, Values>;         ///< by object
     struct Blob {
         std::vector<std::byte> data;
-        FakeFile* owner = nullptr; ///< nullptr: states alone hold it
+        FakeFile* owner = nullptr; ///< nullptr: only states hold it
     };
     struct Pending {
-        FakeFile* file = nullptr; ///< nullptr: nobody wants the event
+        FakeFile* file = nullptr; ///< nullptr: no file waits for the event
         std::uint64_t given_back = 0;
     };
     std::uint32_t add_object(std::uint32_t kind);
@@ -210,10 +216,10 @@ private:
 
     std::uint32_t last_id_ = 30;
     std::vector<std::uint32_t> crtcs_;
-    std::map<std::uint32_t, std::uint32_t> encoders_; ///< and the CRTCs that can feed each
+    std::map<std::uint32_t, std::uint32_t> encoders_; ///< with the CRTCs that can feed each
     std::vector<FakeConnector> connectors_;
     std::vector<FakePlane> planes_;
-    std::map<std::uint32_t, std::uint32_t> kinds_; ///< of objects
+    std::map<std::uint32_t, std::uint32_t> kinds_; ///< type of each object
     std::map<std::uint32_t, FakeProperty> properties_;
     std::map<std::uint32_t, FakeFramebuffer> framebuffers_;
     std::map<std::uint32_t, Blob> blobs_;

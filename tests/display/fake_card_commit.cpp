@@ -1,4 +1,4 @@
-// What the kernel accepts as a card's next state.
+// The kernel's checks of a card's next state.
 #include "tests/display/fake_card.h"
 
 #include <algorithm>
@@ -223,7 +223,7 @@ int FakeCard::set_crtc(std::uint32_t crtc, std::uint32_t framebuffer,
     }
     const int refused = judge(next);
     if (refused == 0) {
-        refresh(); // it blocks until what was queued is done
+        refresh(); // blocks until queued work is done
         settle(std::move(next));
     }
     forget_unheld_blobs();

@@ -1,4 +1,5 @@
-// A graphics card with a projector, and the exhibit that shows pictures on it by the display's own code, on the fake kernel.
+// A graphics card with a projector, and an exhibit that shows pictures on it with the display's own code, on
+// the fake kernel.
 #pragma once
 
 #include "firmware_host/display/dumb_buffer.h"
@@ -27,7 +28,8 @@ inline std::vector<drmModeModeInfo> projector_modes() {
     return {kernel_mode(320, 200, 60.0, true), kernel_mode(256, 192, 60.0), kernel_mode(160, 120, 60.0)};
 }
 
-/// Two CRTCs with a primary plane each, an overlay, HDMI and DisplayPort; an earlier program has left its state on them.
+/// Two CRTCs with a primary plane each, an overlay, HDMI and DisplayPort; an earlier program has left state
+/// in their properties.
 struct CardOnDesk {
     explicit CardOnDesk(FakeCard& made) : card(made) {
         crtcs = {made.add_crtc(), made.add_crtc()};
@@ -67,7 +69,7 @@ protected:
     CardOnDesk desk{kernel.add_card(card_path)};
 };
 
-/// Two dumb buffers; nothing is drawn into them.
+/// Two dumb buffers without contents.
 class UndrawnPair final : public ScanoutPair {
 public:
     static Result<std::unique_ptr<ScanoutPair>> make(int card, PixelSize size) {
@@ -91,7 +93,7 @@ private:
     std::array<std::optional<DumbBuffer>, 2> buffers_;
 };
 
-/// The device on a clock of the test's: to wait for a flip moves it on and takes no time.
+/// The device on the test's clock: waiting for a flip advances the clock and takes no real time.
 class OnTestClock final : public KmsDevice {
 public:
     explicit OnTestClock(KmsDevice& device) : device_(device) {}

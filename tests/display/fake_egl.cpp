@@ -1,5 +1,5 @@
-// EGL on the fake kernel's GBM devices, by the linker's --wrap: Mesa's processor draws, under the name of the GPU. All other displays
-// are Mesa's own.
+// EGL on the fake kernel's GBM devices, by the linker's --wrap: Mesa's software renderer draws, under the
+// GPU's name. All other displays are Mesa's own.
 //
 // Source   EGL_KHR_platform_gbm: the device outlives its display; EGL_KHR_image_base, EGL_KHR_image_pixmap.
 #include "tests/display/fake_gbm.h"
@@ -31,10 +31,10 @@ namespace {
 /// A display on a GBM device.
 struct GbmDisplay {
     std::string renderer;
-    EGLDisplay processor = EGL_NO_DISPLAY; ///< what draws
+    EGLDisplay processor = EGL_NO_DISPLAY; ///< the renderer
 };
 
-std::map<const void*, GbmDisplay> displays; ///< by their devices, which stand for them
+std::map<const void*, GbmDisplay> displays; ///< by device pointer, which serves as the display's handle
 std::map<EGLContext, const GbmDisplay*> contexts;
 
 EGLDisplay real(EGLDisplay display) {
@@ -75,7 +75,7 @@ EGLBoolean destroy_image(EGLDisplay /*display*/, EGLImageKHR image) {
     return EGL_TRUE;
 }
 
-/// Without storage the framebuffer is incomplete, as with memory that a driver cannot draw into.
+/// Without storage the framebuffer is incomplete, like memory that a driver cannot draw into.
 void storage_of_image(GLenum target, GLeglImageOES image) {
     if (!fails("glEGLImageTargetRenderbufferStorageOES")) {
         const auto* buffer = static_cast<const gbm_bo*>(image);
@@ -118,7 +118,7 @@ EGLBoolean __wrap_eglInitialize(EGLDisplay display, EGLint* major, EGLint* minor
     return EGL_TRUE;
 }
 
-/// The processor's display is shared, and goes on.
+/// The software renderer's display is shared and stays initialised.
 EGLBoolean __wrap_eglTerminate(EGLDisplay display) {
     const auto found = displays.find(display);
     if (found == displays.end()) {
@@ -126,7 +126,7 @@ EGLBoolean __wrap_eglTerminate(EGLDisplay display) {
     }
     FakeKernel& kernel = FakeKernel::instance();
     if (!kernel.handed_out(display)) {
-        kernel.give_back(display, "GBM device"); // it was destroyed before its display: a wrong
+        kernel.give_back(display, "GBM device"); // the device was destroyed before its display: an error
     }
     kernel.give_back(&found->second, "EGL display");
     displays.erase(found);
@@ -158,7 +158,8 @@ EGLBoolean __wrap_eglDestroyContext(EGLDisplay display, EGLContext context) {
     return __real_eglDestroyContext(real(display), context);
 }
 
-/// Told to fail, no context is current all the same: else Mesa keeps the one that is destroyed next.
+/// If it must fail, the context is released nevertheless: otherwise Mesa keeps the context that is destroyed
+/// next.
 EGLBoolean __wrap_eglMakeCurrent(EGLDisplay display, EGLSurface draw, EGLSurface read, EGLContext context) {
     const bool refused = fails("eglMakeCurrent");
     const bool done = (!refused || context == EGL_NO_CONTEXT) &&

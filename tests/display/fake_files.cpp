@@ -1,4 +1,5 @@
-// `open`, `close`, `mmap` and `munmap` of the tested code, by the linker's --wrap: a fake card's are the fake kernel's.
+// `open`, `close`, `mmap` and `munmap` of the tested code, by the linker's --wrap: calls for a fake card go
+// to the fake kernel.
 #include "tests/display/fake_kernel.h"
 
 #include <fcntl.h>

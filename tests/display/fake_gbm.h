@@ -1,4 +1,4 @@
-/// What libgbm hands out on the fake kernel.
+/// libgbm's objects on the fake kernel.
 #pragma once
 
 #include "tests/display/fake_kernel.h"
@@ -9,7 +9,7 @@ extern "C" {
 
 struct gbm_device {
     int file;
-    std::string renderer; ///< what OpenGL says of it; empty: the processor draws (kms_swrast)
+    std::string renderer; ///< its name in OpenGL; empty: the processor draws (kms_swrast)
 };
 
 struct gbm_bo {

@@ -96,7 +96,7 @@ const FakeGpu* FakeKernel::gpu_at(std::string_view path) const {
 int FakeKernel::open_file(FakeCard* card, const FakeGpu* gpu, int flags) {
     std::array<int, 2> ends{};
     const bool blocks = (flags & O_NONBLOCK) == 0;
-    const int type = SOCK_SEQPACKET | SOCK_CLOEXEC | (blocks ? 0 : SOCK_NONBLOCK); // it keeps events whole
+    const int type = SOCK_SEQPACKET | SOCK_CLOEXEC | (blocks ? 0 : SOCK_NONBLOCK); // keeps events whole
     if (::socketpair(AF_UNIX, type, 0, ends.data()) != 0) {
         return -1;
     }

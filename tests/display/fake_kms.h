@@ -105,26 +105,26 @@ public:
         flipped = done.at;
         return Flipped{done.at, done.ticket};
     }
-    /// While a mode is being set the kernel cannot say.
+    /// The kernel cannot tell while a mode is being set.
     bool flips_keep_time() const override { return keeps_time && !setting_a_mode_; }
     std::string_view shortcoming() const override { return lacks; }
     MonotonicTime now() const override { return time; }
 
     MonotonicTime time = from_microseconds(1'000'000);
-    std::optional<Shown> screen; ///< what the projector shows
+    std::optional<Shown> screen; ///< shown by the projector
     std::vector<ModeTiming> refused;
     std::vector<ModeTiming> no_flips; ///< modes with memory for one picture only
-    std::string_view lacks;           ///< the shortcoming that it reports
+    std::string_view lacks;           ///< the shortcoming it reports
     bool scales = false;              ///< it can scale framebuffers to the mode's size
     bool no_scaled_flips = false;
     int scalings_refused = 0;
     bool gone = false;
     bool master = true;
     bool held_by_another = false;
-    bool hangs = false;     ///< no flip is ever done
-    bool keeps_time = true; ///< flips are done at refreshes; else at once
-    MonotonicTime flipped;  ///< the last time
-    int busy = 0;           ///< so many calls are answered Busy
+    bool hangs = false;     ///< flips never complete
+    bool keeps_time = true; ///< flips complete at refreshes; otherwise immediately
+    MonotonicTime flipped;  ///< time of the last flip
+    int busy = 0;           ///< number of calls that are answered Busy
     int lights = 0;
     int flips = 0;
     int darkenings = 0;
@@ -158,12 +158,12 @@ private:
     bool setting_a_mode_ = false;
 };
 
-/// Counts the pictures that are filled in; every pair has its own framebuffers.
+/// Counts the filled pictures; every pair has its own framebuffers.
 struct FakeMemory {
     int pairs = 0;
     int alive = 0;
     int fills = 0;
-    PixelRectangle filled; ///< the last time
+    PixelRectangle filled; ///< most recent part
     bool none_left = false;
 
     class Pair final : public ScanoutPair {
@@ -180,7 +180,7 @@ struct FakeMemory {
             memory_.filled = part;
             return name(which);
         }
-        /// Its pixels are its name.
+        /// Every byte of its pixels is its framebuffer's id.
         bool read(int which, std::span<std::byte> rgba) const override {
             std::fill(rgba.begin(), rgba.end(), static_cast<std::byte>(name(which)));
             return true;

@@ -1,4 +1,4 @@
-// The functions of libdrm that the display calls, on the fake kernel. They are hidden: Mesa goes on with the real ones.
+// The display's libdrm functions, on the fake kernel. They are hidden: Mesa continues to use the real ones.
 #include "tests/display/fake_kernel.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ struct _drmModeAtomicReq {
 
 namespace {
 
-/// A structure with the lists that it points to.
+/// A structure with the lists that its pointers reference.
 template <typename T> struct WithLists {
     T value{};
     std::vector<std::uint32_t> first, second, third;
@@ -42,7 +42,7 @@ int failed(int error) {
     return -error;
 }
 
-/// What the kernel looks at before a card's driver is asked.
+/// The kernel's checks before it calls a card's driver.
 struct Call {
     Call(const char* name, int number, bool of_the_master = false)
         : file(FakeKernel::instance().file(number)) {
@@ -58,7 +58,7 @@ struct Call {
         errno = error != 0 ? error : errno;
     }
     [[nodiscard]] FakeCard& card() const { return *file->card; }
-    /// As DRM_IOCTL in xf86drmMode.c: an error's negative number.
+    /// Like DRM_IOCTL in xf86drmMode.c: returns the negative error number.
     [[nodiscard]] static int answer(int refused) { return refused != 0 ? failed(-refused) : 0; }
 
     FakeFile* file;
@@ -73,7 +73,8 @@ drmModeConnectorPtr connector_of(const Call& call, std::uint32_t id, bool probes
         return nullptr;
     }
     FakeConnector& connector = call.card().connector(id);
-    if (probes && call.card().is_master(*call.file)) { // drm_mode_getconnector: others get what is known
+    if (probes && call.card().is_master(*call.file)) { // drm_mode_getconnector: others get the last known
+                                                       // state
         call.card().probe(connector);
     }
     const auto made = std::make_shared<WithLists<drmModeConnector>>();
@@ -123,7 +124,7 @@ int drmGetCap(int number, std::uint64_t capability, std::uint64_t* value) {
     return 0;
 }
 
-/// As drmIsMaster: whoever is not answered EACCES is.
+/// Like drmIsMaster: a file is master unless the answer is EACCES.
 int drmIsMaster(int number) {
     const Call call("drmIsMaster", number, true);
     return call.error != EACCES ? 1 : 0;
@@ -144,7 +145,7 @@ drmModeResPtr drmModeGetResources(int number) {
     const auto made = std::make_shared<WithLists<drmModeRes>>();
     made->first = call.card().crtcs();
     for (const FakeConnector& connector : call.card().connectors()) {
-        if (connector.type != DRM_MODE_CONNECTOR_WRITEBACK) { // needs a client capability of its own
+        if (connector.type != DRM_MODE_CONNECTOR_WRITEBACK) { // needs a separate client capability
             made->second.push_back(connector.id);
         }
     }
@@ -303,8 +304,7 @@ int drmModeCreatePropertyBlob(int number, const void* data, std::size_t size, st
 }
 int drmModeDestroyPropertyBlob(int number, std::uint32_t id) {
     const Call call("drmModeDestroyPropertyBlob", number);
-    const int refused =
-        call.file->card->destroy_blob(*call.file, id); // told to fail, it is gone all the same
+    const int refused = call.file->card->destroy_blob(*call.file, id); // destroyed even if set to fail
     return call.error != 0 ? -call.error : Call::answer(refused);
 }
 
@@ -321,7 +321,7 @@ drmModeAtomicReqPtr drmModeAtomicAlloc() {
 void drmModeAtomicFree(drmModeAtomicReqPtr request) {
     take_back(request, "request");
 }
-/// The number of properties so far.
+/// Returns the number of properties so far.
 int drmModeAtomicAddProperty(drmModeAtomicReqPtr request, std::uint32_t object, std::uint32_t property,
                              std::uint64_t value) {
     const int error = FakeKernel::instance().enter("drmModeAtomicAddProperty");
@@ -379,7 +379,7 @@ int drmModeAddFB2(int number, std::uint32_t width, std::uint32_t height, std::ui
 int drmModeAddFB(int number, std::uint32_t width, std::uint32_t height, std::uint8_t depth, std::uint8_t bits,
                  std::uint32_t pitch, std::uint32_t handle, std::uint32_t* id) {
     const Call call("drmModeAddFB", number);
-    if (call.error == 0 && (depth != 24 || bits != 32)) { // drm_mode_legacy_fb_format: XRGB8888 is this
+    if (call.error == 0 && (depth != 24 || bits != 32)) { // drm_mode_legacy_fb_format: this means XRGB8888
         return failed(EINVAL);
     }
     return call.error != 0
@@ -410,7 +410,7 @@ int drmModeMapDumbBuffer(int number, std::uint32_t handle, std::uint64_t* offset
     if (call.error != 0 || call.card().buffer(*call.file, handle) == nullptr) {
         return failed(call.error != 0 ? call.error : ENOENT);
     }
-    *offset = std::uint64_t{handle} << 12U; // of whole pages
+    *offset = std::uint64_t{handle} << 12U; // in whole pages
     return 0;
 }
 int drmModeDestroyDumbBuffer(int number, std::uint32_t handle) {

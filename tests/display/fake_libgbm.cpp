@@ -1,5 +1,5 @@
-// The functions of libgbm that the display calls, and those of libdrm that list GPUs, on the fake kernel. They are hidden: Mesa goes
-// on with the real ones.
+// The display's libgbm functions, and the libdrm functions that list GPUs, on the fake kernel. They are
+// hidden: Mesa continues to use the real ones.
 #include "tests/display/fake_gbm.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ using namespace frustumscreen;
 
 namespace {
 
-/// A device as drmGetDevices2 describes it.
+/// A device in the form of drmGetDevices2.
 struct Device {
     explicit Device(const FakeGpu& gpu) : path(gpu.path) {
         nodes.fill(no_path.data());
@@ -92,7 +92,7 @@ char* drmGetRenderDeviceNameFromFd(int number) {
     }
     return nullptr;
 }
-/// A negative error number, or how many there are.
+/// Returns a negative error number, or the number of devices.
 int drmGetDevices2(std::uint32_t /*flags*/, drmDevicePtr devices[], int most) {
     FakeKernel& kernel = FakeKernel::instance();
     if (const int error = kernel.enter("drmGetDevices2"); error != 0) {

@@ -1,4 +1,4 @@
-// Which card is opened, and what is seen on it.
+// Which card is opened, and what is detected on it.
 #include "tests/display/fake_desk.h"
 
 #include <filesystem>
@@ -25,7 +25,7 @@ TEST_F(KmsCardTest, SeesWhatIsConnected) {
     desk.card.connector(desk.other).cable = DRM_MODE_UNKNOWNCONNECTION;
     desk.card.add_connector(DRM_MODE_CONNECTOR_eDP, 1, {});
     desk.card.add_connector(DRM_MODE_CONNECTOR_WRITEBACK, 1, {});
-    desk.card.add_connector(1000, 1, {}); // a kind that this libdrm does not know
+    desk.card.add_connector(1000, 1, {}); // a type unknown to this libdrm
     desk.card.set(desk.hdmi, "link-status", 1);
     const Result<KmsCard> card = KmsCard::open(card_path, {});
     ASSERT_TRUE(card) << card.error().message;
@@ -109,7 +109,7 @@ TEST_F(KmsCardTest, ACardThatWasGoneIsBackWhenItCanBeOpened) {
     EXPECT_EQ(card->look(true).state, CardState::Gone);
     EXPECT_EQ(look_for_projector(*card, nullptr, {}, true).state, CardState::Gone);
     desk.card.gone = false;
-    kernel.fail(kernel.calls().size() + 1, ENODEV); // the file is still that of the device that was gone
+    kernel.fail(kernel.calls().size() + 1, ENODEV); // the file still belongs to the removed device
     EXPECT_EQ(card->look(true).state, CardState::Back);
 }
 
@@ -124,7 +124,7 @@ TEST_F(KmsCardTest, ACardCanBeMoved) {
     EXPECT_EQ(other.path(), card_path);
 }
 
-/// A folder of cards as /dev/dri, and one of their connectors as /sys/class/drm.
+/// A folder of cards like /dev/dri, and a folder of their connectors like /sys/class/drm.
 class SeveralCards : public testing::Test {
 protected:
     SeveralCards() : folder_(fs::path(testing::TempDir()) / "several_cards_test") {
@@ -146,7 +146,7 @@ protected:
         desks_.push_back(std::make_unique<CardOnDesk>(kernel_.add_card(path(name))));
         return *desks_.back();
     }
-    /// What sysfs says.
+    /// Sets a connector's status in sysfs.
     void say(const std::string& connector, const std::string& status) {
         fs::create_directories(folder_ / "sys" / connector);
         std::ofstream(folder_ / "sys" / connector / "status") << status << "\n";

@@ -1,4 +1,4 @@
-// Modes and flips, by atomic commits and by the kernel's older calls.
+// Modes and flips, by atomic commits and by the kernel's legacy calls.
 #include "tests/display/fake_desk.h"
 
 #include <sys/socket.h>
@@ -7,7 +7,7 @@
 namespace frustumscreen {
 namespace {
 
-/// `GetParam`: the driver has atomic commits.
+/// `GetParam`: whether the driver has atomic commits.
 class Device : public Desk, public testing::WithParamInterface<bool> {
 protected:
     Device() {
@@ -25,7 +25,7 @@ protected:
         return kms_->light(desk.hdmi, a_mode(width, height, 60.0),
                            {shown, {width, height}, {0, 0, width, height}}, ticket);
     }
-    /// The tickets of all flips that are done.
+    /// The tickets of all completed flips.
     std::vector<std::uint64_t> done() {
         desk.card.refresh();
         std::vector<std::uint64_t> tickets;
@@ -34,7 +34,7 @@ protected:
         }
         return tickets;
     }
-    /// An earlier program shows something at the other connector.
+    /// An earlier program shows a picture at the other connector.
     void light_the_other() {
         const drmModeModeInfo mode = kernel_mode(320, 200, 60.0);
         ASSERT_EQ(desk.card.set_crtc(desk.crtcs[1], framebuffer(), std::array{desk.other}, &mode), 0);
@@ -128,14 +128,14 @@ TEST_P(Device, WhatIsNoFlipOfOursIsPassedOver) {
     event.base = {DRM_EVENT_FLIP_COMPLETE, sizeof event};
     event.crtc_id = desk.crtcs[1];
     send(&event, sizeof event);
-    event.base.length = 4; // shorter than its own head
+    event.base.length = 4; // shorter than its header
     send(&event, sizeof event);
-    event.base.length = 200; // longer than what was read
+    event.base.length = 200; // longer than the data
     send(&event, sizeof event);
     send(&event, 3);
     EXPECT_TRUE(done().empty());
     event.base.length = sizeof event;
-    event.crtc_id = 0; // a driver that does not say which
+    event.crtc_id = 0; // a driver that does not name the CRTC
     event.user_data = 77;
     const std::array two{event, event};
     send(two.data(), sizeof two);

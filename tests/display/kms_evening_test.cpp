@@ -1,4 +1,4 @@
-// An exhibit from its start to its end on the fake kernel, and the same with each call failing once.
+// An exhibit from start to end on the fake kernel, normally and with each call failing once.
 #include "tests/display/fake_desk.h"
 
 namespace frustumscreen {
@@ -17,7 +17,7 @@ OutputRequest wish(int width = 0, int height = 0) {
     return request;
 }
 
-/// Presents pictures on an open card, and looks what is connected before each.
+/// Presents pictures on an open card, and checks the connections before each.
 class Evening {
 public:
     Evening(CardOnDesk& desk, const OutputRequest& request = wish())
@@ -25,7 +25,7 @@ public:
         if (!card_) {
             end_ = card_.error().message;
         } else if (!take_screen(card_->file())) {
-            end_ = "display: another program holds the screen"; // as KmsDisplay::create
+            end_ = "display: another program holds the screen"; // as in KmsDisplay::create
         } else {
             kms_ = make_kms_device(*card_);
             clock_.emplace(*kms_);
@@ -50,7 +50,7 @@ public:
             desk_.card.refresh();
         }
     }
-    /// A cable was moved, and the kernel says so.
+    /// A cable was moved, and the kernel reports it.
     void plugged() {
         if (end_.empty()) {
             seen_ = card_->look(true);
@@ -58,7 +58,7 @@ public:
         }
     }
     [[nodiscard]] bool lit() const { return desk_.card.shown(desk_.hdmi) || desk_.card.shown(desk_.other); }
-    /// Why it cannot go on; empty: it can.
+    /// Why it cannot continue; empty: it can.
     [[nodiscard]] const std::string& end() const { return end_; }
     [[nodiscard]] DeviceHealth health() const { return presenter_->condition().health; }
     [[nodiscard]] std::string state() const {
@@ -80,7 +80,7 @@ private:
     std::string end_;
 };
 
-/// `GetParam`: the driver has atomic commits.
+/// `GetParam`: whether the driver has atomic commits.
 class KmsEvening : public Desk, public testing::WithParamInterface<bool> {
 protected:
     KmsEvening() {
@@ -213,7 +213,7 @@ TEST_P(KmsEvening, ACardThatIsPulledOutAndBackAsksForANewStart) {
     EXPECT_TRUE(holds(evening.end(), "must be restarted")) << evening.end();
 }
 
-/// No time passes but the test's.
+/// Only the test's clock advances.
 TEST_P(KmsEvening, AFlipThatNeverComesIsGivenUpAndAtLastTheCard) {
     const KmsCard card = KmsCard::open(card_path, {}).value();
     const CardSeen seen = card.look(true);
@@ -246,8 +246,8 @@ TEST_P(KmsEvening, AFlipThatNeverComesIsGivenUpAndAtLastTheCard) {
     }
 }
 
-/// With any one call failing once, the picture is on the screen in the end or a sentence says why the program must end, and
-/// nothing is lost.
+/// If any one call fails once, the picture is on the screen in the end or a sentence says why the program
+/// must end; and nothing leaks.
 TEST_P(KmsEvening, AnyCallMayFailOnce) {
     const bool atomic = GetParam();
     struct Outcome {

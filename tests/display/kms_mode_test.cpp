@@ -110,7 +110,7 @@ TEST(KmsMode, AForcedModeComesFromTheListIfItIsThereAndElseFromUs) {
 }
 
 TEST(KmsMode, TimingsMadeHereAreThoseOfTheStandards) {
-    // VESA DMT 1.13: 1280 x 800 with reduced blanking, ID 1Bh; the same by CVT.
+    // VESA DMT 1.13: 1280 x 800 with reduced blanking, ID 1Bh; CVT gives identical values.
     const ModeTiming wide = make_mode(1280, 800, 60.0);
     EXPECT_EQ(wide.clock_khz, 71000U);
     EXPECT_EQ(wide.htotal, 1440);
@@ -123,7 +123,7 @@ TEST(KmsMode, TimingsMadeHereAreThoseOfTheStandards) {
     for (const double hz : {24.0, 50.0, 60.0, 75.0, 120.0}) {
         for (const auto& [width, height] : {std::pair{640, 480}, {1024, 768}, {1920, 1200}, {3840, 2160}}) {
             const ModeTiming mode = make_mode(width, height, hz);
-            EXPECT_NEAR(refresh_hz(mode), hz, 0.02 * hz) << width; // CVT counts clocks in 250 kHz
+            EXPECT_NEAR(refresh_hz(mode), hz, 0.02 * hz) << width; // CVT quantises the clock to 250 kHz
             EXPECT_TRUE(mode.width <= mode.hsync_start && mode.hsync_start < mode.hsync_end &&
                         mode.hsync_end < mode.htotal);
             EXPECT_TRUE(mode.height < mode.vsync_start && mode.vsync_start < mode.vsync_end &&

@@ -6,7 +6,7 @@
 namespace frustumscreen {
 namespace {
 
-/// A connector as i915 has it in Linux 6.1 (intel_connector.c, drm_connector.c).
+/// A connector as in i915 of Linux 6.1 (intel_connector.c, drm_connector.c).
 std::vector<KmsProperty> intel_hdmi() {
     return {
         {1, 0, true, "EDID", {}},
@@ -29,7 +29,7 @@ TEST(OutputProperties, FullRangeGraphicsAndNoHighDynamicRange) {
 }
 
 TEST(OutputProperties, NoBordersOfTheDrivers) {
-    // amdgpu's enumeration has another order than nouveau's; vc4 has margins.
+    // amdgpu orders its enumeration differently from nouveau; vc4 has margins.
     EXPECT_EQ(exact_picture(std::vector<KmsProperty>{
                   {7, 2, false, "underscan", {{"off", 0}, {"on", 1}, {"auto", 2}}},
                   {8, 40, false, "underscan hborder", {}},

@@ -50,14 +50,14 @@ TEST_F(Copying, AnotherShapeHasBlackAroundIt) {
 }
 
 TEST_F(Copying, TheCodeInTheCornerIsShownAsItIsHoweverThePictureIsScaled) {
-    // base/probe_code.h: greys of code 1 and 2. The rest is bright, so that interpolation would show.
+    // base/probe_code.h: greys of code 1 and 2. The rest is bright, to make interpolation visible.
     const PictureFramebuffer picture = picture_of(64, 40, [](int x, int y) {
         const auto code = static_cast<unsigned char>(y > 0 || x >= probe_pixels ? 250 : x % 3 == 0 ? 2 : 1);
         return Texel{code, code, code, 255};
     });
     const PixelRectangle away{30, 20, 5, 5};
     const PixelRectangle whole{0, 0, 64, 40};
-    // Bars above, bars at the sides, none, smaller than the picture, and as it is.
+    // Bars above and below, bars at the sides, no bars, smaller than the picture, and unscaled.
     for (const PixelSize size : {PixelSize{128, 100}, {200, 80}, {128, 80}, {32, 20}, {64, 40}, {5, 30}}) {
         for (const TopRow top : {TopRow::First, TopRow::Last}) {
             for (const PixelRectangle& part : {whole, away}) {
@@ -110,7 +110,7 @@ TEST_F(Copying, APartIsWhereItIsInTheWholePictureAndTheRestStays) {
 }
 
 TEST_F(Copying, ScalesCodes) {
-    // Black and white columns, halved. Half the light of white would be code 187.5 (IEC 61966-2-1).
+    // Black and white columns, at half size. Half the light of white would be code 187.5 (IEC 61966-2-1).
     const PictureFramebuffer picture = picture_of(128, 64, [](int x, int) {
         const auto code = static_cast<unsigned char>(x % 2 == 0 ? 0 : 255);
         return Texel{code, code, code, 255};

@@ -23,7 +23,7 @@ public:
     explicit PresentedExhibit(const OutputRequest& request = wish_for_the_preferred())
         : presenter(kms, memory.maker(), request) {}
 
-    /// One frame of 60 Hz: 5 ms of drawing, then the picture is presented.
+    /// One 60 Hz frame: 5 ms of drawing, then the picture is presented.
     MonotonicTime frame(const PixelRectangle& changed = {0, 0, 1280, 800}) {
         const MonotonicTime begin = kms.time;
         kms.time += std::chrono::milliseconds(5);

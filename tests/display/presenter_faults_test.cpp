@@ -94,7 +94,7 @@ TEST(Presenter, SetsTheModeAnewWhereTheKernelSaysThatTheLinkIsBad) {
     EXPECT_TRUE(exhibit.says("is lit"));
 }
 
-/// How long it bears with the card before it asks for a new start; nothing: for a minute.
+/// How long it tolerates the card before it requests a restart; nullopt: longer than a minute.
 std::optional<Nanoseconds> patience(PresentedExhibit& exhibit) {
     const MonotonicTime begin = exhibit.kms.time;
     while (exhibit.kms.time - begin < std::chrono::minutes(1)) {
@@ -108,13 +108,13 @@ std::optional<Nanoseconds> patience(PresentedExhibit& exhibit) {
 
 TEST(Presenter, AsksForANewStartWhereTheCardTakesNoPictureAnyMore) {
     for (const bool flips_stop : {false, true}) {
-        for (const int width : {1280, 1920}) { // as it is, and scaled
+        for (const int width : {1280, 1920}) { // unscaled and scaled
             PresentedExhibit exhibit;
             ConnectorSeen projector = a_projector();
             projector.modes = {a_mode(width, 800, 60.0, true)};
             exhibit.presenter.connected(a_card({projector}));
             exhibit.frames(5);
-            exhibit.kms.hangs = flips_stop; // then all calls answer that the flip before is not done
+            exhibit.kms.hangs = flips_stop; // all calls then answer that the previous flip is not done
             exhibit.kms.busy = flips_stop ? 0 : 1'000'000;
             const std::optional<Nanoseconds> patient = patience(exhibit);
             ASSERT_TRUE(patient);

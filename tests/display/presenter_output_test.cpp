@@ -1,4 +1,4 @@
-// Which output the presenter lights, how, and what it says of it.
+// Which output the presenter lights, how, and what it reports.
 #include "tests/display/presented_exhibit.h"
 
 namespace frustumscreen {
@@ -82,7 +82,7 @@ TEST(PresenterOutput, LightsTheConnectorNamedByForceThoughItSaysThatNothingIsCon
     exhibit.presenter.connected(a_card({unseen_projector()}));
     exhibit.frames(100);
     EXPECT_EQ(exhibit.kms.lights, 1) << "it stays lit";
-    exhibit.presenter.connected(a_card({a_projector()})); // it speaks after all
+    exhibit.presenter.connected(a_card({a_projector()})); // the projector answers after all
     exhibit.frames(5);
     EXPECT_EQ(exhibit.kms.screen->mode, a_projector().modes.front());
     EXPECT_EQ(exhibit.presenter.state(), "the projector at HDMI-A-1 is lit, 1280 x 800 at 60 Hz");

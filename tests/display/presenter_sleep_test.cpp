@@ -1,4 +1,4 @@
-// A projector that is dark on purpose.
+// A projector that is intentionally dark.
 
 #include "tests/display/presented_exhibit.h"
 
@@ -14,7 +14,7 @@ ConnectorSeen unplugged() {
     return off;
 }
 
-/// An exhibit whose projector was lit; frames of sleep are frames of 60 Hz.
+/// An exhibit with a lit projector; sleep also runs in frames of 60 Hz.
 class SleepingExhibit : public PresentedExhibit {
 public:
     SleepingExhibit() {
@@ -48,7 +48,7 @@ TEST(PresenterSleep, TurnsTheProjectorOffOnceAndLightsItWithTheNextPicture) {
 
 TEST(PresenterSleep, ACardThatRefusesToDarkenIsAskedAgain) {
     SleepingExhibit exhibit;
-    exhibit.kms.refused = {{}}; // the mode of a screen that is off
+    exhibit.kms.refused = {{}}; // an empty mode means that the screen is off
     exhibit.sleep(59);
     EXPECT_TRUE(exhibit.kms.screen);
     EXPECT_TRUE(exhibit.says("is lit")) << exhibit.presenter.state();

@@ -47,7 +47,7 @@ TEST(Presenter, ShowsEveryPictureOnceAndNeverDrawsIntoTheOneOnShow) {
 TEST(Presenter, CopiesWhatChangedSinceTheFramebufferWasShown) {
     PresentedExhibit exhibit;
     const PixelRectangle whole{0, 0, 1280, 800};
-    exhibit.frame({5, 5, 1, 1}); // in the dark
+    exhibit.frame({5, 5, 1, 1}); // while dark
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frame({10, 10, 1, 1});
     EXPECT_EQ(exhibit.memory.filled, whole) << "new memory";
@@ -76,7 +76,7 @@ TEST(Presenter, ReadsTheFramebufferThatTheProjectorShows) {
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frame();
     for (int k = 0; k < 100; ++k) {
-        exhibit.kms.hangs = k % 7 == 3; // the flip before is not done, so the one on show stays
+        exhibit.kms.hangs = k % 7 == 3; // the previous flip is not done, so the shown picture stays
         exhibit.kms.busy = k % 5 == 2 ? 1 : 0;
         exhibit.frame();
         ASSERT_TRUE(exhibit.kms.screen);
@@ -108,7 +108,7 @@ TEST(Presenter, TellsTheTimeOfTheRefreshThatShowsThePicture) {
 }
 
 TEST(Presenter, AsksWhetherFlipsKeepTimeOnceAModeIsSetAndAgainAfterTheNext) {
-    // Frames begin on refreshes only where it was asked at a time at which the kernel could say.
+    // Frames begin on refreshes only if the query came at a time when the kernel could answer.
     PresentedExhibit exhibit;
     for (const double hz : {60.0, 59.94}) {
         ConnectorSeen projector = a_projector();
@@ -154,7 +154,7 @@ TEST(Presenter, GoesDarkWhenTheProjectorGoesAndSetsItsModeAnewWhenItIsBack) {
 }
 
 TEST(Presenter, SurvivesUnplugAndReplugAtEveryStep) {
-    // The projector goes before step k of a life and comes back m steps later.
+    // The projector is unplugged before step k and comes back m steps later.
     for (int gone_at = 0; gone_at < 12; ++gone_at) {
         for (int back_after = 0; back_after < 6; ++back_after) {
             PresentedExhibit exhibit;
@@ -250,7 +250,7 @@ TEST(Presenter, IsSettledWhenTheFirstPictureIsShownOrNothingCanShowIt) {
 
 TEST(Presenter, APictureWithoutASizeIsDrawnInThePreferredModesSize) {
     PresentedExhibit exhibit{OutputRequest{}};
-    exhibit.kms.scales = true; // it would scale one that has a size
+    exhibit.kms.scales = true; // it would scale a picture that has a size
     ConnectorSeen projector = a_projector();
     projector.modes = {a_mode(640, 480, 60.0), a_mode(1920, 1080, 60.0, true)};
     exhibit.presenter.connected(a_card({projector}));

@@ -14,7 +14,7 @@ TEST_F(ReadingBack, MemoryHoldsWhatAScreenWouldShowInTheKernelsOrder) {
         const std::vector<Texel> screen = copied(picture, size, TopRow::First);
         const auto width = static_cast<std::size_t>(size.width);
         const auto height = static_cast<std::size_t>(size.height);
-        const std::size_t stride = 4 * width + 64; // rows are aligned as the card wants them
+        const std::size_t stride = 4 * width + 64; // rows are aligned as the card requires
         std::vector<std::byte> memory(stride * height, untouched);
         ASSERT_TRUE(copying_->make_current());
         {

@@ -1,4 +1,4 @@
-// Compiled shaders that are kept: Mesa itself, on a disk with room and on a full one.
+// The cache of compiled shaders: Mesa itself, on a disk with free space and on a full one.
 
 #include "firmware_host/display/shader_cache.h"
 #include "firmware_host/display/surfaceless_display.h"
@@ -22,13 +22,14 @@ namespace fs = std::filesystem;
 
 constexpr int no_namespace = 77;
 
-/// Draws once, as the exhibit's first frame does; Mesa compiles and keeps something for it.
+/// Draws once, like the exhibit's first frame; Mesa compiles and caches shaders for it.
 bool draws() {
     const auto display = SurfacelessDisplay::create(64, 64);
     return display.has_value();
 }
 
-/// In a process of its own, as Mesa reads the environment once. The result is its exit status, or minus the signal that ended it.
+/// Runs in a child process, because Mesa reads the environment once. Returns its exit status, or minus the
+/// signal that ended it.
 template <typename Body> int in_a_process(const Body& body) {
     const pid_t child = ::fork();
     if (child == 0) {
@@ -41,7 +42,7 @@ template <typename Body> int in_a_process(const Body& body) {
 
 class ShaderCache : public WithTemporaryFolder {};
 
-/// A full disk of 8 KiB over `folder`, for this process alone.
+/// Mounts a full disk of 8 KiB over `folder`, for this process alone.
 bool mount_full_disk(const fs::path& folder) {
     if (::unshare(::geteuid() == 0 ? CLONE_NEWNS : CLONE_NEWNS | CLONE_NEWUSER) != 0 ||
         ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||

@@ -1,5 +1,5 @@
-// What udev says of graphics cards, through the real libudev. umockdev sends the events; calls of the kernel fail where a test
-// says so. Started by umockdev-wrapper.
+// udev's events for graphics cards, through the real libudev. umockdev sends the events; kernel calls fail
+// where a test sets it. Started by umockdev-wrapper.
 
 #include "firmware_host/display/connector_watch.h"
 #include "firmware_host/display/hotplug.h"
@@ -17,7 +17,7 @@
 
 namespace {
 
-/// Calls that fail with an error number; 0: they are the kernel's own.
+/// Error numbers of failing calls; 0: calls the kernel.
 struct Failing {
     int socket = 0, bind = 0, eventfd = 0;
     bool udev_new = false;
@@ -58,7 +58,7 @@ int eventfd(unsigned count, int flags) noexcept {
     const int error = error_of(&Failing::eventfd);
     return error != 0 ? failed(error) : real<int(unsigned, int)>("eventfd")(count, flags);
 }
-/// libudev asks by it how long the next event is.
+/// libudev uses it to query the length of the next event.
 ssize_t recv(int file, void* bytes, size_t size, int flags) {
     Failing* const now = failing;
     if (const int error = now != nullptr ? std::exchange(now->receive_once, 0) : 0; error != 0) {
@@ -96,11 +96,11 @@ protected:
         failing = nullptr;
         g_object_unref(testbed);
     }
-    /// It has arrived when this returns.
+    /// The event has arrived when this returns.
     void send(const char* device, const char* action) const {
         umockdev_testbed_uevent(testbed, device, action);
     }
-    /// Nothing is heard, each wait takes its time, and nothing is left open.
+    /// Receives no event, each wait takes its full time, and no descriptor leaks.
     static void is_deaf_but_patient(bool can_be_woken) {
         const std::size_t before = open_descriptors();
         {
@@ -171,7 +171,7 @@ TEST_F(UdevHotplugTest, AnErrorOfTheReceivingIsNoEvent) {
 TEST_F(UdevHotplugTest, ItIsWokenFromAnotherThreadAndThatIsNoEvent) {
     const std::unique_ptr<Hotplug> hotplug = make_udev_hotplug();
     for (int k = 0; k < 20; ++k) {
-        std::thread other([&] { hotplug->wake(); }); // before the wait or in it
+        std::thread other([&] { hotplug->wake(); }); // before or during the wait
         EXPECT_FALSE(hotplug->wait(minutes(10)));
         other.join();
         EXPECT_FALSE(hotplug->wait(at_once)) << "one call ends one wait";
@@ -216,12 +216,12 @@ TEST_F(UdevHotplugTest, ALitCardIsAskedAgainWhenUdevSaysSo) {
         },
         make_udev_hotplug());
     watch.set_lit(true);
-    while (cheap == 0) { // from then on it asks thoroughly for a reason alone
+    while (cheap == 0) { // from then on it checks thoroughly only for a reason
         std::this_thread::sleep_for(milliseconds(1));
     }
     const int before = thorough;
     send(card, "change");
-    while (thorough == before) { // ctest's limit ends it
+    while (thorough == before) { // ctest's timeout ends it
         std::this_thread::sleep_for(milliseconds(1));
     }
     EXPECT_EQ(thorough, before + 1);

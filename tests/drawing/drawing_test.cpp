@@ -1,5 +1,5 @@
-// The drawings against arithmetic of their own: what is read back from the SVG must fit Pythagoras, the settings as
-// `config --json` has them, and the paper.
+// The drawings against independent arithmetic: the values read from the SVG must match Pythagoras, the
+// settings in `config --json`, and the paper.
 
 #include "app/drawing/drawing.h"
 #include "firmware_host/base/json.h"
@@ -15,7 +15,7 @@
 namespace frustumscreen {
 namespace {
 
-constexpr double written_mm = 2e-3; ///< the file has thousandths
+constexpr double written_mm = 2e-3; ///< rounding of the file's values to thousandths
 
 struct Case {
     const char* what;
@@ -66,7 +66,7 @@ double side_of(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
     return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
 
-/// Of a convex polygon: farther than `margin_m` inside all its edges.
+/// Whether p is inside all edges of a convex polygon by at least `margin_m`.
 bool is_inside(const std::vector<glm::dvec2>& polygon, const glm::dvec2& p, double margin_m) {
     for (std::size_t k = 0; k < polygon.size(); ++k) {
         const glm::dvec2& a = polygon[k];
@@ -88,21 +88,22 @@ std::multiset<long> rounded_edges(const std::vector<glm::dvec2>& corners) {
 }
 
 TEST_F(Drawing, TheNetOfTheShippedPropHasItsSizes) {
-    // 300 and 80 mm, 155 mm high: a side is hypot(155, 110) high, its edges hypot of that and 110.
+    // 300 and 80 mm, 155 mm high: the slant height of a side is hypot(155, 110), its edges are the hypot of
+    // that and 110.
     const std::string svg = drawn("", "net");
     EXPECT_EQ(rounded_edges(polygon(svg, "net", "+Z")), (std::multiset<long>{8000, 8000, 8000, 8000}));
     const long edge = std::lround(1e5 * std::hypot(0.110, 0.110, 0.155));
     for (const char* side : {"+X", "-X", "+Y", "-Y"}) {
         const std::vector<glm::dvec2> corners = polygon(svg, "net", side);
         EXPECT_EQ(rounded_edges(corners), (std::multiset<long>{8000, edge, edge, 30000})) << side;
-        // The height decides the angles; the shoelace's area has it.
+        // The height determines the angles, and so the area (shoelace formula).
         double area = 0.0;
         for (std::size_t k = 0; k < 4; ++k) {
             area += 0.5 * (corners[k].x * corners[(k + 1) % 4].y - corners[k].y * corners[(k + 1) % 4].x);
         }
         EXPECT_NEAR(area, 0.19 * std::hypot(0.155, 0.110), 2e-6) << side;
     }
-    // True size: the page is the net and its margins, and says so.
+    // True size: the page is the net and its margins, and its attributes say so.
     EXPECT_NE(svg.find("mm\" viewBox=\"0 0 "), std::string::npos);
     EXPECT_NE(svg.find("data-mm-per-m=\"1000\""), std::string::npos);
 }
@@ -120,7 +121,7 @@ TEST_F(Drawing, EachFaceOfTheNetIsThatOfTheSettings) {
                 const nlohmann::json& c = face.at("corners").at(k);
                 return glm::dvec3(c.at(0), c.at(1), c.at(2));
             };
-            // All six distances between four corners, and the way round: the same face, not mirrored.
+            // All six distances between four corners, and the winding: an equal face, not mirrored.
             for (std::size_t a = 0; a < 4; ++a) {
                 for (std::size_t b = a + 1; b < 4; ++b) {
                     EXPECT_NEAR(1e3 * glm::distance(flat[a], flat[b]),
@@ -139,7 +140,7 @@ TEST_F(Drawing, NothingOfTheNetLiesOnAnotherPart) {
         std::size_t tabs = 0;
         for (const SvgPolygon& part : parts) {
             tabs += part.name == "tab" ? 1 : 0;
-            for (int k = 0; k < 400; ++k) { // a grid over the part's own two triangles
+            for (int k = 0; k < 400; ++k) { // a grid over the part's two triangles
                 const glm::dvec2 share((k % 20 + 0.5) / 20.0, (k / 20 + 0.5) / 20.0);
                 const glm::dvec2 p = glm::mix(glm::mix(part.corners[0], part.corners[1], share.x),
                                               glm::mix(part.corners[3], part.corners[2], share.x), share.y);
@@ -149,8 +150,8 @@ TEST_F(Drawing, NothingOfTheNetLiesOnAnotherPart) {
                 EXPECT_LE(over, 1) << part.name << " at " << p.x << ", " << p.y;
             }
         }
-        // A solid of F faces is cut open along as many edges as it has, less the F - 1 folds: a frustum without its bottom
-        // has 8 edges between its 5 faces, a cube 12.
+        // A solid of F faces is cut open along its edges except F - 1 folds: a frustum without its bottom has
+        // 8 edges between its 5 faces, a cube 12.
         EXPECT_EQ(tabs, std::string(each.what) == "cube" ? 7U : 4U);
     }
 }
@@ -158,7 +159,7 @@ TEST_F(Drawing, NothingOfTheNetLiesOnAnotherPart) {
 TEST_F(Drawing, TheLightsCornersAreThePicturesCorners) {
     for (const Case& each : cases) {
         SCOPED_TRACE(each.what);
-        // On a table that holds all of the picture nothing of it is cut off.
+        // A table that contains the whole picture cuts nothing off.
         std::string settings = each.settings;
         const std::size_t table = settings.find("[table]\n");
         if (table != std::string::npos) {
@@ -187,7 +188,7 @@ TEST_F(Drawing, TheLightsCornersAreThePicturesCorners) {
             const double v =
                 projector.at("fy").get<double>() * seen.y / seen.z + projector.at("cy").get<double>();
             met.insert({std::lround(20.0 * u / width), std::lround(20.0 * v / height)});
-            constexpr double pixels = 1.0; // thousandths of a millimetre at 1 : 100 are 0.1 mm
+            constexpr double pixels = 1.0; // rounding: a thousandth of a millimetre at 1 : 100 is 0.1 mm
             EXPECT_LT(std::fmin(std::abs(u), std::abs(u - width)), pixels);
             EXPECT_LT(std::fmin(std::abs(v), std::abs(v - height)), pixels);
         }
@@ -225,13 +226,13 @@ TEST_F(Drawing, TheShippedTableHasItsDimensions) {
         return all;
     };
     const std::multiset<std::string> table = words(drawn("", "table"));
-    // Lens, prop's height, table's two sides; eyes 0.55 m in front of the middle, 0.3 m of its edge.
+    // Lens, prop's height, two sides of the table; eyes 0.55 m in front of the middle, 0.3 m from its edge.
     for (const char* measure : {"1500", "155", "800", "300"}) {
         EXPECT_GE(table.count(measure), 1U) << measure;
     }
-    EXPECT_EQ(table.count("500"), 3U); // twice the depth, and the eyes' height
+    EXPECT_EQ(table.count("500"), 3U); // the depth twice, and the eyes' height
     const std::multiset<std::string> prop = words(drawn("", "prop"));
-    // atan2(155, 110); a side's slope is hypot(155, 110) = 190.07, its angle atan2(190.07, 110).
+    // atan2(155, 110); a side's slant height is hypot(155, 110) = 190.07, its angle atan2(190.07, 110).
     for (const char* measure : {"300", "80", "155", "190.1", "219.6", "54.6\u00b0", "59.9\u00b0"}) {
         EXPECT_GE(prop.count(measure), 1U) << measure;
     }

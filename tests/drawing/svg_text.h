@@ -1,4 +1,4 @@
-// Reads the SVG of a drawing as any other program would: its polygons and texts, from the file alone.
+// Reads a drawing's SVG like any other program: its polygons and texts, from the file alone.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,12 +13,12 @@
 namespace frustumscreen {
 
 struct SvgPolygon {
-    std::string view; ///< that it is drawn in
+    std::string view; ///< the view that contains it
     std::string name;
     std::vector<glm::dvec2> corners; ///< in the view's own metres
 };
 
-/// About the box that a text takes on the paper, millimetres.
+/// Approximate box of a text on the paper, millimetres.
 struct SvgText {
     std::string words;
     glm::dvec2 low{0.0}, high{0.0};
@@ -71,12 +71,12 @@ inline std::vector<SvgText> texts(const std::string& svg) {
         const double size = std::stod((*match)[3]);
         const std::string words = (*match)[8];
         const double length =
-            0.58 * size * static_cast<double>(words.size()); // DejaVu Sans; a little more in bold
+            0.58 * size * static_cast<double>(words.size()); // DejaVu Sans; slightly wider in bold
         const double from = (*match)[4] == "start" ? 0.0 : (*match)[4] == "middle" ? -0.5 * length : -length;
         const double turn = (*match)[7].matched ? glm::radians(std::stod((*match)[7])) : 0.0;
         SvgText text{words, at, at};
         for (const double x : {from, from + length}) {
-            for (const double y : {-0.75 * size, 0.0}) { // capitals and figures
+            for (const double y : {-0.75 * size, 0.0}) { // height of capitals and digits
                 const glm::dvec2 corner = at + glm::dvec2(x * std::cos(turn) - y * std::sin(turn),
                                                           x * std::sin(turn) + y * std::cos(turn));
                 text.low = glm::min(text.low, corner);

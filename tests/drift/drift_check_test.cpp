@@ -1,4 +1,5 @@
-// What is told of many looks at the marks: a move by 2 mm within minutes, and nothing that hands, things on the table and light do.
+// Reports from many drift measurements: a move of 2 mm is reported within minutes, and hands, objects on the
+// table and light cause no report.
 #include "app/drift/drift_check.h"
 #include "tests/simulators/table/simulated_table.h"
 
@@ -17,7 +18,7 @@ const std::vector<glm::dvec2> places_m{{-0.37, -0.22}, {0.37, 0.22}, {0.37, -0.2
                                        {-0.12, -0.22}, {0.12, 0.22}, {0.12, -0.22}, {-0.12, 0.22},
                                        {-0.37, 0.0},   {0.37, 0.0}};
 
-/// A camera askew above the table, .75 mm a pixel.
+/// A camera at an angle above the table, 0.75 mm per pixel.
 glm::dvec2 seen_at(const glm::dvec2& place_m) {
     const double depth = 1.0 + 0.15 * place_m.y - 0.05 * place_m.x;
     return glm::dvec2(640.0, 360.0) + glm::dvec2(1333.0 * place_m.x, -1300.0 * place_m.y) / depth;
@@ -30,7 +31,7 @@ DriftReference blank() {
     return blank;
 }
 
-/// A look at all marks, each off by `way` and by noise.
+/// A measurement of all marks, each displaced by `way_m` and by noise.
 MarkSet look(MonotonicTime time, const glm::dvec2& way_m, double noise_m, SeededNumbers& numbers) {
     MarkSet set{time, {}, {}};
     for (const glm::dvec2& place : places_m) {
@@ -42,7 +43,7 @@ MarkSet look(MonotonicTime time, const glm::dvec2& way_m, double noise_m, Seeded
 
 class Check : public ::testing::Test {
 protected:
-    /// One look a minute.
+    /// One measurement per minute.
     void look_at(const glm::dvec2& way_m, int times, double noise_m = 1.5e-4) {
         for (int k = 0; k < times; ++k) {
             now += minutes(1);
@@ -60,7 +61,7 @@ protected:
 TEST_F(Check, LearnsFromTheFirstLooksThatAgree) {
     EXPECT_EQ(state(), DriftState::Learning);
     look_at({0.0, 0.0}, 2);
-    look_at({0.01, 0.0}, 2); // somebody is still at work
+    look_at({0.01, 0.0}, 2); // a person is still at work
     EXPECT_EQ(stored, 0);
     look_at({0.01, 0.0}, 1);
     EXPECT_EQ(stored, 1);
@@ -75,7 +76,7 @@ TEST_F(Check, WhatWasLiftedWhileItLearnedIsLeftOut) {
     for (int k = 0; k < 3; ++k) {
         now += minutes(1);
         MarkSet set = look(now, {}, 1.5e-4, numbers);
-        for (std::size_t mark = 0; mark < 3; ++mark) { // the prop stands there
+        for (std::size_t mark = 0; mark < 3; ++mark) { // covered by the prop
             *set.marks_px[mark] += glm::dvec2(40.0, -25.0);
         }
         stored += check.take(set) ? 1 : 0;
@@ -159,7 +160,7 @@ std::vector<AnchorTag> anchors(const glm::dvec2& camera_way_px, std::size_t coun
     return tags;
 }
 
-/// The camera was pushed by 8 pixels, 6 mm; the projector by what is asked.
+/// The camera was pushed by 8 pixels, 6 mm; the projector by `projector_way_m`.
 DriftMeasure pushed(const glm::dvec2& projector_way_m, std::size_t tags, SeededNumbers& numbers) {
     DriftCheck check(blank());
     for (int k = 0; k < 3; ++k) {
@@ -204,14 +205,15 @@ TEST(Anchors, ATagThatSomebodyMovedIsNotBelieved) {
     EXPECT_LT(measure_drift(reference, now)->off_m, 1e-9);
 }
 
-// Days of a museum: 240 looks a day, 300 days a year.
+// Days of a museum: 240 measurements per day, 300 days per year.
 
 struct Days {
     int alarms = 0;
     int looks = 0;
 };
 
-/// What happens on a table beside the looks: things that lie there for a while, people, a table that is leaned on (its light moves by parallax alone), a projector that warms up.
+/// Events on a table between the measurements: objects that lie there for a while, people, a table that is
+/// leaned on (its light moves only by parallax), a projector that warms up.
 class Museum {
 public:
     explicit Museum(std::uint64_t seed) : numbers_(seed) {}
@@ -224,7 +226,7 @@ public:
         const glm::dvec2 all_m = glm::dvec2(warm_m, 0.0) + (leans_for_-- > 0 ? lean_m_ : glm::dvec2(0.0)) +
                                  (numbers_.between(0.0, 1.0) < 1.0 / 1000.0
                                       ? 5e-3 * glm::dvec2(numbers_.normal(), numbers_.normal())
-                                      : glm::dvec2(0.0)); // somebody hits the table
+                                      : glm::dvec2(0.0)); // a bump against the table
         MarkSet set = look(time, all_m, 1.5e-4, numbers_);
         lay_things(set);
         disturb(set);
@@ -232,7 +234,7 @@ public:
     }
 
 private:
-    /// A leaflet, a bag, the prop: it hides up to three marks, or lifts their light.
+    /// A leaflet, a bag, the prop: it covers up to three marks, or raises their light.
     void lay_things(MarkSet& set) {
         if (numbers_.between(0.0, 1.0) < 1.0 / 40.0 && thing_for_ <= 0) {
             thing_for_ = 1 + static_cast<int>(numbers_.below(120));
@@ -247,7 +249,7 @@ private:
         }
         --thing_for_;
     }
-    /// People pass: some marks are seen elsewhere, or not.
+    /// People pass: some marks are seen elsewhere, or not at all.
     void disturb(MarkSet& set) {
         if (numbers_.between(0.0, 1.0) < 0.02) {
             for (std::size_t k = numbers_.below(6); k > 0; --k) {
@@ -299,7 +301,7 @@ TEST(MuseumDays, DISABLED_OfManyYears) {
     }
     std::printf("20 years, %d looks: %d wrong alarms\n", all.looks, all.alarms);
     EXPECT_LE(all.alarms, 2);
-    // A real move, in the same days: how many looks until it is told.
+    // A real move in equal days: the number of measurements until it is reported.
     for (const double way_m : {2.2e-3, 2.5e-3, 3e-3, 5e-3}) {
         int told = 0, most = 0;
         double sum = 0.0;

@@ -1,4 +1,4 @@
-// The reference as a file: what was written is read back, and what is no reference is said in one line.
+// The reference as a file: a written file is read back, and an invalid one is reported in one line.
 #include "app/drift/drift_reference.h"
 #include "app/drift/mark_places.h"
 #include "app/settings/calibration.h"
@@ -49,7 +49,7 @@ Calibration some_calibration() {
     return calibration;
 }
 
-/// Where the marks are lit by a calibration as it is kept and read again.
+/// The positions lit by a calibration after it was written and read again.
 std::vector<glm::dvec2> marks_by(Calibration& calibration) {
     const Result<Calibration> kept = parse_calibration(calibration_text(calibration), "kept.toml");
     EXPECT_TRUE(kept) << kept.error().message;

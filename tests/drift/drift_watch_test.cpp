@@ -1,4 +1,5 @@
-// The whole check on rendered scenes: the projector shows marks when it is told to, the camera sees them, and what is told is true.
+// The whole drift check on rendered scenes: the projector shows marks on request, the camera sees them, and
+// the report is correct.
 #include "app/drift/drift_watch.h"
 #include "app/drift/mark_places.h"
 #include "app/settings/settings.h"
@@ -25,7 +26,7 @@ std::vector<glm::dvec2> shipped_places() {
     return mark_places(settings);
 }
 
-/// A kiosk whose camera and projector are simulated.
+/// A kiosk with simulated camera and projector.
 class Kiosk {
 public:
     Kiosk(int width, int height, const SceneFaults& faults, std::vector<SceneTag> tags = {})
@@ -40,14 +41,14 @@ public:
     Kiosk(const Kiosk&) = delete;
     Kiosk& operator=(const Kiosk&) = delete;
 
-    /// `aside_m`: how far beside their usual places the marks are lit: by another calibration.
+    /// `aside_m`: displacement of the last mark's place, as by another calibration.
     void start(double aside_m = 0.0) {
         shadow = MarkSchedule(marks.size());
         std::vector<glm::dvec2> places = shipped_places();
         places.back().x += aside_m;
         watch = std::make_unique<DriftWatch>(DriftSetUp{std::move(places), {1, 2}, folder / "drift.json"});
     }
-    /// So many sets, a minute each. Frames that nobody looks at are not rendered.
+    /// Runs this many sets, one per minute. Frames outside the sets are not rendered.
     void run(int sets, const std::vector<SceneHand>& hands = {}) {
         const MonotonicTime end = now + sets * MarkSchedule::between_sets;
         for (; now < end; now += frame_time) {
@@ -66,14 +67,14 @@ public:
     TableScene scene;
     SceneProjector projector;
     std::vector<glm::dvec2> marks = shipped_places();
-    MarkSchedule shadow{marks.size()}; ///< steps as the watch's own
+    MarkSchedule shadow{marks.size()}; ///< steps in parallel with the watch's own
     RigidTransform real = SceneProjector().table_from_projector;
     std::unique_ptr<DriftWatch> watch;
     std::filesystem::path folder;
     MonotonicTime now = MonotonicTime(seconds(100));
     Nanoseconds frame_time = milliseconds(66);
     bool someone = false;
-    double busy_s = 0.0; ///< of the camera's thread
+    double busy_s = 0.0; ///< CPU time of the camera's thread
     std::uint64_t frames = 0;
 
 private:
@@ -96,7 +97,7 @@ private:
     std::optional<MonotonicTime> ended_;
 };
 
-/// Small and quick: a pixel is 3 mm.
+/// Small for speed: a pixel is 3 mm.
 constexpr int small_width = 320, small_height = 180;
 
 TEST(DriftWatch, AProjectorThatWasBumpedIsTold) {
@@ -106,13 +107,13 @@ TEST(DriftWatch, AProjectorThatWasBumpedIsTold) {
     EXPECT_EQ(kiosk.verdict().state, DriftState::Well);
     EXPECT_TRUE(std::filesystem::exists(kiosk.folder / "drift.json"));
     kiosk.real = kiosk.projector.moved({0.005, 0.0, 0.0});
-    kiosk.start(); // and after a restart too: the reference is on the disk
+    kiosk.start(); // also after a restart: the reference is on the disk
     kiosk.run(6);
     EXPECT_EQ(kiosk.verdict().state, DriftState::Moved);
     EXPECT_NEAR(kiosk.verdict().off_m, 0.005, 5e-4);
     EXPECT_NE(sentence_of(kiosk.verdict()).view().find("moved by 5 mm since the calibration"),
               std::string_view::npos);
-    kiosk.start(1e-4); // it was touched up
+    kiosk.start(1e-4); // after a touch-up
     EXPECT_EQ(kiosk.verdict().state, DriftState::Learning);
 }
 
@@ -144,14 +145,14 @@ TEST(DriftWatch, ADamagedReferenceIsLearnedAnew) {
     EXPECT_EQ(kiosk.verdict().state, DriftState::Learning);
 }
 
-// The figures of docs/calibration.md, at 1280 x 720.
+// Figures of docs/calibration.md, at 1280 x 720.
 
 void print_case(const char* name, const SceneFaults& faults, const std::vector<SceneHand>& hands) {
     std::printf("%s:", name);
     Kiosk kiosk(1280, 720, faults);
     kiosk.run(4);
     for (const double move_mm : {0.0, 1.0, 2.0, 5.0}) {
-        kiosk.start(); // what one look finds
+        kiosk.start(); // the result of a single measurement
         const double busy_before_s = kiosk.busy_s;
         const std::uint64_t frames_before = kiosk.frames;
         kiosk.real = kiosk.projector.moved({0.6e-3 * move_mm, 0.8e-3 * move_mm, 0.0});

@@ -1,4 +1,4 @@
-// A mark is found to a small part of a pixel, and nothing is found where something else changed.
+// A mark is found to a fraction of a pixel, and nothing is found if something else changed.
 #include "app/drift/mark_finder.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int width = 120, height = 90;
 
-/// A grey picture with a Gaussian of light, and noise that is another one in each frame.
+/// A grey picture with a Gaussian spot of light, and noise that differs in each frame.
 class Pictures {
 public:
     explicit Pictures(double noise = 0.0) : noise_(noise) {}
@@ -89,7 +89,7 @@ TEST(MarkFinder, WhereNothingIsLitNothingIsFound) {
 
 TEST(MarkFinder, LooksInItsWindowAlone) {
     Pictures pictures(1.0);
-    const PixelWindow left{{-20, 5}, {50, 80}}; // beyond the picture's edge too
+    const PixelWindow left{{-20, 5}, {50, 80}}; // extends beyond the picture's edge
     EXPECT_TRUE(found(pictures, {30.0, 40.0}, 30.0, left));
     EXPECT_FALSE(found(pictures, {90.0, 40.0}, 30.0, left));
     EXPECT_FALSE(found(pictures, {30.0, 40.0}, 30.0, PixelWindow{{70, 70}, {72, 72}}));
@@ -100,7 +100,7 @@ TEST(MarkFinder, AHandThatComesOrGoesIsNoMark) {
     Pictures pictures(1.0);
     MarkFinder finder;
     finder.begin();
-    for (int k = 0; k < 8; ++k) { // it lies there from the mark on
+    for (int k = 0; k < 8; ++k) { // the object is there from the mark on
         show(finder, MarkPhase::Before, pictures.dark());
         show(finder, MarkPhase::Lit, pictures.with({60.0, 45.0}, 40.0));
         show(finder, MarkPhase::After, pictures.with({60.0, 45.0}, 40.0));

@@ -1,4 +1,4 @@
-// When marks are shown: a set now and then, while nobody is there, and no frame that is just changing is used.
+// Timing of marks: an occasional set while no visitor is present; frames in transition are not used.
 #include "app/drift/mark_schedule.h"
 
 #include <gtest/gtest.h>

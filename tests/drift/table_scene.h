@@ -1,5 +1,5 @@
-// A table as a camera sees it while a projector shows marks: wood, room light that changes, a lens that distorts, noise, hands, tags.
-// The arithmetic is this file's own.
+// A camera's view of a table while a projector shows marks: wood, changing room light, a lens with
+// distortion, noise, hands, tags. The arithmetic is independent of the code under test.
 #pragma once
 
 #include "app/geometry/pinhole.h"
@@ -16,16 +16,16 @@
 namespace frustumscreen {
 
 struct SceneFaults {
-    double room = 0.15;       ///< light of the room, of the projector's white
-    double room_change = 0.0; ///< of it, in a second: a cloud
+    double room = 0.15;       ///< room light, relative to the projector's white
+    double room_change = 0.0; ///< relative change per second: a cloud
     double gamma = 2.2;       ///< of the camera
-    double exposure = 0.8;    ///< white paper in the projector's white, of the camera's range
+    double exposure = 0.8;    ///< white paper in the projector's white, as a share of the camera's range
     double noise = 1.5;       ///< codes
-    double blur_m = 0.002;    ///< of the mark's light, by projector and camera: standard deviation
-    double mark_light = 0.25; ///< of the projector's white, in its middle
+    double blur_m = 0.002;    ///< blur of the mark by projector and camera: standard deviation
+    double mark_light = 0.25; ///< at its middle, relative to the projector's white
 };
 
-/// What lies or moves above the table; it hides a mark and shows its light aside.
+/// An object that lies or moves above the table; it covers a mark and displaces its light.
 struct SceneHand {
     glm::dvec2 at_m{0.0};
     glm::dvec2 per_s{0.0};
@@ -37,18 +37,18 @@ struct SceneHand {
 struct SceneTag {
     int id = 0;
     glm::dvec2 middle_m{0.0};
-    double size_m = 0.05; ///< its black square
+    double size_m = 0.05; ///< side of its black square
 };
 
 class TableScene {
 public:
-    /// A camera beside the projector, 1.3 m above the table, that sees about .95 m of it along its rows.
+    /// A camera next to the projector, 1.3 m above the table, that sees about 0.95 m of it along its rows.
     TableScene(int width, int height, const SceneFaults& faults, std::vector<SceneTag> tags = {})
         : width_(width), height_(height), faults_(faults), tags_(std::move(tags)) {
         prepare();
         look({0.1, -0.15, 1.3});
     }
-    /// The camera, elsewhere; always towards about the table's middle.
+    /// Moves the camera; it always aims near the table's middle.
     void look(const glm::dvec3& from, double roll = 0.02) {
         const glm::dvec3 forward = glm::normalize(glm::dvec3(0.01, 0.0, 0.0) - from);
         const glm::dvec3 right =
@@ -87,7 +87,7 @@ public:
                 const glm::dvec2 middle = hand.at_m + time_s * hand.per_s;
                 if (glm::distance(places_[k], middle) < hand.radius_m) {
                     reflected = hand.albedo;
-                    aside = hand.height_m * glm::dvec2(0.6, -0.4); // as the camera sees what is lit higher
+                    aside = hand.height_m * glm::dvec2(0.6, -0.4); // parallax of a surface above the table
                 }
             }
             double lit = room;
@@ -104,7 +104,7 @@ private:
     [[nodiscard]] std::size_t index(int u, int v) const {
         return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
     }
-    /// A raised cosine of 8 mm, blurred: nearly a Gaussian.
+    /// A raised cosine of 8 mm, blurred: approximately a Gaussian.
     [[nodiscard]] double profile(double far_m) const {
         const double own = 0.0034;
         const double spread = own * own + faults_.blur_m * faults_.blur_m;
@@ -124,7 +124,7 @@ private:
         const double grain = std::sin(160.0 * p.y + 3.0 * std::sin(11.0 * p.x));
         return 0.45 + 0.08 * grain + 0.04 * std::sin(900.0 * p.y + 40.0 * p.x);
     }
-    /// Tables of the camera's response and of noise: most of a test's time is spent here.
+    /// Tables of the camera's response and of noise, because most of a test's time is spent there.
     void prepare() {
         for (std::size_t k = 0; k < response_.size(); ++k) {
             response_[k] = static_cast<float>(
@@ -133,7 +133,7 @@ private:
         }
         for (float& noise : noise_) {
             double normal = -6.0;
-            for (int k = 0; k < 12; ++k) { // the sum of twelve even numbers is nearly normal
+            for (int k = 0; k < 12; ++k) { // the sum of twelve uniform numbers is nearly normal
                 normal += static_cast<double>(next() >> 40U) / 16777216.0;
             }
             noise = static_cast<float>(faults_.noise * normal);
@@ -150,7 +150,7 @@ private:
     int width_, height_;
     SceneFaults faults_;
     std::vector<SceneTag> tags_;
-    std::vector<glm::dvec2> places_; ///< of the table, by pixel
+    std::vector<glm::dvec2> places_; ///< on the table, by pixel
     std::vector<float> albedo_;
     std::vector<std::uint8_t> picture_;
     std::uint64_t state_ = 1;
@@ -158,12 +158,12 @@ private:
     std::array<float, 4096> noise_{};
 };
 
-/// A projector as the shipped kiosk has it.
+/// The shipped kiosk's projector.
 struct SceneProjector {
     Pinhole pinhole{1280, 800, 2400.0, 2400.0, 640.0, 400.0};
     RigidTransform table_from_projector{{0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.5}};
 
-    /// Where the light meant for a place falls, if the projector hangs elsewhere than was calibrated.
+    /// Where the light intended for a place falls if the projector's pose differs from the calibrated one.
     [[nodiscard]] glm::dvec2 light(const glm::dvec2& meant_m, const RigidTransform& real) const {
         const glm::dvec2 pixel = *pinhole.pixel(table_from_projector.inverse().point({meant_m, 0.0}));
         const glm::dvec3 ray = real.direction(pinhole.ray(pixel));

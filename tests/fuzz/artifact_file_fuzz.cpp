@@ -1,5 +1,5 @@
-// A curator's artifact.toml: refused in one line that begins with the file's name, or everything in it is what a pack
-// may hold.
+// A curator's artifact.toml: it is either refused in one line that begins with the file's name, or contains
+// only what a pack may contain.
 #include "app/pack/container/limits.h"
 #include "app/pack/pack_text.h"
 #include "assets_baked/folder/artifact_file.h"

@@ -1,5 +1,5 @@
-// A camera's frame: one byte says its format, two its size, one the length of its rows; the rest is what came. Whatever is taken is
-// a whole frame, and each of its pixels was written.
+// A camera's frame: one byte for its format, two for its size, one for the length of its rows; the rest is
+// the received data. An accepted frame is whole, and each of its pixels was written.
 #include "firmware_host/camera/luma_reader.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -9,7 +9,7 @@ using namespace frustumscreen;
 
 bool read(const FrameFormat& format, std::span<const std::byte> bytes, std::uint8_t before,
           std::vector<std::uint8_t>& luma) {
-    static LumaReader reader; // as a camera has one for all its frames
+    static LumaReader reader; // shared by all frames, as in a camera
     luma.assign(static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height), before);
     return reader.read(format, bytes, luma);
 }
@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     const FrameFormat format{static_cast<PixelFormat>(data[0] % 3), data[1] + 1, data[2] + 1, data[3] * 4U};
-    // A copy of the exact length: reading beyond it is seen.
+    // A copy of exactly this length: reads beyond it are detected.
     const std::vector<std::uint8_t> exact(data + head, data + size);
     const auto bytes = std::as_bytes(std::span(exact));
     std::vector<std::uint8_t> luma;

@@ -1,4 +1,4 @@
-// Feeds every file of the folders named on the command line to the fuzz target, and says how many there were.
+// Feeds every file of the folders named on the command line to the fuzz target, and prints their number.
 #include "firmware_host/base/file.h"
 #include "tests/fuzz/fuzz.h"
 

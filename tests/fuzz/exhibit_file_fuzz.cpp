@@ -1,4 +1,5 @@
-// A stick's exhibit.toml: refused in one line that begins with the file's name, or everything in it is what a set may hold.
+// A stick's exhibit.toml: it is either refused in one line that begins with the file's name, or contains only
+// what a set may contain.
 #include "app/library/exhibit_file.h"
 #include "app/pack/pack_text.h"
 #include "app/pack/signature/signature.h"

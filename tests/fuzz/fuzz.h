@@ -1,5 +1,4 @@
-/// What the fuzz targets share: the entry that libFuzzer calls, and how a target reports that something is
-/// wrong.
+/// The common part of the fuzz targets: libFuzzer's entry point, and the report of broken promises.
 ///
 /// A target is pure functions over bytes: no files, no threads, no clock. `./test fuzz` builds it with
 /// libFuzzer (https://llvm.org/docs/LibFuzzer.html); ./test builds it with corpus_main.cpp, which feeds it
@@ -31,7 +30,7 @@ inline void require(bool holds, std::string_view promise, std::string_view detai
     }
 }
 
-/// An error's message is for a person: one line, not endless, nothing that a terminal acts on.
+/// An error message is for a person: one line, of limited length, without control characters.
 inline void require_one_line(const std::string& message) {
     constexpr std::size_t longest = 600;
     require(!message.empty() && message.size() <= longest, "a message has a readable length", message);

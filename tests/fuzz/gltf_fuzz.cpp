@@ -1,4 +1,4 @@
-// glTF and GLB, with Draco and meshoptimizer inside.
+// glTF and GLB, including Draco and meshoptimizer.
 #include "tests/fuzz/mesh_check.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,4 +1,4 @@
-// Glyph runs: refused in one line, or written again they are the same bytes, and the kiosk can set them.
+// Glyph runs: refused in one line, or written again they give the same bytes, and the kiosk can typeset them.
 #include "app/pack/glyph_runs.h"
 #include "app/typography/glyph_image.h"
 #include "tests/fuzz/fuzz.h"
@@ -9,7 +9,7 @@ using namespace frustumscreen;
 
 namespace {
 
-/// Small type, so that an input takes no time.
+/// Small type keeps each input fast.
 constexpr double em_px = 2.0;
 constexpr std::size_t most_drawn_glyphs = 64;
 

@@ -1,5 +1,5 @@
-// A HID tracker that says whatever it likes: its feature report, its poses, with the checksum put right or
-// not.
+// A HID tracker that sends arbitrary data: its feature report and its poses, with or without a corrected
+// checksum.
 #include "firmware_host/tracker/crc.h"
 #include "firmware_host/tracker/hid_tracker_session.h"
 #include "tests/fuzz/session_talk.h"
@@ -15,7 +15,7 @@ Bytes checked(Bytes report) {
     return report;
 }
 
-/// Version 1, 10 um, 100 Hz, as many stations as the script says; one byte to spare.
+/// Version 1, 10 um, 100 Hz, the script's number of stations; one spare byte.
 Bytes information(std::uint8_t stations) {
     Bytes report;
     append(report, hid_tracker_info_report);

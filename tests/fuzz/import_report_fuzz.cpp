@@ -1,4 +1,4 @@
-// The importer's report: refused in one line, or it is printable, and written again it reads the same.
+// The importer's report: refused in one line, or it is printable, and written again it reads equal.
 #include "app/library/import_report.h"
 #include "firmware_host/base/printable.h"
 #include "tests/fuzz/fuzz.h"

@@ -1,4 +1,5 @@
-// Public and secret keys: refused in one line, or written again they are the same. Passwords are left out: each takes seconds.
+// Public and secret keys: refused in one line, or written again they are equal. Passwords are not tested:
+// each takes seconds.
 #include "app/pack/signature/secret_key.h"
 #include "tests/fuzz/fuzz.h"
 

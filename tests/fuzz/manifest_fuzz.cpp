@@ -1,4 +1,4 @@
-// A pack's manifest: refused in one line, or written again it reads the same.
+// A pack's manifest: refused in one line, or written again it reads equal.
 #include "app/pack/manifest.h"
 #include "tests/fuzz/fuzz.h"
 

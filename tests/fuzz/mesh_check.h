@@ -1,4 +1,4 @@
-/// What load_mesh promises for any bytes: an error of one line that names the file, or a sound mesh.
+/// load_mesh's promise for any bytes: an error of one line that names the file, or a valid mesh.
 #pragma once
 
 #include "assets_baked/bake/loaders/load_bytes.h"
@@ -40,7 +40,7 @@ inline void require_sound(const SourceMesh& mesh) {
     }
 }
 
-/// Loads the bytes as a file that no other files lie beside.
+/// Loads the bytes as a file without other files next to it.
 inline int check_mesh(const std::uint8_t* data, std::size_t size, const char* name) {
     const auto mesh = load_mesh_bytes(bytes_of(data, size), std::filesystem::path("nowhere") / name);
     if (mesh) {

@@ -1,4 +1,4 @@
-// OBJ, PLY and STL, told apart by their content.
+// OBJ, PLY and STL, distinguished by their content.
 #include "tests/fuzz/mesh_check.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,4 +1,4 @@
-// Ogg Opus recordings: refused in one line, or no longer than allowed, with marks that lie in them.
+// Ogg Opus recordings: refused in one line, or within the allowed length, with marks inside the recording.
 #include "firmware_host/sound/mixer.h"
 #include "firmware_host/sound/opus_reader.h"
 #include "firmware_host/sound/pauses.h"
@@ -40,7 +40,7 @@ std::uint32_t checksum(std::span<const std::byte> page) {
     return sum;
 }
 
-/// Makes the checksum of each page right: else nothing that is altered would get behind it.
+/// Corrects the checksum of each page; otherwise no altered page would get past it.
 std::vector<std::byte> with_checksums(std::span<const std::byte> bytes) {
     constexpr std::size_t header = 27;
     constexpr std::size_t checksum_at = 22;

@@ -1,5 +1,5 @@
-// A pack: refused in one line, or everything that a renderer takes from it unasked holds; written again it is
-// the same pack. pack_mutator.cpp puts the hashes right, so that the fuzzer gets past them.
+// A pack: refused in one line, or everything that a renderer relies on holds; written again it is an equal
+// pack. pack_mutator.cpp corrects the hashes, so the fuzzer gets past them.
 #include "app/pack/pack_contents.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_hull.h"
@@ -53,7 +53,7 @@ void require_usable(const Pack& pack) {
     fuzz::require(!hull || !hull->empty(), "a hull has corners");
 }
 
-/// Choosing one level reads that level as reading everything does.
+/// A level read alone equals the level read with all others.
 void require_same_chosen(std::span<const std::byte> bytes, const Pack& pack) {
     const auto only_default = [](const PackOutline& outline) {
         return Result<std::vector<std::uint32_t>>(std::vector{outline.description.default_level});

@@ -1,5 +1,5 @@
-// Mutates what lies inside a pack and puts right what would give it away: hashes, sizes, and the checksums of
-// PNG pictures. One mutation in four is left to the file as it is.
+// Mutates the contents of a pack and corrects the hashes, sizes and checksums of PNG pictures that would
+// reveal it. One mutation in four changes the file itself.
 #include "tests/fuzz/fuzz.h"
 #include "tests/pack/samples.h"
 
@@ -16,7 +16,7 @@ using namespace frustumscreen;
 
 namespace {
 
-/// A part may grow by this much in one mutation.
+/// Maximum growth of a part in one mutation.
 constexpr std::size_t growth = 256;
 
 Bytes mutated(Bytes bytes) {
@@ -53,7 +53,7 @@ void right_checksums(Bytes& png) {
     }
 }
 
-/// The manifest's text, or one part with everything that speaks of it put right.
+/// Mutates the manifest's text, or one part, and corrects everything that depends on it.
 Bytes with_one_mutation(std::span<const std::byte> pack, unsigned seed) {
     samples::Entries entries = samples::take_apart(Bytes(pack.begin(), pack.end()));
     const std::size_t choice = seed % (entries.parts.size() + 1);
@@ -82,7 +82,7 @@ std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::s
                 std::copy(pack.begin(), pack.end(), reinterpret_cast<std::byte*>(data));
                 return pack.size();
             }
-        } catch (const std::exception&) { // no pack any more: nothing to take apart
+        } catch (const std::exception&) { // not a pack any more
             return LLVMFuzzerMutate(data, size, most);
         }
     }

@@ -1,6 +1,5 @@
-// Recordings of packets: what is read and written again reads the same, and the replay of whatever stands in
-// them gives finite poses, the same whether it is played at once or a little at a time. packets_mutator.cpp
-// puts the checksums right.
+// Recordings of packets: written again they read equal, and their replay gives finite poses, which do not
+// depend on whether it is played at once or in steps. packets_mutator.cpp corrects the checksums.
 #include "firmware_host/tracker/packet_replay.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -71,7 +70,7 @@ void check_replay(Bytes file) {
     fuzz::require(same_samples(at_once, bit_by_bit), "a replay does not depend on how it is asked for");
 }
 
-/// At the slowest and the fastest speed that settings allow.
+/// `speed`: the slowest or the fastest that settings allow.
 void check_tracker(const Bytes& file, double speed) {
     auto replay = PacketReplay::open(file, "packets");
     if (!replay) {
@@ -85,7 +84,7 @@ void check_tracker(const Bytes& file, double speed) {
         fuzz::require(tracker.poll(now, samples).has_value(), "a replay has no errors");
         require_sound(samples);
         for (const PoseSample& sample : samples) {
-            // Devices that send twice at once are set apart by microseconds, and slowed a hundredfold.
+            // Packets with equal times are set apart by microseconds, and slowed a hundredfold.
             fuzz::require(sample.time <= now && sample.time >= latest - std::chrono::seconds(1),
                           "a sample is not from the future, nor from before the replay");
             latest = sample.time;

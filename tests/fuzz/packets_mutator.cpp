@@ -1,4 +1,4 @@
-// Puts the checksums of a mutated recording right, three times in four.
+// Corrects the checksums of a mutated recording, three times in four.
 #include "firmware_host/tracker/crc.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -18,7 +18,7 @@ std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::s
         std::uint32_t payload = 0;
         std::memcpy(&payload, data + at, sizeof(payload));
         const std::size_t left = size - at - head_bytes - sizeof(std::uint32_t);
-        if (payload > left) { // the last packet is as long as there is room
+        if (payload > left) { // limits the last packet to the remaining bytes
             payload = static_cast<std::uint32_t>(left);
             std::memcpy(data + at, &payload, sizeof(payload));
         }

@@ -1,4 +1,4 @@
-// A PATRIOT that says whatever it likes: its text during set-up, its frames, and both at the wrong time.
+// A PATRIOT that sends arbitrary data: its text during set-up, its frames, and both at the wrong time.
 #include "firmware_host/tracker/patriot_session.h"
 #include "tests/fuzz/session_talk.h"
 
@@ -8,7 +8,7 @@ namespace {
 
 enum class Word : std::uint8_t { Wait, Raw, Line, Agree, Pose, Frame, Cut, Count };
 
-/// A header around 40 bytes of payload.
+/// A header with 40 bytes of payload.
 Bytes framed(std::uint8_t sensor, char error, Bytes payload) {
     Bytes frame;
     append(frame, std::array<char, 2>{'P', 'A'});
@@ -35,7 +35,7 @@ Bytes pose_frame(const fuzz::ScriptedPose& pose, std::uint32_t counter) {
     return framed(static_cast<std::uint8_t>(pose.sensor + 1), ' ', payload);
 }
 
-/// What the session wants to hear: a name, or that its units are centimetres.
+/// The answer that the session expects: a name, or that its units are centimetres.
 std::string_view agreement(const Bytes& command) {
     return as_text(command).starts_with('U') ? "0U 1\r\n" : "Patriot\r\n";
 }

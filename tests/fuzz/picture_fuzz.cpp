@@ -1,4 +1,5 @@
-// Pictures in packs and models: refused in one line, or as large as they say, and as PNG and WebP they stay the same.
+// Pictures in packs and models: refused in one line, or of the announced size; encoding them as PNG and WebP
+// and decoding gives equal pictures.
 #include "assets_baked/bake/loaders/decode_image.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -1,4 +1,5 @@
-// Files of a calibration: touches, rests, sightings, corners. What is taken is finite, and what is written of it reads the same.
+// Files of a calibration: touches, rests, sightings, corners. Accepted values are finite, and written again
+// they read equal.
 #include "app/calibration/point_files.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -1,4 +1,5 @@
-// Pose files: what is taken is finite and in range, written again it reads the same, and it can be replayed.
+// Pose files: accepted values are finite and in range, written again they read equal, and they can be
+// replayed.
 #include "firmware_host/tracker/pose_file.h"
 #include "firmware_host/tracker/replay_tracker.h"
 #include "tests/fuzz/fuzz.h"
@@ -17,13 +18,13 @@ void require_sound(const PoseSample& sample) {
 void require_same(const PoseSample& a, const PoseSample& b) {
     fuzz::require(a.time == b.time && a.station == b.station && a.ok == b.ok && a.position_m == b.position_m,
                   "a row written again reads the same");
-    // Reading makes a quaternion's length 1 once more: the last digit may differ.
+    // Reading normalises a quaternion again: the last digit may differ.
     const glm::dquat d = a.rotation - b.rotation;
     fuzz::require(std::abs(d.w) + std::abs(d.x) + std::abs(d.y) + std::abs(d.z) < 1e-15,
                   "a rotation written again reads the same");
 }
 
-/// Round after round, at the slowest and the fastest speed that settings allow.
+/// Several rounds; `speed`: the slowest or the fastest that settings allow.
 void check_replay(const std::vector<PoseSample>& poses, double speed) {
     MonotonicTime now = from_microseconds(1'000'000);
     MonotonicTime latest = now;

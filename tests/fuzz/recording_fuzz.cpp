@@ -1,4 +1,4 @@
-// Recordings of other trackers: what is taken ascends, is finite, and is a pose file once it is written.
+// Recordings of other trackers: accepted poses ascend in time, are finite, and can be written as a pose file.
 #include "firmware_host/tracker/convert_recording.h"
 #include "firmware_host/tracker/pose_file.h"
 #include "tests/fuzz/fuzz.h"

@@ -1,4 +1,5 @@
-// Relief blocks: refused in one line, or written again they are the same bytes, and casting them stays inside their memory.
+// Relief blocks: refused in one line, or written again they give the same bytes, and rasterizing them stays
+// inside their memory.
 #include "app/pack/block_part.h"
 #include "app/relief/cast_blocks.h"
 #include "tests/fuzz/fuzz.h"
@@ -9,10 +10,10 @@ using namespace frustumscreen;
 
 namespace {
 
-/// Few, so that an input takes no time.
+/// A small number keeps each input fast.
 constexpr std::size_t most_cast_blocks = 64;
 
-/// From above, at an angle, as near as the limits of a block allow it to matter.
+/// From above, at an angle, close enough for the limits of a block to matter.
 CastView view_of_box() {
     CastScene scene;
     scene.prop_from_box = glm::dmat4(0.1);

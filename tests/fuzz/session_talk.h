@@ -1,8 +1,7 @@
-/// Plays the device that a session talks to, from a script that the fuzzer writes, and checks the session's
-/// promises: poses are finite, times never go back and never come from the future, every state has a
-/// sentence.
+/// Plays a session's device, from a script by the fuzzer, and checks the session's promises: poses are
+/// finite, times never go back and are never in the future, every state has a sentence.
 ///
-/// Script   u8 what to do, then its numbers, little-endian; after its end a script reads as zeros.
+/// Script   u8 for the action, then its numbers, little-endian; after its end a script reads as zeros.
 #pragma once
 
 #include "firmware_host/base/byte_reader.h"
@@ -14,7 +13,7 @@ namespace frustumscreen::fuzz {
 class SessionTalk {
 public:
     using Check = void (*)(const PoseSample&);
-    /// `check` is called for every sample as well.
+    /// `check` is also called for every sample.
     explicit SessionTalk(
         DeviceSession& session, Check check = [](const PoseSample&) {})
         : session_(session), check_(check) {
@@ -24,14 +23,14 @@ public:
     /// The session's latest command; empty if it sent none.
     [[nodiscard]] const Bytes& command() const { return command_; }
     [[nodiscard]] bool over() const { return session_.failed() || wire_.size() > most_wire; }
-    /// All bytes that were delivered.
+    /// All delivered bytes.
     [[nodiscard]] const Bytes& wire() const { return wire_; }
 
     void wait(Nanoseconds duration) {
         now_ += duration;
         ask();
     }
-    /// From now on bytes come in pieces of this many; 0: all at once.
+    /// From now on bytes arrive in pieces of this size; 0: all at once.
     void cut(std::size_t piece) { piece_ = piece; }
     void deliver(std::span<const std::byte> bytes) {
         wire_.insert(wire_.end(), bytes.begin(), bytes.end());
@@ -88,7 +87,7 @@ private:
     std::uint64_t broken_ = 0;
 };
 
-/// As many of the script's next bytes as it has, at most `count`.
+/// The script's next bytes, at most `count`.
 inline Bytes take(ByteReader& script, std::size_t count) {
     Bytes bytes;
     while (bytes.size() < count && script.left() > 0) {
@@ -97,10 +96,10 @@ inline Bytes take(ByteReader& script, std::size_t count) {
     return bytes;
 }
 
-/// A pose in few bytes of the script: mostly usable, sometimes not.
+/// A pose from few bytes of the script: mostly usable.
 struct ScriptedPose {
-    std::uint8_t step = 0;   ///< of the frame counter
-    std::uint8_t sensor = 0; ///< from 0
+    std::uint8_t step = 0;   ///< increment of the frame counter
+    std::uint8_t sensor = 0; ///< counted from 0
     std::uint8_t distortion = 0;
     std::array<float, 3> position{}; ///< -8 to 8
     std::array<float, 4> quaternion{};
@@ -117,7 +116,7 @@ struct ScriptedPose {
             squared += number * number;
         }
         for (float& number : quaternion) {
-            number /= std::sqrt(squared); // zeros become NaN, as from a broken device
+            number /= std::sqrt(squared); // zeros become NaN, like from a broken device
         }
     }
 };

@@ -1,5 +1,5 @@
-// set.txt with a right hash, and the exhibit's verdict: refused in one line, or written again they read the same. No file that is
-// named lies elsewhere.
+// set.txt with a valid hash, and the exhibit's verdict: refused in one line, or written again they read
+// equal. All named files are inside the folder.
 #include "app/library/set_file.h"
 #include "app/pack/container/sha256.h"
 #include "tests/fuzz/fuzz.h"

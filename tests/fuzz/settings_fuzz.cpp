@@ -1,5 +1,5 @@
-// Settings: taken by every check, or refused in one line that begins with the file's name. What was taken can
-// be reported, and all its numbers are finite.
+// Settings: accepted by every check, or refused in one line that begins with the file's name. Accepted
+// settings can be reported, and all their numbers are finite.
 #include "app/settings/config_json.h"
 #include "app/settings/settings.h"
 #include "firmware_host/base/json.h"
@@ -9,7 +9,7 @@ using namespace frustumscreen;
 
 namespace {
 
-/// A number that is not finite is null in JSON.
+/// JSON represents a non-finite number as null.
 void require_no_null(const nlohmann::json& value, const std::string& report) {
     fuzz::require(!value.is_null(), "every number is finite", report);
     if (value.is_structured()) {
@@ -31,7 +31,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         fuzz::require_one_line(message);
         return 0;
     }
-    // The report works out the lit zone, which takes a thousand times as long as all checks.
+    // The report computes the lit zone, which takes a thousand times as long as all checks.
     if (size % 16 != 0) {
         return 0;
     }

@@ -1,4 +1,4 @@
-// Names of files that a model refers to: whatever the name, nothing outside the model's folder is looked at.
+// Names of files that a model refers to: no name leads to access outside the model's folder.
 #include "assets_baked/bake/loaders/refusal.h"
 #include "assets_baked/bake/loaders/sidecar.h"
 #include "tests/fuzz/fuzz.h"
@@ -7,7 +7,7 @@ using namespace frustumscreen;
 
 namespace {
 
-/// Looks at a folder that is not there.
+/// Uses a folder that does not exist.
 void check_name(std::string_view name) {
     const std::string folder = "nowhere/at/all";
     LoadNotes notes;

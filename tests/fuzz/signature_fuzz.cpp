@@ -1,4 +1,5 @@
-// A signature file: refused in one line, or one of the two that minisign made for these bytes with this key.
+// A signature file: refused in one line, or one of the two signatures that minisign made for these bytes with
+// this key.
 #include "app/pack/signature/signature.h"
 #include "firmware_host/base/file.h"
 #include "tests/fuzz/fuzz.h"

@@ -1,4 +1,4 @@
-// A SpaceMouse that says whatever it likes: whatever it is pushed to, the prop stays on and above the table.
+// A SpaceMouse that sends arbitrary data: the prop always stays on or above the table.
 #include "firmware_host/tracker/space_mouse_session.h"
 #include "tests/fuzz/session_talk.h"
 
@@ -17,7 +17,7 @@ void require_on_table(const PoseSample& sample) {
 
 } // namespace
 
-/// u16 milliseconds, u8 length, the report; and again.
+/// Input: u16 milliseconds, u8 length, the report; repeated.
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     SpaceMouseSession session(table_half_m);
     fuzz::SessionTalk talk(session, require_on_table);

@@ -1,5 +1,5 @@
-// Recordings that a curator or a voice gives (WAV, FLAC, Ogg): refused in one line, or samples that are numbers, no more than
-// allowed; and what is taken from a file is taken from a stream alike.
+// Recordings by a curator or a voice (WAV, FLAC, Ogg): refused in one line, or valid samples within the
+// allowed number; a file and a stream give equal results.
 #include "assets_baked/texts/recording.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -1,4 +1,5 @@
-// The files that `frustumscreen status` reads: whatever they hold, it says printable lines, JSON, and one sample a line.
+// The files that `frustumscreen status` reads: for any content, its output is printable lines, JSON, and one
+// sample per line.
 #include "app/status/exhibit_verdict.h"
 #include "app/status/prometheus_text.h"
 #include "app/status/status_document.h"

@@ -1,7 +1,9 @@
-// A stick's folders, decoded from bytes: what is found lies in the root or one folder down, is of nobody's bin, and is not too much.
+// A stick's folders, decoded from bytes: found files are in the root or one folder down, not in a recycle
+// bin, and limited in number.
 //
-// An entry: kind (a file, a folder, another; above 0xF0 the list fails there with that errno), bytes of the name, name. A folder's
-// own entries follow those of the root, in the order in which it is listed; kind 0xEF ends a folder's.
+// An entry: kind (a file, a folder, other; above 0xF0 the listing fails there with that errno), length of the
+// name, name. A folder's own entries follow those of the root, in the order in which it is listed; kind 0xEF
+// ends a folder.
 #include "app/library/stick_walk.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -1,4 +1,4 @@
-/// What every codec of a byte stream promises, whatever the bytes.
+/// The promises of every codec of a byte stream, for any bytes.
 #pragma once
 
 #include "firmware_host/tracker/device_frame.h"
@@ -24,7 +24,7 @@ inline void require_sound(const DeviceFrame& frame) {
     }
 }
 
-/// Compares all of a frame; NaN equals NaN.
+/// Compares a whole frame; NaN equals NaN.
 inline bool same_bits(const DeviceFrame& a, const DeviceFrame& b) {
     const auto bits = [](const SensorPose& p) {
         return std::bit_cast<std::array<std::uint64_t, 7>>(
@@ -42,7 +42,7 @@ inline bool same_bits(const DeviceFrame& a, const DeviceFrame& b) {
     return same;
 }
 
-/// Takes every frame that `parse` finds in what has come so far; skips refused bytes.
+/// Takes every frame that `parse` finds in the received bytes; skips refused bytes.
 template <typename Parse>
 void take_frames(StreamBuffer& stream, Parse parse, std::vector<DeviceFrame>& frames) {
     while (true) {
@@ -62,7 +62,7 @@ void take_frames(StreamBuffer& stream, Parse parse, std::vector<DeviceFrame>& fr
     }
 }
 
-/// Bytes that come one by one hold the same frames as bytes that come together.
+/// Bytes that arrive one by one give the same frames as bytes that arrive together.
 template <typename Parse> void check_stream(std::span<const std::byte> bytes, Parse parse) {
     StreamBuffer stream;
     std::vector<DeviceFrame> together;

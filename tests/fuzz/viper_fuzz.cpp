@@ -1,5 +1,5 @@
-// A VIPER that says whatever it likes: the codec, the set-up, the stream. Frames may be broken by hand or
-// have their checksum put right, so that the fields behind it are reached.
+// A VIPER that sends arbitrary data: the codec, the set-up, the stream. Frames may be corrupted, or have
+// their checksum corrected to reach the fields behind it.
 #include "firmware_host/tracker/crc.h"
 #include "firmware_host/tracker/viper_session.h"
 #include "tests/fuzz/session_talk.h"
@@ -10,7 +10,7 @@ namespace {
 
 enum class Word : std::uint8_t { Wait, Raw, Reply, Agree, Pose, Poses, Cut, Count };
 
-/// Header and checksum around a body, by the codec's own arithmetic of the checksum.
+/// Adds header and checksum to a body, with the codec's own checksum function.
 Bytes framed(std::string_view preamble, const Bytes& body) {
     Bytes frame;
     frame.insert(frame.end(), as_bytes(preamble).begin(), as_bytes(preamble).end());
@@ -33,7 +33,7 @@ Bytes reply(std::uint32_t command, std::uint32_t action, const Bytes& payload) {
     return framed("VPRC", body);
 }
 
-/// Takes the session's settings and repeats them when asked.
+/// Accepts the session's settings and returns them when queried.
 class ObedientDevice {
 public:
     Bytes answer(const Bytes& command) {

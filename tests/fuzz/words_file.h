@@ -1,4 +1,4 @@
-// A file of words with one word of one letter in each of two languages, for the target and its seeds.
+// A words file with a single one-letter word in each of two languages, for the target and its seeds.
 #pragma once
 
 #include "app/pack/words_file.h"

@@ -1,7 +1,8 @@
-// Files of the exhibit's own words: refused in one line, or every word can be set, and written again they are read as the same.
+// Files of the exhibit's own words: refused in one line, or every word can be typeset, and written again they
+// read equal.
 //
-// An input is taken for a file, and for a manifest beside the parts of a small file: else hashes would keep nearly every one
-// from what lies behind them.
+// An input is used as a file, and as a manifest with the parts of a small file: otherwise hashes would hide
+// the code behind them from nearly every input.
 #include "app/pack/container/zip_archive.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/words_file.h"
@@ -41,7 +42,7 @@ void check(std::span<const std::byte> file) {
     }
 }
 
-/// The parts of a small file beside this manifest.
+/// The parts of a small file with this manifest.
 Bytes with_manifest(std::span<const std::byte> manifest) {
     static const Bytes small = fuzz::small_words_file();
     ZipWriter made;

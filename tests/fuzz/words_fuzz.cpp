@@ -1,4 +1,4 @@
-// A museum's own words: refused in one line, or each is a known key with a text that can be shaped.
+// A museum's own words: refused in one line, or each has a known key and a text that can be shaped.
 #include "assets_baked/texts/check_text.h"
 #include "assets_baked/texts/words.h"
 #include "tests/fuzz/fuzz.h"

@@ -80,7 +80,7 @@ void texts(const Seeds& seeds) {
               "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1] }\n");
 }
 
-/// Scripts of viper_fuzz.cpp and patriot_fuzz.cpp: the set-up is agreed to, then frames come.
+/// Scripts of viper_fuzz.cpp and patriot_fuzz.cpp: the set-up succeeds, then frames arrive.
 void talks(const Seeds& seeds) {
     const std::string agree(14, '\3');
     const std::string wait("\0\x19\0", 3);
@@ -103,7 +103,7 @@ void talks(const Seeds& seeds) {
     seeds.add("space_mouse", "push", push + push + both + push);
 }
 
-/// One device of each make, opened and heard.
+/// One device of each make, opened and streaming.
 void recordings(const Seeds& seeds) {
     for (const UsbTrackerModel model : {UsbTrackerModel::Viper, UsbTrackerModel::Patriot,
                                         UsbTrackerModel::Hid, UsbTrackerModel::SpaceMouse}) {
@@ -170,7 +170,7 @@ void glyph_runs(const Seeds& seeds) {
     runs.texts = {
         {"name", TextDirection::RightToLeft, {{9216, 1290, 1395, {{1095, 2}}, {{0, 0, 260}, {1, -16, 0}}}}}};
     seeds.add("glyph_runs", "example", as_text(encode_glyph_runs(runs)));
-    // Two texts, one of them broken for two widths: a paragraph's empty line, a glyph that is used twice.
+    // Two texts, one of them set for two widths: a paragraph's empty line, a repeated glyph.
     runs.texts[0].settings.push_back(
         {4096, 1290, 4200, {{1095, 1}, {2400, 0}, {3795, 1}}, {{0, 0, 0}, {0, 7, 0}}});
     runs.texts.push_back({"title", TextDirection::LeftToRight, {{2048, 0, 1395, {{1095, 1}}, {{1, 0, 0}}}}});
@@ -200,7 +200,7 @@ void words_files(const Seeds& seeds) {
     seeds.add("words_file", "two", as_text(file));
     Result<pack_format::ZipReader> zip = pack_format::ZipReader::open(file);
     const Result<Bytes> manifest = zip->read(*zip->find("manifest.json"));
-    seeds.add("words_file", "manifest", as_text(*manifest)); // whose second language lacks its parts
+    seeds.add("words_file", "manifest", as_text(*manifest)); // its second language lacks its parts
     nlohmann::json one = nlohmann::json::parse(as_text(*manifest));
     one["languages"].erase(1);
     seeds.add("words_file", "one", one.dump());
@@ -249,7 +249,7 @@ std::string written_sound(int format, int channels) {
     return bytes;
 }
 
-/// Recordings of a few packets, which libsndfile wrote.
+/// Recordings of a few packets, written by libsndfile.
 void sounds(const Seeds& seeds) {
     const std::string mono = file_text("tests/fuzz/corpus/opus/mono");
     const std::string stereo = file_text("tests/fuzz/corpus/opus/stereo");

@@ -25,7 +25,7 @@ Real3 along(const Real3& from, const Real3& to, Real t) {
     return {from.x + (to.x - from.x) * t, from.y + (to.y - from.y) * t, from.z + (to.z - from.z) * t};
 }
 
-/// A projector's pose as rows: projector = rotation * prop + translation, in long double.
+/// A projector's pose as matrix rows: projector = rotation * prop + translation, in long double.
 struct PlainProjector {
     Pinhole pinhole;
     std::array<Real3, 3> rows{};
@@ -45,7 +45,8 @@ struct PlainProjector {
     }
 };
 
-/// The ordinary way: eye ray onto the plane, then the pinhole. Pixel, and whether the point is to be seen.
+/// The ordinary way: eye ray onto the plane, then the pinhole. Gives the pixel, and whether the point is
+/// visible.
 struct Truth {
     bool seen = false;
     Real u = 0, v = 0;
@@ -55,7 +56,7 @@ Truth by_rays(const Plane& plane, const glm::dvec3& eye, const glm::dvec3& x,
     const Real eye_height = dot(real(plane.normal), real(eye)) - plane.offset;
     const Real x_height = dot(real(plane.normal), real(x)) - plane.offset;
     if (!(eye_height - x_height > 0)) {
-        return {}; // the ray from the eye through x does not come down to the plane
+        return {}; // the ray from the eye through x does not reach the plane from above
     }
     const Real3 s = along(real(eye), real(x), eye_height / (eye_height - x_height));
     const Real3 lens = projector.see(s);
@@ -76,7 +77,7 @@ glm::dmat4 clip_of(const Pinhole& pinhole, const RigidTransform& projector_from_
     return pinhole.clip_from_point() * projector_from_prop.matrix();
 }
 
-/// A projector above, somewhere, tilted a little, its picture shifted off the axis.
+/// A projector at a random place above, slightly tilted, its picture shifted off the axis.
 RigidTransform random_projector(Random& random, double scale) {
     const RigidTransform look_down{glm::dquat(0, 1, 0, 0), {0, 0, 0}};
     const glm::dquat tilt = glm::normalize(
@@ -116,7 +117,7 @@ glm::dvec3 point_in(Random& random, const Box& box) {
             random.between(box.low.z, box.high.z)};
 }
 
-/// Compares one point; true if it was one that is seen.
+/// Compares one point; returns whether it is visible.
 bool expect_same_pixel(const Case& c, const Plane& plane, const glm::dmat4& clip_from_prop,
                        const glm::dvec3& x, double tolerance_px) {
     const Truth truth = by_rays(plane, c.eye, x, c.projector);
@@ -128,14 +129,14 @@ bool expect_same_pixel(const Case& c, const Plane& plane, const glm::dmat4& clip
     const Pinhole& p = c.projector.pinhole;
     const double u = (clip.x / clip.w + 1.0) / 2.0 * p.width;
     const double v = (clip.y / clip.w + 1.0) / 2.0 * p.height;
-    // Far outside the picture only the relative place matters.
+    // Far outside the picture only the relative position matters.
     const double far = 1.0 + static_cast<double>(std::max(std::abs(truth.u), std::abs(truth.v))) / 2000.0;
     EXPECT_NEAR(u, static_cast<double>(truth.u), tolerance_px * far);
     EXPECT_NEAR(v, static_cast<double>(truth.v), tolerance_px * far);
     return true;
 }
 
-/// Compares `points` points on every face; the number of points that are seen.
+/// Compares `points` points on every face; returns the number of visible points.
 int expect_same_picture(Random& random, const Case& c, int points, double tolerance_px) {
     int seen = 0;
     for (const PropFace& face : c.prop.faces) {
@@ -149,7 +150,7 @@ int expect_same_picture(Random& random, const Case& c, int points, double tolera
             const glm::dvec3 x = point_in(random, c.box);
             if (clip) {
                 seen += expect_same_pixel(c, face.plane, *clip, x, tolerance_px) ? 1 : 0;
-            } else { // nothing of the box lands in front of the projector
+            } else { // no part of the box appears in front of the projector
                 EXPECT_FALSE(by_rays(face.plane, c.eye, x, c.projector).seen);
             }
         }
@@ -199,7 +200,7 @@ TEST(Collineation, HoldsForAnEyeHalfADegreeAboveAFace) {
             const glm::dvec3 x = point_in(random, c.box);
             if (clip) {
                 seen += expect_same_pixel(c, face.plane, *clip, x, 1e-6) ? 1 : 0;
-            } else { // an eye above the projector: nothing of the box lands in front of it
+            } else { // an eye above the projector: no part of the box appears in front of it
                 EXPECT_FALSE(by_rays(face.plane, c.eye, x, c.projector).seen);
             }
         }
@@ -252,7 +253,7 @@ TEST(Collineation, DepthFillsTheRangeOverTheBoxInFrontOfTheEye) {
                                    (corner & 2) != 0 ? c.box.high.y : c.box.low.y,
                                    (corner & 4) != 0 ? c.box.high.z : c.box.low.z);
                 const double w = ((*clip) * glm::dvec4(x, 1.0)).w;
-                if (w < 2e-3) { // above the eye's own plane, or all but in it
+                if (w < 2e-3) { // above the eye's own plane, or almost in it
                     continue;
                 }
                 const double depth = depth_of(*clip, x);
@@ -279,7 +280,8 @@ TEST(Collineation, DepthOrdersPointsOfAnEyeRayByTheirDistance) {
             if (!clip) {
                 continue;
             }
-            // Two points on one ray, the nearer first; a millionth of the distance apart is apart.
+            // Two points on one ray, the nearer first; they are as little as a millionth of the distance
+            // apart.
             const glm::dvec3 x = point_in(random, c.box);
             const glm::dvec3 farther = c.eye + (x - c.eye) * (1.0 + random.scale(1e-6, 1e-1));
             if (!by_rays(face.plane, c.eye, x, c.projector).seen) {

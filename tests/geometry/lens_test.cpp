@@ -8,7 +8,7 @@
 namespace frustumscreen {
 namespace {
 
-/// As OpenCV's manual writes it, in other precision and another order of the sums.
+/// The formula of OpenCV's manual, in a different precision and order of sums.
 glm::dvec2 by_the_manual(const Lens& lens, const glm::dvec2& x) {
     using Long = long double;
     const Long r2 = static_cast<Long>(x.x) * x.x + static_cast<Long>(x.y) * x.y;
@@ -40,7 +40,7 @@ TEST(Lens, WhatIsBentComesBack) {
         ++came;
         const auto back = lens.undistort(*bent);
         ASSERT_TRUE(back) << lens.k1 << ' ' << lens.k2 << ' ' << x.x << ' ' << x.y;
-        // Near the fold the way back is as ill-conditioned as the lens is flat.
+        // Near the fold the inverse is as ill-conditioned as the lens is flat.
         const double r2 = glm::dot(x, x);
         const double slope = 1.0 + r2 * (3.0 * lens.k1 + 5.0 * lens.k2 * r2);
         EXPECT_LT(glm::distance(*back, x), 2e-15 / slope);
@@ -49,7 +49,7 @@ TEST(Lens, WhatIsBentComesBack) {
 }
 
 TEST(Lens, ThereIsNothingBeyondTheFold) {
-    // r (1 - 0.1 r^2) rises up to r^2 = 10/3, and there it is 2/3 of sqrt(10/3).
+    // r (1 - 0.1 r^2) increases up to r^2 = 10/3, where its value is 2/3 of sqrt(10/3).
     const Lens lens{-0.1, 0.0};
     EXPECT_NEAR(lens.fold_r2(), 10.0 / 3.0, 1e-14);
     const double fold = std::sqrt(10.0 / 3.0);
@@ -77,7 +77,7 @@ TEST(Lens, TheFactorsOfADiscAreWithinTheirBounds) {
             seen_least = std::fmin(seen_least, factor);
             seen_most = std::fmax(seen_most, factor);
         }
-        EXPECT_NEAR(seen_least, least, 1e-6); // k2 (r2 / 2000)^2 beside the turning point, and less than that
+        EXPECT_NEAR(seen_least, least, 1e-6); // error k2 (r2 / 2000)^2 near the turning point, less elsewhere
         EXPECT_NEAR(seen_most, most, 1e-6);
         EXPECT_GE(seen_least, least - 1e-15);
         EXPECT_LE(seen_most, most + 1e-15);

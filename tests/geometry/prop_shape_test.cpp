@@ -98,7 +98,7 @@ TEST(PropShape, AFrustumIsEnteredByItsBottomButNotLitThere) {
     EXPECT_FALSE(intersect(prop, {0, 0, -1}, {0, 0, 1}, hit));
 }
 
-/// Where a ray enters, found by walking along it: first point inside, refined by halving.
+/// A ray's entry point, found by walking along it: first point inside, refined by bisection.
 struct Walked {
     bool enters = false;
     glm::dvec3 at{0.0};
@@ -135,7 +135,7 @@ TEST(PropShape, RaysEnterWhereAWalkAlongThemEnters) {
         const bool found = intersect(prop, origin, direction, hit);
         const bool by_bottom = walked.enters && walked.at.z < 1e-9 && origin.z < 0.0;
         if (!walked.enters || by_bottom) {
-            // A corner may be grazed within less than a step of the walk.
+            // The ray may graze a corner within less than a step of the walk.
             if (found) {
                 const glm::dvec3 at = origin + direction * hit.t;
                 EXPECT_TRUE(inside(size, at, 1e-9));
@@ -156,7 +156,8 @@ TEST(PropShape, RaysAwayBesideFromInsideAndThroughTheBottomMiss) {
     const PropShape prop = make_frustum({});
     PropHit hit;
     EXPECT_FALSE(intersect(prop, {0, 0, 1}, {0, 0, 1}, hit));
-    EXPECT_FALSE(intersect(prop, {0.2, 0, 1}, {0, 0, -1}, hit)); // along a plane's normal, beside it
+    EXPECT_FALSE(intersect(prop, {0.2, 0, 1}, {0, 0, -1}, hit)); // parallel to a plane's normal, next to the
+                                                                 // prop
     EXPECT_FALSE(intersect(prop, {0, 0, 0.05}, {1, 0, 0}, hit));
     EXPECT_FALSE(intersect(prop, {0, 0, -1}, {0, 0, 1}, hit));
     EXPECT_FALSE(intersect(prop, {0, 0, 1}, {0, 0, 0}, hit));

@@ -14,7 +14,7 @@ public:
     explicit Random(unsigned seed) : engine_(seed) {}
 
     double between(double low, double high) { return low + (high - low) * uniform(); }
-    /// Values are spread evenly over orders of magnitude.
+    /// Uniform on a logarithmic scale.
     double scale(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
     glm::dvec3 vector(double reach) {
         return {between(-reach, reach), between(-reach, reach), between(-reach, reach)};

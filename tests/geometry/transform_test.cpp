@@ -8,7 +8,7 @@
 namespace frustumscreen {
 namespace {
 
-/// The rotation matrix of a unit quaternion, written out (Hamilton).
+/// Rotation by the matrix of a unit quaternion, written out (Hamilton).
 glm::dvec3 rotated_by_hand(const glm::dquat& q, const glm::dvec3& p) {
     const double w = q.w, x = q.x, y = q.y, z = q.z;
     return {(1 - 2 * (y * y + z * z)) * p.x + 2 * (x * y - w * z) * p.y + 2 * (x * z + w * y) * p.z,

@@ -16,14 +16,14 @@ struct Soup {
 
 using Exact = glm::tvec3<long double>;
 
-/// Six times the volume of a tetrahedron, with its sign.
+/// Six times the signed volume of a tetrahedron.
 long double volume(const Exact& a, const Exact& b, const Exact& c, const Exact& d) {
     return glm::dot(glm::cross(b - a, c - a), d - a);
 }
 
 enum class Meets { No, Yes, TooClose };
 
-/// By signs of volumes alone, which the tree does not use.
+/// Uses only signs of volumes, unlike the tree.
 Meets meets(const std::array<Exact, 3>& t, const Exact& from, const Exact& to) {
     const long double begin = volume(t[0], t[1], t[2], from);
     const long double end = volume(t[0], t[1], t[2], to);
@@ -76,7 +76,7 @@ TEST(TriangleTree, MeetsASegmentExactlyWhereSomeTriangleDoes) {
             const glm::dvec3 from(2.0F * glm::vec3(place(random), place(random), place(random)));
             glm::dvec3 to(glm::vec3(place(random), place(random), place(random)));
             if (k % 8 == 0) {
-                to[k / 8 % 3] = from[k / 8 % 3]; // along the slabs
+                to[k / 8 % 3] = from[k / 8 % 3]; // parallel to a slab
             }
             const Meets expected = meets_any(soup, Exact(from), Exact(to));
             too_close += expected == Meets::TooClose ? 1 : 0;
@@ -91,7 +91,7 @@ TEST(TriangleTree, MeetsASegmentExactlyWhereSomeTriangleDoes) {
     EXPECT_LT(too_close, 200);
 }
 
-/// A closed surface of many small triangles has no holes, wherever rays go through edges and corners.
+/// A closed surface of many small triangles has no holes, also where rays pass through edges and corners.
 TEST(TriangleTree, ASphereHasNoHoles) {
     Soup sphere;
     constexpr int rings = 64;

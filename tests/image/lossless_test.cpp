@@ -1,4 +1,4 @@
-// What holds of PNG and lossless WebP alike: every texel comes back, and bytes that are none are refused.
+// Common properties of PNG and lossless WebP: every texel survives, and invalid bytes are refused.
 
 #include "tests/image/pictures.h"
 
@@ -15,12 +15,12 @@ struct Codec {
     const char* name;
     Bytes (*encode)(const Image8&);
     Result<Image8> (*decode)(std::span<const std::byte>, std::int64_t most_pixels);
-    std::size_t tail; ///< bytes at the end that hold nothing of the picture
+    std::size_t tail; ///< bytes at the end that contain no part of the picture
     std::string (*chunks)(const Bytes&);
-    const char* expected_chunks; ///< a chunk's name once, however often it follows itself
+    const char* expected_chunks; ///< each chunk's name, repeated chunks once
 };
 
-/// The names of a file's chunks from `at` on. `head`: what is before a chunk's bytes; `foot`: after them.
+/// The names of a file's chunks from `at` on. `foot`: number of bytes after a chunk's data.
 template <typename Length>
 std::string chunk_names(const Bytes& bytes, std::size_t at, std::size_t name_at, std::size_t foot,
                         const Length& length_at) {
@@ -75,7 +75,7 @@ TEST_P(Lossless, every_texel_comes_back_unchanged_under_alpha_too) {
     }
 }
 
-/// No time, no program's name: so the same picture gives the same bytes.
+/// No time stamp and no program name: equal pictures give equal bytes.
 TEST_P(Lossless, a_file_has_the_picture_and_nothing_else) {
     const Image8 image = noise(20, 30, true);
     const Bytes bytes = codec_.encode(image);

@@ -1,4 +1,4 @@
-// The next mip level against sums by hand.
+// The next mip level against sums computed by hand.
 
 #include "app/image/image.h"
 
@@ -16,8 +16,7 @@ TEST(HalfSize, IsTheMeanOfLightAndNotOfCodes) {
     const Image8 half = half_size(image);
     ASSERT_EQ(half.width, 1);
     ASSERT_EQ(half.height, 1);
-    EXPECT_EQ(half.at(0, 0),
-              glm::u8vec4(188, 137, 0, 255)); // half and a quarter of the light, by IEC 61966-2-1
+    EXPECT_EQ(half.at(0, 0), glm::u8vec4(188, 137, 0, 255)); // half and a quarter of the light, IEC 61966-2-1
 }
 
 TEST(HalfSize, KeepsEveryCodeOfAnEvenPicture) {
@@ -29,7 +28,7 @@ TEST(HalfSize, KeepsEveryCodeOfAnEvenPicture) {
 
 TEST(HalfSize, GivesEachTexelOfAnOddPictureItsShare) {
     Image8 image(5, 1, {0, 0, 0, 255});
-    image.at(2, 0) = {255, 255, 255, 255}; // the middle one: half of it to each side
+    image.at(2, 0) = {255, 255, 255, 255}; // the middle texel: half of it goes to each side
     const Image8 half = half_size(image);
     ASSERT_EQ(half.width, 2);
     ASSERT_EQ(half.height, 1);

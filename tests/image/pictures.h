@@ -7,7 +7,7 @@
 
 namespace frustumscreen {
 
-/// Noise; with alpha, there are colours where it is 0 too.
+/// Noise; with alpha, texels of alpha 0 have colours too.
 inline Image8 noise(int width, int height, bool with_alpha) {
     std::mt19937 random(7);
     Image8 image(width, height);

@@ -1,4 +1,4 @@
-// PNG's own; lossless_test.cpp has what it shares with WebP.
+// Properties of PNG alone; lossless_test.cpp has those shared with WebP.
 
 #include "tests/image/pictures.h"
 
@@ -10,7 +10,7 @@ using namespace frustumscreen;
 
 namespace {
 
-/// Bit depth and colour type straight from the bytes of the IHDR chunk (PNG 1.2, 11.2.2).
+/// Reads bit depth and colour type directly from the bytes of the IHDR chunk (PNG 1.2, 11.2.2).
 int byte_at(const Bytes& png, std::size_t offset) {
     return std::to_integer<int>(png.at(offset));
 }

@@ -1,4 +1,4 @@
-// Lossless WebP's own; lossless_test.cpp has what it shares with PNG.
+// Properties of lossless WebP alone; lossless_test.cpp has those shared with PNG.
 
 #include "tests/image/pictures.h"
 

@@ -1,4 +1,4 @@
-/// Every file of the shared collection of bad models: what is said about it, or that it is usable.
+/// Every file of the shared collection of bad models: its error, or that it is usable.
 #include "tests/loaders/loaders_testing.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 struct BadFile {
     const char* path;
-    const char* says; ///< a part of the error's line; nullptr: usable all the same
+    const char* says; ///< a part of the error's line; nullptr: usable nevertheless
     std::size_t triangles = 0;
 };
 
@@ -45,10 +45,10 @@ constexpr BadFile bad_files[] = {
     {"khronos_validator/node/node_loop.gltf", "is its own ancestor"},
     {"khronos_validator/node/unresolved_mesh.gltf", "nodes[0].mesh: 0 is out of range"},
     {"tri/emptyIO/stl_empty_bin.stl", "no triangles"},
-    // Holes and flipped facets are the bake's business.
+    // Holes and flipped facets are handled by the bake.
     {"tri/models/busted.STL", nullptr, 3878},
     {"tri/models/negative_indices.obj", nullptr, 12},
-    // Its face of two corners shows nothing and is left out; the triangle is there.
+    // Its face with two corners shows nothing and is skipped; the triangle is loaded.
     {"tri/models/notenoughindices.obj", nullptr, 1},
 };
 

@@ -35,9 +35,9 @@ TEST(DecodeImage, PngJpegAndWebpGiveTheSamePicture) {
 }
 
 TEST(DecodeImage, BmpTgaAndTiffGiveTheSamePicture) {
-    Image8 truth = smooth_picture(33, 16); // rows of a BMP end in bytes that fill up
+    Image8 truth = smooth_picture(33, 16); // rows of a BMP end in padding bytes
     for (int x = 4; x < 9; ++x) {
-        truth.at(x, 3) = glm::u8vec4(1, 2, 3, 255); // a run
+        truth.at(x, 3) = glm::u8vec4(1, 2, 3, 255); // a run of equal texels
     }
     for (const std::string& bytes : {bmp_of(truth), bmp_of(truth, true), tga_of(truth), tga_of(truth, true),
                                      tiff_of(truth), tiff_of(truth, TiffAlpha::None, true)}) {
@@ -62,7 +62,7 @@ TEST(DecodeImage, AnAlphaInATiffLeavesTheColoursAsTheyAre) {
     for (std::size_t k = 0; k < truth.texels.size(); ++k) {
         const int alpha = truth.texels[k].a;
         EXPECT_EQ(int{multiplied->texels[k].a}, alpha);
-        for (int c = 0; c < 3 && alpha > 0; ++c) { // what rounding to a fraction of 255 leaves
+        for (int c = 0; c < 3 && alpha > 0; ++c) { // tolerance for rounding to a fraction of 255
             EXPECT_NEAR(multiplied->texels[k][c], truth.texels[k][c], 128.0 / alpha + 1.0);
         }
     }

@@ -1,4 +1,4 @@
-/// Khronos' small conformance models, against arithmetic done here from what the models are known to show.
+/// Khronos' small conformance models, against independent arithmetic from the models' known content.
 #include "tests/loaders/loaders_testing.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST(GltfConformance, ASparseAccessorMovesThreeOfFourteenVertices) {
         EXPECT_TRUE(has_position(mesh, {x, 1, 0})) << "left where it was";
     }
     expect_extent(mesh, {0, 0, 0}, {6, 4, 0});
-    // Six columns of width 1; the upper edge runs through 1 2 1 3 1 4 1.
+    // Six columns of width 1; the upper edge has the heights 1 2 1 3 1 4 1.
     EXPECT_NEAR(area_of(mesh), 1.5 + 1.5 + 2 + 2 + 2.5 + 2.5, 1e-12);
 }
 
@@ -68,7 +68,7 @@ TEST(GltfConformance, AnInterleavedBoxIsAUnitCube) {
 TEST(GltfConformance, NestedNodesMultiply) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
     const SourceMesh mesh = conformance_model("nested", ".glb");
-    // Three cubes of side 2; each node scales and shifts what is below it (numbers from the file).
+    // Three cubes of side 2; each node scales and shifts its children (numbers from the file).
     const auto cube = [](const glm::dvec3& scale, const glm::dvec3& centre) {
         return std::pair(centre - scale, centre + scale);
     };
@@ -93,20 +93,20 @@ TEST(GltfConformance, NestedNodesMultiply) {
 TEST(GltfConformance, TheTextureTransformTestPointsAtItsMarkers) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
     const SourceMesh mesh = conformance_model("TextureTransformTest");
-    // The model puts a marker where the arrow's tip must appear. Untransformed, the tip is at the "not
+    // The model has a marker where the arrow's tip must appear. Untransformed, the tip is at the "not
     // supported" marker, at (0.2778, -0.2778) on a quad from -0.5 to 0.5 whose UVs are (x + 0.5, 0.5 - y);
-    // the transform must bring the "correct" marker's place to the same texel.
+    // the transform must map the "correct" marker's place to that texel.
     const double tip = 0.5 + 0.2778174593052023;
     struct Quad {
         std::size_t first_triangle;
         double middle_x;
         glm::dvec2 marker; ///< relative to the quad's middle
     };
-    // Triangles come two to a node, roots first.
+    // Triangles come in pairs per node, roots first.
     for (const Quad& quad : {Quad{6, -1.1, {-0.07904822439840126, -0.5162674857624154}},
                              Quad{8, 0.0, {0.018544972870134853, -0.018544972870134853}}}) {
         const auto& [a, b, c] = mesh.triangles[quad.first_triangle];
-        // UV as an affine map of the position, from one triangle.
+        // Affine map from position to UV, from one triangle.
         const glm::dvec2 middle(quad.middle_x, -0.55);
         const glm::dvec2 pa = glm::dvec2(mesh.positions[a]) - middle;
         const glm::dmat2 edges(glm::dvec2(mesh.positions[b]) - middle - pa,
@@ -121,7 +121,7 @@ TEST(GltfConformance, TheTextureTransformTestPointsAtItsMarkers) {
 
 TEST(GltfConformance, ASkinAtRestShiftsByItsBindPose) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
-    // Both joints stand at (0, 1, 0) and were bound at (0.5, 1, 0): everything moves by -0.5 along x.
+    // Both joints are at (0, 1, 0) and were bound at (0.5, 1, 0): everything moves by -0.5 along x.
     expect_extent(conformance_model("SimpleSkin"), {-0.5, 0, 0}, {0.5, 2, 0});
 }
 
@@ -135,7 +135,7 @@ TEST(GltfConformance, AMorphedCubeWithoutWeightsIsACubeOfSideTwo) {
 TEST(GltfConformance, UnindexedTrianglesOfTheBuildingStandUpright) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
     const SourceMesh mesh = conformance_model("no_indices_3storybuilding", ".glb");
-    // The root node turns z up into y up.
+    // The root node rotates z up into y up.
     expect_extent(mesh, {-23.207141876220703, 0, 0}, {32.87300109863281, 9, 63.36140823364258}, 1e-5);
     EXPECT_GT(volume_of(mesh), 0.0);
 }

@@ -86,14 +86,14 @@ TEST(Gltf, FansAndStripsAreCutAsTheStandardSays) {
     EXPECT_NEAR(normal_of(fan, 0).z + normal_of(fan, 1).z, 2.0, 1e-12) << "the square, counter-clockwise";
     const SourceMesh strip = mesh_of(text(5));
     ASSERT_EQ(strip.triangles.size(), 2U);
-    // Corners 0 1 2, then 1 3 2: the second lies across the square, and is turned.
+    // Corners 0 1 2, then 1 3 2: the second triangle crosses the square and faces the other way.
     EXPECT_NEAR(normal_of(strip, 0).z, 1.0, 1e-12);
     EXPECT_NEAR(normal_of(strip, 1).z, -1.0, 1e-12);
     EXPECT_NE(error_of(load_text("model.gltf", text(1))).find("[mesh.point_cloud]"), std::string::npos);
 }
 
 TEST(Gltf, NormalisedIntegersAndStridesAreFollowed) {
-    // 16 bytes a vertex: signed 16-bit position, padding, 8-bit colour.
+    // 16 bytes per vertex: signed 16-bit position, padding, 8-bit colour.
     std::string bytes;
     for (const std::array<std::int16_t, 4>& p :
          {std::array<std::int16_t, 4>{-32768, 0, 0, 0}, std::array<std::int16_t, 4>{32767, 0, 0, 0},

@@ -142,7 +142,7 @@ std::vector<IndexRow> shared_index() {
     std::vector<IndexRow> rows;
     std::ifstream stream(shared_data() / "INDEX.tsv");
     std::string line;
-    std::getline(stream, line); // the names of the columns
+    std::getline(stream, line); // the column names
     while (std::getline(stream, line)) {
         std::vector<std::string> cells;
         std::istringstream split(line);

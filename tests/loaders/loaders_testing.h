@@ -1,5 +1,4 @@
-/// Helpers of the loaders' tests: files made by the tests, plain measures of a mesh, the index of the shared
-/// models.
+/// Helpers of the loaders' tests: temporary files, simple measures of a mesh, the index of the shared models.
 #pragma once
 
 #include "assets_baked/bake/load_mesh.h"
@@ -27,7 +26,7 @@ private:
     std::filesystem::path path_;
 };
 
-/// Loads `text` as a file of that name; nothing lies beside it.
+/// Loads `text` as a file of that name, without other files next to it.
 Result<SourceMesh> load_text(const std::string& name, std::string_view text);
 /// The error of a load that must fail; "" and a test failure if it does not.
 std::string error_of(const Result<SourceMesh>& mesh);
@@ -36,9 +35,9 @@ std::string base64(std::string_view bytes);
 template <typename T> std::string bytes_of(const std::vector<T>& values) {
     return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
-/// A glTF text with one buffer of `bytes` (a data URI) put before `members`.
+/// A glTF text with one buffer of `bytes` (a data URI) before `members`.
 std::string gltf_text(std::string_view bytes, std::string_view members);
-/// Header and chunks around a JSON text.
+/// Adds header and chunks to a JSON text.
 std::string glb_bytes(std::string json, std::string binary);
 
 struct Extent {
@@ -49,7 +48,7 @@ Extent extent_of(const SourceMesh& mesh);
 double area_of(const SourceMesh& mesh);
 /// Positive for a closed surface whose triangles run counter-clockwise seen from outside.
 double volume_of(const SourceMesh& mesh);
-/// What load_mesh promises.
+/// Checks the promises of load_mesh.
 void expect_sound(const SourceMesh& mesh);
 
 struct IndexRow {

@@ -1,4 +1,4 @@
-/// Thousands of damaged models: each is refused in one line or loads to a sound mesh; none crashes or hangs.
+/// Thousands of damaged models: each is refused in one line or loads as a valid mesh; none crashes or hangs.
 #include "tests/loaders/loaders_testing.h"
 #include "tests/loaders/sample_models.h"
 
@@ -61,7 +61,7 @@ private:
         bytes.replace(at, std::min<std::size_t>(4, bytes.size() - at), word);
     }
 
-    /// The digits around a random place, if there are any.
+    /// Replaces the digits around a random place, if there are any.
     void replace_number(std::string& bytes) {
         static constexpr std::array<std::string_view, 14> numbers = {
             "0",    "-1",    "3",    "255", "65536", "4294967295", "4294967296", "99999999999999999999",

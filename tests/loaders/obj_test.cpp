@@ -68,7 +68,7 @@ TEST(Obj, APolygonMayHaveMoreThan255Corners) {
     EXPECT_EQ(mesh_of(text + face + "\n").triangles.size(), 298U);
 }
 
-/// Of a mesh that has one note, of what was lost.
+/// The note about losses of a mesh with exactly one note.
 std::string lost_of(const SourceMesh& mesh) {
     EXPECT_EQ(mesh.notes.size(), 1U);
     if (mesh.notes.empty()) {

@@ -50,7 +50,7 @@ TEST(Ply, CarriageReturnsAndOtherLineEndsAreRead) {
     }
 }
 
-/// Doubles, unsigned short lengths, short indices, an unknown list before and an unknown element between.
+/// Doubles, unsigned short lengths, short indices, an unknown list first and an unknown element between.
 std::string awkward_binary(bool big) {
     std::string file =
         fmt::format("ply\nformat binary_{}_endian 1.0\n"
@@ -146,7 +146,7 @@ TEST(Ply, WrongFilesAreRefusedInOneClearLine) {
     }
 }
 
-/// Two triangles of a square; the corners that share a vertex have other texture coordinates where `seam`.
+/// Two triangles of a square; with `seam`, corners that share a vertex have different texture coordinates.
 std::string meshlab_square(bool seam, const std::string& comment) {
     return "ply\nformat ascii 1.0\ncomment VCGLIB generated\n" + comment +
            "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"

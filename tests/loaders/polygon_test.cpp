@@ -9,7 +9,7 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// Signed areas seen against +Z, each triangle's own.
+/// Signed area of each triangle, seen against +Z.
 std::vector<double> signed_areas(const std::vector<glm::dvec3>& corners, const Triangles& triangles) {
     std::vector<double> areas;
     for (const auto& [a, b, c] : triangles) {
@@ -35,7 +35,7 @@ TEST(Polygon, AConvexPolygonIsCovered) {
 }
 
 TEST(Polygon, AConcaveQuadIsNotFoldedOver) {
-    // An arrowhead, its notch at every corner in turn.
+    // An arrowhead, with its notch at each corner in turn.
     const std::vector<glm::dvec3> arrow = {{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {1, 1, 0}};
     for (std::size_t turn = 0; turn < 4; ++turn) {
         std::vector<glm::dvec3> corners;

@@ -162,8 +162,8 @@ std::string grid_stl_text() {
            " endfacet\nendsolid s\n";
 }
 
-/// Everything that a glTF text can say about a triangle: two nested nodes, a skin, a morph, a sparse
-/// accessor, interleaved and normalised attributes, a texture with a transform.
+/// Every feature of a glTF triangle: two nested nodes, a skin, a morph, a sparse accessor, interleaved and
+/// normalised attributes, a texture with a transform.
 std::string rich_gltf(const std::string& picture) {
     std::string bytes = bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});     // 0: positions
     bytes += bytes_of(std::vector<std::uint16_t>{0, 0, 65535, 0, 0, 65535, 65535, 65535});    // 48: uvs

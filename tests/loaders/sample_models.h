@@ -1,4 +1,4 @@
-/// Small models of every format, written here or by the libraries' own encoders.
+/// Small models of every format, written by hand or by the libraries' own encoders.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 namespace frustumscreen::testing {
 
 struct SampleModel {
-    std::string name; ///< with the extension
+    std::string name; ///< with its extension
     std::string bytes;
 };
 
-/// One vertex of a grid of `n` x `n` squares on a paraboloid over [0, 1] x [0, 1].
+/// Vertices of a grid of `n` x `n` squares on a paraboloid over [0, 1] x [0, 1].
 std::vector<float> grid_positions(int n);
 std::vector<unsigned int> grid_indices(int n);
 

@@ -68,7 +68,7 @@ std::string number(std::uint32_t value, int bytes, bool big = false) {
     return text;
 }
 
-/// Blue, green, red.
+/// Order: blue, green, red.
 std::string texel_bgr(const glm::u8vec4& texel) {
     return number(texel.b, 1) + number(texel.g, 1) + number(texel.r, 1);
 }
@@ -97,7 +97,7 @@ std::string tga_of(const Image8& image, bool packed) {
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
             if (packed && x + 1 < image.width && image.at(x, y) == image.at(x + 1, y)) {
-                file += number(0x81, 1) + texel_bgr(image.at(x, y)); // twice the same
+                file += number(0x81, 1) + texel_bgr(image.at(x, y)); // two equal texels
                 ++x;
             } else {
                 file += (packed ? number(0, 1) : std::string()) + texel_bgr(image.at(x, y));
@@ -118,7 +118,7 @@ std::string tiff_of(const Image8& image, TiffAlpha alpha, bool big) {
                              1);
         }
     }
-    const std::uint32_t depths = 8; // where the channels' bits stand
+    const std::uint32_t depths = 8; // offset of the channels' bit depths
     const std::uint32_t begin = depths + 8;
     const auto size = static_cast<std::uint32_t>(texels.size());
     std::string fields;
@@ -133,7 +133,7 @@ std::string tiff_of(const Image8& image, TiffAlpha alpha, bool big) {
     field(256, static_cast<std::uint32_t>(image.width));
     field(257, static_cast<std::uint32_t>(image.height));
     field(258, depths, channels);
-    field(259, 1); // not packed
+    field(259, 1); // uncompressed
     field(262, 2); // RGB
     field(273, begin, 1, false);
     field(277, channels);

@@ -9,7 +9,7 @@
 namespace frustumscreen::testing {
 namespace {
 
-/// The index counts a mesh once; a note gives the number drawn where instances make a difference.
+/// The index counts a mesh once; for instances a note gives the number of drawn triangles.
 std::size_t triangles_drawn(const IndexRow& row) {
     const std::size_t note = row.notes.find(" tris drawn counting instances");
     if (note == std::string::npos) {
@@ -92,7 +92,7 @@ TEST(SharedModels, QuadsAndTrianglesOfTheSwordEncloseTheSameVolume) {
     EXPECT_NEAR(area_of(quads) / area_of(triangles), 1.0, 2e-3);
 }
 
-/// Mean base colour over the surface: each triangle's texel at its middle, weighted by its area.
+/// Mean base colour over the surface: the texel at each triangle's middle, weighted by area.
 glm::dvec3 mean_colour(const SourceMesh& mesh) {
     glm::dvec3 sum(0.0);
     double total = 0.0;

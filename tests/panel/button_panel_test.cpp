@@ -15,13 +15,13 @@ using std::chrono::seconds;
 constexpr milliseconds debounce(1);
 constexpr milliseconds longer_than_debounce(2); ///< between two rounds
 
-/// A chip that a test plugs, unplugs and presses.
+/// A chip that a test plugs in, unplugs and presses.
 struct FakeChip {
     std::array<std::atomic<bool>, 3> down{};
     std::array<std::atomic<bool>, 3> lit{};
     std::atomic<bool> plugged{true};
     std::atomic<int> opened{0};
-    std::atomic<int> rounds{0}; ///< how often the levels were read
+    std::atomic<int> rounds{0}; ///< number of reads of the levels
     std::string remark;
 };
 
@@ -64,8 +64,9 @@ OpenLines opener(FakeChip& chip) {
     };
 }
 
-/// Until the levels count as they are now: a round may be on its way, one reads them, one finds that they have held for the debounce
-/// time, and one more begins once that was told. Nobody polls meanwhile.
+/// Waits until the present levels count: one round may be in progress, one reads them, one finds that they
+/// have held for the debounce time, and one more begins after that was reported. The panel is not polled
+/// meanwhile.
 void let_levels_count(const FakeChip& chip) {
     const int begin = chip.rounds;
     while (chip.rounds < begin + 4) {
@@ -73,7 +74,7 @@ void let_levels_count(const FakeChip& chip) {
     }
 }
 
-/// Polls until `done` or for a minute: no time is asserted.
+/// Polls until `done` or for a minute; asserts no duration.
 template <typename Done> bool until(ButtonPanel& panel, std::vector<PanelEvent>& events, const Done& done) {
     const auto give_up = std::chrono::steady_clock::now() + seconds(60);
     while (!done()) {
@@ -125,7 +126,7 @@ TEST(ButtonPanel, TheChordIsHeldUntilAButtonIsLetGoOrNobodyKnows) {
         chip.down[2] = down;
     };
     ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
-    let_levels_count(chip); // they are known before they change
+    let_levels_count(chip); // levels must be known before they change
     EXPECT_FALSE(held());
     press_both(true);
     ASSERT_TRUE(until(panel, events, held));
@@ -144,7 +145,7 @@ TEST(ButtonPanel, NobodyWhoPollsMakesItForgetTheNewest) {
     FakeChip chip;
     ButtonTimes times;
     times.debounce = debounce;
-    times.chatter_window = Nanoseconds(0); // nobody presses too often here
+    times.chatter_window = Nanoseconds(0); // disables the limit on frequent presses
     ButtonPanel panel(opener(chip), 3, times);
     std::vector<PanelEvent> events;
     ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
@@ -185,7 +186,7 @@ TEST(ButtonPanel, LampsAreLitAsWishedButNotAStuckButtonsAndAreDarkAfterwards) {
         chip.plugged = false;
         ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "not there"; }));
         for (auto& lamp : chip.lit) {
-            lamp = false; // its power was away
+            lamp = false; // it lost power
         }
         chip.plugged = true;
         ASSERT_TRUE(until(panel, events, [&] { return lit(true, true, false); }));

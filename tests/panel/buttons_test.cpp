@@ -15,7 +15,7 @@ using std::chrono::minutes;
 using std::chrono::seconds;
 constexpr MonotonicTime start{seconds(50)};
 
-/// Three buttons, sampled by the millisecond.
+/// Three buttons, sampled every millisecond.
 class Fingers {
 public:
     explicit Fingers(const ButtonTimes& times = {}) : buttons_(3, times) { run(milliseconds(1)); }
@@ -65,7 +65,7 @@ TEST(Buttons, ContactsBounceWithoutASecondPress) {
     Fingers fingers;
     for (int press = 0; press < 50; ++press) {
         for (const bool down : {true, false}) {
-            for (int bounce = 0; bounce < 12; ++bounce) { // for 24 ms at most, below the debounce time
+            for (int bounce = 0; bounce < 12; ++bounce) { // for at most 24 ms, less than the debounce time
                 fingers.set(0, (engine() & 1U) != 0);
                 fingers.run(milliseconds(1 + engine() % 2));
             }
@@ -116,7 +116,7 @@ TEST(Buttons, FirstAndLastTogetherAreTheStaffsChordAndNoLongPress) {
     EXPECT_EQ(fingers.count(PressKind::Chord), 2);
 }
 
-/// It is no event: it says how the two buttons are now, and ends with the level, before any debouncing.
+/// The chord is not an event but a state of the two buttons; it ends with the level, before any debouncing.
 TEST(Buttons, TheChordIsHeldFromItsLatestPressUntilOneOfThemIsLetGo) {
     Fingers fingers;
     fingers.set(0, true);
@@ -150,7 +150,7 @@ TEST(Buttons, AButtonThatIsStuckHoldsNoChord) {
     EXPECT_FALSE(fingers.chord_held());
 }
 
-/// By the millisecond: whatever the other buttons do, nobody waits for more than the debounce time.
+/// Every millisecond: no button waits for more than the debounce time, regardless of the others.
 TEST(Buttons, APressIsSaidAtOnceAlsoWhereItMayBecomeAChord) {
     for (int apart_ms = 0; apart_ms < 3000; apart_ms += 47) {
         Fingers fingers;
@@ -165,7 +165,7 @@ TEST(Buttons, APressIsSaidAtOnceAlsoWhereItMayBecomeAChord) {
     }
 }
 
-/// So that whoever heeded these two knows what to take back.
+/// A consumer that acted on these two presses must know what to undo.
 TEST(Buttons, AChordBeganWithTheLatestPressOfEachOfItsButtons) {
     std::mt19937 engine(11);
     int chords = 0;
@@ -195,7 +195,7 @@ TEST(Buttons, AStuckButtonIsReportedOnceAndIgnoredUntilItComesUp) {
     fingers.run(seconds(40));
     EXPECT_EQ(fingers.count(PressKind::Press), 1);
     EXPECT_EQ(fingers.count(PressKind::Stuck), 1);
-    fingers.press(0, milliseconds(100)); // the others go on
+    fingers.press(0, milliseconds(100)); // the others continue to work
     EXPECT_EQ(fingers.count(PressKind::Press), 2);
     fingers.set(1, false);
     fingers.run(milliseconds(100));
@@ -220,7 +220,7 @@ TEST(Buttons, WhatIsDownAtTheStartIsNoPress) {
     EXPECT_TRUE(buttons.any_stuck());
 }
 
-/// A wrong `active_low` or bias, shorted wires: every button is down from the first sample on.
+/// A wrong `active_low` or bias, or shorted wires: every button is down from the first sample on.
 TEST(Buttons, ButtonsThatAreDownAtTheStartAreNoChordUntilBothWereUp) {
     for (const std::array<bool, 3> held :
          {std::array{true, true, true}, std::array{true, false, false}, std::array{false, false, true}}) {
@@ -247,13 +247,13 @@ TEST(Buttons, ButtonsThatAreDownAtTheStartAreNoChordUntilBothWereUp) {
     }
 }
 
-/// As the panel's thread looks at it: every 20 ms, a little late at times, and when something is due.
+/// Sampled like in the panel's thread: every 20 ms, sometimes slightly late, and when a deadline is due.
 class LooseContact {
 public:
     explicit LooseContact(unsigned seed, double closed = 0.5) : random_(seed), closed_(closed) {}
 
-    /// The first button's contact opens and closes 5000 times a second, or is open; the last one is pressed
-    /// and let go once a second.
+    /// The first button's contact opens and closes 5000 times a second, or stays open; the last button is
+    /// pressed and released once a second.
     void run(Nanoseconds length, bool chatters) {
         for (const MonotonicTime end = now_ + length; now_ < end;) {
             const double phase = std::fmod(5000.0 * to_seconds(now_ - start), 1.0);
@@ -285,7 +285,7 @@ private:
 
 TEST(Buttons, ALooseContactOfFiveKilohertzIsIgnoredUntilItIsQuiet) {
     for (unsigned seed = 0; seed < 40; ++seed) {
-        LooseContact contact(seed, 0.1 + 0.02 * seed); // closed for a tenth of the time, up to nine tenths
+        LooseContact contact(seed, 0.1 + 0.02 * seed); // closed for a tenth up to nine tenths of the time
         contact.run(seconds(12), true);
         EXPECT_EQ(contact.count(0, PressKind::Chatters), 1) << seed;
         const int presses = contact.count(0, PressKind::Press);
@@ -337,7 +337,7 @@ TEST(Buttons, AChildThatHammersIsHeardAtFirstAndAgainThreeSecondsAfterItLetsGo) 
     }
     EXPECT_EQ(fingers.count(PressKind::Press), 20);
     EXPECT_EQ(fingers.count(PressKind::Chatters), 1);
-    fingers.press(1, milliseconds(100)); // the others go on
+    fingers.press(1, milliseconds(100)); // the others continue to work
     EXPECT_EQ(fingers.count(PressKind::Press), 21);
     fingers.run(seconds(3));
     ASSERT_EQ(fingers.count(PressKind::Freed), 1);
@@ -349,7 +349,7 @@ TEST(Buttons, AChildThatHammersIsHeardAtFirstAndAgainThreeSecondsAfterItLetsGo) 
 
 TEST(Buttons, AVisitorWhoGoesThroughManyArtifactsIsNoLooseContact) {
     Fingers fingers;
-    for (int k = 0; k < 100; ++k) { // three in two seconds, on and on
+    for (int k = 0; k < 100; ++k) { // three in two seconds, continuously
         fingers.set(1, true);
         fingers.run(milliseconds(150));
         fingers.set(1, false);
@@ -387,11 +387,12 @@ TEST(Buttons, SamplesMayComeAtAnyDistanceAndOlderOnesAreIgnored) {
     const std::array<bool, 3> one{true, false, false};
     buttons.sample(start, none, events);
     buttons.sample(start + seconds(1), one, events);
-    buttons.sample(start - seconds(5), none,
-                   events); // a clock never goes back; a caller's mistake does no harm
+    // A clock never goes back; a caller's mistake must do no harm.
+    buttons.sample(start - seconds(5), none, events);
     buttons.sample(start + seconds(1), one, events);
     EXPECT_TRUE(events.empty());
-    buttons.sample(start + seconds(1000), one, events); // asleep for long: all that was due, in order
+    buttons.sample(start + seconds(1000), one, events); // after a long pause: everything that was due, in
+                                                        // order
     ASSERT_EQ(events.size(), 3U);
     EXPECT_EQ(events[0].kind, PressKind::Press);
     EXPECT_EQ(events[1].kind, PressKind::LongPress);
@@ -402,7 +403,7 @@ TEST(Buttons, SamplesMayComeAtAnyDistanceAndOlderOnesAreIgnored) {
 TEST(Buttons, SamplingOnlyWhenSomethingIsDueGivesTheSameAsSamplingAlways) {
     std::mt19937 engine(7);
     for (int run = 0; run < 40; ++run) {
-        std::vector<std::array<bool, 3>> levels; // by the millisecond
+        std::vector<std::array<bool, 3>> levels; // every millisecond
         std::array<bool, 3> now{};
         while (levels.size() < 60'000) {
             now.at(engine() % 3) = (engine() & 1U) != 0;

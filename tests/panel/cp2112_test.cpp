@@ -10,13 +10,13 @@
 namespace frustumscreen {
 namespace {
 
-/// A configuration as others send it, and the pins that it takes away from GPIO.
+/// A configuration from independent sources, and the pins that it removes from GPIO.
 struct Known {
     std::vector<std::byte> bytes;
     std::vector<unsigned> pins;
 };
 
-/// From the file that the mock is tested with, too.
+/// Read from the file that also tests the mock.
 std::vector<Known> known_configurations() {
     const auto file = read_file(source_dir() + "/tests/hil/mock_tests/cp2112_reports.txt");
     std::istringstream lines(file ? std::string(as_text(*file)) : std::string());

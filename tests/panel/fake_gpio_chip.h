@@ -1,4 +1,4 @@
-// A GPIO chip of linux/gpio.h, a CP2112, whose ioctls are answered through umockdev.
+// A GPIO chip of linux/gpio.h, a CP2112, with ioctls answered through umockdev.
 #pragma once
 
 #include "tests/panel/plugged_devices.h"
@@ -23,7 +23,7 @@ template <typename Struct> Answer answer_with(const Struct& value) {
     return {0, {bytes, bytes + sizeof value}};
 }
 
-/// A CP2112 with eight lines, L0 to L7. Pulled by `trouble`, whose errno each later ioctl gets.
+/// A CP2112 with eight lines, L0 to L7. With trouble set, each later ioctl fails with its errno.
 class GpioChip {
 public:
     static constexpr std::uint32_t line_count = 8;
@@ -43,8 +43,9 @@ public:
     GpioChip(const GpioChip&) = delete;
     GpioChip& operator=(const GpioChip&) = delete;
 
-    /// A request of lines has a descriptor of its own, which the kernel makes. umockdev answers ioctls on what this thread opened,
-    /// so those for an opening of the chip are made ahead: one for the buttons, one for their lamps.
+    /// A request of lines has its own descriptor, which the kernel creates. umockdev answers ioctls only on
+    /// files that this thread opened, so the descriptors for an opening of the chip are opened in advance:
+    /// one for the buttons, one for their lamps.
     void expect_opening(int requests = 2) {
         const std::lock_guard lock(mutex_);
         for (int k = 0; k < requests; ++k) {
@@ -60,11 +61,11 @@ public:
         const std::lock_guard lock(mutex_);
         std::copy(levels.begin(), levels.end(), levels_.begin());
     }
-    /// Descriptors of its files, but for those that were made ahead.
+    /// Open descriptors of its files, except those opened in advance.
     [[nodiscard]] std::size_t left_open() {
         std::size_t count = 0;
         for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
-            std::error_code closed; // the one that lists them
+            std::error_code closed; // the descriptor of the listing itself
             const std::string file = std::filesystem::read_symlink(entry.path(), closed).filename();
             count += file == "gpiochip2" || file == "gpio-request" || file == "hidraw0" ? 1 : 0;
         }
@@ -75,7 +76,7 @@ public:
         const std::lock_guard lock(mutex_);
         return lamps_;
     }
-    /// The latest request of lines to read, or to light.
+    /// The latest request for input lines, or for lamps.
     [[nodiscard]] gpiohandle_request requested(bool lamps) {
         const std::lock_guard lock(mutex_);
         return lamps ? lamps_request_ : lines_request_;
@@ -87,7 +88,7 @@ public:
 private:
     static std::string listed() {
         const std::string device = "/devices/pci0000:00/usb1/1-1/1-1:1.0/0003:10C4:EA90.0001";
-        // The nodes are files, not umockdev's terminals: libgpiod wants no link there.
+        // The nodes are files, not umockdev's terminals: libgpiod refuses links there.
         return "P: " + device + "/gpiochip2\nN: gpiochip2=00\nE: DEVNAME=/dev/gpiochip2\n" +
                "E: SUBSYSTEM=gpio\nE: MAJOR=254\nE: MINOR=2\nA: dev=254:2\\n\n\n" + "P: " + device +
                "/hidraw/hidraw0\nN: hidraw0=00\nE: DEVNAME=/dev/hidraw0\nE: SUBSYSTEM=hidraw\n\n" +
@@ -156,7 +157,7 @@ private:
 
     std::mutex mutex_;
     int trouble_ = 0;
-    unsigned long trouble_with_ = 0; ///< 0: with each
+    unsigned long trouble_with_ = 0; ///< 0: every request
     std::array<int, line_count> levels_{};
     std::vector<int> lamps_;
     gpiohandle_request lines_request_{}, lamps_request_{};

@@ -1,4 +1,5 @@
-// The buttons' lines through libgpiod, over a chip of the kernel's GPIO interface. Started by umockdev-wrapper.
+// The buttons' lines through libgpiod, over a chip with the kernel's GPIO interface. Started by
+// umockdev-wrapper.
 
 #include "firmware_host/panel/button_lines.h"
 #include "firmware_host/panel/button_panel.h"
@@ -28,7 +29,7 @@ std::vector<std::uint32_t> offsets_of(const gpiohandle_request& request) {
 class GpioLines : public ::testing::Test {
 protected:
     void TearDown() override { EXPECT_EQ(chip.left_open(), 0U); }
-    /// Opening fails with a sentence that has these words, and leaves nothing open.
+    /// Opening fails with a sentence that contains `words`, and leaves no file open.
     void refuses(const LineRequest& request, const std::string& words) {
         chip.expect_opening();
         const auto lines = open_gpio_lines(request);
@@ -185,7 +186,7 @@ TEST_F(GpioLines, APanelOverThemHearsAPressAndFindsThePluggedChipAgain) {
     times.debounce = std::chrono::milliseconds(5);
     ButtonPanel panel([] { return open_gpio_lines(three_buttons()); }, 3, times);
     std::vector<PanelEvent> events;
-    const auto until = [&](const auto& done) { // no time is asserted
+    const auto until = [&](const auto& done) { // asserts no duration
         const auto give_up = monotonic_now() + std::chrono::seconds(60);
         while (!done() && monotonic_now() < give_up) {
             EXPECT_TRUE(panel.poll(monotonic_now(), events));
@@ -195,7 +196,7 @@ TEST_F(GpioLines, APanelOverThemHearsAPressAndFindsThePluggedChipAgain) {
     };
     const auto press = [&](int button) {
         events.clear();
-        return until([&] { // levels are known before they change
+        return until([&] { // levels must be known before they change
             chip.set_levels({0, 0, button == 0, 0, button == 1, 0, button == 2, 0});
             std::this_thread::sleep_for(std::chrono::milliseconds(60));
             chip.set_levels({0, 0, 0, 0, 0, 0, 0, 0});

@@ -1,4 +1,4 @@
-// The panel's way to the kernel's files, which umockdev stands in for: a CP2112's hidraw device, a keyboard's
+// The panel's access to the kernel's files, which umockdev emulates: a CP2112's hidraw device, a keyboard's
 // event device, and their ioctls. Started by umockdev-wrapper.
 
 #include "firmware_host/panel/cp2112.h"
@@ -43,7 +43,7 @@ TEST(Cp2112Files, TheConfigurationIsReadThroughTheHidrawDeviceBesideTheGpioChip)
     EXPECT_TRUE(read_cp2112_configuration("gpiochip1").empty());
     answer.result = 4; // too short
     EXPECT_TRUE(read_cp2112_configuration("gpiochip2").empty());
-    answer = {-EIO, {}}; // unplugged just now
+    answer = {-EIO, {}}; // just unplugged
     EXPECT_TRUE(read_cp2112_configuration("gpiochip2").empty());
 }
 
@@ -56,15 +56,15 @@ TEST(Cp2112Files, AnotherChipIsNotAsked) {
     EXPECT_TRUE(read_cp2112_configuration("gpiochip2").empty());
 }
 
-/// As where this user may not open it.
+/// Equivalent to a file that this user may not open.
 TEST(Cp2112Files, WhereTheHidrawDeviceCannotBeOpenedNothingIsSaid) {
     std::string listed = listed_chip(hid_device);
-    listed.erase(listed.find("N: hidraw0"), std::strlen("N: hidraw0\n")); // there is no such file
+    listed.erase(listed.find("N: hidraw0"), std::strlen("N: hidraw0\n")); // the file is missing
     const PluggedDevices chip(listed);
     EXPECT_TRUE(read_cp2112_configuration("gpiochip2").empty());
 }
 
-/// A keyboard with the keys 105 and 106 that counts who keeps it to himself.
+/// A keyboard with the keys 105 and 106 that counts exclusive grabs.
 class Keyboard {
 public:
     std::atomic<int> grabbed{0};

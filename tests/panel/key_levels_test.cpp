@@ -16,9 +16,9 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// An event as a 64-bit kernel lays it out: 16 bytes of time, u16 type, u16 code, s32 value.
+/// An event in the layout of a 64-bit kernel: 16 bytes of time, u16 type, u16 code, s32 value.
 std::vector<std::byte> event(unsigned type, unsigned code, int value) {
-    std::vector<std::byte> bytes(16, std::byte{0x5a}); // the time is nobody's business
+    std::vector<std::byte> bytes(16, std::byte{0x5a}); // the time is not used
     const auto u = static_cast<unsigned>(value);
     for (const unsigned byte : {type, type >> 8U, code, code >> 8U, u, u >> 8U, u >> 16U, u >> 24U}) {
         bytes.push_back(static_cast<std::byte>(byte));
@@ -48,10 +48,10 @@ TEST_F(KeyLevelsTest, FollowTheKeysThatCount) {
     EXPECT_FALSE(levels.take(event(key, left, 1)));
     EXPECT_TRUE(levels.down(0));
     EXPECT_FALSE(levels.down(1));
-    EXPECT_FALSE(levels.take(event(key, left, 2))); // it repeats
+    EXPECT_FALSE(levels.take(event(key, left, 2))); // key repeat
     EXPECT_TRUE(levels.down(0));
     EXPECT_FALSE(levels.take(event(key, 30, 1))); // another key
-    EXPECT_FALSE(levels.take(event(2, left, 1))); // a movement with the same number
+    EXPECT_FALSE(levels.take(event(2, left, 1))); // a movement with the same code
     EXPECT_FALSE(levels.down(1));
     EXPECT_FALSE(levels.take(event(key, left, 0)));
     EXPECT_FALSE(levels.down(0));
@@ -75,7 +75,7 @@ TEST_F(KeyLevelsTest, DoNotMindWhereAReadCuts) {
 TEST_F(KeyLevelsTest, AreAskedForAnewWhereTheKernelDroppedSome) {
     EXPECT_FALSE(levels.take(event(key, left, 1)));
     EXPECT_TRUE(levels.take(event(syn, dropped, 0)));
-    EXPECT_FALSE(levels.take(event(key, right, 1))); // of the report that is not whole
+    EXPECT_FALSE(levels.take(event(key, right, 1))); // belongs to the incomplete report
     EXPECT_FALSE(levels.down(1));
     EXPECT_FALSE(levels.take(event(syn, report, 0)));
     EXPECT_FALSE(levels.take(event(key, right, 1)));
@@ -85,7 +85,7 @@ TEST_F(KeyLevelsTest, AreAskedForAnewWhereTheKernelDroppedSome) {
     levels.set(bits);
     EXPECT_FALSE(levels.down(0));
     EXPECT_TRUE(levels.down(1));
-    levels.set(std::span(bits).first(13)); // an answer that is too short
+    levels.set(std::span(bits).first(13)); // the answer is too short
     EXPECT_FALSE(levels.down(1));
 }
 
@@ -95,12 +95,12 @@ TEST_F(KeyLevelsTest, AnyBytesAreTaken) {
     for (int k = 0; k < 20'000; ++k) {
         std::vector<std::byte> bytes(random() % 100);
         for (std::byte& byte : bytes) {
-            byte = static_cast<std::byte>(random() % 4); // mostly event types that there are
+            byte = static_cast<std::byte>(random() % 4); // mostly valid event types
         }
         (void)levels.take(bytes);
         taken += bytes.size();
     }
-    // Zeros end the event that was begun, a report what was dropped; then events count as ever.
+    // Zeros complete a partial event, and a report ends the dropped state; then events count normally.
     const std::size_t event_bytes = event(syn, report, 0).size();
     (void)levels.take(std::vector<std::byte>(event_bytes - taken % event_bytes));
     (void)levels.take(event(syn, report, 0));
@@ -135,7 +135,7 @@ TEST(KeyLines, AKeyboardThatIsNotThereIsSaidInOneSentence) {
     EXPECT_EQ(no_keyboard.error().id, "panel.no_event_device") << no_keyboard.error().message;
 }
 
-/// A keyboard that is a pipe: what a test writes is what its kernel sends.
+/// A keyboard backed by a pipe: the test writes the bytes that the kernel would send.
 struct PipeKeyboard {
     std::array<int, 2> ends{-1, -1};
 
@@ -177,7 +177,7 @@ TEST_F(KeyLevelsTest, PressAButtonThroughAPanelAndComeBackAfterTheyWereUnplugged
     };
     for (int plugged = 1; plugged <= 2; ++plugged) {
         ASSERT_TRUE(until([&] { return opened == plugged; }));
-        std::this_thread::sleep_for(milliseconds(20)); // levels are known before they change
+        std::this_thread::sleep_for(milliseconds(20)); // levels must be known before they change
         events.clear();
         keyboard.send(right, 1);
         ASSERT_TRUE(until([&] { return !events.empty(); }));

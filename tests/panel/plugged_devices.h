@@ -1,5 +1,5 @@
-// Devices that the kernel lists in umockdev's words and whose ioctls a test answers; plugged in while this lives. The program is
-// started by umockdev-wrapper.
+// Devices listed in umockdev's format, whose ioctls a test answers; plugged in during the lifetime of
+// PluggedDevices. The program is started by umockdev-wrapper.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,13 +16,13 @@
 
 namespace frustumscreen {
 
-/// What a device answers to one ioctl: its result, or minus an errno, and the bytes.
+/// A device's answer to one ioctl: its result, or minus an errno, and the bytes.
 struct Answer {
     int result = 0;
     std::vector<std::byte> bytes;
 };
 
-/// An ioctl as the kernel gets it.
+/// An ioctl as received by the kernel.
 class Asked {
 public:
     Asked(unsigned long request, UMockdevIoctlData* argument) : request_(request), argument_(argument) {
@@ -30,7 +30,7 @@ public:
     }
     [[nodiscard]] unsigned long request() const { return request_; }
     [[nodiscard]] bool has_argument() const { return value_ != nullptr; }
-    /// The struct that the argument points to.
+    /// The struct referenced by the argument.
     template <typename Struct> [[nodiscard]] Struct argument() const {
         Struct value{};
         UMockdevIoctlData* const bytes =
@@ -67,7 +67,7 @@ public:
     PluggedDevices(const PluggedDevices&) = delete;
     PluggedDevices& operator=(const PluggedDevices&) = delete;
 
-    /// On umockdev's thread.
+    /// `answers` is called on umockdev's thread.
     void answer(const std::string& node, Answers answers) {
         nodes_.push_back({node, std::move(answers), umockdev_ioctl_base_new()});
         g_signal_connect(nodes_.back().handler, "handle-ioctl", G_CALLBACK(&PluggedDevices::handle),
@@ -95,7 +95,7 @@ private:
     }
 
     UMockdevTestbed* testbed_;
-    std::list<Node> nodes_; ///< their addresses are handed out
+    std::list<Node> nodes_; ///< a list, because addresses of its elements are in use
 };
 
 } // namespace frustumscreen

@@ -12,7 +12,7 @@ namespace {
 struct Frame {
     CastView view;
     BlockItems items;
-    CastSamples picture; ///< one sample a pixel, of what the view lights
+    CastSamples picture; ///< one sample per pixel of the lit part
 };
 
 void draw(Frame& frame, const Subject& subject, const BlockRelief& relief, const Settings& settings,
@@ -79,7 +79,7 @@ Errors errors_of(const Frame& frame, const BlockRelief& relief, const TruthPictu
     return errors;
 }
 
-/// Pixels of all poses; the mean of their means.
+/// Sums of pixels over all poses; the mean of their means.
 Errors errors_over(const Subject& subject, const BlockRelief& relief, const Settings& settings,
                    const PropShape& prop, const std::vector<BenchPose>& poses) {
     Errors sum;
@@ -105,7 +105,7 @@ TEST(Cast, ARingIsWhereTheRayCastFindsIt) {
     const std::vector<BenchPose> poses = draw_poses(settings, prop, 8, 5).value();
     struct Size {
         int texels;
-        double wrong_share, mean_mm; ///< three times what is seen, of the pixels missing and too many
+        double wrong_share, mean_mm; ///< limits at three times the measured values; missing and extra pixels
     };
     for (const auto& [texels, wrong_share, mean_mm] :
          {Size{128, 0.004, 0.06}, Size{256, 0.0012, 0.01}, Size{512, 0.0006, 0.002}}) {
@@ -141,7 +141,8 @@ TEST(Cast, BehindALensThatDistortsARingIsWhereTheRayCastFindsIt) {
     }
 }
 
-/// Blocks of a coarse relief, which are large, behind a lens that bends much: each in all of its face's pixels, and in its own alone.
+/// Large blocks of a coarse relief behind a lens with strong distortion: each is listed for all pixels of its
+/// face, and only for those.
 TEST(Cast, BehindALensTheListLeavesNothingOut) {
     const Subject subject;
     const BlockRelief relief = subject.relief(32);
@@ -175,7 +176,7 @@ TEST(Cast, BehindALensTheListLeavesNothingOut) {
     }
 }
 
-/// A block that stands askew in the prop: flat faces and sharp edges, none along the grid.
+/// A block at an angle in the prop: flat faces and sharp edges, none along the grid.
 std::shared_ptr<SourceMesh> askew_block() {
     auto mesh = std::make_shared<SourceMesh>();
     mesh->materials.resize(1);
@@ -203,7 +204,7 @@ TEST(Cast, SharpEdgesAreCutWhereTheyEnd) {
     std::printf("%zu blocks, %zu covers, %d pixels, missing %d, extra %d, far %d, %.5f mm\n",
                 relief.blocks.size(), relief.covers.size(), sum.truth, sum.missing, sum.extra, sum.far,
                 sum.mean_mm);
-    // Two and a half times what is seen. Cells that end in steps miss 150 pixels here, 23,316 are there.
+    // Two and a half times the measured values. Cells that end in steps miss 150 pixels here, of 23,316.
     EXPECT_LT(sum.missing, sum.truth / 800);
     EXPECT_LT(sum.extra, sum.truth / 200);
     EXPECT_LT(sum.far, sum.truth / 1000);
@@ -235,7 +236,7 @@ TEST(Cast, ASoupWithTrianglesTurnedAtRandomHasNoHoles) {
         missing += one.missing;
     }
     std::printf("%d pixels, missing %d\n", truth_pixels, missing);
-    EXPECT_LT(missing, truth_pixels / 800); // as the same block in order
+    EXPECT_LT(missing, truth_pixels / 800); // as for the block with consistent winding
 }
 
 TEST(Cast, EveryInstructionSetMakesTheSamePicture) {

@@ -26,7 +26,7 @@ TEST(FrameWorkers, DoEachPieceOnce) {
         for (const int count : {0, 1, 2, 1000}) {
             std::vector<int> done(static_cast<std::size_t>(count), 0);
             std::vector<int> of_thread(static_cast<std::size_t>(threads),
-                                       0); // two that shared a number would race
+                                       0); // shared numbers would race
             workers.share(count, [&](int k, int thread) {
                 ++done[static_cast<std::size_t>(k)];
                 ++of_thread.at(static_cast<std::size_t>(thread));
@@ -38,11 +38,11 @@ TEST(FrameWorkers, DoEachPieceOnce) {
     }
 }
 
-/// A signal that asks the exhibit to stop would end it at once in a thread that does not block it.
+/// A stop signal for the exhibit would end it at once in a thread that does not block the signal.
 TEST(FrameWorkers, LeaveTheStopSignalsToTheCaller) {
     constexpr int threads = 3;
     FrameWorkers workers(threads);
-    std::barrier all(threads); // so that each thread takes one piece
+    std::barrier all(threads); // makes each thread take one piece
     const std::thread::id caller = std::this_thread::get_id();
     std::vector<int> leaves(threads, 0);
     workers.share(threads, [&](int k, int) {

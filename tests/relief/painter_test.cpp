@@ -76,7 +76,7 @@ TEST(Painter, PaintsWhatIsCastAndNothingOutsideItsRectangles) {
     }
 }
 
-/// The first pose's blocks, cast with any number of samples.
+/// The first pose's blocks, rasterized with any number of samples.
 struct PoseCast {
     Painting painting;
     SampleLight light;
@@ -106,8 +106,9 @@ TEST(Painter, TheProcessorsInstructionsDoNotChangeACode) {
     }
 }
 
-/// A sample at a time, by colour_at and in linear light: where a pixel's samples show one cell, their mean code is within the range of
-/// theirs; where they show several blocks, or not all show something, it is their mean light.
+/// Reference per sample, with colour_at and in linear light: if all samples of a pixel show one cell, their
+/// mean code is within the range of theirs; if they show several blocks, or some show nothing, the result is
+/// their mean light.
 TEST(Painter, APixelIsTheMeanOfWhatItsSamplesShow) {
     PoseCast pose;
     const auto& [painting, light, items, samples, view] = pose;
@@ -172,7 +173,8 @@ TEST(Painter, OneThreadOrFivePaintTheSame) {
     }
 }
 
-/// More threads than bands: which of them paints one is chance, and some paint their first in a later picture.
+/// More threads than bands: the assignment is random, and some threads paint their first band in a later
+/// picture.
 TEST(Painter, AfterOnePictureTheSameAllocatesNothingWhoeverPaintsIt) {
     if (!synthetic::allocations_are_counted) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
@@ -216,7 +218,7 @@ TEST(Painter, HitPointsAreTheRayCastsOwn) {
     }
 }
 
-/// Against 16 rays a pixel, over the artifact and the pixels around it; codes.
+/// Error in codes against 16 rays per pixel, over the artifact and the pixels around it.
 double rmse(const Image8& picture, const TruthPicture& truth) {
     double sum = 0.0;
     int count = 0;

@@ -1,4 +1,4 @@
-/// What the relief's tests draw: a ring, as a relief and as the truth.
+/// Subject of the relief's tests: a ring, as a relief and as the truth.
 ///
 /// Threads  values; any.
 #pragma once
@@ -20,7 +20,7 @@ inline const std::vector<ReliefDirection> frustum_directions = {
     ReliefDirection::PlusX, ReliefDirection::MinusX, ReliefDirection::PlusY, ReliefDirection::MinusY,
     ReliefDirection::PlusZ};
 
-/// A mesh that stands in the prop's frame, as a relief and as the truth.
+/// A mesh in the prop frame, as a relief and as the truth.
 struct Subject {
     std::shared_ptr<SourceMesh> mesh = ring();
     BoxFrame frame = make_box_frame(*mesh, {}).value();
@@ -31,7 +31,7 @@ struct Subject {
     [[nodiscard]] BlockRelief relief(int texels) const {
         return bake_blocks({surface, frame.box_size, frustum_directions, texels});
     }
-    /// What an eye sees of it.
+    /// Sets up the view of an eye.
     void show(CastView& view, const Settings& settings, const PropShape& prop, const BenchPose& pose) const {
         const TruthView from = view_of(settings, pose);
         set_up(view, prop,

@@ -1,4 +1,4 @@
-// A frame after the first ones allocates nothing of ours. The driver's own malloc is its business.
+// After the first frames, a frame makes no allocations in our code. The driver's own malloc does not count.
 
 #include "tests/render/counted_new.h"
 #include "tests/render/rig.h"
@@ -20,7 +20,7 @@ TEST(Frame, AllocatesNothing) {
             const long before = allocations_so_far();
             plan_frame(stage.prop, rig.level, stage.view(LightCompensation{}), rig.plan);
             counted += allocations_so_far() - before;
-            // llvmpipe compiles shaders in its first frames, in C++ of LLVM.
+            // In its first frames llvmpipe compiles shaders, with LLVM's C++ allocations.
             const long before_draw = allocations_so_far();
             rig.draw();
             counted += k < 20 ? 0 : allocations_so_far() - before_draw;

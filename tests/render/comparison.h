@@ -1,4 +1,4 @@
-/// Compares the places that the renderer drew with those of a ray cast.
+/// Compares the hit points drawn by the renderer with those of a ray cast.
 #pragma once
 
 #include "app/image/image.h"
@@ -17,22 +17,23 @@ namespace frustumscreen::synthetic {
 struct Comparison {
     std::size_t both = 0;
     std::size_t mismatched = 0; ///< hit in only one of the two
-    std::size_t unexcused = 0;  ///< of them, far from any outline
-    /// Over pixels hit in both whose neighbourhood is smooth: the distance between the two places, minus what
-    /// the true one moves within a step of the rasterizer's grid.
+    std::size_t unexcused = 0;  ///< of these, far from any outline
+    /// Over pixels hit in both whose neighbourhood is smooth: the distance between the two points, minus the
+    /// true point's movement within a step of the rasterizer's grid.
     double worst_mm = 0.0;
 };
 
-/// The length of such a step, pixels: a GPU moves each vertex, with what it carries, to the nearest point of
-/// that grid (NVIDIA's does; OpenGL ES 3.1, 2.5.9 and 13.2). Mesa's llvmpipe moves only outlines, so nothing
-/// is excused there.
+/// The length of such a step, in pixels: a GPU snaps each vertex, with its attributes, to the nearest point
+/// of that grid (NVIDIA's does; OpenGL ES 3.1, 2.5.9 and 13.2). Mesa's llvmpipe snaps only outlines, so it
+/// gets no tolerance here.
 inline double grid_step_px() {
     GLint bits = 4;
     glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
     return draws_on_processor(gl_driver_name()) ? 0.0 : std::ldexp(1.0, -bits);
 }
 
-/// How far the true place moves when the pixel's centre moves by `step_px`: the most of eight directions.
+/// How far the true point moves when the pixel's centre moves by `step_px`: the maximum over eight
+/// directions.
 template <typename Cast>
 double moves_mm(const Cast& cast, const Stage& stage, const glm::dvec2& centre,
                 const ReferenceCast::Hit& truth, double step_px) {
@@ -48,7 +49,7 @@ double moves_mm(const Cast& cast, const Stage& stage, const glm::dvec2& centre,
     return most;
 }
 
-/// A pixel is excused where rays a hair's breadth away disagree too: the rasterizer rounds to 1/256 pixel.
+/// A pixel is excused if rays close to it disagree too: the rasterizer rounds to 1/256 pixel.
 template <typename Cast>
 bool grazes(const Cast& cast, const Stage& stage, const glm::dvec2& centre, const ReferenceCast::Hit& truth) {
     constexpr double hair = 1.0 / 64.0;

@@ -1,4 +1,5 @@
-/// Counts the C++ allocations of the calling thread; not under the sanitizers, which bring their own.
+/// Counts the C++ allocations of the calling thread; not under the sanitizers, which replace `new`
+/// themselves.
 #pragma once
 
 namespace frustumscreen::synthetic {

@@ -1,4 +1,4 @@
-// A cube in the hand: six faces, lifted and turned in any way.
+// A cube in the hand: six faces, lifted, in any orientation.
 
 #include "tests/render/comparison.h"
 #include "tests/render/rig.h"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double edge_m = 0.12;
 
-/// Turned in any way about its middle, which is held over the table; the eye anywhere above.
+/// Random orientation about its middle, which is held over the table; the eye anywhere above.
 void hold(Stage& stage, std::mt19937& random) {
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> u(-1.0, 1.0);

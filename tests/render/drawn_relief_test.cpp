@@ -1,4 +1,5 @@
-// A relief that the GPU draws: against rays that meet its own cells and their covers, and against the cast of the same blocks.
+// A relief drawn by the GPU, against rays that meet its cells and their covers, and against the rasterizer's
+// picture of the same blocks.
 
 #include "app/render/block_upload.h"
 #include "assets_baked/bake/relief_scene.h"
@@ -9,7 +10,7 @@
 namespace frustumscreen::synthetic {
 namespace {
 
-/// What a pixel's ray meets of a relief, in the prop's frame; NaN: nothing.
+/// The point of a relief that a pixel's ray meets, in the prop frame; NaN: none.
 glm::dvec3 met_by_ray(const ReliefScene& scene, const Stage& stage, double metres_per_box,
                       const glm::dvec2& pixel) {
     const RigidTransform prop_from_projector = stage.table_from_prop.inverse() * stage.table_from_projector;
@@ -108,7 +109,8 @@ TEST(DrawnRelief, IsThePictureThatTheCastMakes) {
             ASSERT_GT(lit, 2000U);
             EXPECT_LE(alone, lit / 200);
             EXPECT_LE(off,
-                      samples == 1 ? lit / 100 : lit / 15); // the cast's samples lie elsewhere in a pixel
+                      samples == 1 ? lit / 100 : lit / 15); // the rasterizer's samples are at other places in
+                                                            // a pixel
             EXPECT_LE(far, lit / 50);
         }
     }

@@ -1,4 +1,4 @@
-// Edges that two faces of the prop share: the light changes there by degrees.
+// Edges shared by two faces of the prop: the light changes gradually there.
 
 #include "tests/render/rig.h"
 
@@ -27,7 +27,7 @@ protected:
         rig.draw(Redraw::Everything);
         return rig.picture();
     }
-    /// Where an edge of the top lies in the picture: both faces beside it show the artifact.
+    /// An edge of the top in the picture; both adjacent faces show the artifact.
     [[nodiscard]] std::array<glm::dvec2, 2> front_edge_of_top() const {
         const RigidTransform projector_from_prop =
             stage.table_from_projector.inverse() * stage.table_from_prop;
@@ -40,7 +40,7 @@ protected:
         }
         return ends;
     }
-    /// The largest change of a pixel near that edge while the prop moves across it by small steps.
+    /// The largest change of a pixel near that edge while the edge moves across it in small steps.
     int most_change(bool feathered) {
         int most = 0;
         stage.table_from_prop.translation = {0.0, 0.0, 0.0};
@@ -49,7 +49,7 @@ protected:
             stage.table_from_prop.translation.y = k * step_m;
             const Image8 now = draw(feathered);
             const auto [a, b] = front_edge_of_top();
-            const int x = static_cast<int>(0.5 * (a.x + b.x)); // the artifact's middle
+            const int x = static_cast<int>(0.5 * (a.x + b.x)); // middle of the artifact
             for (int y = static_cast<int>(a.y) - 4; y <= static_cast<int>(a.y) + 4; ++y) {
                 most = std::max(most, std::abs(int{now.at(x, y).g} - int{before.at(x, y).g}));
             }
@@ -96,7 +96,7 @@ TEST_F(EdgeFeather, TheStripsCloseTheGapBetweenTheGains) {
             const glm::vec4& clip = feather.corners_clip.at(end);
             const glm::dvec2 pixel = (glm::dvec2(clip) * 0.5 + 0.5) * glm::dvec2(320, 200);
             const double share = end == 0 ? feather.share.x : feather.share.y;
-            double nearest = 1e9; // to the gain of some neighbour
+            double nearest = 1e9; // to the gain of the closest neighbour
             for (const FacePlan& other : rig.plan.faces) {
                 if (&other != &own) {
                     nearest = std::min(nearest, std::abs(share * gain(own.light, stage.projector, pixel) -

@@ -1,4 +1,4 @@
-// A fade from one level to another: every pixel belongs to exactly one of the two pictures.
+// A fade between two levels: every pixel belongs to exactly one of the two pictures.
 
 #include "tests/render/counted_new.h"
 #include "tests/render/reference_cast.h"
@@ -11,8 +11,8 @@
 namespace frustumscreen::synthetic {
 namespace {
 
-/// Two levels of one artifact: the points of the coarse one are points of the fine one, so the box is the
-/// same.
+/// Two levels of one artifact: the points of the coarse one are points of the fine one, so the boxes are
+/// equal.
 struct FadeRig : Rig {
     Pack coarse_pack = rings(12, 4);
     PlacedLevel coarse;
@@ -31,7 +31,7 @@ struct FadeRig : Rig {
         draw();
         return picture();
     }
-    /// From the fine level to the coarse one.
+    /// Fades from the fine level to the coarse one.
     Image8 fading(const Stage& stage, double share) {
         plan_frame(prop, fade(level, coarse, share), stage.view(LightCompensation{}), plan);
         EXPECT_TRUE(draw().drawn);
@@ -39,7 +39,8 @@ struct FadeRig : Rig {
     }
 };
 
-/// Two samples a pixel are averaged by a bilinear fetch whose weights the driver rounds: one code either way.
+/// Two samples per pixel are averaged by a bilinear fetch whose weights the driver rounds: tolerance of one
+/// code.
 bool same(const glm::u8vec4& a, const glm::u8vec4& b, int samples) {
     const glm::ivec3 difference = glm::abs(glm::ivec3(a) - glm::ivec3(b));
     return std::max({difference.r, difference.g, difference.b}) <= (samples == 2 ? 1 : 0);
@@ -92,13 +93,13 @@ TEST_P(Fading, IsLeftOutByARendererThatWasMadeWithoutItsShader) {
     const Stage stage(320, 200);
     EXPECT_GT(lit_pixels(rig.one(stage, rig.level)), 1000U);
     EXPECT_EQ(lit_pixels(rig.fading(stage, 0.5)), 0U);
-    EXPECT_EQ(rig.renderer->shaders(), shaders_of(needs(GetParam()))); // none was made for it
+    EXPECT_EQ(rig.renderer->shaders(), shaders_of(needs(GetParam()))); // no shader was compiled for the fade
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, Fading, ::testing::Values(1, 2, 4, 8));
 
-/// Bayer's matrix by its own definition: four copies of the one of half the size, each of four times the
-/// rank.
+/// Bayer's matrix by its recursive definition: four copies of the matrix of half the size, with ranks
+/// multiplied by four.
 int bayer_rank(int x, int y, int size) {
     if (size == 1) {
         return 0;
@@ -126,7 +127,7 @@ TEST(Fading, PlacesAreThoseOfARayCastOfTheLevelThatHasThePixel) {
             const glm::dvec2 centre(x + 0.5, y + 0.5);
             const ReferenceCast::Hit own = (arrived ? coarse : fine).through_pixel(stage, centre);
             const ReferenceCast::Hit other = (arrived ? fine : coarse).through_pixel(stage, centre);
-            // Only where the levels lie apart does the place tell which of them was drawn.
+            // The point identifies the drawn level only where the levels are apart.
             if (!own.found || !other.found || glm::distance(own.point, other.point) < 1e-3 ||
                 std::isnan(drawn.at(x, y).x)) {
                 continue;

@@ -1,5 +1,5 @@
-// The picture behind a projector's lens that distorts, against rays that go through each pixel: the shaders bend what they draw,
-// the rays are bent back by Newton's method in 64 bits.
+// The picture behind a projector lens with distortion, against rays through each pixel: the shaders bend what
+// they draw, the rays are unbent by Newton's method in 64 bits.
 
 #include "tests/render/comparison.h"
 #include "tests/render/mass.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<Lens, 4> lenses{Lens{0.1, 0.0}, Lens{-0.1, 0.0}, Lens{-0.12, 0.04}, Lens{0.3, -0.2}};
 
-/// A wide lens: the picture's corner lies at 0.42 focal lengths, where k1 = 0.1 moves a pixel by 2.
+/// A wide lens: the picture's corner is at 0.42 focal lengths, where k1 = 0.1 moves a pixel by 2.
 Stage wide(const Lens& lens) {
     Stage stage(256, 160);
     stage.projector.fx = stage.projector.fy = 360.0;
@@ -23,8 +23,9 @@ Stage wide(const Lens& lens) {
     return stage;
 }
 
-/// Between its corners a triangle's edge is straight where the lens bends it: 5 pixels long, it lies k1 (5 / f)^2 f 6 r / 8, less
-/// than a hundredth of a pixel of 1.4 mm, beside its place, and a surface seen at a grazing angle shows that ten times as large.
+/// A triangle's edge stays straight between its corners although the lens bends it: at 5 pixels length it is
+/// off by k1 (5 / f)^2 f 6 r / 8, less than a hundredth of a pixel of 1.4 mm; a surface seen at a grazing
+/// angle magnifies that ten times.
 TEST(BentPicture, HitPointsAreThoseOfARayCastThroughTheLens) {
     std::mt19937 random(17);
     for (const Lens& lens : lenses) {
@@ -43,8 +44,8 @@ TEST(BentPicture, HitPointsAreThoseOfARayCastThroughTheLens) {
     }
 }
 
-/// Samples at outlines fall to either side, so that one picture's centre of mass is known to .05 pixel only; the mean of three
-/// would show a shift.
+/// Samples at outlines fall to either side, so one picture's centre of mass is known only to 0.05 pixel; the
+/// mean of three would reveal a shift.
 TEST(BentPicture, LiesWithinATwentiethOfAPixelOfARayCast) {
     constexpr std::array<glm::dvec2, 3> places{glm::dvec2(0.07, 0.03), {-0.07, -0.03}, {0.06, -0.04}};
     for (const Lens& lens : std::span(lenses).first(2)) {
@@ -65,7 +66,7 @@ TEST(BentPicture, LiesWithinATwentiethOfAPixelOfARayCast) {
             EXPECT_NEAR(shown.light, truth.light, 0.01 * truth.light) << lens.k1;
             EXPECT_LT(glm::distance(shown.centre(), truth.centre()), 0.1) << lens.k1;
             beside += (shown.centre() - truth.centre()) / 3.0;
-            // The test sees a lens: without it the picture lies elsewhere.
+            // Check of the test itself: without the lens the picture is displaced.
             stage.projector.lens = {};
             EXPECT_GT(glm::distance(cast_mass(cast, stage).centre(), truth.centre()), 0.2) << lens.k1;
         }
@@ -94,8 +95,8 @@ TEST(BentPicture, CullingTakesNothingAway) {
     }
 }
 
-/// What a pixel's light is worth on a surface square to it at 1 m, beside one of the ideal lens: it fills the solid angle
-/// between its corners' rays.
+/// Light of a pixel on a surface square to it at 1 m, relative to a pixel of the ideal lens: it fills the
+/// solid angle between its corners' rays.
 double light_of_pixel(const Pinhole& pinhole, int x, int y) {
     const auto ray = [&](double u, double v) { return glm::dvec2(pinhole.ray({u, v})); };
     const glm::dvec2 across = ray(x + 1.0, y + 0.5) - ray(x, y + 0.5);
@@ -109,9 +110,9 @@ TEST(BentPicture, AWhiteArtifactSendsBackTheSameFromEveryPlace) {
         rig.pack.textures[0] = Image8(8, 8, {255, 255, 255, 255});
         rig.upload_again();
         Stage stage = wide(lens);
-        stage.prop = make_frustum({0.2, 0.06, 0.08}); // the light grazes no face
+        stage.prop = make_frustum({0.2, 0.06, 0.08}); // no grazing light on any face
         stage.eye_m = {0.0, -0.45, 0.5};
-        constexpr double aim = 0.5; // of the light at 1 m; the lens is half a metre above the table
+        constexpr double aim = 0.5; // relative to the light at 1 m; the lens is half a metre above the table
         plan_frame(stage.prop, rig.level, stage.view(LightCompensation{aim}), rig.plan);
         rig.plan.feathers.clear();
         rig.draw(Redraw::Everything);
@@ -138,7 +139,7 @@ TEST(BentPicture, AWhiteArtifactSendsBackTheSameFromEveryPlace) {
                 most = std::max(most, light);
             }
         }
-        // One code either way at the darkest, about 80, is a factor of 1.03.
+        // A tolerance of one code at the darkest, about 80, is a factor of 1.03.
         EXPECT_LT(most, 1.04 * least) << lens.k1;
         EXPECT_NEAR(least, aim, 0.04 * aim) << lens.k1;
     }

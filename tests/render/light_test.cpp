@@ -1,4 +1,4 @@
-// The compensation of the projector's fall-off in the drawn picture.
+// The compensation of the projector's light fall-off in the drawn picture.
 
 #include "tests/render/rig.h"
 
@@ -13,7 +13,7 @@ double linear(int code) {
     return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
-/// What a white artifact sends back to the visitor's eye at each lit pixel: picture times cos / d^2.
+/// Light that a white artifact reflects to the visitor's eye at each lit pixel: picture times cos / d^2.
 struct SentBack {
     double least = 1e9;
     double most = 0.0;
@@ -47,18 +47,18 @@ SentBack sent_back(const Stage& stage, const Image8& picture) {
     return result;
 }
 
-constexpr double aim = 0.2; ///< every face gets at least this
+constexpr double aim = 0.2; ///< light that every face gets at least
 
 class Light : public ::testing::Test {
 protected:
     Light() : rig(320, 200), stage(320, 200) {
         rig.pack.textures[0] = Image8(8, 8, {255, 255, 255, 255});
         rig.upload_again();
-        stage.prop = make_frustum({0.2, 0.06, 0.08}); // the light grazes no face
+        stage.prop = make_frustum({0.2, 0.06, 0.08}); // no grazing light on any face
     }
     SentBack draw(std::optional<LightCompensation> light) {
         plan_frame(stage.prop, rig.level, stage.view(light), rig.plan);
-        rig.plan.feathers.clear(); // at the edges the light is uneven on purpose
+        rig.plan.feathers.clear(); // light at the edges is uneven on purpose
         rig.draw(Redraw::Everything);
         return sent_back(stage, rig.picture());
     }
@@ -73,13 +73,13 @@ TEST_F(Light, AWhiteArtifactSendsBackTheSameFromEveryFace) {
     EXPECT_GT(plain.most, 1.8 * plain.least) << "the light is uneven without compensation";
     EXPECT_EQ(plain.brightest_code, 255);
     const SentBack even = draw(LightCompensation{aim});
-    // One code either way at the darkest, about 105, is a factor of 1.02.
+    // A tolerance of one code at the darkest, about 105, is a factor of 1.02.
     EXPECT_LT(even.most, 1.03 * even.least);
     EXPECT_LE(even.brightest_code, 255);
     EXPECT_NEAR(even.least, aim, 0.03 * aim);
 }
 
-/// The face at a pixel's middle; -1 at an edge, where the rasterizer's grid decides.
+/// The face at a pixel's centre; -1 at an edge, where the rasterizer's grid decides.
 int face_at(const Stage& stage, int x, int y) {
     const RigidTransform prop_from_projector = stage.table_from_prop.inverse() * stage.table_from_projector;
     constexpr double hair = 1.0 / 64.0;
@@ -100,10 +100,10 @@ int face_at(const Stage& stage, int x, int y) {
 struct Gains {
     std::size_t pixels = 0, clamped = 0;
     double least = 1.0;
-    double worst_code = 0.0; ///< how far the picture lies beside the exact gain
+    double worst_code = 0.0; ///< largest deviation from the exact gain
 };
 
-/// Holds a drawn picture of a white artifact against the exact gain and sRGB's own curve.
+/// Compares a drawn picture of a white artifact with the exact gain and sRGB's own curve.
 void compare_gains(const Stage& stage, const FramePlan& plan, const Image8& picture, Gains& gains) {
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
@@ -130,7 +130,7 @@ TEST_F(Light, EveryPixelHasTheCodeOfTheExactGain) {
     for (int pose = 0; pose < 60; ++pose) {
         stage.prop = pose % 2 == 0 ? make_frustum({}) : make_cube(0.1);
         stage.shuffle(random);
-        if (pose % 2 == 1) { // in the hand, as near to the lens as it may come
+        if (pose % 2 == 1) { // in the hand, as close to the lens as allowed
             stage.table_from_prop = {glm::normalize(glm::dquat(u(random), u(random), u(random), u(random))),
                                      {0.05 * u(random), 0.03 * u(random), 0.2 + 0.2 * u(random)}};
         }
@@ -144,12 +144,12 @@ TEST_F(Light, EveryPixelHasTheCodeOfTheExactGain) {
     EXPECT_GT(gains.clamped, 1'000U);
     EXPECT_LT(gains.clamped, gains.pixels / 2);
     EXPECT_LT(gains.least, 0.05);
-    // Half a code is the picture's own rounding. A face that shows has a sine of light of 0.12, so that its depth
-    // cancels to an eighth: ten roundings of 2^-24 are 5e-6 of a gain, a thousandth of a code.
+    // Half a code is the picture's own rounding. A visible face has a light sine of at least 0.12, so its
+    // depth cancels to an eighth: ten roundings of 2^-24 are 5e-6 of a gain, a thousandth of a code.
     EXPECT_LT(gains.worst_code, 0.5 + 0.002);
 }
 
-/// Dim artifacts are shown brighter than their codes, up to eight times.
+/// Dim artifacts are shown brighter than their codes, by up to a factor of eight.
 TEST_F(Light, EveryCodeHasTheCodeOfItsShownLight) {
     stage.eye_m = {0.0, -0.45, 0.5};
     for (const int code : {1, 3, 6, 10, 12, 40, 120, 250}) {
@@ -168,7 +168,8 @@ TEST_F(Light, EveryCodeHasTheCodeOfItsShownLight) {
                 lit += texel.g != 0 ? 1U : 0U;
                 off = std::max(off, texel.g != 0 ? std::abs(texel.g - shown) : 0.0);
             }
-            // The rest is rounding; where only one of both codes is on the curve's straight piece, the shader is off by that.
+            // The rest is rounding; if only one of the two codes is on the curve's linear piece, the shader
+            // has this additional error.
             const double crossing = (code <= 10) == (shown <= 10.5) ? 0.1 : (brightness > 4.0 ? 3.9 : 1.9);
             EXPECT_LE(off, 0.51 + crossing) << code << " x " << brightness;
             EXPECT_TRUE(lit > 1000 || shown < 0.6) << code << " x " << brightness;

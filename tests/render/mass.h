@@ -1,4 +1,4 @@
-/// Where the light of a white artifact lies in a picture; and a plan that culls nothing.
+/// Centre of a white artifact's light in a picture; and a plan without culling.
 #pragma once
 
 #include "app/image/image.h"
@@ -16,7 +16,7 @@ struct Mass {
     [[nodiscard]] glm::dvec2 centre() const { return moment / light; }
 };
 
-/// 16 rays a pixel, 4 x 4, each found one weighed by `weight` of its pixel.
+/// 16 rays per pixel, 4 x 4; each hit is weighted by `weight` of its position.
 template <typename Weight> Mass cast_mass(const ReferenceCast& cast, const Stage& stage, Weight weight) {
     Mass mass;
     for (int y = 0; y < stage.projector.height; ++y) {
@@ -44,7 +44,7 @@ inline Mass shown_mass(const Image8& picture) {
     return mass;
 }
 
-/// Every face draws the whole level, over its whole part of the picture.
+/// Makes every face draw the whole level, over the whole picture.
 inline void draw_everything(FramePlan& plan, const std::vector<std::uint32_t>& all) {
     const PixelRectangle picture{0, 0, plan.projector.width, plan.projector.height};
     plan.indices = all;

@@ -1,4 +1,4 @@
-// Several parts in one prop: the nearest shows.
+// Several parts in one prop: the nearest is visible.
 
 #include "tests/render/comparison.h"
 #include "tests/render/counted_new.h"
@@ -7,7 +7,7 @@
 namespace frustumscreen::synthetic {
 namespace {
 
-/// Two artifacts of different sizes, one in the other.
+/// Two artifacts of different sizes, one inside the other.
 struct NestedRig : Rig {
     Pack inner_pack = rings(16, 8);
     PlacedLevel inner;
@@ -20,7 +20,7 @@ struct NestedRig : Rig {
     [[nodiscard]] std::array<Part, 2> parts() const { return {Part{level, {}}, Part{inner, {}}}; }
 };
 
-/// The first hit of either.
+/// The first hit of either artifact.
 struct NestedCast {
     ReferenceCast outer, inner;
 

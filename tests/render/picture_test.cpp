@@ -33,11 +33,11 @@ TEST(Picture, HoldsForExtremeEyesAndProjectors) {
     far.eye_m = {3.0, -40.0, 20.0};
     Stage close(256, 160);
     close.eye_m = {0.02, -0.13, 0.20};
-    Stage shifted(256, 160); // lens shift, other focal lengths, the prop partly off the picture
+    Stage shifted(256, 160); // lens shift, different focal lengths, the prop partly outside the picture
     shifted.projector.cx = 60.0;
     shifted.projector.fy *= 1.3;
     shifted.table_from_prop.translation = {-0.05, 0.03, 0.0};
-    Stage oblique(256, 160); // the projector leans over from the visitor's side
+    Stage oblique(256, 160); // the projector tilts over from the visitor's side
     const double lean = 0.6;
     oblique.table_from_projector.rotation =
         glm::angleAxis(lean, glm::dvec3(1, 0, 0)) * oblique.table_from_projector.rotation;
@@ -130,8 +130,8 @@ TEST(Picture, SmoothOutlinesLeaveTheInsideAsItIs) {
     std::size_t between = 0;
     for (std::size_t k = 0; k < one.texels.size(); ++k) {
         if (one.texels[k].g > 0) {
-            // Red and green run smoothly over the surface; blue is checked, finer than a pixel on steep
-            // faces.
+            // Red and green vary smoothly over the surface; blue is a checkerboard, finer than a pixel on
+            // steep faces.
             same += glm::distance(glm::vec2(one.texels[k]), glm::vec2(four.texels[k])) < 12.0F ? 1U : 0U;
             between += four.texels[k].g > 0 && four.texels[k].g + 20 < one.texels[k].g ? 1U : 0U;
         }

@@ -1,4 +1,4 @@
-// The reserved code of every presented picture, and what a picture at rest costs.
+// The reserved code of every presented picture, and the cost of a picture at rest.
 
 #include "app/render/probe.h"
 #include "tests/render/rig.h"
@@ -84,11 +84,11 @@ TEST(Rest, OfTwoBuffersTheOneThatLacksThePictureGetsIt) {
     stage.table_from_prop.translation.x = 0.01;
     plan_frame(stage.prop, rig.level, stage.view(), rig.plan);
     draw(0, Redraw::Changes);
-    EXPECT_FALSE(draw(2, Redraw::Again).redrawn.empty()); // still holds the first picture
+    EXPECT_FALSE(draw(2, Redraw::Again).redrawn.empty()); // this buffer still holds the first picture
     EXPECT_TRUE(draw(2, Redraw::Again).redrawn.empty());
 }
 
-/// Counts pixels: all others are filled with a grey that nothing draws, and must still have it.
+/// Counts pixels: all others are filled with a grey that is never drawn, and must keep it.
 TEST(Rest, AMovedPropRedrawsItsOwnRectangleAlone) {
     Rig rig(640, 400);
     Stage stage(640, 400, false);

@@ -1,4 +1,4 @@
-// Only what changes is drawn again.
+// Redraws only changed parts.
 
 #include "tests/render/rig.h"
 
@@ -67,7 +67,7 @@ TEST_P(Redrawing, NothingIsLeftOfAnArtifactThatIsPutAway) {
 INSTANTIATE_TEST_SUITE_P(Samples, Redrawing, ::testing::Values(1, 2, 4));
 
 TEST(Redrawing, OlderBuffersGetWhatTheyMissed) {
-    // Two buffers in turn, as a page-flipping display has: each holds the picture before the last.
+    // Two alternating buffers, as in a page-flipping display: each holds the picture before the last.
     Rig rig(320, 200);
     Stage stage(320, 200, false);
     PixelRectangle before_last;

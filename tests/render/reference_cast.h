@@ -1,4 +1,4 @@
-/// Plain ray casting of a level in 64-bit, all triangles for every ray: what the renderer must agree with.
+/// Plain ray casting of a level in 64-bit, all triangles for every ray: the reference for the renderer.
 #pragma once
 
 #include "tests/render/synthetic_pack.h"
@@ -23,10 +23,10 @@ public:
     struct Hit {
         bool found = false;
         glm::dvec3 point{0.0};
-        double edge = 1.0; ///< least barycentric coordinate of the hit
+        double edge = 1.0; ///< smallest barycentric coordinate of the hit
     };
 
-    /// Möller and Trumbore 1997.
+    /// Method: Möller and Trumbore 1997.
     [[nodiscard]] Hit first_hit(const glm::dvec3& origin, const glm::dvec3& direction) const {
         Hit hit;
         double nearest = std::numeric_limits<double>::infinity();
@@ -52,7 +52,7 @@ public:
         return hit;
     }
 
-    /// What `pixel` shows, in the prop frame.
+    /// The hit shown by `pixel`, in the prop frame.
     [[nodiscard]] Hit through_pixel(const Stage& stage, const glm::dvec2& pixel) const {
         const RigidTransform prop_from_projector =
             stage.table_from_prop.inverse() * stage.table_from_projector;

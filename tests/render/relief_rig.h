@@ -1,4 +1,5 @@
-/// A pack with its relief, cast and drawn by the GPU, under projectors with and without a lens that distorts.
+/// A pack with its relief, rasterized and drawn by the GPU, under projectors with and without lens
+/// distortion.
 #pragma once
 
 #include "tests/render/rig.h"
@@ -12,7 +13,7 @@ namespace frustumscreen::synthetic {
 
 inline constexpr std::array<Lens, 4> lenses{Lens{}, Lens{0.1, 0.0}, Lens{-0.12, 0.04}, Lens{0.3, -0.2}};
 
-/// Where its lens distorts, it is a wide one: 0.3 and -0.2 move the picture's corner by 3 pixels.
+/// A lens with distortion is a wide one: 0.3 and -0.2 move the picture's corner by 3 pixels.
 inline Stage stage_of(const Lens& lens) {
     Stage stage(320, 200);
     if (!lens.is_plain()) {
@@ -36,7 +37,7 @@ inline RenderNeeds needs_with_reliefs(int samples, const Pinhole& projector) {
 
 struct ReliefRig : Rig {
     std::shared_ptr<const BlockRelief> relief;
-    PlacedLevel cast, drawn; ///< the same relief: on the processor, by the GPU
+    PlacedLevel cast, drawn; ///< one relief: rasterized on the processor, and drawn by the GPU
 
     explicit ReliefRig(int samples, int texels = 256, const Pack& shown = rings(), const Lens& lens = {})
         : Rig(320, 200, samples, shown, if_it_bends(stage_of(lens).projector)) {

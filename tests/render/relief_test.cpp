@@ -1,5 +1,5 @@
-// A relief in the picture, cast or drawn by the GPU: where the ray cast has the artifact, in the colours of its mesh, beside meshes in a
-// fade.
+// A relief in the picture, rasterized or drawn by the GPU: at the positions of the ray cast, in the colours
+// of its mesh, together with meshes in a fade.
 
 #include "tests/render/counted_new.h"
 #include "tests/render/mass.h"
@@ -13,7 +13,7 @@
 namespace frustumscreen::synthetic {
 namespace {
 
-/// Through each pixel's centre, row by row.
+/// Hits through each pixel's centre, row by row.
 std::vector<ReferenceCast::Hit> hits_of(const ReferenceCast& truth, const Stage& stage) {
     std::vector<ReferenceCast::Hit> hits;
     for (int y = 0; y < stage.projector.height; ++y) {
@@ -54,13 +54,14 @@ TEST(Relief, ShowsEachPlaceWhereTheRayCastFindsIt) {
                 ASSERT_GT(both, 400U);
                 EXPECT_LT(one, both / 50) << which.on_gpu;
                 EXPECT_LT(mm / static_cast<double>(both), 0.1)
-                    << which.on_gpu; // one pixel of 750 that sees past an edge makes .06 of it
+                    << which.on_gpu; // one pixel of 750 that sees past an edge contributes 0.06
             }
         }
     }
 }
 
-/// What a place must show, so that all send back the same light: less light falls on it with the square of its distance, and aslant.
+/// Light that a place needs for uniform reflected light: incident light falls with the square of the distance
+/// and with the angle of incidence.
 double evened(const Stage& stage, const glm::dvec2& pixel) {
     const RigidTransform prop_from_projector = stage.table_from_prop.inverse() * stage.table_from_projector;
     const glm::dvec3 ray = prop_from_projector.direction(stage.projector.ray(pixel));
@@ -84,7 +85,7 @@ TEST(Relief, LiesWithinATwentiethOfAPixelOfARayCastAsItIsAndInEvenLight) {
         EXPECT_NEAR(shown.light, plain.light, 0.01 * plain.light) << which.on_gpu;
         EXPECT_LT(glm::distance(shown.centre(), plain.centre()), 0.05) << which.on_gpu;
     }
-    rig.prop = stage.prop = make_frustum({0.2, 0.06, 0.08}); // the light grazes no face
+    rig.prop = stage.prop = make_frustum({0.2, 0.06, 0.08}); // no grazing light on any face
     const Mass even = cast_mass(cast, stage, [&](const glm::dvec2& at) { return evened(stage, at); });
     for (const PlacedLevel& which : {rig.cast, rig.drawn, rig.level}) {
         const Mass lit = shown_mass(rig.one(stage, which, LightCompensation{}));
@@ -124,8 +125,9 @@ TEST(Relief, HasTheColoursOfItsMeshInAnyLight) {
     }
 }
 
-/// White, so that a pixel's code is its gain: of a mesh in the shader, of a relief that is cast on the processor. Where the prop's faces meet, a
-/// rasterizer's grid of 1/256 pixel may give a pixel to the other face.
+/// White, so a pixel's code is its gain: for a mesh from the shader, for a rasterized relief from the
+/// processor. Where the prop's faces meet, a rasterizer's grid of 1/256 pixel may assign a pixel to the other
+/// face.
 TEST(Relief, HasTheLightThatAMeshHasAndItsSoftEdges) {
     for (const Lens& lens : lenses) {
         ReliefRig rig(1, 128, white(rings()), lens);
@@ -160,7 +162,7 @@ TEST(Relief, HasTheLightThatAMeshHasAndItsSoftEdges) {
     }
 }
 
-/// Any codes, on and beside the faces, in light that is made even and with soft edges.
+/// Arbitrary codes, on and off the faces, in compensated light and with soft edges.
 TEST(Relief, IsLitAlikeByTheInstructionsOfAnyProcessor) {
     for (const Lens& lens : lenses) {
         ReliefRig rig(1, 256, rings(), lens);
@@ -211,8 +213,8 @@ TEST(Relief, HidesWhatShinesOnThePropWhereItIsAndNowhereElse) {
     EXPECT_GT(shown, 1000U);
 }
 
-/// Where nothing else stands it is copied, which is no draw call, and else drawn: the pixels are the same, and what lies on the table
-/// beside the prop stays as it is, whichever way a strip takes.
+/// Without anything else in the picture the relief is copied, which is no draw call, otherwise drawn: both
+/// give equal pixels, and the table's picture next to the prop stays unchanged whichever way a strip takes.
 TEST(Relief, LeavesWhatLiesOnTheTableAsItIs) {
     ReliefRig rig(2);
     Stage stage(320, 200);
@@ -347,7 +349,7 @@ TEST(Relief, AFrameOfItAllocatesNothing) {
     }
     for (const PlacedLevel& which : {rig.cast, rig.drawn}) {
         long counted = 0;
-        for (int k = 0; k < 60; ++k) { // the first rounds make room for the fullest view
+        for (int k = 0; k < 60; ++k) { // the first rounds reserve memory for the fullest view
             const Stage& from = stages[static_cast<std::size_t>(k) % stages.size()];
             const long before = allocations_so_far();
             plan_frame(from.prop, which, from.view(LightCompensation{}), rig.plan);

@@ -97,7 +97,7 @@ TEST_F(RenderCommand, CastsTheReliefOfAPackThatHasOne) {
         EXPECT_GT(lit_pixels(relief), 1000U) << way;
         EXPECT_LT(off, lit_pixels(mesh) / 10) << way << ": outlines and the texture's edges";
     }
-    // And live, beside the caption.
+    // And live, next to the caption.
     ASSERT_EQ(run("run --config kiosk.toml --headless --fast --seconds 2 --technique relief192 --out live "
                   "--stills 1 "
                   "--status-file status.json"),
@@ -129,7 +129,7 @@ TEST_F(RenderCommand, ShowsTheVisitorsView) {
     EXPECT_EQ(picture("v/frame_00000.png").width, 320);
     EXPECT_NE(text("v/visitor_cameras.json").find("table_from_camera"), std::string::npos);
     ASSERT_EQ(run(usual("half") + "--view visitor"), 0) << text("err.txt");
-    EXPECT_EQ(picture("half/frame_00000.png").width, 640); // of the 1280 in near.toml
+    EXPECT_EQ(picture("half/frame_00000.png").width, 640); // near.toml has 1280
 }
 
 TEST_F(RenderCommand, ASheetIsMadeOfTheProjectorsPicturesAlone) {

@@ -11,7 +11,7 @@
 
 namespace frustumscreen::synthetic {
 
-/// What opaque artifacts, in plain and in even light, their edges and captions need.
+/// Shaders for opaque artifacts, in plain and in even light, their edges and captions.
 [[nodiscard]] inline RenderNeeds needs(int samples, bool fades = false) {
     RenderNeeds needs{samples, {{ShaderKey::Pass::TablePicture}, {ShaderKey::Pass::EdgeFeather}}};
     for (const bool even_light : {false, true}) {
@@ -34,7 +34,7 @@ struct Rig {
     PlacedLevel level;
     FramePlan plan;
 
-    /// `bent_by`: the stage's projector, where its lens distorts.
+    /// `bent_by`: the stage's projector, if its lens has distortion.
     Rig(int width, int height, int samples = 1, Pack shown = rings(),
         const std::optional<Pinhole>& bent_by = std::nullopt)
         : pack(std::move(shown)) {

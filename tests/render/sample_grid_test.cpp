@@ -1,4 +1,4 @@
-// Several samples a pixel in a larger picture that has room for a part of the projector's alone.
+// Several samples per pixel in a larger picture that has room only for a part of the projector's picture.
 
 #include "app/render/sample_grid.h"
 #include "tests/render/comparison.h"
@@ -29,7 +29,7 @@ TEST(SampleGrid, TakesAsManySamplesAsThereIsRoomFor) {
     EXPECT_EQ(grid.bytes(), 8U * 600U * 400U);
 }
 
-/// A prop that was lifted, say: what is drawn has fewer samples, and all of it is there.
+/// For example a lifted prop: it is drawn completely, with fewer samples.
 TEST(SampleGrid, APictureWithoutRoomIsThatOfFewerSamples) {
     Stage stage(256, 160);
     const auto picture = [&](int samples, std::optional<PixelSize> outline) {

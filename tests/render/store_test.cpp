@@ -1,4 +1,4 @@
-// Meshes, textures and shaders: what the renderer holds, and when.
+// The renderer's meshes, textures and shaders, and their lifetimes.
 
 #include "tests/render/rig.h"
 
@@ -32,7 +32,7 @@ TEST(Store, GivesANumberOutOnceAndFreesWhatIsReleased) {
     const Drawable second = store.upload(rig.pack, 0).value();
     EXPECT_NE(second.mesh, first.mesh);
     EXPECT_NE(second.material.texture, first.material.texture);
-    store.release(first); // again: of nobody
+    store.release(first); // released again: unknown
     EXPECT_NE(store.find(second.mesh), nullptr);
 }
 
@@ -45,7 +45,7 @@ TEST(Store, WhatIsReleasedIsGoneFromTheNextPicture) {
     rig.renderer->store().release(rig.level.drawable);
     const DrawResult drawn = rig.draw(Redraw::Everything);
     EXPECT_EQ(lit_pixels(rig.picture()), 0U);
-    EXPECT_EQ(drawn.draw_calls, static_cast<int>(rig.plan.faces.size())); // their outlines
+    EXPECT_EQ(drawn.draw_calls, static_cast<int>(rig.plan.faces.size())); // the faces' outlines
 }
 
 TEST(Shaders, AreThoseOfTheNeedsAndNoFrameMakesOne) {
@@ -80,7 +80,7 @@ TEST(Shaders, AreThoseOfTheNeedsAndNoFrameMakesOne) {
     }
     EXPECT_EQ(programs_that_exist(), programs);
     ASSERT_TRUE(rig.renderer->prepare(needs(2)));
-    EXPECT_EQ(programs_that_exist(), programs); // all there
+    EXPECT_EQ(programs_that_exist(), programs); // all exist already
 }
 
 } // namespace

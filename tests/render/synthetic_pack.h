@@ -23,7 +23,7 @@ struct Soup {
     std::vector<std::uint32_t> indices;
 };
 
-/// A closed tube of elliptic section around a ring: counter-clockwise from outside.
+/// A closed tube of circular section around a ring: counter-clockwise from outside.
 inline void add_torus(Soup& soup, const glm::dvec3& centre, const glm::dmat3& turn, double ring, double tube,
                       std::uint32_t around, std::uint32_t across) {
     const auto first = static_cast<std::uint32_t>(soup.points.size());
@@ -66,7 +66,7 @@ inline std::vector<PackCluster> cluster(const std::vector<glm::vec3>& points,
     return clusters;
 }
 
-/// Three linked rings: concave, in several parts, hiding each other.
+/// Three linked rings: concave, in several parts, occluding each other.
 inline Pack rings(std::uint32_t around = 24, std::uint32_t across = 12) {
     Soup soup;
     const glm::dmat3 upright(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
@@ -142,7 +142,7 @@ struct Stage {
     [[nodiscard]] PlanView view(std::optional<LightCompensation> light = std::nullopt) const {
         return {projector, table_from_projector, table_from_prop, std::span(&eye_m, 1), light};
     }
-    /// A prop turned anywhere near the middle and an eye anywhere above the table.
+    /// A prop at any yaw near the middle, and an eye anywhere above the table.
     void shuffle(std::mt19937& random) {
         std::uniform_real_distribution<double> u(-1.0, 1.0);
         const double yaw = std::numbers::pi * u(random);
@@ -156,7 +156,7 @@ struct Stage {
     }
 };
 
-/// Adds what a file has besides what is drawn of it.
+/// Adds the parts of a file that are not drawn.
 inline void complete(Pack& pack) {
     pack.provenance.source_name = "rings.glb";
     pack.provenance.source_sha256 = std::string(64, 'a');

@@ -1,4 +1,4 @@
-// `frustumscreen-safe` from outside: what it is linked with, its pictures, what it tells a service manager.
+// `frustumscreen-safe` from outside: its linked libraries, its pictures, its messages to a service manager.
 #include "app/image/image.h"
 #include "firmware_host/base/run_program.h"
 #include "tests/folders.h"
@@ -72,7 +72,8 @@ TEST_F(SafeCommand, IsLinkedWithNothingThatMayBeWhatFailed) {
     }
 }
 
-/// The names of functions are in a program that was not stripped, the exhibit's as well as this one.
+/// An unstripped program contains the names of its functions; this holds for the exhibit and for this
+/// program.
 TEST_F(SafeCommand, HasNoReaderOfPacksOrSettings) {
     const std::string exhibit = text_of(bin_dir() + "/frustumscreen");
     const std::string safe = text_of(program);
@@ -129,7 +130,7 @@ TEST_F(SafeCommand, SaysWhatIsWrongWithHowItIsCalled) {
     EXPECT_EQ(as_text(run({"--version"}).output).substr(0, 19), "frustumscreen-safe ");
 }
 
-/// Without a graphics card it waits for one: it is ready, it feeds the watchdog, and it is small.
+/// Without a graphics card it waits for one: it reports ready, feeds the watchdog, and is small.
 TEST_F(SafeCommand, WaitsForACardUnderAServiceManagerUntilItIsStopped) {
     const NotifySocket socket;
     ASSERT_TRUE(socket.bound());

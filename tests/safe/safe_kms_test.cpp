@@ -1,4 +1,5 @@
-// The safe picture on a model of the kernel's mode setting: each pixel on the screen, cables, other programs, and each call failing.
+// The safe picture on a model of the kernel's mode setting: each pixel on the screen, cables, other programs,
+// and each call failing.
 #include "app/programs/safe/safe_screen.h"
 #include "app/safe/draw_safe_page.h"
 #include "tests/display/fake_desk.h"
@@ -10,7 +11,7 @@ namespace {
 
 using std::chrono::minutes;
 
-/// `GetParam`: the driver has atomic commits.
+/// `GetParam`: whether the driver has atomic commits.
 class SafeOnCard : public Desk, public testing::WithParamInterface<bool> {
 protected:
     SafeOnCard() { desk.card.atomic = GetParam(); }
@@ -33,7 +34,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Safe, SafeOnCard, testing::Bool(),
                          [](const auto& tested) { return tested.param ? "Atomic" : "Legacy"; });
 
-/// The whole page drawn at once; tests/safe/safe_words_test.cpp holds its letters against Pango's.
+/// The whole page drawn at once; tests/safe/safe_words_test.cpp compares its letters with Pango's.
 std::vector<std::uint32_t> page(int width, int height, const SafeText& text) {
     std::vector<std::uint8_t> greys(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     draw_safe_rows(lay_out_safe_page(width, height, text, safe_languages()), 0, greys);
@@ -44,7 +45,7 @@ std::vector<std::uint32_t> page(int width, int height, const SafeText& text) {
     return pixels;
 }
 
-/// Takes the code out of the corner: grey 4 is a 1, grey 3 a 0; 256: there is none.
+/// Removes the code from the corner: grey 4 is a 1, grey 3 a 0; returns 256 if there is none.
 unsigned take_code(std::vector<std::uint32_t>& pixels) {
     unsigned code = 0;
     for (unsigned k = 0; k < 8; ++k) {
@@ -81,7 +82,7 @@ TEST_P(SafeOnCard, AProjectorThatIsPulledOutAndAnotherThatComesAreTakenUp) {
     ASSERT_TRUE(screen) << screen.error().message;
     ASSERT_TRUE((*screen)->show({}).value_or(false));
     desk.card.unplug(desk.hdmi);
-    for (int k = 0; k < 10; ++k) { // it asks the projector at each tenth picture
+    for (int k = 0; k < 10; ++k) { // it queries the projector at each tenth picture
         ASSERT_TRUE((*screen)->show({}));
     }
     EXPECT_FALSE((*screen)->lit());
@@ -116,8 +117,9 @@ TEST_P(SafeOnCard, ACardWithoutMemorySaysSo) {
         << (*screen)->state();
 }
 
-/// With any one call failing once, the picture is on the screen in the end, or words say why not, and nothing is lost. A projector
-/// that is to be lit anew is so a second later, by the clock of the machine: not in this test.
+/// If any one call fails once, the picture is on the screen in the end, or a message says why not, and
+/// nothing leaks. A projector that must be lit again is lit a second later by the machine's clock, which this
+/// test does not cover.
 TEST_P(SafeOnCard, AnyCallMayFailOnce) {
     struct Outcome {
         std::vector<std::string> calls;

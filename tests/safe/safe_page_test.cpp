@@ -1,4 +1,4 @@
-// Where the words of the safe picture lie, and what becomes of a reason.
+// The layout of the safe picture's words, and the treatment of a reason.
 #include "app/safe/draw_safe_page.h"
 #include "app/safe/safe_page.h"
 
@@ -75,7 +75,7 @@ TEST(SafePage, TypeForVisitorsIsLargerThanForTheStaffAndBothCanBeRead) {
         sizes_px.insert(letter.em_px);
     }
     ASSERT_EQ(sizes_px.size(), 2U);
-    // The shipped table: 0.5 m for 1200 pixels; 24 points are 8.5 mm.
+    // On the shipped table 1200 pixels are 0.5 m; 24 points are 8.5 mm.
     EXPECT_GT(*sizes_px.begin() * 500.0F / 1200.0F, 8.5F);
     EXPECT_GT(*sizes_px.rbegin(), *sizes_px.begin());
 }
@@ -121,7 +121,7 @@ TEST(SafeReason, WhateverItsBytesAreItIsShownInLettersThatThereAre) {
     std::mt19937 random(7);
     for (int k = 0; k < 3000; ++k) {
         std::string bytes(random() % 400, ' ');
-        for (char& byte : bytes) { // bytes that begin or go on with a character often
+        for (char& byte : bytes) { // often bytes that begin or continue a character
             byte = static_cast<char>(random() % 3 == 0 ? 0x80 + random() % 0x80 : random() % 256);
         }
         const std::u32string shown = shown_reason(bytes);

@@ -1,4 +1,4 @@
-// The safe picture's way to a graphics card, as far as it goes without one.
+// The safe picture's access to a graphics card, as far as possible without one.
 
 #include "app/programs/safe/safe_scanout.h"
 #include "app/programs/safe/safe_screen.h"
@@ -33,7 +33,7 @@ protected:
 
 TEST_F(SafeScreenTest, ACardThatIsNotThereIsNamed) {
     const std::vector<std::pair<std::string, std::string>> cards{
-        {"no-such-card", "/dev/dri/no-such-card"}, // by its name
+        {"no-such-card", "/dev/dri/no-such-card"}, // by name
         {folder / "none", (folder / "none").string()},
         {folder, folder.string()}};
     for (const auto& [card, named] : cards) {

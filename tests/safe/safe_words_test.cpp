@@ -1,4 +1,4 @@
-// The words for visitors, language by language, against Pango's and FreeType's own picture of words.toml.
+// The words for visitors, language by language, compared with pictures of words.toml by Pango and FreeType.
 #include "app/image/image.h"
 #include "app/safe/draw_safe_page.h"
 #include "assets_baked/texts/builtin_words.h"
@@ -22,7 +22,7 @@ struct Ink {
     int left = 1 << 20, top = 1 << 20, right = 0, bottom = 0;
 };
 
-/// What is lit, and the smallest box around it.
+/// The lit pixels, and the smallest box around them.
 struct Coverage {
     int width = 0, height = 0;
     std::vector<float> share;
@@ -61,7 +61,7 @@ Coverage drawn_by_pango(const std::string& text, const std::string& language, co
     pango_font_description_set_family(font, fonts.families_for(language).c_str());
     pango_font_description_set_absolute_size(font, em_px * PANGO_SCALE);
     const std::unique_ptr<PangoLayout, Unref> layout(
-        pango_layout_new(context.get())); // it finds the direction itself
+        pango_layout_new(context.get())); // detects the direction itself
     pango_layout_set_font_description(layout.get(), font);
     pango_font_description_free(font);
     pango_layout_set_text(layout.get(), text.c_str(), -1);
@@ -80,7 +80,7 @@ Coverage drawn_by_pango(const std::string& text, const std::string& language, co
     return coverage;
 }
 
-/// The visitors' line of the language alone.
+/// Draws only the visitors' line of the language.
 Coverage drawn_by_us(const std::string& language, double& em_px) {
     SafePage page = lay_out_safe_page(1600, 1000, {"x", {}}, {language});
     const float largest = page.letters.front().em_px;
@@ -96,7 +96,7 @@ Coverage drawn_by_us(const std::string& language, double& em_px) {
     return coverage;
 }
 
-/// Of the two inks with one's box moved by (x, y) onto the other's; 1: the same.
+/// Correlation of the two inks, with one box moved by (x, y) relative to the other; 1: equal.
 double correlation(const Coverage& a, const Ink& from, const Coverage& b, const Ink& to, int x, int y) {
     double both = 0.0;
     double squares_a = 0.0;
@@ -149,14 +149,14 @@ TEST(SafeWords, AreInThePictureAsPangoDrawsThem) {
         EXPECT_NEAR(a.right - a.left, b.right - b.left, 2) << language;
         EXPECT_NEAR(a.bottom - a.top, b.bottom - b.top, 2) << language;
         EXPECT_NEAR(a.left, 1600 - a.right, 2) << language << " is in the middle";
-        // Pango puts each letter on a whole pixel; the program does not.
+        // Pango places each letter on a whole pixel; the program does not.
         EXPECT_GT(best_correlation(ours, meant), 0.9) << language;
         ++languages;
     }
     EXPECT_EQ(languages, 11);
 }
 
-/// The measure finds what it should: another order of the letters, another text.
+/// The measure distinguishes another order of letters, and another text.
 TEST(SafeWords, TheComparisonTellsMirroredAndOtherWordsApart) {
     double em_px = 0.0;
     const Coverage hebrew = drawn_by_us("he", em_px);

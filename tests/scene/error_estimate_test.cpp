@@ -1,4 +1,4 @@
-// What a frame says of its own error: which eye decides, what a pixel adds, and where there is nothing to say.
+// The estimate of a frame's own error: which eye decides, what a pixel adds, and when there is no estimate.
 
 #include "app/scene/error_estimate.h"
 
@@ -10,7 +10,7 @@
 namespace frustumscreen {
 namespace {
 
-/// A triangle that lies in the prop, facing up, under a projector that looks straight down.
+/// A triangle in the prop, facing up, under a projector that looks straight down.
 struct Kiosk {
     PropShape prop = make_frustum({});
     PlacedLevel artifact;
@@ -43,7 +43,7 @@ struct Kiosk {
     }
 };
 
-/// All that the eye sees is one patch, at the middle of the box.
+/// The eye sees a single patch, at the middle of the box.
 SeenEye eye_at(const glm::dvec3& towards) {
     SeenEye eye;
     eye.towards = towards;
@@ -62,7 +62,7 @@ TEST(ErrorEstimate, IsTheBoxErrorInMillimetresOnTheProp) {
     const std::optional<ErrorEstimate> error =
         kiosk.estimate({{eye_at({0, 0, 1}), eye_at({0, -1, 0})}, {seen_of(2e-3F), seen_of(2e-3F)}});
     ASSERT_TRUE(error);
-    EXPECT_NEAR(error->mean_mm, 2e-3 * 80.0, 1e-3); // what pixels add is micrometres
+    EXPECT_NEAR(error->mean_mm, 2e-3 * 80.0, 1e-3); // pixels add only micrometres
     EXPECT_NEAR(error->p95_mm, 6e-3 * 80.0, 1e-3);
 }
 
@@ -74,11 +74,11 @@ TEST(ErrorEstimate, IsThatOfTheEyeThatLooks) {
     EXPECT_NEAR(kiosk.estimate(seen)->mean_mm, 0.16, 2e-3);
     kiosk.eye = {0.0, 0.0, 1.0};
     EXPECT_NEAR(kiosk.estimate(seen)->mean_mm, 0.32, 2e-3);
-    // A prop that is turned shows its other side.
+    // A rotated prop shows its other side.
     kiosk.eye = {0.0, -1.0, 0.04};
     kiosk.view.table_from_prop.rotation = glm::dquat(0.0, 0.0, 0.0, 1.0);
     EXPECT_NEAR(kiosk.estimate(seen)->mean_mm, 0.08, 2e-3);
-    // Between two eyes lies what is between their errors.
+    // Between two eyes the estimate is between their errors.
     kiosk.view.table_from_prop.rotation = glm::dquat(1.0, 0.0, 0.0, 0.0);
     kiosk.eye = {0.0, -0.7, 0.74};
     const double between = kiosk.estimate(seen)->mean_mm;
@@ -94,7 +94,7 @@ TEST(ErrorEstimate, OfALevelWithoutErrorIsAShareOfAPixelAsItLandsOnTheArtifact) 
     kiosk.view.projector.fx /= 2.0; // pixels twice as large
     kiosk.view.projector.fy /= 2.0;
     EXPECT_NEAR(kiosk.estimate(exact)->mean_mm, 2.0 * near_mm, 0.02 * near_mm);
-    kiosk.eye = {0.0, -1.0, 0.2}; // a slanting view: a face shows more of the artifact in fewer pixels
+    kiosk.eye = {0.0, -1.0, 0.2}; // at a grazing view a face shows more of the artifact in fewer pixels
     EXPECT_GT(kiosk.estimate(exact)->mean_mm, 2.0 * near_mm);
 }
 
@@ -102,17 +102,18 @@ TEST(ErrorEstimate, OfNothingIsNone) {
     Kiosk kiosk;
     const SeenLevel seen{{eye_at({0, 0, 1})}, {seen_of(1e-3F)}};
     ASSERT_TRUE(kiosk.estimate(seen));
-    kiosk.eye = {0.0, 0.0, 0.02}; // in the prop
+    kiosk.eye = {0.0, 0.0, 0.02}; // inside the prop
     EXPECT_FALSE(kiosk.estimate(seen));
     kiosk.eye = {0.0, -0.6, 0.6};
-    kiosk.view.table_from_prop.translation.x = 3.0; // beside the picture
+    kiosk.view.table_from_prop.translation.x = 3.0; // outside the picture
     EXPECT_FALSE(kiosk.estimate(seen));
     kiosk.view.table_from_prop.translation.x = 0.0;
     kiosk.view.brightness = 0.0;
     EXPECT_FALSE(kiosk.estimate(seen));
 }
 
-// The projector looks straight down on the top: it gets more pixels for what is seen through it than the side gets.
+// The projector looks straight down on the top, which gets more pixels for what is seen through it than the
+// side.
 TEST(ErrorEstimate, CountsAPatchByThePixelsOfTheFaceThatItIsSeenThrough) {
     Kiosk kiosk;
     kiosk.eye = {0.0, -0.3, 0.7};
@@ -158,7 +159,7 @@ TEST(ErrorEstimate, OfAnOlderPackComesFromItsSurfacesDistance) {
     outline.levels[1].error = {1e-3F, 4e-3F, 1.0F, 0.0F};
     const std::vector<SeenLevel> seen = seen_by_eyes(outline).value().levels;
     ASSERT_EQ(seen.size(), 2U);
-    EXPECT_FLOAT_EQ(worst_of(seen[1]).mean_box, 2e-3F); // tests/bake holds the factor against rays
+    EXPECT_FLOAT_EQ(worst_of(seen[1]).mean_box, 2e-3F); // tests/bake checks the factor against rays
     EXPECT_FLOAT_EQ(worst_of(seen[1]).p95_box, 8e-3F);
     Kiosk kiosk;
     EXPECT_NEAR(kiosk.estimate(seen[1])->mean_mm, 0.16, 2e-3);

@@ -12,7 +12,8 @@ double linear(int code) {
     return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
-/// Two squares side by side; the left one, `share` of the area, has the texture's left half, the right one its right half.
+/// Two adjacent squares; the left one, `share` of the area, has the texture's left half, the right one its
+/// right half.
 struct Pair {
     PackLevel level;
     Image8 texture{2, 1};

@@ -10,7 +10,7 @@
 namespace frustumscreen {
 namespace {
 
-/// A closed surface of one cluster in the pack's box, and a kiosk that looks straight down.
+/// A closed surface of one cluster in the pack's box, and a projector that looks straight down.
 struct Kiosk {
     PropShape prop = make_frustum({});
     PlacedLevel artifact;
@@ -33,7 +33,7 @@ struct Kiosk {
         all.centre = {0.0F, 0.0F, 0.5F};
         all.radius = 0.87F;
         ball.clusters = {all};
-        // Larger than the prop: seen through every face.
+        // Larger than the prop, so seen through every face.
         artifact = {std::make_shared<LevelTriangles>(triangles_of(ball, glm::dvec3(1.0))),
                     glm::dvec3(1.0),
                     0.16,
@@ -56,7 +56,7 @@ struct Kiosk {
 
 TEST(FramePlan, HoldsTheFacesThatTheEyeSeesAndTheProjectorLights) {
     Kiosk kiosk;
-    EXPECT_EQ(kiosk.faces(), (std::vector<int>{0, 1, 3, 4})); // the sides lean back: all but the far one
+    EXPECT_EQ(kiosk.faces(), (std::vector<int>{0, 1, 3, 4})); // the sides lean back: all except the far one
     kiosk.eye = {0.5, 0.5, 0.4};
     EXPECT_EQ(kiosk.faces(), (std::vector<int>{0, 2, 4}));
     kiosk.eye = {0.0, 0.0, 2.0};
@@ -65,8 +65,9 @@ TEST(FramePlan, HoldsTheFacesThatTheEyeSeesAndTheProjectorLights) {
 
 TEST(FramePlan, AFaceWhosePlaneTheProjectorIsBehindStaysDark) {
     Kiosk kiosk;
-    // The front leans back by 35 / 120: at 1.2 m its plane is over y = -0.08 + 0.35 = 0.27 of the prop.
-    kiosk.view.projector.cy = -100.0; // shifted, so that the prop stays in the picture
+    // The front leans back by 35 / 120: at 1.2 m its plane is at y = -0.08 + 0.35 = 0.27 relative to the
+    // prop.
+    kiosk.view.projector.cy = -100.0; // shifted, to keep the prop in the picture
     kiosk.eye = {0.0, -0.9, 0.2};
     kiosk.view.table_from_prop.translation = {0.0, -0.26, 0.0};
     EXPECT_EQ(kiosk.faces(), (std::vector<int>{3, 4}));
@@ -82,7 +83,8 @@ TEST(FramePlan, TheBrightnessDoesNotJumpWhereAFaceBeginsToShowTheArtifact) {
     int begun = 0;
     for (int walk = 0; walk < 120; ++walk) {
         Kiosk kiosk;
-        kiosk.artifact.metres_per_box = 0.06; // it shows on a face long after the eye came in front of that
+        kiosk.artifact.metres_per_box = 0.06; // it appears on a face long after the eye has crossed the
+                                              // face's plane
         kiosk.view.light = LightCompensation{};
         const double yaw = 3.14 * u(random);
         kiosk.view.table_from_prop = {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)),
@@ -107,8 +109,8 @@ TEST(FramePlan, TheBrightnessDoesNotJumpWhereAFaceBeginsToShowTheArtifact) {
         }
     }
     EXPECT_GT(begun, 5) << "hardly a face began to show it: these walks prove nothing";
-    // A face counts by a smooth step over a sine of 0.2, whose slope is at most 1.5 / 0.2; the eye, 0.7 m away, moves by
-    // step / 0.7 rad, and nine tenths of the light hang on it.
+    // A face's weight is a smooth step over a sine of 0.2, with a slope of at most 1.5 / 0.2; the eye, 0.7 m
+    // away, moves by step / 0.7 rad, and nine tenths of the light depend on it.
     EXPECT_LT(most, 0.9 * 1.5 / 0.2 * step_m / 0.7 / 0.5);
 }
 
@@ -121,7 +123,7 @@ TEST(FramePlan, IsEmptyButSoundWhereNothingCanBeSeen) {
     kiosk.eye = {0.0, 0.0, -1.0}; // under the table
     EXPECT_TRUE(kiosk.plan().faces.empty());
     kiosk = Kiosk();
-    kiosk.view.table_from_prop.translation = {5.0, 0.0, 0.0}; // off the picture
+    kiosk.view.table_from_prop.translation = {5.0, 0.0, 0.0}; // outside the picture
     EXPECT_TRUE(kiosk.plan().faces.empty());
     kiosk = Kiosk();
     kiosk.view.table_from_prop.translation = {0.0, 0.0, 3.0}; // above the projector
@@ -162,7 +164,7 @@ TEST(FramePlan, EveryNumberIsFiniteForAnyPose) {
     }
 }
 
-/// The ball again, smaller.
+/// The ball at a smaller scale.
 PlacedLevel small_ball(const Kiosk& kiosk) {
     PlacedLevel small = kiosk.artifact;
     small.metres_per_box = 0.13;
@@ -197,7 +199,7 @@ TEST(FramePlan, PutsPointsOfEachPartWhereTheEyesRayMeetsTheFace) {
             const glm::dvec2 pixel(640.0 + 1872.0 * s.x / (1.2 - s.z), 400.0 - 1872.0 * s.y / (1.2 - s.z));
             const glm::vec4 clip = draw.clip_from_unit * glm::vec4(glm::vec3(unit), 1.0F);
             if (glm::length(pixel) > 1500.0) {
-                continue; // far off the picture single precision shows
+                continue; // far outside the picture, single precision becomes visible
             }
             constexpr double close = 5e-3;
             ASSERT_NEAR((clip.x / clip.w + 1.0F) * 640.0F, pixel.x, close);
@@ -267,7 +269,7 @@ TEST(FramePlan, ACaptionComesFirstAndThePropInBlackOverIt) {
     const std::size_t without = kiosk.plan().draws.size();
     kiosk.view.caption = caption;
     const FramePlan plan = kiosk.plan();
-    // The projector is above all faces; those beside the caption need no black.
+    // The projector is above all faces; faces away from the caption need no black.
     ASSERT_GT(plan.draws.size(), without + 1);
     ASSERT_LE(plan.draws.size(), without + 1 + kiosk.prop.faces.size());
     for (std::size_t k = 0; k < plan.draws.size(); ++k) {
@@ -280,7 +282,7 @@ TEST(FramePlan, ACaptionComesFirstAndThePropInBlackOverIt) {
             EXPECT_EQ(united(draw.bounds, plan.draws[0].bounds), plan.draws[0].bounds);
         }
     }
-    // Straight below the lens: u = cx + f x / h, v = cy - f y / h; clip from -1 to 1 over the picture.
+    // Directly below the lens: u = cx + f x / h, v = cy - f y / h; clip from -1 to 1 over the picture.
     for (int k = 0; k < 4; ++k) {
         const glm::vec4 corner = plan.draws[0].clip_from_unit[k];
         const glm::dvec3& m = caption.corners_m[static_cast<std::size_t>(k)];
@@ -298,7 +300,7 @@ TEST(FramePlan, EachFaceHasItsOwnEye) {
     FramePlan plan = make_plan(kiosk.prop, kiosk.artifact);
     kiosk.view.eyes_m = eyes;
     plan_frame(kiosk.prop, kiosk.artifact, kiosk.view, plan);
-    EXPECT_EQ(plan.faces.size(), 4U); // every side for its own visitor, the top for nobody
+    EXPECT_EQ(plan.faces.size(), 4U); // each side for its own visitor, the top for none
 }
 
 TEST(FramePlan, TheHashTellsPicturesApart) {

@@ -1,4 +1,4 @@
-// The governor in a closed loop with simulated GPUs; independent arithmetic for what it should come to.
+// The governor in a closed loop with simulated GPUs, compared with independent arithmetic.
 
 #include "app/scene/governor.h"
 
@@ -30,7 +30,7 @@ TEST(Tolerance, IsOfWhatTheWorstEyeSeesOnThisPropAndOfTheWorstPlace) {
     const SeenError worst{2e-3F, 9e-3F, 1e-3F, 0.5F}; // on a prop of 120 mm: 0.24 mm, outline 0.12 mm
     EXPECT_TRUE(within_tolerance(error, worst, 120.0, 0.25));
     EXPECT_FALSE(within_tolerance(error, worst, 120.0, 0.23));
-    EXPECT_FALSE(within_tolerance(error, worst, 130.0, 0.25)); // a larger prop shows more of it
+    EXPECT_FALSE(within_tolerance(error, worst, 130.0, 0.25)); // a larger prop magnifies the error
     EXPECT_FALSE(within_tolerance(error, {2e-3F, 0.0F, 1.1e-3F, 0.0F}, 120.0, 0.25));    // the outline is off
     EXPECT_FALSE(within_tolerance({0.0F, 0.0F, 9e-3F, 0.0F}, SeenError{}, 120.0, 0.25)); // a part is lost
     const float nan = std::nanf("");
@@ -57,7 +57,7 @@ TEST(Ladder, BeginsWithTheCoarsestLevelThatIsGoodEnoughAndItsSamples) {
 TEST(Ladder, OfLevelsThatAreNotGoodEnoughBeginsWithTheFinest) {
     const std::vector<LevelOutline> levels{level_of(1000), level_of(1200), level_of(4000)};
     const std::vector<Rung> rungs = ladder(levels, {false, false, false}, 1);
-    ASSERT_EQ(rungs.size(), 2U); // 1000 triangles are not worth a level of their own beside 1200
+    ASSERT_EQ(rungs.size(), 2U); // 1000 triangles do not justify a quality level of their own next to 1200
     EXPECT_EQ(rungs[0].level, 2U);
     EXPECT_FALSE(rungs[0].enough);
     EXPECT_EQ(rungs[1].level, 1U);
@@ -74,7 +74,7 @@ TEST(Ladder, HasAReliefWhereItsErrorPutsIt) {
     EXPECT_TRUE(rungs[0].relief && rungs[0].enough && rungs[0].level == 384 && rungs[0].samples == 4);
     EXPECT_TRUE(rungs[1].relief && !rungs[1].enough && rungs[1].samples == 1);
     EXPECT_TRUE(!rungs[2].relief && rungs[2].enough && rungs[2].level == 1);
-    relief.error.p95_box = 2.2e-3F; // worse than the level
+    relief.error.p95_box = 2.2e-3F; // worse than the mesh level
     EXPECT_TRUE(ladder(levels, {false, true}, 4, relief)[3].relief);
     EXPECT_EQ(ladder(levels, {false, true}, 4).size(), 6U);
 }
@@ -107,7 +107,7 @@ TEST(Governor, TakesTheWayOfAReliefThatIsQuickerAtItsErrors) {
 }
 
 TEST(Cost, OfReliefsAndMeshesIsApart) {
-    // 1 ms and 1 us a triangle; 2 ms and half a us a block; by the GPU 3 ms and 2 us a block.
+    // 1 ms and 1 us per triangle; 2 ms and 0.5 us per block; on the GPU 3 ms and 2 us per block.
     const std::vector<RungTime> times{{1, {1000.0, 0.0}, 2.0},
                                       {1, {3000.0, 0.0}, 4.0},
                                       {1, {1000.0, 0.0}, 2.5, true},
@@ -133,7 +133,7 @@ TEST(PixelOnProp, IsThatOfThePlaceNearestToTheProjector) {
 struct SimulatedGpu {
     std::vector<Rung> rungs;
     std::vector<RungTime> times;
-    std::vector<double> lie; ///< true time of a rung over the one measured at the start
+    std::vector<double> lie; ///< true time of a level over its initial measurement
     std::mt19937 random{7};
     double noise = 0.1;
 
@@ -160,7 +160,7 @@ struct SimulatedGpu {
     struct Outcome {
         std::uint64_t switches = 0;
         double late_share = 0.0;    ///< frames over the deadline
-        double quality_share = 0.0; ///< of the time at the best rung
+        double quality_share = 0.0; ///< share of the time at the best level
         double shortest_s = 1e9;    ///< between two changes
         std::size_t last = 0;
     };
@@ -206,8 +206,8 @@ TEST(Governor, OfSeveralGoodEnoughRungsTakesTheQuickest) {
 TEST(Governor, GivesUpSamplesBeforeTriangles) {
     SimulatedGpu gpu;
     Governor governor = gpu.governor();
-    // 8.5, 6.5, 5.5 ms times 2.1: 17.9 is late, 13.7 is above 70 % of 16.7, 11.55 fits: the fine level, 1
-    // sample.
+    // 8.5, 6.5, 5.5 ms times 2.1: 17.9 is late, 13.7 is above 70 % of 16.7, 11.55 fits: the fine mesh level,
+    // 1 sample.
     EXPECT_EQ(gpu.play(governor, 0.0, 30.0, [](double) { return 2.1; }).last, 2U);
     EXPECT_EQ(governor.rung().level, 1U);
 }
@@ -234,8 +234,7 @@ TEST(Governor, RelievesWithinASecondAndAHalfOfALoadStepAndComesBackAfterIt) {
     EXPECT_LE(after.switches, 2U);
 }
 
-/// The load ends with the change that it brought about: what the model takes for the new rung's own speed at
-/// first.
+/// The load ends with the change that it caused: at first the model attributes the speed to the new level.
 TEST(Governor, ComesBackWhenTheLoadEndsInTheMomentOfTheChange) {
     SimulatedGpu gpu;
     Governor governor = gpu.governor();
@@ -244,8 +243,8 @@ TEST(Governor, ComesBackWhenTheLoadEndsInTheMomentOfTheChange) {
     EXPECT_LE(governor.switches(), 4U);
 }
 
-/// Ten minutes at every load from far below to far above: some rung's time lies at any place between the two
-/// limits, with frames that differ by 30 %.
+/// Ten minutes at every load from far below to far above: some level's time lies at every place between the
+/// two limits, with frames that vary by 30 %.
 TEST(Governor, DoesNotOscillateAtAnySteadyLoad) {
     for (int step = 0; step < 41; ++step) {
         const double load = 0.5 * std::pow(1.07, step); // to 7.5
@@ -257,11 +256,11 @@ TEST(Governor, DoesNotOscillateAtAnySteadyLoad) {
     }
 }
 
-/// The best rung is slower, in truth, than its measurement at the start says: it is tried, and given up, at
-/// growing intervals: 2 + 4 + ... + 2^k seconds of patience fit into the time.
+/// The best level is slower than its initial measurement says: it is tried and left at growing intervals: 2 +
+/// 4 + ... + 2^k seconds of patience fit into the time.
 TEST(Governor, TriesARungThatNeverFitsOnlyLogarithmicallyOften) {
     for (const double lie : {1.3, 2.0, 5.0}) {
-        for (const double swing : {0.0, 0.25, 0.5}) { // a load that invites to try again
+        for (const double swing : {0.0, 0.25, 0.5}) { // a load that invites another try
             SimulatedGpu gpu;
             gpu.lie = {lie * 2.0, 1.0, 1.0, 1.0, 1.0, 1.0};
             Governor governor = gpu.governor();
@@ -306,8 +305,8 @@ TEST(Governor, AHiccupChangesNothing) {
     EXPECT_EQ(governor.switches(), 0U);
 }
 
-/// Every rung's time at the start is wrong by any factor from a quarter to four; the true ones grow with the work. The rung with the
-/// least work meets the deadline, so none may be late for long.
+/// Every level's initial time is wrong by a factor between a quarter and four; the true times grow with the
+/// work. The level with the least work meets the deadline, so none may be late for long.
 TEST(Governor, IsNotLateForGoodAfterAWrongStart) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> u(-2.0, 2.0);
@@ -326,7 +325,7 @@ TEST(Governor, IsNotLateForGoodAfterAWrongStart) {
     EXPECT_LT(late, 0.25);
 }
 
-/// Five frames at the start said that the slowest is the quickest.
+/// Five frames at the start rated the slowest level as the fastest.
 TEST(Governor, DoesNotKeepTheSlowestForTheQuickest) {
     SimulatedGpu gpu;
     for (std::size_t k = 1; k < gpu.times.size(); ++k) {
@@ -355,7 +354,7 @@ TEST(Governor, SurvivesAndCountsGarbageTimes) {
     EXPECT_EQ(governor.ignored(), fed);
     EXPECT_EQ(governor.switches(), 0U);
     EXPECT_EQ(governor.expected_ms(), before);
-    // Garbage between good times changes nothing either; nor does garbage work.
+    // Invalid times between good ones change nothing either; nor does invalid work.
     for (int k = 0; k < 3000; ++k) {
         const double ms = k % 3 == 0 ? std::nan("") : gpu.frame_ms(governor.index(), 1.0);
         governor.observe(at_seconds(20.0 + k / 60.0), {k % 2 == 0 ? infinity : std::nan(""), -infinity}, ms);
@@ -370,7 +369,7 @@ TEST(Governor, SurvivesAStartWithoutTimes) {
         time = {0, {-1.0, std::nan("")}, std::nan("")};
     }
     Governor governor = gpu.governor();
-    EXPECT_EQ(governor.index(), 5U); // nothing is known: the one that should be quickest
+    EXPECT_EQ(governor.index(), 5U); // no measurement: the level with the least expected cost
     governor.observe(at_seconds(0.0), {}, 3.0);
     EXPECT_DOUBLE_EQ(governor.expected_ms(), 3.0);
 }
@@ -432,7 +431,7 @@ TEST(FrameTimeModel, IsStableForEveryStep) {
 TEST(FrameTimeModel, ForetellsOtherRungsAtAnotherPose) {
     SimulatedGpu gpu;
     FrameTimeModel model(gpu.times);
-    // The prop has come nearer: more of the artifact and 1.8 times the pixels; only rung 5 is ever drawn.
+    // The prop is nearer: more of the artifact and 1.8 times the pixels; only level 5 is ever drawn.
     const auto nearer = [&](std::size_t rung) {
         return FrameWork{1.3 * gpu.times[rung].work.triangles, 1.8 * gpu.times[rung].work.pixels};
     };

@@ -110,7 +110,7 @@ TEST(Light, AFaceFadesOutWhereTheLightGrazesIt) {
     for (int k = 0; k <= 300; ++k) {
         const double sine = 1e-3 * k + 1e-4;
         const glm::dvec3 lens = middle + std::sqrt(1.0 - sine * sine) * along + sine * front.plane.normal;
-        glm::dmat4 projector_from_prop(1.0); // looking along -Z suffices: only the lens's place counts
+        glm::dmat4 projector_from_prop(1.0); // the direction is irrelevant, only the lens's position counts
         projector_from_prop[3] = glm::dvec4(-lens, 1.0);
         const FaceLight light = face_light(front, projector_from_prop, 0.2);
         EXPECT_GE(light.most, before) << sine;

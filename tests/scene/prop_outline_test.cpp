@@ -1,4 +1,4 @@
-// The room for samples against props that seeded hands slide and turn, projected corner by corner.
+// The sample headroom against props slid and rotated by seeded hands, projected corner by corner.
 
 #include "app/scene/prop_outline.h"
 #include "app/scene/scene_level.h"
@@ -26,7 +26,7 @@ RigidTransform slid(const Settings& settings, std::mt19937& random) {
             {u(random) * settings.table.width_m, u(random) * settings.table.depth_m, 0.0}};
 }
 
-/// Of what lies in the picture.
+/// Size of the part inside the picture.
 glm::dvec2 size_in_picture(const Settings& settings, const RigidTransform& table_from_prop) {
     const Pinhole& pinhole = settings.projector.pinhole;
     glm::dvec2 low(1e9);
@@ -89,7 +89,7 @@ TEST(PropOutline, OfTwoNeedsHoldsBoth) {
     EXPECT_EQ(united(wide, RenderNeeds{}).outline, wide.outline);
 }
 
-/// 65.5 and 147.5 MB when there was room for eight samples in all of the picture.
+/// Headroom for eight samples in the whole picture would take 65.5 and 147.5 MB.
 TEST(PropOutline, KeepsTheMemoryOfSamplesToWhatThePropTakes) {
     for (const auto& [file, most_mb] : {std::pair("near.toml", 18.0), std::pair("kiosk.toml", 35.0)}) {
         const Settings settings = settings_of(file);

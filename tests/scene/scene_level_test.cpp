@@ -1,4 +1,4 @@
-// A level without what never shows, against triangles and eyes taken by hand.
+// A level without its never visible triangles, against triangles and eyes chosen by hand.
 
 #include "app/scene/scene_level.h"
 #include "tests/render/synthetic_pack.h"
@@ -32,7 +32,7 @@ glm::dvec3 metres(const Corner& corner, const Pack& pack, double metres_per_box)
     return metres_per_box * (unit - glm::dvec3(0.5, 0.5, 0.0)) * pack.box_size;
 }
 
-/// Height of the eye above the triangle's plane, metres; by area.
+/// Signed height of the eye above the triangle's plane, metres.
 double above(const Triangle& triangle, const glm::dvec3& eye, const Pack& pack, double scale) {
     const glm::dvec3 a = metres(triangle[0], pack, scale);
     const glm::dvec3 n =
@@ -69,7 +69,8 @@ TEST(SceneLevel, LosesOnlyTrianglesThatLookAwayFromEveryEyeOfTheZone) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> u(0.0, 1.0);
     std::vector<glm::dvec3> eyes;
-    for (int k = 0; k < 400; ++k) { // half of them on the zone's lower edge, where undersides would show
+    for (int k = 0; k < 400; ++k) { // half of them on the zone's lower edge, where undersides would be
+                                    // visible
         const double elevation = glm::radians(k % 2 == 0 ? 15.0 : 15.0 + 75.0 * u(random));
         const double azimuth = glm::radians(360.0 * u(random));
         eyes.push_back((0.35 + 1.65 * u(random)) * glm::dvec3(std::cos(elevation) * std::cos(azimuth),
@@ -78,7 +79,7 @@ TEST(SceneLevel, LosesOnlyTrianglesThatLookAwayFromEveryEyeOfTheZone) {
     }
     std::size_t next = 0;
     std::size_t seen = 0;
-    for (const Triangle& triangle : all) { // what is kept is kept in order
+    for (const Triangle& triangle : all) { // kept triangles stay in order
         const bool is_kept = next < kept.size() && kept[next] == triangle;
         next += is_kept ? 1 : 0;
         double most = -1e9;
@@ -91,7 +92,8 @@ TEST(SceneLevel, LosesOnlyTrianglesThatLookAwayFromEveryEyeOfTheZone) {
         seen += is_kept && most > 0.0 ? 1 : 0;
     }
     EXPECT_EQ(next, kept.size());
-    EXPECT_GT(static_cast<double>(seen), 0.98 * static_cast<double>(kept.size())); // and hardly one too many
+    EXPECT_GT(static_cast<double>(seen), 0.98 * static_cast<double>(kept.size())); // and hardly one is
+                                                                                   // superfluous
 }
 
 TEST(SceneLevel, KeepsClustersThatCoverItsIndicesAndVerticesThatAreUsed) {

@@ -1,4 +1,4 @@
-// What a scene is said to need, against what its settings and its pack hold.
+// The needs of a scene, against its settings and its pack.
 
 #include "app/scene/scene_plan.h"
 #include "tests/settings/steep_table.h"
@@ -29,7 +29,7 @@ PackOutline outline() {
     return pack;
 }
 
-/// With reliefs of these texels, each with this error, box; those from `good` texels on with a small one.
+/// Adds reliefs of these texels, each with this error in box units; a small error from `good` texels on.
 PackOutline outline_with_reliefs(const std::vector<std::uint32_t>& texels, float error_box,
                                  std::uint32_t good = 1U << 31U) {
     PackOutline pack = outline();
@@ -96,7 +96,7 @@ TEST(ScenePlan, ReadsTheLevelOfATechniqueAlone) {
     asked.technique = "level4";
     EXPECT_FALSE(plan_scene(settings, outline(), asked));
     asked.technique = "auto";
-    asked.live = false; // a picture from a pose file: the pack's default
+    asked.live = false; // a picture from a pose file uses the pack's default
     EXPECT_EQ(plan_scene(settings, outline(), asked).value().levels, std::vector<std::uint32_t>{2U});
 }
 
@@ -183,7 +183,7 @@ TEST(ScenePlan, TheGovernorMayPickTheReliefWhoseTexelIsAPixel) {
     EXPECT_EQ(plan.levels, (std::vector<std::uint32_t>{1U, 0U}));
     EXPECT_EQ(plan.needs.casts, 1U);
     EXPECT_TRUE(fades(plan));
-    // One that strays further than the tolerance is neither read nor drawn.
+    // A relief outside the tolerance is neither read nor drawn.
     const ScenePlan meshes =
         plan_scene(settings, outline_with_reliefs({96, 192, 384}, 8e-3F), request(settings)).value();
     EXPECT_TRUE(meshes.reliefs.empty());
@@ -299,7 +299,7 @@ TEST(ShaderKey, HasANameAndANumberOfItsOwn) {
           ShaderKey::Pass::TileAverage, ShaderKey::Pass::TileAverageMany}) {
         keys.insert({pass});
     }
-    EXPECT_EQ(keys.size(), 25U); // places are the same in any light
+    EXPECT_EQ(keys.size(), 25U); // hit points do not depend on light
     std::set<std::string> names;
     std::set<std::uint32_t> numbers;
     for (const ShaderKey& key : keys) {
@@ -312,7 +312,8 @@ TEST(ShaderKey, HasANameAndANumberOfItsOwn) {
 
 TEST(ScenePlan, LeavesOutFacesThatAFixedViewerNeverSees) {
     Settings settings = steep_table();
-    EXPECT_EQ(plan_scene(settings, outline(), request(settings)).value().faces, 31U); // it may be turned
+    EXPECT_EQ(plan_scene(settings, outline(), request(settings)).value().faces, 31U); // the prop may be
+                                                                                      // turned
     settings.eye.tracked = false;
     settings.tracker.kind = TrackerKind::None;
     // Sides lean by 0.035 / 0.12. From (0, -0.55, 0.5): -Y and the top; +-X, which lean back far enough; not
@@ -320,7 +321,7 @@ TEST(ScenePlan, LeavesOutFacesThatAFixedViewerNeverSees) {
     EXPECT_EQ(plan_scene(settings, outline(), request(settings)).value().faces, 0b11011U);
     settings.eye.default_m = {0.0, -0.55, 0.05}; // low: -Y alone
     EXPECT_EQ(plan_scene(settings, outline(), request(settings)).value().faces, 0b01000U);
-    // A projector far behind, as low as the far side's lean: it does not light -Y.
+    // A projector behind the plane of -Y does not light that face.
     settings.eye.default_m = {0.0, -0.55, 0.5};
     settings.projector.table_from_projector.translation = {0.0, 2.0, 1.2};
     EXPECT_EQ(plan_scene(settings, outline(), request(settings)).value().faces & 0b01000U, 0U);

@@ -1,4 +1,4 @@
-// Zones against eyes and props drawn from a seed, by hand: a prop's pose is undone with sines and cosines.
+// Zones against eyes and props from a seed; poses are inverted by hand with sines and cosines.
 
 #include "app/scene/visibility.h"
 #include "tests/settings/steep_table.h"
@@ -25,7 +25,7 @@ struct Draw {
     }
 };
 
-/// How far a zone reaches along n, by drawing points of it.
+/// How far a zone extends along n, estimated from random points of it.
 template <typename Point> double drawn_reach(const glm::dvec3& n, int draws, Point point) {
     double most = -1e9;
     for (int k = 0; k < draws; ++k) {
@@ -36,7 +36,7 @@ template <typename Point> double drawn_reach(const glm::dvec3& n, int draws, Poi
 
 TEST(Visibility, OfATrackedEyeReachesAsFarAsItsZoneAndHardlyFarther) {
     Settings settings = steep_table();
-    settings.eye.default_m = {0.0, -0.3, 0.4}; // stays inside the zone, wherever the prop is
+    settings.eye.default_m = {0.0, -0.3, 0.4}; // inside the zone for every pose of the prop
     const Visibility visibility = visibility_of(settings);
     Draw draw;
     const auto eye = [&] {
@@ -51,7 +51,7 @@ TEST(Visibility, OfATrackedEyeReachesAsFarAsItsZoneAndHardlyFarther) {
         const double reach = visibility.eyes.reach(n);
         const double drawn = drawn_reach(n, 20000, eye);
         EXPECT_GE(reach, drawn) << k;
-        EXPECT_LE(reach, drawn + 0.1) << k; // draws come that near to the edge of a ball of 2 m
+        EXPECT_LE(reach, drawn + 0.1) << k; // random points come this close to the edge of a ball of 2 m
     }
     EXPECT_TRUE(visibility.views.empty());
 }

@@ -57,7 +57,7 @@ TEST(VisibleTriangles, AreThoseThatFaceTheEyeAndReachIntoTheVolume) {
                                                    level.positions[first + 2]};
             const double facing = glm::dot(
                 glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0])), eye - corner[0]);
-            double deepest = 1e9; // into the half space that holds least of the triangle
+            double deepest = 1e9; // signed depth in the half space that contains the triangle least
             for (std::size_t k = 0; k < volume.count; ++k) {
                 double most = -1e9;
                 for (const glm::dvec3& c : corner) {
@@ -67,7 +67,7 @@ TEST(VisibleTriangles, AreThoseThatFaceTheEyeAndReachIntoTheVolume) {
                 deepest = std::min(deepest, most);
             }
             if (std::abs(facing) < 1e-4 || std::abs(deepest) < 1e-5) {
-                at += at < indices.size() && indices[at] == first ? 3U : 0U; // either answer is right
+                at += at < indices.size() && indices[at] == first ? 3U : 0U; // both answers are correct
                 continue;
             }
             const bool shown = at < indices.size() && indices[at] == first;
@@ -80,7 +80,7 @@ TEST(VisibleTriangles, AreThoseThatFaceTheEyeAndReachIntoTheVolume) {
     EXPECT_GT(all_shown, 500U);
 }
 
-/// A triangle in the plane z = 0.5, seen from above, in a cluster of the given ball.
+/// A triangle in the plane z = 0.5, facing up, in a cluster with the given bounding sphere.
 LevelTriangles one_triangle(const glm::vec3& centre, float radius) {
     LevelTriangles level;
     level.positions = {{0.0F, 0.0F, 0.5F}, {0.1F, 0.0F, 0.5F}, {0.0F, 0.1F, 0.5F}};
@@ -110,7 +110,7 @@ TEST(VisibleTriangles, ABackFacingConeIsLeftOutWhole) {
     level.clusters[0].cone_cutoff = 0.5F;
     FaceVolume volume;
     EXPECT_EQ(visible(volume, {0, 0, 3}, level).size(), 3U);
-    level.clusters[0].cone_axis = {0, 0, -1}; // apex - eye runs along it
+    level.clusters[0].cone_axis = {0, 0, -1}; // parallel to apex - eye
     EXPECT_TRUE(visible(volume, {0, 0, 3}, level).empty());
 }
 

@@ -15,7 +15,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using News = HangPolicy::News;
 
-/// Looks as often as it should, from `now` on, for so long; the news in it.
+/// Checks at the policy's interval from `now` on, for `length`; returns the news.
 std::vector<News> news_in(HangPolicy& policy, MonotonicTime& now, Nanoseconds length, MonotonicTime heard) {
     std::vector<News> all;
     for (const MonotonicTime end = now + length; now < end; now += policy.between_looks()) {
@@ -48,7 +48,7 @@ TEST(HangPolicy, AMachineThatStoodStillIsNoHang) {
     MonotonicTime now{seconds(100)};
     EXPECT_TRUE(news_in(policy, now, seconds(1), now).empty());
     const MonotonicTime heard = now;
-    now += seconds(30); // nobody ran, the watch as little as the thread
+    now += seconds(30); // the whole process was suspended, including the watch
     EXPECT_TRUE(news_in(policy, now, milliseconds(3900), heard).empty());
     EXPECT_EQ(news_in(policy, now, seconds(1), heard), std::vector{News::Hangs});
 }

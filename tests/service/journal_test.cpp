@@ -48,7 +48,7 @@ TEST(Journal, OutlivesAStandardErrorThatTakesNothing) {
     ::close(before);
 }
 
-/// The journal's end of its socket, whose path the library has built in.
+/// The journal's end of its socket, at the path built into the library.
 class JournalSocket {
 public:
     static constexpr const char* path = "/run/systemd/journal/socket";
@@ -56,7 +56,7 @@ public:
     JournalSocket() : socket_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
         std::error_code failed;
         if (fs::exists(path, failed)) {
-            return; // the machine's own journal: not ours to listen at
+            return; // the machine's own journal: must not be replaced
         }
         fs::create_directories(fs::path(path).parent_path(), failed);
         sockaddr_un address{};
@@ -102,7 +102,8 @@ TEST(Journal, GetsFieldsWhereStandardErrorIsTheJournal) {
         EXPECT_NE(entry.find(line), std::string::npos) << line << " not in:\n" << entry;
     }
     EXPECT_EQ(entry.find("CODE_FILE"), std::string::npos);
-    journal.note(LogPriority::Info, std::string(10'000, 'x'), {{"ARTIFACT", "cat"}}); // is cut, does no harm
+    journal.note(LogPriority::Info, std::string(10'000, 'x'), {{"ARTIFACT", "cat"}}); // truncated, without
+                                                                                      // harm
     EXPECT_NE(socket.receive().find("ARTIFACT=cat\nMESSAGE=xxx"), std::string::npos);
 }
 

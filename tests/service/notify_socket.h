@@ -35,7 +35,7 @@ public:
 
     [[nodiscard]] bool bound() const { return bound_; }
     [[nodiscard]] std::string path() const { return path_.string(); }
-    /// The next message; waits for it at most `wait_ms`; nothing = none came.
+    /// The next message; waits for it at most `wait_ms`; nullopt: none came.
     [[nodiscard]] std::optional<std::string> receive(int wait_ms = 0) const {
         const timeval limit{wait_ms / 1000, (wait_ms % 1000) * 1000};
         ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);

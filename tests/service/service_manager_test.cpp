@@ -39,7 +39,7 @@ TEST_F(ServiceManagerTest, HearsOfAStatusOnlyWhenItChanges) {
     manager.status(Sentence("the cat"));
     EXPECT_EQ(socket.receive(), std::nullopt);
     manager.status(Sentence("the dog\nREADY=1"));
-    EXPECT_EQ(socket.receive(), "STATUS=the dog READY=1"); // a title from outside is one line
+    EXPECT_EQ(socket.receive(), "STATUS=the dog READY=1"); // an external title must stay one line
 }
 
 TEST_F(ServiceManagerTest, HearsAGreekTitleThatIsTooLongAsWholeCharacters) {
@@ -48,7 +48,7 @@ TEST_F(ServiceManagerTest, HearsAGreekTitleThatIsTooLongAsWholeCharacters) {
     for (int k = 0; k < 40; ++k) {
         title += "Νεφερτίτη ";
     }
-    manager.status(format_sentence("x{}", title)); // one byte moves every character over the end
+    manager.status(format_sentence("x{}", title)); // the leading byte shifts every character across the limit
     EXPECT_EQ(socket.receive(), "STATUS=x" + title.substr(0, 238));
     manager.status(format_sentence("{}", title));
     EXPECT_EQ(socket.receive(), "STATUS=" + title.substr(0, 240));

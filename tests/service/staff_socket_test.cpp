@@ -1,4 +1,5 @@
-// The staff's socket: what it answers, to whom, and clients that stall, flood, hang up or ask what is no question.
+// The staff's socket: its answers, its access check, and clients that stall, flood, hang up or send invalid
+// questions.
 #include "firmware_host/service/staff_socket.h"
 #include "firmware_host/service/unix_address.h"
 
@@ -53,7 +54,7 @@ protected:
         EXPECT_EQ(::connect(client.number(), address.get(), address.size()), 0);
         return client;
     }
-    /// All that comes until it is closed.
+    /// Everything received until the connection is closed.
     [[nodiscard]] static std::string rest(const Descriptor& client) {
         std::string text;
         char part[4096];
@@ -142,7 +143,7 @@ TEST_F(StaffSocketTest, WhatIsNoQuestionIsRefusedAndAskedOfNobody) {
     for (const std::string& sent :
          {std::string(1 << 20, 'x'), std::string(100, '\0'), std::string("\xff\xfe")}) {
         const Descriptor client = connected();
-        // The rest of a flood is not taken: the connection is closed under it.
+        // The rest of a flood is not read: the connection is closed.
         static_cast<void>(::send(client.number(), sent.data(), sent.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
         ::shutdown(client.number(), SHUT_WR);
         EXPECT_FALSE(rest(client).starts_with("ok"));
@@ -156,10 +157,10 @@ TEST_F(StaffSocketTest, AClientThatStallsIsLeftBehind) {
     const Descriptor silent = connected();
     const Descriptor half = connected();
     static_cast<void>(::send(half.number(), "hel", 3, MSG_NOSIGNAL));
-    EXPECT_TRUE(still_answers()); // after both
+    EXPECT_TRUE(still_answers()); // after both clients
     EXPECT_EQ(rest(silent), "no no question came within a second\n");
     EXPECT_EQ(rest(half), "no no question came within a second\n");
-    const Descriptor deaf = connected(); // it asks for more than its socket holds, and takes nothing
+    const Descriptor deaf = connected(); // requests more than its socket buffer holds, and reads nothing
     static_cast<void>(::send(deaf.number(), "big\n", 4, MSG_NOSIGNAL));
     EXPECT_TRUE(still_answers());
     EXPECT_LT(rest(deaf).size(), std::size_t{8} << 20);
@@ -176,7 +177,7 @@ TEST_F(StaffSocketTest, ClientsThatHangUpAtOnceAreTakenSlowly) {
         ::poll(nullptr, 0, 1);
     }
     EXPECT_GT(taken, 0);
-    EXPECT_LT(taken, 20 + 10); // twenty a second, and those that wait in the queue
+    EXPECT_LT(taken, 20 + 10); // twenty per second, plus those in the queue
     EXPECT_EQ(questions, 0);
     EXPECT_TRUE(still_answers());
 }
@@ -215,7 +216,7 @@ TEST_F(StaffSocketTest, EndsWhileAClientStalls) {
     open();
     const Descriptor silent = connected();
     server.reset();
-    EXPECT_EQ(rest(silent), ""); // closed, before or after it was taken
+    EXPECT_EQ(rest(silent), ""); // closed, before or after it was accepted
 }
 
 } // namespace

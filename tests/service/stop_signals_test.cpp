@@ -14,11 +14,11 @@
 namespace frustumscreen {
 namespace {
 
-/// How a child that does `work`, and exits with 7 after it, ends.
+/// How a child that does `work` and then exits with 7 ends.
 int ending_of(const std::function<void()>& work) {
     const pid_t child = ::fork();
     if (child == 0) {
-        ::alarm(20); // whatever happens
+        ::alarm(20); // guards against a hang
         work();
         ::_exit(7);
     }
@@ -82,7 +82,7 @@ TEST(StopSignals, AreLeftToTheExhibitsThreadByOneThatWasStartedWhileTheyEndAtOnc
             }
         }
         ::kill(::getpid(), SIGTERM);
-        std::this_thread::sleep_for(std::chrono::milliseconds(20)); // for the kernel to choose a thread
+        std::this_thread::sleep_for(std::chrono::milliseconds(20)); // time for the kernel to choose a thread
         if (!signals.received()) {
             ::_exit(1);
         }

@@ -12,7 +12,7 @@ using std::chrono::seconds;
 
 const MonotonicTime start = from_microseconds(1'000'000);
 
-/// An exhibit whose time passes by the millisecond: presents every `period`, once a second at rest.
+/// An exhibit that advances by milliseconds: presents every `period`, once a second at rest.
 struct Exhibit {
     WatchdogPolicy policy{seconds(6), start};
     MonotonicTime now = start;
@@ -21,8 +21,8 @@ struct Exhibit {
     std::uint8_t code = 0;
     bool presents = true;
     bool covered = false; ///< the picture lights the corner
-    bool frozen = false;  ///< what is scanned out stays
-    bool blank = false;   ///< what is scanned out has no code
+    bool frozen = false;  ///< the scanned-out picture stays
+    bool blank = false;   ///< the scanned-out picture has no code
     std::vector<MonotonicTime> promises;
     std::vector<MonotonicTime> fed;
     int read = 0;
@@ -44,7 +44,7 @@ struct Exhibit {
         }
     }
     [[nodiscard]] Health health() const { return policy.health(now, promises); }
-    /// Of the longest stretch without food since `from`, up to now.
+    /// The longest interval without feeding the watchdog since `from`, up to now.
     [[nodiscard]] Nanoseconds hunger(MonotonicTime from) const {
         Nanoseconds longest{0};
         MonotonicTime last = from;
@@ -75,7 +75,7 @@ TEST(WatchdogPolicy, IsFedThreeTimesInAShortInterval) {
     exhibit.period = milliseconds(16);
     exhibit.run(seconds(10));
     EXPECT_LE(exhibit.hunger(start), milliseconds(300));
-    EXPECT_GE(exhibit.hunger(start), milliseconds(299)); // and not more often than that
+    EXPECT_GE(exhibit.hunger(start), milliseconds(299)); // but not more often than that
 }
 
 TEST(WatchdogPolicy, ReadsBackAFewTimesASecondNotInEveryFrame) {
@@ -94,7 +94,7 @@ TEST(WatchdogPolicy, StarvesAnExhibitThatPresentsNothing) {
     exhibit.run(seconds(20));
     EXPECT_EQ(exhibit.health(), Health::NoPicture);
     EXPECT_GE(exhibit.hunger(stopped), seconds(16));
-    exhibit.presents = true; // and does not bear a grudge
+    exhibit.presents = true; // recovers fully
     exhibit.run(seconds(1));
     EXPECT_EQ(exhibit.health(), Health::Well);
 }
@@ -113,7 +113,7 @@ TEST(WatchdogPolicy, IsFedWhileTheProjectorIsDarkOnPurpose) {
     exhibit.promises = {exhibit.now - milliseconds(1)};
     EXPECT_EQ(exhibit.health(), Health::ThreadHangs) << "devices are read in sleep too";
     exhibit.promises.clear();
-    exhibit.run(WatchdogPolicy::picture_within + milliseconds(1)); // it woke, and shows nothing
+    exhibit.run(WatchdogPolicy::picture_within + milliseconds(1)); // it woke, but shows no picture
     EXPECT_EQ(exhibit.health(), Health::NoPicture);
 }
 
@@ -149,7 +149,7 @@ TEST(WatchdogPolicy, AtRestOneFlipThatIsLateShowsTheSameCodeTwiceAndIsNoTrouble)
 }
 
 TEST(WatchdogPolicy, TheSameCodeByChanceCostsNoMeal) {
-    Exhibit exhibit; // 256 pictures between two looks would show the same code each time
+    Exhibit exhibit; // 256 pictures between two checks would show an equal code each time
     exhibit.period = Nanoseconds(seconds(1)) / 512;
     exhibit.run(seconds(20));
     EXPECT_LE(exhibit.hunger(start), seconds(2));

@@ -17,7 +17,7 @@ bool signs_for(const SecretKey& key, const PublicKey& expected) {
                .has_value();
 }
 
-constexpr std::size_t line_bytes = 212; ///< of base64
+constexpr std::size_t line_bytes = 212; ///< in base64
 
 std::string with_record(const std::array<std::uint8_t, 158>& record) {
     return "untrusted comment: a key\n" + minisign::to_base64(record) + "\n";
@@ -73,13 +73,13 @@ TEST(SecretKeys, WithAnotherPasswordAreRefused) {
     }
 }
 
-/// A signature with half a key that belongs to another gives the secret away.
+/// A signature with a partly wrong key would reveal the secret.
 TEST(SecretKeys, OfWhichAnyByteIsDamagedAreRefused) {
     constexpr std::size_t first_of_the_key = 54;
     for (const bool with_checksum : {true, false}) {
         const std::string text = with_checksum ? *write_secret_key(SecretKey::make(), std::nullopt)
                                                : std::string(vectors::open_key);
-        // What is not covered: limits and salt of a password that is not there; the id, where there is no checksum.
+        // Not covered: limits and salt of an absent password; the id, if there is no checksum.
         const std::size_t first = with_checksum ? first_of_the_key : first_of_the_key + 8;
         for (std::size_t at = 0; at < 158; ++at) {
             if (at >= 6 && at < first) {

@@ -1,4 +1,5 @@
-// frustumscreen-pack keygen, sign and verify from outside, beside Debian's minisign: what one writes the other takes.
+// frustumscreen-pack keygen, sign and verify from outside, together with Debian's minisign: each accepts the
+// other's output.
 #include "tests/folders.h"
 #include "tests/signature/signature_testing.h"
 
@@ -24,7 +25,7 @@ std::string text_of(const fs::path& file) {
     return text.str();
 }
 
-/// A folder of its own for each test, in which commands run.
+/// A separate folder for each test, in which commands run.
 class SignProgram : public ::testing::Test {
 protected:
     struct Outcome {
@@ -42,7 +43,7 @@ protected:
     }
     void TearDown() override { fs::remove_all(folder_); }
 
-    /// As a person would type it, without a terminal: standard input is empty unless the command says what it is.
+    /// Runs a command without a terminal: standard input is empty unless the command redirects it.
     [[nodiscard]] Outcome run(const std::string& command) const {
         const std::string all =
             fmt::format("cd '{}' && exec 0</dev/null >out.txt 2>error.txt && {}", folder_.string(), command);
@@ -62,7 +63,7 @@ protected:
         EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
         EXPECT_NE(outcome.error.find(words), std::string::npos) << outcome.error;
     }
-    /// What FORMAT.md says to do with minisign.
+    /// The procedure that FORMAT.md describes for minisign.
     [[nodiscard]] Outcome minisign_verifies(const std::string& file, const std::string& options) const {
         expect_done(run("python3 -c 'import sys, zipfile; z = zipfile.ZipFile(sys.argv[1]); "
                         "open(\"m\", \"wb\").write(z.read(\"manifest.json\")); "
@@ -70,14 +71,14 @@ protected:
                         file));
         return run("minisign -V -m m -x m.minisig " + options);
     }
-    /// On a terminal of its own, with these lines typed. Gives what the terminal showed.
+    /// Runs on a new terminal and types these lines. Returns the terminal's output.
     std::pair<int, std::string> on_terminal(const std::string& arguments, const std::string& typed) const {
         const std::string command =
             fmt::format("cd '{}' && exec {}/frustumscreen-pack {}", folder_.string(), bin_dir(), arguments);
         int terminal = -1;
         const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
         if (child == 0) {
-            ::alarm(100); // a question that nobody answers ends the test
+            ::alarm(100); // an unanswered question ends the test
             ::execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
             ::_exit(127);
         }
@@ -87,7 +88,7 @@ protected:
         std::array<char, 4096> piece{};
         for (ssize_t got = 0; (got = ::read(terminal, piece.data(), piece.size())) > 0;) {
             shown.append(piece.data(), static_cast<std::size_t>(got));
-            // A line is typed when it is asked for: what is typed before, the terminal may show.
+            // Type a line only when it is requested: the terminal may echo lines typed earlier.
             for (std::size_t at = shown.find(": ", asked); at != std::string::npos;
                  at = shown.find(": ", asked)) {
                 asked = at + 2;

@@ -1,4 +1,5 @@
-// Signatures that minisign made, right and altered in every way that there is; whom they are believed from.
+// Signatures by minisign, valid ones and ones altered in every possible way; and whose signatures are
+// trusted.
 #include "app/pack/signature/signature.h"
 #include "firmware_host/base/file.h"
 #include "tests/base/told.h"
@@ -39,7 +40,7 @@ std::string replaced(std::string_view text, std::string_view from, std::string_v
     return changed.replace(at, from.size(), to);
 }
 
-/// Line `number` of `text`, counted from 0, becomes that of `other`.
+/// Replaces line `number` of `text`, counted from 0, by that of `other`.
 std::string with_line_of(std::string_view text, std::string_view other, std::size_t number) {
     const auto line_at = [number](std::string_view whole) {
         std::size_t from = 0;
@@ -85,7 +86,7 @@ TEST(Signature, OfOtherBytesOrWithAnotherCommentIsAltered) {
     expect_refused(
         check(vectors::signed_text, replaced(vectors::of_the_hash, "timestamp:17", "timestamp:18")),
         SignatureFault::Altered, "[signature.comment_altered]");
-    // Lines of another right signature of the same bytes by the same key.
+    // Lines of another valid signature of the same bytes by the same key.
     for (const std::size_t line : {2U, 3U}) {
         expect_refused(
             check(vectors::signed_text, with_line_of(vectors::of_the_hash, vectors::of_the_bytes, line)),
@@ -101,7 +102,8 @@ TEST(Signature, ItsUntrustedCommentSaysNothing) {
               replaced(vectors::of_the_hash, "signature from minisign secret key", "anything at all")));
 }
 
-/// The two letters of the algorithm are not signed. With the older one, the hash of what was signed would be right too.
+/// The two letters of the algorithm are not signed. With the older algorithm, a signature of the hash's bytes
+/// would be valid too.
 TEST(Signature, OfAHashIsNotOneOfTheHashesBytes) {
     const std::string forged = replaced(vectors::of_the_hash, "\nRUS", "\nRWS");
     std::array<unsigned char, 64> hash{};
@@ -128,10 +130,10 @@ TEST(Signature, ThatIsNoneIsMalformed) {
     }
 }
 
-/// libsodium's own reader of base64 takes some of these for letters.
+/// libsodium's base64 reader accepts some of these as letters.
 TEST(Signature, HasNoBytesThatAreNoLettersOfBase64) {
     constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const std::size_t at = vectors::of_the_hash.find("BEsuB"); // of the signature
+    const std::size_t at = vectors::of_the_hash.find("BEsuB"); // within the signature
     for (int byte = 0; byte < 256; ++byte) {
         std::string changed(vectors::of_the_hash);
         changed[at] = static_cast<char>(byte);
@@ -151,7 +153,7 @@ TEST(Signature, OfAnotherKeyIsOfNobody) {
     expect_refused(check(vectors::signed_text, vectors::of_the_hash, {other}), SignatureFault::UnknownKey,
                    "the key E68B78C87897BA2, which is none of those known here (Another)");
     EXPECT_TRUE(check(vectors::signed_text, vectors::of_the_hash, {other, minisigns_key()}));
-    // The id names a key and proves nothing.
+    // The id names a key but proves nothing.
     TrustedKey same_id = other;
     same_id.key.id = minisigns_key().key.id;
     expect_refused(check(vectors::signed_text, vectors::of_the_hash, {same_id}), SignatureFault::Altered,
@@ -171,7 +173,7 @@ TEST(Signature, OfAKeyThatHasEndedSaysWhatTheClockSays) {
     expect_refused(on(day(2027, 1, 1)), SignatureFault::KeyEnded,
                    "whose last day was 2026-12-31, and here it is 2027-01-01");
     expect_refused(on(day(2100, 1, 1)), SignatureFault::KeyEnded, "2100-01-01");
-    // The same key, prolonged.
+    // The same key with a later end.
     EXPECT_TRUE(check(vectors::signed_text, vectors::of_the_hash, {key, minisigns_key()}, day(2100, 1, 1)));
     expect_refused(check("other", vectors::of_the_hash, {key}, day(2100, 1, 1)), SignatureFault::Altered,
                    "altered");

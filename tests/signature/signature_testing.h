@@ -1,4 +1,4 @@
-/// Signed packs and what is said of them.
+/// Signed packs, and helpers for their tests.
 #pragma once
 
 #include "app/pack/sign_pack.h"

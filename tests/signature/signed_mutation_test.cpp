@@ -1,4 +1,5 @@
-// Seeded mutants of signed packs: none is accepted whose unpacked parts or trusted comment are not those that were signed.
+// Seeded mutants of signed packs: none is accepted if its unpacked parts or trusted comment differ from the
+// signed ones.
 #include "app/pack/pack_reader.h"
 #include "tests/signature/signature_testing.h"
 
@@ -24,14 +25,14 @@ constexpr int all_mutants = 100'000 / FRUSTUMSCREEN_FEWER_MUTANTS;
 
 using Entries = std::vector<std::pair<std::string, Bytes>>;
 
-/// A signed pack and all that it unpacks to.
+/// A signed pack and all its unpacked contents.
 struct Original {
     Bytes bytes;
-    Entries entries; ///< in their order
+    Entries entries; ///< in order
     std::string comment;
 };
 
-/// As few bytes as a pack can have, so that many mutants hit what matters.
+/// A minimal pack, so many mutants hit relevant bytes.
 Pack small_pack() {
     Pack pack = samples::pack();
     pack.levels.pop_back();
@@ -96,7 +97,7 @@ private:
         return bytes;
     }
 
-    /// Cut off, taken out, put in, doubled.
+    /// Truncates, removes, inserts or duplicates bytes.
     Bytes spliced(Bytes bytes) {
         const std::size_t at = random_() % bytes.size();
         const std::size_t count = std::min<std::size_t>(1 + random_() % 64, bytes.size() - at);
@@ -120,7 +121,7 @@ private:
         return bytes;
     }
 
-    /// Checksums are right: what was changed is the entry itself.
+    /// Checksums are valid: the entry itself is changed.
     Bytes with_text_mutated(const Original& from) {
         Entries entries = from.entries;
         Bytes& bytes =
@@ -139,7 +140,8 @@ private:
         return zip_of(entries);
     }
 
-    /// Entries, and lines of the signature, of all originals; in another order; left out; twice under other names.
+    /// Entries, and lines of the signature, from all originals: in another order, omitted, or twice under
+    /// different names.
     Bytes recombined(const Original& from) {
         Entries entries = from.entries;
         const Original& other = originals_[random_() % originals_.size()];
@@ -177,7 +179,7 @@ private:
         return std::string(text.substr(0, text.find('\n')));
     }
 
-    /// A field of one entry in the directory gets the value of another entry, or any.
+    /// A field of one entry in the directory gets the value of another entry, or a random one.
     Bytes with_directory_edited(Bytes bytes) {
         std::vector<std::size_t> records;
         for (std::size_t at = directory_of(bytes); bytes[at + 2] == std::byte{1};) { // PK 01 02
@@ -204,7 +206,7 @@ private:
     std::mt19937 random_;
 };
 
-/// Whether all that was unpacked is what one of the originals holds, by name, and its comment that one's.
+/// Whether all unpacked parts and the comment are those of one original, by name.
 bool is_one_of(const std::vector<Original>& originals, const std::string& comment, const Entries& parts,
                const PackDescription& description) {
     return std::any_of(originals.begin(), originals.end(), [&](const Original& original) {
@@ -212,7 +214,7 @@ bool is_one_of(const std::vector<Original>& originals, const std::string& commen
             return std::find(original.entries.begin(), original.entries.end(), part) !=
                    original.entries.end();
         };
-        const bool all = parts.size() + 2 == original.entries.size(); // beside manifest and signature
+        const bool all = parts.size() + 2 == original.entries.size(); // without manifest and signature
         auto opened = pack_format::PackReader::open(std::span<const std::byte>(original.bytes));
         return all && comment == original.comment && std::all_of(parts.begin(), parts.end(), holds) &&
                opened->manifest().description == description;
@@ -228,7 +230,7 @@ TEST(SignedMutants, AreRefusedOrUnpackToWhatWasSigned) {
     std::vector<Original> originals{original(small_pack(), key, 1), original(small_pack(), key, 2),
                                     original(other, key, 3), original(other, stranger, 4)};
     Mutator mutator(originals, 105);
-    originals.pop_back(); // nobody believes the stranger
+    originals.pop_back(); // the stranger is not trusted
     const std::vector<TrustedKey> keys{testing::trusted(key)};
     int opened_count = 0;
     int accepted = 0;
@@ -253,7 +255,7 @@ TEST(SignedMutants, AreRefusedOrUnpackToWhatWasSigned) {
         ++accepted;
         ASSERT_TRUE(is_one_of(originals, opened->signer->trusted_comment, parts, opened->description())) << k;
     }
-    // Neither is the test about nothing but broken containers, nor does it accept what it should not.
+    // The test must cover more than broken containers, and must not accept too much.
     EXPECT_GT(opened_count, all_mutants / 20);
     EXPECT_GT(accepted, all_mutants / 100);
     EXPECT_LT(accepted, all_mutants / 4);

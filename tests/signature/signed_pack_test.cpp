@@ -1,4 +1,4 @@
-// What is used of a pack before its signature was right: nothing. And what signing changes of a pack: one entry.
+// A pack is not used before its signature was verified. Signing changes one entry of a pack.
 #include "app/pack/container/limits.h"
 #include "app/pack/pack_reader.h"
 #include "tests/base/told.h"
@@ -47,7 +47,7 @@ protected:
     std::vector<TrustedKey> keys_{trusted(key_)};
 };
 
-/// A container of these entries, stored.
+/// A container of these entries, uncompressed.
 Bytes zip_of(const std::vector<std::pair<std::string, std::string>>& entries) {
     ZipWriter zip;
     for (const auto& [name, text] : entries) {
@@ -80,7 +80,7 @@ TEST_F(SignedPacks, OfAFileAreTheSame) {
     EXPECT_TRUE(read_pack(opened->reader)) << "it is open, whatever its name";
 }
 
-/// What a parser would stumble over comes after the signature: a manifest that is none is not even looked at.
+/// The manifest is parsed after the signature check: an invalid manifest is not even read.
 TEST_F(SignedPacks, HaveTheirSignatureCheckedBeforeTheirManifestIsParsed) {
     const std::string no_manifest = "{\"format\": [[[[";
     expect_refused(zip_of({{"manifest.json", no_manifest}}), Why::Signature, SignatureFault::Unsigned,
@@ -105,7 +105,7 @@ TEST_F(SignedPacks, WithoutASignatureAreAllowedOnlyWhereTheBenchSaysSo) {
     EXPECT_FALSE(opened->signer);
     EXPECT_EQ(opened->serial(), 0U);
     EXPECT_EQ(claim_of(opened->reader).value(), std::nullopt);
-    // A signature that is there is right in any case.
+    // A signature that is present must be valid in any case.
     expect_refused(signed_pack(samples::pack(), SecretKey::make(), 1), Why::Signature,
                    SignatureFault::UnknownKey, "[signature.unknown_key]", UnsignedPacks::Allow);
 }
@@ -139,7 +139,7 @@ TEST_F(SignedPacks, ThatCannotBeReadAnyMoreAreNotCalledDamaged) {
     EXPECT_EQ(opened.error().why, Why::Unreadable) << opened.error().error.message;
 }
 
-/// Names, sizes and bytes as they are packed, of all entries but the signature; independent of how they are written.
+/// Names, sizes and packed bytes of all entries except the signature; independent of how they are written.
 std::map<std::string, std::pair<std::uint64_t, Bytes>> packed_entries(const Bytes& pack) {
     auto zip = ZipReader::open(pack);
     std::map<std::string, std::pair<std::uint64_t, Bytes>> entries;
@@ -160,14 +160,14 @@ TEST_F(SignedPacks, KeepAllOtherEntriesAsTheyArePacked) {
     EXPECT_EQ(open(twice)->serial(), 2U) << "the signature is replaced";
     EXPECT_EQ(ZipReader::open(twice)->entries().back().name, "signature");
     EXPECT_EQ(once.size(), twice.size());
-    // All in front of the old directory is the same, byte by byte: local headers too.
+    // Everything before the old directory is equal, byte by byte, including local headers.
     std::uint32_t directory = 0;
     std::memcpy(&directory, plain.data() + plain.size() - 6, sizeof directory);
     EXPECT_TRUE(std::equal(plain.begin(), plain.begin() + directory, once.begin()));
     EXPECT_TRUE(std::equal(plain.begin(), plain.begin() + directory, twice.begin()));
 }
 
-/// Someone else's archive program may have put the signature anywhere but first.
+/// Another archive program may have placed the signature anywhere except first.
 TEST_F(SignedPacks, MayHaveTheirSignatureAnywhere) {
     const Bytes plain = samples::bytes_of(samples::pack());
     const std::string signature = key_.sign(manifest_of(plain), comment_of(5));

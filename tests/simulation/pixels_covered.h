@@ -7,8 +7,9 @@
 
 namespace frustumscreen {
 
-/// Of the plane through `point` that looks along `normal`, both in the pinhole's frame: its pixels on a square metre. A pixel
-/// of a pinhole covers Z^3 / (fx fy |n . p|) there, at the point p = (X, Y, Z), and less where the lens makes the picture larger.
+/// Pixels per square metre of the plane through `point` with this `normal`, both in the pinhole's frame. A
+/// pixel of a pinhole covers Z^3 / (fx fy |n . p|) there, at the point p = (X, Y, Z), and less where the lens
+/// enlarges the picture.
 [[nodiscard]] inline double pixels_per_square_metre(const Pinhole& pinhole, const glm::dvec3& point,
                                                     const glm::dvec3& normal) {
     const double z = point.z;
@@ -16,9 +17,9 @@ namespace frustumscreen {
     return pinhole.fx * pinhole.fy * bent * std::abs(glm::dot(normal, point)) / (z * z * z);
 }
 
-/// How many projector pixels one visitor's pixel covers, by area, at the surface point that the visitor sees
-/// through `pixel`; 0 if that is not a lit face of the prop. Where this is >= 1, the visitor's pixel is no
-/// finer than the projector's.
+/// Number of projector pixels covered by one pixel of the visitor, by area, at the surface point that the
+/// visitor sees through `pixel`; 0 if that is not a lit face of the prop. Where this is >= 1, the visitor's
+/// pixel is no finer than the projector's.
 [[nodiscard]] inline double projector_pixels_covered(const VisitorScene& scene, const VisitorCamera& camera,
                                                      const glm::dvec2& pixel) {
     const RigidTransform prop_from_table = scene.table_from_prop.inverse();

@@ -11,7 +11,7 @@
 namespace frustumscreen {
 namespace {
 
-/// A painted egg that stands in the prop, known in closed form: smooth bands along z and around the axis.
+/// A painted egg in the prop, in closed form: smooth bands along z and around the axis.
 struct Egg {
     glm::dvec3 centre{0.0, 0.0, 0.055};
     glm::dvec3 radii{0.040, 0.032, 0.050};
@@ -45,7 +45,7 @@ glm::u8vec4 codes(const std::optional<glm::dvec3>& linear) {
     return {code(linear->r), code(linear->g), code(linear->b), 255};
 }
 
-/// First face of the frustum on a ray, tried one quadrilateral after the other.
+/// First face of the frustum on a ray; tests one quadrilateral after the other.
 struct FaceHit {
     int face = -1;
     double t = std::numeric_limits<double>::infinity();
@@ -85,7 +85,7 @@ VisitorScene scene_of(const Kiosk& kiosk, const glm::dvec2& place, double yaw, c
             {0.8, 0.5}};
 }
 
-/// The projector's picture as the conventions define it, by plain rays.
+/// The projector's picture by the conventions' definition, with plain rays.
 Image8 projected(const VisitorScene& scene, const Egg& egg) {
     const RigidTransform prop_from_table = scene.table_from_prop.inverse();
     const glm::dvec3 lens = prop_from_table.point(scene.table_from_projector.translation);
@@ -148,7 +148,7 @@ TEST(VisitorView, FromTheProjectorsPictureTheArtifactStandsInThePropAsAnOrdinary
             }
             EXPECT_GT(on_prop, 10000);
             EXPECT_GT(on_egg, on_prop / 8);
-            EXPECT_LE(finer, on_prop / 50) << kiosk.name; // the comparison's own condition
+            EXPECT_LE(finer, on_prop / 50) << kiosk.name; // required for the comparison
             EXPECT_GE(right, 0.97 * on_prop) << kiosk.name << " yaw " << yaw;
         }
     }
@@ -167,7 +167,7 @@ TEST(VisitorView, TheCameraLooksAtThePropsCentreWithTheTablesUp) {
     EXPECT_NEAR(pixel(centre + glm::dvec3(0, 0, 0.01)).x, 320.0, 1e-9);
     EXPECT_LT(pixel(centre + glm::dvec3(0, 0, 0.01)).y, 200.0);
     EXPECT_NEAR(glm::distance(camera.table_from_camera.translation, eye), 0.0, 1e-15);
-    // The prop's sphere, as large as 0.62 of the height: its rim is a cone of half angle asin(r / d).
+    // The prop's bounding sphere, at 0.62 of the height: its outline is a cone of half angle asin(r / d).
     const double r = std::hypot(std::hypot(0.08, 0.08), 0.06);
     const double d = glm::distance(eye, centre);
     EXPECT_NEAR(camera.pinhole.fx * std::tan(std::asin(r / d)), 0.62 * 200.0, 1e-9);
@@ -182,14 +182,14 @@ TEST(VisitorView, WithoutLightABlackPictureLeavesEverythingBlack) {
     for (const glm::u8vec4& texel : visitor_view(scene, black, camera, exact_check()).texels) {
         EXPECT_EQ(texel, glm::u8vec4(0, 0, 0, 255));
     }
-    // With the room's light the prop stands out from the table, and neither is bright.
+    // In the room's light the prop stands out from the table, and neither is bright.
     const Image8 lit = visitor_view(scene, black, camera);
     EXPECT_GT(lit.at(80, 50).r, lit.at(20, 80).r + 8);
     EXPECT_LT(lit.at(80, 50).r, 70);
 }
 
 TEST(VisitorView, ThePropCastsAShadowInTheProjectorsLightOnTheTable) {
-    // Off the axis, so that the shadow falls outwards to +X; the eye looks along -X at it.
+    // Off the axis, so the shadow falls outwards to +X; the eye looks at it along -X.
     const VisitorScene scene = scene_of(kiosks[1], {0.15, 0.0}, 0.0, {0.9, -0.3, 0.6});
     const VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, 320, 200);
     const Image8 white(1280, 800, glm::u8vec4(255));
@@ -199,7 +199,7 @@ TEST(VisitorView, ThePropCastsAShadowInTheProjectorsLightOnTheTable) {
         return view.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
     };
     // The base's edge is at 0.23; the top's edge, 0.195 m out at 0.12 m, casts its shadow to 0.195 / 0.9 =
-    // 0.217: the +X face is lit and the table beyond it too. A taller prop would shade: make one.
+    // 0.217: the +X face is lit and so is the table beyond it. A taller prop casts a shadow there.
     EXPECT_EQ(at({0.25, 0.0, 0.0}).r, 255);
     VisitorScene tall = scene;
     tall.prop = make_frustum({0.16, 0.16, 0.30});
@@ -228,14 +228,14 @@ TEST(VisitorView, LightFallsWithTheCosineAndTheSquareOfTheDistance) {
     };
     const glm::dvec3 top(0.0, 0.0, 0.12);
     const glm::dvec3 side(0.0, -0.0625, 0.06);
-    const double tilt = std::atan2(0.035, 0.12); // of the side face from upright
+    const double tilt = std::atan2(0.035, 0.12); // of the side face from the vertical
     const glm::dvec3 normal(0.0, -std::cos(tilt), std::sin(tilt));
     const glm::dvec3 up = glm::dvec3(0, 0, 1.2) - side;
     const double expected = (glm::dot(normal, up) / std::pow(glm::length(up), 3)) / (1.0 / (1.08 * 1.08));
     EXPECT_NEAR(light(side) / light(top), expected, 0.04 * expected);
 }
 
-/// Without any picture the room's light alone is seen: table and prop are dark grey.
+/// Without a picture only the room's light is visible: table and prop are dark grey.
 TEST(VisitorView, ExposesADarkRoomsTableToDarkGreyAndWhiteOnASideToWhite) {
     VisitorScene scene = scene_of(kiosks[1], {0.0, 0.0}, 0.0, {0.6, -0.1, 0.5});
     const VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, 200, 200);
@@ -259,10 +259,11 @@ TEST(VisitorView, ShowsABlockWhereItIsTheNearest) {
     const VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, 120, 120);
     const Image8 white(1280, 800, glm::u8vec4(255));
     const Image8 before = visitor_view(scene, white, camera);
-    scene.blocks = {{{-5.0, 3.0, -5.0}, {5.0, 3.1, 5.0}, 0.6}}; // a wall behind all
+    scene.blocks = {{{-5.0, 3.0, -5.0}, {5.0, 3.1, 5.0}, 0.6}}; // a wall behind everything
     const Image8 walled = visitor_view(scene, white, camera);
     EXPECT_EQ(walled.at(60, 60), before.at(60, 60));
-    scene.blocks.push_back({{-5.0, -0.41, -5.0}, {5.0, -0.4, 5.0}, 0.0}); // a black screen before the eye
+    scene.blocks.push_back({{-5.0, -0.41, -5.0}, {5.0, -0.4, 5.0}, 0.0}); // a black screen in front of the
+                                                                          // eye
     const Image8 hidden = visitor_view(scene, white, camera);
     EXPECT_EQ(hidden.at(60, 60), glm::u8vec4(0, 0, 0, 255));
     EXPECT_GT(before.at(60, 60).g, 100);

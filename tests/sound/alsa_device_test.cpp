@@ -1,5 +1,5 @@
-// ALSA's own 'file' and 'null' devices stand in for a card: what arrives in the file is what would be heard. A plugin of
-// ALSA's is the card that has faults.
+// ALSA's 'file' and 'null' devices replace a sound card: the file receives what would be heard. An ALSA
+// plugin acts as a card with faults.
 #include "firmware_host/base/file.h"
 #include "firmware_host/sound/device_sound.h"
 #include "tests/sound/faulty_card.h"
@@ -33,10 +33,10 @@ pcm.mono_44100 {
 )";
         std::ofstream("asound.conf", std::ios::app)
             << "pcm_type.faulty { lib \"" FRUSTUMSCREEN_FAULTY_CARD "\" }\npcm.faulty { type faulty }\n";
-        ::setenv("ALSA_CONFIG_PATH", "asound.conf", 1); // before ALSA first looks
+        ::setenv("ALSA_CONFIG_PATH", "asound.conf", 1); // before ALSA's first access
     }
 
-    /// The plugin's own, as ALSA loads it.
+    /// The plugin's instance, as loaded by ALSA.
     static FaultyCard& faulty_card() {
         void* const plugin = ::dlopen(FRUSTUMSCREEN_FAULTY_CARD, RTLD_NOW);
         if (plugin == nullptr) {
@@ -55,7 +55,7 @@ pcm.mono_44100 {
         return samples;
     }
 
-    /// Says it and waits until it is over, at most twenty seconds.
+    /// Plays the prompt and waits until it is over, at most twenty seconds.
     static bool say(const std::string& device, const SharedPrompt& prompt) {
         DeviceSound sound([device] { return open_alsa(device); });
         SoundWish wish;
@@ -101,7 +101,7 @@ TEST_F(AlsaDevice, ACardThatIsMonoAndOfAnotherRateIsConvertedFor) {
     EXPECT_NEAR(length_s, 0.5, 0.002);
 }
 
-/// Polls until `done(report)` or for twenty seconds: no time is asserted.
+/// Polls until `done(report)` or for twenty seconds; asserts no duration.
 template <typename Done> bool until(Sound& sound, const SoundWish& wish, const Done& done) {
     const auto give_up = std::chrono::steady_clock::now() + seconds(20);
     while (!done(sound.poll(monotonic_now(), wish))) {
@@ -126,11 +126,12 @@ TEST_F(AlsaDevice, UnderrunsSuspensionsAndLossesAreSurvived) {
     SoundWish wish;
     wish.say(level(120 * 48'000, 100));
     ASSERT_TRUE(plays_on(sound, wish));
-    const std::uint64_t own = sound.poll(monotonic_now(), wish).underruns; // of a machine with more to do
+    const std::uint64_t own = sound.poll(monotonic_now(), wish).underruns; // underruns caused by a busy
+                                                                           // machine
     card.underruns = 3;
     ASSERT_TRUE(until(sound, wish, [&](const SoundReport& report) { return report.underruns >= own + 3; }));
     ASSERT_TRUE(plays_on(sound, wish));
-    // A busy machine may run into an underrun meanwhile, after which nothing is left to resume.
+    // On a busy machine an underrun may come first, and then there is nothing to resume.
     const std::uint64_t before = sound.poll(monotonic_now(), wish).underruns;
     card.resumes_refused = 5;
     card.suspensions = 1;
@@ -150,7 +151,7 @@ TEST_F(AlsaDevice, UnderrunsSuspensionsAndLossesAreSurvived) {
     ASSERT_TRUE(plays_on(sound, wish));
     EXPECT_EQ(card.opened, 2);
     EXPECT_EQ(sound.poll(monotonic_now(), wish).losses, 1U);
-    EXPECT_EQ(sound.poll(monotonic_now(), wish).number, 1U); // the prompt went on all the time
+    EXPECT_EQ(sound.poll(monotonic_now(), wish).number, 1U); // the prompt continued meanwhile
 }
 
 TEST_F(AlsaDevice, TheQueueIsAsShortAsItIsSaid) {

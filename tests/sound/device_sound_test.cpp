@@ -15,14 +15,14 @@ using std::chrono::seconds;
 
 constexpr std::size_t capacity = samples_in(longest_queue);
 
-/// A sound card that a test plugs, unplugs, stops and listens to.
+/// A sound card that a test plugs in, unplugs, stops and listens to.
 struct FakeCard {
     std::atomic<bool> plugged{true};
-    std::atomic<bool> plays{true};        ///< takes what is in its queue as soon as it was written
-    std::atomic<std::uint64_t> played{0}; ///< samples that left the queue, where a test takes them out
+    std::atomic<bool> plays{true};        ///< consumes its queue immediately
+    std::atomic<std::uint64_t> played{0}; ///< samples that left the queue, if the test removes them
     std::atomic<std::uint64_t> underruns{0};
     std::atomic<int> opened{0};
-    std::atomic<int> fails_every{0}; ///< calls; 0: never
+    std::atomic<int> fails_every{0}; ///< every so many calls; 0: never
 
     std::mutex mutex;
     std::vector<std::int16_t> written;
@@ -88,7 +88,7 @@ OpenPcm opener(FakeCard& card) {
     };
 }
 
-/// Polls until `done(report)` or for twenty seconds: no time is asserted.
+/// Polls until `done(report)` or for twenty seconds; asserts no duration.
 template <typename Done> bool until(Sound& sound, const SoundWish& wish, const Done& done) {
     const auto give_up = std::chrono::steady_clock::now() + seconds(20);
     while (!done(sound.poll(monotonic_now(), wish))) {
@@ -125,7 +125,7 @@ TEST(DeviceSound, SpeechBeginsWithinTheQueueAndOneRound) {
     card.plays = false;
     DeviceSound sound(opener(card));
     SoundWish wish;
-    // The queue is full, and nothing leaves it before the prompt is wished: as late as it can be.
+    // The queue is full, and nothing leaves it before the prompt is requested: the latest possible start.
     ASSERT_TRUE(until(sound, wish, [&](const SoundReport&) { return card.count() == capacity; }));
     wish.say(level(24'000, 20'000));
     ASSERT_TRUE(until(sound, wish, [&](const SoundReport&) {
@@ -137,7 +137,7 @@ TEST(DeviceSound, SpeechBeginsWithinTheQueueAndOneRound) {
     }));
     const std::size_t begin = first_heard(card.heard());
     EXPECT_GE(begin, capacity);
-    EXPECT_LE(begin, capacity + capacity / 5); // 60 ms after the wish
+    EXPECT_LE(begin, capacity + capacity / 5); // 60 ms after the request
 }
 
 TEST(DeviceSound, CaptionsCarryOnWithoutADeviceAndSoundReturnsByItself) {
@@ -156,7 +156,7 @@ TEST(DeviceSound, CaptionsCarryOnWithoutADeviceAndSoundReturnsByItself) {
             return report.audible == audible && heard > from + milliseconds(50);
         });
     };
-    ASSERT_TRUE(goes_on(false)); // missing at the start
+    ASSERT_TRUE(goes_on(false)); // device missing at the start
     EXPECT_EQ(sound.state(), "not there");
     EXPECT_EQ(sound.condition().health, DeviceHealth::Away);
     EXPECT_EQ(card.count(), 0U);
@@ -167,7 +167,7 @@ TEST(DeviceSound, CaptionsCarryOnWithoutADeviceAndSoundReturnsByItself) {
     ASSERT_TRUE(goes_on(false)); // lost
     EXPECT_EQ(sound.poll(monotonic_now(), wish).losses, 1U);
     card.plugged = true;
-    ASSERT_TRUE(goes_on(true)); // and back, in the middle of the prompt
+    ASSERT_TRUE(goes_on(true)); // found again, in the middle of the prompt
     EXPECT_EQ(card.opened, 2);
     EXPECT_EQ(sound.poll(monotonic_now(), wish).losses, 1U);
     EXPECT_EQ(card.heard().back(), 5000);
@@ -200,7 +200,7 @@ TEST(DeviceSound, ADeviceThatTakesLongToSayNoIsAskedSeldom) {
     SoundWish wish;
     wish.say(level(60 * 48'000, 1));
     ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.heard > seconds(3); }));
-    const int times = asked; // before it is heard how long that took
+    const int times = asked; // before the delay is known
     const Nanoseconds heard = sound.poll(monotonic_now(), wish).heard;
     EXPECT_LE(times, 2 + heard / (11 * takes));
 }
@@ -213,13 +213,13 @@ TEST(DeviceSound, UnderrunsOfAllDevicesAreCounted) {
     ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.underruns == 3; }));
     card.plugged = false;
     ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.losses == 1; }));
-    card.underruns = 2; // of another device
+    card.underruns = 2; // counted by a different device
     card.plugged = true;
     ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.underruns == 5; }));
 }
 
 TEST(DeviceSound, ADeviceThatTakesEverythingIsHeldBackToTheClock) {
-    FakeCard card; // it plays what it gets at once, for ever
+    FakeCard card; // plays its data immediately, without end
     DeviceSound sound(opener(card));
     SoundWish wish;
     const MonotonicTime before = monotonic_now();
@@ -230,7 +230,7 @@ TEST(DeviceSound, ADeviceThatTakesEverythingIsHeldBackToTheClock) {
     EXPECT_LE(duration_of(card.count()), took + took / 40 + 2 * longest_queue);
 }
 
-/// Takes all and keeps nothing.
+/// Accepts all samples and queues none.
 class DeafPcm final : public PcmDevice {
 public:
     [[nodiscard]] Result<std::size_t> room() override { return capacity; }
@@ -264,8 +264,8 @@ TEST(DeviceSound, AFrameAllocatesNothingNorDoesItsThread) {
     EXPECT_EQ(synthetic::allocations_so_far(), before);
 }
 
-/// For the thread sanitizer, and for the order of what is reported: a caller who wishes something else all the
-/// time, a device that fails all the time.
+/// For the thread sanitizer, and for the order of reports: the caller constantly changes its request, and the
+/// device constantly fails.
 TEST(DeviceSound, WishesAndLossesInAnyOrderLeaveNoPromptStuck) {
     FakeCard card;
     card.fails_every = 7;

@@ -1,4 +1,5 @@
-// A sound card as a plugin of ALSA: it takes frames by the clock, and has underruns, suspensions and losses when it is told.
+// A sound card as an ALSA plugin: it consumes frames by the clock, and has underruns, suspensions and losses
+// when set.
 #include "tests/sound/faulty_card.h"
 
 #include <alsa/asoundlib.h>
@@ -26,7 +27,7 @@ struct Card {
 Card& card_of(snd_pcm_ioplug_t* plugin) {
     return *static_cast<Card*>(plugin->private_data);
 }
-/// True once for each that is still to happen.
+/// Returns true once for each pending fault.
 bool happens(std::atomic<int>& faults) {
     return faults > 0 && faults-- > 0;
 }

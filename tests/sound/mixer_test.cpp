@@ -11,8 +11,8 @@ constexpr std::size_t fade = Mixer::fade_samples;
 constexpr std::size_t breath = Mixer::breath_samples;
 constexpr std::size_t second = sample_rate_hz;
 
-/// The largest step of a fade over `length` samples of a signal of this height, and half a code of rounding at
-/// both ends.
+/// The largest step of a fade over `length` samples of a signal of this height, plus half a code of rounding
+/// at both ends.
 double step_of_fade(double height, double length) {
     return 1.5 * height / length + 1.0;
 }
@@ -82,7 +82,7 @@ TEST(Mixer, APromptIsLeftWithinAMarkAndNowhereElse) {
         heard.insert(heard.end(), rest.begin(), rest.end());
         const auto left = std::find_if(marks.begin(), marks.end(), [&](Mark m) { return m.end >= asked; });
         const std::size_t from = left == marks.end() ? 12'000 : std::max<std::size_t>(left->begin, asked);
-        // The last sample of a fade is 0, and so may the one before it be, rounded.
+        // The last sample of a fade is 0, and the one before it may round to 0.
         const std::size_t expected = std::min<std::size_t>(from + fade, 12'000);
         EXPECT_LE(end_of_heard(heard), expected);
         EXPECT_GE(end_of_heard(heard) + 4, expected);
@@ -105,7 +105,7 @@ TEST(Mixer, WithoutAMarkItGoesOnToItsEnd) {
     wish.leave();
     mixer.follow(wish);
     EXPECT_EQ(mixed(mixer, 4000).back(), 9000);
-    EXPECT_NEAR(static_cast<double>(end_of_heard(mixed(mixer, 4000))), 5000 - 4100, 2.0); // it fades to 0
+    EXPECT_NEAR(static_cast<double>(end_of_heard(mixed(mixer, 4000))), 5000 - 4100, 2.0); // fades to 0
 }
 
 TEST(Mixer, AStopFadesWithinMillisecondsAndTheNextPromptDoesNotWait) {
@@ -121,7 +121,7 @@ TEST(Mixer, AStopFadesWithinMillisecondsAndTheNextPromptDoesNotWait) {
     EXPECT_LE(largest_step(heard), step_of_fade(20'000, fade));
     EXPECT_GT(heard[0], 19'900);
     EXPECT_EQ(heard[fade - 1], 0);
-    EXPECT_EQ(heard[2 * fade], 20'000); // 5 ms down, 5 ms up
+    EXPECT_EQ(heard[2 * fade], 20'000); // 5 ms fade-out, 5 ms fade-in
     EXPECT_EQ(mixer.report(Nanoseconds(0)).number, 2U);
     EXPECT_EQ(mixer.report(Nanoseconds(0)).over, 1U);
 }
@@ -159,23 +159,23 @@ TEST(Mixer, NumbersSayWhatIsOver) {
     EXPECT_EQ(mixer.report(duration_of(400)).heard, Nanoseconds(0));
     wish.say(level(1000, 1));
     mixer.follow(wish);
-    wish.say(level(1000, 1)); // the second is never heard
+    wish.say(level(1000, 1)); // the second prompt is never heard
     mixer.follow(wish);
     EXPECT_EQ(report().number, 1U);
     EXPECT_EQ(report().over, 0U);
     mixed(mixer, 300 + fade);
-    EXPECT_EQ(report().number, 0U); // a breath
+    EXPECT_EQ(report().number, 0U); // breath between prompts
     EXPECT_EQ(report().over, 2U);
     mixed(mixer, breath + 1);
     EXPECT_EQ(report().number, 3U);
     EXPECT_EQ(report().over, 2U);
-    wish.leave(); // it has no mark, and is played to its end
+    wish.leave(); // it has no mark, and plays to its end
     mixer.follow(wish);
     EXPECT_EQ(report().number, 3U);
     mixed(mixer, 1000);
     EXPECT_EQ(report().over, 3U);
     wish.say(level(1000, 1));
-    wish.stop(); // before anybody heard it
+    wish.stop(); // before any of it was heard
     mixer.follow(wish);
     EXPECT_EQ(report().over, 4U);
     mixed(mixer, 1000);
@@ -198,7 +198,7 @@ TEST(Mixer, TheVolumeMovesSmoothlyToWhatIsWished) {
     wish.say(level(10 * second, 10'000));
     mixer.follow(wish);
     std::vector<std::int16_t> heard = mixed(mixer, 1000);
-    EXPECT_EQ(heard.back(), 1000); // the first wish is no change
+    EXPECT_EQ(heard.back(), 1000); // the first gain is not a change
     wish.set_gain_db(0.0);
     mixer.follow(wish);
     heard = mixed(mixer, second);
@@ -234,7 +234,7 @@ TEST(Mixer, NothingClips) {
         EXPECT_EQ(y, -soft_limit(-x));
         EXPECT_GE(y, last);
         EXPECT_LE(std::abs(y), 1.0F);
-        EXPECT_LE(y - std::max(last, -1.0F), 0.01F + 1e-5F); // a slope of at most 1
+        EXPECT_LE(y - std::max(last, -1.0F), 0.01F + 1e-5F); // slope of at most 1
         if (std::abs(x) <= 0.8F) {
             EXPECT_EQ(y, x);
         }

@@ -12,18 +12,18 @@
 namespace frustumscreen {
 namespace {
 
-/// Recordings that libsndfile wrote.
+/// Recordings written by libsndfile.
 Bytes fixture(const std::string& name) {
     const Result<Bytes> bytes = read_file(source_dir() + "/tests/sound/fixtures/" + name);
     EXPECT_TRUE(bytes);
     return bytes.value_or(Bytes());
 }
 
-/// How far the samples are from `amplitude` times the tone of 440 Hz that was recorded, in dB under it.
+/// Error of the samples against `amplitude` times the recorded 440 Hz tone, in dB relative to the tone.
 double error_db(std::span<const std::int16_t> samples, double amplitude) {
     double error = 0.0;
     double tone = 0.0;
-    for (std::size_t k = 480; k + 480 < samples.size(); ++k) { // a codec rings at the ends
+    for (std::size_t k = 480; k + 480 < samples.size(); ++k) { // the codec rings at the ends
         const double truth =
             amplitude * std::sin(2.0 * std::numbers::pi * 440.0 * static_cast<double>(k) / 48'000.0);
         error += std::pow(samples[k] / 32768.0 - truth, 2);
@@ -73,7 +73,7 @@ TEST(OpusReader, ARecordedToneComesBackWholeAndInPlace) {
 }
 
 TEST(OpusReader, TwoChannelsAreAveraged) {
-    const Result<Prompt> prompt = read_opus(fixture("left.opus")); // the right one is silent
+    const Result<Prompt> prompt = read_opus(fixture("left.opus")); // the right channel is silent
     ASSERT_TRUE(prompt) << prompt.error().message;
     EXPECT_EQ(prompt->samples.size(), 14'400U);
     EXPECT_LT(error_db(prompt->samples, 0.25), -25.0);
@@ -97,7 +97,7 @@ TEST(OpusReader, WhatIsOrClaimsToBeTooLongIsRefused) {
     EXPECT_NE(message.find("longer than 180 s; shorten it"), std::string::npos) << message;
     const Result<Prompt> honest = read_opus(fixture("speech.opus"));
     const Result<Prompt> boastful = read_opus(claiming(fixture("speech.opus"), 100 * 48'000));
-    ASSERT_TRUE(honest && boastful); // a claim that is allowed makes nothing longer than its last page
+    ASSERT_TRUE(honest && boastful); // a valid claim does not extend the prompt beyond its last page
     EXPECT_LE(boastful->samples.size(), honest->samples.size() + 960);
 }
 
@@ -105,7 +105,7 @@ TEST(OpusReader, WhatIsNoRecordingIsRefusedInOneSentence) {
     EXPECT_NE(refusal({}).find("no Ogg Opus"), std::string::npos);
     EXPECT_NE(refusal(as_bytes("RIFF....WAVEfmt ")).find("no Ogg Opus"), std::string::npos);
     const Bytes whole = fixture("tone.opus");
-    for (std::size_t length = 0; length < whole.size(); length += 7) { // cut anywhere
+    for (std::size_t length = 0; length < whole.size(); length += 7) { // cut at any place
         const Result<Prompt> prompt = read_opus(std::span(whole).first(length));
         if (!prompt) {
             EXPECT_EQ(prompt.error().kind, ErrorKind::BadInput);

@@ -13,7 +13,7 @@ using namespace testing;
 
 constexpr std::size_t ms = sample_rate_hz / 1000;
 
-/// Noise, but for these stretches, in ms.
+/// Noise, except for these stretches in ms.
 std::vector<std::int16_t> broken(std::size_t length_ms,
                                  std::vector<std::pair<std::size_t, std::size_t>> pauses, int quiet) {
     std::vector<std::int16_t> samples = noise(length_ms * ms, 8000, 11)->samples;
@@ -34,11 +34,11 @@ TEST(Pauses, AreFoundWhereTheyAreLongAndQuietEnough) {
         EXPECT_EQ(marks[0], (Mark{320 * ms, 455 * ms})) << quiet;
         EXPECT_EQ(marks[1], (Mark{1520 * ms, 1885 * ms})) << quiet;
     }
-    EXPECT_TRUE(find_pauses(broken(2000, {{300, 600}}, 600)).empty()); // -22 dB is no pause
+    EXPECT_TRUE(find_pauses(broken(2000, {{300, 600}}, 600)).empty()); // -22 dB is not a pause
 }
 
 TEST(Pauses, AFadeThatBeginsInAMarkIsOverBeforeThePause) {
-    for (std::size_t at = 301; at < 320; ++at) { // anywhere between the finder's frames
+    for (std::size_t at = 301; at < 320; ++at) { // at any phase of the finder's frames
         for (const Mark mark : find_pauses(broken(1000, {{at, at + 180}}, 0))) {
             EXPECT_GE(mark.begin, at * ms);
             EXPECT_LE(mark.begin, mark.end);
@@ -55,13 +55,14 @@ TEST(Pauses, SilenceIsOnePauseAndNothingHasNone) {
     EXPECT_TRUE(find_pauses(level(10, 0)->samples).empty());
 }
 
-/// 'Spostatelo un poco a sinistra. Nella bottega c'era un gatto matto.', with three long closures inside words.
+/// 'Spostatelo un poco a sinistra. Nella bottega c'era un gatto matto.', with three long closures inside
+/// words.
 TEST(Pauses, AreThoseBetweenSentencesNotTheLongConsonantsOfItalian) {
     const Result<Bytes> bytes = read_file(source_dir() + "/tests/sound/fixtures/speech.opus");
     ASSERT_TRUE(bytes);
     const Result<Prompt> speech = read_opus(*bytes);
     ASSERT_TRUE(speech) << speech.error().message;
-    // By espeak-ng's own events 'sinistra' begins at 1040 ms and 'Nella' at 1924 ms.
+    // According to espeak-ng's events, 'sinistra' begins at 1040 ms and 'Nella' at 1924 ms.
     const std::vector<Mark> marks = find_pauses(speech->samples);
     ASSERT_EQ(marks.size(), 1U);
     EXPECT_GT(marks[0].begin, 1500 * ms);

@@ -1,4 +1,4 @@
-/// Prompts that tests make, and what they ask of samples.
+/// Prompts for tests, and properties of samples.
 #pragma once
 
 #include "firmware_host/sound/mixer.h"
@@ -17,14 +17,14 @@ template <typename Value> SharedPrompt prompt_of(std::size_t count, std::vector<
     prompt->marks = std::move(marks);
     return prompt;
 }
-/// Held at one level: whatever moves then is a fade.
+/// A constant level, in which any change is a fade.
 inline SharedPrompt level(std::size_t count, int code, std::vector<Mark> marks = {}) {
     auto prompt = std::make_shared<Prompt>();
     prompt->samples.assign(count, static_cast<std::int16_t>(code));
     prompt->marks = std::move(marks);
     return prompt;
 }
-/// No two stretches of it are alike.
+/// No two stretches of it are equal.
 inline SharedPrompt noise(std::size_t count, int loudest, unsigned seed, std::vector<Mark> marks = {}) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> code(-loudest, loudest);
@@ -43,7 +43,7 @@ inline int largest_step(const std::vector<std::int16_t>& samples) {
     }
     return largest;
 }
-/// The first sample from `from` on that is not 0; the end: none.
+/// The first non-zero sample from `from` on; the end if there is none.
 inline std::size_t first_heard(const std::vector<std::int16_t>& samples, std::size_t from = 0) {
     while (from < samples.size() && samples[from] == 0) {
         ++from;

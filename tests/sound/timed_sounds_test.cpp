@@ -38,7 +38,7 @@ TEST(SilentSound, KeepsTimeAsIfItWasHeard) {
     SilentSound sound(start);
     SoundWish wish;
     wish.say(level(48'000, 1000));
-    EXPECT_EQ(sound.poll(start + seconds(1), wish).number, 0U); // from now on
+    EXPECT_EQ(sound.poll(start + seconds(1), wish).number, 0U); // starts now
     const SoundReport half = sound.poll(start + milliseconds(1500), wish);
     EXPECT_EQ(half.number, 1U);
     EXPECT_EQ(half.heard, milliseconds(500));
@@ -78,7 +78,7 @@ TEST(WavSound, HearsWhatTheSilentOneKeepsTimeOf) {
     }
 }
 
-/// Python's own reader of WAV files hears the same.
+/// Python's own WAV reader gives equal samples.
 TEST(WavSound, IsAWaveFileForOthers) {
     if (std::system("command -v python3 >/dev/null") != 0) {
         GTEST_SKIP() << "python3 is not installed";
@@ -101,7 +101,7 @@ TEST(WavSound, IsAWaveFileForOthers) {
     std::vector<std::int16_t> heard(raw->size() / 2);
     std::memcpy(heard.data(), raw->data(), heard.size() * 2);
     ASSERT_EQ(heard.size(), 12'000U);
-    EXPECT_EQ(first_heard(heard) / 10, 240U); // it was wished after 50 ms
+    EXPECT_EQ(first_heard(heard) / 10, 240U); // it was requested after 50 ms
     for (std::size_t k = Mixer::fade_samples; k < 4800 - Mixer::fade_samples; ++k) {
         ASSERT_EQ(heard[2400 + k], prompt->samples[k]) << k;
     }

@@ -29,7 +29,7 @@ TEST(Volume, NeverJumpsNotEvenOverMidnightOrInShortHours) {
     };
     for (const Volume& volume : volumes) {
         constexpr double step_h = 1e-4;
-        constexpr double steepest = 65.0 / 1e-3; // dB an hour: from one row to the next
+        constexpr double steepest = 65.0 / 1e-3; // dB per hour: from one row to the next
         double last = gain_db_at(volume, 0.0);
         for (double hour = step_h; hour < 24.5; hour += step_h) {
             const double gain = gain_db_at(volume, hour);

@@ -6,7 +6,7 @@
 namespace frustumscreen {
 namespace {
 
-/// The same places and noise at one speed to the right, said as a motion.
+/// Constant speed to the right, given as a motion; places and noise do not depend on the speed.
 TagCase slid_at(double speed_m_s) {
     TagCase one;
     one.camera.rolling_ms = 25.0;
@@ -24,7 +24,7 @@ TEST(TagFigures, AMotionOfItsOwnMovesTheProp) {
     const TagFigures slid = measure(slid_at(0.3), pictures, 1);
     EXPECT_EQ(rest.trusted, 1.0);
     EXPECT_EQ(slid.trusted, 1.0);
-    EXPECT_GT(slid.off_deg[0], 5.0 * rest.off_deg[0]); // the rows lie 25 ms apart
+    EXPECT_GT(slid.off_deg[0], 5.0 * rest.off_deg[0]); // the rows are up to 25 ms apart
     EXPECT_LT(slid.worst_mm, 1e3 * 0.3 * 0.025);
 }
 

@@ -19,7 +19,7 @@ RigidTransform above_the_table() {
     return *looking_at({0.0, -0.5, 1.2}, {0.0, 0.0, 0.0}, 0.0);
 }
 
-/// Corners of every tag, straight through the pinhole, with noise.
+/// Corners of every tag, projected by the pinhole, with noise.
 std::vector<FoundTag> corners_of(const std::vector<PropTag>& tags, const RigidTransform& table_from_prop,
                                  double sd_px, std::mt19937_64& random) {
     std::normal_distribution<double> noise(0.0, 1.0);
@@ -59,7 +59,8 @@ TEST(TagPose, ExactCornersGiveTheExactPose) {
     }
 }
 
-/// The spread that it says is the spread that it has, within a fifth, for one slanted tag, for three and for all.
+/// The reported standard deviation equals the actual one within a fifth, for one tilted tag, for three and
+/// for all.
 TEST(TagPose, SaysHowMuchItScatters) {
     std::mt19937_64 random(2);
     const Skirt skirt{.tag_m = 0.08, .slope_deg = 40.0};
@@ -84,7 +85,7 @@ TEST(TagPose, SaysHowMuchItScatters) {
     }
 }
 
-/// Small, far and seen from almost above: it leans to one side or the other, and nothing tells which. It never claims to be sure and is
+/// Small, far and seen from almost above: the tilt is ambiguous. The result must never be both sure and
 /// wrong.
 TEST(TagPose, ASmallSingleTagIsNeverWrongAndSure) {
     std::mt19937_64 random(3);
@@ -99,7 +100,7 @@ TEST(TagPose, ASmallSingleTagIsNeverWrongAndSure) {
         EXPECT_LT(turn, 5.0 * pose->turn_sd_rad) << k;
         wrong += turn > glm::radians(20.0) ? 1 : 0;
     }
-    EXPECT_GT(wrong, 5); // the trap is there
+    EXPECT_GT(wrong, 5); // the ambiguity occurs
 }
 
 TEST(TagPose, ATagThatIsReadWrongIsLeftOut) {
@@ -108,7 +109,8 @@ TEST(TagPose, ATagThatIsReadWrongIsLeftOut) {
     std::vector<PropTag> tags = tags_of({});
     for (std::size_t k = 0; k < tags.size(); ++k) {
         auto found = corners_of(tags, truth, corner_sd_px, random);
-        found[k].id = tags[(k + 3) % tags.size()].id; // another of the prop's; now that one is there twice
+        found[k].id = tags[(k + 3) % tags.size()].id; // the id of another of the prop's tags, which then
+                                                      // occurs twice
         std::rotate(found[k].corners_px.begin(), found[k].corners_px.begin() + 1, found[k].corners_px.end());
         auto pose = pose_from_tags(found, tags, camera, corner_sd_px);
         ASSERT_TRUE(pose);
@@ -128,15 +130,15 @@ TEST(TagPose, WhatIsNoPoseIsNone) {
     EXPECT_FALSE(pose_from_tags({}, tags, camera, corner_sd_px));
     auto found = corners_of(tags, place(0, 0, 0), 0.0, random);
     for (FoundTag& tag : found) {
-        tag.id += 100; // another prop's
+        tag.id += 100; // belongs to another prop
     }
     EXPECT_FALSE(pose_from_tags(found, tags, camera, corner_sd_px));
-    // Two that contradict each other.
+    // Two contradicting tags.
     found = corners_of(tags, place(0, 0, 0), 0.0, random);
     found.resize(2);
     std::swap(found[0].id, found[1].id);
     EXPECT_FALSE(pose_from_tags(found, tags, camera, corner_sd_px));
-    // Corners in one point, and in a line.
+    // Corners at one point, and on a line.
     found.resize(1);
     found[0].corners_px.fill({100.0, 100.0});
     EXPECT_FALSE(pose_from_tags(found, tags, camera, corner_sd_px));
@@ -147,16 +149,16 @@ TEST(TagPose, WhatIsNoPoseIsNone) {
 constexpr double readout_s = 0.025;
 constexpr double frame_s = 1.0 / 30.0;
 
-/// Slid at .36 m/s and turned by 90 degrees a second.
+/// Slid at 0.36 m/s and rotated by 90 degrees per second.
 RigidTransform slid(double t_s) {
     return place(0.02 + 0.3 * t_s, -0.03 + 0.2 * t_s, 20.0 + 90.0 * t_s);
 }
 
-/// Each corner where it is when its own row is read; the first row at `first_s`.
+/// Each corner at the time when its row is read; the first row at `first_s`.
 std::vector<FoundTag> rolled_corners(const std::vector<PropTag>& tags, double first_s) {
     std::mt19937_64 random(1);
     std::vector<FoundTag> found = corners_of(tags, slid(first_s), 0.0, random);
-    for (int round = 0; round < 20; ++round) { // until row and moment agree
+    for (int round = 0; round < 20; ++round) { // until row and time agree
         for (std::size_t k = 0; k < found.size(); ++k) {
             for (std::size_t j = 0; j < 4; ++j) {
                 const double row_s = readout_s * found[k].corners_px[j].y / camera.height;
@@ -182,7 +184,7 @@ TEST(TagPose, ARollingShutterIsTakenOutByThePoseBefore) {
     EXPECT_LT(glm::length(off(*pose, slid(pose->moment_s)).turn_rad), 1e-6);
 }
 
-/// The first pose is skewed, for nothing is known of the motion; each later one tells it better.
+/// The first pose is skewed, because the motion is unknown; each later pose improves the estimate.
 TEST(TagPose, AfterAFewFramesNothingIsLeftOfTheRolling) {
     const std::vector<PropTag> tags = tags_of({});
     RollingShutter shutter{readout_s, {}, 0.0};
@@ -198,7 +200,7 @@ TEST(TagPose, AfterAFewFramesNothingIsLeftOfTheRolling) {
     EXPECT_LT(off_m, 1e-4);
 }
 
-/// With a global shutter the pose before counts for nothing.
+/// With a global shutter the previous pose has no influence.
 TEST(TagPose, AGlobalShutterNeedsNoPoseBefore) {
     std::mt19937_64 random(4);
     const std::vector<PropTag> tags = tags_of({});

@@ -46,8 +46,9 @@ TEST(TagReader, AFrameGivesThePoseOnTheTable) {
     EXPECT_EQ(reader.counts().posed, 1U);
 }
 
-/// Slid at .3 m/s before a shutter that takes 25 ms from the first row to the last: after four frames each pose is where the prop is at the pose's
-/// time, which is that of its tags' rows. The frame's time is its middle row's.
+/// Slid at 0.3 m/s in front of a shutter that takes 25 ms from the first row to the last: after four frames
+/// each pose is the prop's at the pose's time, which is the time of its tags' rows. The frame's time is its
+/// middle row's.
 TEST(TagReader, WhatARollingShutterSkewsIsTakenOut) {
     const auto prop = [](double t_s) {
         return RigidTransform{standing.rotation, standing.translation + glm::dvec3(0.3 * t_s, 0.0, 0.0)};
@@ -82,7 +83,7 @@ TEST(TagReader, WhatARollingShutterSkewsIsTakenOut) {
     EXPECT_GT(glm::length(skewed.turn_rad), 0.02);
 }
 
-/// Each frame takes 20 ms of the processor: at 100 frames a second it looks at one of eight.
+/// Each frame takes 20 ms of CPU time: at 100 frames per second it reads one of eight.
 TEST(TagReader, TakesNoMoreThanAQuarterOfACore) {
     double busy_s = 0.0;
     TagReader reader(set_up(), [&busy_s] { return busy_s += 0.02; });
@@ -108,12 +109,12 @@ TEST(TagReader, SearchesTheWholePictureWhileThatIsCheap) {
     takes_s = 0.01;
     look(1);
     takes_s = 0.002;
-    look(150); // it tries again
+    look(150); // it tries full size again
     EXPECT_EQ(reader.counts().at_half_size, 100U);
 }
 
-/// Tags of 18 pixels, on a processor on which a whole picture takes 13 ms: searched at half size none is found, so two frames in 202 are lost,
-/// and not a hundred in 101.
+/// Tags of 18 pixels, on a processor that takes 13 ms for a whole picture: at half size none is found, so
+/// only two frames in 202 may be lost, not a hundred in 101.
 TEST(TagReader, TagsThatAreFoundInTheWholePictureAloneAreNotLostWhereItTakesLong) {
     SceneCamera small = above();
     small.pinhole = small.pinhole.scaled_to(640, 360);
@@ -168,13 +169,13 @@ TEST(TagSettings, PlaceATagAsASkirtDoes) {
             EXPECT_LT(glm::length(off.shift_m) + glm::length(off.turn_rad), 1e-12);
         }
     }
-    // Upright at the front edge it looks at the visitor, its top up.
+    // An upright tag at the front edge faces the visitor, its top up.
     const RigidTransform upright = prop_from_tag({0, 0.03, {0.0, -0.15, 0.02}, 0.0, 90.0});
     EXPECT_LT(glm::distance(upright.direction({0, 0, 1}), glm::dvec3(0, -1, 0)), 1e-12);
     EXPECT_LT(glm::distance(upright.direction({0, 1, 0}), glm::dvec3(0, 0, 1)), 1e-12);
 }
 
-/// What the page tells a technician to write is taken, and is the skirt that was measured.
+/// The example that the page gives to technicians is accepted and equals the measured skirt.
 TEST(TagSettings, ThePagesExampleIsTheSkirt) {
     std::ifstream file(source_dir() + "/docs/tags.md");
     const std::string page{std::istreambuf_iterator<char>(file), {}};

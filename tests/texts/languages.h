@@ -1,4 +1,4 @@
-// A line in each script that the exhibit must set, with joins, marks and both directions.
+// A line in each script that the exhibit must typeset, with joins, marks and both directions.
 #pragma once
 
 #include "assets_baked/texts/shape.h"
@@ -27,7 +27,7 @@ inline constexpr auto samples = std::to_array<Sample>({
     {"zh", "请移动白色方块，图片里的瓷器年代很久。"},
 });
 
-/// A shaper, and whether the typeface of a language is there; a test skips the others and says so.
+/// A shaper, and whether a language's typeface is installed; a test skips the others and reports them.
 class Shaping : public ::testing::Test {
 protected:
     void SetUp() override {

@@ -1,4 +1,4 @@
-// Recordings: what is refused, and how loud the speech is that comes out.
+// Recordings: which are refused, and the loudness of the resulting speech.
 #include "assets_baked/texts/level_speech.h"
 #include "assets_baked/texts/limit_peaks.h"
 #include "tests/base/told.h"
@@ -22,7 +22,7 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-/// Nothing for silence.
+/// nullopt for silence.
 std::optional<Speech> speech_of(const std::vector<double>& samples, std::uint32_t rate_hz = 48000) {
     const Result<Recording> recording = read_recording(wav16(samples, rate_hz), RecordingSource::File);
     EXPECT_TRUE(recording) << recording.error().message;
@@ -183,7 +183,7 @@ TEST(LevelSpeech, peaks_stay_below_minus_2_db) {
     EXPECT_LE(20.0 * std::log10(static_cast<double>(most)), -2.0);
 }
 
-/// Speech at a level of -40 dB with one knock against the microphone, at full scale.
+/// Speech at a level of -40 dB with one knock on the microphone, at full scale.
 TEST(LevelSpeech, one_knock_does_not_make_the_rest_quiet) {
     std::vector<double> samples = sine(0.01, 5.0);
     for (std::size_t k = 0; k < 96; ++k) {

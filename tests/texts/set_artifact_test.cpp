@@ -1,4 +1,5 @@
-// An artifact's texts in all languages: which are set, how wide, and what is said of those that cannot be.
+// An artifact's texts in all languages: which are typeset, their widths, and the notes about those that
+// cannot be.
 #include "app/typography/caption_image.h"
 #include "app/typography/captions.h"
 #include "assets_baked/texts/set_artifact.h"
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double usual_em_m = 0.010;
 
-/// As the kiosk's captions are at two type sizes, in the units of set_artifact.
+/// Like the kiosk's captions at two type sizes, in the units of set_artifact.
 CaptionLimits limits_for_captions() {
     CaptionLimits limits;
     for (const double width_m : caption_widths_m) {
@@ -132,7 +133,7 @@ TEST_F(SetArtifactTexts, a_caption_that_is_too_high_for_a_table_is_said) {
         }
         return text;
     };
-    // Lines of 35 times the type size hold 14 words of 2.5, a table 17 such lines below a title.
+    // Lines of 35 times the type size hold 14 words of 2.5, a table holds 17 such lines below a title.
     EXPECT_TRUE(set({{"en", "Jug", of_words(150)}}).notes.empty());
     const SetArtifact high = set({{"en", "Jug", of_words(400)}});
     ASSERT_EQ(high.notes.size(), 1U);

@@ -1,4 +1,4 @@
-// Shaping against HarfBuzz alone and against what the scripts ask for.
+// Shaping, compared with HarfBuzz alone and with the rules of the scripts.
 #include "app/pack/glyph_runs.h"
 #include "assets_baked/texts/glyph_atlas.h"
 #include "tests/texts/languages.h"
@@ -17,7 +17,7 @@ struct HbGlyph {
     double x_em = 0.0;
 };
 
-/// One run of one script, by HarfBuzz alone.
+/// Shapes one run of one script with HarfBuzz alone.
 std::vector<HbGlyph> by_harfbuzz(const FontFace& from, const std::string& text, const char* language) {
     hb_blob_t* blob = hb_blob_create_from_file(from.file.c_str());
     hb_face_t* face = hb_face_create(blob, static_cast<unsigned>(from.index));
@@ -86,7 +86,8 @@ TEST_F(Shaping, lines_of_right_to_left_scripts_begin_at_the_right) {
         EXPECT_EQ(shaped->direction, TextDirection::RightToLeft);
         const ShapedSetting& setting = shaped->settings[0];
         ASSERT_GE(setting.lines.size(), 2U);
-        // The full stop ends the last line: it is that line's leftmost glyph, and the line ends left of where others do.
+        // The full stop ends the last line: it is that line's leftmost glyph, and the line ends to the left
+        // of the others' ends.
         std::size_t last_line = 0;
         for (std::size_t k = 0; k + 1 < setting.lines.size(); ++k) {
             last_line += setting.lines[k].glyphs;
@@ -137,7 +138,8 @@ TEST_F(Shaping, a_japanese_line_does_not_begin_with_a_full_stop) {
     if (!has("ja")) {
         return;
     }
-    // Ten letters and a full stop, each an em wide, at ten ems: the stop takes a letter along.
+    // Ten letters and a full stop, each an em wide, at ten ems: the stop moves to the next line with one
+    // letter.
     const Result<ShapedText> shaped = shape("ja", "白白白白白白白白白白。", 10);
     ASSERT_TRUE(shaped) << shaped.error().message;
     ASSERT_EQ(shaped->settings[0].lines.size(), 2U);

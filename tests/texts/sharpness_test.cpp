@@ -1,4 +1,4 @@
-// The kiosk's picture of a text, from distances, against FreeType's own coverage of the same outlines.
+// The kiosk's picture of a text, from distances, compared with FreeType's coverage of the same outlines.
 #include "app/typography/glyph_image.h"
 #include "assets_baked/texts/bake_words.h"
 #include "assets_baked/texts/glyph_atlas.h"
@@ -17,9 +17,9 @@ using namespace frustumscreen::testing;
 
 namespace {
 
-constexpr int fine = 8; ///< the reference is drawn this much larger and averaged
+constexpr int fine = 8; ///< the reference is drawn this much larger, then averaged
 
-/// FreeType's coverage of a shaped setting, in the place and size of `like`.
+/// FreeType's coverage of a shaped setting, at the position and size of `like`.
 class Reference {
 public:
     Reference() { FT_Init_FreeType(&library_); }
@@ -87,9 +87,9 @@ private:
 };
 
 struct Difference {
-    double rms = 0.0;       ///< of the coverage, 0..255, over the pixels that either picture has letters in
+    double rms = 0.0;       ///< of the coverage, 0..255, over the pixels where either picture has letters
     double worst = 0.0;     ///< of the coverage
-    double sharpness = 0.0; ///< sum of the steps between neighbours, as a share of the reference's
+    double sharpness = 0.0; ///< sum of the steps between neighbours, relative to the reference's
 };
 
 double steps(const Image<std::uint8_t>& image) {

@@ -1,4 +1,4 @@
-// The audio description: recordings before the voice, and what is silent.
+// The audio description: recordings take precedence over the voice, and some texts stay silent.
 #include "assets_baked/texts/speak_artifact.h"
 #include "tests/programs/program_folder.h"
 #include "tests/texts/wav_bytes.h"
@@ -10,7 +10,7 @@ namespace {
 
 class SpeakArtifact : public ProgramFolder {
 protected:
-    /// A tone of so many seconds, by which a recording is known again.
+    /// A tone of this length, which identifies a recording.
     std::filesystem::path tone(const std::string& file, double seconds) const {
         std::filesystem::create_directories((folder / file).parent_path());
         EXPECT_TRUE(write_file(folder / file, wav16(sine(0.2, seconds))));
@@ -21,7 +21,7 @@ protected:
         made.description = description;
         return made;
     }
-    /// Of what a player hears; the bake trims nothing of a tone.
+    /// Length that a player plays; the bake trims nothing from a tone.
     [[nodiscard]] static double seconds_of(const Bytes& opus) {
         const Result<Recording> recording = read_recording(opus, RecordingSource::File);
         EXPECT_TRUE(recording);

@@ -1,4 +1,4 @@
-// Voices: programs of somebody else, good and bad ones, and where espeak-ng may speak.
+// Voices: external programs, good and bad ones, and where espeak-ng may speak.
 #include "assets_baked/texts/speak_words.h"
 #include "assets_baked/texts/voice.h"
 #include "assets_baked/texts/words.h"
@@ -30,7 +30,7 @@ protected:
     }
     void TearDown() override { std::filesystem::remove_all(folder); }
 
-    /// A program of these shell commands, run in the test's folder.
+    /// A program of these shell commands that runs in the test's folder.
     [[nodiscard]] std::string program(const std::string& commands) const {
         const std::filesystem::path file = folder / "voice.sh";
         std::ofstream(file) << "#!/bin/sh\ncd '" << folder.string() << "'\n" << commands << "\n";
@@ -85,7 +85,7 @@ TEST_F(Voices, what_it_started_ends_with_it) {
     EXPECT_TRUE(contains(message, "takes longer")) << message;
     const std::string child = text("child.txt");
     ASSERT_FALSE(child.empty());
-    // Killed at once; until somebody collects it, it may stay in the table as a zombie.
+    // Killed at once; it may remain as a zombie until its parent collects it.
     const std::string state = "/proc/" + std::to_string(std::stoi(child)) + "/stat";
     for (int tries = 0; tries < 1000; ++tries) {
         std::ifstream stat(state);

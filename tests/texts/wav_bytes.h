@@ -1,4 +1,4 @@
-// WAV files byte by byte, after Microsoft's and IBM's Multimedia Programming Interface 1.0 (1991).
+// WAV files byte by byte, from Microsoft's and IBM's Multimedia Programming Interface 1.0 (1991).
 #pragma once
 
 #include "firmware_host/base/byte_reader.h"
@@ -12,11 +12,11 @@
 namespace frustumscreen::testing {
 
 struct WavHeader {
-    std::uint16_t format = 1; ///< 1 whole numbers, 3 floating point
+    std::uint16_t format = 1; ///< 1: integers, 3: floating point
     std::uint16_t channels = 1;
     std::uint32_t rate_hz = 48000;
     std::uint16_t bits = 16;
-    std::uint32_t claimed_bytes = 0; ///< 0: the truth
+    std::uint32_t claimed_bytes = 0; ///< 0: the true number
 };
 
 inline Bytes wav(const WavHeader& header, const Bytes& sound) {

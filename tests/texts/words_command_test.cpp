@@ -1,4 +1,4 @@
-// frustumscreen-bake --words, as a person runs it.
+// `frustumscreen-bake --words`, from the command line.
 #include "app/pack/words_file.h"
 #include "assets_baked/texts/fonts.h"
 #include "assets_baked/texts/words.h"
@@ -27,7 +27,7 @@ protected:
             GTEST_SKIP() << there.error().message;
         }
     }
-    /// Until somebody collects it, an ended process may stay in the table as a zombie.
+    /// An ended process may remain as a zombie until its parent collects it.
     [[nodiscard]] static bool ends(int process) {
         for (int tries = 0; tries < 1000; ++tries) {
             std::ifstream stat("/proc/" + std::to_string(process) + "/stat");

@@ -9,7 +9,7 @@ using namespace frustumscreen;
 
 namespace {
 
-/// A language with one word of one letter.
+/// A language with a single word of one letter.
 LanguageWords words_in(const std::string& language, const std::string& name) {
     LanguageWords words;
     words.language = language;

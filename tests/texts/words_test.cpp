@@ -1,4 +1,4 @@
-// The exhibit's own words: complete in every built-in language, and read with messages that lead to the line.
+// The exhibit's own words: complete in every built-in language, and read with messages that name the line.
 #include "assets_baked/texts/bake_words.h"
 #include "assets_baked/texts/builtin_words.h"
 #include "assets_baked/texts/words.h"
@@ -47,7 +47,7 @@ TEST(BuiltinWords, every_language_has_every_word_and_no_other) {
         const Result<WrittenWords> words = parse_words(file.toml, std::string(file.language) + ".toml");
         ASSERT_TRUE(words) << words.error().message;
         const auto collected = collect_words({}, std::vector<std::string>{std::string(file.language)});
-        ASSERT_TRUE(collected) << collected.error().message; // the house's language lacks none
+        ASSERT_TRUE(collected) << collected.error().message; // complete in the museum's language
         EXPECT_EQ(words->size(), collected->front().words.size()) << file.language;
         EXPECT_TRUE(collected->front().notes.empty()) << file.language;
     }

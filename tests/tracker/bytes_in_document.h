@@ -1,4 +1,4 @@
-/// The byte dumps in docs/, so that the documents' examples are tests.
+/// The byte dumps in docs/, which makes the documents' examples tests.
 #pragma once
 
 #include "firmware_host/base/file.h"
@@ -12,8 +12,8 @@
 
 namespace frustumscreen::wire {
 
-/// The bytes in the block of docs/`document` that begins with `start`, without the text that follows them in
-/// a line.
+/// The bytes in the block of docs/`document` that begins with `start`, without the text after them in each
+/// line.
 inline Wire bytes_in_document(const std::string& document, const std::string& start) {
     const Result<Bytes> file = read_file(source_dir() + "/docs/" + document);
     const std::string text = file ? std::string(as_text(*file)) : std::string();

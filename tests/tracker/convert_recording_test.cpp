@@ -34,11 +34,11 @@ TEST(ConvertRecording, ReadsCommasAndBlanksWithTheScalarLast) {
 
 TEST(ConvertRecording, DropsStepsThatDoNotGoForwardAndMendsSigns) {
     const ConvertedRecording recording = converted("10.00 0 0 0 0 0 0 1\n"
-                                                   "10.01 1 0 0 0 0 0 -1\n" // sign
-                                                   "10.01 2 0 0 0 0 0 -1\n" // no step
-                                                   "10.00 3 0 0 0 0 0 1\n"  // back
+                                                   "10.01 1 0 0 0 0 0 -1\n" // sign flipped
+                                                   "10.01 2 0 0 0 0 0 -1\n" // time does not advance
+                                                   "10.00 3 0 0 0 0 0 1\n"  // time goes back
                                                    "10.02 4 0 0 0 0 0.1 -0.99\n"
-                                                   "10.03 5 0 0 0 0 -0.1 0.99\n", // sign
+                                                   "10.03 5 0 0 0 0 -0.1 0.99\n", // sign flipped
                                                    {head_station, false, {}});
     EXPECT_EQ(recording.dropped_rows, 2);
     EXPECT_EQ(recording.sign_flips, 2);
@@ -51,7 +51,7 @@ TEST(ConvertRecording, DropsStepsThatDoNotGoForwardAndMendsSigns) {
 }
 
 TEST(ConvertRecording, FlatKeepsTheTurnAboutZOfATiltedThing) {
-    // A thing tilted by 100 degrees about X that turns about the vertical and goes round in a circle of 1 m.
+    // A body tilted by 100 degrees about X that turns about the vertical and moves in a circle of 1 m.
     std::string text;
     const glm::dquat tilt = glm::angleAxis(glm::radians(100.0), glm::dvec3(1, 0, 0));
     for (int k = 0; k < 200; ++k) {
@@ -91,13 +91,13 @@ TEST(ConvertRecording, RefusalsNameTheLine) {
     EXPECT_NE(refusal("# nothing\n").find("walk.txt: no pose in it"), std::string::npos);
 }
 
+/// Numbers of rows as in INDEX.tsv.
 struct Recording {
     const char* name;
     std::size_t rows;
     int dropped;
 };
 
-/// Counts of INDEX.tsv.
 TEST(ConvertRecording, IsNoLongerThanAPoseFileMayBe) {
     const auto result = convert_recording("-3e9 0 0 0 0 0 0 1\n3e9 0 0 0 0 0 0 1\n", "walk.txt", {});
     ASSERT_FALSE(result);

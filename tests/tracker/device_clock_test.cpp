@@ -8,11 +8,11 @@
 namespace frustumscreen {
 namespace {
 
-/// A device whose clock runs off, seen through transfers that are late, sometimes very. Computed in long
-/// double.
+/// A device with a drifting clock, seen through transfers that are late, sometimes very late. Computed in
+/// long double.
 struct Simulation {
     long double tick_ns = 1e9L / 120;
-    long double drift = 0.0L; ///< our time for each of the device's, less 1
+    long double drift = 0.0L; ///< our time per device time, minus 1
     std::uint32_t first_tick = 0;
     long double start_ns = 5e9L;
     bool hiccups = true;
@@ -22,7 +22,7 @@ struct Simulation {
     }
     [[nodiscard]] MonotonicTime arrival(std::int64_t frame, std::mt19937& engine) const {
         long double late_ns = std::exponential_distribution<double>(1.0 / 300'000.0)(engine);
-        if (hiccups && frame % 1000 > 985) { // an eighth of a second in which nothing is on time
+        if (hiccups && frame % 1000 > 985) { // an eighth of a second in which everything is late
             late_ns += 30e6L;
         }
         return MonotonicTime(Nanoseconds(static_cast<Nanoseconds::rep>(truth_ns(frame) + late_ns)));
@@ -38,7 +38,7 @@ TEST(DeviceClock, FollowsADriftingClockToATenthOfAMillisecond) {
     for (const long double drift : {0.0L, 80e-6L, -200e-6L, 500e-6L}) {
         Simulation simulation;
         simulation.drift = drift;
-        simulation.first_tick = 0xFFFFFF00U; // wraps after two seconds
+        simulation.first_tick = 0xFFFFFF00U; // the counter wraps after two seconds
         DeviceClock clock(static_cast<double>(simulation.tick_ns));
         std::mt19937 engine(1);
         MonotonicTime last{};

@@ -8,7 +8,7 @@
 
 namespace frustumscreen {
 
-/// Poses come in, good or less good.
+/// Whether poses arrive, good or not.
 inline bool is_streaming(UsbTrackerState state) {
     return state == UsbTrackerState::Streaming || state == UsbTrackerState::FilterStaysOn ||
            state == UsbTrackerState::SetUpDoubtful || state == UsbTrackerState::SensorMissing ||
@@ -23,14 +23,14 @@ public:
         device.model = model;
     }
 
-    /// Runs for `length`; what came is in `samples`, checked against what was sent.
+    /// Runs for `length`; received poses are in `samples`, checked against the sent ones.
     void run(Nanoseconds length) {
         const MonotonicTime end = device.now + length;
         while (device.now < end) {
             step();
         }
     }
-    /// Runs until it streams; returns how long that took, or nothing if it took longer than `longest`.
+    /// Runs until it streams; returns how long that took, or nullopt after `longest`.
     std::optional<Nanoseconds> until_streaming(Nanoseconds longest) {
         const MonotonicTime start = device.now;
         while (device.now - start < longest) {

@@ -1,5 +1,4 @@
-/// A tracker on a fake bus with a fake clock, which speaks the real wire formats; it misbehaves as it is
-/// told.
+/// A tracker on a fake bus with a fake clock that uses the real wire formats; its faults are set by the test.
 #pragma once
 
 #include "firmware_host/tracker/usb_transport.h"
@@ -13,47 +12,48 @@
 
 namespace frustumscreen {
 
-/// How a VIPER reacts to the command that switches its filters off.
+/// A VIPER's reaction to the command that switches its filters off.
 enum class FakeFilter { Obeys, Refuses, SaysNothing, StaysOn, TurnStaysOn };
-/// How a VIPER answers other commands.
+/// A VIPER's answers to other commands.
 enum class FakeAnswers { Plain, WarnsOfSettings, WarnsOfQuestions, RefusesQuestions, FailsItsTest };
 
 struct FakeUsbTracker {
     UsbTrackerModel model = UsbTrackerModel::Viper;
     MonotonicTime now = from_microseconds(1'000'000);
-    UsbTrackerState in_the_way = UsbTrackerState::NotConnected; ///< what a search says while it is unplugged
+    UsbTrackerState in_the_way = UsbTrackerState::NotConnected; ///< result of a search while it is unplugged
     bool plugged = true;
-    MonotonicTime boots_until{}; ///< until then commands are answered with 'still booting'
-    bool keeps_inches = false;   ///< answers that units were set, and does not set them
-    bool deaf = false;           ///< answers nothing
+    MonotonicTime boots_until{}; ///< until then it answers commands with 'still booting'
+    bool keeps_inches = false;   ///< confirms that units were set, but does not set them
+    bool deaf = false;           ///< answers no command
     bool mute = false;           ///< sends no frames
     FakeFilter filter = FakeFilter::Obeys;
     FakeAnswers manner = FakeAnswers::Plain;
     Nanoseconds answers_after{}; ///< VIPER
-    double slower = 1.0;         ///< it sends so many times less often than it says; its clock is as slow
+    double slower = 1.0;         ///< factor of its frame period and its clock's period
     bool clock_stands = false;   ///< PATRIOT, HID
     bool streaming = false;
     std::uint32_t counter = 0;
-    std::uint32_t highest = 0; ///< counter of all that were sent
+    std::uint32_t highest = 0; ///< highest counter sent
     std::vector<int> connectors{1, 2};
     unsigned distortion = 0;
-    unsigned fault = 0; ///< the result of its own test
+    unsigned fault = 0; ///< result of its self-test
     unsigned position_units = 3;
-    /// What happens to a frame on its way; empty: nothing.
+    /// Modifies a frame on its way; empty: unchanged.
     std::function<std::vector<wire::Wire>(wire::Wire)> mischief;
 
     std::deque<wire::Wire> to_host;
-    std::deque<std::pair<MonotonicTime, wire::Wire>> answers; ///< not due yet
-    std::vector<std::uint32_t> commands;                      ///< VIPER: command * 16 + action, as they came
-    std::string text;                                         ///< PATRIOT: all that came
-    std::optional<int> unplug_after_calls;                    ///< then the cable comes out
+    std::deque<std::pair<MonotonicTime, wire::Wire>> answers; ///< not yet due
+    std::vector<std::uint32_t> commands;                      ///< VIPER: command * 16 + action, in order of
+                                                              ///< arrival
+    std::string text;                                         ///< PATRIOT: everything received
+    std::optional<int> unplug_after_calls;                    ///< the cable is pulled after this many calls
     MonotonicTime next_frame{};
 
     [[nodiscard]] Nanoseconds period() const {
         return Nanoseconds(
             std::llround(slower * (model == UsbTrackerModel::Patriot ? 16'666'667 : 8'333'333)));
     }
-    /// A position that differs in every frame and sensor and is exact in 32 bits; metres.
+    /// A position that is unique per frame and sensor and exact in 32 bits; metres.
     [[nodiscard]] static glm::dvec3 position_of(std::uint32_t frame, int connector) {
         return {static_cast<double>(frame % 1024) / 1024.0, static_cast<double>(frame / 1024 % 64) / 64.0,
                 connector / 16.0};
@@ -70,7 +70,7 @@ struct FakeUsbTracker {
     [[nodiscard]] std::uint32_t clock() const { return clock_stands ? 7 : counter; }
     [[nodiscard]] double resolution_m() const { return model == UsbTrackerModel::Hid ? 1e-5 : 1e-6; }
 
-    /// A HID device says what it is, then streams unasked.
+    /// A HID device identifies itself, then streams unprompted.
     void opened() {
         if (model == UsbTrackerModel::Hid) {
             restart();
@@ -85,7 +85,7 @@ struct FakeUsbTracker {
         answers.clear();
         next_frame = {};
     }
-    /// Answers and frames up to now.
+    /// Sends answers and frames up to now.
     void run() {
         for (; !answers.empty() && answers.front().first <= now; answers.pop_front()) {
             to_host.push_back(std::move(answers.front().second));
@@ -173,7 +173,7 @@ struct FakeUsbTracker {
             wire::put(payload, std::uint32_t{2});
             return say(4, payload);
         }
-        // A question to all sensors is not documented, and orientation (1) and position (2) have separate
+        // A query to all sensors is not documented, and orientation (1) and position (2) have separate
         // filters.
         const bool question = action == 1;
         const bool of_all = command <= 1 && word(20) == 0xFFFFFFFFU;

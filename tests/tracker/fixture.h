@@ -1,5 +1,5 @@
-/// Bytes in tests/tracker/fixtures by their names. They were made independently; the mocks' tests read them
-/// too.
+/// Byte sequences in tests/tracker/fixtures, by name. They were made independently; the mocks' tests read
+/// them too.
 #pragma once
 
 #include "firmware_host/base/file.h"

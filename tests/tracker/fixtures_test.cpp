@@ -1,5 +1,5 @@
-// The driver against bytes that were made with others' headers: what it sends, what it understands, and a
-// whole set-up with a device that consists of nothing else.
+// The driver against bytes made with headers of other projects: the bytes that it sends, the bytes that it
+// parses, and a whole set-up with a device made of fixtures alone.
 
 #include "firmware_host/tracker/patriot_codec.h"
 #include "firmware_host/tracker/viper_session.h"
@@ -63,7 +63,7 @@ TEST(ViperFixtures, WhatIsNoPoseInMetresIsNotUsable) {
     EXPECT_EQ(buttons.sensors[0].distortion, 0);
 }
 
-/// A VIPER of fixtures alone: to each command that our session may send, in this order, one answer.
+/// A VIPER made of fixtures alone: one answer to each command that our session may send, in this order.
 struct Exchange {
     std::string command;
     std::string answer;
@@ -92,7 +92,7 @@ Talk changed(const Talk& talk, const std::string& command, const std::string& an
     return other;
 }
 
-/// The state after the talk and the frames, a tenth of a second apart.
+/// The state after the exchange and the frames, a tenth of a second apart.
 UsbTrackerState state_after(const Talk& talk, const std::vector<std::string>& frames,
                             std::vector<PoseSample>& samples) {
     ViperSession session(UsbTrackerSetUp{});

@@ -44,7 +44,7 @@ TEST(HidTrackerCodec, ReadsTheDocumentsDevice) {
     EXPECT_EQ(info->stations, 2);
 }
 
-/// Short items as in the HID specification 1.11, 6.2.2: what the document's descriptor means to a host.
+/// Short items of the HID specification 1.11, 6.2.2: a host's interpretation of the document's descriptor.
 struct Described {
     std::map<unsigned, unsigned> input_bits;   ///< by report id
     std::map<unsigned, unsigned> feature_bits; ///< by report id
@@ -109,7 +109,7 @@ TEST(HidTrackerCodec, TheDocumentsDescriptorDescribesTheReports) {
     EXPECT_EQ(device.usage_page, hid_tracker_usage_page);
     EXPECT_EQ(device.usage, hid_tracker_usage);
     EXPECT_EQ(device.depth, 0);
-    EXPECT_EQ(device.input_bits, (std::map<unsigned, unsigned>{{1, 33 * 8}})); // and the id
+    EXPECT_EQ(device.input_bits, (std::map<unsigned, unsigned>{{1, 33 * 8}})); // without the id
     EXPECT_EQ(device.feature_bits, (std::map<unsigned, unsigned>{{2, 9 * 8}}));
 }
 
@@ -119,7 +119,7 @@ TEST(HidTrackerCodec, EveryStatusBitMakesThePoseUnusable) {
         sent.status = 1U << bit;
         const HidTrackerMessage message = parse_hid_tracker(wire::hid_pose(sent));
         const HidTrackerPose* pose = pose_of(message);
-        ASSERT_EQ(pose != nullptr, bit < 3) << bit; // the others are not of this version
+        ASSERT_EQ(pose != nullptr, bit < 3) << bit; // the other bits do not exist in this version
         if (pose != nullptr) {
             EXPECT_FALSE(pose->frame.sensors[0].usable);
             EXPECT_EQ(pose->frame.sensors[0].present, bit != 0);
@@ -169,12 +169,13 @@ TEST(HidTrackerCodec, AnyBytesAreSafeAndGiveNoPoseThatIsNone) {
     std::mt19937 engine(3);
     for (int round = 0; round < 20'000; ++round) {
         wire::Wire report = engine() % 2 == 0 ? wire::hid_pose({}) : wire::hid_info();
-        report.pop_back(); // the checksum
+        report.pop_back(); // removes the checksum
         report.pop_back();
         for (int k = 0; k < 4; ++k) {
             report[1 + engine() % (report.size() - 1)] = static_cast<std::byte>(engine());
         }
-        const HidTrackerMessage message = parse_hid_tracker(wire::with_crc16(report)); // past the checksum
+        const HidTrackerMessage message = parse_hid_tracker(wire::with_crc16(report)); // with a valid
+                                                                                       // checksum
         if (const HidTrackerPose* pose = pose_of(message); pose != nullptr && pose->frame.sensors[0].usable) {
             EXPECT_TRUE(is_pose(pose->frame.sensors[0].position_m, pose->frame.sensors[0].rotation));
         }

@@ -1,5 +1,5 @@
-// The way through hidapi and libudev to the kernel's files, which umockdev stands in for: /sys, /dev/hidraw0
-// and its ioctls. Started by umockdev-wrapper.
+// The path through hidapi and libudev to the kernel's files, which umockdev emulates: /sys, /dev/hidraw0 and
+// its ioctls. Started by umockdev-wrapper.
 
 #include "firmware_host/tracker/hidapi_transport.h"
 #include "firmware_host/tracker/usb_tracker_driver.h"
@@ -27,7 +27,7 @@ std::string hex(const wire::Wire& bytes) {
     return text;
 }
 
-/// A HID device with this descriptor that answers with this feature report; plugged in while it lives.
+/// A HID device with this descriptor that answers with this feature report; plugged in during its lifetime.
 class PluggedDevice {
 public:
     PluggedDevice(std::string_view vendor, std::string_view product, const wire::Wire& descriptor,
@@ -63,7 +63,7 @@ public:
         std::filesystem::remove(file);
     }
     ~PluggedDevice() {
-        ::close(umockdev_testbed_get_dev_fd(testbed_, node.c_str())); // whoever reads is told
+        ::close(umockdev_testbed_get_dev_fd(testbed_, node.c_str())); // ends pending reads
         g_object_unref(testbed_);
     }
     PluggedDevice(const PluggedDevice&) = delete;
@@ -74,7 +74,7 @@ public:
         ASSERT_EQ(::write(device, report.data(), report.size()), static_cast<ssize_t>(report.size()));
     }
 
-    /// Nobody may open it any more, but everybody may see it.
+    /// Forbids opening the device; it stays visible.
     void forbid() const {
         gchar* root = umockdev_testbed_get_root_dir(testbed_);
         std::filesystem::permissions(root, std::filesystem::perms(0755));
@@ -111,7 +111,7 @@ TEST(HidapiTransport, AHidTrackerIsFoundByItsUsageAndComesBackAfterTheCable) {
     for (int round = 0; round < 3; ++round) {
         std::optional<PluggedDevice> device;
         device.emplace("1209", "0001", tracker_descriptor(), wire::hid_info());
-        EXPECT_EQ(driver.step(samples), Nanoseconds::zero()); // opened at once
+        EXPECT_EQ(driver.step(samples), Nanoseconds::zero()); // opened immediately
         EXPECT_EQ(driver.state(), UsbTrackerState::SettingUp);
         EXPECT_EQ(driver.step(samples), Nanoseconds::zero()); // the feature report
         samples.clear();
@@ -122,7 +122,7 @@ TEST(HidapiTransport, AHidTrackerIsFoundByItsUsageAndComesBackAfterTheCable) {
         ASSERT_EQ(samples.size(), 5U);
         EXPECT_NEAR(samples.back().position_m.x, 1e-5 * counter, 1e-12);
         EXPECT_EQ(driver.state(), UsbTrackerState::Streaming);
-        EXPECT_EQ(driver.step(samples), Nanoseconds::zero()); // nothing comes: no harm
+        EXPECT_EQ(driver.step(samples), Nanoseconds::zero()); // no data: no harm
         device.reset();
         EXPECT_GT(driver.step(samples), Nanoseconds::zero());
         EXPECT_EQ(driver.state(), UsbTrackerState::NotConnected);
@@ -139,7 +139,7 @@ TEST(HidapiTransport, ADeviceWithoutItsFeatureReportIsNotTaken) {
     EXPECT_EQ(driver.state(), UsbTrackerState::SetUpRefused);
 }
 
-/// In a process of its own, as nobody: root may open everything.
+/// Runs in a child process as the user `nobody`, because root may open everything.
 TEST(HidapiTransport, ADeviceThatMayNotBeOpenedIsNamedAsSuch) {
     const PluggedDevice device("1209", "0001", tracker_descriptor(), wire::hid_info());
     device.forbid();

@@ -1,5 +1,5 @@
-// The way through libusb and libudev to the kernel's files, which umockdev stands in for: /sys and
-// /dev/bus/usb. Started by umockdev-wrapper. Only finding and opening: no transfer is played.
+// The path through libusb and libudev to the kernel's files, which umockdev emulates: /sys and /dev/bus/usb.
+// Started by umockdev-wrapper. Tests only finding and opening, no transfers.
 
 #include "firmware_host/tracker/joined_bus.h"
 #include "firmware_host/tracker/libusb_transport.h"
@@ -26,7 +26,7 @@ std::string hex(const wire::Wire& bytes) {
     return text;
 }
 
-/// What the kernel shows of the devices at its ports.
+/// The kernel's view of the devices at its ports.
 class UsbPorts {
 public:
     UsbPorts() : testbed_(umockdev_testbed_new()) {}
@@ -34,7 +34,8 @@ public:
     UsbPorts(const UsbPorts&) = delete;
     UsbPorts& operator=(const UsbPorts&) = delete;
 
-    /// A VIPER with these descriptors behind its own; `configuration` is what the kernel has chosen.
+    /// Plugs in a VIPER with its device descriptor and these descriptors after it; `configuration` is the
+    /// kernel's choice.
     void plug(int port, const std::string& name, const std::string& configuration = "1") {
         wire::Wire all = descriptors["device"];
         const wire::Wire more = descriptors[name];
@@ -53,10 +54,10 @@ public:
         g_object_unref(calls);
     }
 
-    std::atomic<int> claim_error{0}; ///< errno of the next claim of an interface; 0: it is given
+    std::atomic<int> claim_error{0}; ///< errno of the next claim of an interface; 0: succeeds
 
 private:
-    /// On umockdev's thread. Every call succeeds and says nothing, but for a claim that is to fail.
+    /// On umockdev's thread. Every call succeeds without data, except a claim that must fail.
     static gboolean answer(UMockdevIoctlBase* /*calls*/, UMockdevIoctlClient* client, gpointer claim_error) {
         const gulong request = umockdev_ioctl_client_get_request(client);
         const bool claims = request == USBDEVFS_CLAIMINTERFACE || request == USBDEVFS_DISCONNECT_CLAIM;
@@ -76,7 +77,7 @@ TEST(LibusbTransport, NoTrackerIsNoFailureOfUsb) {
 TEST(LibusbTransport, AViperIsFoundAndOpened) {
     UsbPorts ports;
     ports.plug(3, "good");
-    const auto bus = make_libusb_bus(); // outlives what it finds
+    const auto bus = make_libusb_bus(); // outlives the trackers it finds
     const auto found = bus->find({});
     ASSERT_TRUE(found) << sentence_of(found.error());
     EXPECT_EQ(found->model, UsbTrackerModel::Viper);

@@ -13,12 +13,12 @@
 
 namespace {
 
-/// What the disk says when it is to keep what it took; 0: all is well.
+/// errno of the disk's flush; 0: success.
 std::atomic<int> disk_error{0};
 
 } // namespace
 
-/// The C library's, for the whole test: there is no disk to pull out here.
+/// Replaces the C library's function for the whole test, because no disk can be unplugged here.
 extern "C" int fdatasync(int) {
     errno = disk_error;
     return errno == 0 ? 0 : -1;
@@ -43,7 +43,7 @@ protected:
     }
 
     struct Contents {
-        std::vector<std::uint64_t> numbers; ///< of the packets received
+        std::vector<std::uint64_t> numbers; ///< of the received packets
         std::uint64_t dropped = 0;
         std::string about;
         std::size_t left = 0;
@@ -97,7 +97,7 @@ TEST_F(RecorderTest, WhatWasRecordedIsInTheFileWhileItGoesOn) {
     PacketRecorder recorder(std::move(*file), "", from_microseconds(0));
     put(recorder, 7, 8);
     Contents contents;
-    while (contents.numbers.empty()) { // its thread writes when it comes to it
+    while (contents.numbers.empty()) { // its thread writes with a delay
         std::this_thread::sleep_for(milliseconds(10));
         const Bytes bytes = *read_file(folder / "a");
         contents = bytes.empty() ? Contents() : contents_of(bytes);
@@ -132,14 +132,14 @@ TEST_F(RecorderTest, AFullDiskEndsTheRecordingWithOneSentenceAndHoldsUpNobody) {
     EXPECT_EQ(finished.error().id, "file.disk_full") << finished.error().message;
 }
 
-/// A pipe stands for a disk: it hangs until somebody reads it.
+/// A pipe that acts as a disk: it hangs until the test reads from it.
 class HangingDisk {
 public:
     HangingDisk() { EXPECT_EQ(::pipe2(ends_.data(), O_CLOEXEC), 0); }
     ~HangingDisk() { ::close(ends_[0]); }
     HangingDisk(const HangingDisk&) = delete;
     HangingDisk& operator=(const HangingDisk&) = delete;
-    /// Once; closing the file ends what `read_back` waits for.
+    /// Call once; closing the file ends the wait in `read_back`.
     [[nodiscard]] GrowingFile file() const { return {ends_[1], "slow"}; }
     void go_on() {
         reader_ = std::jthread([this] { read_back_ = everything_from(ends_[0]); });
@@ -172,7 +172,7 @@ TEST_F(RecorderTest, ADiskThatHangsMakesAGapThatTheRecordingNames) {
         while (recorder.counts().dropped < 100) {
             put(recorder, number++, 4096);
         }
-        while (recorder.state().find("too slow") == std::string_view::npos) { // said while it hangs
+        while (recorder.state().find("too slow") == std::string_view::npos) { // reported while it hangs
             std::this_thread::sleep_for(milliseconds(1));
         }
         EXPECT_EQ(recorder.state(), "the tracker is recorded to slow, but the disk is too slow: 64 or more "
@@ -227,7 +227,7 @@ TEST_F(RecorderTest, AtTheVeryEndToo) {
     Result<GrowingFile> file = GrowingFile::create(folder / "a");
     ASSERT_TRUE(file);
     PacketRecorder recorder(std::move(*file), "", from_microseconds(0));
-    disk_error = EIO; // long before the first second is over
+    disk_error = EIO; // long before the first second has passed
     const Result<void> finished = recorder.finish();
     ASSERT_FALSE(finished);
     EXPECT_EQ(finished.error().id, "file.not_grown") << finished.error().message;
@@ -245,7 +245,7 @@ TEST_F(RecorderTest, WhatComesAfterTheEndIsNotTaken) {
     EXPECT_EQ(contents_of(*read_file(folder / "a")).numbers, std::vector<std::uint64_t>{1});
 }
 
-/// A HID tracker that streams on the machine's own clock.
+/// A HID tracker that streams on the machine's real clock.
 class StreamingTransport final : public UsbTransport {
 public:
     [[nodiscard]] Result<std::size_t> read(std::span<std::byte> buffer, Nanoseconds) override {
@@ -282,7 +282,7 @@ TEST_F(RecorderTest, BesideARunningTrackerItKeepsWhatWasPolled) {
             ASSERT_TRUE(tracker.poll(monotonic_now(), polled));
             std::this_thread::sleep_for(milliseconds(1));
         }
-    } // both end as they do in the exhibit
+    } // both end as in the exhibit
     Result<PacketReplay> replay = PacketReplay::open(*read_file(folder / "a"), "a");
     ASSERT_TRUE(replay);
     EXPECT_EQ(replay->left_bytes(), 0U);

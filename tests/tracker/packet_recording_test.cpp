@@ -15,7 +15,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// The recording as it would stand in the file.
+/// The recording as the file would contain it.
 class MemoryTap final : public PacketTap {
 public:
     MemoryTap() { append_packet_header(file); }
@@ -24,18 +24,18 @@ public:
         ends.push_back(file.size());
     }
     Bytes file;
-    std::vector<std::size_t> ends; ///< of each packet
+    std::vector<std::size_t> ends; ///< end of each packet
 };
 
 struct Recorded {
     Bytes file;
     std::vector<std::size_t> ends;
-    std::vector<PoseSample> samples; ///< that the driver gave then
+    std::vector<PoseSample> samples; ///< produced by the driver while recording
     UsbTrackerState state = UsbTrackerState::NotConnected;
     TrackerCounts counts;
 };
 
-/// A device with everything that can happen to one, recorded.
+/// A recording of a device with every kind of event.
 Recorded eventful(UsbTrackerModel model, Nanoseconds length) {
     FakeUsbTracker device;
     device.model = model;
@@ -177,10 +177,10 @@ TEST(PacketReplay, OfASpaceMouseIsInTheTablesFrame) {
     std::vector<PoseSample> samples;
     replay->play(replay->end(), samples);
     EXPECT_EQ(samples.size(), 9990U / 8U + 1U);
-    EXPECT_EQ(samples.back().position_m, glm::dvec3(0.3, 0.0, 0.0)); // the table that it was recorded on
+    EXPECT_EQ(samples.back().position_m, glm::dvec3(0.3, 0.0, 0.0)); // on the table of the recording
 }
 
-/// As a power cut leaves it: every length of the file.
+/// Tests every length of the file, as a power cut may leave it.
 TEST(PacketReplay, ARecordingThatIsCutOffPlaysUpToTheCut) {
     const Recorded recorded = eventful(UsbTrackerModel::Hid, milliseconds(2500));
     const std::vector<PoseSample> all = replayed(recorded.file);

@@ -1,4 +1,4 @@
-/// The result of a codec for a whole stream of bytes, for the codecs' tests.
+/// A codec's result for a whole stream of bytes, for the codecs' tests.
 #pragma once
 
 #include "firmware_host/tracker/viper_codec.h" // NeedMore
@@ -13,12 +13,12 @@ namespace frustumscreen {
 
 struct ParsedStream {
     std::vector<DeviceFrame> frames;
-    int others = 0; ///< messages that are no frames
+    int others = 0; ///< messages other than frames
     int refusals = 0;
     std::size_t left = 0; ///< bytes that wait for more
 };
 
-/// Parses all the bytes and checks of each step of `parse` what must always hold.
+/// Parses all bytes and checks the invariants of each step of `parse`.
 template <typename Parse> ParsedStream parsed_stream(std::span<const std::byte> stream, Parse parse) {
     ParsedStream parsed;
     while (true) {

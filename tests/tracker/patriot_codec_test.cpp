@@ -48,7 +48,7 @@ TEST(PatriotCodec, LibertysAreReadTheSame) {
     }
 }
 
-/// Bits of the header that the format fixes, all but: sensor, command, error and the reserved byte.
+/// Bits of the header that the format fixes: all except sensor, command, error and the reserved byte.
 TEST(PatriotCodec, EveryWrongBitOfTagAndSizeIsRefusedAndTheNextFrameIsRead) {
     const Wire next = wire::patriot_frame(1017, 62, {});
     for (const std::size_t byte : {0U, 1U, 6U, 7U}) {
@@ -64,7 +64,7 @@ TEST(PatriotCodec, EveryWrongBitOfTagAndSizeIsRefusedAndTheNextFrameIsRead) {
     }
 }
 
-/// There is no checksum: a wrong bit elsewhere is refused, or moves the pose no further than the checks
+/// There is no checksum: a wrong bit elsewhere is refused, or moves the pose no farther than the checks
 /// allow.
 TEST(PatriotCodec, AnyOtherWrongBitGivesAPoseWithinTheTrackersReachOrNone) {
     for (std::size_t bit = 16; bit < frame_by_hand.size() * 8; ++bit) {
@@ -137,10 +137,10 @@ TEST(PatriotCodec, TheAnswerAboutUnitsIsOneDigitAfterU) {
     EXPECT_EQ(patriot_units_answer("01U 1\r\n"), 1);
     EXPECT_EQ(patriot_units_answer("00U 0\r\n"), 0);
     EXPECT_EQ(patriot_units_answer("01V PATRIOT U 0\r\n  U1\r\n"), 1);
-    EXPECT_EQ(patriot_units_answer("01U 1"), std::nullopt); // the line is not whole
+    EXPECT_EQ(patriot_units_answer("01U 1"), std::nullopt); // incomplete line
     EXPECT_EQ(patriot_units_answer("01U 10\r\n"), std::nullopt);
     EXPECT_EQ(patriot_units_answer("01U\r\n"), std::nullopt);
-    EXPECT_EQ(patriot_units_answer("01Ue 1\r\n"), std::nullopt); // an error's letter
+    EXPECT_EQ(patriot_units_answer("01Ue 1\r\n"), std::nullopt); // an error letter
     EXPECT_EQ(patriot_units_answer("\r\n\r\n"), std::nullopt);
     EXPECT_EQ(patriot_units_answer(""), std::nullopt);
 }

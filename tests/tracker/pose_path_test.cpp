@@ -25,13 +25,14 @@ TEST(PosePath, GoesThroughItsPosesWithoutAJerk) {
     EXPECT_EQ(path->front().position_m, keys[0].position_m);
     EXPECT_EQ((*path)[100].position_m, keys[1].position_m);
     EXPECT_EQ(path->back().position_m, keys[2].position_m);
-    // Half way after half the time; the middle's speed is 15/8 of the mean one, and the ends rest (Flash, Hogan).
+    // Half way after half the time; the speed in the middle is 15/8 of the mean speed, and the ends are at
+    // rest (Flash, Hogan).
     EXPECT_NEAR((*path)[50].position_m.x, 0.1, 1e-12);
     EXPECT_NEAR(2.0 * std::asin((*path)[50].rotation.z), 0.25 * std::numbers::pi, 1e-12);
     EXPECT_NEAR(((*path)[51].position_m.x - (*path)[49].position_m.x) / 0.02, 0.2 * 15.0 / 8.0, 1e-3);
     EXPECT_LT((*path)[1].position_m.x, 1e-5);
     for (std::size_t k = 100; k < path->size(); ++k) {
-        EXPECT_EQ((*path)[k].position_m, keys[1].position_m); // it rests
+        EXPECT_EQ((*path)[k].position_m, keys[1].position_m); // at rest
     }
 }
 

@@ -121,7 +121,7 @@ TEST(SimulatedTracker, MovesAsAHandDoesWithRestsTurnsAndSlides) {
 TEST(SimulatedTracker, NeverJumpsFromOneMovementToTheNext) {
     SimulatedVisitor visitor;
     for (visitor.seed = 0; visitor.seed < 50; ++visitor.seed) {
-        // Movements meet at whole slots: 4 s for the prop, 3.1 s for the head.
+        // Movements join at whole slots: 4 s for the prop, 3.1 s for the head.
         for (int slot = 1; slot < 40; ++slot) {
             const Nanoseconds prop_at = slot * std::chrono::milliseconds(4000);
             EXPECT_LT(glm::distance(simulated_prop(visitor, start, prop_at - Nanoseconds(1)).position_m,

@@ -15,7 +15,7 @@ using std::chrono::milliseconds;
 constexpr glm::dvec2 table_half(0.4, 0.25);
 const MonotonicTime start = from_microseconds(5'000'000);
 
-/// Plays reports at given times, polled in between at any rhythm.
+/// Plays reports at given times, with polls at `rhythm`.
 std::vector<PoseSample> play(const std::vector<std::pair<Nanoseconds, wire::Wire>>& reports,
                              Nanoseconds length, Nanoseconds rhythm) {
     SpaceMouseSession session(table_half);
@@ -46,7 +46,7 @@ std::vector<std::pair<Nanoseconds, wire::Wire>> held(unsigned id, std::array<std
 }
 
 TEST(SpaceMouseCodec, ReadsBothFormsInTheTablesAxes) {
-    // 100 to the right, 50 towards the person, 20 pressed down
+    // 100 to the right, 50 towards the user, 20 pressed down
     const auto push = std::get<SpaceMouseMotion>(parse_space_mouse(wire::from_hex("01 6400 3200 1400")));
     EXPECT_EQ(push.push, glm::dvec3(100, -50, -20));
     EXPECT_FALSE(push.turn);
@@ -125,7 +125,7 @@ TEST(SpaceMouse, SamplesComeAtRestTooAndDependOnTheReportsAlone) {
     }
 }
 
-/// Against a product of many small turns about the reports' axes.
+/// Compares with a product of many small rotations about the reports' axes.
 TEST(SpaceMouse, TurnsAboutChangingAxesAreIntegratedExactly) {
     const std::vector<std::array<std::int16_t, 3>> axes{{350, 0, 0}, {0, 200, -100}, {-120, 60, 350}};
     std::vector<std::pair<Nanoseconds, wire::Wire>> reports;

@@ -39,7 +39,7 @@ TEST(UsbTrackerDriver, AViperStreamsOnlyAfterEverySettingWasReadBack) {
     EXPECT_EQ(bench.device.commands, expected);
     EXPECT_EQ(bench.device.settings[7], wire::from_hex("03000000 02000000"));
     EXPECT_EQ(bench.device.settings[0], wire::from_hex("00000000 0000803F 00000000 00000000"));
-    EXPECT_EQ(bench.device.settings[1], wire::Wire(20)); // level 0 is none
+    EXPECT_EQ(bench.device.settings[1], wire::Wire(20)); // level 0 means no filter
     EXPECT_EQ(bench.device.settings[6], wire::from_hex("02000000"));
 }
 
@@ -55,7 +55,7 @@ TEST(UsbTrackerDriver, ADeviceThatStreamsAlreadyIsSetUpAllTheSame) {
         Bench bench(model);
         bench.device.streaming = true;
         bench.device.position_units = model == UsbTrackerModel::Viper ? 0 : 3;
-        const auto good = [&](wire::Wire frame) { // inches until it is told
+        const auto good = [&](wire::Wire frame) { // inches until the units are set
             bench.device.position_units = bench.device.settings[7].empty() ? 0 : 3;
             return std::vector<wire::Wire>{std::move(frame)};
         };
@@ -124,7 +124,7 @@ TEST(UsbTrackerDriver, AFilterThatCannotBeSwitchedOffIsSaidAndNoReasonNotToStrea
         EXPECT_EQ(bench.state(), UsbTrackerState::FilterStaysOn);
         EXPECT_NE(sentence_of(bench.state()).find("filter"), std::string_view::npos);
         EXPECT_GT(bench.samples.size(), 200U);
-        bench.device.connectors = {2}; // what is worse is said first
+        bench.device.connectors = {2}; // the worse fault is reported first
         bench.run(seconds(1));
         EXPECT_EQ(bench.state(), UsbTrackerState::SensorMissing);
         bench.device.connectors = {1, 2};
@@ -155,7 +155,7 @@ TEST(UsbTrackerDriver, AViperThatAnswersLateStreamsAndItsUnitsAreNotDoubted) {
         EXPECT_EQ(bench.state(), UsbTrackerState::Streaming);
     }
     Bench bench(UsbTrackerModel::Viper);
-    bench.device.answers_after = milliseconds(700); // later than a device may
+    bench.device.answers_after = milliseconds(700); // later than the driver allows
     for (int k = 0; k < 2000; ++k) {
         bench.run(milliseconds(10));
         ASSERT_NE(bench.state(), UsbTrackerState::WrongUnits);
@@ -163,8 +163,8 @@ TEST(UsbTrackerDriver, AViperThatAnswersLateStreamsAndItsUnitsAreNotDoubted) {
     EXPECT_EQ(bench.state(), UsbTrackerState::SetUpRefused);
 }
 
-/// The cable comes out at every single read and write of set-up and streaming, and is back three seconds
-/// later.
+/// The cable is unplugged at every single read and write of set-up and streaming, and plugged in three
+/// seconds later.
 TEST(UsbTrackerDriver, UnpluggedAtAnyMomentItIsBackWithinTwoSeconds) {
     for (const UsbTrackerModel model : models) {
         for (int calls = 0; calls < 120; ++calls) {
@@ -185,7 +185,7 @@ TEST(UsbTrackerDriver, ADeviceThatFallsSilentIsReportedAndTakenUpAgain) {
         for (const Nanoseconds length : {Nanoseconds(milliseconds(400)), Nanoseconds(seconds(10))}) {
             Bench bench(model);
             ASSERT_TRUE(bench.until_streaming(seconds(2)));
-            bench.run(milliseconds(100)); // its pace is known
+            bench.run(milliseconds(100)); // its rate is known
             bench.device.mute = true;
             bench.run(length);
             EXPECT_EQ(bench.state(), UsbTrackerState::Silent);
@@ -255,7 +255,7 @@ TEST(UsbTrackerDriver, LostDoubledAndLateFramesAreCountedAndNoneIsHandedOutTwice
         std::optional<wire::Wire> held;
         std::uint64_t late = 0;
         bench.device.mischief = [&](wire::Wire frame) -> std::vector<wire::Wire> {
-            if (held) { // comes after its successor
+            if (held) { // sent after its successor
                 ++late;
                 const wire::Wire before = *std::exchange(held, std::nullopt);
                 return {frame, before};
@@ -308,7 +308,7 @@ TEST(UsbTrackerDriver, ABrokenStreamHandsOutOnlyPosesThatWereSent) {
             return {frame};
         }
     };
-    bench.run(seconds(60)); // every sample is held against what was sent
+    bench.run(seconds(60)); // every sample is compared with the sent ones
     EXPECT_TRUE(is_streaming(bench.state()));
     EXPECT_GT(bench.samples.size(), 2U * 60U * 120U / 3U);
     EXPECT_GT(bench.counts().broken, 1000U);
@@ -363,7 +363,8 @@ TEST(UsbTrackerDriver, ItIsBelievedThoughItsFramesAreLostOrDoubledAllTheTime) {
             bench.device.counter = 0;
             bench.run(seconds(1));
             EXPECT_EQ(bench.state(), UsbTrackerState::Streaming);
-            EXPECT_GT(bench.counts().frames, before.frames + 20); // and the device was not given up for it
+            EXPECT_GT(bench.counts().frames, before.frames + 20); // and the device was not dropped because of
+                                                                  // it
         }
     }
 }
@@ -375,7 +376,7 @@ TEST(UsbTrackerDriver, AStreamOfWhichNothingCanBeTakenIsOpenedAnew) {
         bench.device.commands.clear();
         bench.device.text.clear();
         bench.device.mischief = [&](wire::Wire frame) {
-            bench.device.counter += 5000; // far from the one before, each time
+            bench.device.counter += 5000; // far from the previous counter each time
             return std::vector<wire::Wire>{std::move(frame)};
         };
         bench.run(seconds(5));

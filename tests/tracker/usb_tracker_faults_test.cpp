@@ -1,4 +1,4 @@
-// What a tracker says of itself, does at the wrong pace, or fails at while another one waits.
+// Faults that a tracker reports, wrong rates, and failures while another tracker is waiting.
 
 #include "tests/tracker/driver_bench.h"
 
@@ -41,7 +41,7 @@ TEST(UsbTrackerFaults, AFaultOfAHidTrackerIsSaid) {
     bench.device.fault = 1;
     bench.run(seconds(1));
     EXPECT_EQ(bench.state(), UsbTrackerState::DeviceFault);
-    EXPECT_FALSE(bench.samples.back().ok); // here it is the pose's
+    EXPECT_FALSE(bench.samples.back().ok); // reported with each pose here
 }
 
 TEST(UsbTrackerFaults, ADeviceThatFailsItsOwnTestInTheSetUpSaysSo) {
@@ -53,7 +53,7 @@ TEST(UsbTrackerFaults, ADeviceThatFailsItsOwnTestInTheSetUpSaysSo) {
     EXPECT_TRUE(bench.until_streaming(seconds(2)));
 }
 
-/// The oldest that a pose was when it came, over this time.
+/// The greatest age of a pose on arrival, over this time.
 Nanoseconds oldest_over(Bench& bench, Nanoseconds length) {
     const MonotonicTime end = bench.device.now + length;
     Nanoseconds oldest{0};
@@ -73,7 +73,7 @@ TEST(UsbTrackerFaults, ADeviceSlowerThanItSaysIsNamedAndItsPosesAreFreshAllTheSa
             Bench bench(model);
             bench.device.slower = slower;
             ASSERT_TRUE(bench.until_streaming(seconds(3)));
-            bench.run(seconds(20)); // the slope of 6 % shows after some seconds
+            bench.run(seconds(20)); // the rate error of 6 % shows after a few seconds
             EXPECT_EQ(bench.state(), UsbTrackerState::PosesLate) << slower;
             EXPECT_LT(oldest_over(bench, seconds(10)), milliseconds(5)) << slower;
             bench.device.slower = 1.0;
@@ -141,13 +141,13 @@ TEST(UsbTrackerFaults, CountsGoOnOverEveryConnection) {
             bench.device.plugged = true;
         }
         EXPECT_EQ(bench.counts().connections, 3U);
-        const std::uint64_t sensors = model == UsbTrackerModel::Viper ? 2 : 1; // in a frame
+        const std::uint64_t sensors = model == UsbTrackerModel::Viper ? 2 : 1; // per frame
         EXPECT_EQ(sensors * bench.counts().frames, bench.samples.size());
         EXPECT_GE(bench.counts().lost, 3 * 2 * 10U);
     }
 }
 
-/// Trackers side by side on one clock; each has a place of its own.
+/// Several trackers on one clock, each with its own place.
 class CrowdedBus final : public UsbBus {
 public:
     explicit CrowdedBus(std::vector<FakeUsbTracker>& devices) : devices_(devices) {}
@@ -173,7 +173,7 @@ class Crowd {
 public:
     explicit Crowd(std::size_t count) : devices(count), driver_(make_bus(), {}, [this] { return now(); }) {}
 
-    /// Until it streams; how many devices were opened on the way.
+    /// Runs until one streams; returns the number of devices that were opened meanwhile.
     std::optional<std::size_t> until_streaming() {
         const std::size_t before = bus_->opened.size();
         const MonotonicTime end = now() + seconds(60);
@@ -230,13 +230,13 @@ TEST(UsbTrackerFaults, OfTwoTrackersADeadFirstOneLetsTheSecondCome) {
         EXPECT_EQ(*opened, 2U);
         EXPECT_EQ(crowd.open_device(), 1U);
         crowd.run(seconds(10));
-        EXPECT_EQ(crowd.open_device(), 1U); // and it keeps it
+        EXPECT_EQ(crowd.open_device(), 1U); // and it stays open
         FakeUsbTracker& first = crowd.devices[0];
         first.deaf = first.mute = first.keeps_inches = false;
         crowd.devices[1].plugged = false;
         crowd.run(seconds(1));
         ASSERT_TRUE(crowd.until_streaming());
-        EXPECT_EQ(crowd.open_device(), 0U); // well again, and used
+        EXPECT_EQ(crowd.open_device(), 0U); // working again, and used
     }
 }
 

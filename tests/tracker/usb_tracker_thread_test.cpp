@@ -8,7 +8,7 @@
 namespace frustumscreen {
 namespace {
 
-/// A device on the machine's own clock that comes and goes; lives on the tracker's thread alone.
+/// A device on the machine's real clock that appears and disappears; lives on the tracker's thread alone.
 class RestlessTransport final : public UsbTransport {
 public:
     RestlessTransport(std::uint32_t seed, std::uint32_t& counter) : engine_(seed), counter_(counter) {}
@@ -64,7 +64,7 @@ private:
     std::uint32_t counter_ = 0;
 };
 
-/// A device that takes its time over every call.
+/// A bus on which every call is slow.
 class SlowBus final : public UsbBus {
 public:
     explicit SlowBus(std::atomic<int>& searches) : searches_(searches) {}
@@ -85,7 +85,7 @@ TEST(UsbTracker, PollsWhileTheDeviceComesAndGoes) {
     EXPECT_FALSE(tracker.reports_table_frame());
     std::vector<PoseSample> samples;
     MonotonicTime last{};
-    int followed = 0; // of the times that it came, those that poses came from
+    int followed = 0; // number of connections from which poses came
     int heard = 0;
     TrackerCounts counts;
     while (followed < 3) {

@@ -12,7 +12,7 @@ namespace {
 
 using wire::Wire;
 
-/// Written out by hand from the description; the last four bytes are the CRC.
+/// Written by hand from the format's description; the last four bytes are the CRC.
 const Wire frame_by_hand = wire::from_hex("56505250 34000000" // VPRP, 52 bytes follow
                                           "40E20100 04030201" // serial 123456, frame 0x01020304
                                           "00000000 01000000" // info, one sensor
@@ -111,11 +111,11 @@ TEST(ViperCodec, GarbageInFrontIsPassedOver) {
     for (int length = 1; length < 300; ++length) {
         Wire stream;
         for (int k = 0; k < length; ++k) {
-            // Letters of the preamble turn up often.
+            // Letters of the preamble occur often.
             stream.push_back(static_cast<std::byte>("VPRPC\0\x34\xFF"[engine() % 8]));
         }
         stream.insert(stream.end(), frame_by_hand.begin(), frame_by_hand.end());
-        // A header made of garbage may claim what follows; frames end its wait.
+        // A random header may claim the following bytes; further frames end its wait.
         for (std::uint32_t k = 0; k < 40; ++k) {
             const Wire more = wire::viper_frame(k, {wire::Pose{}});
             stream.insert(stream.end(), more.begin(), more.end());
@@ -172,7 +172,7 @@ TEST(ViperCodec, SixteenSensorsAreReadAndSeventeenRefused) {
     EXPECT_TRUE(parse_all(wire::viper_frame(1, poses)).frames.empty());
 }
 
-/// Each mutant in memory of exactly its size, so that the address sanitizer sees one byte too many.
+/// Each mutant is in memory of exactly its size, so the address sanitizer detects reads beyond it.
 TEST(ViperCodec, AHundredThousandMutantsAreSafeAndGiveNoPoseThatWasNotSent) {
     Wire seed = frame_by_hand;
     for (const Wire& more : {wire::viper_reply(7, 3, wire::from_hex("03000000 02000000")),

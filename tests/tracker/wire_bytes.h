@@ -1,4 +1,4 @@
-/// Bytes of the wire formats, written from their descriptions without the codecs: for tests and fake devices.
+/// Bytes of the wire formats, written from their descriptions without the codecs, for tests and fake devices.
 #pragma once
 
 #include <array>
@@ -113,7 +113,7 @@ struct HidPose {
     unsigned distortion = 0;
     std::uint32_t counter = 1;
     std::uint32_t time_us = 0;
-    std::array<std::int32_t, 3> position{25000, -50000, 10000}; ///< 10 um
+    std::array<std::int32_t, 3> position{25000, -50000, 10000}; ///< in 10 um
     std::array<std::int16_t, 4> quaternion{16384, 16384, -16384, 16384};
 };
 
@@ -147,7 +147,7 @@ inline Wire hid_info(unsigned unit_um = 10, unsigned version = 1, unsigned rate_
     return with_crc16(std::move(wire));
 }
 
-/// Report 1 or 2 of a SpaceMouse; report 1 with both where `more` is given.
+/// Report 1 or 2 of a SpaceMouse; report 1 with both motions if `more` is given.
 inline Wire space_mouse(unsigned id, std::array<std::int16_t, 3> axes, const Wire& more = {}) {
     Wire wire;
     put(wire, static_cast<std::uint8_t>(id));

@@ -1,4 +1,4 @@
-/// Rotations by the textbook, in long double, to compare the program's with.
+/// Textbook rotations in long double, as a reference.
 #pragma once
 
 #include "app/geometry/transform.h"
@@ -17,7 +17,8 @@ inline Quaternion about(const Vector& axis, Real angle) {
     return {std::cos(angle / 2), s * axis[0], s * axis[1], s * axis[2]};
 }
 
-/// Weights sin((1 - s) O) / sin O and sin(s O) / sin O, where O is the angle between them on the shorter way.
+/// Weights sin((1 - s) O) / sin O and sin(s O) / sin O, where O is the angle between the rotations along the
+/// shorter way.
 inline Quaternion slerp(const Quaternion& a, Quaternion b, Real share) {
     Real cosine = 0;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -42,7 +43,7 @@ inline glm::dquat rounded(const Quaternion& q) {
             static_cast<double>(q[3])};
 }
 
-/// The angle between the two in radians, whatever the signs; exact for small angles too.
+/// The angle between the rotations in radians, independent of the signs; exact for small angles too.
 inline double angle(const glm::dquat& a, const Quaternion& b) {
     const std::array<Real, 4> q{a.w, a.x, a.y, a.z};
     Real less = 0;

@@ -11,7 +11,7 @@ using std::chrono::milliseconds;
 
 constexpr double lever_m = 0.06;
 
-/// One of the two as a test wants it: at x, so sure, so old.
+/// A source at x, with this standard deviation and age.
 SourcePose source(double x_m, double sd_m, milliseconds age = milliseconds(20)) {
     SourcePose one;
     one.estimate = {{{1.0, 0.0, 0.0, 0.0}, {x_m, 0.0, 0.0}}, PoseStatus::Predicted, age, 1};
@@ -25,7 +25,7 @@ MonotonicTime at(int ms) {
     return MonotonicTime(milliseconds(10'000 + ms));
 }
 
-/// A metre away and a millisecond old, as if it had never been there.
+/// A source that has never given a pose.
 SourcePose never() {
     SourcePose one = source(0.0, 0.0);
     one.estimate.reinitialisations = 0;
@@ -56,13 +56,13 @@ TEST(HandOver, TwoThatAreAlikeDoNotTakeTurns) {
 TEST(HandOver, ItTakesClearlyLessSpreadForHalfASecond) {
     HandOver hand_over;
     for (int ms = 0; ms < 4000; ms += 10) {
-        const bool worse = ms % 1000 < 490 || ms >= 3000; // in bursts that are too short, then for good
+        const bool worse = ms % 1000 < 490 || ms >= 3000; // in bursts that are too short, then permanently
         (void)hand_over.follow(source(0.0, worse ? 0.006 : 0.001), source(0.005, 0.0015), at(ms));
         EXPECT_EQ(hand_over.leader(), ms < 3500 ? Source::Tracker : Source::Tags) << ms;
     }
 }
 
-/// Whatever the two disagree by, nothing jumps, and it ends at the new leader.
+/// For any disagreement nothing jumps, and the pose ends at the new leader.
 TEST(HandOver, ADisagreementFadesAtABoundedRate) {
     for (const double off_m : {0.001, 0.005, 0.02, 0.1}) {
         HandOver hand_over;
@@ -83,7 +83,7 @@ TEST(HandOver, ADisagreementFadesAtABoundedRate) {
     }
 }
 
-/// Back in the middle of a fade: still no jump.
+/// A change back in the middle of a fade does not jump either.
 TEST(HandOver, AChangeInTheMiddleOfAChangeGoesOnFromThere) {
     HandOver hand_over;
     (void)hand_over.follow(source(0.0, 0.001), source(0.01, 0.0015), at(0));
@@ -101,7 +101,8 @@ TEST(HandOver, AChangeInTheMiddleOfAChangeGoesOnFromThere) {
     EXPECT_EQ(hand_over.changes(), 4U);
 }
 
-/// The fade is a function of time: thirty pictures a second see the same as two hundred at the same times.
+/// The fade is a function of time: thirty pictures per second show the same poses as two hundred at equal
+/// times.
 TEST(HandOver, TheFadeDoesNotDependOnTheFrameRate) {
     HandOver slow;
     HandOver fast;

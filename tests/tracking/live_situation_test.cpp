@@ -39,7 +39,7 @@ TEST(LiveSituation, CountsWhatIsNoPose) {
     EXPECT_TRUE(situation.prop_known);
 }
 
-/// A picture at rest is not drawn again: the pose must be the same, bit for bit.
+/// A picture at rest is not redrawn: the pose must be equal bit for bit.
 TEST(LiveSituation, RestsWhenThePropRests) {
     LiveSituation live(default_eye, lever_m);
     std::int64_t t_us = 0;
@@ -89,19 +89,20 @@ TEST(LiveSituation, ADropoutHoldsThenIsStaleAndAReturnIsTakenUpWithoutAJump) {
         EXPECT_TRUE(now.prop_known || (k > lost && k < back)) << k;
         before = now.table_from_prop;
     }
-    EXPECT_NEAR(first_unknown, lost + 60, 2); // a second
-    // 0.16 m at the prop within 0.25 s along a smooth step: 1.5 times the mean speed at most.
+    EXPECT_NEAR(first_unknown, lost + 60, 2); // one second
+    // 0.16 m at the prop within 0.25 s along a smooth step: at most 1.5 times the mean speed.
     EXPECT_LT(largest_m, 1.5 * 0.16 / 0.25 * 0.0167 * 1.1);
     EXPECT_LT(slip_m(step_between({rotation_of({0.0, 0.0, 1.0}), {0.1, 0.0, 0.0}}, before), lever_m), 0.0001);
 }
 
-/// The eye through a loss and a return, both longer and shorter than the glide between them.
+/// The eye through a loss and a return; the loss is shorter or longer than the glide.
 TEST(LiveSituation, AHeadThatIsLostAndFoundMovesTheEyeWithoutAJump) {
     constexpr std::int64_t period_us = 16'667;
     constexpr int lost = 60;
     const glm::dvec3 before_loss(0.3, -0.5, 0.45);
     const glm::dvec3 after_return(-0.1, -0.6, 0.6);
-    for (const int back : {lost + 65, lost + 69, lost + 200}) { // stale after 60; two on the way, one after
+    for (const int back : {lost + 65, lost + 69, lost + 200}) { // stale after 60; two return during the
+                                                                // glide, one after it
         LiveSituation live(default_eye, lever_m);
         glm::dvec3 eye = live.at(from_microseconds(0)).eye_m;
         EXPECT_EQ(eye, default_eye);
@@ -127,14 +128,14 @@ TEST(LiveSituation, AHeadThatIsLostAndFoundMovesTheEyeWithoutAJump) {
             }
         }
         EXPECT_LT(glm::length(eye - after_return), 0.0001);
-        // The longest way within 0.25 s along a smooth step: 1.5 times the mean speed at most.
+        // The longest way within 0.25 s along a smooth step: at most 1.5 times the mean speed.
         const double longest_m =
             std::fmax(glm::length(after_return - before_loss), glm::length(default_eye - before_loss));
         EXPECT_LT(largest_m, 1.5 * longest_m / 0.25 * 0.0167 * 1.1) << back;
     }
 }
 
-/// A fixed viewer's eye, and every eye before the first head, is the default one bit for bit.
+/// A fixed viewer's eye, and the eye before the first head sample, is the default one bit for bit.
 TEST(LiveSituation, WithoutAHeadTheEyeRests) {
     LiveSituation live(default_eye, lever_m);
     for (std::int64_t t_us = 0; t_us < 2'000'000; t_us += 16'667) {
@@ -156,7 +157,7 @@ TEST(LightDelay, FollowsTheMeasuredFlipsAndWhatCannotBeOneDoesNoHarm) {
         }
     };
     flips(1, std::chrono::milliseconds(30));
-    EXPECT_NEAR(to_seconds(delay.from_now()), 0.047, 1e-9); // the first, in full
+    EXPECT_NEAR(to_seconds(delay.from_now()), 0.047, 1e-9); // the first measurement counts in full
     flips(200, std::chrono::milliseconds(8));
     EXPECT_NEAR(to_seconds(delay.from_now()), 0.025, 1e-6);
     flips(200, -std::chrono::hours(1));
@@ -164,7 +165,7 @@ TEST(LightDelay, FollowsTheMeasuredFlipsAndWhatCannotBeOneDoesNoHarm) {
     flips(1, std::chrono::hours(1));
     EXPECT_LE(to_seconds(delay.from_now()), 0.017 + 0.0101);
     const Nanoseconds before = delay.from_now();
-    delay.flipped(now - std::chrono::hours(1), now); // time that goes back
+    delay.flipped(now - std::chrono::hours(1), now); // time goes back
     EXPECT_EQ(delay.from_now(), before);
 }
 

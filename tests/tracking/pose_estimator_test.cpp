@@ -37,7 +37,7 @@ RigidTransform at_x(double x) {
     return {glm::dquat(1.0, 0.0, 0.0, 0.0), {x, 0.0, 0.0}};
 }
 
-/// 0.25 m/s along a slanting line, 1 rad/s about a slanting axis, in long double.
+/// 0.25 m/s along an oblique line, 1 rad/s about an oblique axis, in long double.
 struct SteadyMotion {
     exact_pose::Vector axis{0.6L, 0.0L, 0.8L};
     [[nodiscard]] exact_pose::Quaternion rotation(long double t_s) const {
@@ -51,7 +51,7 @@ struct SteadyMotion {
     }
 };
 
-/// After two seconds at 60 Hz, 40 ms ahead.
+/// The estimate after two seconds at 60 Hz, 40 ms ahead.
 PoseEstimate steady_answer(PoseEstimator& estimator, const SteadyMotion& motion, std::int64_t& asked_us) {
     std::int64_t t_us = 0;
     for (int k = 0; k < 120; ++k) {
@@ -86,7 +86,8 @@ TEST(PoseEstimator, PredictsSteadyMotionUpToItsCautionWithAllModels) {
     EXPECT_LT(exact_pose::angle(estimate.pose.rotation, motion.rotation(t_s)), 0.25 * 0.040);
 }
 
-/// How far the predicted pose goes from one picture to the next beyond what the prop goes, RMS, in mm: 60 Hz each, 35 ms ahead, for 40 s.
+/// How far the predicted pose moves from picture to picture beyond the prop's own movement, RMS, in mm:
+/// tracker and pictures at 60 Hz, 35 ms ahead, for 40 s.
 double tremble_mm(PoseEstimator estimator, double speed_m_s) {
     std::mt19937_64 random(4);
     std::normal_distribution<double> noise(0.0, PoseNoise().place_m);
@@ -110,7 +111,7 @@ TEST(PoseEstimator, APropThatIsSlidSlowlyDoesNotTremble) {
     for (const double speed_m_s : {0.001, 0.002, 0.005, 0.015, 0.05}) {
         EXPECT_LT(tremble_mm(exhibit_estimator(), speed_m_s), 0.25) << speed_m_s;
     }
-    EXPECT_GT(tremble_mm(glide_estimator(), 0.015), 0.5); // what one bandwidth for all makes of it
+    EXPECT_GT(tremble_mm(glide_estimator(), 0.015), 0.5); // the tremble of a single bandwidth for all speeds
 }
 
 TEST(MotionTrack, ACreepDoesNotDependOnHowItsTimeIsCut) {
@@ -118,7 +119,7 @@ TEST(MotionTrack, ACreepDoesNotDependOnHowItsTimeIsCut) {
     const MotionTrack start({models, 0.0003, 0.065, 2.0, 0.0});
     for (const double length_s : {1e-3, 1.0 / 60.0, 0.25, 2.0}) {
         MotionTrack cut = start;
-        for (int k = 0; k < 1000; ++k) { // the shortest of them glide
+        for (int k = 0; k < 1000; ++k) { // even the shortest of them glide
             static_cast<void>(cut.advance(length_s / 1000.0));
         }
         EXPECT_NEAR(cut.place_sd(0.0), start.place_sd(length_s), 1e-4 * start.place_sd(length_s)) << length_s;
@@ -160,7 +161,8 @@ TEST(PoseEstimator, ATrackerOfOneSampleASecondIsSlowAndNotStale) {
         }
     }
     EXPECT_EQ(estimator.at(at_us(19'000'000 + 2'600'000)).status, PoseStatus::Stale);
-    // A slower one waits no longer than five seconds, and one gap alone makes no tracker slow.
+    // A slower tracker is not waited for longer than five seconds, and one gap alone does not mark a tracker
+    // as slow.
     for (std::int64_t t_us = 20'000'000; t_us < 60'000'000; t_us += 8'000'000) {
         estimator.take(at_us(t_us), at_x(0.1));
     }
@@ -195,7 +197,7 @@ TEST(PoseEstimator, IsStableForStepsFromAMicrosecondToTenSeconds) {
                 0.0003 * glm::dvec3(noise(random), noise(random), noise(random))};
             const std::int64_t t_us = k * step_us;
             ASSERT_EQ(estimator.take(at_us(t_us), pose), Taken::Used) << step_us;
-            // Within the noise's reach, now and as far ahead as is predicted at all.
+            // Within the noise's reach, now and up to the prediction limit.
             for (const std::int64_t ahead_us : {0LL, 40'000LL, 10'000'000LL}) {
                 const PoseEstimate estimate = estimator.at(at_us(t_us + ahead_us));
                 ASSERT_LT(slip_m(step_between({}, estimate.pose), 0.06), ahead_us == 0 ? 0.003 : 0.08)
@@ -309,7 +311,7 @@ TEST(PoseEstimator, HoldsThePoseInADropout) {
         largest = std::max(largest, x - before);
         before = x;
     }
-    EXPECT_LT(largest, 0.00035); // no faster than the hand was
+    EXPECT_LT(largest, 0.00035); // not faster than the hand
     EXPECT_LT(before - 0.0048 * 99, 0.3 * 0.12);
 }
 
@@ -332,7 +334,7 @@ struct Row {
     RigidTransform pose;
 };
 
-/// As they stand in the file, out of order and repeated where they are.
+/// Rows as in the file, with its misordered and repeated ones.
 std::vector<Row> rows_of(const std::filesystem::path& file) {
     std::vector<Row> rows;
     const Result<Bytes> bytes = read_file(file);
@@ -362,7 +364,7 @@ TEST(PoseEstimator, FollowsEveryRecordingAlsoShuffled) {
                              "camera_target_handheld_1.csv", "tum_fr1_xyz_rgbdslam.txt"}) {
         std::vector<Row> rows = rows_of(folder / name);
         ASSERT_GT(rows.size(), 100U) << name;
-        // Neighbours change places, one pair in three.
+        // Swap neighbours, one pair in three.
         for (std::size_t k = 0; k + 1 < rows.size(); k += 3) {
             std::swap(rows[k], rows[k + 1]);
         }

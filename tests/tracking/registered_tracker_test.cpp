@@ -30,7 +30,7 @@ private:
     bool table_frame_;
 };
 
-/// The device's +Z points down and its origin lies 0.3 m above the table.
+/// The device's +Z points down; its origin is 0.3 m above the table.
 const RigidTransform table_from_tracker{glm::dquat(0, 1, 0, 0), {0, 0, 0.3}};
 
 TEST(RegisteredTracker, PlacesWhatADeviceReportsInItsOwnFrameAndNoSampleTwice) {
@@ -39,17 +39,19 @@ TEST(RegisteredTracker, PlacesWhatADeviceReportsInItsOwnFrameAndNoSampleTwice) {
     ASSERT_TRUE(tracker.registration());
     std::vector<PoseSample> samples;
     for (int round = 0; round < 2; ++round) {
-        EXPECT_FALSE(tracker.poll(from_microseconds(5 + round), samples)); // what came is there all the same
+        EXPECT_FALSE(tracker.poll(from_microseconds(5 + round), samples)); // samples arrive although poll
+                                                                           // returns false
     }
     ASSERT_EQ(samples.size(), 4U);
     for (const std::size_t k : {0U, 2U}) {
         EXPECT_LT(glm::distance(samples[k].position_m, glm::dvec3(0.1, -0.2, 0.0)), 1e-15);
         EXPECT_LT(glm::distance(samples[k].rotation * glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1)), 1e-15);
-        EXPECT_EQ(samples[k + 1].position_m, glm::dvec3(0.1, 0.2, 0.3)); // is none
+        EXPECT_EQ(samples[k + 1].position_m, glm::dvec3(0.1, 0.2, 0.3)); // has no pose
     }
 }
 
-/// The prop's axes lie 0.05 m below its sensor, turned a quarter about Z; the eye is 0.1 m in front of the head's sensor.
+/// The prop's origin is 0.05 m below its sensor, rotated a quarter about Z; the eye is 0.1 m in front of the
+/// head's sensor.
 TEST(RegisteredTracker, KnowsWhereTheSensorsSitInThePropAndOnTheHead) {
     const double half = std::sqrt(0.5);
     const glm::dquat quarter(half, 0, 0, half);
@@ -67,7 +69,7 @@ TEST(RegisteredTracker, KnowsWhereTheSensorsSitInThePropAndOnTheHead) {
               1e-15); // the head's +X is the table's +Y
     EXPECT_LT(glm::distance(samples[1].rotation * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-15);
     EXPECT_LT(glm::distance(samples[2].position_m, glm::dvec3(1, 2, 4)),
-              1e-15); // the torch's sensor is the torch
+              1e-15); // the torch's frame is its sensor's
 }
 
 TEST(RegisteredTracker, HandsOnWhatIsInTableCoordinates) {

@@ -47,7 +47,7 @@ TEST(SeenHead, IsTheEyeUntilASensorSaysMore) {
     EXPECT_LT(glm::distance(situation.eye_m, right), 1e-3);
 }
 
-/// Nobody is there any more: after a second the picture goes back, and no picture jumps.
+/// The visitor has left: after a second the picture returns to the default eye, without a jump.
 TEST(SeenHead, WhoGoesLeavesTheDefaultEyeWithoutAJump) {
     LiveSituation live(default_eye, lever_m);
     glm::dvec3 before = default_eye;
@@ -71,7 +71,7 @@ TEST(SeenHead, ThePictureTurnsToWhoIsNearestToTheProp) {
     const auto step = [&](int ms, double x) {
         prop.time = at(ms);
         prop.position_m = {x, 0.0, 0.0};
-        static_cast<void>(live.take(prop)); // one that was put elsewhere is doubted at first
+        static_cast<void>(live.take(prop)); // a moved prop is not accepted at first
         EXPECT_TRUE(live.take_visitor(head(1, ms, left)));
         EXPECT_TRUE(live.take_visitor(head(2, ms, right)));
         return live.at(at(ms)).eye_m;
@@ -83,7 +83,7 @@ TEST(SeenHead, ThePictureTurnsToWhoIsNearestToTheProp) {
     }
     EXPECT_LT(glm::distance(eye, left), 0.12);
     for (; ms < 5000; ms += 16) {
-        eye = step(ms, 0.0); // about as near: nobody takes turns
+        eye = step(ms, 0.0); // about equally near: the active visitor must not change
     }
     EXPECT_LT(glm::distance(eye, left), 0.12);
     glm::dvec3 before = eye;

@@ -1,4 +1,5 @@
-// The prop by two trackers at once, as the exhibit follows it: what a visitor sees while one is lost, bent by metal, and back.
+// The prop followed by two trackers at once, as in the exhibit: the visitor's picture while one is lost,
+// distorted by metal, and back.
 #include "app/tracking/live_situation.h"
 
 #include <gtest/gtest.h>
@@ -14,11 +15,12 @@ namespace {
 constexpr double lever_m = 0.0775;
 constexpr double tick_s = 0.001;
 
-/// What the two say at a time.
+/// The two sources' reports over time.
 struct Story {
     std::function<RigidTransform(double)> truth;
     std::function<bool(double)> tracker_sends = [](double) { return true; };
-    std::function<glm::dvec3(double)> bent = [](double) { return glm::dvec3(0.0); }; ///< by metal, metres
+    std::function<glm::dvec3(double)> bent = [](double) { return glm::dvec3(0.0); }; ///< distortion by metal,
+                                                                                     ///< metres
     std::function<bool(double)> metal_is_told = [](double) { return false; };
     std::function<bool(double)> tags_seen = [](double) { return true; };
     glm::dvec3 tags_off_m{0.0};
@@ -27,20 +29,20 @@ struct Story {
 
 struct Told {
     double largest_step_mm = 0.0;               ///< between two pictures, beyond the true motion
-    double largest_off_mm = 0.0;                ///< from the truth, while nothing fades; see `settled`
-    std::vector<std::pair<double, bool>> leads; ///< when the tags took (true) and gave the lead
+    double largest_off_mm = 0.0;                ///< from the truth, outside fades; see `settled`
+    std::vector<std::pair<double, bool>> leads; ///< when the tags took (true) and returned the lead
     double last_off_mm = 0.0;
 };
 
 RigidTransform at_rest(double) {
     return {rotation_of({0.0, 0.0, 0.4}), {0.05, -0.02, 0.0}};
 }
-/// A hand that slides it to and fro, 0.2 m/s at most.
+/// A hand that slides the prop to and fro, at most 0.2 m/s.
 RigidTransform slid(double t_s) {
     return {rotation_of({0.0, 0.0, 0.3 * std::sin(1.1 * t_s)}), {0.1 * std::sin(2.0 * t_s), 0.0, 0.0}};
 }
 
-/// A tracker of 60 Hz that takes 18 ms, tags of 30 Hz that take 45 ms, pictures of 60 Hz that are lit 33 ms later.
+/// A 60 Hz tracker with 18 ms latency, 30 Hz tags with 45 ms, 60 Hz pictures that are lit 33 ms later.
 Told told(const Story& story, std::uint64_t seed = 1) {
     LiveSituation live({0.0, -0.5, 0.5}, lever_m);
     std::mt19937_64 random(seed);
@@ -99,7 +101,7 @@ Told told(const Story& story, std::uint64_t seed = 1) {
     return told;
 }
 
-/// 20 mm/s at 60 pictures a second are 0.33 mm; what the filter makes of noise at rest is far below.
+/// 20 mm/s at 60 pictures per second are 0.33 mm; the filtered noise at rest is far below.
 constexpr double most_step_mm = 0.6;
 
 TEST(TwoTrackers, AloneAndWellTheTrackerLeads) {
@@ -117,7 +119,7 @@ TEST(TwoTrackers, TagsTakeOverALostTrackerAndHandItBackWithoutAJump) {
     EXPECT_TRUE(rest.leads[0].second);
     EXPECT_NEAR(rest.leads[1].first, 5.6, 0.15);
     EXPECT_LT(rest.largest_step_mm, most_step_mm);
-    EXPECT_LT(rest.largest_off_mm, 6.5); // as far as they disagree
+    EXPECT_LT(rest.largest_off_mm, 6.5); // their disagreement
     EXPECT_LT(rest.last_off_mm, 0.7);
 }
 
@@ -127,11 +129,11 @@ TEST(TwoTrackers, AMovingPropIsFollowedOn) {
         .truth = slid, .tracker_sends = story.tracker_sends, .tags_seen = [](double) { return false; }};
     const double all_the_time = told({.truth = slid}).largest_step_mm;
     EXPECT_LT(told(story).largest_off_mm, 30.0);
-    EXPECT_GT(told(without).largest_off_mm, 100.0); // it stands where it was lost
+    EXPECT_GT(told(without).largest_off_mm, 100.0); // it stays where it was lost
     EXPECT_LT(told(story).largest_step_mm, all_the_time + 3.0);
 }
 
-/// The field is bent more and more, and the tracker says so from 3 mm on.
+/// The field's distortion grows, and the tracker reports it from 3 mm on.
 TEST(TwoTrackers, MetalThatComesNearHandsOverToTheTags) {
     for (const double m_s : {0.0005, 0.001}) {
         const double told_s = 2.0 + 0.003 / m_s;
@@ -145,7 +147,7 @@ TEST(TwoTrackers, MetalThatComesNearHandsOverToTheTags) {
         ASSERT_EQ(told_of.leads.size(), 1U);
         EXPECT_NEAR(told_of.leads[0].first, told_s + 0.5, 0.1);
         EXPECT_LT(told_of.largest_step_mm, most_step_mm);
-        EXPECT_LT(told_of.largest_off_mm, 5.0); // it goes on to 6 and 12
+        EXPECT_LT(told_of.largest_off_mm, 5.0); // it grows to 6 and 12
         EXPECT_LT(told_of.last_off_mm, 0.7);
     }
 }
@@ -157,7 +159,7 @@ TEST(TwoTrackers, MetalThatComesAndGoesDoesNotMakeThemTakeTurns) {
     EXPECT_TRUE(often.leads.empty());
 }
 
-/// A hand lies on the tags while metal is near: better a bent pose than none.
+/// A hand covers the tags while metal is near: a distorted pose is better than none.
 TEST(TwoTrackers, CoveredTagsGiveTheLeadBack) {
     const Told told_of = told({.truth = at_rest,
                                .bent = [](double) { return glm::dvec3(0.005, 0.0, 0.0); },
@@ -168,7 +170,8 @@ TEST(TwoTrackers, CoveredTagsGiveTheLeadBack) {
     EXPECT_LT(told_of.largest_step_mm, most_step_mm);
 }
 
-/// Both gone: held, then unknown; the tags find it elsewhere and the picture glides there.
+/// Both are lost: the pose is held, then unknown; the tags find the prop elsewhere and the picture glides
+/// there.
 TEST(TwoTrackers, BothLostAndFoundElsewhere) {
     const auto truth = [](double t) {
         return RigidTransform{{1.0, 0.0, 0.0, 0.0}, {t < 3.0 ? 0.0 : 0.1, 0.0, 0.0}};

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int width = 60;
 constexpr int height = 40;
-constexpr int table_rows = 10; // the lowest
+constexpr int table_rows = 10; // the lowest rows
 
 std::vector<Shows> shows() {
     std::vector<Shows> all(width * height, Shows::Head);
@@ -19,12 +19,13 @@ std::vector<Shows> shows() {
     return all;
 }
 
-/// A wall that is brighter to the right, under lamps and under a share of the projector's light that grows upwards.
+/// A wall that is brighter to the right, lit by lamps and by a share of the projector's light that grows
+/// upwards.
 class Wall {
 public:
     double lamps = 1.0, projector = 0.0;
     PixelBox thing;
-    PixelBox prop; ///< the picture moves on it
+    PixelBox prop; ///< the picture on it moves
     double moved = 0.0;
     SmallFrame frame() {
         moved += 0.15;
@@ -57,7 +58,7 @@ public:
     Wall wall;
     std::vector<PixelBox> people;
     Background background{shows()};
-    /// How many pixels are foreground after so many seconds.
+    /// Number of foreground pixels after this time.
     long look(double seconds) {
         long count = 0;
         for (const double end_s = t_s_ + seconds; t_s_ < end_s; t_s_ += 1.0 / 30.0) {
@@ -74,7 +75,7 @@ public:
         return count;
     }
     bool changes = false;
-    long most = 0; ///< of any frame since it was set
+    long most = 0; ///< maximum over all frames since it was reset
 
 private:
     double t_s_ = 0.0;
@@ -98,7 +99,7 @@ TEST(Background, SomebodyIsNeverLearntAndAThingIs) {
     EXPECT_EQ(watch.look(60.0), 0);
 }
 
-/// Else a blot is left that looks like a head, and is held for somebody who stands still.
+/// Otherwise a blot remains that resembles a head, and is taken for a person who stands still.
 TEST(Background, WhoPassesLeavesNoTraceAndIsSeenAgain) {
     Watch watch;
     watch.changes = true;
@@ -112,7 +113,7 @@ TEST(Background, WhoPassesLeavesNoTraceAndIsSeenAgain) {
     }
 }
 
-/// What moves in the picture on the prop no share of the table's mean explains.
+/// Movement in the picture on the prop cannot be explained by a share of the table's mean.
 TEST(Background, ThePropInThePictureIsNobody) {
     Watch watch;
     watch.changes = true;
@@ -129,12 +130,12 @@ TEST(Background, DimmedLampsAreNobody) {
     for (watch.wall.lamps = 1.0; watch.wall.lamps > 0.5; watch.wall.lamps -= 0.01) {
         EXPECT_EQ(watch.look(0.1), 0) << watch.wall.lamps;
     }
-    watch.wall.lamps = 1.4; // at once
+    watch.wall.lamps = 1.4; // suddenly
     EXPECT_EQ(watch.look(0.1), 0);
     EXPECT_EQ(watch.background.beginnings(), 1);
 }
 
-/// By the same frames without the table nobody could know which light is the projector's.
+/// Without the table in the same frames, the projector's light could not be identified.
 TEST(Background, TheProjectorsLightIsLearntAndTakenAway) {
     Watch watch;
     watch.changes = true;

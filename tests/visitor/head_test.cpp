@@ -9,14 +9,14 @@
 namespace frustumscreen {
 namespace {
 
-/// Looks from the far edge to the front, a little up.
+/// Looks from the far edge to the front, slightly up.
 const RigidTransform table_from_camera{
     glm::quat_cast(glm::dmat3(glm::dvec3(-1, 0, 0), glm::normalize(glm::dvec3(0, -0.3, -0.95)),
                               glm::normalize(glm::dvec3(0, -0.95, 0.3)))),
     {0.0, 0.28, 0.12}};
 const Pinhole camera{320, 180, 147.0, 147.0, 160.0, 90.0, {-0.15, 0.01}};
 
-/// Pixels whose ray meets any of the balls.
+/// Pixels whose ray meets any of the ellipsoids.
 std::vector<std::uint8_t> outline_of(const std::vector<Ball>& balls) {
     std::vector<std::uint8_t> mask;
     for (int row = 0; row < camera.height; ++row) {
@@ -47,7 +47,7 @@ double degrees_off(const glm::dvec3& a, const glm::dvec3& b) {
                                            glm::normalize(b - table_from_camera.translation))));
 }
 
-/// The model's own shape, wherever the lens bends it.
+/// The model's own shape, at different distortions of the lens.
 TEST(Head, AnUprightEllipsoidIsFoundWhereItIs) {
     for (const glm::dvec3 place :
          {glm::dvec3(0.0, -0.4, 0.5), glm::dvec3(0.45, -0.5, 0.3), glm::dvec3(-0.5, -0.35, 0.7)}) {
@@ -59,7 +59,8 @@ TEST(Head, AnUprightEllipsoidIsFoundWhereItIs) {
     }
 }
 
-/// Heads that the model does not have: people of all builds, with hair, turned and bent, on shoulders, with arms.
+/// Heads that differ from the model: people of all builds, with hair, turned and bent, on shoulders, with
+/// arms.
 TEST(Head, TheEyeOfAPersonIsFound) {
     std::mt19937_64 random(7);
     const glm::dvec3 prop(0.05, 0.0, 0.08);

@@ -17,7 +17,7 @@ using std::chrono::milliseconds;
 const glm::dvec3 prop(0.05, 0.0, 0.0);
 const glm::dvec3 eye(0.1, -0.42, 0.6);
 
-/// A table, and on demand a person at it.
+/// A table, optionally with a person at it.
 const RoomScene& scene() {
     static const RoomScene one({}, {}, {0.8, 0.5}, make_frustum(shipped_frustum), prop);
     return one;
@@ -42,11 +42,11 @@ VisitorSetUp set_up() {
     return {scene().camera().pinhole, scene().table_from_camera(), {}};
 }
 
-/// Frames at `rate_hz` of two pictures, which never change but for their time.
+/// Frames at `rate_hz` from two pictures, which change only in their time.
 class Played {
 public:
     explicit Played(VisitorReader& reader) : reader_(reader) {}
-    /// The heads of the last frame.
+    /// Returns the heads of the last frame.
     std::vector<SeenHead> play(bool is_there, double seconds, int rate_hz) {
         std::vector<SeenHead> heads;
         for (int k = 0; k < static_cast<int>(seconds * rate_hz); ++k) {
@@ -91,12 +91,13 @@ TEST(VisitorReader, WhatDoesNotMoveForAMinuteIsAThing) {
     static_cast<void>(played.play(false, 1.5, 5));
     EXPECT_EQ(played.play(true, 50.0, 5).size(), 1U);
     EXPECT_TRUE(played.play(true, 12.0, 5).empty());
-    EXPECT_EQ(played.play(false, 1.0, 5).size(), 1U); // where it was is another background now
+    EXPECT_EQ(played.play(false, 1.0, 5).size(), 1U); // the place of the person has a different background
+                                                      // now
     static_cast<void>(played.play(false, 65.0, 5));
     EXPECT_EQ(played.play(true, 1.0, 5).size(), 1U);
 }
 
-/// Each frame takes 20 ms of the processor: at 100 frames a second it looks at one of twenty.
+/// Each frame takes 20 ms of CPU time: at 100 frames per second it reads one of twenty.
 TEST(VisitorReader, TakesNoMoreThanATenthOfACore) {
     double busy_s = 0.0;
     VisitorReader reader(set_up(), [&busy_s] { return busy_s += 0.02; });
@@ -130,7 +131,7 @@ TEST(VisitorTracker, HeadsComeFromTheCamerasThreadAndAWrongShapeIsSaid) {
     EXPECT_NE(tracker.trouble().find("another shape"), std::string_view::npos);
 }
 
-/// The whole way: somebody comes, walks in and stands, under a changing picture.
+/// The whole chain: a person comes, walks in and stands, under a changing picture.
 TEST(VisitorRun, ThePictureTurnsToWhoeverComesAndStandsStill) {
     const Visit visit = run_visit({}, 5.0, 3);
     double worst_mm = 0.0;
@@ -147,7 +148,7 @@ TEST(VisitorRun, ThePictureTurnsToWhoeverComesAndStandsStill) {
     EXPECT_LT(worst_mm, 6.0);
 }
 
-/// What the page tells a technician to write is taken, and is the camera that was measured.
+/// The example that the page gives to technicians is accepted and equals the measured camera.
 TEST(VisitorSettings, ThePagesExampleIsTheCamera) {
     std::ifstream file(source_dir() + "/docs/visitor_eye.md");
     const std::string page{std::istreambuf_iterator<char>(file), {}};

@@ -42,7 +42,7 @@ TEST(Crash, InCompiledCodeNamesWhoCalledIt) {
                                    "swrast_dri.so+0x12, thread llvmpipe-1");
 }
 
-/// A power cut leaves any beginning of it: what is there is told, or nothing.
+/// After a power cut the file is cut off anywhere: the remaining part is reported, or nothing.
 TEST(Crash, CutOffAnywhere) {
     for (std::size_t length = 0; length < whole.size(); ++length) {
         const std::optional<Crash> crash = parse_crash(whole.substr(0, length));

@@ -9,13 +9,13 @@ using std::chrono::hours;
 using std::chrono::minutes;
 using std::chrono::seconds;
 
-/// A healthy exhibit, until a test changes something.
+/// A healthy exhibit that a test modifies.
 struct Scene {
     MonotonicTime now{seconds(100)};
     Judge judge{Patience{}, now};
     Outcome outcome = healthy();
     Mode mode = Mode::Normal;
-    bool counts = true; ///< new pictures come
+    bool counts = true; ///< new pictures are shown
 
     static Outcome healthy() {
         Outcome outcome;
@@ -30,7 +30,7 @@ struct Scene {
         }
         return judge.look(now, mode, outcome);
     }
-    /// Seconds until the trouble is seen; -1: it is not, within `length`.
+    /// Seconds until the fault is detected; -1: not within `length`.
     int trouble_after(Cause cause, Nanoseconds length = minutes(5)) {
         for (int second = 1; seconds(second) <= length; ++second) {
             const Seen seen = look();
@@ -65,12 +65,12 @@ TEST(Judge, AsleepIsNotDark) {
 TEST(Judge, WhatTheLastProcessSaidIsNoLifeOfTheNextOne) {
     Scene scene;
     scene.well(minutes(2));
-    scene.outcome.process = 0; // killed; what it said last stays for the next one to overwrite
+    scene.outcome.process = 0; // killed; its last status stays until the next process overwrites it
     scene.counts = false;
     scene.outcome.exhibit->age = seconds(1);
     EXPECT_FALSE(scene.look().trouble);
     scene.outcome.process = 322;
-    for (int second = 2; second < 50; ++second) { // its start takes long, and within its patience
+    for (int second = 2; second < 50; ++second) { // its start takes long, but within the patience
         scene.outcome.exhibit->age = seconds(second);
         const Seen seen = scene.look();
         ASSERT_FALSE(seen.lit);
@@ -85,7 +85,7 @@ TEST(Judge, AFrozenPictureIsSeen) {
     Scene scene;
     scene.well(minutes(2));
     scene.counts = false;
-    EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 20, 2); // fresh for 5 s, patience of 15
+    EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 20, 2); // fresh for 5 s, then a patience of 15 s
 }
 
 TEST(Judge, AnOldStatusIsNoPicture) {
@@ -102,7 +102,7 @@ TEST(Judge, AnOldStatusIsNoPicture) {
 TEST(Judge, AStartTakesLonger) {
     Scene scene;
     scene.well(minutes(2));
-    scene.outcome.process = 322; // systemd has started it again
+    scene.outcome.process = 322; // systemd has restarted it
     scene.outcome.exhibit.reset();
     EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 60, 2);
 }
@@ -116,7 +116,7 @@ TEST(Judge, AProcessThatIsNotStartedIsSeen) {
 
 TEST(Judge, OneEndIsNotThree) {
     Scene scene;
-    for (int end = 0; end < 40; ++end) { // one in a quarter of an hour
+    for (int end = 0; end < 40; ++end) { // one every quarter of an hour
         scene.outcome.failures++;
         scene.outcome.process++;
         scene.outcome.exhibit->well = false;
@@ -141,7 +141,7 @@ TEST(Judge, ThreeEndsAreSeenAtOnce) {
     }
     EXPECT_EQ(scene.trouble_after(Cause::KeepsEnding), 1);
     scene.judge.step_taken(scene.now);
-    EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 60, 2); // counted anew
+    EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 60, 2); // counting starts again
 }
 
 TEST(Judge, AnEndEachFiveMinutesIsSeenInTheEnd) {
@@ -180,7 +180,7 @@ TEST(Judge, LesserTroublesMustLast) {
     scene.outcome.exhibit_memory = 0.3;
     scene.outcome.exhibit->device_hangs = true;
     EXPECT_NEAR(scene.trouble_after(Cause::DeviceSilent), 16, 2);
-    for (int second = 0; second < 100; ++second) { // a device that comes and goes is mended by its driver
+    for (int second = 0; second < 100; ++second) { // a device that comes and goes is handled by its driver
         scene.outcome.exhibit->device_hangs = second % 10 != 0;
         const Seen seen = scene.look();
         EXPECT_FALSE(second > 0 && seen.trouble);
@@ -190,7 +190,7 @@ TEST(Judge, LesserTroublesMustLast) {
 TEST(Judge, AMachineThatStoodStillIsNotToBlame) {
     Scene scene;
     scene.well(minutes(1));
-    scene.outcome.exhibit->age = seconds(30); // nobody ran, this judge neither
+    scene.outcome.exhibit->age = seconds(30); // the whole machine was suspended, including this judge
     scene.now += seconds(30);
     EXPECT_FALSE(scene.look().trouble);
     scene.outcome.exhibit->age = seconds(0);
@@ -205,7 +205,7 @@ TEST(Judge, TheSafePictureIsJudgedByItself) {
         scene.outcome.safe_pictures = flips;
         EXPECT_FALSE(scene.look().trouble);
     }
-    scene.outcome.projector = false; // it is switched off, and no picture can be shown
+    scene.outcome.projector = false; // it is switched off, so no picture can be shown
     EXPECT_EQ(scene.trouble_after(Cause::SafePictureFails), -1);
     scene.outcome.projector = true;
     EXPECT_NEAR(scene.trouble_after(Cause::SafePictureFails), 30, 2);

@@ -49,7 +49,7 @@ TEST(LadderMemory, ATornWriteLeavesTheFormerOne) {
     const std::string later = slot_of(some_memory(9));
     std::mt19937 chance(1);
     for (std::size_t cut = 0; cut < slot_bytes;
-         cut += 3) { // some of the new bytes came, in any order of sectors
+         cut += 3) { // a part of the new bytes was written, in any order of sectors
         std::string torn = older;
         for (std::size_t k = 0; k < slot_bytes; ++k) {
             torn[k] = (chance() & 1U) != 0 && k < cut ? later[k] : k < cut / 2 ? later[k] : older[k];
@@ -72,7 +72,7 @@ TEST(LadderMemory, NoChangedByteIsTaken) {
     EXPECT_FALSE(read_slot(slot.substr(1)));
 }
 
-/// A body that a person wrote by hand, with the checksum that its program would give it.
+/// A hand-written body, with a valid checksum.
 std::string signed_by_hand(const std::string& body) {
     std::uint64_t hash = 14695981039346656037U;
     for (const char each : body) {
@@ -99,7 +99,7 @@ TEST(LadderMemory, NumbersOutOfTheirRangeAreRefused) {
         EXPECT_FALSE(read_slot(signed_by_hand(body + rest))) << body;
     }
     EXPECT_FALSE(read_slot(signed_by_hand("1 2 3 1000 0 0 0 0 0 -1 -1 900 " + rest + "5 ")));
-    // A reboot after now, and reboots out of their order.
+    // A reboot in the future, and reboots out of order.
     EXPECT_FALSE(
         read_slot(signed_by_hand("1 2 3 1000 0 0 0 0 0 -1 -1 900 -1 -1 -1 -1 -1 -1 1001 -1 -1 -1 -1 -1 ")));
     EXPECT_FALSE(

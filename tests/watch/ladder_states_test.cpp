@@ -1,4 +1,4 @@
-// Every state x every event: what may never happen, and what must.
+// Every state x every event: what must never happen, and what must happen.
 #include "app/watch/ladder.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ std::vector<Event> all_events() {
     return events;
 }
 
-/// Some reboots: how many, and how long ago the latest one was.
+/// Adds `count` reboots, the latest one `ago`.
 void rebooted(LadderMemory& memory, std::size_t count, Awake ago) {
     for (std::size_t k = 0; k < count; ++k) {
         memory.reboots.at(k) = now - ago - k * minutes(30);
@@ -83,7 +83,7 @@ bool is_given_up(const LadderMemory& memory, Cause cause) {
     return (memory.given_up >> static_cast<unsigned>(cause) & 1U) != 0;
 }
 
-/// The rules, each told in another way than the ladder's code has it. The name of the broken one, or null.
+/// The rules, each written independently of the ladder's code. Returns the name of the broken rule, or null.
 const char* broken_rule(const LadderMemory& before, const Event& event, const std::optional<Act>& act,
                         const LadderMemory& after) {
     const Awake waited = now - before.latest_at;
@@ -95,7 +95,7 @@ const char* broken_rule(const LadderMemory& before, const Event& event, const st
         return dark_and_due && before.mode != Mode::Safe ? "a dark kiosk is left dark" : nullptr;
     }
     if (!is_troubled && before.mode != Mode::Safe) {
-        return "a step without trouble"; // ten good minutes have not been seen in one look
+        return "a step without trouble"; // ten good minutes cannot be seen in one check
     }
     if (!act->cause) {
         return "a step without a cause";
@@ -152,7 +152,7 @@ TEST(LadderStates, EveryStateAndEveryEvent) {
         }
     });
     EXPECT_EQ(count, 0U);
-    EXPECT_GT(acts, 1'000'000U); // else the states were none that matter
+    EXPECT_GT(acts, 1'000'000U); // otherwise no state mattered
 }
 
 TEST(LadderStates, TheTableIsALadder) {

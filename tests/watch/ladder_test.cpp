@@ -1,4 +1,4 @@
-// The ladder as a person would tell it: one trouble, its steps and when they come.
+// Plain scenarios of the ladder: one fault, its steps and their times.
 #include "app/watch/ladder.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using std::chrono::seconds;
 
 struct Taken {
     Step step;
-    std::int64_t after_s; ///< since the trouble began
+    std::int64_t after_s; ///< since the fault began
 };
 void PrintTo(const Taken& taken, std::ostream* out) {
     *out << word_of(taken.step) << " after " << taken.after_s << " s";
@@ -24,7 +24,7 @@ bool operator==(const Taken& a, const Taken& b) {
     return a.step == b.step && a.after_s == b.after_s;
 }
 
-/// A kiosk with everything that a step needs, looked at each second.
+/// A kiosk with everything that a step needs, checked every second.
 struct Kiosk {
     LadderMemory memory;
     Ladder ladder{memory, true};
@@ -44,7 +44,7 @@ struct Kiosk {
     }
     std::vector<Taken> good(Awake length) { return see({std::nullopt, true}, length); }
     std::vector<Taken> bad(Cause cause, Awake length) { return see({cause, !is_dark(cause)}, length); }
-    /// What each step leaves: the exhibit is dark for a moment and starts.
+    /// The effect of each step: the exhibit is dark for a moment and starts.
     void starts(Awake length = seconds(3)) { EXPECT_TRUE(see({std::nullopt, false}, length).empty()); }
 };
 
@@ -63,7 +63,7 @@ TEST(Ladder, ClimbsWithGrowingPausesToTheSafePictureAndReboots) {
                                                               {Step::DrawPlainly, 50},
                                                               {Step::BuiltIn, 100},
                                                               {Step::SafePicture, 110}}));
-    // The safe picture is no trouble; it is left by a reboot.
+    // The safe picture is not a fault; a reboot ends it.
     EXPECT_EQ(kiosk.see({}, minutes(3)), (Steps{{Step::Reboot, 40}})); // 10 + 160 - 130 seconds
     EXPECT_EQ(kiosk.ladder.memory().mode, Mode::Normal);
     EXPECT_EQ(kiosk.ladder.reboots_within_day(), 1U);
@@ -96,7 +96,7 @@ TEST(Ladder, TriesFirstWhatHelpedForTheSameCause) {
     EXPECT_EQ(kiosk.bad(Cause::NoPicture, seconds(60)),
               (Steps{{Step::RestartExhibit, 0}, {Step::LastGoodSet, 20}, {Step::DrawPlainly, 50}}));
     kiosk.starts();
-    // Ten good minutes, and back to the exhibit's own set.
+    // Ten good minutes, then return to the exhibit's own set.
     EXPECT_EQ(kiosk.good(minutes(11)), (Steps{{Step::Return, 600}}));
     kiosk.starts();
     EXPECT_TRUE(kiosk.good(minutes(30)).empty());
@@ -115,7 +115,7 @@ TEST(Ladder, ReturnsLaterAndLaterToASetThatFails) {
         ASSERT_FALSE(taken.empty());
         EXPECT_EQ(taken.front().step, Step::Return);
         good_for_min.push_back(taken.front().after_s / 60);
-        // It fails again before ten good minutes are over.
+        // It fails again before ten good minutes have passed.
         kiosk.ladder = Ladder(kiosk.ladder.memory(), false);
         LadderMemory memory = kiosk.ladder.memory();
         memory.returns = static_cast<std::uint8_t>(round + 1);
@@ -129,7 +129,7 @@ TEST(Ladder, GivesUpOnADeviceThatNothingMends) {
     EXPECT_EQ(kiosk.bad(Cause::DeviceSilent, hours(30)),
               (Steps{{Step::ResetDevice, 0}, {Step::RestartExhibit, 20}, {Step::Reboot, 50}}));
     EXPECT_EQ(kiosk.ladder.memory().given_up, 1U << static_cast<unsigned>(Cause::DeviceSilent));
-    // Away for ten minutes, it counts again.
+    // After ten minutes without the fault, it counts again.
     EXPECT_TRUE(kiosk.good(minutes(20)).empty());
     EXPECT_EQ(kiosk.ladder.memory().given_up, 0);
     EXPECT_EQ(kiosk.bad(Cause::DeviceSilent, seconds(5)), (Steps{{Step::ResetDevice, 0}}));
@@ -159,7 +159,7 @@ TEST(Ladder, AStartOfThisProgramAloneChangesNothing) {
     ASSERT_EQ(kiosk.ladder.memory().mode, Mode::Safe);
     kiosk.ladder = Ladder(kiosk.ladder.memory(), false);
     EXPECT_EQ(kiosk.ladder.memory().mode, Mode::Safe);
-    kiosk.ladder = Ladder(kiosk.ladder.memory(), true); // staff switched it off and on
+    kiosk.ladder = Ladder(kiosk.ladder.memory(), true); // staff power-cycled it
     EXPECT_EQ(kiosk.ladder.memory().mode, Mode::Normal);
 }
 

@@ -1,4 +1,4 @@
-// Random walks of ten million events: what holds over time, kept by a book of its own.
+// Random walks of ten million events: properties that hold over time, checked with a separate record.
 #include "app/watch/ladder.h"
 #include "app/watch/ladder_memory.h"
 
@@ -15,7 +15,7 @@ using std::chrono::hours;
 using std::chrono::minutes;
 using std::chrono::seconds;
 
-/// What was done, told apart from the ladder's own memory.
+/// Record of actions, independent of the ladder's own memory.
 struct Book {
     std::deque<Awake> reboots;
     Awake latest{-hours(1)};
@@ -72,7 +72,7 @@ private:
         if (any(500) == 0) {
             means_ = {any(2) == 0, any(2) == 0, any(4) != 0};
         }
-        if (any(3000) == 0) { // the power, or this program alone; what was written is what is known
+        if (any(3000) == 0) { // power cut, or restart of this program alone; only written memory survives
             const std::optional<KeptMemory> kept = read_slot(slot_of({1, 2, Awake(0), ladder_.memory()}));
             ASSERT_TRUE(kept);
             ASSERT_EQ(kept->memory, ladder_.memory());
@@ -85,7 +85,7 @@ private:
         const bool is_safe = mode == Mode::Safe;
         Seen seen{trouble_, lit_ || (trouble_ && !is_dark(*trouble_))};
         if (is_safe != (trouble_ == Cause::SafePictureFails)) {
-            seen.trouble.reset(); // a judge says that only of the safe picture, and of it nothing else
+            seen.trouble.reset(); // a judge reports this only of the safe picture, and no other fault of it
         }
         seen.lit = seen.lit && !is_safe;
         const bool given_up =

@@ -15,11 +15,11 @@ namespace {
 
 constexpr double turning_m_s2 = 5.0;
 constexpr double turn_rad_m = 2.0;
-constexpr double bend_rad = 0.5; ///< off the opposite direction
+constexpr double bend_rad = 0.5; ///< deviation from the reversed direction
 constexpr double shortest_m = 0.10;
 constexpr double longest_m = 0.25;
 
-/// Moves with its velocity from `begin_s` on, and turns to the next stroke's from `turn_s` on.
+/// Moves at constant velocity from `begin_s` on; from `turn_s` on it turns into the next stroke's velocity.
 struct Stroke {
     double begin_s = 0.0;
     double turn_s = 0.0;
@@ -67,7 +67,7 @@ HandMotion strokes(double speed_m_s, double length_s, std::uint64_t seed) {
         Stroke next;
         next.velocity_m_s = speed_m_s * glm::dvec3(std::cos(direction), std::sin(direction), 0.0);
         next.yaw_rad_s = -stroke.yaw_rad_s;
-        // The smooth step is 1.5 times as steep in its middle as on the whole.
+        // The smooth step's greatest slope is 1.5 times its mean slope.
         next.begin_s =
             stroke.turn_s + 1.5 * glm::length(next.velocity_m_s - stroke.velocity_m_s) / turning_m_s2;
         const Stroke end = at(stroke, next, next.begin_s);

@@ -14,12 +14,12 @@ namespace frustumscreen {
 
 using HandMotion = std::function<RigidTransform(double t_s)>;
 
-/// Strokes at `speed_m_s`. After 0.10 to 0.25 m each turns round into about the opposite direction. The prop
-/// also turns, at 2 rad a metre, and this turn reverses too. The velocity turns along a smooth step whose
-/// acceleration is 5 m/s^2 at most.
+/// Strokes at `speed_m_s`. After 0.10 to 0.25 m each stroke turns into roughly the opposite direction. The
+/// prop also rotates at 2 rad per metre; each turn reverses this rotation. The velocity changes along a
+/// smooth step with at most 5 m/s^2.
 [[nodiscard]] HandMotion strokes(double speed_m_s, double length_s, std::uint64_t seed);
 
-/// Goes straight along X at `speed_m_s`, brakes at `braking_m_s2` from `brake_at_s` on, then stands still.
+/// Moves straight along X at `speed_m_s`, brakes at `braking_m_s2` from `brake_at_s` on, then stands still.
 [[nodiscard]] HandMotion stop(double speed_m_s, double braking_m_s2, double brake_at_s);
 
 [[nodiscard]] HandMotion rest();
@@ -29,11 +29,12 @@ struct RecordedPose {
     double t_s = 0.0;
     RigidTransform pose;
 };
-/// Goes straight from pose to pose, in ascending time; it rests before the first and after the last. The
-/// poses must outlive it.
+/// Interpolates linearly from pose to pose, in ascending time; at rest before the first pose and after the
+/// last. The poses must outlive the motion.
 [[nodiscard]] HandMotion recorded(std::span<const RecordedPose> poses);
 
-/// What a hand does, from `begin_s` on, with a prop that it slides on the table: the way since then across Z, and the turn about Z.
+/// The part of `hand` after `begin_s` that a prop sliding on the table can follow: the displacement since
+/// then in the table's plane, and the rotation about Z.
 [[nodiscard]] HandMotion slid(HandMotion hand, double begin_s);
 
 } // namespace frustumscreen

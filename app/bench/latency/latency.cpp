@@ -19,7 +19,7 @@ constexpr double warm_up_s = 1.0;
 constexpr int stops = 200;
 
 MonotonicTime time_at(double t_s) {
-    // Far from zero, as a real clock is.
+    // Far from zero, like a real clock.
     return MonotonicTime(std::chrono::hours(1) + Nanoseconds(std::llround(t_s * 1e9)));
 }
 
@@ -46,7 +46,7 @@ std::vector<LitPicture> play(std::span<const RecordedPose> samples, const HandMo
                              const Contestant& contestant) {
     PoseEstimatorOptions options;
     options.predicts = contestant.predicts;
-    // The whole latency under test and a sample more, whatever the exhibit's own limit is.
+    // Allow the whole latency under test plus one sample, regardless of the exhibit's own limit.
     options.predicted_for =
         std::max(options.predicted_for,
                  Nanoseconds(std::llround(1e6 * (tracker.latency_ms + setting.display_latency_ms) +
@@ -157,7 +157,7 @@ Overshoot overshoot_of(const TrackedBy& tracker, const LatencySetting& setting, 
     std::vector<double> past;
     std::vector<double> ahead;
     for (int k = 0; k < stops; ++k) {
-        // Braking begins at another phase of pictures and samples in each run.
+        // Braking begins at a different phase of pictures and samples in each run.
         const double brake_at_s = 1.0 + static_cast<double>(k) / stops / 3.0;
         const HandMotion motion = stop(stop_speed_m_s, stop_braking_m_s2, brake_at_s);
         const double stand_m = motion(brake_at_s + 1.0).translation.x;
@@ -191,7 +191,7 @@ TrackerResult measure_tracker(const TrackedBy& tracker, const LatencyOptions& op
         }
         for (const double speed_m_s : options.slides_m_s) {
             const HandMotion slide =
-                stop(speed_m_s, stop_braking_m_s2, options.length_s); // nothing brakes it before
+                stop(speed_m_s, stop_braking_m_s2, options.length_s); // no braking before the end
             one.trembles.push_back({speed_m_s, tremble_of(lit_pictures(slide, options.length_s, tracker,
                                                                        setting, contestant, options.seed),
                                                           setting.lever_m)});
@@ -221,7 +221,7 @@ RecordingResult measure_recording(const PoseRecording& recording, const LatencyO
         tracker.noise = {0.0, 0.0};
     }
     for (Contestant contestant : contestants()) {
-        // The filters expect their usual noise, even if a recording has its own.
+        // The filters expect their default noise, even if the recording has its own.
         contestant.filter = [make = contestant.filter](const PoseNoise&) { return make(PoseNoise{}); };
         result.slips.emplace_back(
             contestant.name,

@@ -1,12 +1,12 @@
-/// How far the picture slips on the prop because the tracker and the projector take time: simulated motion or
-/// a recording, through a tracker of a given rate, latency and noise, through an estimator of poses, to the
-/// time at which the picture is lit.
+/// How far the picture slips on the prop because tracker and projector take time. Input is simulated motion
+/// or a recording; it passes through a tracker of a given rate, latency and noise and a pose estimator, up to
+/// the time at which the picture is lit.
 ///
-/// Slip     at the prop: the distance of the origins plus half the prop's height times the angle, between the
-///          pose that was drawn for and the true pose when the picture is lit.
-/// Time     of the simulation; the tracker's clock runs 0.03 % faster than its rate says, so that samples
-///          come at every phase between the pictures.
-/// Threads  pure; any. The same seed gives the same numbers with the same C++ library.
+/// Slip     at the prop: distance of the origins plus half the prop's height times the angle, between the
+///          pose that was drawn and the true pose when the picture is lit.
+/// Time     simulated; the tracker's clock runs 0.03 % faster than its nominal rate, so samples occur at
+///          every phase between the pictures.
+/// Threads  pure; any. One seed gives the same numbers with the same C++ library.
 #pragma once
 
 #include "app/bench/latency/hand_motion.h"
@@ -24,8 +24,8 @@ namespace frustumscreen {
 struct TrackedBy {
     std::string name;
     double rate_hz = 60.0;
-    double latency_ms = 18.0; ///< from a pose until the exhibit has its sample
-    PoseNoise noise;          ///< each axis, RMS
+    double latency_ms = 18.0; ///< from a pose until the exhibit receives its sample
+    PoseNoise noise;          ///< per axis, RMS
 };
 
 struct LatencySetting {
@@ -39,10 +39,10 @@ struct Contestant {
     std::string name;
     std::function<std::unique_ptr<PoseFilter>(const PoseNoise&)> filter;
     bool predicts = true;
-    bool shown = false; ///< through ShownPose, as the exhibit does
+    bool shown = false; ///< through ShownPose, as in the exhibit
 };
 /// No filter; One Euro, constant velocity and the exhibit's filter, each without and with prediction; and the
-/// exhibit's as shown.
+/// exhibit's filter as shown.
 [[nodiscard]] std::vector<Contestant> contestants();
 
 /// One picture of a run.
@@ -55,15 +55,15 @@ struct LitPicture {
 [[nodiscard]] std::vector<LitPicture> lit_pictures(const HandMotion& motion, double length_s,
                                                    const TrackedBy& tracker, const LatencySetting& setting,
                                                    const Contestant& contestant, std::uint64_t seed);
-/// The same for recorded samples, with noise added where `tracker.noise` has any. The truth is interpolated
-/// between the samples.
+/// Like the overload above, for recorded samples; adds noise if `tracker.noise` is not zero. The truth is
+/// interpolated between the samples.
 [[nodiscard]] std::vector<LitPicture> lit_pictures(std::span<const RecordedPose> samples,
                                                    const TrackedBy& tracker, const LatencySetting& setting,
                                                    const Contestant& contestant, std::uint64_t seed);
 
 inline constexpr double stop_speed_m_s = 0.5;
 inline constexpr double stop_braking_m_s2 = 5.0;
-inline constexpr double latency_speed_m_s = 0.25; ///< of the strokes against latency
+inline constexpr double latency_speed_m_s = 0.25; ///< of the strokes that vary the latency
 
 /// Slip in mm, over the pictures after the first second.
 struct Slip {
@@ -73,18 +73,18 @@ struct Slip {
 };
 [[nodiscard]] Slip slip_of(std::span<const LitPicture> pictures, double lever_m);
 
-/// How much the picture trembles on a prop that is slid steadily: from one picture to the next, how far it goes beyond what the prop goes,
-/// at the prop, in mm, after the first second.
+/// How much the picture trembles on a prop that slides steadily: from one picture to the next, how far the
+/// picture moves beyond the prop's own movement, at the prop, in mm, after the first second.
 [[nodiscard]] Slip tremble_of(std::span<const LitPicture> pictures, double lever_m);
 
-/// A stop along X: how far the picture goes past the place where the prop stops, and how far it runs ahead of
+/// A stop along X: how far the picture passes the place where the prop stops, and how far it runs ahead of
 /// the prop before that. Each run counts with its largest value, in mm.
 struct Overshoot {
     double mean = 0.0;
-    double p95 = 0.0; ///< of the runs
+    double p95 = 0.0; ///< over the runs
     double worst = 0.0;
     double rms = 0.0;
-    double ahead_mean = 0.0; ///< of the prop, from the braking on
+    double ahead_mean = 0.0; ///< ahead of the prop, from the start of braking
     double ahead_p95 = 0.0;
     double ahead_rms = 0.0;
 };
@@ -103,7 +103,7 @@ struct ContestantResult {
     std::string name;
     bool predicts = false;
     std::vector<SpeedSlip> strokes;
-    std::vector<SpeedSlip> trembles; ///< of steady slides
+    std::vector<SpeedSlip> trembles; ///< steady slides
     Slip rest;
     Overshoot stop;
     std::vector<LatencySlip> latencies;
@@ -123,11 +123,11 @@ struct LatencyOptions {
 };
 [[nodiscard]] TrackerResult measure_tracker(const TrackedBy& tracker, const LatencyOptions& options);
 
-/// A recording that is replayed.
+/// A recording to replay.
 struct PoseRecording {
     std::string name;
     std::vector<RecordedPose> poses;
-    bool noisy = true; ///< false: from motion capture, so a tracker's noise is added
+    bool noisy = true; ///< false: motion capture; a tracker's noise is added
 };
 struct RecordingResult {
     std::string name;

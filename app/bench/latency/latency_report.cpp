@@ -15,7 +15,7 @@ constexpr double judged_speed_m_s = 0.25;
 constexpr double most_rest_mm = 0.15;
 constexpr double overshoot_margin_mm = 0.5;
 constexpr double most_tremble_mm = 0.5;
-constexpr double fastest_calm_m_s = 0.05; ///< a slide without trembling
+constexpr double fastest_calm_m_s = 0.05; ///< fastest slide that must not tremble
 
 const ContestantResult& named(const TrackerResult& result, const std::string& name) {
     const auto found =
@@ -31,7 +31,7 @@ const Slip* at_speed(const ContestantResult& contestant, double speed_m_s) {
     return found != contestant.strokes.end() ? &found->slip : nullptr;
 }
 
-/// Of the slides that are to be calm.
+/// Worst tremble of the slides up to `fastest_calm_m_s`.
 double worst_tremble_mm(const ContestantResult& contestant) {
     double worst = 0.0;
     for (const SpeedSlip& slide : contestant.trembles) {

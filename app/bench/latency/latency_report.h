@@ -1,4 +1,4 @@
-/// The results of frustumscreen-bench latency as words and CSV.
+/// The results of `frustumscreen-bench latency` as text and CSV.
 ///
 /// Units    mm, ms.
 /// Threads  pure; any.
@@ -13,8 +13,8 @@
 
 namespace frustumscreen {
 
-/// The targets: 60 Hz display, 18 ms + 17 ms, 0.3 mm and 0.15 degrees. They judge the exhibit as shown, and
-/// its stop by the 95th percentile of the runs.
+/// Targets for a 60 Hz display, 18 ms + 17 ms of latency, 0.3 mm and 0.15 degrees of noise. They judge the
+/// exhibit's filter as shown; the stop is judged by the 95th percentile of the runs.
 [[nodiscard]] std::vector<LimitVerdict> judge(const TrackerResult& result, const LatencyOptions& options);
 
 [[nodiscard]] std::string latency_table(const TrackerResult& result, const LatencyOptions& options);

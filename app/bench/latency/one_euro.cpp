@@ -4,7 +4,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Share of the new value in a first-order low-pass: the paper's alpha.
+/// Weight of the new value in a first-order low-pass: alpha in the paper.
 double share_of_new(double cutoff_hz, double dt_s) {
     const double time_constant_s = 1.0 / (2.0 * 3.14159265358979323846 * cutoff_hz);
     return 1.0 / (1.0 + time_constant_s / dt_s);

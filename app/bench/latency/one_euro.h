@@ -1,9 +1,9 @@
-/// The 1 Euro filter and no filter, to compare the exhibit's filter with.
+/// The 1 Euro filter and a pass-through filter, as references for the exhibit's filter.
 ///
 /// Threads  one caller. Allocates nothing.
 /// Source   Casiez, Roussel and Vogel, 1 Euro filter: a simple speed-based low-pass filter for noisy input in
-///          interactive systems, 2012, algorithm 1; a turn is a rotation vector from the pose before. `ahead`
-///          is not in the paper: it continues with the filtered derivative.
+///          interactive systems, 2012, algorithm 1; rotations enter as rotation vectors from the previous
+///          pose. `ahead` is not in the paper: it extrapolates with the filtered derivative.
 #pragma once
 
 #include "app/tracking/pose_filter.h"

@@ -1,7 +1,7 @@
-/// The poses of a recording that the trackers' converter reads.
+/// The poses of a recording, read by the trackers' converter.
 ///
 /// Threads  any.
-/// Errors   a file that cannot be read, or is no recording: a sentence with its place.
+/// Errors   an unreadable file, or not a recording: a sentence with its place.
 #pragma once
 
 #include "app/bench/latency/hand_motion.h"

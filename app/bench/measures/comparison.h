@@ -1,7 +1,7 @@
-/// What a measurement of one pack starts from: its levels on a stage, poses and the truth.
+/// The starting point of a measurement of one pack: its levels on a stage, poses and the truth.
 ///
 /// Threads  as TechniqueSet.
-/// Errors   no display; no poses; whatever making a technique reports.
+/// Errors   no display; no poses; any error from making a technique.
 #pragma once
 
 #include "app/bench/measures/technique_set.h"
@@ -14,7 +14,7 @@
 
 namespace frustumscreen {
 
-/// The pack must outlive it.
+/// The pack must outlive this.
 struct Comparison {
     std::unique_ptr<TechniqueSet> set; ///< the floor and levels of the pack
     std::vector<BenchPose> poses;
@@ -30,7 +30,7 @@ struct ComparisonOptions {
                                                  std::span<const std::uint32_t> levels,
                                                  const std::shared_ptr<const SourceMesh>& mesh,
                                                  const ComparisonOptions& options);
-/// The default level and, where it is another, the finest.
+/// The default level and, if different, the finest.
 [[nodiscard]] std::vector<std::uint32_t> default_and_finest(const Pack& pack);
 
 } // namespace frustumscreen

@@ -34,7 +34,8 @@ double distinct(const std::vector<std::uint32_t>& indices, std::vector<bool>& se
 }
 
 FrameCounts counts_of(const FramePlan& plan, std::vector<bool>& seen) {
-    constexpr double bytes_per_sample = 2.0 * (4.0 + 4.0); // colour and depth: cleared, then drawn or read
+    constexpr double bytes_per_sample = 2.0 * (4.0 + 4.0); // colour and depth: each cleared, then drawn or
+                                                           // read
     constexpr double bytes_per_pixel = 4.0;
     const glm::ivec2 grid = SampleGrid::of(plan.samples);
     FrameCounts counts;
@@ -107,7 +108,7 @@ std::string counts_json(std::span<const CountedPack> counted) {
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
     for (const CountedPack& one : counted) {
         nlohmann::ordered_json entry{{"artifact", one.artifact}, {"set_up", one.set_up}};
-        // Hundredths keep the mean of whole counts over 50 poses exact.
+        // Two decimals keep the mean of whole counts over 50 poses exact.
         for (const Quantity& quantity : quantities) {
             entry[quantity.name] = std::round(100.0 * (one.counts.*quantity.of)) / 100.0;
         }

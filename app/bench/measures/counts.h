@@ -1,9 +1,9 @@
-/// What a frame of a pack's default level takes, in numbers that do not depend on the machine; and their
-/// change against a reference that the project keeps.
+/// The cost of a frame of a pack's default level in numbers that do not depend on the machine, and their
+/// change against a reference kept in the repository.
 ///
-/// Counted  from the frame's plan, a mean over seeded poses: triangles and draw calls sent, vertices that
-///          they name (each once), samples cleared and averaged (whole tiles), and bytes: indices uploaded,
-///          vertices read, samples' colour and depth written and read back, the picture cleared. The
+/// Counted  from the frame plan, averaged over seeded poses: triangles and draw calls sent, vertices they
+///          reference (each once), samples cleared and averaged (whole tiles), and bytes: indices uploaded,
+///          vertices read, colour and depth of samples written and read back, the picture cleared. The
 ///          texture's cache lines and hidden fragments are not counted.
 /// Threads  pure; any.
 /// Errors   settings without poses; a reference that `counts_json` did not write.
@@ -27,22 +27,22 @@ struct FrameCounts {
 };
 
 struct CountedPack {
-    std::string artifact; ///< the source's file name, its triangles
+    std::string artifact; ///< the source's file name and triangle count
     std::string set_up;
     FrameCounts counts;
 };
 
-/// The pack's default level: a mean over poses.
+/// The pack's default level, averaged over the poses.
 [[nodiscard]] FrameCounts count_frames(const Settings& settings, const Pack& pack,
                                        std::span<const BenchPose> poses);
-/// The same over `poses` poses of `seed`.
+/// Like the overload above, over `poses` poses from `seed`.
 [[nodiscard]] Result<CountedPack> count_frames(const SetUp& set_up, const Pack& pack, int poses,
                                                std::uint64_t seed);
 
 [[nodiscard]] std::string counts_json(std::span<const CountedPack> counted);
 [[nodiscard]] Result<std::vector<CountedPack>> read_counts(std::string_view text);
 
-/// A count of this much more than the reference's is a loss to be explained.
+/// Growth above this factor of the reference's count is a regression that must be explained.
 inline constexpr double most_count_growth = 1.05;
 
 struct CountChange {
@@ -50,13 +50,13 @@ struct CountChange {
     FrameCounts reference;
     bool grown = false; ///< a count grew by more than `most_count_growth`
 };
-/// Only of packs that the reference has.
+/// Only packs that the reference contains.
 [[nodiscard]] std::vector<CountChange> changes(std::span<const CountedPack> counted,
                                                std::span<const CountedPack> reference);
-/// "ARTIFACT in SET-UP" of those that the reference lacks.
+/// "ARTIFACT in SET-UP" for each pack that the reference lacks.
 [[nodiscard]] std::vector<std::string> without_reference(std::span<const CountedPack> counted,
                                                          std::span<const CountedPack> reference);
-/// One row for each pack; beside each number its change in percent, if the reference has the pack.
+/// One row per pack; next to each number its change in percent, if the reference contains the pack.
 [[nodiscard]] std::string counts_table(std::span<const CountedPack> counted,
                                        std::span<const CountChange> against);
 

@@ -16,8 +16,8 @@ bool of_one_mesh(const TechniqueResult& a, const TechniqueResult& b) {
     return a.kind == b.kind && a.triangles == b.triangles && a.samples == b.samples;
 }
 
-/// Whether another eye image of the same mesh has smaller errors at about the same cost, or no larger ones at
-/// less.
+/// Another eye image of the same mesh has smaller errors at about equal cost, or no larger errors at lower
+/// cost.
 bool is_beaten(const SetUpResult& result, const TechniqueResult& one) {
     return std::any_of(result.techniques.begin(), result.techniques.end(), [&one](const auto& other) {
         return of_one_mesh(other, one) && errs_no_more(other, one) &&
@@ -49,7 +49,7 @@ bool errs_no_more_by(Dominance by, const TechniqueResult& a, const TechniqueResu
                : x.sixteen_rays.rmse <= y.sixteen_rays.rmse;
 }
 
-/// Whose pictures a level's are held against.
+/// Techniques whose pictures are compared with those of `level`.
 std::vector<const TechniqueResult*> rivals(const SetUpResult& result, const TechniqueResult& level,
                                            Dominance by) {
     std::vector<const TechniqueResult*> found;

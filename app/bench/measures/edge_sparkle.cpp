@@ -12,7 +12,7 @@ namespace {
 
 constexpr double beside_from_px = 2.0, beside_to_px = 5.0;
 
-/// A shared edge in the picture.
+/// A shared edge in pixels of the picture.
 struct Segment {
     glm::dvec2 from{0.0};
     glm::dvec2 to{0.0};
@@ -22,7 +22,7 @@ struct Segment {
         const double t = glm::dot(point - from, along) / glm::dot(along, along);
         return glm::distance(point, from + std::clamp(t, 0.0, 1.0) * along);
     }
-    /// Does the edge's line cross the pixel's square, between the edge's ends?
+    /// Whether the edge's line crosses the pixel's square between the edge's ends.
     [[nodiscard]] bool crosses(const glm::dvec2& pixel_middle) const {
         const glm::dvec2 along = glm::normalize(to - from);
         const double t = glm::dot(pixel_middle - from, along);
@@ -32,7 +32,7 @@ struct Segment {
     }
 };
 
-/// The corners that two faces have in common: both were computed from the same numbers.
+/// The corners shared by two faces; exact comparison works because both were computed from the same numbers.
 std::vector<glm::dvec3> common_corners(const PropFace& a, const PropFace& b) {
     std::vector<glm::dvec3> common;
     for (const glm::dvec3& corner : a.corners) {
@@ -79,7 +79,7 @@ EdgeZone zone_of(const Segment& edge, const glm::dvec2& pixel_middle) {
                                      : EdgeZone::Away;
 }
 
-/// What a pixel counts as over a step; nothing: it is not judged.
+/// The zone of a pixel over a step; nullopt: not judged.
 std::optional<EdgeZone> judged_as(EdgeZone before, EdgeZone after) {
     if (before == EdgeZone::Shared || after == EdgeZone::Shared) {
         return EdgeZone::Shared;
@@ -103,7 +103,7 @@ int change_of(const std::array<Image8, 2>& pictures, int x, int y) {
     return std::max({change.r, change.g, change.b});
 }
 
-/// Sharp and feathered pictures and the zones of the poses, one after the other.
+/// Sharp and feathered pictures and the zones, for successive poses.
 class Sequence {
 public:
     Sequence(TechniqueSet& set, std::size_t sharp, std::size_t feathered)

@@ -11,14 +11,14 @@ namespace frustumscreen {
 
 namespace {
 
-/// Fewer frame times than this have no steady median on a busy machine.
+/// Fewer frame times give no steady median on a busy machine.
 constexpr int least_samples = 60;
 
 int rounds_of(const ErrorTimeOptions& options) {
     return std::max(options.timing_rounds, least_samples / options.poses);
 }
 
-/// A picture of the pack's level in the pose where its geometric error is greatest.
+/// A picture of the pack's level in the pose with the greatest geometric error.
 Result<Image8> worst_picture(TechniqueSet& set, const Truth& truth, const std::vector<BenchPose>& poses,
                              std::uint32_t level) {
     std::size_t k = 0;
@@ -111,13 +111,13 @@ std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const So
     const auto times = static_cast<double>(std::max<std::size_t>(peers.samples.size(), 2));
     const double full = times * ((peers.mesh ? 1.0 : 0.0) + (peers.two_pass ? eye_images : 0.0));
     const auto reliefs = static_cast<double>(reliefs_of(pack).value_or(std::vector<ReliefOutline>{}).size());
-    constexpr double as_many_frames = 10.0; // where the driver draws on the processor
+    constexpr double as_many_frames = 10.0; // assumes a driver that draws on the processor
     const double small = static_cast<double>(pack.levels.size()) +
                          (peers.relief_gpu ? 1.0 + as_many_frames : 1.0) * reliefs + 2.0 +
                          times * ((peers.ray_cast ? 1.0 : 0.0) + (peers.lod ? details : 0.0) +
                                   (peers.two_pass_lod ? details * eye_images : 0.0));
     const auto triangles = static_cast<double>(mesh.triangles.size());
-    const double frames_s = 0.012 * (small + full) + 1.5e-7 * triangles * full; // one of each
+    const double frames_s = 0.012 * (small + full) + 1.5e-7 * triangles * full; // one frame of each
     return {
         {set_up.name + ": meshes", "meshes", 0.5 + 4e-6 * triangles},
         {set_up.name + ": errors", "errors", options.poses * (0.3 + 0.04 * (small + full) + 4.0 * frames_s)},

@@ -1,8 +1,8 @@
 /// Error against run time: every technique over the same poses, measured against the truth and timed in one
-/// interleaved run; once for each set-up.
+/// interleaved run; once per set-up.
 ///
 /// Threads  the one whose context is current; the truth is cast on every core.
-/// Errors   whatever the parts report, with the set-up's name in front.
+/// Errors   any error from the parts, with the set-up's name in front.
 #pragma once
 
 #include "app/bench/measures/technique_set.h"
@@ -15,26 +15,27 @@ struct SetUpResult {
     std::string driver;
     std::uint32_t default_level = 0;
     std::uint32_t finest_level = 0;
-    bool baked_light =
-        false; ///< the levels' colours hold it, peers' do not: those are compared by shape alone
+    /// The levels' colours contain baked light and the peers' do not, so they are compared by shape alone.
+    bool baked_light = false;
     std::vector<BenchPose> poses;
     std::vector<TechniqueResult> techniques; ///< the floor first
-    /// `error_picture` of the default and the finest level, each in the pose of its greatest geometric error.
+    /// `error_picture` of the default and the finest level, each in the pose with its greatest geometric
+    /// error.
     std::vector<std::pair<std::string, Image8>> worst;
 };
 
 struct ErrorTimeOptions {
     int poses = 50;
     std::uint64_t seed = 1;
-    int timing_rounds = 3; ///< at least; few poses are drawn more often
+    int timing_rounds = 3; ///< minimum; a small number of poses is drawn more often
     PictureOptions picture;
     PeerChoice peers;
 };
 
-/// Reports the current step and the share of it that is done.
+/// Reports the current step and the completed share of it.
 using StepProgress = std::function<void(const std::string& step, double done)>;
 
-/// The steps that `error_time` reports, with guesses of their seconds.
+/// The steps that `error_time` reports, with estimates of their seconds.
 [[nodiscard]] std::vector<WorkStep> work_steps(const SetUp& set_up, const Pack& pack, const SourceMesh& mesh,
                                                const ErrorTimeOptions& options);
 

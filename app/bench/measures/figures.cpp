@@ -12,7 +12,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// No visitor sees source points that are farther from the finest level than this.
+/// Source points farther than this from the finest level are not visible to visitors.
 constexpr float seen_reach_box = 5e-4F;
 
 bool agree(float said, float measured) {

@@ -1,10 +1,10 @@
-/// Are a pack's error figures true? A kiosk chooses levels by them: figures that are too small show a coarse
-/// artifact, figures that are too large a slow one. Each level is measured again against the source, as the
-/// bake measures it.
+/// Checks a pack's error figures. A kiosk chooses levels by them: figures that are too small show a coarse
+/// artifact, figures that are too large a slow one. Each level is measured again against the source, with the
+/// bake's method.
 ///
 /// Units    millimetres on the configured prop.
-/// Limits   a figure may be off by a quarter of itself plus `slack_box`: the sample points on the source are
-///          not those of the bake.
+/// Limits   a figure may be off by a quarter of its value plus `slack_box`, because the sample points on the
+///          source differ from those of the bake.
 /// Threads  uses all cores; deterministic.
 #pragma once
 
@@ -24,9 +24,9 @@ struct LevelFigures {
 };
 [[nodiscard]] std::vector<LevelFigures> measure_figures(const Pack& pack, const SourceMesh& mesh);
 
-inline constexpr double slack_box = 5e-5; ///< some micrometres on a prop
+inline constexpr double slack_box = 5e-5; ///< a few micrometres on a prop
 inline constexpr double slack_share = 0.25;
-/// One for each level: mean and 95th percentile.
+/// Mean and 95th percentile of each level.
 [[nodiscard]] std::vector<LimitVerdict> judge(const std::vector<LevelFigures>& figures, double mm_per_box);
 /// An error that names the first false figure.
 [[nodiscard]] Result<void> require_true(std::span<const LimitVerdict> figures, const std::string& pack);

@@ -36,7 +36,7 @@ std::optional<glm::dvec2> picture_shift(const Image8& truth, const Image8& drawn
             right -= static_cast<double>(b.at(x, y) - a.at(x, y)) * slope;
         }
     }
-    // Edges of one direction alone leave the shift along them open.
+    // If all edges run in one direction, the shift along them is undetermined.
     constexpr double least_condition = 1e-3;
     const double trace = normal[0][0] + normal[1][1];
     if (!(glm::determinant(normal) > least_condition * trace * trace)) {

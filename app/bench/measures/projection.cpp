@@ -56,8 +56,8 @@ struct VisitorRays {
     }
 };
 
-/// Projector pixels in a step of one visitor's pixel at the place seen through `at`, in the direction where
-/// they are fewest; infinite beside the prop.
+/// Projector pixels per step of one pixel of the visitor's picture, at the place seen through `at`, in the
+/// direction with the fewest; infinite off the prop.
 double least_span(const VisitorScene& scene, const VisitorRays& rays, const glm::dvec2& at) {
     PropHit hit;
     if (!intersect(scene.prop, rays.eye_m, rays.through(at.x, at.y), hit)) {
@@ -79,7 +79,7 @@ double least_span(const VisitorScene& scene, const VisitorRays& rays, const glm:
     return 0.5 * (std::sqrt(squares + 2.0 * area) - std::sqrt(std::max(0.0, squares - 2.0 * area)));
 }
 
-/// The least over the prop's pixels in a grid of `step`; infinite if there are none.
+/// Minimum over the prop's pixels on a grid of `step`; infinite if there are none.
 double least_span(const VisitorScene& scene, const VisitorCamera& camera, int step) {
     const VisitorRays rays(scene, camera);
     double least = std::numeric_limits<double>::infinity();
@@ -101,7 +101,7 @@ public:
         row_.least_span_px = least_span(scene, camera_, 1);
     }
 
-    /// Takes the picture for each comparison; `smooth` keeps the visitor's view of 16 rays.
+    /// `for_one_ray` and `for_sixteen_rays` are the pictures for the two comparisons.
     [[nodiscard]] ProjectionRow judge(const Image8& for_one_ray, const Image8& for_sixteen_rays) {
         VisitorViewOptions sixteen = exact_check();
         sixteen.rays_per_side = rays_per_side;
@@ -226,7 +226,7 @@ PixelAccuracy pixel_accuracy(const Image8& view, const VisitorTruth& truth) {
 }
 
 VisitorCamera no_finer_camera(const VisitorScene& scene) {
-    // A picture half as wide has pixels twice as wide. The function is smooth, so a coarse grid is enough.
+    // A picture half as wide has pixels twice as wide. The span varies smoothly, so a coarse grid is enough.
     constexpr int grid_px = 4;
     constexpr double margin = 0.99;
     const auto camera = [&scene](double scale) {

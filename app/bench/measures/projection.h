@@ -1,21 +1,21 @@
-/// The visitor's view, made from the projector's picture alone, against an ordinary perspective ray cast of
-/// the artifact standing in the prop: proof that the whole chain is right, not only self-consistent.
+/// Compares the visitor's view, made from the projector's picture alone, with an ordinary perspective ray
+/// cast of the artifact standing in the prop. This verifies the whole chain against an independent reference.
 ///
 /// View     the exhibit's own picture of a pack's level (unlit, no compensation of the light, sRGB codes)
 ///          through `visitor_view`, which knows neither the artifact nor the collineation.
-/// Truth    a ray from the eye through the visitor's pixel straight at the source mesh; black where it
-///          misses. It knows where the prop stands, and neither the projector nor the prop's faces.
-/// Judged   the pixels whose ray meets the prop, each right if no channel is off by more than 16 codes: with
-///          16 rays a pixel in both pictures, averaged in linear light; and with one ray through its centre,
-///          where a texture finer than a pixel makes every filtered picture differ. The ray cast's own
-///          projector picture is judged the same way: its loss comes from the two grids of pixels, not from
-///          our method.
+/// Truth    a ray from the eye through the visitor's pixel straight at the source mesh; black if it misses.
+///          It knows where the prop stands, but neither the projector nor the prop's faces.
+/// Judged   the pixels whose ray meets the prop. A pixel is right if no channel is off by more than 16 codes:
+///          with 16 rays per pixel in both pictures, averaged in linear light; and with one ray through its
+///          centre, where a texture finer than a pixel makes every filtered picture differ. The ray cast's
+///          own projector picture is judged in the same way: its loss comes from the two pixel grids, not
+///          from our method.
 /// Size     of the visitor's picture: the largest, up to the projector's own, whose pixels on the prop are no
 ///          finer than the projector's: a step of one pixel in any direction spans at least one projector
 ///          pixel.
 /// Frames   table T; metres.
 /// Threads  the one whose context is current; views and rays are cast on every core.
-/// Errors   whatever the parts report, with the set-up's name in front.
+/// Errors   any error from the parts, with the set-up's name in front.
 #pragma once
 
 #include "app/bench/measures/error_time.h"
@@ -28,21 +28,21 @@
 
 namespace frustumscreen {
 
-/// What the visitor should see. Shape: the camera's picture.
+/// What the visitor should see. Same shape as the camera's picture.
 struct VisitorTruth {
     Image<std::uint8_t> prop; ///< 1: the ray through the pixel's centre meets a face of the prop
-    Image<std::uint8_t> hit;  ///< 1: the same ray meets the artifact
-    Image8 colour;            ///< black where no artifact is hit, and beside the prop
+    Image<std::uint8_t> hit;  ///< 1: that ray meets the artifact
+    Image8 colour;            ///< black off the prop and where no artifact is hit
 };
-/// `rays_per_side` squared rays a pixel, spread as `VisitorViewOptions` spreads them.
+/// `rays_per_side` squared rays per pixel, distributed as by `VisitorViewOptions`.
 [[nodiscard]] VisitorTruth cast_visitor(const Truth& truth, const VisitorScene& scene,
                                         const VisitorCamera& camera, int rays_per_side);
 
-/// How much of a view is right.
+/// Number of correct pixels of a view.
 struct PixelAccuracy {
     std::int64_t prop_pixels = 0;
     std::int64_t prop_right = 0;
-    std::int64_t artifact_pixels = 0; ///< of the prop's
+    std::int64_t artifact_pixels = 0; ///< subset of the prop's
     std::int64_t artifact_right = 0;
 
     [[nodiscard]] double prop_percent() const;
@@ -50,11 +50,11 @@ struct PixelAccuracy {
 };
 [[nodiscard]] PixelAccuracy pixel_accuracy(const Image8& view, const VisitorTruth& truth);
 
-/// The camera with the picture's size as described at the top.
+/// The camera with the picture size described at the top.
 [[nodiscard]] VisitorCamera no_finer_camera(const VisitorScene& scene);
 
-/// View, ray cast and difference of the prop side by side, enlarged. The difference is red where a pixel is
-/// wrong, elsewhere grey and four times as bright.
+/// View, ray cast and difference of the prop next to each other, enlarged. The difference is red where a
+/// pixel is wrong, elsewhere grey and four times as bright.
 [[nodiscard]] Image8 side_by_side(const Image8& view, const VisitorTruth& truth);
 
 struct ProjectionOptions {
@@ -68,18 +68,19 @@ struct ProjectionRow {
     std::string technique;
     int level = -1;
     int pose = 0;
-    glm::ivec2 size_px{0}; ///< of the visitor's picture
-    /// Projector pixels in a step of one visitor's pixel: the least over the prop and all directions.
+    glm::ivec2 size_px{0}; ///< size of the visitor's picture
+    /// Projector pixels per step of one pixel of the visitor's picture: the minimum over the prop and all
+    /// directions.
     double least_span_px = 0.0;
     PixelAccuracy one_ray;
     PixelAccuracy sixteen_rays;
 };
 
 struct ProjectionResult {
-    std::string name; ///< of the set-up
+    std::string name; ///< name of the set-up
     std::vector<BenchPose> poses;
     std::vector<ProjectionRow> rows; ///< ray-cast picture, default and finest level, pose by pose
-    Image8 worst; ///< side by side, 16 rays: the level and pose with the smallest share of right pixels
+    Image8 worst; ///< `side_by_side`, 16 rays: the level and pose with the smallest share of right pixels
 };
 
 [[nodiscard]] Result<ProjectionResult> projection(const SetUp& set_up, const Pack& pack,
@@ -87,7 +88,7 @@ struct ProjectionResult {
                                                   const ProjectionOptions& options,
                                                   const StepProgress& progress);
 
-inline constexpr double least_right_percent = 97.0; ///< of the prop's pixels, in every pose
+inline constexpr double least_right_percent = 97.0; ///< share of the prop's pixels, in every pose
 inline constexpr int most_codes_off = 16;
 
 [[nodiscard]] std::vector<LimitVerdict> judge(const ProjectionResult& result);

@@ -15,7 +15,7 @@ struct Share {
     int worst_pose = 0;
 
     void add(double percent, int pose) {
-        mean_percent += percent; // a sum until all are in
+        mean_percent += percent; // holds the sum until all poses are added
         if (percent < worst_percent) {
             worst_percent = percent;
             worst_pose = pose;

@@ -20,7 +20,7 @@ double of_shown(const PictureError& error, double ShownError::*figure) {
     return error.shown ? *error.shown.*figure : not_shown;
 }
 
-/// The figures of one picture, or of many summed up, in the order of the columns.
+/// The errors of one picture, or of a summary, in the order of the columns.
 struct Figure {
     const char* name;
     double (*of)(const PictureError&);
@@ -47,7 +47,7 @@ constexpr std::array figures = {
            [](const PictureError& e) { return e.shown ? e.shown->colour.bad_percent : not_shown; }},
 };
 
-/// Where the kiosk shows no such picture the field is empty.
+/// The field is empty if the kiosk shows no such picture.
 std::string field(double figure) {
     return std::isnan(figure) ? std::string() : fmt::format("{:.6f}", figure);
 }
@@ -94,7 +94,7 @@ nlohmann::json json_of(std::span<const LimitVerdict> verdicts) {
     return json;
 }
 
-/// Some names have a comma.
+/// Some names contain a comma.
 std::string field(const std::string& text) {
     return text.find(',') != std::string::npos ? quoted(text) : text;
 }

@@ -13,11 +13,11 @@ namespace frustumscreen {
 
 namespace {
 
-/// What is drawn of each size, in this order.
+/// The techniques drawn for each size, in this order.
 constexpr std::array drawn = {&ScalingRow::default_level, &ScalingRow::finest_level, &ScalingRow::relief,
                               &ScalingRow::two_pass};
 
-/// Adds what is drawn of one size to the set and measures its errors.
+/// Adds the techniques of one size to the set and measures their errors.
 Result<void> add_size(TechniqueSet& set, const ScalingSource& source, const std::vector<BenchPose>& poses,
                       const ScalingOptions& options, const Progress& progress) {
     const std::size_t first = set.results().size();
@@ -86,7 +86,7 @@ Result<std::vector<ScalingRow>> scaling(const SetUp& set_up, const std::vector<S
     TechniqueSet& set = *opened;
     TRY(const std::vector<BenchPose> poses,
         draw_poses(set_up.settings, set.stage().prop, options.poses, options.seed));
-    const std::size_t first = set.results().size(); // behind the floors
+    const std::size_t first = set.results().size(); // after the floors
     std::vector<ScalingRow> rows;
     for (const ScalingSource& source : sources) {
         const std::string what = fmt::format("{} triangles: errors", source.mesh->triangles.size());

@@ -1,8 +1,9 @@
-/// Cost against the source's size: the built-in amphora at several counts of triangles, with the carving that so many can show, or one and
-/// the same surface cut into as many; each baked anew, all drawn in one interleaved run; and the two-pass method with the same full meshes.
+/// Cost against the source's size: the built-in amphora at several triangle counts, either with the carving
+/// that each count can show, or one surface subdivided to each count. Each is baked and all are drawn in one
+/// interleaved run, together with the two-pass method on the same full meshes.
 ///
 /// Threads  the one whose context is current; bake and truth use every core.
-/// Errors   whatever generator, bake and techniques report.
+/// Errors   any error from generator, bake and techniques.
 #pragma once
 
 #include "app/bench/measures/error_time.h"
@@ -11,9 +12,10 @@ namespace frustumscreen {
 
 struct ScalingOptions {
     std::vector<std::int64_t> triangles = {100'000, 1'000'000, 4'000'000};
-    bool same_surface =
-        false;      ///< the first amphora, each triangle cut into four until there are as many at least
-    int size = 512; ///< the bake's texels along the longest edge of a face
+    /// Use the first amphora for every count; each triangle is split into four until the count is reached or
+    /// exceeded.
+    bool same_surface = false;
+    int size = 512; ///< texels of the bake along the longest edge of a face
     PictureOptions picture;
     int poses = 10;
     std::uint64_t seed = 1;
@@ -21,7 +23,7 @@ struct ScalingOptions {
     int two_pass_pixels = 1024;
 };
 
-/// One count of triangles, baked.
+/// One triangle count, baked.
 struct ScalingSource {
     std::shared_ptr<const SourceMesh> mesh;
     Pack pack;
@@ -35,13 +37,13 @@ struct ScalingRow {
     double bake_s = 0.0;
     TechniqueResult default_level;
     TechniqueResult finest_level;
-    TechniqueResult relief; ///< the pack's finest one
+    TechniqueResult relief; ///< the pack's finest relief
     TechniqueResult two_pass;
 };
 
-/// Cost at the largest count of triangles over that at the smallest.
-inline constexpr double most_growth = 1.25;        ///< the default level's
-inline constexpr double most_relief_growth = 1.10; ///< the finest relief's
+/// Cost at the largest triangle count over that at the smallest.
+inline constexpr double most_growth = 1.25;        ///< the default level
+inline constexpr double most_relief_growth = 1.10; ///< the finest relief
 
 [[nodiscard]] Result<std::vector<ScalingRow>> scaling(const SetUp& set_up,
                                                       const std::vector<ScalingSource>& sources,

@@ -6,7 +6,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The default and finest level over every pose and direction.
+/// Measures the default and finest level over every pose and direction.
 void measure(TechniqueSet& set, const Truth& truth, const ShimmerOptions& options, const Progress& progress,
              ShimmerResult& result) {
     double worst_percent = -1.0;

@@ -1,10 +1,10 @@
-/// The default and finest level of a pack while the prop is moved by 0.1 pixel steps, against the ray cast
-/// (shimmer_sequence.h has the measure); and the edges between the prop's faces (edge_sparkle.h).
+/// The default and finest level of a pack while the prop moves in steps of 0.1 pixel, against the ray cast
+/// (measure: shimmer_sequence.h); and the edges between the prop's faces (edge_sparkle.h).
 ///
-/// Limits   both ratios to one ray's <= 1 and the excess <= 0.1 % of the judged pixels, in every sequence. Over all
-///          sequences feathered edges change no more than sharp ones.
+/// Limits   both ratios to one ray's <= 1 and the excess <= 0.1 % of the judged pixels, in every sequence.
+///          Over all sequences feathered edges change no more than sharp ones.
 /// Threads  the one whose context is current; rays are cast on every core.
-/// Errors   whatever the parts report, with the set-up's name in front.
+/// Errors   any error from the parts, with the set-up's name in front.
 #pragma once
 
 #include "app/bench/measures/edge_sparkle.h"
@@ -22,7 +22,7 @@ struct ShimmerOptions {
     int poses = 3;
     std::uint64_t seed = 1;
     int steps = 20;
-    bool sixteen_rays = true; ///< the slower truth too
+    bool sixteen_rays = true; ///< also compute the slower truth
     PictureOptions picture;
 };
 
@@ -35,12 +35,12 @@ struct ShimmerRow {
 };
 
 struct ShimmerResult {
-    std::string name; ///< of the set-up
+    std::string name; ///< name of the set-up
     std::vector<BenchPose> poses;
     std::vector<ShimmerRow> rows;
     /// `side_by_side` of the sequence with the most excess.
     Image8 worst;
-    std::vector<SparkleRow> edges; ///< as many steps in each, of 0.1 mm
+    std::vector<SparkleRow> edges; ///< as many steps of 0.1 mm in each
 };
 
 [[nodiscard]] Result<ShimmerResult> shimmer(const SetUp& set_up, const Pack& pack,

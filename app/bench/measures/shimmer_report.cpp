@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Mean and greatest of a figure over the sequences of one level.
+/// Mean and maximum of a value over the sequences of one level.
 struct Spans {
     double mean = 0.0;
     double worst = 0.0;

@@ -25,7 +25,7 @@ BenchPose pushed(BenchPose pose, const glm::dvec2& by_m) {
     return pose;
 }
 
-/// Metres over the table, each step, that move the prop's middle by `step_px`.
+/// Metres on the table per step that move the prop's middle by `step_px`.
 glm::dvec2 step_m(const Settings& settings, const PropShape& prop, const BenchPose& pose,
                   PushDirection direction) {
     constexpr double probe_m = 1e-4;
@@ -39,7 +39,7 @@ glm::dvec2 step_m(const Settings& settings, const PropShape& prop, const BenchPo
     return glm::inverse(glm::dmat2(along_x, along_y)) * wanted;
 }
 
-/// Averages squares of `split` pixels in linear light.
+/// Averages blocks of `split` x `split` pixels in linear light.
 Image8 averaged(const Image8& fine, int split) {
     const std::array<float, 256>& linear = linear_from_srgb8();
     Image8 made(fine.width / split, fine.height / split);
@@ -58,7 +58,7 @@ Image8 averaged(const Image8& fine, int split) {
     return made;
 }
 
-/// The largest value within `reach`, along rows and then along columns.
+/// The maximum within `reach`, along rows and then along columns.
 Image<float> spread_out(const Image<float>& values, int reach) {
     const auto along = [reach](const Image<float>& from, const glm::ivec2& step) {
         Image<float> made(from.width, from.height);
@@ -176,7 +176,7 @@ ShimmerSequence::ShimmerSequence(const Settings& settings, const PropShape& prop
     judged_ = Image<std::uint8_t>(part_.size.x, part_.size.y);
 }
 
-/// Holds the prop in every step, with a rim.
+/// The part that contains the prop in every step, with a margin.
 ShimmerSequence::Part ShimmerSequence::part_around_prop() const {
     constexpr int rim_px = 4;
     glm::dvec2 low(std::numeric_limits<double>::infinity());
@@ -206,7 +206,7 @@ Image8 ShimmerSequence::cut(const Image8& picture) const {
     return made;
 }
 
-/// The truth's view of the part alone, each side of a pixel split into `split`.
+/// The truth's view of the part alone, with each pixel split into `split` x `split`.
 TruthView ShimmerSequence::view_of_part(const BenchPose& pose, int split) const {
     TruthView view = view_of(settings_, pose);
     view.projector.cx -= part_.low.x;

@@ -1,21 +1,21 @@
-/// Shimmer: how unsteadily pixels change while the prop is moved by a tenth of a projector pixel at a time.
+/// Shimmer: how unsteadily pixels change while the prop moves in steps of a tenth of a projector pixel.
 ///
-/// Steps    The prop is pushed over the table, without turning, so that its middle moves by 0.1 pixel each
-///          step: along the picture's rows in one sequence, along its columns in another. The eye stays.
-/// Measure  A picture that glides changes evenly from step to step; one that shimmers jumps to and fro. So
-///          a pixel's shimmer is the root mean square, over steps k and channels, of the second difference
+/// Steps    The prop is pushed over the table, without turning, by steps that move its middle by 0.1 pixel:
+///          along the picture's rows in one sequence, along its columns in another. The eye stays.
+/// Measure  A picture that glides changes evenly from step to step; one that shimmers jumps to and fro. A
+///          pixel's shimmer is the root mean square, over steps k and channels, of the second difference
 ///              I[k+1] - 2 I[k] + I[k-1]      (sRGB codes),
-///          which even change leaves at zero and a pixel that jumps by c every step raises to 2 c.
-/// Truth    The same measure of the ray cast, with one ray a pixel and with 16 (4 x 4, misses black,
+///          which is zero for even change and 2 c for a pixel that jumps by c every step.
+/// Truth    The same measure for the ray cast, with one ray per pixel and with 16 (4 x 4, misses black,
 ///          averaged in linear light, also where only a part of the pixel is covered).
-/// Judged   Over the pixels that show the artifact in the truth of any step, and their neighbours, as
+/// Judged   Over the pixels that show the artifact in the truth of any step, and their neighbours, because
 ///          outlines shift by parts of a pixel:
-///          - the root mean square of all, and the value that 99.9 % of the pixels stay below: each
-///            divided by one ray's;
-///          - `excess`, which sees the few that both would hide: pixels whose shimmer is more than 8 codes
-///            above that of every pixel within two pixels in either truth, as a share of the judged. (Along
-///            an edge that nearly follows a row, one ray jumps at few pixels, far apart, and 16 a little at
-///            each.)
+///          - the root mean square of all, and the value that 99.9 % of the pixels stay below: each divided
+///            by one ray's;
+///          - `excess`, for the few pixels that both values would hide: pixels whose shimmer is more than 8
+///            codes above that of every pixel within two pixels in either truth, as a share of the judged
+///            pixels. (Along an edge that nearly follows a row, one ray jumps at few pixels, far apart, and
+///            16 rays jump a little at each.)
 /// Threads  Rays are cast on every core; everything else is plain values.
 /// Errors   none.
 #pragma once
@@ -35,15 +35,15 @@ namespace frustumscreen {
 
 inline constexpr double step_px = 0.1;
 
-/// Takes pictures of one size in order, and computes each pixel's shimmer so far.
+/// Takes pictures of one size in order and computes each pixel's shimmer so far.
 class Flicker {
 public:
     void add(Image8 picture);
-    /// Codes; zero before there are three pictures.
+    /// Codes; zero until there are three pictures.
     [[nodiscard]] Image<float> per_pixel() const;
 
 private:
-    std::array<Image8, 2> last_; ///< the one before last, the last
+    std::array<Image8, 2> last_; ///< the one before last, then the last
     Image<float> squares_;       ///< sum over steps and channels
     int pictures_ = 0;
 };
@@ -58,7 +58,7 @@ struct ShimmerFigure {
 
 inline constexpr float excess_codes = 8.0F;
 inline constexpr int excess_reach_px = 2;
-/// 1 where a judged pixel shimmers beyond its whole neighbourhood in the truth.
+/// 1 at judged pixels that shimmer more than their whole neighbourhood in the truth.
 [[nodiscard]] Image<std::uint8_t> excess(const Image<float>& technique, const Image<float>& truth,
                                          const Image<std::uint8_t>& judged);
 
@@ -80,26 +80,26 @@ struct ShimmerMaps {
     Image<float> drawn;
     Image<float> one_ray;
     Image<std::uint8_t> judged;
-    Image<std::uint8_t> beyond; ///< as `excess`
+    Image<std::uint8_t> beyond; ///< from `excess`
 };
-/// Drawn and one ray in grey, twice as bright as they are; the excess in red. Side by side.
+/// Drawn and one ray in grey at twice their value, the excess in red; next to each other.
 [[nodiscard]] Image8 side_by_side(const ShimmerMaps& maps);
 
 /// Along the picture's rows or its columns.
 enum class PushDirection { Row, Column };
 
-/// One prop pushed in one direction. Only the part of the picture around the prop is kept.
+/// One prop pushed in one direction. Keeps only the part of the picture around the prop.
 class ShimmerSequence {
 public:
-    /// `settings` and `prop` must outlive the sequence. steps + 1 poses.
+    /// `settings` and `prop` must outlive the sequence. It has steps + 1 poses.
     ShimmerSequence(const Settings& settings, const PropShape& prop, const BenchPose& pose,
                     PushDirection direction, int steps);
     [[nodiscard]] const std::vector<BenchPose>& poses() const { return poses_; }
 
-    /// Casts the truth that every technique is judged by. Call it once, before `judge`.
+    /// Casts the truth for every technique. Call it once, before `judge`.
     void cast(const Truth& truth, bool sixteen_rays);
 
-    /// The whole projector's picture of a pose.
+    /// Draws the projector's whole picture of a pose.
     using Draw = std::function<Image8(const BenchPose&)>;
     [[nodiscard]] SequenceShimmer judge(const Draw& draw, ShimmerMaps& maps) const;
 
@@ -119,8 +119,8 @@ private:
     Part part_;
     Image<std::uint8_t> judged_;
     Image<float> one_ray_;
-    Image<float> allowed_;  ///< the larger of both truths
-    SequenceShimmer truth_; ///< what is the same for every technique
+    Image<float> allowed_;  ///< the larger of the two truths
+    SequenceShimmer truth_; ///< the parts shared by every technique
 };
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-/// Pictures that a person compares: the same part of each, side by side, small ones enlarged.
+/// Pictures for a person to compare: one part of each, next to each other, small ones enlarged.
 ///
 /// Units    pixels, row 0 at the top.
 /// Threads  pure; any.
@@ -12,14 +12,14 @@
 
 namespace frustumscreen {
 
-/// The rectangle around all pixels that are not zero, with a rim of two pixels; empty if all are zero.
+/// The rectangle around all non-zero pixels, with a margin of two pixels; empty if all are zero.
 [[nodiscard]] PixelRectangle box_of(const Image<std::uint8_t>& mask);
 
 /// The part must lie inside every picture.
 [[nodiscard]] Image8 side_by_side(std::span<const Image8* const> pictures, const PixelRectangle& part);
 
-/// Truth of 16 rays, what was drawn, and where it is wrong: red where one alone shows the artifact, elsewhere
-/// grey by the distance of the two hit points, white at `white_mm`.
+/// Truth with 16 rays, the drawn picture, and the errors: red where only one of them shows the artifact,
+/// elsewhere grey by the distance of the two hit points, white at `white_mm`.
 inline constexpr float white_mm = 1.0F;
 [[nodiscard]] Image8 error_picture(const TruthPicture& truth, const Drawn& drawn);
 

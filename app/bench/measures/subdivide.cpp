@@ -8,7 +8,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Gives each edge one middle, at the end of the mesh's vertices.
+/// Creates one middle vertex per edge, at the end of the mesh's vertices.
 class Middles {
 public:
     explicit Middles(SourceMesh& mesh) : mesh_(mesh) {}
@@ -24,7 +24,7 @@ public:
     }
 
 private:
-    /// Where the mesh has the attribute.
+    /// Does nothing if the mesh lacks the attribute.
     template <typename Value>
     static void append(std::vector<Value>& values, std::uint32_t a, std::uint32_t b) {
         if (!values.empty()) {

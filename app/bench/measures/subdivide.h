@@ -1,11 +1,12 @@
-/// A mesh with more triangles and the same surface.
+/// A mesh with more triangles and an unchanged surface.
 #pragma once
 
 #include "assets_baked/bake/source_mesh.h"
 
 namespace frustumscreen {
 
-/// Cuts each triangle into four at the middles of its edges; attributes at a middle are the mean of the edge's ends.
+/// Splits each triangle into four at the middles of its edges; attributes at a middle are the mean of the
+/// edge's ends.
 [[nodiscard]] SourceMesh subdivide(const SourceMesh& mesh);
 
 } // namespace frustumscreen

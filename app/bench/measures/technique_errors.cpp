@@ -57,7 +57,7 @@ Result<void> TechniqueSet::measure_errors(const Truth& truth, const std::vector<
         const TruthView view = view_of(stage_.settings, poses[pose]);
         const std::optional<LightAim> light = shown_light(poses[pose]);
         const TruthPicture cast = truth.cast(stage_.prop, view, true, light ? &*light : nullptr);
-        std::map<int, Image<float>> covers; // by samples a pixel
+        std::map<int, Image<float>> covers; // key: samples per pixel
         std::map<std::string, Image8> surfaces;
         for (const auto& [name, as_drawn] : drawn_) {
             surfaces[name] = as_drawn.cast(stage_.prop, view, true).colour16;
@@ -109,7 +109,7 @@ Result<void> TechniqueSet::measure_shape(const Truth& truth, const std::vector<B
     for (std::size_t pose = 0; pose < poses.size(); ++pose) {
         std::vector<std::vector<PictureError>> errors(techniques_.size());
         for (int ray = 0; ray < rays; ++ray) {
-            // The picture and the truth of pixels whose centres lie beside those that are shown.
+            // Move the principal point, to draw and cast at other places inside the pixels.
             Pinhole& pinhole = stage_.settings.projector.pinhole;
             pinhole.cx = centres.cx + 0.5 - (ray % grid.x + 0.5) / grid.x;
             pinhole.cy = centres.cy + 0.5 - (ray / grid.x + 0.5) / grid.y;

@@ -21,7 +21,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Every kind.
+/// Covers every kind.
 constexpr std::array<std::pair<TechniqueKind, std::string_view>, 12> kind_names = {{
     {TechniqueKind::Floor, "floor"},
     {TechniqueKind::PackLevel, "pack level"},
@@ -45,7 +45,7 @@ TechniqueResult described(TechniqueKind kind, int level, std::uint64_t triangles
     return result;
 }
 
-/// With its texture; without mip levels.
+/// Includes the texture, without mip levels.
 std::uint64_t bytes_of(const PackLevel& level, const Pack& pack) {
     return level.vertices.size() * sizeof(PackVertex) + level.indices.size() * sizeof(level.indices[0]) +
            4 * pack.textures[level.texture].texels.size();
@@ -56,7 +56,7 @@ std::string level_name(const Pack& pack, std::uint32_t level) {
                        level, level == pack.default_level ? " (default)" : "");
 }
 
-/// The first one: the best.
+/// The first match, which is the best quality level of its kind.
 std::optional<Rung> rung_that(const std::vector<Rung>& rungs, bool casts) {
     const auto found =
         std::find_if(rungs.begin(), rungs.end(), [casts](const Rung& each) { return each.relief == casts; });

@@ -8,7 +8,7 @@
 namespace frustumscreen {
 
 namespace {
-constexpr double least_share = 0.02; ///< of a step; before that its time is not known
+constexpr double least_share = 0.02; ///< share of a step below which its duration is unknown
 }
 
 TimeLeft::TimeLeft(std::vector<WorkStep> steps) : planned_(steps.size()) {

@@ -1,9 +1,9 @@
-/// How long a run of several steps still takes.
+/// Remaining time of a run of several steps.
 ///
-/// Method   the current step's seconds are the time passed in it over the share that is done. A step to come
-///          takes its guess, scaled by the seconds over the guess of the last known step of its kind, else of
-///          all known steps together.
-/// Units    seconds; guesses only count in relation to each other.
+/// Method   the current step's duration is the time spent in it over the completed share. A future step takes
+///          its guess, scaled by the ratio of duration to guess of the last known step of its kind, or else
+///          of all known steps together.
+/// Units    seconds; only the ratios of guesses matter.
 /// Threads  values; any. Reads no clock.
 #pragma once
 
@@ -25,9 +25,9 @@ public:
     TimeLeft() = default;
     explicit TimeLeft(std::vector<WorkStep> steps);
 
-    /// Takes the share (0..1) of step `name` that is done; returns the seconds left of the run, or of this
-    /// step alone if it was not planned. A step begins when it is named after another one; the steps before
-    /// it count as done. Returns nothing while nothing is known.
+    /// Takes the completed share (0..1) of step `name`; returns the remaining seconds of the run, or of this
+    /// step alone if it was not planned. A step begins when `name` differs from the previous call's; the
+    /// steps before it count as done. Returns nullopt until a duration is known.
     [[nodiscard]] std::optional<double> update(const std::string& name, double done, double now_s);
 
 private:
@@ -40,7 +40,7 @@ private:
     std::vector<Known> steps_; ///< the planned ones first
     std::size_t planned_ = 0;
     std::optional<std::size_t> current_;
-    double begun_s_ = 0.0; ///< when the current step began
+    double begun_s_ = 0.0; ///< start of the current step
 };
 
 } // namespace frustumscreen

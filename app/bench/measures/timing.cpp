@@ -29,7 +29,7 @@ void time_one(Technique& technique, const BenchPose& pose, FrameTimes& times) {
     times.cpu_ms.push_back(cpu_now_ms() - cpu_start_ms);
 }
 
-/// A new order for every pose, the same on every machine: no technique always follows the heaviest one.
+/// A new order for every pose, equal on every machine, so no technique always follows the heaviest one.
 void shuffle(std::vector<std::size_t>& order, std::mt19937_64& engine) {
     for (std::size_t k = order.size(); k > 1; --k) {
         std::swap(order[k - 1], order[engine() % k]);

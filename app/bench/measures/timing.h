@@ -1,10 +1,10 @@
-/// Frame times of several techniques, taken in one interleaved run so that whatever disturbs the machine
-/// disturbs all of them alike; the order is shuffled for every pose.
+/// Frame times of several techniques, taken in one interleaved run: disturbances of the machine then affect
+/// all of them alike. The order is shuffled for every pose.
 ///
-/// Cost     one time = one full redraw with glFinish, no read-back. Wall time is the conventions' figure; the
-///          process's CPU time over all threads goes with it, because other programs on the machine stretch
-///          the wall's. A ratio below 1 is possible: the floor textures the whole prop, a slender artifact
-///          only its own pixels.
+/// Cost     one time = one full redraw with glFinish, no read-back. Wall time is the measure of
+///          docs/conventions.md; the process's CPU time over all threads is kept too, because other programs
+///          on the machine lengthen the wall time. A ratio below 1 is possible: the floor textures the whole
+///          prop, a slender artifact only its own pixels.
 /// Threads  the one whose context is current.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace frustumscreen {
 
-/// Called as work goes on, with the share that is done, 0..1.
+/// Called repeatedly with the completed share, 0..1.
 using Progress = std::function<void(double done)>;
 
 struct Spread {
@@ -32,10 +32,10 @@ struct TimingPlan {
 };
 
 struct FrameTimes {
-    std::vector<double> wall_ms; ///< one for each round and pose
+    std::vector<double> wall_ms; ///< one per round and pose
     std::vector<double> cpu_ms;
 };
-/// One for each technique.
+/// One entry per technique.
 [[nodiscard]] std::vector<FrameTimes> time_interleaved(std::span<Technique* const> techniques,
                                                        std::span<const BenchPose> poses,
                                                        const TimingPlan& plan, const Progress& progress);

@@ -33,7 +33,7 @@ bool errors_hold(const TechniqueResult& level, const Limits& limits) {
                        [&limits](const PictureError& error) { return silhouette_holds(error, limits); });
 }
 
-/// Judges the cost of the pack's cheapest level or relief whose errors are within the limits; how fine that is they say.
+/// Judges the cost of the pack's cheapest level or relief that keeps `limits`.
 LimitVerdict judge_cheapest(const SetUpResult& result, const std::string& whose, const Limits& limits) {
     const TechniqueResult* fine = nullptr;
     for (const TechniqueResult& technique : result.techniques) {
@@ -50,7 +50,7 @@ LimitVerdict judge_cheapest(const SetUpResult& result, const std::string& whose,
             fine != nullptr && fine->times_floor <= limits.times_floor};
 }
 
-/// Of the picture that the kiosk shows, lit and with all its samples.
+/// Judges the picture that the kiosk shows, lit and with all its samples.
 std::vector<LimitVerdict> judge_shown(const TechniqueResult& level, const Limits& limits) {
     if (!level.error.worst.shown) {
         return {};
@@ -122,7 +122,8 @@ const TechniqueResult* cheapest_as_good(const SetUpResult& result, const Techniq
     return best;
 }
 
-/// What the exhibit draws while it is in time: the quicker one of a mesh and a relief that are both good enough.
+/// What the exhibit draws while frames are in time: the faster of a mesh level and a relief that are both
+/// good enough.
 const TechniqueResult* auto_drawn(const SetUpResult& result) {
     const TechniqueResult* drawn = nullptr;
     for (const TechniqueResult& technique : result.techniques) {

@@ -1,6 +1,6 @@
-/// The limits that the picture must hold, and whether it does.
+/// The limits for the picture, and whether they are held.
 ///
-/// Limits   hold in the worst pose unless they say mean. A silhouette passes in a pose where either its share
+/// Limits   apply to the worst pose unless they say mean. A silhouette passes in a pose if either its share
 ///          of the artifact's pixels or its shift of the outline is within the limit (thin objects).
 /// Threads  pure; any.
 #pragma once
@@ -14,25 +14,27 @@ namespace frustumscreen {
 
 struct Limits {
     double silhouette_percent = 0.0;
-    double outline_shift_px =
-        0.0; ///< also of the picture as shown: its shift, its cover beside exact outlines, its cover's bias
+    /// Also applies to the picture as shown: its shift, its coverage error against exact outlines, and its
+    /// coverage bias.
+    double outline_shift_px = 0.0;
     double geometric_mean_mm = 0.0;
     double colour_rmse = 0.0; ///< against 16 rays, and as shown
     double times_floor = 0.0; ///< 0: no limit
 };
-/// Of the picture of a level or a relief, as it is shown, from where its own surface is: less than a person can see, and far less than
-/// half a pixel. From where the scan is it may lie as far as its outlines may.
+/// Shift of a shown level or relief against its own surface: below what a person can see, and far below half
+/// a pixel. Against the scan, it may be displaced as far as its outlines may.
 inline constexpr double most_drawn_shift_px = 0.05;
 inline constexpr Limits default_level_limits{0.6, 0.3, 0.2, 14.0, 4.0};
 inline constexpr Limits finest_level_limits{0.15, 0.1, 0.05, 8.0, 0.0};
-/// Stricter limits: for the default level again, and for some fine level of the pack.
+/// Stricter limits: for the default level, and for some fine level of the pack.
 inline constexpr Limits pushed_default_limits{0.35, 0.175, 0.16, 14.0, 0.0};
 inline constexpr Limits fine_level_limits{0.1, 0.067, 0.05, 14.0, 8.0};
-/// Of whichever level or relief of the pack keeps them most cheaply, whatever its colours. They are said and never end a run.
+/// Applies to the cheapest level or relief of the pack that keeps them, regardless of its colours. They are
+/// reported and never end a run.
 inline constexpr Limits wished_cheap_limits{0.15, 0.1, 0.05, std::numeric_limits<double>::infinity(), 2.0};
 inline constexpr Limits wished_fine_limits{0.05, 0.05, 0.01, std::numeric_limits<double>::infinity(), 4.0};
-/// How many times faster than the two-pass method a level must draw at no larger errors, for a source of a
-/// million triangles and of four million; smaller ones (by more than 5 %) are not judged.
+/// Required speed-up over the two-pass method at no larger errors, for a source of a million triangles and of
+/// four million; sources more than 5 % smaller are not judged.
 inline constexpr std::uint64_t least_two_pass_triangles = 950'000;
 [[nodiscard]] double least_two_pass_speed_up(std::uint64_t triangles);
 
@@ -40,24 +42,24 @@ struct LimitVerdict {
     std::string what; ///< the limit, with its number
     std::string found;
     bool held = false;
-    bool wished = false; ///< no limit: nothing is wrong where it is not held
+    bool wished = false; ///< a wish, not a limit: not an error if it is not held
 };
 
-/// One line each: held, MISSED or unmet (a wish that is not held), the limit, what was found.
+/// One line per verdict: held, MISSED or unmet (a wish that is not held), the limit, the measured value.
 [[nodiscard]] std::string lines_of(std::span<const LimitVerdict> verdicts);
 
 [[nodiscard]] std::vector<LimitVerdict> judge(const TechniqueResult& level, const Limits& limits);
 
-/// The cheapest level whose mean silhouette, geometric and colour errors are no larger than the two-pass
-/// method's; null if there is none.
+/// The cheapest level whose mean silhouette, geometric and colour errors do not exceed the two-pass method's;
+/// null if there is none.
 [[nodiscard]] const TechniqueResult* cheapest_as_good(const SetUpResult& result,
                                                       const TechniqueResult& two_pass);
 
-/// Default level, finest level, the two-pass picture of a large enough source at its best eye image, a fine
-/// level or relief, the wishes, and whether a peer dominates a level.
+/// Verdicts on the default level, the finest level, the two-pass picture of a large enough source at its best
+/// eye image, a fine level or relief, the wishes, and whether a peer dominates a level.
 [[nodiscard]] std::vector<LimitVerdict> judge(const SetUpResult& result);
 
-/// Wishes apart. The error names how many verdicts are missed, and the first.
+/// Ignores wishes. The error names the number of missed verdicts, and the first of them.
 [[nodiscard]] Result<void> require_limits(std::span<const SetUpResult> results);
 
 } // namespace frustumscreen

@@ -29,10 +29,10 @@ std::string read_all(int descriptor) {
     }
 }
 
-/// When a script ends with an exception, Python names it in the last line.
+/// If a script ends with an exception, Python names it in the last line.
 std::string last_line(std::string text) {
     text.erase(text.find_last_not_of(" \n") + 1);
-    return text.substr(text.rfind('\n') + 1); // the whole text where there is no line break
+    return text.substr(text.rfind('\n') + 1); // the whole text if it has no line break
 }
 
 } // namespace

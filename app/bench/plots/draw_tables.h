@@ -1,7 +1,7 @@
-/// Draws tables with draw_plots.py, which lies beside the bench's program.
+/// Draws tables with draw_plots.py, which is installed next to the bench's program.
 ///
-/// Errors   what the script says, in one line, for example that Debian's python3-matplotlib is missing; a
-///          script that is not there or does not run.
+/// Errors   the script's message in one line, for example that Debian's python3-matplotlib is missing; a
+///          script that is missing or does not run.
 /// Threads  one; waits for the script.
 #pragma once
 
@@ -13,10 +13,10 @@
 
 namespace frustumscreen {
 
-/// Where the build puts the script, from the path of the running program.
+/// Path of the script in the build, derived from the running program's path.
 [[nodiscard]] std::filesystem::path plot_script();
 
-/// `arguments` as the script has them: tables, each drawn as an SVG beside it, or --overall OUT.svg FOLDER...
+/// `arguments` of the script: tables, each drawn as an SVG next to it, or --overall OUT.svg FOLDER...
 [[nodiscard]] Result<void> draw_tables(const std::filesystem::path& script,
                                        const std::vector<std::string>& arguments);
 

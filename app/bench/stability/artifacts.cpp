@@ -1,4 +1,4 @@
-// How the artifact was authored: its scale, its distance from the origin, its shape and its size.
+// Variations of the authored artifact: its scale, its distance from the origin, its shape and its size.
 
 #include "app/bench/stability/picture.h"
 #include "app/bench/stability/shapes.h"
@@ -43,7 +43,7 @@ struct Bounds {
     }
 };
 
-/// The largest scale that keeps every point in the prop, all points against all planes.
+/// The largest scale that keeps every point in the prop; tests all points against all planes.
 exact::Real exact_scale(const PropShape& prop, const SourceMesh& mesh, const Bounds& bounds) {
     exact::Real scale = std::numeric_limits<exact::Real>::infinity();
     for (const PropFace& face : prop.faces) {
@@ -59,9 +59,9 @@ exact::Real exact_scale(const PropShape& prop, const SourceMesh& mesh, const Bou
 }
 
 struct PlacingErrors {
-    double box = 1.0;    ///< of in_box, box units
-    double scale = 1.0;  ///< of the placement, relative
-    double matrix = 1.0; ///< of prop_from_artifact, box units
+    double box = 1.0;    ///< error of in_box, box units
+    double scale = 1.0;  ///< error of the placement, relative
+    double matrix = 1.0; ///< error of prop_from_artifact, box units
 };
 PlacingErrors placing_errors(const SourceMesh& mesh) {
     const Result<BoxFrame> frame = make_box_frame(mesh, {"z"});
@@ -94,12 +94,13 @@ StabilityResult placing(const StabilityOptions&) {
     for (const double offset : {0.0, 1e6}) {
         for (const double scale : scales) {
             SourceMesh mesh = sphere(glm::dvec3(0.0), scale, 24);
-            for (glm::dvec3& p : mesh.positions) { // squat: a side of the prop stops it
+            for (glm::dvec3& p : mesh.positions) { // flattened, so that a side of the prop limits the scale
                 p = p * glm::dvec3(1.0, 0.9, 0.5) + glm::dvec3(offset, -offset, 0.7 * offset);
             }
             const PlacingErrors errors = placing_errors(mesh);
             const std::string where = fmt::format("radius {:g}, offset {:g}: ", scale, offset);
-            // Rounding of a number of the box's size; the matrix rounds at the origin's distance.
+            // Rounding of a number of the box's size; the matrix rounds at the magnitude of the origin's
+            // distance.
             const double away = 1.0 + offset / scale;
             result.rows.push_back({where + "points in the box, box units", 4 * 0x1p-53, errors.box});
             result.rows.push_back({where + "scale into the prop, relative", 4 * 0x1p-53, errors.scale});
@@ -142,7 +143,7 @@ StabilityResult baked(const StabilityOptions&) {
         least = std::fmin(least, metres);
         most = std::fmax(most, metres);
         result.rows.push_back({where + "pack not written or not verified", 0.0, written ? 0.0 : 1.0});
-        // The finest level's own tolerance, half a step of 16 bits each way, and the rounding of the input
+        // The finest level's own tolerance, half a 16-bit step each way, and the rounding of the input
         // itself.
         const double input = offset * 0x1p-53 / (2.0 * scale) * 4.0;
         result.rows.push_back({where + "finest level off the sphere, box units", 6e-5 + 1.0 / 65535.0 + input,
@@ -153,7 +154,7 @@ StabilityResult baked(const StabilityOptions&) {
     return result;
 }
 
-/// Any size of artifact makes the same plan: nothing in it knows how many triangles there are.
+/// An artifact of any size makes an identical plan, which does not depend on the number of triangles.
 StabilityResult many_triangles(const StabilityOptions& options) {
     const exact::Stage stage = usual_stage();
     const SeenArtifact artifact = seen_artifact(stage, options.triangles);

@@ -1,4 +1,4 @@
-// The calibration by touch: its condition against its error, its noise, and its last step against long double.
+// Calibration by touch: its condition against its error, its noise, and its last step against long double.
 
 #include "app/bench/stability/themes.h"
 #include "app/calibration/agreement.h"
@@ -18,7 +18,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// Crosses in a grid over a share of the picture's width and height, on the table and on blocks up to a height.
+/// Crosses in a grid over a share of the picture's width and height, on the table and on boards up to a
+/// height.
 Touches grid_touches(const SimulatedTable& table, double share, double block_m, const TouchNoise& noise,
                      SeededNumbers& numbers) {
     const glm::dvec2 size(table.truth.pinhole.width, table.truth.pinhole.height);
@@ -58,7 +59,7 @@ Fitted fitted(const SimulatedTable& table, const Touches& touches, const TouchNo
     return out;
 }
 
-/// Root mean square of the observed over the predicted error, over so many tables.
+/// Root mean square of the observed over the predicted error, over several tables.
 double observed_over_predicted(double share, double block_m, double noise) {
     constexpr int seeds = 12;
     double square = 0.0;
@@ -72,7 +73,7 @@ double observed_over_predicted(double share, double block_m, double noise) {
     return std::sqrt(square);
 }
 
-/// From crosses all over the picture and high blocks to ones near its middle and flat ones.
+/// From crosses all over the picture and high boards to crosses near its middle and low boards.
 StabilityResult conditions(const StabilityOptions&) {
     StabilityResult result;
     for (const auto& [share, block_m] : {std::pair(0.92, 0.12), std::pair(0.6, 0.12), std::pair(0.3, 0.12),
@@ -94,7 +95,7 @@ StabilityResult noises(const StabilityOptions&) {
     return result;
 }
 
-/// Of the matrix with ones in its diagonal: what its units do to it does not count.
+/// Condition of the matrix scaled to a unit diagonal, which removes the influence of units.
 double scaled_condition(const Covariance& information) {
     const Changes scale = information.diagonal().cwiseSqrt().cwiseInverse();
     const Covariance scaled = scale.asDiagonal() * information * scale.asDiagonal();
@@ -102,7 +103,8 @@ double scaled_condition(const Covariance& information) {
     return parts.eigenvalues()[unknown_count - 1] / parts.eigenvalues()[0];
 }
 
-/// The uncertainty's own arithmetic: the information matrix inverted in 64-bit, and in long double by Gauss and Jordan's elimination.
+/// The uncertainty's own arithmetic: the information matrix inverted in 64-bit, and in long double by
+/// Gauss-Jordan elimination.
 StabilityResult inverse_in_long_double(const StabilityOptions&) {
     StabilityResult result;
     for (const double share : {0.92, 0.3, 0.1}) {
@@ -119,7 +121,7 @@ StabilityResult inverse_in_long_double(const StabilityOptions&) {
             }
             rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(unknown_count + r)] = 1.0L;
         }
-        for (std::size_t k = 0; k < unknown_count; ++k) { // positive definite: no pivots are needed
+        for (std::size_t k = 0; k < unknown_count; ++k) { // positive definite: no pivoting needed
             const long double pivot = rows[k][k];
             for (long double& value : rows[k]) {
                 value /= pivot;

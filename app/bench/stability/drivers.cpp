@@ -1,5 +1,5 @@
-// What the driver's own arithmetic does to a picture, read back from it: the grid that it moves corners to, surfaces of about one depth,
-// texture coordinates at the far end of the largest atlas.
+// The effect of the driver's own arithmetic on a picture, read back from it: the grid to which it snaps
+// corners, surfaces of nearly equal depth, texture coordinates at the far end of the largest atlas.
 
 #include "app/bench/stability/themes.h"
 #include "firmware_host/display/surfaceless_display.h"
@@ -23,7 +23,7 @@ namespace {
 
 struct Corner {
     glm::vec4 clip{0.0F, 0.0F, 0.0F, 1.0F};
-    std::array<std::uint16_t, 2> uv{}; ///< as a pack stores it
+    std::array<std::uint16_t, 2> uv{}; ///< as stored in a pack
 };
 
 constexpr std::string_view vertex = R"(
@@ -42,7 +42,8 @@ out vec4 result;
 void main() { result = texture(picture, at); }
 )";
 
-/// One picture of eight bits with a depth as the exhibit's, and what draws triangles of one texture into it.
+/// An 8-bit picture with the exhibit's depth format, and a program that draws triangles with one texture into
+/// it.
 class Canvas {
 public:
     [[nodiscard]] static Result<std::unique_ptr<Canvas>> create(int width, int height) {
@@ -51,7 +52,7 @@ public:
         return std::unique_ptr<Canvas>(new Canvas(std::move(display), std::move(program), {width, height}));
     }
 
-    /// Black, and far.
+    /// Clears to black and far.
     void clear() const {
         constexpr std::array<float, 4> black{};
         glClearBufferfv(GL_COLOR, 0, black.data());
@@ -63,7 +64,7 @@ public:
                      GL_STREAM_DRAW);
         glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners.size()));
     }
-    /// The red of each pixel, row by row from the bottom.
+    /// The red channel of each pixel, row by row from the bottom.
     [[nodiscard]] std::vector<std::uint8_t> read() const {
         std::vector<glm::u8vec4> pixels(static_cast<std::size_t>(size_.x * size_.y));
         glReadPixels(0, 0, size_.x, size_.y, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
@@ -71,7 +72,7 @@ public:
         std::transform(pixels.begin(), pixels.end(), red.begin(), [](const glm::u8vec4& p) { return p.r; });
         return red;
     }
-    /// A corner at a place in pixels, from the bottom left.
+    /// A corner at a position in pixels, from the bottom left.
     [[nodiscard]] Corner at(double x, double y, double depth = 0.0) const {
         return {glm::vec4(2.0 * x / size_.x - 1.0, 2.0 * y / size_.y - 1.0, depth, 1.0), {}};
     }
@@ -109,7 +110,7 @@ private:
     GlBuffer buffer_ = GlBuffer::generate();
 };
 
-/// Of one row of greys.
+/// A texture with one row of grey values.
 GlTexture texture_of(std::span<const std::uint8_t> greys) {
     GlTexture texture = GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texture.get());
@@ -127,8 +128,8 @@ StabilityResult left_out(const Error& error) {
     return {{}, fmt::format("nothing is drawn: {}", error.message)};
 }
 
-/// An edge that leans by one pixel over 1024 rows: the row at which it leaves a column of pixels tells its place to 1/1024 pixel. It is
-/// moved by steps of 1/4096.
+/// An edge that leans by one pixel over 1024 rows: the row at which it leaves a pixel column tells its
+/// position to 1/1024 pixel. It is moved in steps of 1/4096.
 StabilityResult corners() {
     constexpr int rows = 1024;
     constexpr int column = 32;
@@ -163,8 +164,8 @@ StabilityResult corners() {
              {"edges off their place, px", 1.0 / 512.0 + 0.5 / rows, farthest}}};
 }
 
-/// A leaning plane, cut along one diagonal and then, drawn nearer or farther by `apart`, along the other: the share of pixels in which
-/// the wrong one shows.
+/// A leaning plane, cut along one diagonal and then, drawn nearer or farther by `apart`, along the other: the
+/// share of pixels that show the wrong one.
 double wrongly_ordered(const Canvas& canvas, double side, double apart) {
     const GlTexture grey = texture_of(std::array<std::uint8_t, 1>{100});
     const GlTexture white = texture_of(std::array<std::uint8_t, 1>{255});
@@ -174,7 +175,7 @@ double wrongly_ordered(const Canvas& canvas, double side, double apart) {
     std::size_t wrong = 0;
     std::size_t pixels = 0;
     for (const bool nearer : {true, false}) {
-        const double moved = nearer ? -2.0 * apart : 2.0 * apart; // clip depth runs from -1 to 1
+        const double moved = nearer ? -2.0 * apart : 2.0 * apart; // clip depth ranges from -1 to 1
         canvas.clear();
         canvas.draw(std::array{plane(0, 0, 0), plane(1, 0, 0), plane(1, 1, 0), plane(0, 0, 0), plane(1, 1, 0),
                                plane(0, 1, 0)},
@@ -197,18 +198,18 @@ StabilityResult depths() {
         return left_out(canvas.error());
     }
     const double bit = std::ldexp(1.0, -24);
-    double apart = 0.25 * bit; // the least at which no pixel shows the wrong one
+    double apart = 0.25 * bit; // smallest distance at which no pixel shows the wrong surface
     while (apart < 1.0 && wrongly_ordered(**canvas, side, apart) > 0.0) {
         apart *= 2.0;
     }
-    // Each of the two depths: half a bit of the buffer, and three products and sums of 24 bits about a number up to 1.
+    // Per depth: half a step of the buffer, and three 24-bit products and sums of a number up to 1.
     return {{{"apart in depth, of 1, at which no pixel shows the wrong surface", 8.0 * bit, apart}}};
 }
 
-/// Texels by turns black and white; between two of them the filter's result is the place itself.
+/// Texels alternate between black and white; between two of them the filter's result is the position itself.
 StabilityResult atlases() {
     constexpr int texels = 16384;
-    constexpr int width = 1000; // pixels, of which 3.9 show a texel, each at another place in it
+    constexpr int width = 1000; // pixels; a texel spans 3.9, at a different phase each
     constexpr int first_code = 64512;
     const auto canvas = Canvas::create(width, 4);
     if (!canvas) {
@@ -239,7 +240,7 @@ StabilityResult atlases() {
         const long double code = first_code + (65535.0L - first_code) * (x + 0.5L) / width;
         const long double place = code / 65535.0L * texels - 0.5L;
         if (place >= texels - 1) {
-            continue; // beyond the last texel's middle
+            continue; // beyond the last texel's centre
         }
         const long double whole = std::floor(place);
         const long double share = place - whole;
@@ -252,7 +253,8 @@ StabilityResult atlases() {
         const double at = k / 100'000.0;
         stored = std::max(stored, texels * std::abs(std::round(65535.0 * at) / 65535.0 - at));
     }
-    // Half a step of eight bits is read back; a filter's weights have eight bits; the coordinate itself, three roundings of 24 bits.
+    // Reading back adds half an 8-bit step; filter weights have eight bits; the coordinate itself has three
+    // 24-bit roundings.
     const double bound = 0.5 / 255.0 + 1.0 / 256.0 + 3.0 * texels * std::ldexp(1.0, -24);
     return {{{"drawn: off its place, texels", bound, farthest},
              {"codes of 16 bits: off their place, texels", 0.5 * texels / 65535.0, stored}}};

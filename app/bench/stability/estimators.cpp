@@ -1,4 +1,5 @@
-// The estimate of a pose over rates, outliers and months of uptime, and the display's delay: what is fed by a device's clock.
+// The pose estimate over rates, outliers and months of uptime, and the display latency: values driven by a
+// device's clock.
 
 #include "app/bench/stability/sweep.h"
 #include "app/bench/stability/themes.h"
@@ -19,8 +20,9 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double lever_m = 0.06;                         ///< half a prop
-constexpr std::array rates_hz{1000, 240, 60, 30, 10, 5}; ///< slower trackers begin anew with each sample
+constexpr double lever_m = 0.06;                         ///< half the prop's height
+constexpr std::array rates_hz{1000, 240, 60, 30, 10, 5}; ///< a slower tracker restarts the estimator with
+                                                         ///< each sample
 
 PoseEstimator exhibit_estimator() {
     return PoseEstimator(std::make_unique<MotionFilter>(exhibit_filter()));
@@ -30,7 +32,7 @@ Nanoseconds seconds(double value) {
     return Nanoseconds(std::llround(value * 1e9));
 }
 
-/// 0.25 m/s and a turn of 1 rad/s: a hand that slides the prop.
+/// A hand that slides the prop: 0.25 m/s and 1 rad/s.
 RigidTransform sliding(double t_s) {
     const double angle = 0.5 * t_s;
     return {glm::dquat(std::cos(angle), 0.0, 0.0, std::sin(angle)), {0.15 * t_s, -0.2 * t_s, 0.0}};
@@ -56,7 +58,7 @@ double off_mm(const RigidTransform& a, const RigidTransform& b) {
     return 1e3 * slip_m(step_between(a, b), lever_m);
 }
 
-/// Without noise: a steady slide, asked for 40 ms ahead once a second of it is known.
+/// Without noise: a steady slide, predicted 40 ms ahead after the first second.
 StabilityResult steady_slide(const StabilityOptions&) {
     constexpr double ahead_s = 0.04;
     double worst = 0.0;
@@ -74,7 +76,7 @@ StabilityResult steady_slide(const StabilityOptions&) {
     return {{{"5 Hz to 1 kHz, 40 ms ahead of a slide of 250 mm/s, mm", 5.0, worst}}};
 }
 
-/// A prop at rest under the tracker's noise: what is said has less of it than what comes in.
+/// A prop at rest under the tracker's noise: the output must have less noise than the input.
 StabilityResult rest_under_noise(const StabilityOptions&) {
     double more = 0.0;
     for (const int rate : rates_hz) {
@@ -94,7 +96,7 @@ StabilityResult rest_under_noise(const StabilityOptions&) {
     return {{{"5 Hz to 1 kHz, 40 ms ahead: RMS said / RMS measured", 0.5, more}}};
 }
 
-/// Every tenth sample is somewhere else. It must leave the answer where the other nine put it.
+/// Every tenth sample is an outlier. It must not change the estimate from the other nine.
 StabilityResult outliers(const StabilityOptions&) {
     double worst = 0.0;
     double taken = 0.0;
@@ -115,7 +117,7 @@ StabilityResult outliers(const StabilityOptions&) {
              {"what they move the answer by, mm", 0.0, worst}}};
 }
 
-/// The same samples at the start and after years without a break: only differences of times count.
+/// Identical samples at the start and after years without a break: only differences of times count.
 StabilityResult uptime(const StabilityOptions&) {
     constexpr std::array years{0.0, 0.5, 10.0, 100.0};
     double different = 0.0;
@@ -138,7 +140,7 @@ StabilityResult uptime(const StabilityOptions&) {
     return {{{"0 to 100 years after the start: answers that differ in a bit", 0.0, different}}};
 }
 
-/// Slow trackers at rest, asked at 60 Hz: what is known of a prop that stands there.
+/// Slow trackers at rest, queried at 60 Hz: whether the pose of a standing prop is known.
 StabilityResult slow_trackers(const StabilityOptions&) {
     double stale = 0.0;
     double held_s = 0.0;
@@ -185,13 +187,13 @@ StabilityResult light_delay(const StabilityOptions&) {
     return {{{"flips that jump, steps 1 us to 10 s: off the exact response, s", 1e-9, off_s}}};
 }
 
-/// What becomes of a device's stream of frames: as counted, and each pose as it is asked for.
+/// The result of a device's stream of frames: its counts, and the pose at each query.
 struct Followed {
-    double refused = 0.0; ///< frames lost, doubled, late or strange, and restarts of the clock
+    double refused = 0.0; ///< lost, duplicate, late or invalid frames, and restarts of the clock
     std::vector<PoseSample> samples;
     std::vector<RigidTransform> poses;
 };
-/// Twenty seconds of a slide at 240 Hz, under noise, that arrive up to some milliseconds late.
+/// Twenty seconds of a slide at 240 Hz, with noise; frames arrive up to a few milliseconds late.
 Followed follow(std::uint32_t first_counter, std::uint32_t first_tick) {
     constexpr int rate_hz = 240;
     FrameIntake intake(1e9 / rate_hz);
@@ -223,7 +225,8 @@ Followed follow(std::uint32_t first_counter, std::uint32_t first_tick) {
     return followed;
 }
 
-/// Counters of 32 bits wrap after a year and more: at the wrap, and where their sign would change, nothing may differ.
+/// 32-bit counters wrap after more than a year: the results must not change at the wrap, nor where the sign
+/// bit changes.
 StabilityResult wrapping_counters(const StabilityOptions&) {
     constexpr std::uint32_t before_wrap = 0xFFFFFF00U; // 256 frames
     constexpr std::uint32_t before_sign = 0x7FFFFF00U;

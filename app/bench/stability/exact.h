@@ -1,4 +1,4 @@
-/// Computes the picture the ordinary way, in long double: transforms as matrices of its own, a ray from the
+/// Computes the picture in the ordinary way, in long double: transforms as its own matrices, a ray from the
 /// eye, a plane, a pinhole. Shares no arithmetic with app/geometry.
 ///
 /// Frames   table T and prop P as named; metres, pixels.
@@ -27,7 +27,7 @@ struct Vector {
 [[nodiscard]] Vector cross(const Vector& a, const Vector& b);
 [[nodiscard]] Real length(const Vector& a);
 
-/// A rigid transform as rows and a translation; a quaternion of any length is made unit here.
+/// A rigid transform as rows and a translation; quaternions of any length are normalised here.
 class Rigid {
 public:
     explicit Rigid(const RigidTransform& transform);
@@ -39,11 +39,11 @@ private:
     Vector translation_;
 };
 
-/// What is seen of a point X on the plane of a face.
+/// How a point X is seen on the plane of a face.
 struct Seen {
     Real u = 0, v = 0;       ///< pixels
     Vector on_plane;         ///< where the eye's ray meets the plane, prop frame
-    Real sine_of_lens = 0;   ///< of the lens above the plane, seen from there
+    Real sine_of_lens = 0;   ///< elevation of the lens above the plane, seen from that point
     bool on_face = false;    ///< inside the face's outline
     bool in_picture = false; ///< in front of the lens and within the picture
 };
@@ -60,7 +60,7 @@ struct Stage {
     [[nodiscard]] Vector lens_in_prop() const;
     /// Height of a point above the plane through a face's first three corners.
     [[nodiscard]] Real height(const PropFace& face, const Vector& point) const;
-    /// Nothing if the ray from the eye through `x` (prop frame) does not come down to the face's plane.
+    /// nullopt if the ray from the eye through `x` (prop frame) does not meet the face's plane from above.
     [[nodiscard]] std::optional<Seen> see(const PropFace& face, const Vector& x) const;
 };
 

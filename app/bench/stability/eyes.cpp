@@ -1,5 +1,5 @@
-// Where the eye is: slanting over a face, on its plane, behind it, in the prop, in the artifact, at the
-// projector, far away.
+// Variations of the eye: at a grazing angle to a face, on its plane, behind it, in the prop, in the artifact,
+// at the projector, far away.
 
 #include "app/bench/stability/picture.h"
 #include "app/bench/stability/themes.h"
@@ -47,7 +47,7 @@ StabilityResult slanting(const StabilityOptions&) {
     return result;
 }
 
-/// The sine of the last height at which a face is lit, found by bisection.
+/// The sine of the lowest elevation at which a face is lit, found by bisection.
 double darkest_sine(std::size_t face) {
     exact::Stage stage = usual_stage();
     const SeenArtifact artifact = seen_artifact(stage);
@@ -75,7 +75,7 @@ StabilityResult dark_limit(const StabilityOptions&) {
     return {{{"sine at which a face goes dark, off 0.001 (0.057 deg), relative", 1e-10, off}}};
 }
 
-/// With the eye on or behind a face's plane, that face is dark and the others are right.
+/// With the eye on or behind a face's plane, that face is dark and the others are correct.
 StabilityResult on_and_behind(const StabilityOptions&) {
     PictureFigures figures;
     double lit = 0.0;
@@ -92,7 +92,7 @@ StabilityResult on_and_behind(const StabilityOptions&) {
         }
     }
     StabilityResult result{
-        rows_of(figures, "the other faces: ", bound_px, gpu_bound_px)}; // these are seen openly
+        rows_of(figures, "the other faces: ", bound_px, gpu_bound_px)}; // the eye sees these at a steep angle
     result.rows.push_back({"times that the face itself was lit", 0.0, lit});
     return result;
 }
@@ -120,7 +120,7 @@ StabilityResult inside_the_artifact(const StabilityOptions&) {
         const SeenArtifact artifact = seen_artifact(stage, 4000, 0.8);
         figures.include(figures_of(stage, artifact, plan_of(stage, artifact)));
     }
-    constexpr double least_seen_sine = 0.125; // of triangles that are beside the eye
+    constexpr double least_seen_sine = 0.125; // of triangles next to the eye
     return {rows_of(figures, "", bound_px / least_seen_sine, gpu_bound_px / least_seen_sine)};
 }
 
@@ -158,7 +158,7 @@ StabilityResult far_away(const StabilityOptions&) {
                                                   std::sin(elevation));
             figures.include(figures_of(stage));
         }
-        // A thousand metres are as many prop's heights as cost the 64-bit eye two more roundings.
+        // At a thousand metres, in units of the prop's height, the 64-bit eye loses two more roundings.
         for (StabilityRow& row : rows_of(figures, fmt::format("{:g} m: ", distance_m),
                                          bound_px * (2.0 + distance_m / 1e3), 2.0 * gpu_bound_px)) {
             result.rows.push_back(std::move(row));

@@ -1,5 +1,5 @@
-// Fades: of artifacts, captions, levels. They are closed forms of time. The cases measure that nothing jumps,
-// that the time step does not matter, and that a fade may turn round at any moment.
+// Fades of artifacts, captions and quality levels. They are closed forms of time. The cases check that
+// nothing jumps, that the time step does not matter, and that a fade may reverse at any moment.
 
 #include "app/bench/stability/sweep.h"
 #include "app/bench/stability/themes.h"
@@ -20,7 +20,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr double eps = 0x1p-52;
-constexpr double steepest = 1.5; ///< of ease
+constexpr double steepest = 1.5; ///< greatest slope of `ease`
 
 StabilityResult closed_forms(const StabilityOptions&) {
     double off = 0.0;
@@ -41,7 +41,7 @@ StabilityResult closed_forms(const StabilityOptions&) {
              {"falling, above 1, or not 0 before it begins", 0.0, falling}}};
 }
 
-/// Largest step of the brightness that is seen; where the artifact changes, both brightnesses add up.
+/// Largest step of the visible brightness; where the artifact changes, both brightnesses are added.
 double exhibit_jump(double step_s) {
     const auto step = Nanoseconds(std::llround(step_s * 1e9));
     MonotonicTime now = from_microseconds(1'000'000);
@@ -75,7 +75,7 @@ StabilityResult artifacts(const StabilityOptions&) {
     return {{{"largest jump, over steepest slope x step (2 at most)", 1.0 + 1e-9, over}}};
 }
 
-/// The brightness at a time does not depend on how often it was asked for before.
+/// The brightness at a time does not depend on how often it was queried before.
 StabilityResult any_rhythm(const StabilityOptions&) {
     MonotonicTime start = from_microseconds(1'000'000);
     std::array<Selection, 2> selections{Selection(3, {"en"}, "en", start), Selection(3, {"en"}, "en", start)};
@@ -86,7 +86,7 @@ StabilityResult any_rhythm(const StabilityOptions&) {
             selection.take(Command::NextArtifact, press);
         }
         for (int j = 0; j < 100; ++j) {
-            (void)selections[0].at(press + j * std::chrono::microseconds(1)); // often
+            (void)selections[0].at(press + j * std::chrono::microseconds(1)); // frequent queries
         }
         const MonotonicTime late = press + std::chrono::milliseconds(k);
         other += selections[0].at(late).brightness == selections[1].at(late).brightness ? 0.0 : 1.0;
@@ -97,12 +97,12 @@ StabilityResult any_rhythm(const StabilityOptions&) {
 }
 
 struct CaptionJumps {
-    double jump = 0.0;      ///< largest, over what time and movement allow
+    double jump = 0.0;      ///< largest, as a multiple of what time and movement allow
     double on_shadow = 0.0; ///< frames with a caption on the prop's shadow
     double shown = 0.0;     ///< frames with a caption
 };
 
-/// A prop that wanders over the table, its shadow a square; a caption that gives way to it.
+/// A prop that wanders over the table with a square shadow; a caption avoids it.
 CaptionJumps caption_jumps(double step_s) {
     const std::array room{glm::dvec2(-0.4, -0.25), glm::dvec2(0.4, -0.25), glm::dvec2(0.4, 0.25),
                           glm::dvec2(-0.4, 0.25)};
@@ -111,7 +111,7 @@ CaptionJumps caption_jumps(double step_s) {
     CaptionJumps result;
     CaptionPlace before;
     glm::dvec2 prop_before(0.0);
-    constexpr double dimming_m = 0.012; // as in captions.cpp: gone at the shadow, whole at this distance
+    constexpr double dimming_m = 0.012; // as in captions.cpp: invisible at the shadow, full at this distance
     constexpr double fade_s = 0.25;
     for (int k = 0; k < 4000; ++k) {
         const double t = k * step_s;
@@ -150,11 +150,11 @@ StabilityResult captions(const StabilityOptions&) {
              {"frames with a caption, short of 10000", 0.0, std::fmax(0.0, 10'000.0 - worst.shown)}}};
 }
 
-/// A tracker whose prop is lost and found at random, for short and for long times.
+/// A tracker that loses and finds the prop at random, for short and for long times.
 struct LostAndFound {
     std::mt19937 random{9};
     MonotonicTime next = from_microseconds(1'000'000);
-    MonotonicTime good = next; ///< the latest good pose
+    MonotonicTime good = next; ///< time of the latest good pose
     bool there = true;
 
     /// The age of the latest good pose at `now`.
@@ -167,7 +167,7 @@ struct LostAndFound {
     }
 };
 
-/// Largest step of brightness; where the pose changes, both brightnesses add up.
+/// Largest step of brightness; where the pose changes, both brightnesses are added.
 double attract_jump(double step_s) {
     const auto step = Nanoseconds(std::llround(step_s * 1e9));
     MonotonicTime now = from_microseconds(1'000'000);
@@ -194,7 +194,7 @@ StabilityResult lost_props(const StabilityOptions&) {
         const double allowed = std::fmin(2.0, steepest * step / to_seconds(Attract::each_way));
         over = std::fmax(over, attract_jump(step) / allowed);
     }
-    // Fades out and in again, in one object asked once and in another asked often.
+    // Fades out and in again; one object is queried once, another often.
     double other = 0.0;
     double rising = 0.0;
     const MonotonicTime start = from_microseconds(1'000'000);

@@ -1,4 +1,4 @@
-// The governor in a closed loop with a GPU that is simulated without noise, at steps of 1 us to 10 s.
+// The governor in a closed loop with a simulated GPU without noise, at steps of 1 us to 10 s.
 
 #include "app/bench/stability/sweep.h"
 #include "app/bench/stability/themes.h"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double deadline_ms = 1000.0 / 60.0;
 
-/// A GPU whose frames take 0.5 ms, 1e-4 ms a triangle and 2e-5 ms a sample.
+/// A GPU whose frames take 0.5 ms, 1e-4 ms per triangle and 2e-5 ms per sample.
 struct Gpu {
     std::vector<Rung> rungs;
     std::vector<RungTime> times;
@@ -41,7 +41,7 @@ Nanoseconds step_of(double seconds) {
     return Nanoseconds(std::llround(seconds * 1e9));
 }
 
-/// Seconds from a load of 2.5 to the relief, for frames every `step_s`; less than 0: never.
+/// Seconds from a load of 2.5 until the governor relieves; negative: never.
 double relieved_after(double step_s) {
     const Gpu gpu;
     Governor governor = gpu.governor();
@@ -56,7 +56,7 @@ double relieved_after(double step_s) {
     return -1.0;
 }
 
-/// The relief with infinitely many frames: the time until the expected time is 90 % of the deadline, plus the
+/// Time until relief with infinitely many frames: until the expected time is 90 % of the deadline, plus the
 /// delay.
 double exact_relief() {
     const long double share = std::log(Governor::leave_share * deadline_ms / 8.5L) / std::log(2.5L);
@@ -78,8 +78,8 @@ StabilityResult relief(const StabilityOptions&) {
     return {{{"relief later than with endless frames, in steps", 3.0, late}, {"earlier, s", 0.0, early}}};
 }
 
-/// Constant loads over a long time. The last rung may depend on the way there only within the hysteresis: it
-/// is not so slow that it would be left for a quicker one, and no better one would be entered.
+/// Constant loads over a long time. The last level may depend on the history only within the hysteresis: it
+/// is not slow enough to be left for a faster one, and no better one would be entered.
 StabilityResult constant_loads(const StabilityOptions&) {
     const Gpu gpu;
     double wrong = 0.0;
@@ -109,7 +109,7 @@ StabilityResult constant_loads(const StabilityOptions&) {
              {"changes in all, at one load", 2.0 * static_cast<double>(gpu.rungs.size()), most_changes}}};
 }
 
-/// Loads that jump up and down with every period from a microsecond to a quarter of an hour.
+/// Loads that alternate with every period from a microsecond to a quarter of an hour.
 StabilityResult jumping_loads(const StabilityOptions&) {
     const Gpu gpu;
     double shortest_s = std::numeric_limits<double>::infinity();
@@ -136,7 +136,8 @@ StabilityResult jumping_loads(const StabilityOptions&) {
              {"changes a second", 1.0, most_per_s}}};
 }
 
-/// Times at the start that are wrong by up to 8 times either way, at a load where the quickest rung alone meets the deadline.
+/// Initial times that are wrong by a factor of up to 8 either way, at a load where only the fastest level
+/// meets the deadline.
 StabilityResult wrong_starts(const StabilityOptions&) {
     constexpr double load = 5.0; // 42, 32, 28; 28, 18, 12 ms
     constexpr int frames = 20'000;
@@ -164,13 +165,13 @@ StabilityResult wrong_starts(const StabilityOptions&) {
              {"changes, the most", 40.0, most_changes}}};
 }
 
-/// Time that stands still, goes back or leaps; frame times that are not times.
+/// Time that stands still, goes back or leaps; frame times that are invalid.
 StabilityResult odd_steps(const StabilityOptions&) {
     const Gpu gpu;
     double wrong = 0.0;
     Governor governor = gpu.governor();
     MonotonicTime now = from_microseconds(1'000'000'000);
-    for (int k = 0; k < 10'000; ++k) { // standing still: nothing is decided
+    for (int k = 0; k < 10'000; ++k) { // time stands still: no decision
         gpu.frame(governor, now, 3.0);
     }
     wrong += governor.switches() > 1 ? 1.0 : 0.0;
@@ -185,14 +186,14 @@ StabilityResult odd_steps(const StabilityOptions&) {
     }
     wrong += governor.ignored() == 5 && governor.switches() == still ? 0.0 : 1.0;
     now = from_microseconds(2'000'000'000);
-    for (int k = 0; k < 2000; ++k) { // and then it works as before
+    for (int k = 0; k < 2000; ++k) { // and then it works normally
         gpu.frame(governor, now += std::chrono::milliseconds(16), 1.0);
     }
     wrong += governor.index() == 0 && std::isfinite(governor.expected_ms()) ? 0.0 : 1.0;
     return {{{"decisions without time, of garbage, or none afterwards", 0.0, wrong}}};
 }
 
-/// Deadlines that every rung meets, and that no rung meets.
+/// Deadlines that every level meets, and deadlines that none meets.
 StabilityResult deadlines(const StabilityOptions&) {
     const Gpu gpu;
     double wrong = 0.0;

@@ -1,4 +1,4 @@
-// The light that the prop sends back while a visitor walks, and while the prop is slid and turned.
+// The light that the prop reflects while a visitor walks, and while the prop is slid and turned.
 
 #include "app/bench/stability/themes.h"
 #include "app/scene/light.h"
@@ -22,7 +22,7 @@ constexpr int steps_a_walk = 500;
 constexpr double step_m = 1e-4;
 constexpr double step_deg = 0.05;
 
-/// A visitor's head and the prop on the table.
+/// A visitor's head position and the prop's pose on the table.
 struct Pose {
     glm::dvec3 eye_m{0.0};
     glm::dvec2 place_m{0.0};
@@ -51,8 +51,8 @@ public:
         return pose;
     }
 
-    /// What each corner and middle of each face sends back to the eye, of what the exhibit aims at; nothing
-    /// where it is not both seen and lit.
+    /// The light that each corner and middle of each face reflects to the eye, relative to the exhibit's
+    /// target; nullopt where it is not both seen and lit.
     [[nodiscard]] std::vector<std::optional<double>> sent_back(const Pose& pose) const {
         const RigidTransform table_from_prop{glm::angleAxis(pose.yaw, glm::dvec3(0, 0, 1)),
                                              glm::dvec3(pose.place_m, 0.0)};
@@ -90,8 +90,8 @@ private:
     glm::dvec2 reach_m_;
 };
 
-/// The largest change of a point's light in one step, as a share of what the exhibit aims at; of points that stay seen and
-/// lit.
+/// The largest change of a point's light in one step, relative to the exhibit's target, over points that stay
+/// seen and lit.
 double most_change(const Table& table, unsigned seed, const auto& step) {
     std::mt19937 random(seed);
     double most = 0.0;
@@ -128,13 +128,13 @@ StabilityResult walks_in(const std::string& name, const Settings& settings, doub
              {name + ": change a turn of 0.05 deg", bound_a_turn, turn}}};
 }
 
-/// The shipped table: the light is the same everywhere, up to the gains' 32 bits.
+/// The shipped table: the light is constant, up to the gains' 32 bits.
 StabilityResult shipped(const StabilityOptions&) {
     constexpr double rounding = 5e-6;
     return walks_in("shipped", Settings{}, 1e-3 / step_m * rounding, rounding);
 }
 
-/// A steep prop close to the projector: faces dim with their light, and the others with them.
+/// A steep prop close to the projector: faces dim as they lose light, and the other faces dim with them.
 StabilityResult steep(const StabilityOptions&) {
     Settings settings;
     settings.projector.pinhole = {1280, 800, 2850.0, 2850.0, 640.0, 400.0};

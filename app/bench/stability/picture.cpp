@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t triangles_in_cluster = 64;
 
-/// Turns random numbers into triangles of a level, a cluster at a time.
+/// Turns random numbers into triangles of a level, one cluster at a time.
 class Scatter {
 public:
     Scatter(const exact::Stage& stage, SeenArtifact& artifact)
@@ -22,14 +22,14 @@ public:
           low_(-0.5 * extent_.x, -0.5 * extent_.y, 0.0) {}
 
     void anywhere() { add(low_ + glm::dvec3(share(), share(), share()) * extent_, usual_size); }
-    /// Where the eye looks through `face`, from right behind it to the far end of the box.
+    /// A place that the eye sees through `face`, from directly behind it to the far end of the box.
     void behind(const PropFace& face) {
         const double a = share();
         const double b = share();
         const glm::dvec3 s = glm::mix(glm::mix(face.corners[0], face.corners[1], a),
                                       glm::mix(face.corners[3], face.corners[2], a), b);
-        const double depth = std::pow(10.0, -3.0 * share()); // of the box
-        // Small enough not to reach the eye's own height above the face.
+        const double depth = std::pow(10.0, -3.0 * share()); // share of the box
+        // Smaller than the eye's own height above the face.
         const double size = 0.1 * face.plane.distance(eye_) / extent_.x;
         add(s + glm::normalize(s - eye_) * (depth * extent_.x), std::fmin(usual_size, size));
     }
@@ -47,10 +47,10 @@ public:
     }
 
 private:
-    static constexpr double usual_size = 0.004; ///< of the box
+    static constexpr double usual_size = 0.004; ///< share of the box
     double share() { return spread_(random_); }
 
-    /// A triangle about `middle` that faces the eye; none outside the box.
+    /// Adds a triangle around `middle` that faces the eye; adds nothing outside the box.
     void add(const glm::dvec3& middle, double box_size) {
         const glm::dvec3 n = glm::normalize(eye_ - middle);
         const glm::dvec3 u =
@@ -125,7 +125,7 @@ double not_finite(const FramePlan& plan) {
     return count;
 }
 
-/// Checks one face of the prop, which the plan may have or leave out.
+/// Checks one face of the prop, whether the plan contains it or not.
 class FaceCheck {
 public:
     FaceCheck(const exact::Stage& stage, const SeenArtifact& artifact, const FramePlan& plan,
@@ -146,7 +146,8 @@ public:
             {{-0.5 * extent.x, -0.5 * extent.y, 0.0}, {0.5 * extent.x, 0.5 * extent.y, extent.z}});
     }
 
-    /// Uses the sines of the eye, seen from the box's centre, and of the lens, seen from the face's middle.
+    /// Uses the elevation of the eye, seen from the box's centre, and of the lens, seen from the face's
+    /// middle.
     void check() {
         const exact::Vector eye = stage_.eye_in_prop();
         const exact::Vector lens = stage_.lens_in_prop();
@@ -155,7 +156,7 @@ public:
         const exact::Vector middle = 0.5L * (exact::of(face_.corners[0]) + exact::of(face_.corners[2]));
         const exact::Real eye_sine = stage_.height(face_, eye) / exact::length(eye - centre);
         const exact::Real lens_sine = stage_.height(face_, lens) / exact::length(lens - middle);
-        constexpr exact::Real hair = 1e-9L; // at the limit itself, lit and dark are both right
+        constexpr exact::Real hair = 1e-9L; // at the limit itself, lit and dark are both correct
         if (eye_sine < least_sine - hair || lens_sine < least_sine - hair) {
             figures_.wrong_faces += planned_ != nullptr ? 1.0 : 0.0;
             return;
@@ -164,7 +165,7 @@ public:
             return;
         }
         sort_shown();
-        constexpr std::size_t most_triangles = 50'000; // of a larger level a sample is checked
+        constexpr std::size_t most_triangles = 50'000; // a larger level is sampled
         const std::size_t stride = 3 * (artifact_.level.indices.size() / (3 * most_triangles) + 1);
         for (std::size_t k = 0; k < artifact_.level.indices.size(); k += stride) {
             triangle(
@@ -229,7 +230,7 @@ private:
     const FramePlan& plan_;
     const PropFace& face_;
     PictureFigures& figures_;
-    const Draw* planned_ = nullptr; ///< the one on the face
+    const Draw* planned_ = nullptr; ///< the draw on this face
     std::optional<glm::dmat4> collineation_;
     std::vector<Corners> shown_;
 };

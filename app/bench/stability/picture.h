@@ -1,8 +1,8 @@
 /// Compares a frame plan with the exact picture, point by point.
 ///
-/// Points   of small triangles that are scattered through the artifact's box, and of others that are put
-///          where the eye looks through a face, so that a slanting view has as many as an open one. Positions
-///          are those that a pack stores, 16 bits an axis.
+/// Points   corners of small triangles that are scattered through the artifact's box, and of others that are
+///          placed where the eye looks through a face, so a grazing view has as many as a frontal one.
+///          Positions are stored as in a pack, 16 bits per axis.
 /// Threads  pure; any.
 #pragma once
 
@@ -16,16 +16,16 @@
 
 namespace frustumscreen {
 
-/// A kiosk as shipped: the projector 1.2 m above the table, the usual prop at its centre.
+/// A kiosk as shipped: the projector 1.2 m above the table, the default prop at its centre.
 [[nodiscard]] exact::Stage usual_stage();
 
-/// Triangles that the stage's eye sees through each face that it is above, and as many anywhere in the box.
+/// Triangles that the stage's eye sees through each face turned to it, and as many anywhere in the box.
 struct SeenArtifact {
     PackLevel level;
     PlacedLevel placed;
     [[nodiscard]] exact::Vector corner(std::uint32_t index) const; ///< prop frame
 };
-inline const glm::dvec3 seen_box_size{1.0, 1.0, 0.75}; ///< the usual prop's
+inline const glm::dvec3 seen_box_size{1.0, 1.0, 0.75}; ///< the default prop's
 [[nodiscard]] SeenArtifact seen_artifact(const exact::Stage& stage, int triangles = 2000,
                                          double metres_per_box = 0.16);
 /// A level of a pack, placed in the stage's prop.
@@ -36,23 +36,23 @@ inline const glm::dvec3 seen_box_size{1.0, 1.0, 0.75}; ///< the usual prop's
 struct PictureFigures {
     double error_px = 0.0;     ///< largest, of the 64-bit collineation
     double gpu_error_px = 0.0; ///< largest, of the 32-bit matrix on stored positions
-    double points = 0.0;       ///< compared
-    double missing = 0.0;      ///< triangles that show on a face and are not in its plan
-    double unlit = 0.0;        ///< points that show outside the plan's lit tiles
+    double points = 0.0;       ///< number compared
+    double missing = 0.0;      ///< triangles that are visible on a face but missing from its plan
+    double unlit = 0.0;        ///< visible points outside the plan's lit tiles
     double wrong_faces = 0.0;  ///< planned, although the eye or the lens is not above them
-    double not_finite = 0.0;   ///< numbers in the plan
+    double not_finite = 0.0;   ///< number of non-finite values in the plan
 
     void include(const PictureFigures& other); ///< takes the larger errors, adds the counts
 };
 [[nodiscard]] PictureFigures figures_of(const exact::Stage& stage, const SeenArtifact& artifact,
                                         const FramePlan& plan,
                                         std::optional<std::size_t> only_face = std::nullopt);
-/// The same for `seen_artifact` of the stage.
+/// Like the overload above, for `seen_artifact` of the stage.
 [[nodiscard]] PictureFigures figures_of(const exact::Stage& stage,
                                         std::optional<std::size_t> only_face = std::nullopt);
 
-/// Errors of the usual stage's picture where nothing is seen slantingly: a picture's width times four
-/// roundings of the matrix, of 2^-53 or 2^-24. At a slant they grow by 1 / sine.
+/// Errors of the usual stage's picture without grazing views: the picture's width times four roundings of the
+/// matrix, of 2^-53 or 2^-24. At grazing views they grow by 1 / sine.
 inline constexpr double bound_px = 4.0 * 1280.0 * 0x1p-53;
 inline constexpr double gpu_bound_px = 4.0 * 1280.0 * 0x1p-24;
 

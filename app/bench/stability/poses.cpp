@@ -1,4 +1,4 @@
-// Poses as they may arrive: quaternions of any length, of either sign, of no length, not finite.
+// Poses as they may arrive: quaternions of any length and sign, of zero length, not finite.
 
 #include "app/bench/stability/exact.h"
 #include "app/bench/stability/picture.h"
@@ -18,13 +18,13 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-const glm::dquat turned(0.5, -0.1, 0.7, 0.3); // not unit
+const glm::dquat turned(0.5, -0.1, 0.7, 0.3); // not normalised
 
 const std::array no_rotations{glm::dquat(0.0, 0.0, 0.0, 0.0), glm::dquat(nan, 0.0, 0.0, 1.0),
                               glm::dquat(1.0, nan, nan, nan), glm::dquat(infinity, 0.0, 0.0, 0.0),
                               glm::dquat(0.5, 0.5, -infinity, 0.5)};
 
-/// Largest distance of a point of the unit sphere turned by `q` from where `turned` takes it.
+/// Largest distance between points of the unit sphere rotated by `q` and rotated by `turned`.
 double off_turn(const glm::dquat& q) {
     const exact::Rigid truth({turned, glm::dvec3(0.0)});
     double off = 0.0;
@@ -66,7 +66,7 @@ StabilityResult of_none(const StabilityOptions&) {
     return {{{"normalised: zero, NaN, infinite", 0.0, taken}}};
 }
 
-/// The tracker refuses such poses and keeps what it knew.
+/// The tracker refuses such poses and keeps its state.
 StabilityResult into_the_tracker(const StabilityOptions&) {
     SituationTracker tracker(glm::dvec3(0.0, -0.5, 0.5));
     double wrong = tracker.take(sample_of(turned)) ? 0.0 : 1.0;
@@ -113,7 +113,7 @@ StabilityResult from_a_file(const StabilityOptions&) {
              {"rows that are no pose, taken", 0.0, taken}}};
 }
 
-/// q and -q are one pose: their pictures are the same to the last bit.
+/// q and -q are one pose: their pictures are equal to the last bit.
 StabilityResult of_either_sign(const StabilityOptions&) {
     double other = 0.0;
     const auto negated = [](const RigidTransform& t) { return RigidTransform{-t.rotation, t.translation}; };

@@ -1,4 +1,4 @@
-// Where the projector is, and what it is: grazing a face, near-singular intrinsics.
+// Variations of the projector: grazing a face, near-singular intrinsics.
 
 #include "app/bench/stability/picture.h"
 #include "app/bench/stability/themes.h"
@@ -22,7 +22,7 @@ double radians(double degrees) {
 }
 
 /// A projector `degrees` above the plane of a face, along its lower edge, looking at its middle; the eye
-/// square before the face.
+/// looks straight at the face.
 exact::Stage grazing_stage(std::size_t face, double degrees) {
     exact::Stage stage = usual_stage();
     const PropFace& f = stage.prop.faces[face];
@@ -66,7 +66,7 @@ StabilityResult below_the_limit(const StabilityOptions&) {
     return {{{"faces lit at 0.05 degrees and below", 0.0, lit}}};
 }
 
-/// The gain at a point of the face, the ordinary way: faded out where the light grazes the face.
+/// The gain at a point of the face, computed in the ordinary way: faded out where the light grazes the face.
 exact::Real exact_gain(const exact::Stage& stage, const PropFace& face, const exact::Vector& point,
                        exact::Real reference) {
     const exact::Vector lens = stage.lens_in_prop();
@@ -80,7 +80,7 @@ exact::Real exact_gain(const exact::Stage& stage, const PropFace& face, const ex
     return lit * lit * (3 - 2 * lit) * std::min(exact::Real(1), reference * d * d * d / height);
 }
 
-/// The compensation's gain at points of a face, in the 32-bit numbers that the shader gets.
+/// The compensation's gain at points of a face, in the shader's 32-bit numbers.
 StabilityResult light(const StabilityOptions&) {
     StabilityResult result;
     for (const double degrees : {90.0, 10.0, 4.0, 2.2, 1.0, 0.06}) {
@@ -109,21 +109,21 @@ StabilityResult light(const StabilityOptions&) {
                 off = std::fmax(off, std::abs(gain(planned, stage.projector, pixel) - exact));
             }
         }
-        // Two factors of the gain are rounded to 32 bits. Below the least sine the face is dark: exactly.
+        // Two factors of the gain are rounded to 32 bits. Below the smallest sine the face is exactly dark.
         result.rows.push_back(
             {fmt::format("{:g} deg: gain off the exact one, of 1", degrees), 0x1p-23 * largest, off});
     }
     return result;
 }
 
-/// Focal lengths and shifts at the ends of what settings allow, and far past them.
+/// Focal lengths and shifts at the limits of the settings, and far beyond them.
 StabilityResult intrinsics(const StabilityOptions&) {
     StabilityResult result;
     struct Lens {
         std::string name;
         Pinhole pinhole;
         double height_m;
-        glm::dvec3 prop_m{0.0}; ///< goes where the picture is
+        glm::dvec3 prop_m{0.0}; ///< moved to where the picture is
     };
     const std::vector<Lens> lenses{
         {"shortest lens allowed: ", {1280, 800, 50, 50, 640, 400}, 1.2},

@@ -1,5 +1,5 @@
-// Where the prop stands: at the picture's edge, across it, outside, lifted, tilted; and poses that are
-// refused: mirrored, sheared, not finite.
+// Variations of the prop's pose: at the picture's edge, across it, outside, lifted, tilted; and poses that
+// are refused: mirrored, sheared, not finite.
 
 #include "app/bench/stability/picture.h"
 #include "app/bench/stability/themes.h"
@@ -15,7 +15,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Of what is seen of the prop where it stands, and where it is tilted.
+/// Smallest sine at which faces of a standing and of a tilted prop are seen.
 constexpr double least_sine_upright = 0.1;
 constexpr double least_sine_tilted = 0.05;
 
@@ -65,7 +65,7 @@ StabilityResult outside(const StabilityOptions&) {
     return {{{"pixels lit", 0.0, pixels}, {"numbers in the plan that are not finite", 0.0, not_finite}}};
 }
 
-/// Up to right below the lens, and around it.
+/// Up to just below the lens, and around it.
 StabilityResult lifted(const StabilityOptions&) {
     StabilityResult result;
     for (const double height_m : {0.1, 0.5, 1.0, 1.05}) {
@@ -77,7 +77,8 @@ StabilityResult lifted(const StabilityOptions&) {
                                fmt::format("{:g} m: ", height_m)));
     }
     PictureFigures figures;
-    for (const double height_m : {1.08, 1.1, 1.19, 1.2, 1.3, 10.0}) { // the lens is in it, or below it
+    for (const double height_m : {1.08, 1.1, 1.19, 1.2, 1.3, 10.0}) { // the lens is inside the prop, or below
+                                                                      // it
         exact::Stage stage = usual_stage();
         stage.eye_m = {0.0, -0.55, height_m + 0.5};
         stage.table_from_prop.translation = {0.0, 0.0, height_m};
@@ -111,8 +112,8 @@ StabilityResult refused(const StabilityOptions&) {
     bad[2][1] += 0.01 * good[0];                             // sheared
     bad[3][2] *= 1.001;                                      // stretched
     bad[4][3][3] = 2.0;                                      // projective
-    bad[5][3][0] = std::numeric_limits<double>::quiet_NaN(); // nowhere
-    bad[6][1][2] = std::numeric_limits<double>::infinity();  // beyond measure
+    bad[5][3][0] = std::numeric_limits<double>::quiet_NaN(); // not a number
+    bad[6][1][2] = std::numeric_limits<double>::infinity();  // infinite
     double taken = 0.0;
     for (const glm::dmat4& matrix : bad) {
         taken += rigid_from_matrix(matrix) ? 1.0 : 0.0;

@@ -1,4 +1,4 @@
-/// What the stability cases found, as a table for the console and CSV.
+/// The results of the stability cases, as a table for the console and CSV.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -17,7 +17,7 @@ struct MeasuredCase {
 };
 
 [[nodiscard]] bool all_held(std::span<const MeasuredCase> cases);
-/// case, quantity, bound, observed, verdict; and a line that counts them.
+/// Columns case, quantity, bound, observed, verdict; and a line with their counts.
 [[nodiscard]] std::string stability_table(std::span<const MeasuredCase> cases);
 [[nodiscard]] std::string stability_csv(std::span<const MeasuredCase> cases);
 

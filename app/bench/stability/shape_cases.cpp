@@ -1,4 +1,4 @@
-// Shapes that are hardly shapes: slivers, coplanar duplicates, a rod and a sheet, one triangle, nothing.
+// Degenerate shapes: slivers, coplanar duplicates, a rod and a sheet, one triangle, nothing.
 
 #include "app/bench/stability/picture.h"
 #include "app/bench/stability/shapes.h"
@@ -24,8 +24,8 @@ Result<Pack> baked(const SourceMesh& mesh) {
     return bake(mesh, options);
 }
 
-/// Checks what must be true of any pack: it can be written and verified, its figures are numbers, its picture
-/// is finite.
+/// Checks properties of every pack: it can be written and verified, its error figures are numbers, its
+/// picture is finite.
 void add_soundness(const Result<Pack>& pack, StabilityResult& result) {
     if (!pack) {
         result.rows.push_back({"refused: " + pack.error().message, 0.0, 1.0});
@@ -77,7 +77,7 @@ double off_sphere(const Pack& pack) {
 
 constexpr double bake_bound = 6e-5 + 1.0 / 65535.0; ///< the finest level's tolerance, and its 16 bits
 
-/// A sphere with slivers 1e-9 of its size wide all over it.
+/// A sphere covered with slivers of 1e-9 of its width.
 StabilityResult slivers(const StabilityOptions&) {
     SourceMesh mesh = sphere({0, 0, 0}, 0.5, 12);
     const std::size_t count = mesh.triangles.size();
@@ -97,7 +97,7 @@ StabilityResult slivers(const StabilityOptions&) {
     return result;
 }
 
-/// Every triangle three times: again, and turned over.
+/// Every triangle three times: two copies and one with reversed winding.
 StabilityResult duplicates(const StabilityOptions&) {
     SourceMesh mesh = sphere({0, 0, 0}, 0.5, 12);
     const std::size_t count = mesh.triangles.size();
@@ -154,7 +154,7 @@ StabilityResult one_triangle(const StabilityOptions&) {
     return result;
 }
 
-/// What has no surface is refused with a sentence, not baked and not divided by.
+/// A mesh without surface is refused with a sentence; it is neither baked nor a cause of division by zero.
 StabilityResult no_surface(const StabilityOptions&) {
     std::vector<SourceMesh> none(5, box_mesh(glm::dvec3(1.0)));
     for (SourceMesh& mesh : none) {

@@ -8,7 +8,7 @@
 
 namespace frustumscreen {
 
-/// A sphere of rows x 2 rows quads about `centre`; outward, welded at the poles.
+/// A sphere of rows x 2 rows quads around `centre`; facing outward, welded at the poles.
 [[nodiscard]] SourceMesh sphere(const glm::dvec3& centre, double radius, int rows);
 [[nodiscard]] SourceMesh box_mesh(const glm::dvec3& size);
 void add_triangle(SourceMesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);

@@ -1,4 +1,4 @@
-// First-order followers: the closed form itself, and the model of frame times that is made of it.
+// First-order followers: the closed form itself, and the model of frame times that uses it.
 
 #include "app/bench/stability/sweep.h"
 #include "app/bench/stability/themes.h"
@@ -46,7 +46,7 @@ StabilityResult closed_form(const StabilityOptions&) {
              {"longer steps that go less far", 0.0, falling}}};
 }
 
-/// The value after `count` steps towards a goal that jumps from 0 to 1.
+/// The value after `count` steps towards a target that jumps from 0 to 1.
 double stepped(double dt, double tau, int count) {
     double x = 0.0;
     for (int k = 0; k < count; ++k) {
@@ -71,7 +71,7 @@ StabilityResult step_response(const StabilityOptions&) {
     return {{{"off the exact response, of each step, of 1", eps, off_per_step}}};
 }
 
-/// Goals that jump at every step, in -1..1: the follower stays in this range.
+/// Targets that jump at every step, in -1..1: the follower stays in this range.
 StabilityResult no_overshoot(const StabilityOptions&) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> goal(-1.0, 1.0);
@@ -102,8 +102,8 @@ FrameTimeModel model_of(std::size_t rungs) {
 /// The load doubles. log2 of the expected time over the old one is compared with 1 - exp(-t / time constant).
 struct LoadResponse {
     double off = 0.0;
-    double back = 0.0; ///< falls, or goes beyond the goal
-    int count = 0;     ///< of steps
+    double back = 0.0; ///< falls, or overshoots the target
+    int count = 0;     ///< number of steps
 };
 LoadResponse load_response(double dt) {
     const Nanoseconds step(std::llround(dt * 1e9));
@@ -118,7 +118,7 @@ LoadResponse load_response(double dt) {
         response.back = std::fmax(response.back, std::fmax(before - now, now - 1.0));
         before = now;
     }
-    // A step counts for as long as it was, and at most_dt_s at most.
+    // A step counts with its duration, limited to most_dt_s.
     const double counted = std::fmin(to_seconds(step), FrameTimeModel::most_dt_s);
     response.off = std::abs(before - exact_share(counted * response.count, FrameTimeModel::time_constant_s));
     return response;
@@ -126,7 +126,7 @@ LoadResponse load_response(double dt) {
 
 constexpr std::array frame_steps{1e-6, 1e-5, 1e-4, 1e-3, 1.0 / 240.0, 1.0 / 60.0, 0.05, 0.1, 1.0, 10.0};
 
-/// A step's sum is rounded by a quarter of eps at most, as it is below 1, and its share of the way by as much.
+/// A step's sum is below 1, so it is rounded by at most a quarter of eps, and its share by as much.
 constexpr double rounding_of_step = 0.5 * eps;
 
 StabilityResult load_responses(const StabilityOptions&) {
@@ -141,8 +141,8 @@ StabilityResult load_responses(const StabilityOptions&) {
              {"back, or beyond the goal", 8 * eps, back}}};
 }
 
-/// A rung is twice as slow as it was measured: first only its own factor learns this, then little by little
-/// the load takes it over. The rung's expected time is exact at any step; the share of the load begins to
+/// One quality level is twice as slow as measured: first only its own factor learns this, then the load
+/// gradually takes it over. The level's expected time is exact at any step; the share of the load begins to
 /// grow at learning_s, to within one step.
 StabilityResult rung_response(const StabilityOptions&) {
     StabilityResult result;
@@ -159,7 +159,7 @@ StabilityResult rung_response(const StabilityOptions&) {
     };
     constexpr double seconds = 2.0;
     const double total = exact_share(seconds, FrameTimeModel::time_constant_s);
-    // The factor is learnt in learning_s, then it flows out.
+    // The factor is learnt in learning_s, then it decays.
     const double own = exact_share(FrameTimeModel::learning_s, FrameTimeModel::time_constant_s) *
                        std::exp(-(seconds - FrameTimeModel::learning_s) / FrameTimeModel::forgetting_s);
     for (const double dt : {1e-5, 1e-4, 1e-3, 0.01, 0.1}) {
@@ -174,7 +174,7 @@ StabilityResult rung_response(const StabilityOptions&) {
     return result;
 }
 
-/// Any times in any rhythm: the expected time stays a number within the limits of load and rung.
+/// Arbitrary times in any rhythm: the expected time stays a number within the limits of load and level.
 StabilityResult garbage(const StabilityOptions&) {
     FrameTimeModel model = model_of(3);
     std::mt19937 random(12);
@@ -212,7 +212,7 @@ StabilityResult garbage(const StabilityOptions&) {
         wrong += taken == (ms > 0.0 && ms <= FrameTimeModel::longest_ms) ? 0.0 : 1.0;
         for (std::size_t rung = 0; rung < 3; ++rung) {
             const double expected = model.expected_ms(rung);
-            // Work within a factor of 20, load and own proportion within e^7 each.
+            // Work within a factor of 20, load and own factor within e^7 each.
             const double most = 10.0 * 20.0 * std::exp(14.0) * 1.0001;
             wrong += expected > 0.0 && expected <= most && expected >= 100.0 / most ? 0.0 : 1.0;
         }

@@ -27,7 +27,8 @@ StabilityResult measure(const StabilityCase& which, const StabilityOptions& opti
             raised += std::fetestexcept(kind) != 0 ? 1.0 : 0.0;
         }
         const StabilityRow row{"kinds of floating-point exceptions raised", 0.0, raised};
-        result.rows.push_back(row); // a copy: of a move, g++ 12 warns that the string's end is out of bounds
+        result.rows.push_back(row); // copied: for a move, g++ 12 falsely warns that the string's end is out
+                                    // of bounds
     }
     return result;
 }

@@ -7,7 +7,7 @@
 
 namespace frustumscreen {
 
-/// From `low` to `high`, both included, about `per_decade` a decade.
+/// From `low` to `high`, both included, about `per_decade` values per decade.
 [[nodiscard]] std::vector<double> sweep(double low, double high, int per_decade);
 
 } // namespace frustumscreen

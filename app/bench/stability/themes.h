@@ -1,6 +1,6 @@
-/// The cases, one function and one file for each theme.
+/// The cases: one function and one file per theme.
 ///
-/// Threads  pure, any; the driver's: one at a time.
+/// Threads  pure, any; driver cases: one at a time.
 #pragma once
 
 #include "app/bench/stability/stability.h"
@@ -20,7 +20,7 @@ namespace frustumscreen {
 [[nodiscard]] std::vector<StabilityCase> estimator_cases();
 [[nodiscard]] std::vector<StabilityCase> governor_cases();
 [[nodiscard]] std::vector<StabilityCase> calibration_cases();
-/// They draw, in a context of their own.
+/// These draw in a context of their own.
 [[nodiscard]] std::vector<StabilityCase> driver_cases();
 
 /// Parts of program_step_errors.

@@ -1,5 +1,5 @@
-// Times that may occur: standing still, backwards, by a nanosecond, by ten seconds, out of order; and real
-// recordings.
+// Possible sequences of times: standing still, backwards, by a nanosecond, by ten seconds, out of order; and
+// real recordings.
 
 #include "app/bench/stability/themes.h"
 #include "app/settings/settings.h"
@@ -25,7 +25,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// Every kind of step that a clock may make, in a random order.
+/// Every kind of step that a clock may make, in random order.
 std::vector<MonotonicTime> odd_times(std::size_t count, unsigned seed) {
     const std::array<Nanoseconds, 8> steps{Nanoseconds(0),
                                            Nanoseconds(1),
@@ -52,7 +52,7 @@ PoseSample sample_at(MonotonicTime time, double x) {
     return sample;
 }
 
-/// Compares with the plain rule: the latest of all samples so far, and of equal times the last.
+/// Compares with the plain rule: the latest of all samples so far, and among equal times the last one.
 StabilityResult situations(const StabilityOptions&) {
     SituationTracker tracker(glm::dvec3(0.0));
     double wrong = 0.0;
@@ -72,7 +72,7 @@ StabilityResult situations(const StabilityOptions&) {
     return {{{"of 20000 samples with steps of 0, +-1 ns, -3 s, 10 s, other than the latest", 0.0, wrong}}};
 }
 
-/// Each sample comes once, in order, when its time has come, however often it is polled.
+/// Each sample is delivered once, in order, at its time, at any polling rate.
 StabilityResult replays(const StabilityOptions&) {
     std::vector<PoseSample> recording;
     for (const MonotonicTime time : odd_times(2'000, 4)) {
@@ -100,7 +100,8 @@ StabilityResult replays(const StabilityOptions&) {
                      ? 0.0
                      : 1.0;
     }
-    // A recording of two nanoseconds, repeated, after ten seconds: whole rounds are passed over but the latest, and the one that has begun.
+    // A recording of two nanoseconds, repeated, after ten seconds: whole rounds are skipped except the latest
+    // one and the one that has begun.
     constexpr double two_rounds = 2.0 * 2.0;
     ReplayTracker shortest({sample_at(start, 0.0), sample_at(start + nanoseconds(1), 1.0)}, start, true);
     std::vector<PoseSample> samples;
@@ -110,8 +111,8 @@ StabilityResult replays(const StabilityOptions&) {
               static_cast<double>(samples.size())}}};
 }
 
-/// The simulated visitor is a function of time: polls at any rhythm hand out the same samples, which move no
-/// faster than a person does, also from one movement to the next.
+/// The simulated visitor is a function of time: polls at any rhythm return the same samples, which move no
+/// faster than a person, also between movements.
 StabilityResult simulated(const StabilityOptions&) {
     SimulatedVisitor visitor;
     visitor.rate_hz = 1000.0;
@@ -140,15 +141,14 @@ StabilityResult simulated(const StabilityOptions&) {
                 fastest_m_s, glm::distance(samples[0][j].position_m, samples[0][j - 2].position_m) * 1e3);
         }
     }
-    // Minimum jerk peaks at 15/8 of the mean speed (Flash and Hogan 1985). A movement takes 0.3 x 4 s at
-    // least; a parabola within the zone begins and ends at twice its mean rate at most, over the zone's
-    // diagonal.
+    // Minimum jerk peaks at 15/8 of the mean speed (Flash and Hogan 1985). A movement takes at least 0.3 x 4
+    // s; a parabola within the zone begins and ends at twice its mean rate at most, over the zone's diagonal.
     const double most_m_s = 1.875 * 2.0 * 2.0 * glm::length(visitor.half_extent_m) / (0.3 * 4.0);
     return {{{"samples other than with polls every 0.7 ms: 17 ms, 10 s", 0.0, other},
              {"fastest movement of prop and head, m/s", most_m_s, fastest_m_s}}};
 }
 
-/// What a curator's file of poses becomes does not depend on the order of its rows.
+/// The result of a curator's file of poses does not depend on the order of its rows.
 StabilityResult frames(const StabilityOptions&) {
     std::vector<PoseSample> rows;
     for (int k = 0; k < 2000; ++k) {
@@ -169,7 +169,7 @@ StabilityResult frames(const StabilityOptions&) {
     return {{{"frames other than of the sorted file", 0.0, wrong}}};
 }
 
-/// Times of a recording's rows as they stand in the file, read the plain way.
+/// Times of a recording's rows as written in the file, parsed independently.
 std::vector<double> times_in(const std::string& text) {
     std::vector<double> times;
     std::istringstream lines(text);
@@ -205,7 +205,7 @@ StabilityResult recordings(const StabilityOptions& options) {
             wrong += k == 0 || glm::dot(samples[k].rotation, samples[k - 1].rotation) >= 0.0 ? 0.0 : 1.0;
         }
         const std::vector<double> times = times_in(text);
-        std::size_t forward = times.empty() ? 0 : 1; // to the microsecond, as poses are
+        std::size_t forward = times.empty() ? 0 : 1; // compared in microseconds, like poses
         std::int64_t last_us = 0;
         for (const double t : times) {
             const std::int64_t t_us = std::llround((t - times.front()) * 1e6);
@@ -215,7 +215,7 @@ StabilityResult recordings(const StabilityOptions& options) {
         wrong += samples.size() == forward ? 0.0 : 1.0;
         wrong +=
             samples.size() + static_cast<std::size_t>(recording->dropped_rows) == times.size() ? 0.0 : 1.0;
-        // Delivers each pair in the wrong order: the later sample of the pair counts.
+        // Deliver each pair in the wrong order: the later sample of the pair counts.
         SituationTracker tracker(glm::dvec3(0.0));
         for (std::size_t k = 0; k + 1 < samples.size(); k += 2) {
             wrong += tracker.take(samples[k + 1]) && tracker.take(samples[k]) ? 0.0 : 1.0;
@@ -230,7 +230,7 @@ StabilityResult recordings(const StabilityOptions& options) {
     return result;
 }
 
-/// A panel's script that repeats without end in a frame is refused.
+/// A panel script that would repeat endlessly within a frame is refused.
 StabilityResult scripts(const StabilityOptions&) {
     double wrong = 0.0;
     for (const std::string repeat : {"1e-9", "1e-6", "0.01", "-1.0", "nan", "inf"}) {

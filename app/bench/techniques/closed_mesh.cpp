@@ -22,7 +22,7 @@ struct CellHash {
     }
 };
 
-/// The same number for vertices in the same cell of a grid of 1e-6 of the size.
+/// Gives one number to all vertices in one cell of a grid of 1e-6 of the size.
 std::vector<std::uint32_t> welded(const std::vector<glm::dvec3>& positions, const glm::dvec3& low,
                                   double size) {
     std::unordered_map<Cell, std::uint32_t, CellHash> cells;

@@ -1,4 +1,4 @@
-/// Whether a mesh bounds a solid: then no back of a triangle is ever seen, and a peer may leave backs out.
+/// Whether a mesh bounds a solid: then no back of a triangle is ever visible, and a peer may cull back faces.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -7,8 +7,8 @@
 
 namespace frustumscreen {
 
-/// True if every edge is used as often in one direction as in the other (vertices nearer than 1e-6 of the
-/// mesh's size count as one), the volume is positive and no material is masked.
+/// True if every edge is used equally often in both directions (vertices closer than 1e-6 of the mesh's size
+/// count as one), the volume is positive and no material is masked.
 [[nodiscard]] bool is_closed(const SourceMesh& mesh);
 
 } // namespace frustumscreen

@@ -35,7 +35,7 @@ out vec4 result;
 void main() { result = vec4(texture(colour, at).rgb, 1.0); }
 )";
 
-/// Bars and squares of every size, in codes; each level has the means of its texels in the one below.
+/// Bars and squares of every size, in codes; each mip level averages the texels of the level below.
 Image8 pattern(int level) {
     const int side = texels >> level;
     const int step = std::min(1 << level, 256);
@@ -63,7 +63,7 @@ GlTexture make_texture(const Image8& image, GLsizei levels, GLint min_filter) {
     return texture;
 }
 
-/// One texture with all levels, or each level as a texture of its own.
+/// One texture with all mip levels, or each level as its own texture.
 std::vector<GlTexture> make_textures(FloorFilter filter) {
     std::vector<GlTexture> textures;
     if (filter == FloorFilter::Trilinear) {
@@ -76,7 +76,7 @@ std::vector<GlTexture> make_textures(FloorFilter filter) {
     return textures;
 }
 
-/// Of a convex quadrangle in clip coordinates, in pixels.
+/// Area of a convex quadrangle given in clip coordinates, in pixels.
 double area_px(const std::array<glm::dvec4, 4>& corners, int width, int height) {
     double twice = 0.0;
     for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -87,7 +87,7 @@ double area_px(const std::array<glm::dvec4, 4>& corners, int width, int height) 
     return 0.5 * std::abs(twice) * 0.25 * width * height;
 }
 
-/// The level of which a texel is about a pixel.
+/// The mip level with texels of about one pixel.
 std::size_t level_of(double pixels) {
     const double level = 0.5 * std::log2(double{texels} * texels / std::max(pixels, 1.0));
     return static_cast<std::size_t>(std::clamp(std::lround(level), 0L, long{last_level}));

@@ -1,10 +1,10 @@
-/// The floor: what the plainest picture on the prop costs, the unit of every frame time. A picture that
+/// The floor: the cost of the plainest picture on the prop, the unit of every frame time. A picture that
 /// leaves most of a face dark may cost less.
 ///
 /// It draws the exhibit's prop and pixels: each face that the exhibit would light gets one 1024 x 1024
-/// texture, whose codes go to the picture as they are: nothing decodes or encodes sRGB. Colour alone is
-/// cleared, as the exhibit clears it. Which filter is faster depends on the machine: both are timed, and the
-/// faster is the unit. Always a full redraw; the caller calls glFinish.
+/// texture, whose codes are written unchanged: nothing decodes or encodes sRGB. Only colour is cleared, as in
+/// the exhibit. Which filter is faster depends on the machine: both are timed, and the faster is the unit.
+/// Always a full redraw; the caller calls glFinish.
 ///
 /// Threads  the one whose context is current; the stage must outlive the technique.
 /// Errors   at creation only: the driver refuses a shader or has no memory.
@@ -18,10 +18,10 @@ namespace frustumscreen {
 
 enum class FloorFilter {
     Trilinear,
-    OneLevel, ///< bilinear, from the mip level of which a texel is about a pixel, chosen for each face
+    OneLevel, ///< bilinear, from the mip level with texels of about one pixel, chosen per face
 };
 
-/// Its hit points are all NaN: it shows no artifact.
+/// Its hit points are all NaN because it shows no artifact.
 [[nodiscard]] Result<std::unique_ptr<Technique>> make_floor(const Stage& stage, FloorFilter filter);
 
 } // namespace frustumscreen

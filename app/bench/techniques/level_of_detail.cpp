@@ -9,9 +9,9 @@ namespace frustumscreen {
 
 namespace {
 
-/// Everything that must be equal for two corners to be one vertex; it is compared as bytes.
+/// Every attribute that must be equal for two corners to share a vertex; compared as bytes.
 struct Vertex {
-    glm::vec3 position; ///< from the box's corner: 32-bit where it is finest
+    glm::vec3 position; ///< from the box's corner, where 32-bit numbers are finest
     glm::vec2 uv;
     glm::vec4 colour;
     std::uint32_t material;
@@ -20,7 +20,7 @@ static_assert(sizeof(Vertex) == 10 * sizeof(float));
 
 struct Indexed {
     std::vector<Vertex> vertices;
-    std::vector<std::uint32_t> original; ///< a vertex of the source for each
+    std::vector<std::uint32_t> original; ///< per vertex: one vertex of the source
     std::vector<std::uint32_t> indices;
 };
 
@@ -32,7 +32,7 @@ Indexed joined(const SourceMesh& mesh) {
     std::vector<Vertex> corners;
     corners.reserve(3 * mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        for (const std::uint32_t k : mesh.triangles[t]) { // + 0 makes -0 into 0
+        for (const std::uint32_t k : mesh.triangles[t]) { // + 0 turns -0 into 0
             corners.push_back({glm::vec3(mesh.positions[k] - low) + 0.0F,
                                mesh.uvs.empty() ? glm::vec2(0.0F) : mesh.uvs[k] + 0.0F,
                                mesh.colours.empty() ? glm::vec4(1.0F) : mesh.colours[k] + 0.0F,
@@ -44,14 +44,14 @@ Indexed joined(const SourceMesh& mesh) {
     result.vertices.resize(meshopt_generateVertexRemap(result.indices.data(), nullptr, corners.size(),
                                                        corners.data(), corners.size(), sizeof(Vertex)));
     result.original.resize(result.vertices.size());
-    for (std::size_t k = 0; k < corners.size(); ++k) { // the remap of unindexed corners is their index buffer
+    for (std::size_t k = 0; k < corners.size(); ++k) { // for unindexed corners the remap is the index buffer
         result.vertices[result.indices[k]] = corners[k];
         result.original[result.indices[k]] = mesh.triangles[k / 3][k % 3];
     }
     return result;
 }
 
-/// The source's mesh with these triangles alone, vertices in the order of their use.
+/// The source's mesh reduced to these triangles, vertices in the order of their use.
 SourceMesh with_triangles(const SourceMesh& mesh, const Indexed& indexed,
                           const std::vector<std::uint32_t>& indices) {
     constexpr std::uint32_t unused = 0xFFFFFFFFU;
@@ -86,7 +86,7 @@ LevelOfDetail simplified(const SourceMesh& mesh, const Indexed& indexed, std::si
     const float* positions = &indexed.vertices[0].position.x;
     std::vector<std::uint32_t> indices(indexed.indices.size());
     float error = 0.0F;
-    constexpr float any_error = 1.0F; // of the mesh's extent: the count alone decides
+    constexpr float any_error = 1.0F; // relative to the mesh's extent: the count alone decides
     indices.resize(meshopt_simplify(indices.data(), indexed.indices.data(), indexed.indices.size(), positions,
                                     indexed.vertices.size(), sizeof(Vertex), 3 * target, any_error, 0,
                                     &error));

@@ -1,13 +1,8 @@
-/// Levels of detail as anyone would make them: the source mesh simplified to a number of triangles, with its
-/// own textures; what the pack's levels are compared with.
+/// Standard levels of detail, to compare with the pack's levels: the source mesh simplified to a number of
+/// triangles, with its own textures.
 ///
-/// Vertices are joined where position, texture coordinate, colour and material are all equal, so that seams
-/// stay where they are and every triangle keeps its material.
-///
-/// Frame    the source's own coordinates.
-/// Threads  pure; any.
-/// Library  meshoptimizer 0.18 (Garland & Heckbert 1997 quadrics; this version's quadrics know only
-///          positions).
+/// Vertices are joined where position, texture coordinate, colour and material are all equal, so seams stay
+/// in place and every triangle keeps its material.
 #pragma once
 
 #include "assets_baked/bake/source_mesh.h"
@@ -19,13 +14,13 @@
 namespace frustumscreen {
 
 struct LevelOfDetail {
-    std::size_t target = 0; ///< triangles that were asked for; a source of many seams keeps more
+    std::size_t target = 0; ///< requested triangles; a source with many seams keeps more
     SourceMesh mesh;
-    double error = 0.0; ///< reported by the simplifier: a root of mean squares, in the source's units
+    double error = 0.0; ///< reported by the simplifier: root mean square, in the source's units
 };
 
-/// One for each target below the source's number of triangles, in ascending order; a target that gives no
-/// fewer triangles than the next larger one is left out.
+/// One level per target below the source's number of triangles, in ascending order; a target that does not
+/// reduce the triangles of the next larger one is skipped.
 [[nodiscard]] std::vector<LevelOfDetail> levels_of_detail(const SourceMesh& mesh,
                                                           std::span<const std::size_t> targets);
 

@@ -1,7 +1,7 @@
-/// A picture that the processor makes, on its way into the stage's framebuffer.
+/// A picture computed on the processor, and its transfer into the stage's framebuffer.
 ///
 /// Units    sRGB codes; pixels.
-/// Threads  the one whose context is current; `codes` may be written by several between two `show`.
+/// Threads  the one whose context is current; several threads may write `codes` between two calls of `show`.
 #pragma once
 
 #include "app/bench/techniques/peer_gl.h"
@@ -18,7 +18,7 @@ public:
 
     Image8 codes; ///< black between pictures
 
-    /// Clears the stage's framebuffer, puts the lit part there, and makes it black here again.
+    /// Clears the stage's framebuffer, copies the lit part into it, and clears that part to black here.
     void show(const Stage& stage, const PixelRectangle& lit);
 
 private:

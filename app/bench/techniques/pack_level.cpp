@@ -20,7 +20,7 @@ struct Parts {
     HitPointRenderer hit_points;
 };
 
-/// What the exhibit does to the colours.
+/// The exhibit's corrections of the colours.
 struct Light {
     std::optional<LightCompensation> compensation;
     double exposure = 1.0;
@@ -30,7 +30,8 @@ struct Lights {
     Light measured, timed, shown;
 };
 
-/// By the pack's default level, whatever is drawn, so that one truth serves all. (The exhibit takes the first level of its plan.)
+/// Uses the pack's default level for every technique, so one truth serves all. (The exhibit uses the first
+/// quality level of its scene plan.)
 Lights lights_of(const Stage& stage, const PictureOptions& options, const Pack& pack) {
     const PackLevel& level = pack.levels[pack.default_level];
     const Light shown{
@@ -44,7 +45,7 @@ int samples_of(const PictureOptions& options, const Pack& pack) {
     return options.samples > 0 ? options.samples : pack.samples;
 }
 
-/// Of what the GPU draws, with light and without: pictures as shown are lit whatever the options say.
+/// Needs with light and without: shown pictures are lit regardless of the options.
 RenderNeeds needs_of(const Stage& stage, int samples, ShaderKey shader) {
     RenderNeeds needs{std::max(samples, default_samples), {{ShaderKey::Pass::EdgeFeather}}};
     for (const bool lit : {false, true}) {
@@ -55,7 +56,7 @@ RenderNeeds needs_of(const Stage& stage, int samples, ShaderKey shader) {
     return needs;
 }
 
-/// Keeps what a texture cuts out; else as small as its mip levels allow.
+/// Keeps the alpha mask of a texture; without one, the picture is as small as its mip levels allow.
 Image8 white(const Image8& texture, bool cut_out) {
     if (!cut_out) {
         constexpr int side = 1 << coarsest_mip_level;
@@ -68,7 +69,7 @@ Image8 white(const Image8& texture, bool cut_out) {
     return all;
 }
 
-/// What is drawn, in its colours and white.
+/// The drawn surface, in its colours and in white.
 struct Placed {
     PlacedLevel coloured, white;
 };

@@ -1,6 +1,6 @@
-/// A level of a pack, or a relief, through the exhibit's own plan and renderer, as the bench sees it.
+/// A level or a relief of a pack, drawn by the exhibit's own plan and renderer, as a technique of the bench.
 ///
-/// Cost     the plan is made anew for every picture: it is part of the frame.
+/// Cost     the plan is made again for every picture: it is part of the frame.
 /// Threads  the one whose context is current; the pack and stage must outlive the technique.
 #pragma once
 
@@ -14,11 +14,11 @@ namespace frustumscreen {
 
 /// Options of the exhibit's renderer for the pictures that are measured.
 struct PictureOptions {
-    int samples = 0; ///< a pixel; 0 = what the pack asks for
-    /// Even light and exposure, as visitors see it; else the colours are those of the ray cast.
+    int samples = 0; ///< per pixel; 0 = the pack's own number
+    /// Even light and exposure, as visitors see it; otherwise the colours of the ray cast.
     bool lit = false;
-    bool timed_lit = false; ///< only when it is timed
-    bool feathered = true;  ///< of a lit picture; false: sharp edges between faces, to be compared with
+    bool timed_lit = false; ///< lit only while it is timed
+    bool feathered = true;  ///< of a lit picture; false: sharp edges between faces, for comparison
 };
 
 [[nodiscard]] Result<std::unique_ptr<Technique>> make_pack_level(const Stage& stage, const Pack& pack,
@@ -26,8 +26,8 @@ struct PictureOptions {
                                                                  const PictureOptions& options,
                                                                  std::string name);
 
-/// A relief in the pack's box, cast as the exhibit casts it, or `on_gpu` as it has the GPU draw it. `seen`: what the pack says of its errors;
-/// nothing: it says nothing.
+/// A relief in the pack's box, rasterized as in the exhibit, or drawn by the GPU if `on_gpu`. `seen`: the
+/// pack's own errors of it, if it has any.
 [[nodiscard]] Result<std::unique_ptr<Technique>> make_pack_relief(const Stage& stage, const Pack& pack,
                                                                   std::shared_ptr<const BlockRelief> relief,
                                                                   std::optional<SeenLevel> seen,

@@ -1,4 +1,4 @@
-/// Which peers a pack's levels are compared with, as `--peers` names them.
+/// The peers that a pack's levels are compared with, as named by `--peers`.
 ///
 /// mesh          the full mesh through the collineation
 /// two-pass      the full mesh by the two-pass method
@@ -6,11 +6,11 @@
 /// lod           simplified meshes through the collineation
 /// two-pass-lod  simplified meshes by the two-pass method
 /// relief        relief images: linear, cone-stepping and quadtree marches, and the warp
-/// relief-cast   layered relief as the pack holds it, at sizes that it does not hold
-/// relief-gpu    the pack's layered reliefs, drawn by the GPU and not cast
+/// relief-cast   layered relief like the pack's, at sizes that the pack does not contain
+/// relief-gpu    the pack's layered reliefs, drawn by the GPU instead of rasterized
 ///
 /// Threads  values; any.
-/// Errors   a name that is none of these.
+/// Errors   any other name.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -30,15 +30,16 @@ struct PeerChoice {
     bool relief = true;
     bool relief_cast = true;
     bool relief_gpu = true;
-    /// A pixel; each peer but the relief's is there once with each. None: one, and what the pack asks for.
+    /// Per pixel; each peer except the relief's is added once for each number. Empty: one, and the pack's own
+    /// number.
     std::vector<int> samples;
     std::vector<int> eye_pixels = {640, 1024, 1600}; ///< of the two-pass methods
     std::vector<std::size_t> lod_triangles = {10'000, 20'000, 40'000, 80'000};
-    int relief_texels = 512; ///< a side of each relief image
+    int relief_texels = 512; ///< side of each relief image
     std::vector<int> cast_texels = {256, 512};
 };
 
-/// `words`: none, all, or names with commas between them.
+/// `words`: none, all, or names separated by commas.
 [[nodiscard]] Result<PeerChoice> parse_peers(std::string_view words);
 
 } // namespace frustumscreen

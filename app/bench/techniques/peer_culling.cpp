@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// All triangles are seen from both sides.
+/// Makes all triangles visible from both sides.
 void face_everywhere(LevelTriangles& level) {
     for (std::vector<float>* part : {&level.normal_x, &level.normal_y, &level.normal_z, &level.distance}) {
         part->assign(level.indices.size() / 3, 0.0F);

@@ -1,7 +1,7 @@
-/// What a peer's mesh shows on each face, found on the CPU exactly as for the exhibit's own levels
-/// (visible_triangles.h): the peers get the same help.
+/// The triangles that a peer's mesh shows on each face, found on the CPU exactly as for the exhibit's own
+/// levels (visible_triangles.h), so the peers get equal treatment.
 ///
-/// Frame    prop frame outside, over the box's longest edge inside.
+/// Frame    prop frame outside, divided by the box's longest edge inside.
 /// Threads  PeerTriangles: pure. VisibleParts: the one whose context is current.
 #pragma once
 
@@ -14,30 +14,30 @@
 
 namespace frustumscreen {
 
-/// Made once for a mesh.
+/// Made once per mesh.
 struct PeerTriangles {
     LevelTriangles triangles;
-    std::vector<std::size_t> first_cluster; ///< of each part (material); one more for the end
+    std::vector<std::size_t> first_cluster; ///< of each part (material); plus one for the end
     double metres_per_box = 1.0;
 };
-/// Sorts the indices of each part into clusters, in place. Triangles of a mesh that is not closed are seen
-/// from both sides: they are culled by the faces' pyramids alone.
+/// Sorts the indices of each part into clusters, in place. Triangles of a mesh that is not closed are visible
+/// from both sides: only the faces' pyramids cull them.
 [[nodiscard]] PeerTriangles peer_triangles(std::span<const glm::vec3> positions_m, const Box& box,
                                            std::span<const std::span<std::uint32_t>> parts, bool closed);
 
-/// The triangles that may show, in a buffer; found anew for every picture.
+/// The potentially visible triangles, in a buffer; found again for every picture.
 class VisibleParts {
 public:
     VisibleParts() : buffer_(GlBuffer::generate()) {}
     void find(const PeerTriangles& mesh, const Box& box, const PeerView& view);
     void bind() const { glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer_.get()); }
-    /// Those that show anything; their bounds are around what they show.
+    /// The faces that show anything, with bounds around what they show.
     [[nodiscard]] const std::vector<PeerFace>& faces() const { return faces_; }
-    /// The triangles of a part on face number `face` of these.
+    /// The triangles of a part on face number `face` of `faces()`.
     [[nodiscard]] const IndexRange& range(std::size_t face, std::size_t part) const {
         return ranges_[face][part];
     }
-    /// Every pixel that they may light.
+    /// Every pixel that the triangles may light.
     [[nodiscard]] const LitTiles& lit() const { return lit_; }
 
 private:

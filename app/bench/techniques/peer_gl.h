@@ -29,17 +29,17 @@ struct OffscreenTarget {
 };
 [[nodiscard]] Result<OffscreenTarget> make_target(int width, int height, GLenum colour_format);
 
-enum class PictureOf { Light, Codes }; ///< what the shader writes; after codes comes end_codes
-/// Binds and clears a picture, with every test and mask as a new context has it.
+enum class PictureOf { Light, Codes }; ///< output of the shader; end_codes must follow Codes
+/// Binds and clears a picture, with every test and mask in its initial state.
 void begin_picture(GLuint framebuffer, int width, int height, PictureOf what = PictureOf::Light);
-/// As the exhibit begins its picture, for what writes codes as they are: colour alone is cleared.
+/// Begins like the exhibit's picture, for shaders that write codes directly: only colour is cleared.
 void begin_codes(GLuint framebuffer, int width, int height, float alpha = 1.0F);
 void end_codes();
-/// Far and stencil 0, in a part of the framebuffer that is bound.
+/// Clears depth to far and stencil to 0, in a part of the bound framebuffer.
 void clear_depth_stencil(const PixelRectangle& part);
 
-enum class Output { Colour, Point }; ///< Point: the hit's place in the prop's frame, alpha 1
-/// One program for each output; POINT is defined for points.
+enum class Output { Colour, Point }; ///< Point: the hit's position in the prop frame, alpha 1
+/// One program per output; POINT is defined for Output::Point.
 using OutputPrograms = std::array<GlProgram, 2>;
 [[nodiscard]] Result<OutputPrograms> make_programs(const std::string& defines, std::string_view vertex,
                                                    std::string_view fragment);
@@ -64,7 +64,7 @@ private:
     OffscreenTarget points_;
 };
 
-/// A pose as the peers' passes need it.
+/// A pose in the form needed by the peers' passes.
 struct PeerView {
     Pinhole projector;
     glm::dmat4 clip_from_prop{1.0};     ///< the projector's; depth row zero
@@ -74,15 +74,15 @@ struct PeerView {
 };
 [[nodiscard]] PeerView peer_view(const Stage& stage, const BenchPose& pose);
 
-/// A face through which the eye sees some of a mesh.
+/// A face through which the eye sees part of a mesh.
 struct PeerFace {
     const PropFace* face = nullptr;
     glm::dmat4 clip_from_prop{1.0}; ///< the face's collineation
     PixelRectangle bounds;
 };
-/// Of the view's faces those through which the eye sees some of the box.
+/// The view's faces through which the eye sees part of the box.
 [[nodiscard]] std::vector<PeerFace> faces_before(const Box& box, const PeerView& view);
-/// As the exhibit's plan has it, at the middle of the box (PixelDensity::share).
+/// As in the exhibit's plan, at the middle of the box (PixelDensity::share).
 [[nodiscard]] double pixel_density(std::span<const PeerFace> faces, const Box& box, const PeerView& view);
 
 /// Four corners of each face in one buffer, drawn as fans.

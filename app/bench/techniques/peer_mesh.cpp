@@ -84,8 +84,9 @@ GLint gl_wrap(Wrap wrap) {
     return wrap == Wrap::Clamp ? GL_CLAMP_TO_EDGE : wrap == Wrap::Mirror ? GL_MIRRORED_REPEAT : GL_REPEAT;
 }
 
-/// In codes; coarser levels are averaged in linear light. Each draw takes one, its GL_TEXTURE_BASE_LEVEL, as the exhibit's do. A
-/// source without a texture is filtered too: on the kiosk any technique's texture holds the baked light.
+/// The texture holds codes; coarser levels are averaged in linear light. Each draw uses one level, its
+/// GL_TEXTURE_BASE_LEVEL, like the exhibit's. A source without a texture is filtered too, because on the
+/// kiosk any technique's texture holds the baked light.
 GlTexture upload_texture(const Image8& finest, Wrap wrap_u, Wrap wrap_v) {
     GlTexture texture = GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texture.get());
@@ -111,7 +112,7 @@ glm::u8vec4 code_of(const glm::vec4& linear) {
             static_cast<std::uint8_t>(std::lround(in.a * 255.0F))};
 }
 
-/// A texture with the material's colour in it.
+/// A texture multiplied by the material's colour.
 Image8 coloured(const Image8& image, const glm::vec4& base_colour) {
     if (base_colour == glm::vec4(1.0F)) {
         return image;
@@ -153,8 +154,7 @@ PeerMesh::upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact, b
         return fail(ErrorKind::Internal, "bench.no_room_for_mesh",
                     "the driver cannot hold the source mesh with its textures");
     }
-    peer->closed_ =
-        peer->closed_ || from_outside; // the driver leaves out backs; planes stay as they were found
+    peer->closed_ = peer->closed_ || from_outside; // the driver culls back faces; the planes stay unchanged
     return peer;
 }
 
@@ -198,7 +198,7 @@ std::vector<glm::vec3> PeerMesh::upload_vertices(const SourceMesh& mesh,
 
 namespace {
 
-/// Texels along a metre of the triangles' surface, in the mean.
+/// Mean number of texels per metre of the triangles' surface.
 double texels_per_m(const SourceMesh& mesh, std::span<const glm::vec3> positions_m,
                     std::span<const std::uint32_t> indices, const Image8& image) {
     double texels = 0.0;

@@ -1,10 +1,11 @@
-/// The full source mesh on the GPU, with its materials and textures: what the peers draw.
+/// The full source mesh on the GPU, with its materials and textures, as drawn by the peers.
 ///
 /// Frame    prop frame, metres, placed in 64-bit.
-/// Colour   base colour * texture * vertex colour as sRGB codes, which the shader passes on: base colours are multiplied
-///          into the textures in linear light, vertex colours in codes, which a power law allows. One mip level for a draw, whose texels
-///          are as large as a pixel, as the exhibit has it. MASK cut, BLEND opaque, two-sided.
-/// Vertices 16 bits a coordinate over the mesh's box, as the exhibit's.
+/// Colour   base colour * texture * vertex colour as sRGB codes, which the shader passes on: base colours are
+///          multiplied into the textures in linear light, vertex colours in codes, which is exact for a power
+///          law. One mip level per draw, with texels as large as a pixel, as in the exhibit. MASK cut, BLEND
+///          opaque, two-sided.
+/// Vertices 16 bits per coordinate over the mesh's box, as in the exhibit.
 /// Threads  the one whose context is current.
 #pragma once
 
@@ -30,26 +31,26 @@ struct PeerPass {
 
 class PeerMesh {
 public:
-    /// `from_outside`: its triangles are drawn only from outside, even if it is not closed.
+    /// `from_outside`: draws its triangles only from outside, even if it is not closed.
     [[nodiscard]] static Result<std::shared_ptr<const PeerMesh>>
     upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact, bool from_outside = false);
-    /// Draws into the bound framebuffer and changes no state but culling: it leaves out the backs of a closed
-    /// mesh.
+    /// Draws into the bound framebuffer and changes no state except culling: it culls the back faces of a
+    /// closed mesh.
     void draw(const PeerPass& pass) const;
-    /// Draws only what was found to be visible on a face of the view.
+    /// Draws only the triangles found visible on a face of the view.
     void draw(const PeerPass& pass, const VisibleParts& visible, std::size_t face) const;
     [[nodiscard]] const PeerTriangles& triangles() const { return triangles_; }
     [[nodiscard]] const Box& box() const { return box_; }
 
 private:
     struct Part {                  ///< the triangles of one material
-        std::size_t texture = 0;   ///< of textures_
-        double texels_per_m = 0.0; ///< of its surface's mean texel
-        float cutoff = -1.0F;      ///< below 0: not masked
-        IndexRange all;            ///< of the mesh's own indices
+        std::size_t texture = 0;   ///< index into textures_
+        double texels_per_m = 0.0; ///< mean over its surface
+        float cutoff = -1.0F;      ///< negative: not masked
+        IndexRange all;            ///< in the mesh's own indices
     };
 
-    struct Program { ///< with its uniforms' places
+    struct Program { ///< with its uniforms' locations
         Program() = default;
         explicit Program(GlProgram made);
         GlProgram program;
@@ -57,7 +58,7 @@ private:
     };
 
     PeerMesh() = default;
-    /// Positions as they were uploaded.
+    /// Returns the positions as uploaded.
     std::vector<glm::vec3> upload_vertices(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact);
     void upload_parts(const SourceMesh& mesh, std::span<const glm::vec3> positions_m);
     void begin(GLenum front) const;

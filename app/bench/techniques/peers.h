@@ -1,11 +1,11 @@
 /// The methods that the exhibit's own is compared with, drawing the full source mesh or a simplified one.
 ///
-/// full mesh   through each visible face's collineation: one pass, exact up to texture filtering.
+/// full mesh through each visible face's collineation: one pass, exact up to texture filtering.
 /// two-pass    shader lamps (Raskar, Welch, Low & Bandyopadhyay 2001): the mesh as the eye sees it into a
 ///             square picture cropped to the prop, then that picture projected from the eye onto the prop's
 ///             faces.
 ///
-/// Samples  of the projector's picture; none: one a pixel.
+/// Samples  of the projector's picture; null: one per pixel.
 /// Threads  the one whose context is current; the stage must outlive the technique.
 #pragma once
 
@@ -20,7 +20,7 @@ namespace frustumscreen {
 [[nodiscard]] Result<std::unique_ptr<Technique>>
 make_full_mesh(const Stage& stage, std::shared_ptr<const PeerMesh> mesh,
                std::shared_ptr<const PeerSamples> samples = nullptr, const std::string& name = "full mesh");
-/// `eye_pixels`: side of the eye's picture. `of_mesh` follows its number in the name.
+/// `eye_pixels`: side of the eye's picture. `of_mesh` follows this number in the name.
 [[nodiscard]] Result<std::unique_ptr<Technique>>
 make_two_pass(const Stage& stage, std::shared_ptr<const PeerMesh> mesh, int eye_pixels,
               std::shared_ptr<const PeerSamples> samples = nullptr, const std::string& of_mesh = "");

@@ -21,7 +21,7 @@ namespace {
 
 constexpr int lanes = 8;
 
-/// Linear light to sRGB codes by a table; off by no more than one code where it is steepest.
+/// Converts linear light to sRGB codes with a table; at most one code off where the curve is steepest.
 class CodeTable {
 public:
     CodeTable() {
@@ -42,19 +42,19 @@ private:
     std::array<std::uint8_t, 16384> codes_{};
 };
 
-/// Some pixels of one row on one face.
+/// A range of pixels of one row on one face.
 struct Span {
     std::size_t face = 0;
     int y = 0;
     int begin = 0, end = 0;
 };
 
-/// The part of row `y` of the bounds whose pixels' centres lie in the face.
+/// The part of row `y` of the bounds whose pixel centres lie in the face.
 Span span_of(const FaceRays& rays, const PixelRectangle& bounds, std::size_t face, int y) {
     double begin = bounds.x;
     double end = bounds.x + bounds.width;
     for (const glm::dvec3& edge : rays.edges) {
-        const double rest = edge.y * (y + 0.5) + edge.z; // edge.x u + rest <= 0
+        const double rest = edge.y * (y + 0.5) + edge.z; // condition: edge.x u + rest <= 0
         if (edge.x > 0.0) {
             end = std::fmin(end, std::floor(-rest / edge.x - 0.5) + 1.0);
         } else if (edge.x < 0.0) {
@@ -63,7 +63,7 @@ Span span_of(const FaceRays& rays, const PixelRectangle& bounds, std::size_t fac
             end = begin;
         }
     }
-    begin = std::fmin(begin, bounds.x + bounds.width); // an edge along the row may be met anywhere
+    begin = std::fmin(begin, bounds.x + bounds.width); // an edge along the row may intersect it anywhere
     return {face, y, static_cast<int>(begin), static_cast<int>(std::fmax(begin, end))};
 }
 
@@ -127,7 +127,7 @@ private:
         }
     }
 
-    /// Of every sample of the span's pixels, linear; one that meets nothing adds none.
+    /// Adds the linear light of every sample of the span's pixels; a miss adds nothing.
     void add_light(const Span& span, std::vector<glm::vec3>& light) const {
         for (int sample = 0; sample < grid_.x * grid_.y; ++sample) {
             const glm::dvec2 at = (glm::dvec2(sample % grid_.x, sample / grid_.x) + 0.5) / glm::dvec2(grid_);
@@ -148,7 +148,8 @@ private:
         }
     }
 
-    /// Calls found(x, direction, hits, lane) for each pixel of the span whose ray, at this place in the pixel, meets the artifact.
+    /// Calls found(x, direction, hits, lane) for each pixel of the span whose ray, at this position in the
+    /// pixel, meets the artifact.
     template <typename Found> void cast(const Span& span, const glm::dvec2& at, const Found& found) const {
         for (int x = span.begin; x < span.end; x += lanes) {
             cast_packet(span, x, at, found);
@@ -198,7 +199,7 @@ private:
     MemoryPicture picture_;
     CodeTable codes_;
     TruthView view_;
-    std::vector<FaceRays> rays_; ///< of the faces that show anything
+    std::vector<FaceRays> rays_; ///< faces that show anything
     std::vector<Span> spans_;
     PixelRectangle lit_;
 };

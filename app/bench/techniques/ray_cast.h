@@ -1,10 +1,10 @@
-/// The reference: the full source mesh by ray casting on the CPU, straight into the framebuffer.
+/// The reference: the full source mesh by ray casting on the CPU, directly into the framebuffer.
 ///
-/// Rays     for each face a pixel's ray from the eye is linear in the pixel (64-bit set-up); packets of 8
-///          along rows, only of pixels that may show the artifact's box. Embree's kernels, 32-bit, every
+/// Rays     on each face a pixel's ray from the eye is linear in the pixel (64-bit set-up); packets of 8
+///          along rows, only for pixels that may show the artifact's box. Embree's kernels, 32-bit, every
 ///          core.
-/// Colour   as the truth's one ray: bilinear, base level; several samples a pixel, a ray each, are averaged in linear light as they
-///          come.
+/// Colour   like the truth's single ray: bilinear, base level; with several samples per pixel, one ray each,
+///          averaged in linear light.
 /// Threads  the one whose context is current; the rays are cast on every core.
 #pragma once
 

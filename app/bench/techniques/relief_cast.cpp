@@ -14,7 +14,7 @@ BlockRelief blocks_of_pack(const Pack& pack, int texels) {
     const PackLevel& level = finest != pack.levels.rend() ? *finest : pack.levels.back();
     Image8 texture = pack.textures[level.texture];
     for (int each = pack.relief_size; each >= 2 * texels; each /= 2) {
-        texture = half_size(texture); // none of its texels is skipped
+        texture = half_size(texture); // keeps every texel's contribution
     }
     const SourceMesh mesh = textured_source(level, texture, pack.box_size);
     const SourceScene surface(mesh, mesh.positions, Sides::Front);

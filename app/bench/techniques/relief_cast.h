@@ -1,5 +1,5 @@
-/// Layered relief at resolutions that the pack does not hold, made as the bake makes the pack's own: from the finest mesh level, whose
-/// triangles are those that somebody sees, turned to who sees them.
+/// Layered relief at resolutions that the pack does not contain, made with the bake's method: from the finest
+/// mesh level, whose triangles are those visible from outside, turned to the viewer.
 ///
 /// Frame    box.
 /// Threads  uses every core.

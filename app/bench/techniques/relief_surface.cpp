@@ -9,7 +9,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr int cells_of_block = block_cells * block_cells;
-constexpr int parts = 8; ///< of a cut cell, along a side
+constexpr int parts = 8; ///< along a side of a cut cell
 
 struct Corners {
     std::array<glm::dvec3, 4> places; ///< (0, 0), (1, 0), (0, 1), (1, 1)
@@ -34,7 +34,8 @@ Corners corners_of(const BlockRelief& relief, const ReliefGrid& grid, std::size_
 class Surface {
 public:
     Surface() { mesh_.materials.emplace_back(); }
-    /// The square from (u, v) on of side `side`, in shares of the cell. Its diagonal lies on the cell's own, or beside it.
+    /// Adds the square of side `side` at (u, v), in shares of the cell. Its diagonal lies on the cell's own,
+    /// or next to it.
     void add(const Corners& cell, const glm::dvec3& outward, double u, double v, double side) {
         const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
         for (unsigned k = 0; k < 4; ++k) {
@@ -49,7 +50,8 @@ public:
     [[nodiscard]] SourceMesh take() { return std::move(mesh_); }
 
 private:
-    /// Between the corners (0, 0), (1, 0), (0, 1) or the other three, as the cell is cast.
+    /// Interpolates between the corners (0, 0), (1, 0), (0, 1) or the other three, on the cell's two
+    /// triangles.
     template <typename T> static T on_triangles(const std::array<T, 4>& corner, double u, double v) {
         using Scalar = typename T::value_type;
         const auto x = static_cast<Scalar>(u);

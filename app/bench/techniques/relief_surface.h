@@ -1,8 +1,9 @@
-/// A relief's surface as triangles that a ray cast can take for a source: what a cast of the relief must show.
+/// A relief's surface as triangles that a ray cast can use as a source: the reference for the rasterized
+/// relief.
 ///
 /// Frame    box.
-/// Surface  two triangles a cell, and two a part of a cut cell that is there, all turned outward; colours as the corners have them,
-///          linear between. Of sides that look inward nothing is shown: cast it at front sides alone.
+/// Surface  two triangles per cell, and two per present part of a cut cell, all facing outward; colours from
+///          the corners, linear between. Inward sides must not be visible: cast it with front sides alone.
 /// Threads  pure; any.
 #pragma once
 

@@ -1,10 +1,10 @@
-/// A peer with one or several samples a pixel, which gets what the exhibit's own levels get: only where the artifact may show is
-/// depth cleared, and are several samples cleared, drawn larger and averaged in linear light, by the exhibit's own sample grid. Several
-/// become more where the exhibit takes more: in slanting views.
+/// A peer with one or several samples per pixel, treated like the exhibit's own levels: depth is cleared only
+/// where the artifact may show, and several samples are cleared there, drawn larger and averaged in linear
+/// light by the exhibit's own sample grid. The number rises where the exhibit's does: in grazing views.
 ///
-/// Places   those of one sample at the pixel's centre, as for every technique.
+/// Places   one sample at the pixel's centre, as for every technique.
 /// Threads  the one whose context is current; the stage must outlive the technique.
-/// Errors   a number of samples that has no grid; a picture that the driver cannot hold.
+/// Errors   a number of samples without a grid; a picture that the driver cannot hold.
 #pragma once
 
 #include "app/bench/techniques/peer_gl.h"
@@ -15,16 +15,17 @@
 
 namespace frustumscreen {
 
-/// The larger picture; peers may share one, since each draws all of its own.
+/// The larger picture; peers may share it, since each draws all of its own.
 class PeerSamples {
 public:
-    /// `samples`: 2, 4, 8 or 16 a pixel.
+    /// `samples`: 2, 4, 8 or 16 per pixel.
     [[nodiscard]] static Result<std::shared_ptr<const PeerSamples>> create(const Stage& stage, int samples);
 
     [[nodiscard]] int count() const { return count_; }
-    /// Binds the larger picture, in which the tiles are clear, for codes. As the exhibit's, a picture of so low a density takes more.
+    /// Binds the larger picture for codes, with cleared tiles. As in the exhibit, a picture of low `density`
+    /// gets more samples.
     [[nodiscard]] Raster begin(const LitTiles& tiles, double density) const;
-    /// Averages the tiles into the framebuffer that is bound.
+    /// Averages the tiles into the bound framebuffer.
     void average(const LitTiles& tiles, const Raster& raster) const;
 
 private:
@@ -42,16 +43,16 @@ public:
     void draw(const BenchPose& pose) final;
 
 protected:
-    /// `samples`: none for one a pixel. `points`: a float target of the stage's size.
+    /// `samples`: null for one per pixel. `points`: a float target of the stage's size.
     SampledPeer(const Stage& stage, const std::string& name, std::shared_ptr<const PeerSamples> samples,
                 OffscreenTarget points);
     struct Shown {
-        const LitTiles& lit;  ///< every pixel that may be
+        const LitTiles& lit;  ///< every pixel that may be lit
         double density = 1.0; ///< pixel_density
     };
-    /// Does what comes before the picture, and says what it will be.
+    /// Prepares the picture and returns its extent.
     [[nodiscard]] virtual Shown prepare(const BenchPose& pose, Output output) = 0;
-    /// Draws what was prepared into the framebuffer that is bound, whose tiles are clear: black, far, stencil 0.
+    /// Draws the prepared picture into the bound framebuffer, whose tiles are clear: black, far, stencil 0.
     virtual void paint(const Raster& raster, Output output) = 0;
 
 private:

@@ -1,7 +1,7 @@
-/// One way to make the projector's picture, as the bench draws and times it.
+/// One way to make the projector's picture, drawn and timed by the bench.
 ///
-/// Colour   drawn into the display's framebuffer, a texture's sRGB codes as they are passed on; --unlit --no-light,
-///          so that it can be compared with the ray cast.
+/// Colour   drawn into the display's framebuffer; a texture's sRGB codes pass unchanged, as with --unlit
+///          --no-light, for comparison with the ray cast.
 /// Threads  the one that owns the display's context.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace frustumscreen {
 
-/// What every technique draws on: one kiosk's settings, its prop and a framebuffer of the projector's size.
+/// The target of every technique: one kiosk's settings, its prop and a framebuffer of the projector's size.
 struct Stage {
     Settings settings;
     PropShape prop;
@@ -24,14 +24,15 @@ struct Stage {
     [[nodiscard]] int height() const { return settings.projector.pinhole.height; }
 };
 
-/// What the kiosk makes of a technique of its own: even light, the artifact's exposure, soft edges between faces.
+/// A technique's picture as the kiosk shows it: even light, the artifact's exposure, soft edges between
+/// faces.
 class ShownPicture {
 public:
     virtual ~ShownPicture() = default;
     virtual void draw_shown(const BenchPose& pose) = 0;
     [[nodiscard]] virtual LightAim light(const BenchPose& pose) const = 0;
-    /// The artifact white all over and in no light, so that a pixel's linear light is the share of it that the artifact covers.
-    /// Returns the samples a pixel that are asked for; where there is no room for them, fewer are drawn.
+    /// Draws the artifact entirely white and without light, so a pixel's linear light is the share of it that
+    /// the artifact covers. Returns the requested samples per pixel; without room for them, fewer are drawn.
     [[nodiscard]] virtual int draw_white(const BenchPose& pose) = 0;
 };
 
@@ -39,13 +40,14 @@ class Technique {
 public:
     virtual ~Technique() = default;
     [[nodiscard]] virtual std::string name() const = 0;
-    /// A full redraw, clear included.
+    /// A full redraw, including the clear.
     virtual void draw(const BenchPose& pose) = 0;
-    /// The one that is timed, in the light that was asked for. Whoever times it calls glFinish.
+    /// The redraw that is timed, in the requested light. The caller that times it calls glFinish.
     virtual void draw_timed(const BenchPose& pose) { draw(pose); }
     /// Each pixel's hit point in the prop's frame, metres; NaN = no hit.
     [[nodiscard]] virtual Result<ImageFloat> hit_points(const BenchPose& pose) = 0;
-    /// What the exhibit says of its own picture's error; nothing: the technique says nothing, or shows nothing.
+    /// The exhibit's estimate of its own picture's error; nullopt: the technique has no estimate, or shows
+    /// nothing.
     [[nodiscard]] virtual std::optional<ErrorEstimate> estimate(const BenchPose& /*pose*/) {
         return std::nullopt;
     }

@@ -20,8 +20,8 @@ void main() {
     gl_Position = clip_from_prop * vec4(position, 1.0);
 })";
 
-/// Colours are bilinear between codes; coverage (alpha) decides the silhouette, so that it stays sharp.
-/// Points are blended over those of the four neighbours that lie on the same surface as the nearest.
+/// Colours are bilinear between codes; coverage (alpha) decides the silhouette, which keeps it sharp. Points
+/// are blended over those of the four neighbours that lie on the nearest one's surface.
 constexpr std::string_view project_fragment = R"(
 in vec4 at_eye;
 uniform sampler2D eye_picture;
@@ -69,8 +69,9 @@ void main() {
 #endif
 })";
 
-/// The eye's picture: a perspective from the eye, cropped to what of the artifact's box the visible faces show; w = distance
-/// along the axis. Beside it everything is black, as the picture's edge is.
+/// Clip matrix of the eye's picture: a perspective from the eye, cropped to the part of the artifact's box
+/// that the visible faces show; w = distance along the axis. Outside it everything is black, like the
+/// picture's edge.
 glm::dmat4 eye_clip(const PeerView& view, const Box& box) {
     glm::dvec3 middle(0.0);
     for (const PropFace* face : view.faces) {
@@ -110,7 +111,7 @@ glm::dmat4 eye_clip(const PeerView& view, const Box& box) {
         box_high = glm::max(box_high, slope);
     }
     if (near > 0.0) {
-        const glm::dvec2 margin = 0.01 * (box_high - box_low); // some pixels stay black around it
+        const glm::dvec2 margin = 0.01 * (box_high - box_low); // keeps a few black pixels around it
         low = glm::max(low, box_low - margin);
         high = glm::max(glm::min(high, box_high + margin), low + 1e-9);
     }

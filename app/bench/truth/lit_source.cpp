@@ -12,13 +12,14 @@ namespace frustumscreen {
 
 namespace {
 
-/// Sums of the triangles' normals by area, over all that meet at a place, whether they share a vertex there or not.
+/// Area-weighted sums of the triangles' normals, over all that meet at a position, whether or not they share
+/// a vertex there.
 std::vector<glm::dvec3> smooth_normals(const SourceMesh& mesh, const std::vector<glm::dvec3>& points) {
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto key = [&](std::size_t k) { return std::tuple(points[k].x, points[k].y, points[k].z); };
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-    std::vector<std::size_t> first(points.size()); // of those at the same place
+    std::vector<std::size_t> first(points.size()); // first vertex at the same position
     for (std::size_t k = 0; k < order.size(); ++k) {
         const bool same = k > 0 && points[order[k]] == points[order[k - 1]];
         first[order[k]] = same ? first[order[k - 1]] : order[k];

@@ -1,5 +1,5 @@
-/// The museum's light where a ray meets a source mesh: what the textures of a pack that was baked with light hold, at the exact place
-/// instead of at some texels, and not smoothed.
+/// The museum's light where a ray meets a source mesh: the light in the textures of a pack baked with light,
+/// but at the exact place instead of at texels, and not smoothed.
 ///
 /// Frame    box; directions in its axes.
 /// Threads  immutable once built; any.
@@ -22,16 +22,16 @@ public:
 
     struct Place {
         glm::vec3 at{0.0F};
-        glm::vec3 normal{
-            0.0F}; ///< unit, towards where the ray comes from; smooth but across sharp edges, as the bake has it
+        glm::vec3 normal{/// Unit, towards the ray's origin; smooth except across sharp edges, as in the bake.
+                         0.0F};
     };
-    /// Of triangle `triangle` at the corner weights (1 - u - v, u, v), for a ray of that direction.
+    /// The place on triangle `triangle` at the corner weights (1 - u - v, u, v), for a ray of that direction.
     [[nodiscard]] Place place(std::uint32_t triangle, double u, double v, const glm::dvec3& direction) const;
     [[nodiscard]] float light(const Place& place) const { return museum_.at(place.at, place.normal); }
 
 private:
     std::shared_ptr<const SourceMesh> mesh_;
-    std::vector<glm::dvec3> points_; ///< of each of the mesh's positions
+    std::vector<glm::dvec3> points_; ///< one per mesh position
     std::vector<glm::dvec3> normals_;
     SourceScene scene_;
     MuseumLight museum_;

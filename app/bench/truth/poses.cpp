@@ -10,7 +10,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// std::uniform_real_distribution differs between libraries; this does not.
+/// std::uniform_real_distribution differs between libraries; this is portable.
 class Draw {
 public:
     explicit Draw(std::uint64_t seed) : engine_(seed) {}
@@ -28,8 +28,7 @@ RigidTransform slid(Draw& draw, const glm::dvec2& over_table) {
     return {glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0)), glm::dvec3(over_table, 0.0)};
 }
 
-/// Turned in any way (Shoemake 1992, uniform random rotations), from just above the table to a forearm
-/// higher.
+/// Any orientation (Shoemake 1992, uniform random rotations), from just above the table to a forearm higher.
 RigidTransform held(const PropShape& prop, Draw& draw, const glm::dvec2& over_table) {
     constexpr double highest_above_table_m = 0.25;
     const double share = draw.between(0.0, 1.0);

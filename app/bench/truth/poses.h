@@ -21,14 +21,14 @@ struct BenchPose {
     glm::dvec3 eye_m{0.0}; ///< table frame
 };
 
-/// The prop stands on the table and inside the picture, and every face turned to the eye is lit.
+/// Whether the prop stands on the table and inside the picture, and every face turned to the eye is lit.
 [[nodiscard]] bool in_zone(const Settings& settings, const PropShape& prop, const BenchPose& pose);
 
 /// Errors: the settings leave no such pose (too small a picture, no lit faces).
 [[nodiscard]] Result<std::vector<BenchPose>> draw_poses(const Settings& settings, const PropShape& prop,
                                                         int count, std::uint64_t seed);
 
-/// The same situation in the prop's frame.
+/// The situation in the prop's frame.
 [[nodiscard]] TruthView view_of(const Settings& settings, const BenchPose& pose);
 
 } // namespace frustumscreen

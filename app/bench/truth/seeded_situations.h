@@ -1,5 +1,5 @@
-/// Situations from a seed: a frustum on a table as visitors leave it, a cube in a hand; and people who follow advice as
-/// people do.
+/// Situations from a seed: a frustum as visitors leave it on a table, a cube in a hand; and people who follow
+/// advice imprecisely.
 ///
 /// Frames   table T, metres, radians.
 /// Threads  values; any.
@@ -26,13 +26,14 @@ private:
     std::normal_distribution<double> normal_;
 };
 
-/// A small cube under a projector that hangs low, as in config/cube.toml.
+/// A small cube under a low projector, as in config/cube.toml.
 [[nodiscard]] Settings cube_in_hand();
 
-/// As somebody left it: on the table, half of the time lifted, a quarter of it leaning or lying; in the hand turned in any way.
+/// A prop as left by a visitor: on the table, half of the time lifted, a quarter of the time leaning or
+/// lying; in the hand in any orientation.
 [[nodiscard]] GuidedSituation seeded_situation(const GuidanceSetup& setup, Seeded& seeded);
 
-/// As a person may carry it out: direction within 20 degrees, amount within 40 per cent.
+/// A person's execution of a move: direction within 20 degrees, amount within 40 per cent.
 [[nodiscard]] Execution seeded_person(const Move& move, const GuidanceSetup& setup, Seeded& seeded);
 
 } // namespace frustumscreen

@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// How many pixels a real lens has there for one of the ideal one's; by differences of its rays.
+/// Pixels of the real lens per pixel of the ideal one at that point; from differences of its rays.
 double pixel_density(const Pinhole& pinhole, const glm::dvec2& pixel) {
     if (pinhole.lens.is_plain()) {
         return 1.0;
@@ -88,7 +88,7 @@ double ShownLight::softened(const LitPlace& place) const {
     double share = 1.0;
     for (const SoftEdge& edge : edges_[static_cast<std::size_t>(place.face)]) {
         const double within_px = glm::dot(edge.inward, pixel - edge.from_px);
-        if (!edge.shares) { // dark for half a pixel, then bright over one
+        if (!edge.shares) { // dark for half a pixel, then rising over one pixel
             share *= std::clamp(within_px - 0.5, 0.0, 1.0);
         } else if (within_px < 1.0) {
             const double along =

@@ -1,9 +1,11 @@
-/// The light that an exhibit shows its artifact in, at one point of the prop.
+/// The light in which an exhibit shows its artifact, at one point of the prop.
 ///
-/// What an exhibit aims at is said in app/scene/light.h and edge_feather.h. Here it is worked out from the point on the prop that a ray
-/// lights, where the exhibit works it out from the pixel's place; soft edges by the distance to the edge, where the exhibit draws strips.
+/// The exhibit's target is defined in app/scene/light.h and edge_feather.h. Here it is computed from the
+/// point on the prop that a ray lights, while the exhibit computes it from the pixel's position; soft edges
+/// use the distance to the edge, while the exhibit draws strips.
 ///
-/// Frames   prop P, metres; pixels as `Pinhole` has them. Light in units of a surface square to the projector at 1 m.
+/// Frames   prop P, metres; pixels as in `Pinhole`. Light in units of a surface square to the projector at 1
+///          m.
 /// Threads  `gain`: any, several at once.
 #pragma once
 
@@ -16,16 +18,16 @@
 
 namespace frustumscreen {
 
-/// The exhibit's own numbers. Errors in them are found by tests of app/scene and app/render, and not here.
+/// The exhibit's own numbers. Tests of app/scene and app/render check them; this code does not.
 struct LightAim {
-    double reference = 0.0; ///< every place is dimmed to it
+    double reference = 0.0; ///< every place is dimmed to this
     double exposure = 1.0;  ///< of the artifact
-    std::vector<double>
-        most; ///< of each face of the prop: the largest gain, less than 1 where the light grazes it
+    /// Largest gain per face of the prop, less than 1 where the light grazes it.
+    std::vector<double> most;
     bool soft_edges = true;
 };
 
-/// A place that the projector's ray through a pixel lights.
+/// A place lit by the projector's ray through a pixel.
 struct LitPlace {
     int face = 0; ///< index into PropShape::faces
     glm::dvec3 point_m{0.0};
@@ -34,9 +36,9 @@ struct LitPlace {
 
 class ShownLight {
 public:
-    /// `prop` must outlive it.
+    /// `prop` must outlive this.
     ShownLight(LightAim aim, const PropShape& prop, const TruthView& view);
-    /// Factor of linear light, exposure in it.
+    /// Factor of linear light, including the exposure.
     [[nodiscard]] double gain(const LitPlace& place) const;
 
 private:
@@ -44,7 +46,8 @@ private:
     struct SoftEdge {
         glm::dvec2 from_px{0.0}, along{0.0}, inward{0.0}; ///< unit
         double length_px = 0.0;
-        std::optional<std::array<double, 2>> shares; ///< at its ends; none: behind it the prop is dark
+        std::optional<std::array<double, 2>> shares; ///< at its ends; nullopt: the prop is dark behind the
+                                                     ///< edge
     };
     [[nodiscard]] double even(const LitPlace& place) const;
     [[nodiscard]] std::optional<SoftEdge> soft_edge(int face, std::size_t corner) const;
@@ -54,7 +57,7 @@ private:
     const PropShape& prop_;
     TruthView view_;
     Pinhole ideal_;
-    std::vector<std::vector<SoftEdge>> edges_; ///< of each face
+    std::vector<std::vector<SoftEdge>> edges_; ///< per face
 };
 
 } // namespace frustumscreen

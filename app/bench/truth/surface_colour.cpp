@@ -21,7 +21,7 @@ int wrapped(int texel, int size, Wrap wrap) {
     return ((texel % size) + size) % size;
 }
 
-/// Texel coordinates of huge or non-finite uvs would not fit an int; one period is the same picture.
+/// Texel coordinates of huge or non-finite uvs would not fit an int; one period gives an identical picture.
 double reduced(double coordinate, Wrap wrap) {
     if (!std::isfinite(coordinate)) {
         return 0.0;
@@ -29,7 +29,7 @@ double reduced(double coordinate, Wrap wrap) {
     return wrap == Wrap::Clamp ? std::fmin(std::fmax(coordinate, 0.0), 1.0) : std::fmod(coordinate, 2.0);
 }
 
-/// Bilinear at the base level: colour in linear light, alpha as it is stored.
+/// Bilinear at the base level: colour in linear light, alpha as stored.
 glm::dvec4 sample(const SourceTexture& texture, const glm::dvec2& uv) {
     const Image8& image = *texture.image;
     const double x = reduced(uv.x, texture.wrap_u) * image.width - 0.5;

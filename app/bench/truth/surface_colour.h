@@ -1,4 +1,4 @@
-/// The colour of a source mesh at a place: base colour * texture (bilinear, base level, linear light) *
+/// The colour of a source mesh at a point: base colour * texture (bilinear, base level, linear light) *
 /// vertex colour.
 ///
 /// Threads  pure; any.

@@ -25,7 +25,7 @@ bool TracedMesh::refine(std::uint32_t triangle, const glm::dvec3& origin, const 
     const double square = glm::dot(normal, normal);
     const double u = glm::dot(glm::cross(in_plane, along_v), normal) / square;
     const double v = glm::dot(glm::cross(along_u, in_plane), normal) / square;
-    // The triangle was found in float: its edges may be missed by a rounding.
+    // The triangle was found in float, so rounding may place the hit outside its edges.
     const double clamped_u = std::clamp(u, 0.0, 1.0);
     t_u_v = {t, clamped_u, std::clamp(v, 0.0, 1.0 - clamped_u)};
     return true;
@@ -36,7 +36,7 @@ bool TracedMesh::is_cut(std::uint32_t triangle, double u, double v) const {
     return material.alpha_mask && surface_colour(*mesh_, triangle, u, v).alpha < material.alpha_cutoff;
 }
 
-/// Embree asks before it accepts a hit.
+/// Embree's filter, called before it accepts a hit.
 void TracedMesh::cut(const RTCFilterFunctionNArguments* arguments) {
     const auto& traced = *static_cast<const TracedMesh*>(arguments->geometryUserPtr);
     for (unsigned lane = 0; lane < arguments->N; ++lane) {
@@ -67,7 +67,7 @@ void TracedMesh::add_triangles() {
         rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                 3 * sizeof(std::uint32_t), mesh_->triangles.size()));
     if (vertices == nullptr || indices == nullptr) {
-        return; // `build` asks rtcGetDeviceError
+        return; // `build` queries rtcGetDeviceError
     }
     for (const glm::dvec3& position : positions_) {
         for (int axis = 0; axis < 3; ++axis) {

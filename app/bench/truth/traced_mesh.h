@@ -1,4 +1,4 @@
-/// A source mesh placed in the prop, for Embree to cast rays at. The truth and the ray-cast peer share one.
+/// A source mesh placed in the prop, as a target of Embree's rays. The truth and the ray-cast peer share one.
 ///
 /// Frame    prop frame, metres; placed in 64-bit, Embree's copy is 32-bit (robust).
 /// Threads  immutable once built; any.
@@ -25,7 +25,7 @@ public:
     [[nodiscard]] const SourceMesh& mesh() const { return *mesh_; }
     /// The box of the triangles' corners, with a margin for float rounding.
     [[nodiscard]] const Box& box() const { return box_; }
-    /// Rays pass through what a material masks, and through sides that are not asked for.
+    /// Rays pass through masked material, and through sides that were not requested.
     [[nodiscard]] RTCScene scene() const { return scene_.get(); }
     /// (t, u, v) of the ray on the triangle's plane in 64-bit; false if it is edge-on.
     [[nodiscard]] bool refine(std::uint32_t triangle, const glm::dvec3& origin, const glm::dvec3& direction,

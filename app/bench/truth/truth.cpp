@@ -20,7 +20,7 @@ struct PixelArea {
     int left = 0, top = 0, right = 0, bottom = 0; ///< right and bottom are one past the end
 };
 
-/// The pixels that the prop's corners span; the whole picture if a corner is behind the projector.
+/// The pixels spanned by the prop's corners; the whole picture if a corner is behind the projector.
 PixelArea pixels_of_prop(const PropShape& prop, const TruthView& view) {
     const RigidTransform projector_from_prop = view.prop_from_projector.inverse();
     const Pinhole& pinhole = view.projector;
@@ -43,7 +43,7 @@ PixelArea pixels_of_prop(const PropShape& prop, const TruthView& view) {
             clamped(std::ceil(high.x), pinhole.width), clamped(std::ceil(high.y), pinhole.height)};
 }
 
-/// Where the ray is inside `box`; false if it never is for t > 0. direction need not be unit.
+/// Where the ray enters `box`; false if it never does for t > 0. `direction` need not be unit.
 bool enters(const Box& box, const glm::dvec3& origin, const glm::dvec3& direction, double& enter) {
     double leave = std::numeric_limits<double>::infinity();
     enter = 0.0;
@@ -74,8 +74,8 @@ bool hit_around(const Image<std::uint8_t>& hit, int x, int y) {
     return false;
 }
 
-/// Lights the colours of one pixel's hits. Light is smooth: what lies within a texel of a usual pack of what is known, and faces the
-/// same way, has its light.
+/// Lights the colours of one pixel's hits. Light is smooth, so a hit reuses a known light if it lies within a
+/// texel of a typical pack and faces the same way.
 class PixelLight {
 public:
     explicit PixelLight(const LitSource* lit) : lit_(lit) {}
@@ -126,7 +126,7 @@ bool Truth::first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit
     if (!enters(traced_->box(), origin, direction, enter)) {
         return false;
     }
-    // The ray starts at the box, to keep float's precision for the artifact.
+    // The ray starts at the box to keep float's precision for the artifact.
     const glm::dvec3 start = origin + enter * direction;
     const glm::dvec3 unit = glm::normalize(direction);
     RTCRayHit ray{};
@@ -147,13 +147,13 @@ bool Truth::first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit
         return false;
     }
     glm::dvec3 t_u_v(ray.ray.tfar, ray.hit.u, ray.hit.v);
-    (void)traced_->refine(ray.hit.primID, start, unit, t_u_v); // if false, Embree's own values stay
+    (void)traced_->refine(ray.hit.primID, start, unit, t_u_v); // if false, Embree's own values remain
     hit = {ray.hit.primID, t_u_v.y, t_u_v.z, start + t_u_v.x * unit,
            surface_colour(traced_->mesh(), ray.hit.primID, t_u_v.y, t_u_v.z)};
     return true;
 }
 
-/// Follows the projector's rays to the prop and the eye's from there.
+/// Follows the projector's rays to the prop and continues along the eye's rays.
 class Truth::Looker {
 public:
     Looker(const Truth& truth, const PropShape& prop, const TruthView& view)
@@ -191,7 +191,7 @@ public:
             }
         }
     }
-    /// `pixel(x, y)` of all pixels that the prop may be in, on every core.
+    /// Calls `pixel(x, y)` for all pixels that may show the prop, on every core.
     template <typename Pixel> void for_each_pixel(const Pixel& pixel) const {
         const PixelArea area = pixels_of_prop(prop_, view_);
         parallel_for(static_cast<std::size_t>(std::max(area.bottom - area.top, 0)), 1,

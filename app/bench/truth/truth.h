@@ -1,10 +1,9 @@
-/// The truth that every picture is measured against: a ray cast of the source mesh, as docs/conventions.md
-/// defines it.
+/// The truth for measuring every picture: a ray cast of the source mesh, as defined in docs/conventions.md.
 ///
 /// For a projector pixel whose ray lights the prop at S, on a face turned towards the eye E, the colour is
-/// that of the first hit of E + t (S - E), t > 0; black where there is none. Triangles are two-sided; alpha
-/// MASK is cut at its cut-off, BLEND is opaque. (Of what a pack holds, front sides alone are drawn.) Colour = base colour * texture (bilinear, base level, linear
-/// light) * vertex colour.
+/// that of the first hit of E + t (S - E), t > 0; black if there is none. Triangles are two-sided; alpha MASK
+/// is cut at its cut-off, BLEND is opaque. (For a pack's surfaces, only front sides are drawn.) Colour = base
+/// colour * texture (bilinear, base level, linear light) * vertex colour.
 ///
 /// Frames   points and the eye in the prop's frame, metres; pixels as `Pinhole` has them.
 /// Set-up   vertices are placed and hits refined in 64-bit; Embree (float, robust) only finds the triangle.
@@ -32,12 +31,13 @@ class TracedMesh;
 struct TruthPicture {
     Image<std::uint8_t> prop; ///< 1: the ray through the pixel's centre lights the prop (any lit face)
     Image<std::uint8_t> hit;  ///< 1: the artifact is seen there
-    ImageFloat point_m;       ///< where, prop frame; NaN = no hit
+    ImageFloat point_m;       ///< hit point, prop frame; NaN = no hit
     Image8 colour;            ///< one ray through the centre; sRGB codes
-    /// 16 rays, 4 x 4 stratified, misses black, averaged in linear light; where `hit` and at the eight pixels around
+    /// 16 rays, 4 x 4 stratified, misses black, averaged in linear light; at `hit` and the eight pixels
+    /// around
     Image8 colour16;
-    Image8 shown16{}; ///< the same as an exhibit shows it; empty unless a light for it was given
-    Image<std::uint8_t> met_by_16{}; ///< how many of these rays meet the artifact
+    Image8 shown16{};                ///< `colour16` in the exhibit's light; empty unless a light was given
+    Image<std::uint8_t> met_by_16{}; ///< number of these rays that meet the artifact
 };
 
 class Truth {
@@ -54,20 +54,20 @@ public:
     /// First hit of origin + t direction, t > 0 (prop frame).
     [[nodiscard]] bool first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit& hit) const;
 
-    /// The whole picture; `sixteen_rays` false leaves what they find empty. `aim`: the light that `shown16` is shown in; null: it
-    /// stays empty.
+    /// Casts the whole picture; with `sixteen_rays` false, the images of the 16 rays stay empty. `aim`: the
+    /// light of `shown16`; null: it stays empty.
     [[nodiscard]] TruthPicture cast(const PropShape& prop, const TruthView& view, bool sixteen_rays,
                                     const LightAim* aim = nullptr) const;
-    /// The share of each pixel that the artifact covers, by a grid of so many rays, columns and rows. Only pixels that an outline
-    /// crosses, as the 16 rays of `picture` tell, are cast again; the others are 0 or 1.
+    /// The share of each pixel covered by the artifact, from a grid of `rays` columns and rows. Only pixels
+    /// crossed by an outline, according to the 16 rays of `picture`, are cast again; the others are 0 or 1.
     [[nodiscard]] Image<float> cover(const PropShape& prop, const TruthView& view,
                                      const TruthPicture& picture, const glm::ivec2& rays) const;
 
-    /// From now on `cast` multiplies colours by the museum's light on the same source, where it takes sixteen rays: for packs that
-    /// were baked with light.
+    /// From now on, `cast` with sixteen rays multiplies colours by the museum's light on the same source: for
+    /// packs that were baked with light.
     void light_by(std::shared_ptr<const LitSource> lit) { lit_ = std::move(lit); }
 
-    /// What the rays are cast at, for the ray-cast peer.
+    /// The target of the rays, for the ray-cast peer.
     [[nodiscard]] const std::shared_ptr<const TracedMesh>& traced() const { return traced_; }
 
 private:

@@ -1,4 +1,4 @@
-/// Who looks and who projects, seen from the prop.
+/// Eye and projector, seen from the prop.
 ///
 /// Frames   prop P, metres.
 /// Threads  values; any.

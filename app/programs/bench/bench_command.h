@@ -1,8 +1,8 @@
-/// What the commands of frustumscreen-bench share: each command is a file of its own with one function
-/// `BenchCommand ..._command(CommandLine&)` that declares its options and says how it runs.
+/// The common part of frustumscreen-bench's commands: each command has its own file with one function
+/// `BenchCommand ..._command(CommandLine&)` that declares its options and runs it.
 ///
 /// Threads  one.
-/// Errors   as Result; the sentence goes to standard error by bench_main.cpp.
+/// Errors   as Result; bench_main.cpp prints the sentence to standard error.
 #pragma once
 
 #include "app/bench/measures/technique_set.h"
@@ -24,10 +24,10 @@
 
 namespace frustumscreen {
 
-/// The step that a long run is at, and how long it still takes.
+/// The current step of a long run, and its remaining time.
 class BenchProgress {
 public:
-    /// Sets the steps to come, so that the time left is that of the whole run. Without it, it is that of each
+    /// Sets the planned steps; the remaining time then covers the whole run. Without a plan it covers each
     /// step alone.
     void plan(std::vector<WorkStep> steps) { time_left_ = TimeLeft(std::move(steps)); }
     void show(const std::string& step, double done);
@@ -44,10 +44,10 @@ struct BenchCommand {
     std::function<Result<void>(BenchProgress&)> run;
 };
 
-/// Where the results go and which settings are used; every command has these options.
+/// Output folder and settings; every command has these options.
 struct BenchPlace {
     std::filesystem::path out;
-    std::vector<std::filesystem::path> configs; ///< none: the near and the shipped set-up
+    std::vector<std::filesystem::path> configs; ///< empty: the near and the shipped set-up
 };
 /// --out and --config.
 void add_place_options(CommandLine& command, BenchPlace& place);
@@ -56,7 +56,7 @@ void add_picture_options(CommandLine& command, PictureOptions& picture);
 /// --poses and --seed.
 void add_pose_options(CommandLine& command, int& poses, std::uint64_t& seed);
 
-/// A pack and the file that it was baked from.
+/// A pack and its source file.
 struct BenchArtifact {
     std::filesystem::path pack;
     std::filesystem::path mesh;
@@ -74,14 +74,15 @@ struct LoadedArtifact {
 
 /// Names and contents.
 using OutputFiles = std::vector<std::pair<std::string, std::string>>;
-/// Writes files into --out; stops at the first that fails.
+/// Writes files into --out; stops at the first failure.
 [[nodiscard]] Result<void> write_all(const std::filesystem::path& folder, const OutputFiles& files);
-/// Draws tables that are in `folder`, each as an SVG beside it.
+/// Draws tables in `folder`, each as an SVG next to it.
 [[nodiscard]] Result<void> draw_all(const std::filesystem::path& folder,
                                     const std::vector<std::string>& tables);
 
-/// One artifact in every set-up: `measure(set_up, pack, mesh, steps)` gives a result whose `worst` is a
-/// picture; its `table` goes to the console, the pictures to NAME_SETUP.png; `files_of` makes the tables of all results.
+/// Measures one artifact in every set-up: `measure(set_up, pack, mesh, steps)` returns a result whose `worst`
+/// is a picture; its `table` is printed, the picture is written to NAME_SETUP.png; `files_of` makes the
+/// tables of all results.
 template <typename Measure, typename Table, typename Files>
 [[nodiscard]] Result<void>
 measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArtifact& measured,
@@ -109,7 +110,7 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
 
 /// Every level of a pack and its peers against a ray cast.
 [[nodiscard]] BenchCommand error_time_command(CommandLine& app);
-/// What the exhibit says of its pictures' errors, against a ray cast.
+/// The exhibit's estimates of its picture error, against a ray cast.
 [[nodiscard]] BenchCommand estimate_command(CommandLine& app);
 /// The prop's pose by its tags, in rendered scenes.
 [[nodiscard]] BenchCommand tags_command(CommandLine& app);
@@ -119,21 +120,21 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
 [[nodiscard]] BenchCommand scaling_command(CommandLine& app);
 /// The visitor's view against an ordinary ray cast.
 [[nodiscard]] BenchCommand projection_command(CommandLine& app);
-/// The prop moved by 0.1 pixel steps, against the ray cast.
+/// The prop moved in steps of 0.1 pixel, against the ray cast.
 [[nodiscard]] BenchCommand shimmer_command(CommandLine& app);
-/// Numerical stability on stiff and extreme cases.
+/// Numerical stability in stiff and extreme cases.
 [[nodiscard]] BenchCommand stability_command(CommandLine& app);
 /// The results of several artifacts on one sheet.
 [[nodiscard]] BenchCommand plot_command(CommandLine& app);
-/// What a frame takes, in numbers that do not depend on the machine.
+/// The cost of a frame in numbers that do not depend on the machine.
 [[nodiscard]] BenchCommand counts_command(CommandLine& app);
-/// How far the picture slips on a prop that moves, with and without prediction.
+/// How far the picture slips on a moving prop, with and without prediction.
 [[nodiscard]] BenchCommand latency_command(CommandLine& app);
 /// Which prop and projector suit a table.
 [[nodiscard]] BenchCommand setup_command(CommandLine& app);
 /// Whether advice helps visitors.
 [[nodiscard]] BenchCommand guidance_command(CommandLine& app);
-/// What the recovery ladder is worth over years of faults.
+/// The benefit of the recovery ladder over years of faults.
 [[nodiscard]] BenchCommand ladder_command(CommandLine& app);
 
 } // namespace frustumscreen

@@ -46,7 +46,7 @@ Result<std::vector<CountedPack>> load_reference(const std::filesystem::path& fil
     return at(file.string(), read_counts(as_text(bytes)));
 }
 
-/// An artifact that the reference lacks is an error too: it would go on unwatched.
+/// An artifact that the reference lacks is an error too, because its counts would not be checked.
 Result<void> require_reference(std::span<const CountedPack> counted, std::span<const CountedPack> reference,
                                std::span<const CountChange> against, const std::filesystem::path& file) {
     if (std::any_of(against.begin(), against.end(), [](const CountChange& one) { return one.grown; })) {

@@ -21,7 +21,7 @@ struct Arguments {
     std::string limits = "all";
 };
 
-/// Every step of the run, so that the time left is that of all of them.
+/// Every step of the run, for the remaining time of the whole run.
 std::vector<WorkStep> all_steps(const std::vector<SetUp>& set_ups, const LoadedArtifact& artifact,
                                 const ErrorTimeOptions& options) {
     std::vector<WorkStep> steps = {{"the pack's own figures", "figures",
@@ -131,7 +131,7 @@ BenchCommand error_time_command(CommandLine& app) {
         .capture_default_str();
     return {command, [arguments](BenchProgress& progress) {
                 std::vector<int> samples = std::move(arguments->options.peers.samples);
-                arguments->options.peers = *parse_peers(arguments->peers); // checked above
+                arguments->options.peers = *parse_peers(arguments->peers); // validated by the option's check
                 arguments->options.peers.samples = std::move(samples);
                 return run(*arguments, progress);
             }};

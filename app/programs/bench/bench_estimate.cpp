@@ -16,7 +16,7 @@ struct Arguments {
     std::string limits = "all";
 };
 
-/// Measures one pack in every set-up, prints its table and each pose's figures go to `poses`.
+/// Measures one pack in every set-up, prints its table and appends each pose's values to `poses`.
 Result<std::vector<NamedCoverage>> measure(const BenchArtifact& named, const std::vector<SetUp>& set_ups,
                                            const EstimateOptions& options, BenchProgress& progress,
                                            std::string& poses) {

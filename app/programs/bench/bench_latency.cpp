@@ -18,8 +18,8 @@ struct Arguments {
     LatencyOptions options;
 };
 
-/// The first is the one that the targets are set for. Latencies of the others are assumed: 18 ms is what is
-/// known of the PATRIOT.
+/// The targets are set for the first tracker. Only its latency of 18 ms is known; those of the others are
+/// assumed.
 std::vector<TrackedBy> trackers() {
     return {{"Polhemus PATRIOT", 60.0, 18.0, {}},
             {"Polhemus VIPER", 240.0, 5.0, {}},
@@ -28,7 +28,7 @@ std::vector<TrackedBy> trackers() {
 
 struct RecordingFile {
     std::string_view name;
-    bool noisy; ///< brings its own noise; the others are of a motion capture
+    bool noisy; ///< has its own noise; the others are motion capture
 };
 constexpr std::array recording_files = {
     RecordingFile{"vicon_handheld_1.csv", false}, RecordingFile{"tum_fr1_xyz_groundtruth.txt", false},

@@ -1,4 +1,4 @@
-/// frustumscreen-bench: what is measured, as tables and plots; each command is a file of its own.
+/// frustumscreen-bench: measurements as tables and plots; each command has its own file.
 #include "app/programs/bench/bench_command.h"
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"

@@ -19,8 +19,8 @@ struct Arguments {
     bool no_peers = false;
 };
 
-/// Makes the files of one set-up: cost against size, and each amphora that is large enough against the
-/// two-pass method with each of its eye images.
+/// Makes the files of one set-up: cost against size, and for each amphora that is large enough the comparison
+/// with the two-pass method at each of its eye images.
 Result<void> measure(const SetUp& set_up, const std::vector<ScalingSource>& sources,
                      const Arguments& arguments, BenchProgress& progress,
                      std::vector<std::pair<std::string, std::string>>& files) {

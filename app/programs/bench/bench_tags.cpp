@@ -20,7 +20,7 @@ struct Arguments {
     bool half = false;
 };
 
-/// As the hand of a recording, from any moment of it on. What is up in the recording is up on the table.
+/// The hand's motion in a recording, from a random moment on. The recording's up axis is the table's.
 std::function<PropMotion(std::mt19937_64&)> slid_as(std::shared_ptr<const std::vector<RecordedPose>> poses) {
     return [poses = std::move(poses)](std::mt19937_64& random) -> PropMotion {
         std::uniform_real_distribution<double> any_s(poses->front().t_s, poses->back().t_s);
@@ -28,7 +28,7 @@ std::function<PropMotion(std::mt19937_64&)> slid_as(std::shared_ptr<const std::v
     };
 }
 
-/// Recordings that are not there are left out, in a line.
+/// Skips missing recordings, with a line.
 Result<void> add_recordings(const std::filesystem::path& folder, std::vector<TagCase>& cases) {
     for (const char* name : {"vicon_handheld_1.csv", "tum_fr1_xyz_groundtruth.txt"}) {
         if (!std::filesystem::exists(folder / name)) {

@@ -45,7 +45,8 @@ std::vector<Attack> seeded_attacks(std::uint64_t seed, int days, double times) {
                 std::exponential_distribution<double> lasts(1.0 / (kinds[k].lasts_days * museum_day));
                 lasts_s = 3600.0 + lasts(chance);
             }
-            // What no person needs to mend is mended by one in the end: the one who is called when it stays dark.
+            // Faults that need no person are also mended by one in the end, who is called when the table
+            // stays dark.
             const double mended_at = at + (kinds[k].lasts_days > 0.0 ? lasts_s : 3.0 * museum_day);
             attacks.push_back(
                 {static_cast<MuseumTime>(at), static_cast<Ailment>(k), static_cast<MuseumTime>(mended_at)});

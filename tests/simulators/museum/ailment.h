@@ -1,7 +1,8 @@
-/// What befalls a kiosk: seeded faults over many days, and what ends each of them.
+/// Faults of a kiosk: seeded over many days, each with the events that end it.
 ///
-/// Assumed  how often each comes: no museum's figures are known to us. `rate_per_year` are guesses at the upper end, so that a
-///          thousand days see each kind often; what is compared is how policies fare on the same faults.
+/// Assumed  the rates: we know no museum's statistics. `rate_per_year` are guesses at the upper end, so a
+///          thousand days contain each kind often; the comparison is how policies perform on identical
+///          faults.
 /// Threads  pure; any.
 #pragma once
 
@@ -18,37 +19,39 @@ inline constexpr MuseumTime museum_day = 86400;
 
 enum class Ailment : std::uint8_t {
     Crash,        ///< the exhibit's process ends once
-    Hang,         ///< it hangs; systemd's watchdog sees that
-    Freeze,       ///< its picture freezes, and it feeds systemd's watchdog all the same
+    Hang,         ///< it hangs; systemd's watchdog detects that
+    Freeze,       ///< its picture freezes, but it still feeds systemd's watchdog
     DeviceThread, ///< a device makes it hang a few seconds after each start, until its port is reset
-    TrackerHung,  ///< the tracker says nothing until its port is reset
-    TrackerDead,  ///< it says nothing until a technician replaces it
-    DriverCrash, ///< the graphics driver ends it at each start, until an update mends it; drawn plainly it runs
-    GpuWedged,   ///< the driver gives no picture until the machine is started again; a plain screen works
-    BadSet, ///< a set from a stick ends the exhibit seconds after its start, until a curator brings another one
-    BadSettings,   ///< the settings were damaged: it ends at once, until a technician mends them
-    Leak,          ///< its memory is full two hours after each start, until an update mends it
+    TrackerHung,  ///< the tracker sends nothing until its port is reset
+    TrackerDead,  ///< the tracker sends nothing until a technician replaces it
+    DriverCrash,  ///< the graphics driver ends it at each start, until an update fixes it; without the GPU it
+                  ///< runs
+    GpuWedged,    ///< the driver gives no picture until the machine is rebooted; a plain screen works
+    BadSet, ///< a set from a stick ends the exhibit seconds after its start, until a curator brings another
+            ///< one
+    BadSettings,   ///< the settings are damaged: it ends at once, until a technician repairs them
+    Leak,          ///< its memory is full two hours after each start, until an update fixes it
     KernelHang,    ///< the machine hangs; the hardware's watchdog resets it
-    MachineBroken, ///< no exhibit is to be had until a technician comes; a plain screen works
+    MachineBroken, ///< the exhibit cannot run until a technician comes; a plain screen works
     PowerCut,
 };
 inline constexpr std::size_t ailment_count = 14;
 
-/// What ends an ailment, bits.
+/// Bits: the events that end a fault.
 enum Remedy : unsigned {
     ByRestart = 1, ///< a new process
-    ByReset = 2,   ///< of the port
+    ByReset = 2,   ///< reset of the port
     ByReboot = 4,
-    ByLastGoodSet = 8, ///< not ended, but without effect in that mode
-    ByBuiltIn = 16,    ///< as above
-    ByPlain = 32,      ///< as above
+    ByLastGoodSet = 8, ///< does not end the fault, but avoids its effect in that mode
+    ByBuiltIn = 16,    ///< likewise
+    ByPlain = 32,      ///< likewise
 };
 
 struct AilmentKind {
     std::string_view name;
     double rate_per_year;
     unsigned remedies;
-    double lasts_days; ///< until a person mends it, in the mean; 0: nobody needs to
+    double lasts_days; ///< mean time until a person mends it; 0: no person needed
 };
 [[nodiscard]] const AilmentKind& kind_of(Ailment ailment);
 
@@ -57,7 +60,7 @@ struct Attack {
     Ailment ailment = Ailment::Crash;
     MuseumTime mended_at = 0; ///< by a person, at the latest
 };
-/// Ascending in time; `times` as many as usual.
+/// Ascending in time; `times`: factor of the usual rates.
 [[nodiscard]] std::vector<Attack> seeded_attacks(std::uint64_t seed, int days, double times = 1.0);
 
 } // namespace frustumscreen

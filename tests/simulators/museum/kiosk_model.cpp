@@ -6,9 +6,9 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr MuseumTime ends_after_s = 3;     ///< from the picture on, with a set that ends it
-constexpr MuseumTime hangs_after_s = 5;    ///< from the picture on, by a device
-constexpr MuseumTime gives_up_after_s = 8; ///< from the start on, where the driver gives no picture
+constexpr MuseumTime ends_after_s = 3;     ///< from the picture on, with a set that crashes it
+constexpr MuseumTime hangs_after_s = 5;    ///< from the picture on, caused by a device
+constexpr MuseumTime gives_up_after_s = 8; ///< from the start on, if the driver gives no picture
 
 } // namespace
 
@@ -82,7 +82,7 @@ bool KioskModel::gives_no_picture() const {
     return (has(Ailment::GpuWedged) && mode_ != Mode::Plain) || has(Ailment::MachineBroken);
 }
 
-/// The exhibit's process, a second on.
+/// Advances the exhibit's process by a second.
 void KioskModel::live(MuseumTime now) {
     const MuseumTime age = now - *began_;
     memory_ += has(Ailment::Leak) ? 0.8 / static_cast<double>(leak_s) : 0.0;
@@ -156,7 +156,7 @@ void KioskModel::take(Step step, Mode mode, MuseumTime now) {
         break;
     default:
         end_process(now, false);
-        break; // told to: no failure
+        break; // by command: not a failure
     }
 }
 

@@ -1,8 +1,9 @@
-/// A kiosk as a watchdog meets it, second by second: the exhibit's process with systemd's restart and watchdog, the machine, and
-/// the ailments that it has.
+/// A kiosk as a watchdog sees it, second by second: the exhibit's process with systemd's restart and
+/// watchdog, the machine, and its current faults.
 ///
-/// Times    in whole seconds; those of a PC with a GPU: 15 s from reset to the service manager, 4 s from the exhibit's start to its
-///          picture, 1 s before systemd starts a process that ended, 10 s before its watchdog ends one that hangs.
+/// Times    in whole seconds, for a PC with a GPU: 15 s from reset to the service manager, 4 s from the
+///          exhibit's start to its picture, 1 s before systemd restarts a process that ended, 10 s before its
+///          watchdog ends one that hangs.
 /// Threads  values; one caller.
 #pragma once
 
@@ -17,11 +18,11 @@ namespace frustumscreen {
 
 /// What the visitors see.
 enum class VisibleState : std::uint8_t {
-    Whole,     ///< the museum's own exhibit, as it should be
-    Untracked, ///< the same, and it does not follow the prop
-    BuiltIn,   ///< another object
-    Words,     ///< for the staff
-    Dark,      ///< nothing, or a picture that is frozen
+    Whole,     ///< the museum's own exhibit, working
+    Untracked, ///< the museum's own exhibit, but it does not follow the prop
+    BuiltIn,   ///< the built-in artifact
+    Words,     ///< text for the staff
+    Dark,      ///< nothing, or a frozen picture
 };
 inline constexpr std::size_t visible_state_count = 5;
 
@@ -35,10 +36,10 @@ public:
     static constexpr MuseumTime leak_s = 7200;
 
     void attack(const Attack& attack, MuseumTime now);
-    /// A second passes. `Outcome` is what can be seen after it; nothing while the machine boots.
+    /// Advances by a second. `Outcome` is the visible state afterwards; nullopt while the machine boots.
     std::optional<Outcome> pass(MuseumTime now);
     void take(Step step, Mode mode, MuseumTime now);
-    /// As a watchdog says after a boot.
+    /// Sets the mode that a watchdog chooses after a boot.
     void show(Mode mode) { mode_ = mode; }
 
     [[nodiscard]] VisibleState shown() const;
@@ -58,14 +59,14 @@ private:
     std::vector<Attack> attacks_;
     Mode mode_ = Mode::Normal;
     MuseumTime boots_until_ = 0;
-    std::optional<MuseumTime> began_; ///< the exhibit's process
-    MuseumTime begins_at_ = 0;        ///< systemd starts it
+    std::optional<MuseumTime> began_; ///< start of the exhibit's process
+    MuseumTime begins_at_ = 0;        ///< when systemd starts it
     bool is_lit_ = false;
     std::optional<MuseumTime> hangs_since_;
     std::int32_t process_ = 1;
     std::uint32_t failures_ = 0;
     std::uint64_t pictures_ = 0, safe_pictures_ = 0;
-    MuseumTime heard_ = 0; ///< its latest status
+    MuseumTime heard_ = 0; ///< time of its latest status
     double memory_ = 0.2;
 };
 

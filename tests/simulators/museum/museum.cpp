@@ -11,7 +11,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr MuseumTime between_reboots_s = 120;
-constexpr MuseumTime well_for_s = 60; ///< before a step that is a false alarm
+constexpr MuseumTime well_for_s = 60; ///< before a step that counts as a false alarm
 constexpr double loads_a_day = 4.0;
 constexpr MuseumTime load_s = 600;
 
@@ -22,11 +22,11 @@ Awake awake(MuseumTime time) {
     return std::chrono::seconds(time);
 }
 
-/// Other programs take the machine for ten minutes: looks and statuses come late.
+/// Other programs occupy the machine for ten minutes: checks and statuses come late.
 class Load {
 public:
     explicit Load(std::uint64_t seed) : chance_(seed) {}
-    /// Whether the watchdog gets its turn in this second.
+    /// Whether the watchdog runs in this second.
     bool lets_look(MuseumTime now) {
         if (now >= next_ + load_s) {
             next_ = now + 1 +
@@ -44,7 +44,7 @@ private:
     bool is_on_ = false;
 };
 
-/// What decides: the judge with one of the policies. It loses all but the ladder's memory at a boot.
+/// The judge with one of the policies. At a boot it loses everything except the ladder's memory.
 class Keeper {
 public:
     explicit Keeper(Policy policy) : policy_(policy) {}
@@ -122,7 +122,7 @@ public:
     }
 
 private:
-    /// Staff come by, and switch off and on what does not look well.
+    /// The staff's round: they power-cycle a kiosk that does not look well.
     void make_the_round(MuseumTime now) {
         if (kiosk_.shown() != VisibleState::Whole && kiosk_.shown() != VisibleState::BuiltIn) {
             kiosk_.attack({now, Ailment::PowerCut, now}, now);

@@ -1,9 +1,9 @@
-/// A kiosk's life under a policy: what was shown, which steps were taken, which of them for nothing.
+/// A kiosk's life under a policy: what was shown, which steps were taken, which of them needlessly.
 ///
-/// Policies the ladder; systemd's restart and watchdog alone; a reboot at every trouble that the same judge sees, two minutes
-///          apart at least. All meet the same attacks, the same nights and the same load.
-/// False    a step is a false alarm if nothing was wrong for a minute before it and an exhibit was shown; a return after ten good
-///          minutes is none.
+/// Policies the ladder; systemd's restart and watchdog alone; a reboot at every fault that the same judge
+/// detects, at least two minutes apart. All face identical faults, nights and load.
+/// False    a step is a false alarm if nothing was wrong for a minute before it and an exhibit was shown; a
+///          return after ten good minutes is none.
 /// Threads  pure; any.
 #pragma once
 
@@ -22,8 +22,9 @@ enum class Policy : std::uint8_t { Ladder, SystemdAlone, RebootAtEveryTrouble };
 inline constexpr std::array all_policies{Policy::Ladder, Policy::SystemdAlone, Policy::RebootAtEveryTrouble};
 [[nodiscard]] std::string_view name_of(Policy policy);
 
-/// The museum is open from ten to six; the exhibit sleeps from eight to eight, and is not dark then. At ten and at two staff look
-/// at it, under every policy alike, and switch it off and on where there is no exhibit, or one that does not follow the prop.
+/// The museum is open from ten to six; the exhibit sleeps from eight in the evening to eight in the morning,
+/// which does not count as dark. At ten and at two, under every policy, staff look at it and power-cycle it
+/// if it shows no exhibit or does not follow the prop.
 inline constexpr MuseumTime opens_s = 10 * 3600, closes_s = 18 * 3600;
 inline constexpr MuseumTime second_round_s = 14 * 3600;
 inline constexpr MuseumTime sleeps_s = 20 * 3600, wakes_s = 8 * 3600;
@@ -36,10 +37,10 @@ struct TakenStep {
 struct MuseumRun {
     Policy policy = Policy::Ladder;
     std::array<MuseumTime, visible_state_count> open{}; ///< seconds of opening hours
-    MuseumTime longest_dark_s = 0;                      ///< by day or night, in one piece
+    MuseumTime longest_dark_s = 0;                      ///< by day or night, without interruption
     MuseumTime longest_dark_at = 0;
-    std::array<MuseumTime, ailment_count> longest{}; ///< dark, in one piece that began with this ailment
-    std::vector<MuseumTime> dark_times;              ///< seconds of each piece
+    std::array<MuseumTime, ailment_count> longest{}; ///< longest dark period that began with this fault
+    std::vector<MuseumTime> dark_times;              ///< seconds of each dark period
     std::vector<TakenStep> steps;
     std::size_t most_reboots_in_day = 0;
 };

@@ -23,7 +23,7 @@ std::size_t count_of(std::span<const Attack> attacks, std::size_t ailment) {
     }));
 }
 
-/// 45 s, 12.5 min, 3.2 h: what a person can compare.
+/// Formats as 45 s, 12 min or 3.2 h, easy to compare.
 std::string length_of(MuseumTime seconds) {
     const auto value = static_cast<double>(seconds);
     return seconds < 120    ? fmt::format("{} s", seconds)

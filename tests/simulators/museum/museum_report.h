@@ -1,4 +1,4 @@
-/// The results of frustumscreen-bench ladder as words and CSV.
+/// The results of `frustumscreen-bench ladder` as text and CSV.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -10,13 +10,13 @@
 
 namespace frustumscreen {
 
-/// Policies side by side.
+/// Policies next to each other.
 [[nodiscard]] std::string museum_table(std::span<const MuseumRun> runs, std::span<const Attack> attacks);
-/// A row for each policy.
+/// One row per policy.
 [[nodiscard]] std::string museum_csv(std::span<const MuseumRun> runs, int days);
-/// How many dark times a year are longer than so many seconds: rows for each policy, ascending in length.
+/// Number of dark periods per year longer than a length: rows per policy, ascending in length.
 [[nodiscard]] std::string dark_times_csv(std::span<const MuseumRun> runs, int days);
-/// A row for each policy and ailment: how often it came, and the longest time that the table was dark then.
+/// One row per policy and fault: how often it came, and the longest dark period that began with it.
 [[nodiscard]] std::string ailments_csv(std::span<const MuseumRun> runs, std::span<const Attack> attacks);
 [[nodiscard]] std::size_t false_alarms(const MuseumRun& run);
 [[nodiscard]] std::size_t count_of(const MuseumRun& run, Step step);

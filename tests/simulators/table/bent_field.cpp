@@ -10,7 +10,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The field at `at` of dipoles along the three axes at the origin, one column each.
+/// The field at `at` of dipoles along the three axes at the origin, one per column.
 Eigen::Matrix3d dipole(const Eigen::Vector3d& at) {
     const Eigen::Vector3d n = at.normalized();
     return (3.0 * n * n.transpose() - Eigen::Matrix3d::Identity()) / std::pow(at.norm(), 3.0);
@@ -23,7 +23,8 @@ RigidTransform Metal::reported(const RigidTransform& tracker_from_sensor) const 
     const Eigen::Vector3d metal = eigen(in_tracker_m);
     const Eigen::Matrix3d sum = dipole(at) + strength_m3 * dipole(at - metal) * dipole(metal);
     const Eigen::Matrix3d measured = eigen(tracker_from_sensor.rotation).transpose() * sum;
-    // Of the source's field alone the square has the eigenvalues 4, 1, 1 over the distance's sixth power, the first one along the place.
+    // For the source's field alone, the square has the eigenvalues 4, 1, 1 divided by the sixth power of the
+    // distance; the first eigenvector points along the position.
     const Eigen::Matrix3d square = measured.transpose() * measured;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts(square);
     Eigen::Vector3d place = parts.eigenvectors().col(2) * std::pow(6.0 / square.trace(), 1.0 / 6.0);
@@ -62,7 +63,7 @@ BentTable bent_table(std::uint64_t seed, double bend_m) {
         return largest;
     };
     bent.metal.strength_m3 = -1e-4;
-    for (int k = 0; k < 6; ++k) { // nearly in proportion
+    for (int k = 0; k < 6; ++k) { // the bend is nearly proportional to the strength
         bent.metal.strength_m3 *= bend_m / largest_bend();
     }
     return bent;

@@ -1,9 +1,12 @@
-/// What an electromagnetic tracker reports beside metal: the tracker's own arithmetic on a field that an induced dipole bends.
+/// The report of an electromagnetic tracker near metal: the tracker's own arithmetic on a field distorted by
+/// an induced dipole.
 ///
-/// The source at the origin of K has three coils, one after the other; metal answers each with a dipole of its own; the sensor measures the
-/// sum, and the tracker takes it for the source's field alone. Nothing in it is a polynomial.
+/// The source at the origin of K has three coils, driven one after the other; the metal answers each with its
+/// own dipole; the sensor measures the sum, and the tracker treats it as the source's field alone. The
+/// resulting distortion is not a polynomial.
 /// Frame    K; metres.
-/// Source   Raab, Blood, Steiner and Jones, Magnetic position and orientation tracking system, 1979; a sphere's dipole: Jackson, Classical electrodynamics, 5.
+/// Source   Raab, Blood, Steiner and Jones, Magnetic position and orientation tracking system, 1979; a
+///          sphere's dipole: Jackson, Classical electrodynamics, 5.
 /// Threads  values; any.
 #pragma once
 
@@ -13,12 +16,12 @@ namespace frustumscreen {
 
 struct Metal {
     glm::dvec3 in_tracker_m{0.0};
-    double strength_m3 = 0.0; ///< half a conducting sphere's radius, cubed, times -1
+    double strength_m3 = 0.0; ///< minus half the cube of a conducting sphere's radius
     [[nodiscard]] RigidTransform reported(const RigidTransform& tracker_from_sensor) const;
 };
 
-/// A table beside metal: the tracker's source stands beside the picture, the metal below the table, and the zone's places are reported up to `bend_m`
-/// from where they are.
+/// A table near metal: the tracker's source stands next to the picture, the metal below the table, and places
+/// in the zone are reported up to `bend_m` from their true position.
 struct BentTable {
     SimulatedTable table;
     Metal metal;

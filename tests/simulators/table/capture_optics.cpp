@@ -14,7 +14,7 @@ StripeProfile::StripeProfile(const StripeSetup& stripes, const Pattern& pattern,
     for (int k = 0; k < length; ++k) {
         light.push_back(std::pow(pattern_value(stripes, pattern, k) / 255.0, faults.gamma));
     }
-    // A pixel's square and a Gaussian: the difference of two error functions.
+    // A pixel's square convolved with a Gaussian: the difference of two error functions.
     const double width = std::sqrt(2.0) * faults.projector_blur;
     for (int k = 0; k <= 8 * length; ++k) {
         const double at = k / 8.0;
@@ -46,7 +46,7 @@ void blur_picture(std::vector<double>& picture, int width, int height, double si
         share /= sum;
     }
     const std::size_t across = static_cast<std::size_t>(width);
-    std::vector<double> line; // with its ends repeated
+    std::vector<double> line; // with both ends repeated
     for (const bool columns : {false, true}) {
         const int length = columns ? height : width;
         const std::size_t step = columns ? across : 1;

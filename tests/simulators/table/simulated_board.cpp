@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int rays = 2; ///< a pixel, along each side, where the board is
+constexpr int rays = 2; ///< per side of a pixel that shows the tag sheet
 constexpr double white = 0.85;
 constexpr double black = 0.05;
 constexpr double table_albedo = 0.5;
@@ -23,7 +23,7 @@ struct Hit {
     double albedo = 0.0;
 };
 
-/// The printed sheet, the prop as a solid on it, and the table.
+/// The printed tag sheet, the prop as a solid on it, and the table.
 class BoardScene {
 public:
     BoardScene(const Board& board, const std::set<int>& covered, const glm::dmat4& table_from_prop)
@@ -51,11 +51,11 @@ private:
     [[nodiscard]] glm::dvec3 world(const glm::dvec3& p) const {
         return glm::dvec3(table_from_prop_ * glm::dvec4(p, 1.0));
     }
-    /// The ray's first point in the solid between five planes and the sheet.
+    /// The ray's first point in the solid between five planes and the tag sheet.
     [[nodiscard]] double enters_prop(const glm::dvec3& o, const glm::dvec3& d) const {
         const FrustumSize& prop = board_.prop;
         const double slope = 0.5 * (prop.base_m - prop.top_m) / prop.height_m;
-        // normal . p <= offset
+        // condition: normal . p <= offset
         const std::array<std::pair<glm::dvec3, double>, 6> planes{{{{1, 0, slope}, 0.5 * prop.base_m},
                                                                    {{-1, 0, slope}, 0.5 * prop.base_m},
                                                                    {{0, 1, slope}, 0.5 * prop.base_m},
@@ -77,7 +77,7 @@ private:
         }
         return in < out ? in : along_forever;
     }
-    /// Of the paper at z = 0, or of the prop's top.
+    /// Reflectance of the paper at z = 0, or of the prop's top.
     [[nodiscard]] double print(const glm::dvec3& p) const {
         for (const PropTag& tag : board_.tags) {
             const glm::dvec3 off = p - tag.prop_from_tag.translation;
@@ -102,7 +102,7 @@ private:
     std::map<int, TagModules> modules_;
 };
 
-/// The pixels in which the board or the prop may be.
+/// The pixels that may show the tag sheet or the prop.
 struct Window {
     glm::dvec2 low{1e9};
     glm::dvec2 high{-1e9};
@@ -165,7 +165,7 @@ void SimulatedBoard::cast() {
                 const Hit hit = scene.seen(eye, camera_.ray(at));
                 Sample sample{static_cast<std::uint32_t>(y * camera_.width + x),
                               1.0F / static_cast<float>(side * side), static_cast<float>(hit.albedo)};
-                // Where the projector sees something else there is a shadow.
+                // If the projector sees something else there, the point is in shadow.
                 const auto pixel = true_pixel(table_.truth, hit.place);
                 if (pixel && glm::distance(scene.seen(lens, hit.place - lens).place, hit.place) < 1e-6) {
                     sample.u = static_cast<float>(pixel->x);

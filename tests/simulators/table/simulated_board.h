@@ -1,10 +1,11 @@
-/// A table while it is calibrated by a camera, ray cast: what is shown lies on the printed board and on its prop, a camera looks at it frame by frame,
-/// and a tracker reports.
+/// A ray-cast table during calibration by a camera: the projector's picture falls on the printed tag sheet
+/// and its prop, a camera captures it frame by frame, and a tracker reports.
 ///
-/// The arithmetic is its own, as in simulated_table.h; of the board it knows what is printed, of the stripes what is shown.
-/// Light    a picture lies on the table `latency_s` after it is given out. Each row of a frame is exposed for itself, one after the other, and sees
-///          what lies there meanwhile.
-/// Frames   table T; the camera's pixels as the projector's.
+/// Shares no arithmetic with the code under test, as in simulated_table.h; it knows only the print on the tag
+/// sheet and the stripes that are shown.
+/// Light    a picture appears on the table `latency_s` after it was sent. Each row of a frame has its own
+///          exposure, one after the other, and integrates what is shown meanwhile.
+/// Frames   table T; camera pixels follow the convention of the projector's.
 /// Threads  values; any.
 #pragma once
 
@@ -22,7 +23,7 @@ namespace frustumscreen {
 struct BoardFaults {
     CaptureFaults light;
     double latency_s = 0.045;   ///< of the projector
-    double exposure_s = 0.0167; ///< of a row
+    double exposure_s = 0.0167; ///< per row
     double readout_s = 0.02;    ///< from the first row's exposure to the last one's
 };
 
@@ -31,31 +32,31 @@ public:
     SimulatedBoard(const SimulatedTable& table, const SimulatedCamera& camera, Board board,
                    const StripeSetup& stripes, const BoardFaults& faults, std::uint64_t seed);
 
-    /// Puts the prop with its board there. `covered`: tags on which a hand lies.
+    /// Places the prop with its tag sheet. `covered`: tags covered by a hand.
     void put(const glm::dmat4& table_from_prop, std::set<int> covered = {});
-    /// Of the projector's light, from now on: whether something keeps it away from a pixel's place.
+    /// Shades the projector's light from now on: whether something blocks it at a pixel's place.
     using Shade = std::function<bool(const glm::dvec2& pixel)>;
     void shade(MonotonicTime from, Shade shade);
-    /// A pattern, or words as they are drawn.
+    /// Shows a pattern, or a picture of text.
     void show(MonotonicTime given_out, const Pattern& pattern);
     void show(MonotonicTime given_out, const Image8& words);
-    /// The exposure of its first row begins then; that is its time.
+    /// `begin`: start of the first row's exposure, which is the frame's time.
     [[nodiscard]] CameraFrame frame(MonotonicTime begin);
 
 private:
-    /// One ray, or a share of a pixel's.
+    /// One of a pixel's rays.
     struct Sample {
         std::uint32_t pixel = 0; ///< of the camera
         float weight = 1.0F;
         float albedo = 0.0F;
-        float u = -1.0F, v = -1.0F; ///< of the projector; negative: no light comes
+        float u = -1.0F, v = -1.0F; ///< of the projector; negative: unlit
     };
     struct Shown {
-        MonotonicTime from; ///< lies on the table since
+        MonotonicTime from; ///< on the table since
         std::optional<Pattern> pattern;
         std::vector<float> words;    ///< light of each pixel of the projector
-        Shade shade;                 ///< may be none
-        std::vector<double> light{}; ///< that each pixel of the camera sees; empty: not yet found
+        Shade shade;                 ///< may be empty
+        std::vector<double> light{}; ///< seen by each pixel of the camera; empty: not yet computed
     };
     void cast();
     void light(Shown& shown) const;
@@ -66,11 +67,11 @@ private:
     StripeSetup stripes_;
     BoardFaults faults_;
     SeededNumbers numbers_;
-    std::vector<float> normals_; ///< noise, read from a place of chance on
+    std::vector<float> normals_; ///< noise, read from a random offset on
     glm::dmat4 table_from_prop_{1.0};
     std::set<int> covered_;
     std::vector<Sample> samples_;
-    std::list<Shown> shown_; ///< the latest last
+    std::list<Shown> shown_; ///< the latest is last
 };
 
 } // namespace frustumscreen

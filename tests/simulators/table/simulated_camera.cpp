@@ -10,7 +10,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-/// Rays a pixel, along each side.
+/// Rays per side of a pixel.
 constexpr int rays = 2;
 
 struct Hit {
@@ -18,7 +18,8 @@ struct Hit {
     double albedo;
 };
 
-/// The prop's faces with tags on them: each tag black with a white rim and an inner pattern, on white paper; the table is grey.
+/// The prop's faces with tags on them: each tag black with a white rim and an inner pattern, on white paper;
+/// the table is grey.
 class Scene {
 public:
     Scene(const TagCorners& tags, const glm::dmat4& table_from_prop)
@@ -40,7 +41,7 @@ public:
     }
 
 private:
-    /// The plate on the prop's top, or the board under it.
+    /// The plate on the prop's top, or the tag sheet under it.
     [[nodiscard]] bool on_paper(const glm::dvec3& p) const {
         return std::abs(p.z - top_) < 1e-9 ? std::abs(p.x) < 0.045 && std::abs(p.y) < 0.045
                                            : std::abs(p.x) < 0.21 && std::abs(p.y) < 0.1485;
@@ -50,7 +51,7 @@ private:
             const glm::dvec3& low = tags_[k];
             const glm::dvec3& high = tags_[k + 2];
             if (std::abs(low.z - p.z) < 1e-6 && p.x > low.x && p.x < high.x && p.y > low.y && p.y < high.y) {
-                // Eight cells a side, the outer ring black, the inner ones by a hash.
+                // Eight cells per side, the outer ring black, the inner ones by a hash.
                 const int i = static_cast<int>(8.0 * (p.x - low.x) / (high.x - low.x));
                 const int j = static_cast<int>(8.0 * (p.y - low.y) / (high.y - low.y));
                 const bool ring = i == 0 || j == 0 || i == 7 || j == 7;
@@ -67,7 +68,7 @@ private:
     double top_ = 0.0;
 };
 
-/// What one ray brings back.
+/// The result of one ray.
 struct Sample {
     glm::dvec2 pixel{nothing}; ///< of the projector
     double albedo = 0.0;
@@ -79,7 +80,7 @@ Sample sample_of(const SimulatedTable& table, const Scene& scene, const glm::dve
     Sample sample;
     sample.albedo = hit.albedo;
     const glm::dvec3 lens = table.truth.table_from_projector.translation;
-    // A shadow: from the projector something else is seen there.
+    // In shadow if the projector sees something else there.
     const Hit lit = scene.seen(lens, hit.place - lens);
     if (glm::distance(lit.place, hit.place) < 1e-6) {
         if (const auto pixel = true_pixel(table.truth, hit.place)) {
@@ -117,7 +118,7 @@ SimulatedCamera some_camera(const SimulatedTable& table) {
     table_from_camera[2] = glm::dvec4(forward, 0.0);
     table_from_camera[3] = glm::dvec4(eye, 1.0);
     camera.camera_from_table = glm::inverse(table_from_camera);
-    // So that the projector's picture fills most of its own.
+    // The projector's picture fills most of the camera's picture.
     const glm::dvec3 left = true_light(table.truth, {0.0, 0.5 * table.truth.pinhole.height}, 0.0);
     const glm::dvec3 far =
         true_light(table.truth, {1.0 * table.truth.pinhole.width, 0.5 * table.truth.pinhole.height}, 0.0);
@@ -127,7 +128,7 @@ SimulatedCamera some_camera(const SimulatedTable& table) {
 
 namespace {
 
-/// The part of the camera's picture in which the tags are, with a rim; all else is left out of the captures.
+/// The part of the camera's picture that contains the tags, with a margin; the captures omit the rest.
 struct Window {
     glm::ivec2 from;
     glm::ivec2 size;
@@ -145,7 +146,7 @@ Window window_around(const std::vector<glm::dvec2>& corners, const SimulatedCame
     return {glm::ivec2(low), glm::ivec2(glm::max(high - low, glm::dvec2(1.0)))};
 }
 
-/// Rays of a window, pixel after pixel; and one through each pixel's middle.
+/// The rays of a window, pixel by pixel, and one through each pixel's centre.
 struct Cast {
     std::vector<Sample> samples;
     std::vector<glm::dvec2> true_pixels;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// The real direction's ideal one, by halving: slow, and nothing like the solver's own way.
+/// Inverts the distortion by bisection: slow, and independent of the solver's own method.
 double unbent(double goal, const Lens& lens) {
     double low = 0.0;
     double high = 3.0;
@@ -27,7 +27,7 @@ glm::dquat about_z(double angle) {
     return {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
 }
 
-/// The sensor of a prop whose touched place is at a point of the table's space.
+/// The sensor's pose for a prop whose touched place is at a point in table space.
 RigidTransform sensor_at(const SimulatedTable& table, const glm::dvec3& table_point, double yaw,
                          double lean) {
     const glm::dquat table_from_prop =

@@ -1,8 +1,8 @@
-/// A table whose truth is known: touches with noise as a technician makes them, and what a calibration is worth on it.
+/// A table with known truth: touches with a technician's noise, and the error of a calibration on it.
 ///
-/// The arithmetic is its own, and shares nothing with what it is held against but the structs.
+/// Shares only structs with the code under test; its arithmetic is independent.
 /// Frames   table T, tracker K, projector J; metres, pixels.
-/// Threads  values; any. The same seed gives the same numbers on every machine.
+/// Threads  values; any. One seed gives the same numbers on every machine.
 #pragma once
 
 #include "app/calibration/calibrated_table.h"
@@ -15,7 +15,8 @@
 
 namespace frustumscreen {
 
-/// Even and normal numbers of a seed. The standard's distributions differ between libraries; these do not.
+/// Uniform and normal numbers from a seed. The standard's distributions differ between libraries; these are
+/// portable.
 class SeededNumbers {
 public:
     explicit SeededNumbers(std::uint64_t seed) : state_(seed) {}
@@ -31,12 +32,12 @@ private:
 
 struct SimulatedTable {
     CalibratedTable truth;
-    glm::dquat sensor_from_prop{1.0, 0.0, 0.0, 0.0}; ///< how the sensor sits in the prop
+    glm::dquat sensor_from_prop{1.0, 0.0, 0.0, 0.0}; ///< mounting of the sensor in the prop
     double sensor_height_m = 0.0;                    ///< above the touched place, upright
 };
 
-/// Some projector above some table, and some tracker beside it, as kiosks have them: throw 0.8 to 2.5, a lens shift or a fixed
-/// offset, aimed roughly at the table, distortion up to a per cent at the corner.
+/// A random but realistic projector above a table, and a tracker next to it: throw 0.8 to 2.5, a lens shift
+/// or a fixed offset, aimed roughly at the table, distortion up to a per cent at the corner.
 [[nodiscard]] SimulatedTable some_table(std::uint64_t seed);
 
 /// A table as shipped (config/kiosk.toml), built by hand: the projector a few centimetres and degrees beside where the settings have it, its
@@ -45,10 +46,10 @@ struct SimulatedTable {
 
 /// The pixel that a calibration lights for a point of its table's space.
 [[nodiscard]] glm::dvec2 calibrated_pixel(const CalibratedTable& calibrated, const glm::dvec3& table_point);
-/// Where the true light of a pixel is at a height above the table.
+/// The true position of a pixel's light at a height above the table.
 [[nodiscard]] glm::dvec3 true_light(const CalibratedTable& truth, const glm::dvec2& pixel, double height_m);
 
-/// What is touched: the prop on a cross, upright and turned, or leaning by `lean_rad` about its own X axis.
+/// A touch: the prop on a cross, upright and turned, or leaning by `lean_rad` about its own X axis.
 struct PlacedProp {
     Cross cross;
     double lean_rad = 0.0;
@@ -56,18 +57,19 @@ struct PlacedProp {
 [[nodiscard]] Touch simulated_touch(const SimulatedTable& table, const PlacedProp& placed,
                                     const TouchNoise& noise, SeededNumbers& numbers);
 
-/// How far the light lies beside what it should light, over the picture and from the table up to `top_m`: a prop's
-/// place is taken from the tracker, lit by the calibrated projector, and looked at where the true projector's light is.
+/// Distance between the light and its intended place, over the picture and from the table up to `top_m`: the
+/// tracker gives a prop's place, the calibrated projector lights it, and the true projector shows where the
+/// light is.
 struct RegistrationError {
     double mean_m = 0.0;
     double worst_m = 0.0;
 };
-/// `reported`: what the tracker says of a sensor's pose; left out: what it is.
+/// `reported`: the tracker's report of a sensor's pose; empty: exact.
 using Reported = std::function<RigidTransform(const RigidTransform&)>;
 [[nodiscard]] RegistrationError registration_error(const SimulatedTable& table,
                                                    const CalibratedTable& calibrated, double top_m,
                                                    const Reported& reported = {});
-/// The same at each place: from what should be lit to the light.
+/// The offset at each place: from the intended place to the light.
 [[nodiscard]] std::vector<glm::dvec3> registration_offsets(const SimulatedTable& table,
                                                            const CalibratedTable& calibrated, double top_m,
                                                            const Reported& reported = {});

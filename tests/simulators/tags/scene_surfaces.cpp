@@ -9,11 +9,11 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double white = 0.9; // paper, the prop
+constexpr double white = 0.9; // paper and prop
 constexpr double black = 0.06;
 constexpr double table = 0.25;
 
-/// What a projector shows there, 0..1: soft shapes, and bars with hard edges as letters have them.
+/// The projector's picture there, 0..1: soft shapes, and bars with hard edges like letters.
 double shown(const glm::dvec3& table_m) {
     const double soft = 0.5 + 0.3 * std::sin(95.0 * table_m.x + 40.0 * table_m.y) +
                         0.3 * std::sin(-60.0 * table_m.x + 130.0 * table_m.y + 1.0);
@@ -47,7 +47,7 @@ double SceneSurfaces::table_reflectance(const glm::dvec3& table_m) const {
     constexpr double square_m = 0.008;
     const auto column = static_cast<std::int64_t>(std::floor(table_m.x / square_m));
     const auto row = static_cast<std::int64_t>(std::floor(table_m.y / square_m));
-    // Any number that looks like chance.
+    // A hash that looks random.
     const auto mixed = static_cast<std::uint64_t>(column * 73856093 ^ row * 19349663) * 2654435761U;
     return 0.1 + 0.5 * static_cast<double>(mixed >> 20 & 255U) / 255.0;
 }

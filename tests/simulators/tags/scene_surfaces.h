@@ -1,6 +1,7 @@
-/// How bright what a ray meets is: a table, a white prop, its tags, under the room's light and a projector's picture.
+/// Brightness where a ray meets the scene: a table, a white prop and its tags, under the room's light and a
+/// projector's picture.
 ///
-/// Frames   rays in the prop's frame, and where they meet it in the table's.
+/// Frames   rays in the prop's frame, their hits in the table's frame.
 /// Threads  pure; any.
 #pragma once
 
@@ -13,22 +14,22 @@
 namespace frustumscreen {
 
 struct SceneLight {
-    double room = 0.6;    ///< what white paper gives back of the room's light; 1 is the camera's brightest
+    double room = 0.6;    ///< of white paper, from the room's light; 1 is the camera's maximum
     double picture = 0.0; ///< the most that the projector's picture adds to that
-    bool busy = false;    ///< the table is full of small dark and bright squares; else it is plain
+    bool busy = false;    ///< the table is covered with small dark and bright squares; otherwise plain
 };
 
 class SceneSurfaces {
 public:
     SceneSurfaces(PropShape prop, std::vector<PropTag> tags, const SceneLight& light);
 
-    /// Along the ray from `origin_m`, both in the table's frame.
+    /// Along the ray from `origin_m`; both in the table's frame.
     [[nodiscard]] double brightness(const glm::dvec3& origin_m, const glm::dvec3& direction,
                                     const RigidTransform& prop_from_table,
                                     const RigidTransform& table_from_prop) const;
-    /// Of the table alone.
+    /// The table alone.
     [[nodiscard]] double table_brightness(const glm::dvec3& origin_m, const glm::dvec3& direction) const;
-    /// How far from the prop's origin any of it is.
+    /// Greatest distance of the prop or its tags from the prop's origin.
     [[nodiscard]] double radius_m() const { return radius_m_; }
     [[nodiscard]] const std::vector<PropTag>& tags() const { return tags_; }
 

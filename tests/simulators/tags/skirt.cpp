@@ -7,7 +7,8 @@
 namespace frustumscreen {
 
 std::vector<PropTag> tags_of(const Skirt& skirt) {
-    // The strip is as wide as a tag with its white margin, ten eighths of the black square, and begins at the foot.
+    // The strip starts at the foot and is as wide as a tag with its white margin: ten eighths of the black
+    // square.
     const double strip = skirt.tag_m * 10.0 / 8.0;
     const double slope = glm::radians(skirt.slope_deg);
     const double out = 0.5 * skirt.base_m + 0.5 * strip * std::cos(slope);

@@ -10,7 +10,7 @@ namespace {
 
 using Change = std::function<void(TagCase&)>;
 
-/// All else as usual.
+/// The usual case with one change.
 TagCase usual_but(const std::string& name, const Change& change) {
     TagCase one;
     one.name = name;

@@ -20,7 +20,7 @@ struct Lists {
     std::vector<double> off_mm, off_deg, said_mm, find_ms, fit_ms;
 };
 
-/// Somewhere on the table, turned anyhow, moving in any direction.
+/// A random place on the table, random orientation, moving in a random direction.
 PropMotion any_motion(const TagCase& of, std::mt19937_64& random) {
     std::uniform_real_distribution<double> share(-1.0, 1.0);
     const glm::dvec3 place(0.15 * share(random), 0.08 * share(random), 0.0);
@@ -40,7 +40,7 @@ PropMotion any_motion(const TagCase& of, std::mt19937_64& random) {
     };
 }
 
-/// What the exhibit knows of a shutter after three frames before the one at 0 s.
+/// The exhibit's knowledge of a rolling shutter after three frames before the one at 0 s.
 RollingShutter known_shutter(const TagScene& scene, TagDetector& detector, const PropMotion& motion,
                              std::mt19937_64& random) {
     constexpr double frame_s = 1.0 / 30.0;

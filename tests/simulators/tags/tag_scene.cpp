@@ -13,7 +13,7 @@ namespace {
 constexpr int side = 4; // rays through a pixel, along rows and along columns
 constexpr std::size_t rays = side * side;
 
-/// Moments of the exposure, so mixed that neighbouring rays are far apart in time.
+/// Times within the exposure, permuted so that neighbouring rays are far apart in time.
 double share_of_exposure(std::size_t ray) {
     constexpr std::size_t coprime = 7;
     return (static_cast<double>(ray * coprime % rays) + 0.5) / static_cast<double>(rays);

@@ -9,16 +9,17 @@ namespace frustumscreen {
 
 namespace {
 
-/// One ray goes through each pixel; four neighbours, which the exhibit averages, are of four moments of the exposure.
+/// One ray goes through each pixel; the exhibit averages four neighbours, which belong to four moments of the
+/// exposure.
 constexpr int side = 2;
 constexpr std::array<double, side * side> share_of_exposure{0.125, 0.625, 0.875, 0.375};
-constexpr int bands = 12; // of rows that are exposed at one time
+constexpr int bands = 12; // groups of rows with a common exposure time
 
 const glm::dvec3 room_low(-3.0, -3.2, -0.9);
 const glm::dvec3 room_high(3.2, 2.6, 2.2);
 const glm::dvec3 lamp(-0.4, -1.0, 2.1);
 
-/// What hangs on a wall: pictures, a door, and a coat of paint that is not even.
+/// Reflectance of a wall: pictures, a door, and uneven paint.
 double wall(double along, double up) {
     const double paint = 0.55 + 0.04 * std::sin(3.0 * along) * std::sin(2.0 * up + 1.0);
     const double column = along - 1.3 * std::floor(along / 1.3);
@@ -26,7 +27,7 @@ double wall(double along, double up) {
         const bool frame = column < 0.29 || column > 0.91 || up < 0.34 || up > 1.06;
         return frame ? 0.1 : 0.3 + 0.2 * std::sin(9.0 * along) * std::cos(7.0 * up);
     }
-    return up < -0.75 ? 0.2 : paint; // skirting
+    return up < -0.75 ? 0.2 : paint; // skirting board
 }
 
 double lamps_on(const glm::dvec3& point, const glm::dvec3& normal) {
@@ -35,7 +36,7 @@ double lamps_on(const glm::dvec3& point, const glm::dvec3& normal) {
     return 0.5 + 0.9 * std::fmax(0.0, glm::dot(normal, to) / distance) / (1.0 + 0.3 * distance * distance);
 }
 
-/// What the prop and the table send back of the projector's picture into the room.
+/// The projector's light that the prop and the table reflect into the room.
 double spill_on(const glm::dvec3& point, const glm::dvec3& normal) {
     const glm::dvec3 to = glm::dvec3(0.0, 0.0, 0.1) - point;
     const double square = std::fmax(0.05, glm::dot(to, to));
@@ -45,7 +46,7 @@ double spill_on(const glm::dvec3& point, const glm::dvec3& normal) {
 } // namespace
 
 RigidTransform WatchingCamera::table_from_camera() const {
-    // Its picture's top is up.
+    // The top of its picture is up.
     const glm::dvec3 forward = glm::normalize(aim_m - place_m);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 0, 1)));
     return {glm::quat_cast(glm::dmat3(right, glm::cross(forward, right), forward)), place_m};
@@ -144,7 +145,7 @@ std::pair<int, int> RoomScene::columns_of(const std::vector<Ball>& body) const {
     return {static_cast<int>(std::fmax(0.0, left)), static_cast<int>(std::fmin(pinhole.width, right))};
 }
 
-/// The light of what a body's ray meets before `nearest_m`, which becomes how far away that is.
+/// Light where a body's ray hits nearer than `nearest_m`, which is updated to that distance.
 void RoomScene::meet(const std::vector<Ball>& body, const LightNow& now, std::size_t ray, float& nearest_m,
                      double& light) const {
     const glm::dvec3& origin = table_from_camera_.translation;
@@ -205,7 +206,7 @@ std::vector<std::uint8_t> RoomScene::picture(const Bodies& bodies, const Lights&
         const Seen& seen = seen_[k];
         double picture = now.picture;
         double lamps = now.lamps;
-        if (seen.is_lit) { // the picture's parts move
+        if (seen.is_lit) { // parts of the picture move
             const glm::dvec3 at =
                 table_from_camera_.translation + static_cast<double>(seen.away_m) * rays_[k];
             picture *= 0.7 + 0.3 * std::sin(60.0 * at.x + 45.0 * at.y + 2.0 * t_s);

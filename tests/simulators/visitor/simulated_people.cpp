@@ -17,7 +17,7 @@ double about(std::mt19937_64& random, double mean, double sd) {
     return std::normal_distribution<double>(mean, sd)(random);
 }
 
-/// Right, ahead and up of a head or a trunk.
+/// Right, forward and up axes of a head or a trunk.
 glm::dmat3 facing(const glm::dvec2& towards, double pitch) {
     const glm::dvec2 across = glm::normalize(towards);
     const glm::dvec3 right(across.y, -across.x, 0.0);
@@ -30,7 +30,7 @@ void add_hair(std::vector<Ball>& body, const Person& person, const glm::dmat3& a
     if (person.hair == Hair::Bald) {
         return;
     }
-    // It leaves the face free: its middle is behind the skull's, and above.
+    // Hair leaves the face free: its middle is behind and above the skull's.
     const glm::dvec3 behind = axes * glm::dvec3(0.0, -0.016, 0.012 + 0.5 * person.hair_top_m);
     body.push_back(ball(crown_middle + behind, axes,
                         skull_half + glm::dvec3(person.hair_side_m, 0.0, 0.5 * person.hair_top_m - 0.012),
@@ -103,7 +103,7 @@ glm::dvec3 any_eye(Build build, double azimuth_rad, double outside_m, const glm:
     const glm::dvec2 to_edge = 0.5 * table_size_m / glm::max(glm::abs(towards), glm::dvec2(1e-9));
     const double away = std::fmin(to_edge.x, to_edge.y) + outside_m;
     const double height = build == Build::Adult
-                              ? about(random, 0.62, 0.08) // a table of 0.9 m, a head that bends a little
+                              ? about(random, 0.62, 0.08) // a table of 0.9 m, a slightly bent head
                           : build == Build::Child ? about(random, 0.28, 0.06)
                                                   : about(random, 0.30, 0.04);
     return {away * towards, height};
@@ -128,7 +128,7 @@ std::vector<Ball> body_of(const Person& person, const glm::dvec3& eye_m, const g
         facing({c * across.x - s * across.y, s * across.x + c * across.y}, person.nods * down);
     const glm::dmat3 trunk = facing(across, 0.15);
     const glm::dvec3& size = person.head_m;
-    const double crown = size.z; // of the skull's middle from its top: it lies 10 mm above the eyes
+    const double crown = size.z; // from the top to the skull's middle, which lies 10 mm above the eyes
     const glm::dvec3 skull_half(0.5 * size.x, 0.5 * size.y, crown - 0.01);
     const glm::dvec3 skull = eye_m + head * glm::dvec3(0.0, 0.02 - 0.5 * size.y, 0.01);
     std::vector<Ball> body{

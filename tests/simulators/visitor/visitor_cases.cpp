@@ -8,7 +8,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// All else as usual.
+/// The usual case with one change.
 VisitorCase usual_but(const std::string& name, const std::function<void(VisitorCase&)>& change) {
     VisitorCase one;
     one.name = name;

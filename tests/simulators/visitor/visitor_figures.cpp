@@ -35,7 +35,7 @@ void take_eye(Lists& lists, const glm::dvec3& prop_m, const VisitMoment& moment)
     }
 }
 
-/// By least squares: what is shown is so much time behind. Sway says nothing of it.
+/// Least-squares estimate of the lag of the shown eye. Excludes sway, which carries no information about lag.
 void take_lag(Lists& lists, const VisitMoment& before, const VisitMoment& now) {
     constexpr double walks_m_s = 0.15;
     const glm::dvec3 velocity = (now.eye_m - before.eye_m) / (now.t_s - before.t_s);
@@ -45,7 +45,7 @@ void take_lag(Lists& lists, const VisitMoment& before, const VisitMoment& now) {
     }
 }
 
-/// How the picture moves that should not: what is shown less what would be right, about its mean of a second.
+/// Unwanted movement of the picture: the shown position minus the correct one, about its mean over a second.
 void take_jitter(Lists& lists, const std::vector<glm::dvec3>& offs_mm) {
     const auto second = static_cast<std::size_t>(visit_rate_hz);
     for (std::size_t from = 0; from + second <= offs_mm.size(); from += second) {

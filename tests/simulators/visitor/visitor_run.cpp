@@ -17,15 +17,15 @@ const glm::dvec3 default_eye_m(0.0, -0.55, 0.5);
 constexpr double comes_s = 2.0;
 constexpr double arrives_s = 3.0;
 constexpr double walks_in_m_s = 1.2;
-constexpr double settles_s = 1.0;    ///< after which somebody who stands is measured
+constexpr double settles_s = 1.0;    ///< after this time a standing person is measured
 constexpr double lit_after_s = 0.05; ///< camera, processor, display
 
-/// Where somebody's eye is; nothing: not in the room.
+/// A person whose eye is in the room at some times; nullopt: not in the room.
 struct Somebody {
     Person person;
     glm::dvec3 stands_m{0.0};
     double walks_m_s = 0.0;
-    bool comes = true; ///< else walks by, along the wall behind
+    bool comes = true; ///< comes to the table; otherwise walks by along the wall behind
     [[nodiscard]] std::optional<glm::dvec3> eye(double t_s) const {
         if (!comes) {
             const double x = std::remainder(0.9 * t_s + person.phase, 6.0);
@@ -71,7 +71,7 @@ Lights lights_of(const VisitorCase& of, std::mt19937_64& random) {
         LightNow now;
         now.lamps = 1.0 + of.lamps_drift * std::sin(0.6 * t_s + phase);
         now.lamps *= of.lamps_switched && t_s > 1.4 ? 0.67 : 1.0;
-        // Another artifact every four seconds, faded; and what moves in it.
+        // A different artifact every four seconds, with a fade; and movement in it.
         const auto level = [phase](double number) { return 0.5 + 0.45 * std::sin(12.9898 * number + phase); };
         const double place = (t_s + phase) / 4.0;
         const double fade = std::clamp(8.0 * (place - std::floor(place)), 0.0, 1.0);
@@ -81,7 +81,7 @@ Lights lights_of(const VisitorCase& of, std::mt19937_64& random) {
     };
 }
 
-/// A coat on a chair is a body without a head that looks like one: a round top on shoulders.
+/// A coat on a chair resembles a body with a head: a round top on shoulders.
 std::vector<Ball> coat() {
     const glm::dmat3 upright(1.0);
     return {ball({0.35, -0.62, 0.28}, upright, {0.09, 0.10, 0.12}, 0.08),
@@ -212,7 +212,7 @@ std::vector<double> picture_errors_mm(const glm::dvec3& prop_m, const glm::dvec3
     constexpr int rings = 8;
     constexpr int around = 16;
     for (int ring = 0; ring < rings; ++ring) {
-        for (int k = 0; k < around; ++k) { // equal areas of a ball
+        for (int k = 0; k < around; ++k) { // equal areas on a sphere
             const double z = 2.0 * (ring + 0.5) / rings - 1.0;
             const double turn = 2.0 * std::numbers::pi * k / around;
             const double flat = std::sqrt(1.0 - z * z);

@@ -15,7 +15,7 @@ namespace {
 constexpr float codes = 65535.0F;
 constexpr std::uint16_t no_crest = 65535;
 
-/// Least depths: level 0 the image, each next half as wide.
+/// Smallest depths: level 0 is the image, each next level half as wide.
 using Pyramid = std::vector<Image16>;
 
 Pyramid highest_of(Image16 depth) {
@@ -35,21 +35,21 @@ Pyramid highest_of(Image16 depth) {
     return levels;
 }
 
-/// The neighbour that a line from the axis to an offset runs on to: each of x and y is -1, 0 or 1.
+/// The neighbour in the direction of a line from the axis to an offset: each of x and y is -1, 0 or 1.
 glm::ivec2 onward(const glm::ivec2& offset) {
     const glm::ivec2 size = glm::abs(offset);
     const int longer = std::max(size.x, size.y);
     return {2 * size.x >= longer ? glm::sign(offset.x) : 0, 2 * size.y >= longer ? glm::sign(offset.y) : 0};
 }
 
-/// Which of nine pyramids; (0, 0) has all texels.
+/// Index of one of nine pyramids; (0, 0) has all texels.
 std::size_t pyramid_of(const glm::ivec2& direction) {
     return 3 * static_cast<std::size_t>(direction.y + 1) + static_cast<std::size_t>(direction.x + 1);
 }
 constexpr std::size_t all_texels = 4;
 
-/// Keeps only texels behind which, in `direction`, the surface falls or the image ends; the others go to the
-/// bottom.
+/// Keeps only texels behind which, in `direction`, the surface falls or the image ends; the others move to
+/// the bottom.
 Image16 crests(const Image16& depth, const glm::ivec2& direction) {
     Image16 result = depth;
     for (int y = 0; y < depth.height; ++y) {
@@ -65,10 +65,10 @@ Image16 crests(const Image16& depth, const glm::ivec2& direction) {
     return result;
 }
 
-/// One texel's cone, narrowed by what the pyramids' nodes hold.
+/// Computes one texel's cone, narrowed by the pyramids' nodes.
 class ConeSearch {
 public:
-    /// `pyramids`: all texels, and where the cone is relaxed the crests of each direction.
+    /// `pyramids`: all texels, and for a relaxed cone the crests of each direction.
     explicit ConeSearch(const std::array<Pyramid, 9>& pyramids) : pyramids_(pyramids) {}
 
     [[nodiscard]] std::uint16_t ratio(int x, int y) {
@@ -80,7 +80,7 @@ public:
     }
 
 private:
-    /// Squared ratio of the cone that just reaches a point so far off and so deep.
+    /// Squared ratio of the cone that just reaches a point at offset `off` and this depth.
     [[nodiscard]] float square_at(const glm::ivec2& off, int depth) const {
         const float texels = static_cast<float>(pyramids_[all_texels][0].width);
         const float height = static_cast<float>(depth_ - depth) / codes * texels;
@@ -99,7 +99,7 @@ private:
         if (!narrows(all_texels, level, node, off)) {
             return;
         }
-        // A node that lies in one direction as a whole has only that direction's crests to show.
+        // A node that lies entirely in one direction can narrow the cone only by that direction's crests.
         const glm::ivec2 direction = onward(low);
         if (!pyramids_[0].empty() && direction == onward(high) && direction == onward({low.x, high.y}) &&
             direction == onward({high.x, low.y}) && !narrows(pyramid_of(direction), level, node, off)) {

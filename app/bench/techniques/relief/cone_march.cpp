@@ -10,8 +10,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// Layers axis + (0: the ray goes along the axis, 3: against it) of (low, high, cone on low, cone on high);
-/// the cone of the image that faces such a ray is relaxed, the other's empty.
+/// Layers axis + (0: the ray follows the axis, 3: opposes it) of (low, high, cone on low, cone on high); the
+/// cone of the image that faces such a ray is relaxed, the other's empty.
 constexpr std::string_view cone_source = R"(
 vec4 cones_at(vec2 at, int layer) {
     return vec4(texelFetch(relief, ivec3(ivec2(at * float(texels)), layer), 0)) / box_codes;
@@ -85,7 +85,7 @@ struct Cones { ///< on an axis's low and high surface
     Image16 high;
 };
 
-/// The cones of the images along `axis`; 0 where a side has none.
+/// The cones of the images along `axis`; 0 on a side without an image.
 Cones cones_of(const ReliefImages& images, int axis, Image16 (*make)(const Image16&)) {
     Cones cones{{images.texels, images.texels}, {images.texels, images.texels}};
     for (const ReliefImage& image : images.images) {

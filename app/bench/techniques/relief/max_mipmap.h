@@ -2,9 +2,9 @@
 ///
 /// Shape    level 0 is the image, each next level is half as wide and high, the last is 1 x 1. Sides are
 ///          powers of two.
-/// Codes    as `material_along`: (low, high); low > high is nothing.
+/// Codes    as `material_along`: (low, high); low > high means no material.
 /// Threads  pure; any.
-/// Source   Tevs, Ihrke & Seidel 2008, here with the back's minimum beside the front's maximum.
+/// Source   Tevs, Ihrke & Seidel 2008, here with the back's minimum in addition to the front's maximum.
 #pragma once
 
 #include "app/image/image.h"

@@ -53,7 +53,7 @@ bool search(vec3 start, vec3 along, float leave, out float at) {
 }
 )";
 
-/// Cells of the level that rays start at, a side; of coarser ones hardly any is empty.
+/// Cells per side of the level at which rays start; coarser levels have hardly any empty cell.
 constexpr int coarsest_cells = 16;
 
 } // namespace

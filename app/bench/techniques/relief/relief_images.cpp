@@ -10,8 +10,8 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int rim_texels = 2;       ///< empty on every side, so that no ray starts inside the artifact
-constexpr int continued_texels = 8; ///< bilinear reads beyond an outline find colours, not black
+constexpr int rim_texels = 2;       ///< empty on every side, so no ray starts inside the artifact
+constexpr int continued_texels = 8; ///< bilinear reads beyond an outline must find colours instead of black
 
 int axis_of(const glm::dvec3& normal) {
     const glm::dvec3 size = glm::abs(normal);
@@ -21,8 +21,8 @@ int axis_of(const glm::dvec3& normal) {
     return size.y >= size.z ? 1 : 2;
 }
 
-/// Mean of four rays' colours within a texel, in linear light: a texel stands for its area. If all four miss
-/// something thinner than a texel, it is the colour of the middle.
+/// Mean of four rays' colours within a texel, in linear light, because a texel stands for its area. If all
+/// four miss (the surface is thinner than a texel), the middle's colour is used.
 glm::vec3 colour_of_texel(const Truth& truth, const glm::dvec3& middle, const glm::vec3& colour_of_middle,
                           const glm::dvec3& inward, const glm::dvec3& across, const glm::dvec3& down) {
     Truth::Hit hit;
@@ -69,8 +69,8 @@ void cast_row(const Truth& truth, const Box& box, int row, ReliefImage& image) {
     }
 }
 
-/// Gives one ring of texels around the coloured ones the mean of their neighbours; `known` marks the coloured
-/// ones.
+/// Gives one ring of texels around the coloured texels the mean of their neighbours; `known` marks coloured
+/// texels.
 void continue_colours(Image8& colour, Image<std::uint8_t>& known) {
     const Image8 before = colour;
     const Image<std::uint8_t> known_before = known;
@@ -99,7 +99,8 @@ void continue_colours(Image8& colour, Image<std::uint8_t>& known) {
     }
 }
 
-/// Cosine between the surface and the line of sight, from the smaller steps of depth beside the texel.
+/// Cosine between the surface normal and the line of sight, from the smaller steps of depth next to the
+/// texel.
 std::uint8_t squareness(const ReliefImage& image, const glm::dvec3& size, const glm::ivec2& at) {
     const auto [across, down] = image_axes(image.axis);
     const auto step = [&](int x, int y) {
@@ -153,7 +154,7 @@ Box placed_box(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact) {
 }
 
 ReliefImages cast_relief_images(const Truth& truth, const Box& artifact, const PropShape& prop, int texels) {
-    // A flat artifact still gets a box with a volume.
+    // A flat artifact also needs a box with a volume.
     const glm::dvec3 size = artifact.high - artifact.low;
     const double longest = std::max({size.x, size.y, size.z});
     const glm::dvec3 rim = glm::max(size, glm::dvec3(1e-3 * longest)) *

@@ -1,7 +1,7 @@
-/// Relief textures on the faces of a box around the object: what the peers march through and warp.
+/// Relief textures on the faces of a box around the object, which the peers march through and warp.
 ///
-/// One orthographic image for each face of the prop, along the axis of the box that the face's normal is
-/// nearest to: the first hit's colour and depth, as seen from outside through the middle of each texel.
+/// One orthographic image per face of the prop, along the box axis nearest to the face's normal: the first
+/// hit's colour and depth, seen from outside through the middle of each texel.
 ///
 /// Frame    box coordinates: 0..1 from the box's low to its high corner, the box in the prop's frame, metres.
 ///          An image along axis a has the other two axes, in ascending order, as its columns and rows: texel
@@ -22,24 +22,24 @@
 namespace frustumscreen {
 
 inline constexpr std::uint16_t no_depth = 65535;
-inline constexpr double depth_codes = 65534.0; ///< of one box length
+inline constexpr double depth_codes = 65534.0; ///< per box length
 
 struct ReliefImage {
     int axis = 0;     ///< 0 x, 1 y, 2 z
     bool high = true; ///< looks at the box's high side, against the axis
-    /// sRGB; alpha 1..255: the cosine between the surface's normal and the line of sight; 0 = no hit; there
-    /// the colours of hits continue for a few texels.
+    /// sRGB; alpha 1..255: the cosine between the surface's normal and the line of sight; 0 = no hit; around
+    /// hits, their colours continue for a few texels.
     Image8 colour;
     Image16 depth; ///< from the box's side, in 1 / depth_codes of the box; no_depth = no hit
 };
 
 struct ReliefImages {
-    Box box; ///< with an empty rim of texels around the artifact
+    Box box; ///< with an empty margin of texels around the artifact
     int texels = 0;
-    std::vector<ReliefImage> images; ///< one each face of the prop, in that order
+    std::vector<ReliefImage> images; ///< one per face of the prop, in that order
 };
 
-/// Which other axes are an image's columns and rows.
+/// The axes of an image's columns and rows.
 [[nodiscard]] constexpr std::array<int, 2> image_axes(int axis) {
     return {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2};
 }
@@ -52,8 +52,8 @@ struct ReliefImages {
                                               int texels);
 
 /// Dual-depth relief (Policarpo, Oliveira & Comba 2005): where material may be along an axis, from the two
-/// images that look along it; codes 0..65535 of box coordinates, (65535, 0) = nowhere. A side without an
-/// image is taken as solid to the box's end.
+/// images that look along it; codes 0..65535 of box coordinates, (65535, 0) = no material. A side without an
+/// image counts as solid up to the box's end.
 [[nodiscard]] Image<glm::u16vec2> material_along(const ReliefImages& images, int axis);
 
 } // namespace frustumscreen

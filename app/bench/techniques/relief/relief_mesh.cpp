@@ -10,9 +10,10 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double jump_texels = 4.0;       ///< a greater step of depth between neighbours is an edge
-constexpr double squarer_by = 0.1;        ///< of the cosine, before another image has a triangle
-constexpr double same_depth_texels = 2.0; ///< how far apart two images of one surface may lie
+constexpr double jump_texels = 4.0;       ///< a greater depth step between neighbours is an edge
+constexpr double squarer_by = 0.1;        ///< required gain of the cosine before another image takes a
+                                          ///< triangle
+constexpr double same_depth_texels = 2.0; ///< tolerance between two images of one surface
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -60,7 +61,7 @@ private:
         return normal;
     }
 
-    /// Cut along the diagonal with the smaller step of depth.
+    /// Splits along the diagonal with the smaller depth step.
     void add_square(int x, int y) {
         const glm::ivec2 a(x, y);
         const glm::ivec2 b(x + 1, y);
@@ -136,15 +137,15 @@ private:
     glm::dvec3 size_;
     double texel_m_;
     Grid grid_;
-    Image<std::uint32_t> vertices_; ///< each texel's, once it has one
+    Image<std::uint32_t> vertices_; ///< index of each texel's vertex, once it has one
 };
 
-/// The least triangles within the tolerance.
+/// Reduces the triangles as far as the tolerance allows.
 void simplify(Grid& grid, double tolerance_m) {
     if (grid.triangles.empty()) {
         return;
     }
-    std::vector<glm::vec3> positions; // around the middle, where float is finer
+    std::vector<glm::vec3> positions; // relative to the middle, where float is finer
     for (const glm::dvec3& position : grid.positions) {
         positions.emplace_back(position - grid.positions.front());
     }

@@ -1,6 +1,6 @@
-/// All the peers that show relief images, made from one cast of them.
+/// All the peers that show relief images, made from one cast of the images.
 ///
-/// Errors   what a technique's making reports.
+/// Errors   any error from making a technique.
 /// Threads  the one whose context is current; the stage must outlive the techniques.
 #pragma once
 
@@ -14,10 +14,10 @@ namespace frustumscreen {
 
 struct ReliefPeer {
     std::unique_ptr<Technique> technique;
-    std::uint64_t triangles = 0; ///< drawn as a mesh; 0 where the shader marches
+    std::uint64_t triangles = 0; ///< drawn as a mesh; 0 if the shader marches
 };
 
-/// `texels`: of a relief image's side, a power of two.
+/// `texels`: side of a relief image, a power of two.
 [[nodiscard]] Result<std::vector<ReliefPeer>> make_relief_peers(const Stage& stage, const Truth& truth,
                                                                 const SourceMesh& mesh,
                                                                 const glm::dmat4& prop_from_artifact,

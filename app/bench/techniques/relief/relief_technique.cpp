@@ -48,8 +48,8 @@ bool inside(vec3 p) {
 }
 )";
 
-/// A hit lies on the surface of some images: the one that sees it most squarely shows it. If it lies on none,
-/// the nearest image shows it. Layers of `colours`: 2 axis + (1 if high).
+/// A hit lies on the surface of some images: the one that sees it most nearly along its normal shows it. If
+/// it lies on none, the nearest image shows it. Layers of `colours`: 2 axis + (1 if high).
 constexpr std::string_view main_source = R"(
 vec3 colour_at(vec3 p) {
     vec2 x = material(p.yz, 0);
@@ -114,7 +114,7 @@ GlTexture upload_colours(const ReliefImages& images) {
     return texture;
 }
 
-/// The number of texels, and a large distance for the sides that no image looks at.
+/// Shader constants: the number of texels, and a large distance for the sides without an image.
 std::string constants_of(const ReliefImages& images) {
     std::array<std::array<bool, 3>, 2> has{};
     for (const ReliefImage& image : images.images) {
@@ -207,7 +207,7 @@ glm::dvec3 corner_of(const Box& box, unsigned k) {
             (k & 4U) != 0 ? box.high.z : box.low.z};
 }
 
-/// Keeps the part of the convex polygon on the side of `kept` of the plane through the eye, a and b.
+/// Clips the convex polygon by the plane through the eye, a and b; keeps the side of `kept`.
 void cut(std::vector<glm::dvec3>& polygon, const glm::dvec3& eye, const glm::dvec3& a, const glm::dvec3& b,
          const glm::dvec3& kept) {
     glm::dvec3 normal = glm::cross(a - eye, b - eye);
@@ -244,7 +244,8 @@ std::vector<glm::dvec3> shadow_on_face(const PropFace& face, const glm::dvec3& e
     const auto faces_eye = [&](int axis, bool high) {
         return high ? eye_m[axis] > box.high[axis] : eye_m[axis] < box.low[axis];
     };
-    // An edge along `axis` lies between a side across `u` and one across `v`: on the outline if one is seen.
+    // An edge along `axis` lies between a side across `u` and one across `v`: it is on the outline if exactly
+    // one of them is visible.
     for (int axis = 0; axis < 3; ++axis) {
         const auto [u, v] = image_axes(axis);
         for (unsigned sides = 0; sides < 4; ++sides) {

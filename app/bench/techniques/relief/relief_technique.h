@@ -1,12 +1,12 @@
-/// What the peers that search relief images share: the rays, the pixels, the colours. Each brings its own
-/// search as a shader.
+/// The common part of the peers that search relief images: the rays, the pixels, the colours. Each peer
+/// supplies its own search as a shader.
 ///
 /// A search is GLSL that defines
 ///     bool search(vec3 start, vec3 along, float leave, out float at)
 /// start + t along is the eye ray in box coordinates, inside the box for 0 < t < leave; `at` is the hit's t.
 /// It may use
 ///     float box_codes                 65535: codes of one box length of height
-///     int texels                      of an image's side
+///     int texels                      per side of an image
 ///     highp usampler2DArray relief    the technique's own; layers 0..2 have `material_along` the axes in .xy
 ///     bool inside(vec3 p)             p is behind the surface of every image, at the nearest texels
 ///
@@ -27,7 +27,7 @@ struct ReliefSearch {
     std::string name;
     std::string defines;
     std::string_view source;
-    GlTexture relief; ///< the array that `source` reads
+    GlTexture relief; ///< the array read by `source`
 };
 
 [[nodiscard]] Result<std::unique_ptr<Technique>>
@@ -39,8 +39,7 @@ make_relief_technique(const Stage& stage, const ReliefImages& images, ReliefSear
 void set_layer(int level, int layer, const Image<glm::u16vec2>& image);
 void set_layer(int level, int layer, const Image<glm::u16vec4>& image);
 
-/// The part of a face whose eye rays meet the box: convex, in the order of the face's corners; empty if there
-/// is none.
+/// The part of a face whose eye rays meet the box: convex, in the order of the face's corners; may be empty.
 [[nodiscard]] std::vector<glm::dvec3> shadow_on_face(const PropFace& face, const glm::dvec3& eye_m,
                                                      const Box& box);
 
