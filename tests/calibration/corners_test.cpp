@@ -124,9 +124,8 @@ TEST(Corners, TheirUncertaintyIsTheErrorThatTheRulerMakes) {
                 1e3 * std::sqrt(distorted / places), 1e3 * ruler_m / tables);
     EXPECT_NEAR(std::sqrt(made / said), 1.0, 0.2);
     EXPECT_NEAR(ruler_m / tables, 0.005, 0.0005);
-    EXPECT_LE(
-        refused,
-        28); // one corner in a hundred: 16 of 400 sets at most are expected, and once in a thousand times more than 28
+    // One corner in a hundred looks wrong: 16 of 400 sets at most are expected, and once in a thousand times more than 28.
+    EXPECT_LE(refused, 28);
 }
 
 TEST(Corners, ARulerThatSeemsExactIsHeldForAMillimetre) {
