@@ -65,7 +65,8 @@ Image8 contact_sheet(const std::vector<Image8>& pages) {
 
 Result<void> draw(const std::filesystem::path& folder) {
     TRY(const CheckedSettings checked,
-        parse_settings("[projector]\nwidth = 1280\nheight = 800\n[panel]\nkind = \"keys\"\ndevice = \"keyboard\"\nkeys = "
+        parse_settings("[projector]\nwidth = 1280\nheight = 800\n[panel]\nkind = \"keys\"\ndevice = "
+                       "\"keyboard\"\nkeys = "
                        "[\"KEY_1\", \"KEY_2\", \"KEY_3\"]\n",
                        "kiosk.toml"));
     TRY(const Typesetter typesetter, Typesetter::open());

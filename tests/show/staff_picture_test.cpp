@@ -78,8 +78,8 @@ protected:
     [[nodiscard]] std::string read(const Image8& picture) const {
         const std::filesystem::path file = folder / "picture.png";
         EXPECT_TRUE(write_file(file, encode_png(picture)));
-        std::FILE* const said =
-            popen(("zbarimg --quiet --raw --oneshot -Sbinary " + file.string() + " 2>/dev/null").c_str(), "r");
+        std::FILE* const said = popen(
+            ("zbarimg --quiet --raw --oneshot -Sbinary " + file.string() + " 2>/dev/null").c_str(), "r");
         std::string text;
         std::array<char, 4096> part{};
         for (std::size_t count = 0; (count = std::fread(part.data(), 1, part.size(), said)) > 0;) {
