@@ -82,7 +82,7 @@ TEST(LastLook, AnArtifactThatIsBlackIsTold) {
 
 TEST(LastLook, CoordinatesThatAreTooLargeForTheirSizeAreTold) {
     SourceMesh far;
-    add_square(far, 4, {4194304.0, 0, 0}); // steps of 0.5 in 32 bits
+    add_square(far, 4, {4194304.0, 0, 0}, 2.0); // on steps of 0.5, those of 32 bits there
     EXPECT_TRUE(guesses(far, "grid"));
     SourceMesh exact;
     add_square(exact, 3, {4194304.0, 0, 0}); // thirds: written with 64 bits

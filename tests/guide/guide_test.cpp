@@ -66,7 +66,6 @@ constexpr LeftOut left_out[] = {
     {"app/show/house_words.cpp", "the journal"},
     {"app/show/import_journal.cpp", "the journal"},
     {"app/show/import_watch.cpp", "the journal"},
-    {"app/show/kept_volume.cpp", "a file of the exhibit's own"},
     {"app/show/last_good_settings.cpp", "the journal and the status file"},
     {"app/show/notice_show.cpp", "the journal"},
     {"app/residency/prompt_reader.cpp", "the journal"},

@@ -46,8 +46,14 @@ protected:
         Bytes sound(40);
         std::copy_n(as_bytes("OggS").begin(), 4, sound.begin());
         std::copy_n(as_bytes("OpusHead").begin(), 8, sound.begin() + 28);
-        media.languages = {{english, text, {text, text}, {text}, sound},
-                           {arabic, {"", {}, {}}, {}, {text}, {}}};
+        media.languages.resize(2);
+        media.languages[0].caption = english;
+        media.languages[0].title = text;
+        media.languages[0].portions = {text, text};
+        media.languages[0].labels = {text};
+        media.languages[0].sound = sound;
+        media.languages[1].caption = arabic;
+        media.languages[1].labels = {text};
     }
     [[nodiscard]] int check(const std::string& page, const std::string& options) const {
         EXPECT_TRUE(write_file(folder / "page.html", as_bytes(page)));

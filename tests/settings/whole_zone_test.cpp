@@ -135,6 +135,16 @@ TEST_P(WholeZoneOf, LosesNothingOfTheArtifactAtTenThousandPlaces) {
     }
 }
 
+/// Whether both places are as near to one edge of the table as the prop's axis may be: half the reach of its foot's corners.
+bool ends_at_the_rim(const Settings& settings, const glm::dvec2& from, const glm::dvec2& to) {
+    const double rim = 0.5 * std::numbers::sqrt2 * 0.5 * settings.prop.base_m;
+    const auto is_at = [&](int axis, double size_m) {
+        return std::abs(std::abs(from[axis]) - (0.5 * size_m - rim)) < 1e-9 &&
+               std::abs(from[axis] - to[axis]) < 1e-9;
+    };
+    return is_at(0, settings.table.width_m) || is_at(1, settings.table.depth_m);
+}
+
 /// Where the picture ends the zone, some eye loses something a little farther out: its places are not few.
 TEST_P(WholeZoneOf, IsNotMuchSmallerThanItMustBe) {
     const Case shown = GetParam()();
@@ -147,6 +157,9 @@ TEST_P(WholeZoneOf, IsNotMuchSmallerThanItMustBe) {
     for (std::size_t k = 0; k < zone.places.size(); ++k) {
         const glm::dvec2& from = zone.places[k];
         const glm::dvec2& to = zone.places[(k + 1) % zone.places.size()];
+        if (ends_at_the_rim(shown.settings, from, to)) {
+            continue; // the table ends the zone there, not the picture
+        }
         const glm::dvec2 along = glm::normalize(to - from);
         const glm::dvec2 at = 0.5 * (from + to) + farther_m * glm::dvec2(along.y, -along.x);
         int traced = 0;
@@ -158,6 +171,7 @@ TEST_P(WholeZoneOf, IsNotMuchSmallerThanItMustBe) {
         lost += here > 0 ? 1 : 0;
     }
     EXPECT_EQ(lost, tried);
+    EXPECT_GE(tried, 4);
 }
 
 TEST(WholeZone, IsWiderThanThatOfTheFacesAndWiderStillForHighEyes) {
