@@ -31,10 +31,10 @@ protected:
                         "vt 0 0\nvt 1 0\nvt 0 1\n"
                         "usemtl skin\n"
                         "f 1/1 3/2 2/3\nf 1/1 2/2 4/3\nf 1/1 4/2 3/3\nf 2/1 3/2 4/3\n");
-        put("scan.mtl", "newmtl skin\nKd 1 1 1\nmap_Kd skin.png\nnorm normals.png\n");
+        put("scan.mtl", "newmtl skin\nKd 1 1 1\nmap_Kd skin.png\nmap_Ks shine.png\n");
         const Bytes picture = encode_png(Image8(4, 4, {200, 120, 60, 255}));
         ASSERT_TRUE(write_file(folder / "skin.png", picture));
-        ASSERT_TRUE(write_file(folder / "normals.png", picture));
+        ASSERT_TRUE(write_file(folder / "shine.png", picture));
         put("notes.txt", "what the curator wrote down");
     }
     void put(const std::string& file, const std::string& content) const {
@@ -45,7 +45,7 @@ protected:
     }
     /// It ends with one line that holds `reason`, and every file of the folder is as it was.
     void refused(const std::string& output, const std::string& reason, const std::string& more = "") const {
-        constexpr std::array files = {"scan.obj", "scan.mtl", "skin.png", "normals.png", "notes.txt"};
+        constexpr std::array files = {"scan.obj", "scan.mtl", "skin.png", "shine.png", "notes.txt"};
         std::array<std::string, files.size()> before;
         std::transform(files.begin(), files.end(), before.begin(),
                        [&](const char* file) { return text(file); });
@@ -178,7 +178,7 @@ TEST_F(BakeCommand, AnIdOfTheNameIsTheSameForTheSameNameAndAnotherForAnother) {
 
 TEST_F(BakeCommand, AFoldersTextsAreSetAndItsDescriptionIsSpoken) {
     fs::create_directories(folder / "vase");
-    for (const char* file : {"scan.obj", "scan.mtl", "skin.png", "normals.png"}) {
+    for (const char* file : {"scan.obj", "scan.mtl", "skin.png", "shine.png"}) {
         fs::copy_file(folder / file, folder / "vase" / file);
     }
     put("vase/artifact.toml", "scan = \"scan.obj\"\nsize = 32\n"
@@ -277,7 +277,7 @@ TEST_F(BakeCommand, NeverReplacesItsInput) {
 }
 
 TEST_F(BakeCommand, NeverReplacesAFileThatTheModelNames) {
-    for (const char* output : {"scan.mtl", "skin.png", "normals.png"}) {
+    for (const char* output : {"scan.mtl", "skin.png", "shine.png"}) {
         refused(output, "is not a pack");
         refused(output, fmt::format("would replace the input {}", output), "--force");
     }
