@@ -35,8 +35,8 @@ Image8 grown(const Image<std::uint8_t>& code, int module_px) {
     return picture;
 }
 
-/// As a telephone held above the table takes it: turned, from aside, darker, with noise.
-Image8 photographed(const Image8& picture, double turn_deg, double aside) {
+/// As a telephone held above the table takes it: turned, darker, with noise.
+Image8 photographed(const Image8& picture, double turn_deg) {
     std::mt19937 random(1);
     std::normal_distribution<double> noise(0.0, 6.0);
     const int size = std::max(picture.width, picture.height) * 5 / 4;
@@ -47,8 +47,7 @@ Image8 photographed(const Image8& picture, double turn_deg, double aside) {
             const glm::dvec2 from_middle = glm::dvec2(x, y) - 0.5 * size;
             const glm::dvec2 turned(c * from_middle.x + s * from_middle.y,
                                     c * from_middle.y - s * from_middle.x);
-            const double depth = 1.0 + aside * turned.y / size;
-            const glm::ivec2 at(glm::floor(turned / depth + 0.5 * glm::dvec2(picture.width, picture.height)));
+            const glm::ivec2 at(glm::floor(turned + 0.5 * glm::dvec2(picture.width, picture.height)));
             const bool inside = at.x >= 0 && at.y >= 0 && at.x < picture.width && at.y < picture.height;
             const double code = inside ? 30.0 + 0.6 * picture.at(at.x, at.y).g : 30.0;
             photo.at(x, y) = glm::u8vec4(
@@ -113,8 +112,8 @@ TEST_F(StaffPicture, AnotherProgramReadsTheCode) {
     EXPECT_GT(qr_code(std::string(most_qr_bytes, 'x')).width, 0);
 }
 
-/// A cable that lies on it, a telephone that is held askew.
-TEST_F(StaffPicture, TheCodeIsReadThoughAPartIsHiddenAndFromAside) {
+/// A cable lies on it, and the telephone is turned.
+TEST_F(StaffPicture, TheCodeIsReadThoughAPartIsHiddenAndFromAnySide) {
     Image8 code = grown(qr_code(example_card), 5);
     const int below_finders = code.height / 2;
     for (int y = below_finders; y < below_finders + code.height / 16; ++y) {
@@ -124,9 +123,7 @@ TEST_F(StaffPicture, TheCodeIsReadThoughAPartIsHiddenAndFromAside) {
     }
     EXPECT_EQ(read(code), example_card);
     for (const double turn_deg : {-170.0, -35.0, 0.0, 20.0, 90.0}) {
-        for (const double aside : {0.0, 0.25}) {
-            EXPECT_EQ(read(photographed(code, turn_deg, aside)), example_card) << turn_deg << " " << aside;
-        }
+        EXPECT_EQ(read(photographed(code, turn_deg)), example_card) << turn_deg;
     }
 }
 
