@@ -139,7 +139,7 @@ TEST(Advice, WhatAFrameCostsStandsInTableAndCsvIfItWasMeasured) {
     ASSERT_EQ(lines.size(), 5U);
     EXPECT_NE(lines[0].find(",frame_times_now,frame_cpu_times_now,frame_samples"), std::string::npos);
     EXPECT_NE(lines[3].find(",1.3700,1.2100,65432"), std::string::npos);
-    EXPECT_TRUE(lines[2].ends_with(",,,"));
+    EXPECT_NE(lines[2].find(",,,,"), std::string::npos) << "three empty fields";
 }
 
 TEST(Advice, SaysSoWhereNothingWorks) {

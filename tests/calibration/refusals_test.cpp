@@ -41,7 +41,8 @@ void expect_refused(const TouchCalibration& found, const std::string& word) {
 TEST(Refusals, AGridIsNone) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         const TouchCalibration found = calibrated(seed, grid(some_table(seed), 0.9, 0.9));
-        EXPECT_TRUE(found.verdict == Verdict::Good || found.verdict == Verdict::Usable) << found.reason;
+        EXPECT_NE(found.verdict, Verdict::Refused)
+            << found.reason; // one right touch in a hundred is to be repeated
     }
 }
 

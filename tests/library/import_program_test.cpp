@@ -149,7 +149,8 @@ TEST_F(ImportProgram, ListsWhoSignedEachPackAndWhetherThatKeyStillCounts) {
     EXPECT_TRUE(without[0]["signed_by"]["counts"].is_null()) << "without the settings nobody knows";
 
     bring_key("until = \"2020-01-01\"\n", 2);
-    std::filesystem::remove(folder / "stick/cup.fspack"); // it would be refused now, and the whole stick with it
+    std::filesystem::remove(folder /
+                            "stick/cup.fspack"); // it would be refused now, and the whole stick with it
     ASSERT_EQ(import(), 0) << text("err.txt");
     EXPECT_NE(
         text("out.txt").find("exhibit.toml: taken: packs of a key that does not count any more stay: cup;"),
