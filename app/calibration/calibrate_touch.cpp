@@ -78,7 +78,7 @@ bool keeps(const TouchCalibration& calibration, const PictureLimits& limits) {
     return limits.keep(calibration.uncertainty, calibration.hidden_error_m);
 }
 
-/// Of three residuals of a touch that is right, one in a hundred is beyond: too often to call it wrong, and too seldom to pass over.
+/// Limit of the three residuals of a touch: one right touch in a hundred exceeds it, so a touch beyond is repeated, not refused.
 constexpr double doubtful_chi2 = 11.3;
 
 /// The touch that fits the others least, if that is doubtful.

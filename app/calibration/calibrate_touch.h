@@ -72,7 +72,7 @@ struct TouchCalibration {
     std::vector<PlaceUncertainty> zone; ///< zone_columns x zone_rows of each height, from the table up
 };
 
-/// How far the picture lies beside its place, half a sentence; its shares are known.
+/// The picture's error as half a sentence, for a verdict whose shares are known.
 [[nodiscard]] std::string in_words(const PictureUncertainty& uncertainty);
 /// The words for what was measured, touches or rests, in the sentences of a verdict.
 struct MeasuredKind {

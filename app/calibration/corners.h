@@ -50,7 +50,7 @@ struct CornerCalibration {
         0.0; ///< of the four lines' meeting: how many times as uncertain its worst direction is as its best
 };
 
-/// Of each coordinate, one standard deviation: what corners are believed with.
+/// Assumed error of a corner's coordinate, one standard deviation.
 inline constexpr double usual_ruler_error_m = 5e-3;
 
 [[nodiscard]] CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int width,

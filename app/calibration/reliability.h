@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// Of three residuals of a touch that is right, one in a thousand is beyond.
+/// Limit of the three residuals of a touch: one right touch in a thousand exceeds it.
 inline constexpr double touch_chi2_limit = 16.0;
 
 /// Chi squared of a touch's residuals as the others predict them.

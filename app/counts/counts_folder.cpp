@@ -80,8 +80,8 @@ Result<OpenedDay> open_day(const fs::path& folder, std::optional<std::chrono::sy
         opened.counts = *std::move(counts);
     } else {
         TRY(const fs::path aside, put_aside(file));
-        opened.trouble = fmt::format("{}; it is now {}, and the day is counted anew", counts.error().message,
-                                     aside.filename().string());
+        opened.trouble = fmt::format("{}; it is now {}, and counting of the day begins again",
+                                     counts.error().message, aside.filename().string());
     }
     return opened;
 }

@@ -26,7 +26,7 @@ struct CountsSummary {
     std::array<std::size_t, 7> days_of_weekday{}; ///< with numbers
     std::vector<NamedTally> artifacts, languages; ///< the longest shown first
 };
-/// Of the days; what was counted while the clock was wrong has none.
+/// Dates of the days; counts of a time at which the clock was wrong have none.
 [[nodiscard]] CountsSummary summary_of(const std::vector<DayCounts>& days);
 
 /// A text of some lines.

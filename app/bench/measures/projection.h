@@ -28,7 +28,7 @@
 
 namespace frustumscreen {
 
-/// What the visitor should see. Same shape as the camera's picture.
+/// The picture that the visitor should see; same shape as the camera's picture.
 struct VisitorTruth {
     Image<std::uint8_t> prop; ///< 1: the ray through the pixel's centre meets a face of the prop
     Image<std::uint8_t> hit;  ///< 1: that ray meets the artifact

@@ -70,7 +70,7 @@ public:
     TechniqueSet(const TechniqueSet&) = delete;
     TechniqueSet& operator=(const TechniqueSet&) = delete;
 
-    /// What the exhibit may choose while frames are in time: the mesh level that is good enough, and a relief
+    /// The exhibit's choice while frames are in time: the mesh level that is good enough, and a relief
     /// if one is. The exhibit measures both and chooses the faster. The pack must outlive the set.
     [[nodiscard]] Result<void> add_auto(const Pack& pack, const PictureOptions& options);
     [[nodiscard]] Result<void> add_level(const Pack& pack, std::uint32_t level,

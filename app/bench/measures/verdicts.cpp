@@ -122,7 +122,7 @@ const TechniqueResult* cheapest_as_good(const SetUpResult& result, const Techniq
     return best;
 }
 
-/// What the exhibit draws while frames are in time: the faster of a mesh level and a relief that are both
+/// The exhibit draws this while frames are in time: the faster of a mesh level and a relief that are both
 /// good enough.
 const TechniqueResult* auto_drawn(const SetUpResult& result) {
     const TechniqueResult* drawn = nullptr;
