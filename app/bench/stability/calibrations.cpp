@@ -151,7 +151,7 @@ StabilityResult inverse_in_long_double(const StabilityOptions&) {
 std::vector<StabilityCase> calibration_cases() {
     return {
         {"calibration", "from good to bad crosses", FloatingPoint::Free, conditions},
-        {"calibration", "noise .1 to 4 times", FloatingPoint::Free, noises},
+        {"calibration", "noise 0.1 to 4 times", FloatingPoint::Free, noises},
         {"calibration", "normal equations against long double", FloatingPoint::Free, inverse_in_long_double}};
 }
 
