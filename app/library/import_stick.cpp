@@ -311,11 +311,10 @@ std::string Import::of_ended_keys(const InstalledSet& set) {
         return {};
     }
     const std::vector<std::string> packs = packs_of_ended_keys(library_, set, keys_, today());
-    return packs.empty()
-               ? std::string()
-               : fmt::format("packs of a key that does not count any more stay: {}; take them out with "
-                             "remove, or sign them with another key",
-                             names_in_words(packs));
+    return packs.empty() ? std::string()
+                         : fmt::format("packs of a key that is no longer trusted stay: {}; take them out "
+                                       "with remove, or sign them with another key",
+                                       names_in_words(packs));
 }
 
 /// Serials and keys are kept even where the set stays as it is.

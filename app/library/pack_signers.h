@@ -25,7 +25,7 @@ namespace frustumscreen {
 [[nodiscard]] bool counts_today(std::span<const TrustedKey> counting, std::string_view key_id,
                                 std::optional<std::chrono::sys_days> today);
 
-/// Those that were signed with a key that does not count any more, by id, or by title where they have none.
+/// Those that were signed with a key that is no longer trusted, by id, or by title where they have none.
 [[nodiscard]] std::vector<std::string> packs_of_ended_keys(FileTree& library, const InstalledSet& set,
                                                            std::span<const TrustedKey> counting,
                                                            std::optional<std::chrono::sys_days> today);

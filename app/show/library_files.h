@@ -31,7 +31,7 @@ struct FileStamp {
 [[nodiscard]] std::optional<SetVerdict> read_verdict(const std::filesystem::path& library);
 [[nodiscard]] Result<void> keep_verdict(const std::filesystem::path& library, const SetVerdict& verdict);
 
-/// The packs of `set` that were signed with a key that does not count any more, in words; empty: there are none, or the settings
+/// The packs of `set` that were signed with a key that is no longer trusted, in words; empty: there are none, or the settings
 /// name no key, so that none is asked for.
 [[nodiscard]] std::string packs_of_ended_keys(const std::filesystem::path& library, const InstalledSet& set,
                                               const Settings& settings,

@@ -17,10 +17,9 @@ namespace frustumscreen {
 struct SetStatus {
     std::uint64_t shown = 0; ///< number of the set on show; 0: the packs of the settings
     std::vector<InstalledPack> packs;
-    SetVerdict newest;     ///< of the set that was installed last
-    bool on_trial = false; ///< that one: there is another set to go back to, and no verdict yet
-    std::string
-        of_ended_keys;   ///< packs on show whose key does not count any more (pack_signers.h); empty: none
+    SetVerdict newest;         ///< of the set that was installed last
+    bool on_trial = false;     ///< that one: there is another set to go back to, and no verdict yet
+    std::string of_ended_keys; ///< packs on show whose key is no longer trusted (pack_signers.h); empty: none
     std::string trouble; ///< a sentence: set.txt or the verdict cannot be read or written; empty: all is well
     [[nodiscard]] bool operator==(const SetStatus&) const = default;
 };

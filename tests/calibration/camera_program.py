@@ -57,7 +57,7 @@ class Camera(unittest.TestCase):
         self.assertIn("You need the prop on its printed board (3 mm thick)", done.stderr)
         self.assertIn("camera: no camera is connected; check its USB cable", done.stderr)
         self.assertIn("Light and dark follow each other. Back returns. No camera is connected; check its USB cable", done.stderr)
-        self.assertTrue(done.stderr.endswith("the one before counts [calibrate.ended_early]\n"), done.stderr)
+        self.assertTrue(done.stderr.endswith("the previous one is still used [calibrate.ended_early]\n"), done.stderr)
         self.assertFalse((self.folder / "kept").exists())
 
     def assert_said_in_turn(self, done, *sentences):
