@@ -204,8 +204,8 @@ Outcome Import::look_at_packs(const std::vector<std::string>& paths) {
         refuse(refused.told, pack.error());
         in_vain_.add_look(outside_.work() - before);
         if (in_vain_.is_too_much()) {
-            return failed(too_much("the stick holds many files that look like packs and are none; put only "
-                                   "packs on it"));
+            return failed(too_much(
+                "the stick holds many files that look like packs and are not packs; put only packs on it"));
         }
     }
     return {};

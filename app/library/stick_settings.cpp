@@ -59,9 +59,8 @@ Outcome<Own> read_own(WritableTree& folder) {
         keys = keys_named_by(read_text(folder, settings_before_name, most_stick_settings_bytes).value_or(""));
     }
     if (!keys) {
-        return failed(ImportRefusal::Unwritable,
-                      "the kiosk's own settings are damaged, so it does not know whom to believe; write the "
-                      "image onto its disk anew");
+        return failed(ImportRefusal::Unwritable, "the kiosk's own settings are damaged, so it does not know "
+                                                 "which keys to trust; write the image onto its disk anew");
     }
     own.keys = *std::move(keys);
     const FileResult<std::string> serial = read_text(folder, settings_serial_name, most_serial_bytes);
@@ -156,8 +155,8 @@ Outcome<ImportOutcome> take(const SignedText& file, WritableTree& folder,
     }
     if (!folder.sync_folder("")) {
         return failed(ImportRefusal::Unwritable,
-                      "the new settings are there, but a power cut may bring the "
-                      "old ones back, as the kiosk's disk fails; call a technician");
+                      "the new settings are there, but a power cut may bring the old ones back, because the "
+                      "kiosk's disk fails; call a technician");
     }
     return ImportOutcome::Taken;
 }

@@ -210,7 +210,7 @@ TEST_F(SignProgram, VerifySaysWhoSigned) {
     EXPECT_EQ(json["key"], "house");
     EXPECT_EQ(json["serial"], 3);
     EXPECT_EQ(json["trusted_comment"], "serial:3\tfile:vase.fspack\thashed");
-    expect_failed(pack("verify vase.fspack --key stranger.pub"), "none of those known here (stranger)");
+    expect_failed(pack("verify vase.fspack --key stranger.pub"), "not one of those known here (stranger)");
     EXPECT_EQ(verified("vase.fspack --key stranger.pub")[0]["signed"], false);
     EXPECT_NE(pack("list vase.fspack").out.find("serial 3, not checked"), std::string::npos);
     EXPECT_EQ(nlohmann::json::parse(pack("explain vase.fspack --json").out)["serial"], 3);
