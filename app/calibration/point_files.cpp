@@ -97,8 +97,8 @@ public:
         const double length = glm::length(turn);
         if (!(std::abs(length - 1.0) <= max_rounded)) {
             refuse("points.no_rotation",
-                   "qw,qx,qy,qz are no rotation: their squares must add up to 1, and the root of that "
-                   "is {:.3g}; are these angles in degrees?",
+                   "qw,qx,qy,qz are not a rotation: their squares must add up to 1, and the root of their "
+                   "sum is {:.3g}; are these angles in degrees?",
                    length);
         }
         return {glm::normalize(turn), place(first)};
@@ -170,9 +170,10 @@ Result<Rests> parse_rests(std::string_view text, std::string_view name) {
         if (known == rests.end()) {
             rests.push_back(std::move(next));
         } else if (!is_same_place(*known, next)) {
-            rows.refuse("points.rest_moved",
-                        "rest {} has another place or block than in its first row; each rest has one",
-                        next.name);
+            rows.refuse(
+                "points.rest_moved",
+                "rest {} has another place or block than in its first row; allowed is one for each rest",
+                next.name);
         } else {
             known->points.push_back(next.points[0]);
         }

@@ -117,7 +117,7 @@ class Camera(unittest.TestCase):
             self.assertTrue(any(f"{1000 * base:g} x {1000 * base:g}" in (text.text or "") for text in root.iter(f"{SVG}text")))
         large = self.run_program("sheet", "--config", self.config, "-o", sheet, base=0.36)
         self.assertEqual(large.returncode, 1)
-        self.assertIn("leaves no room for tags on a sheet of A3; up to 339 mm are allowed", large.stderr)
+        self.assertIn("leaves no room for tags on a sheet of A3; allowed are at most 339 mm", large.stderr)
 
 
 if __name__ == "__main__":
