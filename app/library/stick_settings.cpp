@@ -117,10 +117,9 @@ std::optional<std::string> fault_of_copy(const SignedText& file) {
         return fmt::format("{}: it is empty; copy it to the stick again", settings_file_name);
     }
     if (!file.signature && !text.ends_with('\n')) {
-        return fmt::format(
-            "{}: its last line has no end, as after a copy that was cut off; look at it, press Enter behind "
-            "the last line, and copy it again",
-            settings_file_name);
+        return fmt::format("{}: its last line has no end, as after a copy that was cut off; look at it, "
+                           "press Enter after the last line, and copy it again",
+                           settings_file_name);
     }
     return std::nullopt;
 }

@@ -336,9 +336,10 @@ Result<Rung> rung_of(const PackOutline& pack, std::string_view technique, double
     if (texels && relief_of(reliefs, *texels)) {
         return Rung{*texels, 1, false, true, of != technique};
     }
-    return bad_input(
-        "scene.no_technique", "technique '{}'; this pack has {}{}", technique, techniques_of(pack, reliefs),
-        technique.starts_with(relief_prefix) && reliefs.empty() ? "; bake it again for relief" : "");
+    return bad_input("scene.no_technique", "technique '{}' is not in this pack; it has {}{}", technique,
+                     techniques_of(pack, reliefs),
+                     technique.starts_with(relief_prefix) && reliefs.empty() ? "; bake it again for relief"
+                                                                             : "");
 }
 
 bool is_technique(std::string_view name) {
