@@ -102,7 +102,7 @@ TEST_F(WordsCommand, a_recording_that_no_word_takes_is_lost) {
     }
     const std::string command = "frustumscreen-bake --words mine --languages de -o out.fswords --speech none";
     ASSERT_EQ(run(command), 0) << text("err.txt");
-    EXPECT_NE(text("err.txt").find("mine/de/advice.lift.wav: nobody hears this recording: no text has this "
+    EXPECT_NE(text("err.txt").find("mine/de/advice.lift.wav: this recording is not used: no text has this "
                                    "name; the nearest name of a text is de/advice.lower.wav"),
               std::string::npos)
         << text("err.txt");
