@@ -203,7 +203,7 @@ TEST_F(BakeCommand, AFoldersTextsAreSetAndItsDescriptionIsSpoken) {
               std::string::npos)
         << text("out.txt");
     ASSERT_EQ(run("frustumscreen-pack explain vase.fspack"), 0);
-    EXPECT_NE(text("out.txt").find("silent: the description is shown and nobody speaks it"),
+    EXPECT_NE(text("out.txt").find("silent: the description is shown, but no voice speaks it"),
               std::string::npos);
 }
 
