@@ -139,7 +139,8 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
         {"[projector]\ntable_from_projector = [1,0,0,0, 0,-1,0,0, 0,0,-1,0, 2,0,1.2,1]",
          {":2: projector.table_from_projector throws its picture beside the table"}},
         {"[projector]\nposition_m = [0.7, 0, 1.5]",
-         {":2: projector.position_m throws its picture so that the prop, 0.3 m wide, cannot stand in it anywhere"}},
+         {":2: projector.position_m throws its picture so that the prop, 0.3 m wide, cannot stand in it "
+          "anywhere"}},
         {"[projector]\nposition_m = [0, 0, 1]\naim_m = [0, 0, 1]",
          {":3: projector.aim_m gives no direction"}},
         {"[projector]\nposition_m = [0, 0, 1]\naim_m = [0, 5, 1]",
