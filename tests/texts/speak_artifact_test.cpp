@@ -81,8 +81,8 @@ TEST_F(SpeakArtifact, what_is_silent_and_what_is_left_out_is_said) {
     ASSERT_TRUE(spoken) << spoken.error().message;
     EXPECT_TRUE(spoken->languages.empty());
     EXPECT_EQ(spoken->silent,
-              (std::vector<std::string>{"the description in 'en', 'it' is silent, and shown all the "
-                                        "same: there is no recording and no voice"}));
+              (std::vector<std::string>{"the description in 'en', 'it' is silent, but it is shown: "
+                                        "there is no recording and no voice"}));
     ASSERT_EQ(spoken->notes.size(), 1U);
     EXPECT_NE(spoken->notes.front().find("de/description.wav: there is no text of this recording"),
               std::string::npos)
