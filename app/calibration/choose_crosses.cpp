@@ -226,6 +226,18 @@ std::vector<Cross> crosses_of(const Choice& choice, std::span<const std::size_t>
     return crosses;
 }
 
+/// The best `count` crosses, and after them the best `more` to add.
+std::vector<Cross> first_and_more(const Choice& choice, int count, int more) {
+    const std::vector<std::size_t> first = best_of(choice, {}, count);
+    std::vector<Cross> crosses = crosses_of(choice, first);
+    if (more > 0) {
+        const std::vector<std::size_t> all = best_of(choice, first, more);
+        const std::vector<Cross> others = crosses_of(choice, std::span(all).subspan(first.size()));
+        crosses.insert(crosses.end(), others.begin(), others.end());
+    }
+    return crosses;
+}
+
 } // namespace
 
 glm::dvec2 reach_of(const glm::dvec2& table_m, double prop_base_m) {
@@ -253,11 +265,11 @@ TouchModel rough_model(const Pinhole& pinhole, double above_m, double sensor_hei
     return model;
 }
 
-std::vector<Cross> choose_crosses(const TouchModel& rough, const CrossSetup& setup) {
+std::vector<Cross> choose_crosses(const TouchModel& rough, const CrossSetup& setup, int more) {
     Choice choice = choice_of(rough, setup, setup.noise);
     choice.hidden_share = 0.05;
     choice.starts = 4;
-    return crosses_of(choice, best_of(choice, {}, setup.count));
+    return first_and_more(choice, setup.count, more);
 }
 
 /// That the projector moved is the harder case: then heights tell nothing. All else is as sure as the arithmetic allows.
@@ -273,14 +285,7 @@ std::vector<Cross> choose_touch_up_crosses(const TouchModel& kept, const CrossSe
     choice.known = open.llt().solve(Covariance::Identity());
     choice.hidden_share = 0.5;
     choice.starts = 8;
-    const std::vector<std::size_t> first = best_of(choice, {}, setup.count);
-    std::vector<Cross> crosses = crosses_of(choice, first);
-    if (more > 0) {
-        const std::vector<std::size_t> all = best_of(choice, first, more);
-        const std::vector<Cross> others = crosses_of(choice, std::span(all).subspan(first.size()));
-        crosses.insert(crosses.end(), others.begin(), others.end());
-    }
-    return crosses;
+    return first_and_more(choice, setup.count, more);
 }
 
 } // namespace frustumscreen

@@ -52,10 +52,11 @@ inline constexpr double stand_margin_m = 0.005;
 /// A rough model where nothing is known but the picture and the throw: a projector straight above, a tracker in the table's frame.
 [[nodiscard]] TouchModel rough_model(const Pinhole& pinhole, double above_m, double sensor_height_m);
 
-/// In the order in which to touch them: from low to high. `rough`: its K is taken as a frame whose Z is up.
-[[nodiscard]] std::vector<Cross> choose_crosses(const TouchModel& rough, const CrossSetup& setup);
-/// The same for a touch-up, where all is known but how the projector moved; `kept`: as `rough`. The order is that in which they are
-/// touched: after the first `setup.count`, `more` that make them check each other.
+/// The first `setup.count` crosses in the order in which to touch them, from low to high; after them `more`, the best to add to
+/// these, also from low to high. `rough`: its K is taken as a frame whose Z is up.
+[[nodiscard]] std::vector<Cross> choose_crosses(const TouchModel& rough, const CrossSetup& setup,
+                                                int more = 0);
+/// The same for a touch-up, where all is known but how the projector moved; `kept`: as `rough`.
 [[nodiscard]] std::vector<Cross> choose_touch_up_crosses(const TouchModel& kept, const CrossSetup& setup,
                                                          int more);
 

@@ -48,9 +48,9 @@ TEST(TouchPicture, EverythingThatIsSaidHasItsWord) {
     const std::vector<Cross> crosses{{{100, 100}, 0.0, 0.0}, {{500, 100}, 0.0, 0.0}, {{300, 300}, 0.08, 1.5}};
     for (const Verdict verdict : {Verdict::Good, Verdict::Usable, Verdict::Repeat, Verdict::Refused}) {
         walk(TouchProcedure(crosses), {verdict, {}, {}, {}, false}, listen);
-        walk(TouchProcedure(crosses, 2), {verdict, {}, {}, {}, false}, listen);
+        walk(TouchProcedure(TouchTask::TouchUp, crosses, 2), {verdict, {}, {}, {}, false}, listen);
     }
-    walk(TouchProcedure(crosses, 2), {Verdict::Good, {}, {}, {}, true}, listen);
+    walk(TouchProcedure(TouchTask::TouchUp, crosses, 2), {Verdict::Good, {}, {}, {}, true}, listen);
     EXPECT_EQ(said.size(), 16U);
     expect_sentences(said);
     EXPECT_EQ(table_words(TouchProcedure(crosses, "it cannot be done")).key, "")

@@ -211,7 +211,7 @@ TEST_F(Procedure, WhereItCannotBeDoneNextDoesNothing) {
 /// By the first two of three crosses.
 class TouchUpProcedure : public Procedure {
 protected:
-    TouchUpProcedure() { procedure = TouchProcedure(crosses(), 2); }
+    TouchUpProcedure() { procedure = TouchProcedure(TouchTask::TouchUp, crosses(), 2); }
     void touch_two() {
         press(true);
         touch(0);
@@ -227,7 +227,7 @@ TEST_F(TouchUpProcedure, BackFromItsBeginningLeadsToTheWholeCalibration) {
     now += TouchProcedure::to_go_on + tick;
     procedure.step({now, std::nullopt, false, false});
     EXPECT_EQ(procedure.stage(), CalibrationStage::GoesOn) << "it has ended";
-    procedure = TouchProcedure(crosses(), 2);
+    procedure = TouchProcedure(TouchTask::TouchUp, crosses(), 2);
     procedure.step({now, std::nullopt, false, false});
     now += TouchProcedure::to_begin + tick;
     procedure.step({now, std::nullopt, false, false});
@@ -252,6 +252,22 @@ TEST_F(TouchUpProcedure, TooFewTouchesBringMoreCrosses) {
     procedure.judge({Verdict::Good, {}, {}, three_residuals, false});
     press(true);
     EXPECT_EQ(procedure.stage(), CalibrationStage::Done);
+}
+
+TEST_F(Procedure, TooFewTouchesBringTwoMoreCrossesAtATime) {
+    procedure = TouchProcedure(TouchTask::Anew, crosses(), 1);
+    press(true);
+    for (const std::size_t count : {1U, 3U}) {
+        EXPECT_EQ(procedure.count(), count);
+        while (procedure.stage() == CalibrationStage::Place) {
+            touch(procedure.at());
+        }
+        ASSERT_EQ(procedure.stage(), CalibrationStage::Solve);
+        procedure.judge(
+            {Verdict::Repeat, {}, {}, {three_residuals.begin(), three_residuals.begin() + 1}, false});
+        EXPECT_EQ(procedure.asks_for_more(), count == 1);
+        press(true);
+    }
 }
 
 TEST_F(TouchUpProcedure, AfterARefusalNextMeasuresAnewAndBackTouchesAgain) {

@@ -107,7 +107,7 @@ void TouchProcedure::after_judgement(const Input& input) {
     if (is_refused && (input.next || is_touch_up)) {
         std::fill(touches_.begin(), touches_.end(), std::nullopt);
     } else if (input.next && asks_for_more()) {
-        asked_ = crosses_.size();
+        asked_ = std::min(asked_ + more_at_once, crosses_.size());
     } else if (input.next && !judged.repeat.empty()) {
         for (const std::size_t row : judged.repeat) {
             touches_[row].reset();

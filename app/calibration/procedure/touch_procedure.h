@@ -5,7 +5,7 @@
 ///          next cross.
 /// End      Next keeps it, Back does the touch again that lies farthest off; touches that are to be repeated come again by themselves.
 /// Touch-up Back from its beginning, and Next after a refusal, lead to the whole calibration; Back after a refusal does all touches
-///          again. Where the first touches are too few to check each other, more crosses come.
+///          again. Where the touches are too few, to check each other or for the picture's uncertainty, more crosses come.
 /// Frames   tracker K, as the device reports.
 /// Threads  pure; any.
 #pragma once
@@ -50,14 +50,15 @@ public:
     static constexpr double same_place_m = 5e-3;
     static constexpr double same_place_rad = 0.2;
     static constexpr std::size_t least_reports = 5; ///< in the second of rest
+    static constexpr std::size_t more_at_once = 2;  ///< crosses that come where the touches are too few
 
     /// `crosses`: at least one, in the order in which they come.
     explicit TouchProcedure(std::vector<Cross> crosses, std::string problem = {})
         : Procedure(std::move(problem)), crosses_(std::move(crosses)), asked_(crosses_.size()),
           touches_(crosses_.size()) {}
-    /// A touch-up by the first `few` of the crosses; the others are for touches that are too few to check each other.
-    TouchProcedure(std::vector<Cross> crosses, std::size_t few)
-        : Procedure({}), task_(TouchTask::TouchUp), crosses_(std::move(crosses)), asked_(few),
+    /// By the first `asked` of the crosses; the others follow, two at a time, while the verdict asks for more touches.
+    TouchProcedure(TouchTask task, std::vector<Cross> crosses, std::size_t asked, std::string problem = {})
+        : Procedure(std::move(problem)), task_(task), crosses_(std::move(crosses)), asked_(asked),
           touches_(crosses_.size()) {}
 
     void step(const Input& input);

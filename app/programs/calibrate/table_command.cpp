@@ -15,8 +15,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
+#include <span>
 
 namespace frustumscreen {
 
@@ -24,7 +26,8 @@ namespace {
 
 /// Of a touch-up: seven take about two minutes and mostly check each other, as five do not; two more are asked for where they do not.
 constexpr int few_crosses = 7;
-constexpr int more_crosses = 2;
+constexpr int more_after_few = 2;
+constexpr int max_crosses = 30;
 
 /// Where the middle of the prop's bottom may lie.
 glm::dvec2 reach_in(const Settings& settings) {
@@ -53,7 +56,8 @@ TouchModel described_table(const Settings& settings, double sensor_height_m) {
 std::vector<Cross> crosses_for(const Settings& settings, const CalibrateRequest& request) {
     TouchModel rough = described_table(settings, request.sensor_height_m.value_or(0.0));
     rough.pinhole = rough.pinhole.ideal();
-    return choose_crosses(rough, cross_setup(settings, request));
+    const CrossSetup setup = cross_setup(settings, request);
+    return choose_crosses(rough, setup, std::max(max_crosses - setup.count, 0));
 }
 
 /// Those of a touch-up: the kept projector is known.
@@ -62,7 +66,7 @@ std::vector<Cross> touch_up_crosses_for(const Settings& settings, const Calibrat
     setup.count = few_crosses;
     return choose_touch_up_crosses(
         described_table(settings, -settings.tracker.registration.sensor_from_prop.translation.z), setup,
-        more_crosses);
+        more_after_few);
 }
 
 /// Of the sensor above the prop's bottom: as it is asked for, else as the settings have it, else as it was measured before.
@@ -81,9 +85,7 @@ constexpr const char* no_sensor_height =
     "nobody knows how high the sensor is above the prop's bottom; measure it with a ruler and set "
     "calibration.sensor_height_m";
 
-/// `reach_m`, and how far prop or boards hang over the table's edge at the worst cross.
-nlohmann::ordered_json crosses_json(const Settings& settings, const std::vector<Cross>& crosses) {
-    const glm::dvec2 reach_m = reach_in(settings);
+nlohmann::ordered_json list_json(std::span<const Cross> crosses) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Cross& cross : crosses) {
         list.push_back({{"u_px", cross.pixel.x},
@@ -91,7 +93,16 @@ nlohmann::ordered_json crosses_json(const Settings& settings, const std::vector<
                         {"block_m", cross.block_m},
                         {"turn_deg", glm::degrees(cross.yaw_rad)}});
     }
-    return {{"crosses", list},
+    return list;
+}
+
+/// `first`: how many crosses come before a verdict may ask for more. `overhang_m`: how far prop or boards hang over the table's edge at
+/// the worst cross.
+nlohmann::ordered_json crosses_json(const Settings& settings, std::span<const Cross> crosses,
+                                    std::size_t first) {
+    const glm::dvec2 reach_m = reach_in(settings);
+    return {{"crosses", list_json(crosses.first(first))},
+            {"more_crosses", list_json(crosses.subspan(first))},
             {"boards_side_m", boards_side_m(settings.prop.base_m)},
             {"overhang_m", overhang_m(described_table(settings, 0.0), crosses, reach_m)}};
 }
@@ -104,6 +115,7 @@ struct Session {
     TouchSetup setup; ///< with the sensor's height, where it is known
     // Chosen before the devices are opened: that takes a second, in which nobody would feed the service manager's watchdog.
     std::vector<Cross> crosses;
+    std::size_t first_crosses = 0;       ///< how many of `crosses` are touched before a verdict asks for more
     std::vector<Cross> touch_up_crosses; ///< none: there is nothing to touch up
 };
 
@@ -127,7 +139,9 @@ Result<WayEnd> measure_by_touch(const Session& session, TouchProcedure way,
 Result<WayEnd> measure_by_crosses(const Session& session) {
     TouchCalibration found;
     return measure_by_touch(
-        session, TouchProcedure(session.crosses, session.setup.sensor_height_m ? "" : no_sensor_height),
+        session,
+        TouchProcedure(TouchTask::Anew, session.crosses, session.first_crosses,
+                       session.setup.sensor_height_m ? "" : no_sensor_height),
         [&](const Touches& touches) {
             found = calibrate_touch(touches, session.setup);
             return judgement_of(found);
@@ -139,7 +153,7 @@ Result<WayEnd> measure_by_crosses(const Session& session) {
 Result<WayEnd> touch_up_on_table(const Session& session) {
     TouchUp found;
     return measure_by_touch(
-        session, TouchProcedure(session.touch_up_crosses, few_crosses),
+        session, TouchProcedure(TouchTask::TouchUp, session.touch_up_crosses, few_crosses),
         [&](const Touches& touches) {
             found = touch_up(kept_table_of(session.settings), touches, session.setup);
             return judgement_of(found);
@@ -207,7 +221,8 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     if (request.json) {
         const std::vector<Cross> crosses =
             touches_up ? touch_up_crosses_for(settings, request) : crosses_for(settings, request);
-        fmt::print("{}\n", crosses_json(settings, crosses).dump(2));
+        const int first = touches_up ? few_crosses : cross_setup(settings, request).count;
+        fmt::print("{}\n", crosses_json(settings, crosses, static_cast<std::size_t>(first)).dump(2));
         return 0;
     }
     const std::vector<Cross> crosses = crosses_for(settings, request);
@@ -222,6 +237,7 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
                               .request = request,
                               .setup = set_up_for<TouchSetup>(described, known),
                               .crosses = crosses,
+                              .first_crosses = static_cast<std::size_t>(cross_setup(settings, request).count),
                               .touch_up_crosses = touch_up_crosses});
 }
 
