@@ -1,5 +1,5 @@
-/// Whether a touch is as the others predict it, and what a wrong one, or a wrong rest, could do that is not noticed.
-///
+/// Tests whether a touch agrees with the others' prediction, and bounds the error of one wrong touch or rest
+/// that goes unnoticed.
 /// Units    metres; residuals whitened, so that chi squared is what it should be.
 /// Threads  pure; any.
 /// Source   Baarda, A testing procedure for use in geodetic networks, 1968: data snooping, external reliability
