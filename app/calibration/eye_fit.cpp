@@ -89,8 +89,7 @@ Solution solved(std::span<const Line> lines, const std::vector<bool>& used, cons
     Solution solution;
     constexpr int rounds = 5;
     for (int round = 0; round < rounds; ++round) {
-        BothCovariance information = BothCovariance::Identity() *
-                                     1e-6; // a weak prior: what is undetermined is some hundred metres wide
+        BothCovariance information = BothCovariance::Identity() * 1e-6; // a weak prior
         Both right = Both::Zero();
         Eigen::Matrix<double, 6, 5> shared = Eigen::Matrix<double, 6, 5>::Zero();
         solution.rows.clear();

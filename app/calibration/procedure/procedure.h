@@ -39,9 +39,8 @@ enum class CalibrationStage {
 /// The input of one step: reports, presses and frames. Each way uses a part of it.
 struct CalibrationInput {
     MonotonicTime now{};
-    std::optional<RigidTransform> prop =
-        std::nullopt;  ///< a new report of its sensor; none if there is no new one
-    bool next = false; ///< a button was pressed
+    std::optional<RigidTransform> prop = std::nullopt; ///< a new report of its sensor, if any
+    bool next = false;                                 ///< a button was pressed
     bool back = false;
     std::optional<RigidTransform> head = std::nullopt; ///< as of the prop
     const CameraFrame* frame = nullptr;                ///< a new frame
@@ -60,8 +59,7 @@ public:
     using Input = CalibrationInput;
     static constexpr Nanoseconds patience =
         std::chrono::seconds(2); ///< for the tracker's reports, and for a camera to be set up
-    static constexpr Nanoseconds to_begin =
-        std::chrono::minutes(1); ///< without a press, after which the procedure ends
+    static constexpr Nanoseconds to_begin = std::chrono::minutes(1); ///< without a press
     static constexpr Nanoseconds to_go_on = std::chrono::minutes(10);
 
     /// Takes the result of the points, in stage Solve.
