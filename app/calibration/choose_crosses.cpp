@@ -63,7 +63,7 @@ std::vector<Cross> grid_of(const TouchModel& model, const CrossSetup& setup) {
     constexpr int columns = 8;
     constexpr int rows = 6;
     std::vector<Cross> crosses;
-    // Over the whole picture, no intermediate height is chosen from eight touches on, but such heights lead
+    // Over the whole picture, no intermediate height is chosen from eight touches on, but these heights lead
     // the exchange to better designs. Within reach they gain nothing, and a technician would need boards of
     // more heights.
     const int steps = setup.reach_m ? 1 : 3;
@@ -87,7 +87,7 @@ struct Choice {
     std::vector<Cross> grid;
     std::vector<TouchRows> rows; ///< of each cross
     std::vector<ZonePlace> places;
-    Covariance known; ///< information without a touch
+    Covariance known; ///< information without touches
     double hidden_share =
         0.0; ///< weight of the unnoticed error beside the noise: a wrong touch is rarer, and larger
     std::size_t starts = 1;

@@ -21,7 +21,7 @@ struct Undetermined {
     double picture_m = 0.0; ///< uncertainty of the picture
 };
 
-/// What a fit leaves undetermined; nothing if the points determine everything. Uses only the fit's middle and
+/// The undetermined part of a fit; nothing if the points determine everything. Uses only the fit's middle and
 /// its three information matrices.
 [[nodiscard]] std::optional<Undetermined> undetermined(const Fit& fit, const ZoneSetup& zone);
 

@@ -26,7 +26,7 @@ struct RestModel {
     [[nodiscard]] RigidTransform prop_in_sensor() const { return {sensor_from_prop, touch.sensor_offset_m}; }
 };
 
-/// After the touches' unknowns.
+/// Unknowns in addition to those of touches.
 enum RestUnknown {
     prop_turn_x = unknown_count, ///< of the prop, in the sensor's frame
     prop_turn_y,
@@ -38,7 +38,7 @@ enum RestUnknown {
 using RestChanges = Eigen::Matrix<double, rest_unknown_count, 1>;
 using RestCovariance = Eigen::Matrix<double, rest_unknown_count, rest_unknown_count>;
 
-/// A model with changes, ready to predict where points of the prop are.
+/// A changed model, ready to predict where points of the prop are.
 template <typename T> struct ChangedRestModel {
     using Vector = Eigen::Matrix<T, 3, 1>;
 

@@ -41,7 +41,7 @@ enum Unknown {
 using Changes = Eigen::Matrix<double, unknown_count, 1>;
 using Covariance = Eigen::Matrix<double, unknown_count, unknown_count>;
 
-/// A model with changes, ready to predict what a touch reports.
+/// A changed model, ready to predict what a touch reports.
 template <typename T> struct ChangedModel {
     using Vector = Eigen::Matrix<T, 3, 1>;
     using Matrix = Eigen::Matrix<T, 3, 3>;

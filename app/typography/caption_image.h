@@ -26,7 +26,7 @@ inline constexpr double caption_text_brightness = 0.8;
 /// Type size of the lines below the text, in those of the text; they too have at least 24 pt.
 inline constexpr double caption_small_em = 0.8;
 
-/// What a part of a caption is set as.
+/// The type style of a caption's part.
 enum class CaptionRole : std::uint8_t {
     Title, ///< larger and bold
     Text,

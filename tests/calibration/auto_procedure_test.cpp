@@ -56,7 +56,7 @@ AutoPlan plan_of(const SimulatedTable& table, const LiveSetup& setup) {
     return plan;
 }
 
-/// Table, camera, tracker, and a technician who does what the table says.
+/// Table, camera, tracker, and a technician who follows the instructions.
 class Live {
 public:
     static constexpr std::size_t frames_late = 2; ///< from a frame to its delivery

@@ -152,7 +152,7 @@ void spoil(EyeSights& sights, const SimulatedPerson& person, int kind, SeededNum
     for (std::size_t k = 0; k < sights.size(); ++k) {
         EyeSight& sight = sights[k];
         switch (kind) {
-        case 0: // one at another cross
+        case 0: // one was made at another cross
             sight.cross_m += k == from ? glm::dvec3(way.x, way.y, 0.0) : glm::dvec3(0.0);
             break;
         case 1: // the head moved during two of them

@@ -17,7 +17,7 @@ namespace frustumscreen {
 
 struct PropagatedTouches {
     Eigen::MatrixXd
-        by_noise; ///< three rows for each place of registration_offsets; a column for each standard normal number
+        by_noise; ///< three rows per place of registration_offsets, a column per standard normal number
     Eigen::VectorXd bias;                   ///< shift of the picture by the priors
     std::vector<Eigen::Matrix3d> whitening; ///< of each touch's pixel and height
 };

@@ -80,7 +80,7 @@ std::vector<Grey> with_cosines(const StripeSetup& stripes, const Captured& captu
             if (pattern.stripes == Stripes::InverseBit) {
                 codes.resize(all.back().size());
                 for (std::size_t k = 0; k < codes.size();
-                     ++k) { // a bit of Gray's code turns the ones below it round
+                     ++k) { // a bit of the Gray code inverts the ones below it
                     const bool bit = all[all.size() - 2][k] > all.back()[k];
                     codes[k] = 2 * codes[k] + ((codes[k] & 1) != (bit ? 1 : 0) ? 1 : 0);
                 }

@@ -191,7 +191,7 @@ TEST(TouchUp, ThePictureComesBackToItsPlace) {
     for (const Moved what : {Moved::Projector, Moved::Tracker}) {
         const Share share = share_of(what, 10e-3, 7, 8, crosses);
         EXPECT_LT(share.after_mm, 1.0);
-        EXPECT_NEAR(share.said_mm / share.after_mm, 1.0, 0.35); // the map is honest
+        EXPECT_NEAR(share.said_mm / share.after_mm, 1.0, 0.35); // the reported uncertainty is right
         EXPECT_GE(share.usable, 6);
         EXPECT_LE(share.misnamed, 1);
         EXPECT_EQ(share.broken, 0);

@@ -1,5 +1,5 @@
-/// What the captures of one rest show of the board: the tags that are seen whole, lit and undisturbed, and
-/// the projector's pixels at their corners.
+/// The board as decoded from one rest's captures: the tags that are seen whole, lit and undisturbed, and the
+/// projector's pixels at their corners.
 ///
 /// Disturbed If nothing passes through the light, a bit and its inverse add up to white plus black, and a
 ///          cosine's steps make a wave without harmonics above the second, which a projector's gamma hardly

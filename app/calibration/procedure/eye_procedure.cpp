@@ -85,7 +85,7 @@ void EyeProcedure::begin_rest(MonotonicTime now, EyeWord word) {
     go_to(Stage::Rest, word);
 }
 
-/// What the tracker does not see; None if it sees prop and head.
+/// The sensor that the tracker does not see; None if it sees prop and head.
 EyeWord EyeProcedure::missing(MonotonicTime now) const {
     return now - prop_seen_ > patience   ? EyeWord::PropNotSeen
            : now - head_seen_ > patience ? EyeWord::HeadNotSeen

@@ -45,7 +45,7 @@ enum class EyeWord {
     Taken
 };
 
-/// One sighting that is asked for.
+/// A requested sighting.
 struct AskedSight {
     OpenEye eye = OpenEye::Left;
     HeadPosture posture = HeadPosture::ChinUp;

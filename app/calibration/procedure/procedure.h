@@ -1,7 +1,8 @@
 /// The skeleton of the ways through a calibration, by touch, by a camera and by eye, for one person with two buttons.
 ///
-/// Begin    The table tells what is needed, or why the calibration cannot be done. Next begins, Back leaves. After `to_begin` without a press the
-///          procedure ends by itself, so that the exhibit comes back when a person forgets the table or got here by chance.
+/// Begin    The table shows what is needed, or why the calibration cannot be done. Next begins, Back leaves.
+///          After `to_begin` without a press the procedure ends by itself, so that the exhibit returns if a
+///          person forgot the table or got here by chance.
 /// Way      A way is a table of stages and their step functions. In a stage without a row a step changes nothing.
 /// End      In stage Solve the caller computes the calibration and passes the verdict to `judge`. Each way defines what the buttons do then.
 /// Time     a parameter; the devices' own rates, whatever they are.
@@ -30,7 +31,7 @@ enum class CalibrationStage {
     HoldStill, ///< a rest of the prop, or stillness of the head, is taken
     Capture,   ///< by a camera: the stripes are shown
     Solve,     ///< all points are taken: call `judge`
-    Judged,    ///< the verdict is told
+    Judged,    ///< the verdict is shown
     Done,      ///< the calibration is kept; from here on it has ended
     GoesOn,    ///< another way follows in its place
     Left       ///< it ends without a calibration
@@ -58,7 +59,7 @@ public:
     using Stage = CalibrationStage;
     using Input = CalibrationInput;
     static constexpr Nanoseconds patience =
-        std::chrono::seconds(2); ///< for the tracker's reports, and for a camera to be set up
+        std::chrono::seconds(2); ///< for the tracker's reports, and for a camera to start
     static constexpr Nanoseconds to_begin = std::chrono::minutes(1); ///< without a press
     static constexpr Nanoseconds to_go_on = std::chrono::minutes(10);
 

@@ -29,7 +29,7 @@ enum class TouchTask {
 /// The result of the touches that the procedure depends on.
 struct TouchJudgement {
     Verdict verdict = Verdict::Refused;
-    std::vector<std::string> told;        ///< what was found, in a technician's words
+    std::vector<std::string> told;        ///< the result, in a technician's words
     std::vector<std::size_t> repeat;      ///< touches to do again, counted from 0
     std::vector<TouchResidual> residuals; ///< of each touch; empty if unknown
     bool nothing_moved = false;           ///< a touch-up without anything to keep
@@ -41,7 +41,7 @@ enum class TouchWord {
     Moved,     ///< the prop moved: the second begins again
     NotSeen,   ///< the tracker does not see the prop
     SamePlace, ///< the prop still lies where the previous touch was
-    Taken      ///< well done
+    Taken      ///< the touch is taken
 };
 
 class TouchProcedure : public Procedure<TouchWord, TouchJudgement> {

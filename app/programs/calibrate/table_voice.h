@@ -1,4 +1,4 @@
-/// Says aloud what the table shows, in the house's language.
+/// Speaks the words on the table, in the house's language.
 ///
 /// Threads  one caller. The constructor decodes all prompts: some sixty short sentences.
 /// Errors   what cannot be decoded is silent.
