@@ -4,7 +4,6 @@
 /// Errors   the settings lack something that it needs, the screen fails, or it ends without a calibration. A
 ///          fault of the camera or the tracker is reported on the table and on standard error, and ends
 ///          nothing.
-///          table and on standard error, and end nothing.
 #pragma once
 
 #include "app/calibration/board.h"
