@@ -172,7 +172,7 @@ public:
         line(tip + length * inwards, head, width, TableColours::front);
         line(head, head + 0.008 * inwards + aside, width, TableColours::front);
         line(head, head + 0.008 * inwards - aside, width, TableColours::front);
-        const double radius = 0.003; // a circle whose line is as wide as its radius is drawn as a dot
+        const double radius = 0.003; // a circle of half of it, with a line as wide as it, is a dot
         const glm::dvec2 dot = pixel(tip + 0.0045 * inwards);
         const double radius_px = glm::distance(dot, pixel(tip + (0.0045 + radius) * inwards));
         canvas_.circle(dot, 0.5 * radius_px, radius_px, TableColours::white);
