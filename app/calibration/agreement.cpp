@@ -12,14 +12,14 @@ namespace frustumscreen {
 
 namespace {
 
-/// How many choices of touches are tried before it goes on one by one.
+/// Largest number of sets that are tried at once; beyond it, touches are added one by one.
 constexpr std::size_t most_choices = 1000;
-/// Of all touches, at most a fifth is taken for wrong: from fewer others, nobody could tell which ones are.
+/// At most a fifth of the touches counts as wrong: fewer others cannot tell which ones are.
 constexpr std::size_t wrong_of = 5;
 constexpr double most_scatter = 2.0;
-/// How far beyond the limit a rough fit may be and still be worth a fine one.
+/// A rough fit is refined if its chi squared is below so many times the limit.
 constexpr double worth_a_fit = 100.0;
-/// Choices that explain the touches nearly as well as the best one are not told apart.
+/// Sets whose chi squared differs by less than this explain the touches equally well.
 constexpr double alike = 6.0;
 
 using Choice = std::vector<std::size_t>;
@@ -59,7 +59,7 @@ std::vector<Choice> choices_of(std::size_t touches, std::size_t wrong) {
     }
 }
 
-/// `base` with each one more touch.
+/// `base` plus each one of the other touches.
 std::vector<Choice> one_more(const Choice& base, std::size_t touches) {
     std::vector<Choice> choices;
     for (std::size_t k = 0; k < touches; ++k) {
@@ -78,7 +78,8 @@ struct Tried {
     bool agrees = false;
 };
 
-/// From where the robust fit ended, and from a start of its own: where the wrong touches bent that one.
+/// Fits without `choice` from two starts: the robust fit, and a start without those touches, in case they
+/// bent the robust fit.
 Tried tried_from(std::span<const Touch> touches, const FitSetup& setup, const TouchModel& start,
                  Choice choice) {
     Touches kept;
@@ -107,7 +108,7 @@ bool better(const Tried& a, const Tried& b) {
     return a.fit.chi2 < b.fit.chi2;
 }
 
-/// All choices of one size, the best first.
+/// Fits without each of the sets, the best first.
 std::vector<Tried> try_without(std::span<const Touch> touches, const FitSetup& setup, const TouchModel& start,
                                std::vector<Choice> choices) {
     std::vector<Tried> tried;
@@ -118,7 +119,7 @@ std::vector<Tried> try_without(std::span<const Touch> touches, const FitSetup& s
     return tried;
 }
 
-/// All pairs, laid on each other's crosses; the best first.
+/// Fits with each pair exchanged, the best first.
 std::vector<Tried> try_exchanged(std::span<const Touch> touches, const FitSetup& setup,
                                  const TouchModel& start) {
     std::vector<Tried> tried;
@@ -132,7 +133,8 @@ std::vector<Tried> try_exchanged(std::span<const Touch> touches, const FitSetup&
     return tried;
 }
 
-/// Those that explain the touches: the best one, and what is not to be told apart from it. Nothing, if that is more than a third of them.
+/// The best set that explains the touches, joined with those that explain them equally well. Nothing if the
+/// union is more than a third of the touches.
 std::optional<AgreeingTouches> explained(std::vector<Tried> tried, Agreement agreement, std::size_t touches) {
     if (tried.empty() || !tried[0].agrees) {
         return std::nullopt;

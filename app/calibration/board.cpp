@@ -8,23 +8,23 @@ namespace frustumscreen {
 
 namespace {
 
-/// Ids that tags on a prop's skirt hardly have: people number those from 0.
+/// Skirt tags are usually numbered from 0, so these ids hardly collide with them.
 constexpr int first_id = 570;
 constexpr double largest_m = 0.05;
 constexpr double least_m = 0.025;
-/// With the white rim that the tag needs, by its black square.
+/// Size with the white rim that a tag needs, over its black square.
 constexpr double rim = 1.25;
-/// Of the paper, which no printer reaches; and beside the prop.
+/// The paper's margin that no printer reaches.
 constexpr double margin_m = 0.008;
 constexpr double beside_prop_m = 0.001;
 constexpr double around_top_m = 0.002;
 
-/// In whole millimetres, so that a ruler can check it.
+/// Rounds down to whole millimetres, so that a ruler can check it.
 double whole_mm(double metres) {
     return std::floor(1e3 * metres + 1e-9) / 1e3;
 }
 
-/// Where a tag with its rim has such a room.
+/// The largest tag that fits a room with its rim.
 double fitting(double room_m) {
     return whole_mm(std::fmin(largest_m, room_m / rim));
 }

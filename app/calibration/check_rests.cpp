@@ -12,7 +12,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// A prop with its sheet is smaller, and its points lie farther apart.
+/// A prop's points on its sheet reach less than the first, and more than the second.
 constexpr double largest_prop_m = 1.0;
 constexpr double least_prop_m = 0.02;
 
@@ -43,7 +43,7 @@ std::optional<std::string> refusal_of(std::span<const Rest> rests, int width, in
         return fmt::format("{} rests of the prop are too few: {} at least are needed, and 16 are recommended",
                            rests.size(), least_rests);
     }
-    Touches places; // of each point, for what is asked of every pixel
+    Touches places; // one per point, for the checks of pixels
     std::vector<int> names;
     for (const Rest& rest : rests) {
         if (auto reason = bad_points(rest)) {
@@ -86,7 +86,7 @@ std::optional<std::string> refusal_of(std::span<const Rest> rests,
     const auto [low, high] =
         std::minmax_element(standing.begin(), standing.end(),
                             [](const Touch& a, const Touch& b) { return a.block_m < b.block_m; });
-    // At one height, heights say nothing of units, nor of which way is up.
+    // Rests at one height reveal neither wrong units nor the up direction.
     return high->block_m - low->block_m < least_height_m ? std::nullopt
                                                          : refusal_of_directions(standing, "rests");
 }

@@ -16,10 +16,10 @@ namespace {
 
 using Refusal = std::optional<std::string>;
 
-/// A table is some metres at most, and a tracker reaches no farther.
+/// No table, and no tracker's range, is larger.
 constexpr double farthest_m = 6.0;
 constexpr double highest_block_m = 1.0;
-/// Shares of the picture's width: how far apart touches are at least, along their line and across it.
+/// Least spread of touches along their principal axis and across it, as shares of the picture's width.
 constexpr double least_length = 0.25;
 constexpr double least_breadth = 0.08;
 
@@ -67,7 +67,8 @@ Refusal wrong_units(std::span<const Touch> touches, const glm::dvec2& picture, c
     return std::nullopt;
 }
 
-/// How far points spread along and across their line: four standard deviations, which is the length of what is evenly filled to some tenths.
+/// Spread of points along and across their principal axis: four standard deviations, roughly the length of an
+/// evenly filled area.
 glm::dvec2 spread(std::span<const Touch> touches) {
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();
     Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
@@ -149,7 +150,8 @@ Refusal refusal_of_directions(std::span<const Touch> touches, std::string_view p
     const HeightFit heights = fit_heights(touches);
     const double scale = glm::length(heights.up);
     if (scale < 0.2 || scale > 5.0) {
-        // A unit of the tracker or of the blocks: 1000, 100, 39.37, 25.4. Between, it is noise or the sensor's arm.
+        // Wrong units give factors of 1000, 100, 39.37 or 25.4. Factors between these limits are noise or the
+        // sensor's lever arm.
         return fmt::format(
             "the blocks' heights change by {:.3g} m where the tracker moved by 1 m upwards: are places and "
             "heights in the same unit, and the heights those of the touched places?",

@@ -11,15 +11,15 @@ namespace frustumscreen {
 
 namespace {
 
-/// Of all rests, at most a fifth is taken for wrong, and of all points at most so many.
+/// At most a fifth of the rests, and this share of the points, counts as wrong.
 constexpr std::size_t wrong_of = 5;
 constexpr double most_wrong_points = 0.4;
 constexpr double most_scatter = 2.0;
-/// Below, it is chance: a dozen rests do not tell their noise better.
+/// A dozen rests do not estimate their noise better; less scatter is chance.
 constexpr double least_scatter = 1.4;
-/// Of a point's two residuals, one in a quarter of a million is beyond.
+/// Quantile of chi squared for a point's two residuals; one right point in 250 000 exceeds it.
 constexpr double point_chi2_limit = 25.0;
-/// What the pixels' noise may be found to be.
+/// Limits of the estimated pixel noise.
 constexpr double least_noise_px = 0.05;
 constexpr double most_noise_px = 1.0;
 /// Medians of chi squared with two and with six degrees of freedom.
@@ -39,7 +39,8 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// Those of each level that fit together; what lies off it follows later. Rests whose points do not fit say nothing.
+/// Weights 1 for the points of each level that fit together; points off the level follow later. Rests without
+/// a view get no weight.
 RestWeights first_weights(std::span<const Rest> rests, std::span<const std::optional<PlaneView>> views) {
     RestWeights weights = equal_weights(rests);
     for (std::size_t k = 0; k < rests.size(); ++k) {
@@ -91,7 +92,7 @@ RestFit robust_fit(std::span<const Rest> rests, std::span<const std::optional<Pl
     return std::move(*best);
 }
 
-/// How far each rest's report is from what all others say of it; chi squared with six degrees of freedom.
+/// Leave-one-out chi squared of each rest's report, with six degrees of freedom.
 std::vector<double> left_out_chi2(const RestFit& fit) {
     const RestCovariance covariance = inverse_of(fit.information());
     std::vector<double> chi2;
@@ -102,13 +103,13 @@ std::vector<double> left_out_chi2(const RestFit& fit) {
     return chi2;
 }
 
-/// 1, or more if the reports of most rests scatter beyond chance.
+/// Ratio of the reports' noise to the expected noise; 1 unless most rests scatter beyond chance.
 double scatter_of(const std::vector<double>& chi2) {
     const double scatter = std::sqrt(median(chi2) / median_of_6);
     return scatter > least_scatter ? scatter : 1.0;
 }
 
-/// Leaves points out that are beyond the noise; the share of them.
+/// Leaves out points beyond the noise and returns their share.
 double leave_points_out(AgreeingRests& found, double pixel_noise) {
     double wrong = 0.0;
     double count = 0.0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double text_gap_em = 0.3; ///< between title and text
 
-/// In type sizes of the text, on the table.
+/// Type size on the table, in those of the text.
 double type_size(CaptionRole role, double em_m) {
     switch (role) {
     case CaptionRole::Title:
@@ -30,7 +30,7 @@ double brightness_of(CaptionRole role) {
     return role == CaptionRole::Title ? 1.0 : caption_text_brightness;
 }
 
-/// Of the text's type size.
+/// Gap above a part, in type sizes of the text.
 double gap_above(CaptionRole role, CaptionRole before) {
     return role == CaptionRole::Small && before == CaptionRole::Small ? 0.0 : text_gap_em;
 }

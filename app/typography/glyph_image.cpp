@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int samples = 4; ///< a pixel, along each axis
+constexpr int samples = 4; ///< per pixel, along each axis
 constexpr int most_side_px = 16384;
 constexpr std::int64_t most_pixels = 1 << 24;
 
@@ -30,7 +30,7 @@ GlyphArea area_of(const GlyphBox& box, const PlacedGlyph& glyph, std::int32_t ba
     return {&box, left, top, left + box.width * scale.px_of_texel, top + box.height * scale.px_of_texel};
 }
 
-/// The code at texel coordinates (texel centres at .5) of a box, clamped to its outermost texel centres.
+/// The code at texel coordinates (texel centres at 0.5) of a box, clamped to its outermost texel centres.
 double distance_code(const DistanceAtlas& atlas, const GlyphBox& box, double x, double y) {
     const double u = std::clamp(x - 0.5, 0.0, box.width - 1.0);
     const double v = std::clamp(y - 0.5, 0.0, box.height - 1.0);

@@ -1,4 +1,5 @@
-// A person with a sensor on the head at the table, played by the report: from the first word to the eyes, and what goes wrong on the way.
+// A person with a sensor on the head at the table, simulated report by report: from the first word to the
+// eyes, with the errors on the way.
 #include "app/programs/calibrate/table_pictures.h"
 #include "tests/calibration/person_at_table.h"
 
@@ -14,7 +15,7 @@ bool may_be_kept(Verdict verdict) {
     return verdict == Verdict::Good || verdict == Verdict::Usable;
 }
 
-/// Of so many people: how many end with an eye, and how far that is off.
+/// Results of several people: how many end with an eye, and its error.
 struct Outcome {
     int good = 0, kept = 0;
     double off_mm = 0.0; ///< root mean square
@@ -56,7 +57,7 @@ TEST(EyeProcedure, ThePosturesThatAreAskedForTellWhereTheEyesAre) {
 }
 
 TEST(EyeProcedure, APropThatIsTurnedInItsSensorOtherwiseThanKeptIsNoticedAtTenDegrees) {
-    Manner manner; // touches do not tell that turn; below, the dot of light beside the corner tells it
+    Manner manner; // touches leave that rotation open; the dot of light reveals less
     manner.kept_turn_rad = glm::radians(4.0);
     EXPECT_LT(outcome_of("prop turned by 4 degrees", 40, manner).off_mm, 15.0);
     manner.kept_turn_rad = glm::radians(10.0);
@@ -173,7 +174,7 @@ TEST(EyeProcedure, AWrongAimComesAgainByItself) {
     live.sight();
     live.judge();
     EXPECT_TRUE(may_be_kept(live.procedure.judged()->verdict)) << live.procedure.judged()->reason;
-    live.back(); // the farthest off again
+    live.back(); // repeats the one with the largest residual
     live.wait(0.1);
     const std::vector<double>& off = live.procedure.judged()->residuals_m;
     EXPECT_EQ(static_cast<std::ptrdiff_t>(live.procedure.at()),
@@ -189,7 +190,7 @@ TEST(EyeProcedure, AHeadThatIsAlwaysHeldAlikeIsToldAndRefused) {
     stiff.sight();
     EXPECT_EQ(stiff.procedure.word(), EyeWord::SameHead);
     EXPECT_EQ(stiff.procedure.at(), 1U) << "it is not taken";
-    alike.turn = 0.13; // just enough from one to the next, and too little to tell anything
+    alike.turn = 0.13; // accepted as different, but too little to determine an eye
     alike.nod = 0.1;
     Live live(6, alike);
     live.begin();

@@ -1,4 +1,4 @@
-// How the board stands, whether it rests, and where it is wanted next: by the tracker alone.
+// The board's posture, its rest and its next place, from the tracker alone.
 #include "app/calibration/procedure/rest_wish.h"
 #include "app/calibration/procedure/still_reports.h"
 #include "tests/simulators/table/simulated_rests.h"
@@ -53,7 +53,7 @@ TEST(StillReports, LeaveAStrayReportOut) {
     EXPECT_EQ(still.mean().translation, elsewhere.translation);
 }
 
-/// Reports of a prop that stands turned by `yaw`, raised or leaning, to a tracker that hangs askew.
+/// The report of a prop turned by `yaw_rad`, raised or leaning, from a tilted tracker.
 RigidTransform standing(double yaw_rad, double raised_m, double lean_rad) {
     const SimulatedTable table = some_table(3);
     SeededNumbers numbers(static_cast<std::uint64_t>(1e3 * (yaw_rad + raised_m + lean_rad)));

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t more_rests = 4;
 
-/// A camera that is slow sends good frames; one that sees nothing but dark while dark is shown is well.
+/// A slow camera sends good frames; a dark frame is right while dark is shown.
 bool can_be_used(CameraState state, bool dark_is_shown) {
     return health_of(state) == CameraHealth::Well || state == CameraState::Slow ||
            (dark_is_shown && state == CameraState::Dark);
@@ -57,7 +57,7 @@ std::optional<MonotonicTime> AutoProcedure::lit(const Input& input) const {
     return input.lit && input.lit->number == number_ ? std::optional(input.lit->since) : std::nullopt;
 }
 
-/// A camera that is not there or sees nothing is told here, once it had the time to be set up: nothing begins with it.
+/// Once the camera had time to start, reports that it is missing or sees nothing: Next does not begin then.
 void AutoProcedure::begin(const Input& input) {
     word_ = input.now - *camera_well_ > patience ? AutoWord::CameraFault : AutoWord::None;
     if (input.back) {
@@ -67,7 +67,7 @@ void AutoProcedure::begin(const Input& input) {
     }
 }
 
-/// Where the camera does not see the light, that is said, and it is measured again as soon as Next is pressed.
+/// If the camera does not see the light, says so and measures again on Next.
 void AutoProcedure::measure_delay(const Input& input) {
     if (input.back) {
         go_to(word_ != AutoWord::None && plan_.crosses_follow ? Stage::GoesOn : Stage::Begin);
@@ -122,12 +122,12 @@ void AutoProcedure::drop_last() {
         return;
     }
     taken_.pop_back();
-    done_with_.reset(); // it may be taken anew where it stands
+    done_with_.reset(); // it may be taken again where it stands
     still_.clear();
     word_ = AutoWord::Dropped;
 }
 
-/// Whether camera and tracker see anything.
+/// True if camera and tracker both see something.
 bool AutoProcedure::watch(const Input& input) {
     seen_ = input.prop || !seen_ ? input.now : *seen_;
     if (!can_be_used(input.camera, false)) {
@@ -145,7 +145,7 @@ bool AutoProcedure::watch(const Input& input) {
     return true;
 }
 
-/// Somewhere else than before.
+/// True if the prop rests at a new place.
 bool AutoProcedure::is_at_rest(const Input& input) {
     if (input.prop && !still_.add(input.now, *input.prop)) {
         not_before_.reset();
@@ -156,7 +156,7 @@ bool AutoProcedure::is_at_rest(const Input& input) {
     return !done_with_ || !is_near(still_.mean(), *done_with_, same_place_m, same_place_rad);
 }
 
-/// Or why no rest can be taken there.
+/// The posture, or the reason why no rest can be taken.
 tl::expected<Posture, AutoWord> AutoProcedure::posture_of(const RigidTransform& report) const {
     std::vector<RigidTransform> flat = flat_ones();
     if (flat.size() < first_flat) {
@@ -199,7 +199,7 @@ void AutoProcedure::begin_capture(MonotonicTime now) {
 void AutoProcedure::capture(const Input& input) {
     seen_ = input.prop ? input.now : *seen_;
     if (input.back) {
-        done_with_ = still_.mean(); // it is to be put elsewhere first
+        done_with_ = still_.mean(); // the prop must move first
         end_capture(input.now, AutoWord::None);
     } else if (input.prop && !still_.add(input.now, *input.prop)) {
         end_capture(input.now, AutoWord::Moved);
@@ -235,7 +235,7 @@ void AutoProcedure::look_at_captures(MonotonicTime now) {
     } else if (2 * (view.moved + view.disturbed) > view.tags) {
         end_capture(now, AutoWord::Disturbed);
     } else if (view.tags < least_tags) {
-        done_with_ = still_.mean(); // the same again would show the same
+        done_with_ = still_.mean(); // repeating it would show the same
         end_capture(now, view.clipped > 0 ? AutoWord::TooBright : AutoWord::FewTags);
     } else {
         take(now, view);
@@ -245,7 +245,7 @@ void AutoProcedure::look_at_captures(MonotonicTime now) {
 void AutoProcedure::take(MonotonicTime now, const BoardView& view) {
     const RigidTransform report = still_.mean();
     const auto posture = posture_of(report);
-    if (!posture) { // on the verge of it
+    if (!posture) { // the mean changed during the capture, close to a limit
         end_capture(now, posture.error());
         return;
     }
@@ -280,7 +280,8 @@ std::vector<RigidTransform> AutoProcedure::flat_ones() const {
     return flat;
 }
 
-/// Rests that do not fit are dropped, and as many taken anew; what is refused begins anew. Back keeps all, and goes on.
+/// Next drops rests that do not fit and asks for as many; after a refusal it begins again. Back keeps all
+/// rests and asks for more.
 void AutoProcedure::after_judgement(const Input& input) {
     const TouchCalibration& found = judged_->found;
     if (input.next && (found.verdict == Verdict::Good || found.verdict == Verdict::Usable)) {

@@ -12,16 +12,17 @@ namespace frustumscreen {
 namespace {
 
 constexpr double still_px = 0.6;
-/// Of white less black: a bit and its inverse miss their sum by so much, or a cosine's steps their wave.
+/// Largest deviations, as shares of white less black: of a bit plus its inverse from white plus black, and of
+/// a cosine's steps from their wave.
 constexpr double most_of_pair = 0.35;
 constexpr double most_of_wave = 0.08;
-/// Share of a tag's lit pixels.
+/// Largest shares of a tag's lit pixels.
 constexpr double most_disturbed = 0.2;
 constexpr double most_clipped = 0.2;
 constexpr double least_contrast = 12.0;
 constexpr int white_code = 254;
 
-/// Looks at single pixels of the captures: are they lit, clipped, disturbed?
+/// Checks single pixels of the captures: lit, clipped or disturbed.
 class PixelChecks {
 public:
     PixelChecks(const StripeSetup& setup, const Captures& captures)
@@ -59,7 +60,7 @@ private:
     [[nodiscard]] double grey(std::size_t picture, std::size_t pixel) const {
         return captures_.pictures[picture][pixel];
     }
-    /// Root mean square of what mean, first and second harmonic leave of the steps.
+    /// Root mean square of the steps less their mean and first two harmonics.
     [[nodiscard]] double besides_wave(std::size_t first, std::size_t pixel) const {
         double sum = 0.0;
         double squares = 0.0;
@@ -170,7 +171,7 @@ BoardView view_of(const Board& board, const StripeSetup& setup, const Captures& 
         }
         const auto pixels = tag_pixels(map, corners);
         if (!pixels || !is_in_picture(*pixels, setup)) {
-            continue; // the light's edge goes through it
+            continue; // the edge of the light crosses it
         }
         const std::array<glm::dvec3, 4> places = tag.corners();
         for (std::size_t k = 0; k < places.size(); ++k) {

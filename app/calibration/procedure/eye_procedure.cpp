@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// In turn; each differs from the one before.
+/// Used in turn; each differs from the one before.
 constexpr std::array postures{HeadPosture::ChinUp,      HeadPosture::TurnedLeft, HeadPosture::ChinDown,
                               HeadPosture::TurnedRight, HeadPosture::ChinUp,     HeadPosture::ChinDown,
                               HeadPosture::TurnedLeft,  HeadPosture::TurnedRight};
@@ -26,7 +26,7 @@ EyeProcedure::EyeProcedure(SightScene scene, const Registration& registration, s
     ask(0, of_each);
 }
 
-/// Sightings `from` to `to` of each eye.
+/// Requests sightings `from` to `to` of each eye.
 void EyeProcedure::ask(std::size_t from, std::size_t to) {
     for (const OpenEye eye : {OpenEye::Left, OpenEye::Right}) {
         for (std::size_t k = from; k < to; ++k) {
@@ -48,7 +48,7 @@ void EyeProcedure::step(const Input& input) {
     step_in_stage(*this, rows, input);
 }
 
-/// What is seen; and that the prop lies where its rest was taken, as long as sightings need it.
+/// Notes what the tracker sees. If the prop moves while sightings need its rest, takes the rest again.
 void EyeProcedure::watch(const Input& input) {
     if (input.head) {
         head_ = input.head;
@@ -81,11 +81,11 @@ void EyeProcedure::begin(const Input& input) {
 
 void EyeProcedure::begin_rest(MonotonicTime now, EyeWord word) {
     prop_seen_ = head_seen_ = now;
-    knows_place_ = knows_place_ && word == EyeWord::PropMoved; // then it is not far
+    knows_place_ = knows_place_ && word == EyeWord::PropMoved; // it is still near its old place
     go_to(Stage::Rest, word);
 }
 
-/// What the tracker does not see; None: it sees both.
+/// The sensor that the tracker does not see; None if it sees prop and head.
 EyeWord EyeProcedure::missing(MonotonicTime now) const {
     return now - prop_seen_ > patience   ? EyeWord::PropNotSeen
            : now - head_seen_ > patience ? EyeWord::HeadNotSeen
@@ -109,7 +109,7 @@ void EyeProcedure::take_rest(const Input& input) {
     }
 }
 
-/// Where the prop rests, and the crosses behind it for a head that is where it is now.
+/// Determines the prop's place and plans crosses behind it for the head's current place.
 void EyeProcedure::plan() {
     const RigidTransform table_from_prop =
         registration_.table_from_tracker * prop_still_.mean() * registration_.sensor_from_prop;
@@ -131,7 +131,7 @@ void EyeProcedure::plan() {
     table_from_prop_ = table_from_prop;
     knows_place_ = true;
     plan_ = std::move(next);
-    word_ = word_ == EyeWord::PropMoved ? word_ : EyeWord::None; // it is still to be read
+    word_ = word_ == EyeWord::PropMoved ? word_ : EyeWord::None; // the remark stays to be read
     go_to_next_open();
 }
 
@@ -192,7 +192,8 @@ void EyeProcedure::hold_still(const Input& input) {
     }
 }
 
-/// Next was pressed again at once, or the posture was not followed: the line of sight is nearly that of the sighting before.
+/// True if the line of sight is nearly that of the previous sighting: Next was pressed again at once, or the
+/// head kept its posture.
 bool EyeProcedure::is_held_as_before(const glm::dvec3& in_sensor) const {
     return at_ > 0 && sights_[at_ - 1] && asked_[at_ - 1].eye == asked().eye &&
            glm::distance(sights_[at_ - 1]->in_sensor, in_sensor) < turned_rad;
@@ -217,7 +218,7 @@ bool EyeProcedure::asks_for_more() const {
            asked_.size() < 2 * most_of_each;
 }
 
-/// What is refused is done anew; Back does one sighting again, whatever the verdict.
+/// Next repeats all sightings after a refusal; Back repeats one, whatever the verdict.
 void EyeProcedure::after_judgement(const Input& input) {
     const EyeFit& judged = *judged_;
     if (!input.next && !input.back) {
@@ -239,11 +240,11 @@ void EyeProcedure::after_judgement(const Input& input) {
     } else {
         do_worst_again();
     }
-    open_.reset(); // both eyes may be open since
+    open_.reset(); // the person may have opened both eyes
     begin_rest(input.now, EyeWord::None);
 }
 
-/// The farthest off, or where nothing is known of them, the last.
+/// Repeats the sighting with the largest residual, or the last if no residual is known.
 void EyeProcedure::do_worst_again() {
     const std::vector<double>& residuals = judged_->residuals_m;
     const auto worst = std::max_element(residuals.begin(), residuals.end());

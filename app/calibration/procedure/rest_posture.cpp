@@ -28,7 +28,7 @@ std::optional<FlatPosture> flat_posture(std::span<const RigidTransform> rests) {
     if (turn_rad < least_turn_rad) {
         return std::nullopt;
     }
-    // What no turn between them moves: their common axis, in the sensor.
+    // The rests' common axis, in the sensor: no rotation between them moves it.
     const Eigen::Vector3d axis = axes_of(sum).vectors.col(0);
     FlatPosture flat;
     flat.in_sensor = {axis.x(), axis.y(), axis.z()};

@@ -7,7 +7,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Shares of the picture, in an order that leaps about.
+/// Shares of the picture, ordered so that consecutive places are far apart.
 constexpr std::array<glm::dvec2, 11> places{{{0.5, 0.5},
                                              {0.2, 0.25},
                                              {0.8, 0.75},
@@ -30,7 +30,7 @@ glm::dvec2 mean_pixel(const Rest& rest) {
     return sum / static_cast<double>(rest.points.size());
 }
 
-/// The place where the fewest rests have been, each counted at the nearest one.
+/// The place with the fewest rests; each rest counts at the nearest place.
 glm::dvec2 emptiest(std::span<const TakenRest> taken, const glm::dvec2& size_px) {
     std::array<int, places.size()> been{};
     for (const TakenRest& each : taken) {
@@ -61,8 +61,7 @@ RestWish next_wish(std::span<const TakenRest> taken, const glm::dvec2& size_px) 
         wish.posture = Posture::Leaning;
     } else if (flat > first_flat && 2 * with_top < taken.size() &&
                block_every * (count_of(taken, Posture::Block) + 1) <= taken.size()) {
-        wish.posture =
-            Posture::Block; // all points lie in one plane, and something has to tell what is above it
+        wish.posture = Posture::Block; // all points lie in one plane; the block adds height
     }
     return wish;
 }

@@ -1,4 +1,5 @@
-/// Where the board is to stand next, and how: spread over the picture, every fourth rest leaning, on a block where the prop's top shows no tag.
+/// Chooses where the board should stand next, and how: spread over the picture, every fourth rest leaning, on
+/// a block if the prop's top shows no tag.
 ///
 /// Frames   pixels of the projector.
 /// Threads  pure; any.
@@ -19,9 +20,10 @@ struct TakenRest {
 
 struct RestWish {
     Posture posture = Posture::Flat;
-    glm::dvec2 pixel{0.0}; ///< about where the prop's middle is to be
+    glm::dvec2 pixel{0.0}; ///< approximate place for the prop's middle
 };
-/// The first `first_flat` are to be flat, and tell how the table lies. `size_px`: of the projector's picture.
+/// The first `first_flat` rests should be flat; they determine the table's normal. `size_px`: of the
+/// projector's picture.
 inline constexpr std::size_t first_flat = 3;
 [[nodiscard]] RestWish next_wish(std::span<const TakenRest> taken, const glm::dvec2& size_px);
 

@@ -54,7 +54,7 @@ void TouchProcedure::hold_still(const Input& input) {
     }
 }
 
-/// Next was pressed again before the prop was moved on. Two crosses of a plan may be alike.
+/// True if Next was pressed again before the prop moved on. Two crosses of a plan may be equal.
 bool TouchProcedure::lies_where_another_lay(const RigidTransform& pose) const {
     for (std::size_t k = 0; k < touches_.size(); ++k) {
         const Cross& other = crosses_[k];
@@ -91,7 +91,8 @@ bool TouchProcedure::asks_for_more() const {
            asked_ < crosses_.size();
 }
 
-/// Back does one touch again, whatever the verdict: the farthest off, or where none is known, the last.
+/// Back repeats one touch, whatever the verdict: the one with the largest residual, or the last if none is
+/// known.
 void TouchProcedure::after_judgement(const Input& input) {
     const TouchJudgement& judged = *judged_;
     const bool is_refused = judged.verdict == Verdict::Refused;

@@ -99,7 +99,7 @@ TableWords words_of_begin(const AutoProcedure& procedure) {
                  : "Next begins. Back returns to the exhibit; so does a minute without a press."}};
 }
 
-/// Before a pattern: the delay is to be measured, or a rest to be taken.
+/// Words before a pattern: the delay will be measured, or a rest taken.
 TableWords words_of_point(const AutoProcedure& procedure) {
     const Posture wished = procedure.wish().posture;
     const bool is_delay = procedure.stage() == Stage::Delay;
@@ -120,7 +120,7 @@ TableWords words_of_point(const AutoProcedure& procedure) {
         words.add(key_of(procedure.word(), wished, may_go_on),
                   filled(message_of(auto_messages, procedure.word()).english, procedure));
     }
-    // It goes on all the same.
+    // The procedure goes on with these faults.
     if (procedure.camera() == CameraState::Slow || procedure.camera() == CameraState::Unlocked) {
         words.add("", as_sentence(sentence_of(procedure.camera())));
     }
@@ -210,11 +210,11 @@ Image8 table_picture(const AutoProcedure& procedure, const TableDrawing& with) {
     const bool has_place = procedure.stage() == Stage::Place;
     const glm::dvec2 place = procedure.wish().pixel;
     if (has_place) {
-        constexpr double about_the_prop = 0.27; // of the board, in whose middle it stands
+        constexpr double about_the_prop = 0.27; // of the board's width; the prop stands in its middle
         canvas.circle(place, about_the_prop * with.board_px, 4.0, place_colour);
         canvas.circle(place, unit, 3.0, place_colour);
     }
-    // The words stand in the half of the picture where the board is not.
+    // The words are in the half of the picture without the board.
     const bool below = !has_place || place.y < 0.45 * height;
     const TableWords words = table_words(procedure);
     const Image<std::uint8_t> coverage =
@@ -224,7 +224,8 @@ Image8 table_picture(const AutoProcedure& procedure, const TableDrawing& with) {
     const double top = !has_place ? 0.4 * height : below ? std::fmin(room, 0.68 * height) : 5.0 * unit;
     const glm::ivec2 corner{(width - coverage.width) / 2, static_cast<int>(std::fmax(top, unit))};
     const glm::dvec2 end = glm::dvec2(corner) + glm::dvec2(coverage.width, coverage.height);
-    canvas.fill(glm::dvec2(corner) - 0.5 * unit, end + 0.5 * unit, ground); // the ring leads behind the words
+    canvas.fill(glm::dvec2(corner) - 0.5 * unit, end + 0.5 * unit,
+                ground); // the ring passes behind
     canvas.coverage(coverage, corner, ink);
     draw_dots(canvas, {0.5 * width, below ? height - 3.0 * unit : 3.0 * unit}, unit,
               static_cast<int>(procedure.wanted()),

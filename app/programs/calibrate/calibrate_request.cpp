@@ -51,7 +51,7 @@ void check_request(const CalibrateRequest& request) {
 }
 
 Result<void> check_sensor_height(std::optional<double> height_m, std::optional<double> top_m) {
-    constexpr double most_above_m = 0.1; // a sensor on a holder
+    constexpr double most_above_m = 0.1; // for a sensor on a holder
     if (height_m && *height_m < 0.0) {
         return fail(ErrorKind::BadConfiguration, "calibrate.sensor_below_table",
                     "the sensor's height above the prop's bottom is {} m, which is below the table; measure "

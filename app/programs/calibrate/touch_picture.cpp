@@ -31,7 +31,7 @@ std::string height_of(const Cross& cross) {
                                : std::string("on the table");
 }
 
-/// What a technician needs at hand: the heights that the crosses ask for, millimetres.
+/// The board heights that the crosses need, millimetres.
 std::set<int> block_heights_mm(const TouchProcedure& procedure) {
     std::set<int> heights_mm;
     for (const Cross& cross : procedure.crosses()) {
@@ -41,7 +41,7 @@ std::set<int> block_heights_mm(const TouchProcedure& procedure) {
     return heights_mm;
 }
 
-/// Some thirty seconds a touch.
+/// Half a minute per touch.
 std::size_t minutes_for(std::size_t touches) {
     return (touches + 1) / 2;
 }
@@ -123,16 +123,16 @@ Colour colour_of(const TouchProcedure& procedure) {
     return TableColours::white;
 }
 
-/// Directions of the picture: u to the right, v down; a turn is counter-clockwise as one looks at the table.
+/// Rotates a direction of the picture (u to the right, v down), counter-clockwise as seen from above.
 glm::dvec2 turned(const glm::dvec2& direction, double yaw_rad) {
     const double c = std::cos(yaw_rad);
     const double s = std::sin(yaw_rad);
     return {c * direction.x + s * direction.y, -s * direction.x + c * direction.y};
 }
 
-/// Its arms reach out from under the prop, square to its sides; the thick one leads to its front. A square shows where the prop stands. Where the
-/// front's arm leaves the picture, an arrow head on a side arm, beyond the prop, says the same: of two arms that are opposite each other at most one
-/// leaves it.
+/// Draws the cross. Its arms extend beyond the prop, perpendicular to its sides; the thick one leads to its
+/// front. A square shows where the prop stands. If the front's arm leaves the picture, an arrow head on a
+/// side arm, beyond the prop, points to the front: of two opposite arms at most one leaves the picture.
 void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, double prop_px) {
     const Cross& cross = procedure.cross();
     const Colour colour = colour_of(procedure);
@@ -159,7 +159,7 @@ void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, do
     canvas.circle(cross.pixel, 1.5 * unit, 1.0, colour);
 }
 
-/// The prop's width there: boards lie nearer to the projector.
+/// The prop's width at the cross's height: boards are nearer to the projector.
 double prop_px_at(const Cross& cross, const TableDrawing& with) {
     return with.above_m > cross.block_m ? with.prop_px * with.above_m / (with.above_m - cross.block_m)
                                         : with.prop_px;
@@ -243,7 +243,7 @@ Image8 table_picture(const TouchProcedure& procedure, const TableDrawing& with) 
     if (has_cross) {
         draw_cross(canvas, procedure, unit, prop_px_at(procedure.cross(), with));
     }
-    // The words stand in the half of the picture where the cross is not, so that the prop hides none of them.
+    // The words are in the half of the picture without the cross, so that the prop hides none of them.
     const bool below = !has_cross || procedure.cross().pixel.y < 0.5 * height;
     const TableWords words = table_words(procedure);
     const Image<std::uint8_t> coverage =
@@ -254,7 +254,7 @@ Image8 table_picture(const TouchProcedure& procedure, const TableDrawing& with) 
                     procedure.word() == TouchWord::Taken || procedure.word() == TouchWord::None
                         ? TableColours::white
                         : TableColours::front);
-    const double row = below ? height - 3.0 * unit : 3.0 * unit; // on the same side
+    const double row = below ? height - 3.0 * unit : 3.0 * unit; // on the words' side
     draw_dots(canvas, {0.5 * width, row}, unit, static_cast<int>(procedure.count()),
               [&](int k) { return procedure.is_taken(static_cast<std::size_t>(k)); },
               {TableColours::good, TableColours::dim});

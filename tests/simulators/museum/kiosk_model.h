@@ -16,7 +16,7 @@
 
 namespace frustumscreen {
 
-/// What the visitors see.
+/// The exhibit as the visitors see it.
 enum class VisibleState : std::uint8_t {
     Whole,     ///< the museum's own exhibit, working
     Untracked, ///< the museum's own exhibit, but it does not follow the prop

@@ -26,7 +26,7 @@ Awake awake(MuseumTime time) {
 class Load {
 public:
     explicit Load(std::uint64_t seed) : chance_(seed) {}
-    /// Whether the watchdog runs in this second.
+    /// True if the watchdog runs in this second.
     bool lets_look(MuseumTime now) {
         if (now >= next_ + load_s) {
             next_ = now + 1 +
