@@ -31,7 +31,7 @@ private:
     int& fault_;
 };
 
-/// A pack of which only the signature is checked so far. `fault` is that of reading it; 0: none.
+/// A pack of which only the signature is checked so far, and the size of its file.
 struct WatchedPack {
     tl::expected<SignedPack, PackRefusal> pack;
     std::uint64_t bytes = 0;

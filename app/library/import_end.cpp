@@ -28,7 +28,7 @@ std::optional<ImportReport> last_word(const std::optional<ImportReport>& last, s
         return std::nullopt;
     }
     ImportReport report = is_ours ? *last : ImportReport{};
-    if (report.stage == ImportStage::MayTakeOut) { // the rest of the work concerns no reader of the report
+    if (report.stage == ImportStage::MayTakeOut) { // the remaining work does not concern the staff
         report.stage = ImportStage::Done;
         return report;
     }

@@ -16,7 +16,7 @@ struct ImportFailure {
     ImportRefusal refusal = ImportRefusal::NotAPack;
     std::string reason;       ///< one sentence
     bool whole = false;       ///< concerns the whole stick, not only this pack
-    bool by_set_file = false; ///< the set file asks for something that cannot be done
+    bool by_set_file = false; ///< it follows from what the set file says
 };
 
 /// A part of the stick could not be read. A file without read permission and a failing stick have different

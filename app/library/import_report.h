@@ -18,7 +18,7 @@ namespace frustumscreen {
 enum class ImportStage : std::uint8_t {
     Found,      ///< a stick is there; its files are looked at
     Copying,    ///< `done_bytes` of `total_bytes`
-    MayTakeOut, ///< the stick is not read any more; the copies are checked and the set is switched
+    MayTakeOut, ///< reading from the stick has ended; the copies are checked and the set is switched
     Done,       ///< the new set can be shown, or nothing has changed
     Failed,     ///< the stick as a whole is refused: `refusal` and `reason`
 };
@@ -26,7 +26,7 @@ enum class ImportStage : std::uint8_t {
 inline constexpr std::array<std::string_view, 5> import_stage_names{"found", "copying", "may_take_out",
                                                                     "done", "failed"};
 
-/// What became of a pack.
+/// The outcome of a pack.
 enum class ImportOutcome : std::uint8_t { Pending, Taken, AlreadyThere, Refused, Removed };
 inline constexpr std::array<std::string_view, 5> import_outcome_names{"pending", "taken", "already_there",
                                                                       "refused", "removed"};

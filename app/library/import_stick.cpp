@@ -121,7 +121,7 @@ void Import::tell(ImportStage stage) {
 void Import::fail_whole(const ImportFailure& failure) {
     report_.refusal = failure.refusal;
     report_.reason = failure.reason;
-    if (!is_unsure_) { // else every line says so
+    if (!is_unsure_) { // nothing was taken, and every line says so
         removed_.clear();
         const bool is_by_exhibit_file =
             exhibit_line_ && (exhibit_line_->outcome == ImportOutcome::Refused || failure.by_set_file);

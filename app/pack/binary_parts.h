@@ -24,7 +24,7 @@ namespace frustumscreen::pack_format {
 [[nodiscard]] Result<PackLevel> decode_level(std::span<const std::byte> bytes, const ReliefAtlas& relief,
                                              const glm::dvec3& box_size);
 
-/// Checks a level's part as its bytes pass, without keeping it: true if it can be decoded. The places of a relief
+/// Checks, as the bytes pass and without keeping them, that a level's part can be decoded. The places of a relief
 /// level's vertices are not checked, because that needs the relief.
 class LevelScan {
 public:

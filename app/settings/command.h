@@ -13,7 +13,7 @@ enum class Command : std::uint8_t {
     PreviousArtifact,
     NextArtifact,
     NextLanguage,
-    Choose,    ///< the picture that the prop rests on, at once; otherwise the artifact's next hotspot or text
+    Choose,    ///< the picture that the prop rests on, at once; otherwise the next fact about the artifact
     Help,      ///< advice, at once; if there is none, the artifact's description
     StaffMode, ///< the first and the last button were held together
     HoldFirst, ///< the first button is held; for the staff alone

@@ -1,4 +1,4 @@
-/// What visitors can do with the prop in this set-up: whether there is guidance, and whether they choose with the
+/// The use that visitors make of the prop in this set-up: whether there is guidance, and whether they choose with the
 /// prop; also what the staff are told.
 ///
 /// Threads  pure; any.

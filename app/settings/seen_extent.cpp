@@ -1,4 +1,4 @@
-// Where eyes all around look through a prop.
+// The points of a prop through which eyes all around see an artifact.
 //
 // An eye E before a face sees the corner h of the hull, d behind the face's plane, through the point
 //     S = (d E + e h) / (d + e),     e: distance of E before the plane.

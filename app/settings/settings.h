@@ -69,7 +69,7 @@ struct TableSettings {
     double depth_m = 0.5;
 };
 
-/// Where visitors' eyes are, for the plan and for the bake's removal of hidden parts.
+/// The places of visitors' eyes, for the plan and for the bake's removal of hidden parts.
 struct EyeSettings {
     glm::dvec3 default_m{0.0, -0.55, 0.50};
     double lowest_elevation_deg = 15.0;

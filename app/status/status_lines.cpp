@@ -249,7 +249,7 @@ std::string fault_line(const WatchdogFault& fault) {
     return fault.detail.empty() ? text : fmt::format("{} ({})", text, fault.detail);
 }
 
-/// What the watchdog sees without acting on it.
+/// The watchdog's observations that it does not act on.
 std::string notes_line(const StatusDocument& watchdog) {
     std::vector<std::string> notes;
     if (watchdog.fresh()) {

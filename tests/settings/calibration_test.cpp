@@ -132,7 +132,7 @@ TEST_F(Kept, TheNewestIsUndoneAndTheNextOneGetsANewNumber) {
     EXPECT_EQ(undo_calibration(disk)->number, 4);
     EXPECT_EQ(newest(disk), 3);
     EXPECT_TRUE(
-        disk.content("calibration-0004.undone")); // the file remains, to revert a wrong undo by hand
+        disk.content("calibration-0004.undone")); // the file remains, so a wrong undo can be reverted by hand
     EXPECT_EQ(keep_calibration(disk, calibration(5))->number, 5);
     EXPECT_EQ(numbers(), (std::vector<int>{5, 3, 2}));
     EXPECT_FALSE(disk.content("calibration-0004.undone"));
