@@ -20,7 +20,7 @@ constexpr std::string_view ending = ".json";
 constexpr std::uintmax_t most_bytes = 1U << 20U;
 constexpr int most_put_aside = 100; ///< of one day
 
-/// The day that a file's name begins with.
+/// The day at the beginning of a file's name.
 std::optional<std::chrono::sys_days> day_of(const fs::path& file) {
     return parse_day(file.filename().string().substr(0, day_form.size()));
 }
@@ -40,7 +40,7 @@ Result<DayCounts> read_day(const fs::path& file) {
     return counts;
 }
 
-/// Returns the name that it has now.
+/// Returns the file's new name.
 Result<fs::path> put_aside(const fs::path& file) {
     for (int k = 1; k <= most_put_aside; ++k) {
         fs::path aside = file;
@@ -74,7 +74,7 @@ Result<OpenedDay> open_day(const fs::path& folder, std::optional<std::chrono::sy
     if (!fs::exists(file, missing)) {
         return opened;
     }
-    TRY_VOID(without_value(read_file(file, most_bytes))); // what cannot be read now may be whole
+    TRY_VOID(without_value(read_file(file, most_bytes))); // a file that cannot be read now may be undamaged
     Result<DayCounts> counts = read_day(file);
     if (counts) {
         opened.counts = *std::move(counts);

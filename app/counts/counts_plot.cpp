@@ -18,7 +18,7 @@ using std::chrono::sys_days;
 
 constexpr double width = 1200.0;
 constexpr double margin = 56.0;
-constexpr double grid_left = margin + 46.0; ///< beside the hours' names
+constexpr double grid_left = margin + 46.0; ///< right of the hours' names
 constexpr double hour_bars = 150.0;         ///< right of the grid
 constexpr double gap = 24.0;
 constexpr double row_height = 22.0;
@@ -31,7 +31,7 @@ constexpr const char* ink = "#1f2a2e";
 constexpr const char* quiet_ink = "#66757a";
 constexpr const char* hairline = "#d5dcdd";
 constexpr const char* bar_colour = "#2a7f86";
-/// One hue from light to dark, so that it reads in grey print, too.
+/// One hue from light to dark, so that it is legible in grey print too.
 constexpr std::array<std::array<double, 3>, 3> ramp{{{226, 240, 239}, {84, 165, 168}, {8, 64, 74}}};
 
 constexpr std::array<const char*, 12> months{"January",   "February", "March",    "April",
@@ -55,7 +55,7 @@ std::string day_words(sys_days day) {
                        months.at(static_cast<unsigned>(date.month()) - 1), static_cast<int>(date.year()));
 }
 
-/// Characters, as far as a list's column needs to know.
+/// Cuts a name to `most` characters, counted well enough for a list's column.
 std::string shortened(const std::string& name, std::size_t most) {
     std::string text;
     std::size_t characters = 0;
@@ -106,11 +106,11 @@ private:
     std::string body_;
 };
 
-/// Which days and hours the grid shows, and where.
+/// The days and hours of the grid, and its place.
 struct Grid {
     sys_days first;
     std::size_t days = 1;
-    std::size_t from_hour = 9, to_hour = 18; ///< the last one's end
+    std::size_t from_hour = 9, to_hour = 18; ///< `to_hour`: the end of the last one
     double column = 0.0, top = 0.0;
 
     Grid(const CountsSummary& summary, double grid_top) : first(summary.first), top(grid_top) {
@@ -159,7 +159,7 @@ void draw_figures(Sheet& sheet, const CountsSummary& summary) {
     }
 }
 
-/// Names of months, and of days where there is room for them.
+/// Draws names of months, and of days if there is room for them.
 void draw_days(Sheet& sheet, const Grid& grid) {
     double free_from = 0.0;
     const bool names_days = grid.column > 4.0;
@@ -248,7 +248,7 @@ void draw_grid(Sheet& sheet, const Grid& grid, const std::vector<DayCounts>& day
     draw_legend(sheet, {width - margin - 170, grid.top - day_bars - 32}, most_an_hour);
 }
 
-/// `names`: the room for them. Returns where it ends.
+/// `names`: width for the names. Returns the list's lower end.
 double draw_list(Sheet& sheet, Place at, double wide, double names, const char* title,
                  const std::vector<NamedTally>& all, std::size_t most) {
     sheet.text(at, title, 16, ink, "start", true);

@@ -33,7 +33,7 @@ std::vector<NamedTally> ranked(const Tallies& tallies) {
     return all;
 }
 
-/// A text that begins like a formula is none in a spreadsheet.
+/// Quotes a text; a text that begins like a formula must not become one in a spreadsheet.
 std::string csv_field(const std::string& text) {
     std::string quoted = "\"";
     if (!text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos) {

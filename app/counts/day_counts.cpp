@@ -52,7 +52,7 @@ std::optional<Tally> tally_in(const nlohmann::json& entry) {
     return visits && ms ? std::optional(Tally{*visits, *ms}) : std::nullopt;
 }
 
-/// Calls with each entry of a list; false: there is no such list, or an entry that is none.
+/// Calls `take` with each entry of a list; returns false if there is no list, or an entry is invalid.
 template <typename Take> bool each_in(const nlohmann::json& document, const char* key, const Take& take) {
     const auto list = document.find(key);
     if (list == document.end() || !list->is_array()) {

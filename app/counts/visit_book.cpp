@@ -50,7 +50,7 @@ void DayKeeper::turn_to(std::optional<std::chrono::sys_days> day, MonotonicTime 
     drop_old_days(folder_);
 }
 
-/// What was counted before the file could be read is added to it.
+/// Adds the counts made before the file could be read to those of the file.
 void DayKeeper::open(MonotonicTime now) {
     if (opened_ || (next_ && now < *next_)) {
         return;

@@ -7,10 +7,10 @@ namespace frustumscreen {
 namespace {
 
 constexpr std::size_t most_names =
-    64; ///< of one visit; a hundred artifacts in one visit are counted once too often
+    64; ///< of one visit; a further artifact counts as new each time it is shown
 constexpr std::size_t most_held = 16;
 
-/// Whether it was not in the list; then it is.
+/// True if `name` is not yet in the list; adds it.
 bool is_new(const Sentence& name, std::vector<Sentence>& names) {
     if (std::find(names.begin(), names.end(), name) != names.end()) {
         return false;
@@ -74,7 +74,7 @@ void VisitCounter::begin_piece(const Frame& frame) {
 void VisitCounter::end_piece(MonotonicTime now, std::vector<VisitPiece>& pieces) {
     piece_.length = now - piece_began_;
     if (held_.size() == most_held) {
-        release(pieces); // nobody holds two buttons and presses a third sixteen times
+        release(pieces); // sixteen pieces within `staff_within` are not the staff's
     }
     held_.push_back(piece_);
     if (now - *began_ >= staff_within) {

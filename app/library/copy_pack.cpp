@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Remembers the first fault, which otherwise is lost in the ZIP library.
+/// Keeps the first fault, which the ZIP library would lose.
 class WatchedContent final : public FileContent {
 public:
     WatchedContent(std::unique_ptr<const FileContent> content, int& fault)
@@ -31,7 +31,7 @@ private:
     int& fault_;
 };
 
-/// A pack of which only the signature is checked yet, and the fault that reading it met, 0: none.
+/// A pack of which only the signature is checked so far, and the size of its file.
 struct WatchedPack {
     tl::expected<SignedPack, PackRefusal> pack;
     std::uint64_t bytes = 0;
@@ -70,7 +70,7 @@ tl::unexpected<ImportFailure> changed() {
                    false});
 }
 
-/// Returns the hash of what was written.
+/// Returns the hash of the bytes written.
 tl::expected<std::string, ImportFailure> copy_bytes(const FileContent& from, const StickPack& pack,
                                                     NewFile& to, std::size_t step_bytes,
                                                     const CopyEars& ears) {
@@ -122,7 +122,7 @@ std::uint64_t unpacked_bytes(const pack_format::Manifest& manifest) {
     return sum;
 }
 
-/// From the copy alone.
+/// Reads the copy alone.
 tl::expected<InstalledPack, ImportFailure> check_copy(WritableTree& library, const StickPack& pack,
                                                       const PackTrust& trust, std::size_t step_bytes,
                                                       const CopyEars& ears) {

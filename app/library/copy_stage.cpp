@@ -17,7 +17,7 @@ Outcome failed(ImportFailure failure) {
 } // namespace
 
 Outcome CopyStage::run(std::vector<StickPack>& packs, const PackTrust& trust) {
-    std::uint64_t decided_bytes = 0; // whole packs, however far they came
+    std::uint64_t decided_bytes = 0; // whole packs, even if their copy ended early
     for (const std::size_t k : copy_order(packs)) {
         StickPack& pack = packs[k];
         if (!pack.is_wanted()) {

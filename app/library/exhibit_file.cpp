@@ -100,7 +100,7 @@ Result<ExhibitFile> parse_exhibit_file(std::string_view text) {
     read_toml(state, text, most_exhibit_file_bytes, [&](const toml::table& root) {
         TableReader keys(state, &root, "");
         read_all(keys, file);
-        keys.finish(); // a misspelt order is said before one that is missing
+        keys.finish(); // a misspelt key is reported before a missing one
         keys.require("exhibit_file.only", !file.only || !file.order.empty(), "only",
                      "would remove every pack, since no order names any; write order = [\"id\", ...]");
     });

@@ -32,7 +32,7 @@ void report_fields(auto& fields, auto& report) {
     });
 }
 
-/// Whoever wrote them, they go to the table and the journal.
+/// The texts may come from any writer, and go to the table and the journal.
 void make_printable(ImportReport& report) {
     for (std::string* text : {&report.import_id, &report.stick, &report.reason}) {
         *text = printable(*text, most_text_bytes);

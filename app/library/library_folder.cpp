@@ -23,7 +23,7 @@ void note_files(const InstalledSet& set, std::set<std::string>& named) {
     }
 }
 
-/// Of ours: what somebody else put there is left alone.
+/// True for the importer's own files: others in the folder are left alone.
 bool is_pack_of_ours(std::string_view name) {
     return name.ends_with(pack_ending) && is_sha256_text(name.substr(0, name.size() - pack_ending.size()));
 }
@@ -75,7 +75,8 @@ bool is_sound(FileTree& library, const InstalledPack& pack, std::size_t step_byt
 }
 
 FileResult<void> settle(WritableTree& library) {
-    // Whoever wrote set.txt may have been stopped before its name was on the disk; only then may anything be cleared away.
+    // The writer of set.txt may have been stopped before its name was on the disk. Nothing may be removed before it
+    // is.
     return library.make_folder(std::string(packs_folder_name)).and_then([&] {
         return library.sync_folder("");
     });

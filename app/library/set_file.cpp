@@ -56,7 +56,7 @@ void file_fields(auto& fields, auto& file) {
     });
 }
 
-/// A file's name leads nowhere else: it is made of the hash.
+/// True if each file's name is its hash, so that it cannot lead out of the folder.
 bool names_are_hashes(const InstalledSet& set) {
     return std::all_of(set.packs.begin(), set.packs.end(), [](const InstalledPack& pack) {
         return is_sha256_text(pack.sha256) && pack.file == installed_file_name(pack.sha256);

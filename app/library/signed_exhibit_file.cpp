@@ -18,7 +18,7 @@ tl::unexpected<ImportFailure> failed(ImportFailure failure) {
     return tl::unexpected<ImportFailure>(std::move(failure));
 }
 
-/// Nothing: it is unsigned, and allowed.
+/// Nothing: the file is unsigned, which is allowed.
 tl::expected<std::optional<Signer>, ImportFailure> signer_of(const SignedText& file, const PackTrust& trust) {
     if (!file.signature && trust.unsigned_packs == UnsignedPacks::Allow) {
         return std::nullopt;
@@ -28,7 +28,7 @@ tl::expected<std::optional<Signer>, ImportFailure> signer_of(const SignedText& f
     });
 }
 
-/// Errors: another one that counts was taken before.
+/// Errors: a newer file, or another one of the same serial, was taken before.
 tl::expected<void, ImportFailure> weigh(const SignedExhibitFile& exhibit, const SetFile& known) {
     if (exhibit.serial() < known.exhibit_serial) {
         return failed(lower_serial(exhibit_file_name, exhibit.serial(), known.exhibit_serial));

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view signature_ending = ".minisig";
 
-/// Nothing: there is no such file.
+/// Nothing if there is no such file.
 tl::expected<std::optional<std::string>, ImportFailure>
 read_if_there(FileTree& stick, const std::string& name, std::size_t most_bytes) {
     FileResult<std::string> text = read_text(stick, name, most_bytes);

@@ -23,7 +23,7 @@ bool had_ended(const TrustedKey& key, std::optional<std::chrono::sys_days> day) 
     return key.until && day && *day > *key.until;
 }
 
-/// Whether the one that signed for it counts, as far as is known by now.
+/// True if the signer of a key counts, among the keys found so far.
 bool is_vouched_for(const CarriedKey& carried, std::span<const TrustedKey> counting) {
     const Result<PublicKey> signer = parse_public_key(carried.signer);
     return signer && std::any_of(counting.begin(), counting.end(), [&](const TrustedKey& each) {
@@ -36,7 +36,7 @@ bool is_vouched_for(const CarriedKey& carried, std::span<const TrustedKey> count
 std::vector<TrustedKey> trusted_keys(std::span<const TrustedKey> settings,
                                      std::span<const CarriedKey> carried) {
     std::vector<TrustedKey> counting(settings.begin(), settings.end());
-    for (bool is_longer = true; is_longer;) { // a key may stand behind the one that it vouches for
+    for (bool is_longer = true; is_longer;) { // a key may stand behind the one that it signs for
         is_longer = false;
         for (const CarriedKey& each : carried) {
             const Result<PublicKey> key = parse_public_key(each.public_key);
@@ -67,7 +67,7 @@ Result<std::vector<CarriedKey>> with_brought_keys(std::vector<CarriedKey> carrie
             continue;
         }
         if (place->name == key.name && place->until == key.until && place->signer == key.signer) {
-            key.since = place->since; // the same once more
+            key.since = place->since; // the same key again
         }
         *place = std::move(key);
     }

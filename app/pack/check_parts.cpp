@@ -16,7 +16,7 @@ using namespace pack_format;
 
 namespace {
 
-/// Of a picture: enough for what stands before its texels.
+/// Enough of a picture to hold all that precedes its texels.
 constexpr std::size_t beginning_bytes = 64U << 10U;
 constexpr std::size_t most_charts_bytes = 12 + 20 * most_charts;
 
@@ -73,7 +73,7 @@ Result<void> PartChecks::picture(const std::string& name, std::int64_t most_side
     TRY(const Bytes bytes, beginning_of(name, beginning_bytes));
     TRY(const PictureExtent extent,
         at(name, begins_as_webp(bytes) ? extent_of_webp(bytes) : extent_of_png(bytes)));
-    const std::int64_t area = extent.width * extent.height; // libraries bound both by 31 bits
+    const std::int64_t area = extent.width * extent.height; // the decoders bound both to 31 bits
     if (area == 0 || std::max(extent.width, extent.height) > most_side || area > most_area) {
         return bad_input("pack.picture_size",
                          "{}: the picture has {} x {} texels; allowed are {} a side and {} in all", name,

@@ -40,7 +40,7 @@ Result<void> check_textures(const Pack& pack, Read read) {
     return {};
 }
 
-/// Every chart must lie inside the atlas and on texels of its own.
+/// Every chart must lie inside the atlas, on texels that no other chart has.
 Result<void> check_charts(const ReliefAtlas& atlas) {
     std::vector<bool> taken(atlas.relief.texels.size());
     for (std::size_t k = 0; k < atlas.charts.size(); ++k) {
@@ -55,7 +55,7 @@ Result<void> check_charts(const ReliefAtlas& atlas) {
             return bad_input("atlas.chart_direction", "chart {} has direction {}; allowed are 0 to 5", k,
                              static_cast<int>(chart.direction));
         }
-        // A chart's rings may reach a little beyond the box.
+        // A chart's rings may extend a little beyond the box.
         if (!(std::abs(chart.u0_box) <= 2.0F) || !(std::abs(chart.v0_box) <= 2.0F)) {
             return bad_input("atlas.chart_origin", "chart {} begins at ({}, {}), outside the box", k,
                              chart.u0_box, chart.v0_box);

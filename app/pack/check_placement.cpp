@@ -13,14 +13,14 @@ namespace frustumscreen::pack_format {
 namespace {
 
 constexpr double similarity_tolerance = 1e-6; ///< relative
-/// Extremes of an artifact that was authored far from its origin have lost some digits there.
+/// The extremes of an artifact authored far from its origin have lost some digits there.
 constexpr double extremes_tolerance = 1e-3; ///< box units
 
 bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Rotation times one positive scale, and a translation: no mirror, no shear, no perspective.
+/// True for a rotation times one positive scale, and a translation: no mirror, no shear, no perspective.
 bool is_similarity(const glm::dmat4& m) {
     const glm::dmat3 linear(m);
     const double scale = std::cbrt(glm::determinant(linear));

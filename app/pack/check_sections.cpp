@@ -24,7 +24,7 @@ bool is_section_name(std::string_view name) {
            std::all_of(name.begin(), name.end(), allowed);
 }
 
-/// Whether the text is a JSON object that the manifest can hold.
+/// True if the text is a JSON object that the manifest can hold.
 bool is_object(const std::string& text) {
     Refusal refusal;
     const nlohmann::json data = parse_json(refusal, text, most_manifest_depth - depth_of_data);

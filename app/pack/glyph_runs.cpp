@@ -94,7 +94,7 @@ Result<void> read_boxes(ByteReader& reader, std::size_t count, GlyphRuns& runs) 
     return {};
 }
 
-/// Checks that the lines and glyphs are there before it makes room for them.
+/// Checks that the bytes of the lines and glyphs are there before it allocates memory for them.
 Result<GlyphSetting> read_setting(ByteReader& reader, std::size_t boxes) {
     GlyphSetting setting;
     setting.limit = reader.read<std::int32_t>();

@@ -15,7 +15,7 @@ namespace frustumscreen::pack_format {
 
 namespace {
 
-/// A later format may look different in everything but these two fields, so they are read first and alone.
+/// Reads these two fields first and alone: everything else may differ in a later format.
 void read_format(Refusal& refusal, const nlohmann::json& document) {
     JsonReader fields(refusal, &document, "");
     std::string format;

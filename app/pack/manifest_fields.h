@@ -1,5 +1,5 @@
-/// The fields of a pack's manifest, in their order: each name and each limit stands here once. The reader
-/// (JsonReader) and the writer (JsonWriter) walk the same description. FORMAT.md says what the fields mean.
+/// The fields of a pack's manifest, in their order, with each name and limit defined once. The reader (JsonReader)
+/// and the writer (JsonWriter) walk the same description. FORMAT.md gives the meaning of the fields.
 ///
 /// Threads  pure; any.
 #pragma once

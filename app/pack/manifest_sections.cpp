@@ -60,7 +60,7 @@ bool says_more_than_a_caption(const PackCaption& caption) {
              caption.credit.empty() && caption.description.empty());
 }
 
-/// Adds what is said in a language to that language's caption.
+/// Adds the details in a language to the caption of that language.
 void add_details(Refusal& refusal, std::vector<PackCaption> read, std::vector<PackCaption>& captions) {
     std::set<std::string> seen;
     for (PackCaption& from : read) {

@@ -13,7 +13,7 @@ using namespace pack_format;
 
 namespace {
 
-/// Which levels are read, and what they need.
+/// The levels to read, and what they need.
 struct Chosen {
     std::vector<bool> levels;
     std::vector<bool> textures;
@@ -90,7 +90,7 @@ Result<void> read_levels(PackReader& reader, const Chosen& chosen, Pack& pack) {
             continue;
         }
         TRY(PackLevel level, read_level(reader, record, pack));
-        if (level.indices.empty()) { // it would count as a level that was not read
+        if (level.indices.empty()) { // an empty level would count as not read
             return at(record.mesh, check_mesh(level).error());
         }
         pack.levels.push_back(std::move(level));
@@ -118,7 +118,7 @@ Result<void> read_extras(PackReader& reader, Read read, Pack& pack) {
     return {};
 }
 
-/// Each step needs that the ones before it passed.
+/// Each step requires that the steps before it succeeded.
 Result<void> read_all(PackReader& reader, const ChooseLevels& choose, Pack& pack) {
     TRY_VOID(check_description(pack));
     TRY_VOID(check_level_count(pack, reader.manifest().levels.size()));

@@ -55,7 +55,7 @@ std::optional<std::string> fault_of(const std::vector<ReliefOutline>& reliefs,
                 : std::optional<std::string>("names other parts than it has; bake the pack again");
 }
 
-/// What was decoded is what the manifest tells of it.
+/// Decodes a relief and checks it against the manifest.
 Result<BlockRelief> decode(const ReliefOutline& outline, const Bytes& bytes) {
     TRY(BlockRelief relief, at(outline.part, decode_blocks(bytes)));
     if (bytes.size() != outline.bytes || relief.blocks.size() != outline.blocks ||

@@ -18,7 +18,7 @@ bool is_small_letter_or_digit(char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
 }
 
-/// Of a well-formed UTF-8 character.
+/// The code point of a well-formed UTF-8 character.
 std::uint32_t code_point(std::string_view character) {
     const auto byte = [&](std::size_t k) {
         return static_cast<std::uint32_t>(static_cast<unsigned char>(character[k]));
@@ -33,7 +33,7 @@ std::uint32_t code_point(std::string_view character) {
     return code;
 }
 
-/// Follows a text character by character and finds what does not belong there.
+/// Checks a text character by character for invalid ones.
 class TextCheck {
 public:
     explicit TextCheck(TextShape shape) : shape_(shape) {}

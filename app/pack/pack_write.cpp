@@ -17,7 +17,7 @@ using namespace pack_format;
 
 namespace {
 
-/// A part on its way into the container. Pictures are packed already.
+/// A part to be written to the container. Pictures are already packed.
 struct Part {
     std::string name;
     Bytes bytes;
@@ -45,7 +45,7 @@ void add_textures(const Pack& pack, Manifest& manifest, std::vector<Part>& parts
     }
 }
 
-/// The table's picture stands first, so that little is read of a file for it alone.
+/// The table picture comes first, so that reading it alone reads little of the file.
 void add_table_picture(const Pack& pack, Manifest& manifest, std::vector<Part>& parts) {
     if (!pack.table_picture.texels.empty()) {
         parts.push_back(picture_part("table_picture", pack.table_picture));
@@ -53,7 +53,7 @@ void add_table_picture(const Pack& pack, Manifest& manifest, std::vector<Part>& 
     }
 }
 
-/// Sounds and pictures are packed already and do not get smaller.
+/// Sounds and pictures are already packed and would not get smaller.
 Packing packing_of(const std::string& section_part) {
     return section_part.ends_with(".bin") ? Packing::Deflated : Packing::Stored;
 }

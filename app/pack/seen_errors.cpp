@@ -21,10 +21,10 @@ using namespace pack_format;
 namespace {
 
 constexpr std::string_view levels_section = "seen_errors";
-constexpr std::string_view reliefs_section = "seen_reliefs"; ///< its eyes are those of the other
+constexpr std::string_view reliefs_section = "seen_reliefs"; ///< uses the eyes of the other section
 constexpr std::size_t most_eyes = 1000;
 
-/// An eye as it stands in the file.
+/// An eye as in the file.
 struct EyeRecord {
     std::array<double, 3> towards{};
     float steepness = 1.0F;
@@ -40,7 +40,7 @@ struct Records {
     std::vector<std::vector<ErrorRecord>> levels;
 };
 
-/// What was measured with some thousand rays has no more than three digits; a direction, four.
+/// A value measured with some thousand rays has no more than three significant digits; a direction needs four.
 double few_digits(double value, int digits = 3) {
     return std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
 }
@@ -121,7 +121,9 @@ const PackSection* find_section(const PackDescription& pack, std::string_view na
 }
 
 bool is_sound(const SeenError& seen) {
-    const auto allowed = [](float value, float most) { return value >= 0.0F && value <= most; }; // not NaN
+    const auto allowed = [](float value, float most) {
+        return value >= 0.0F && value <= most;
+    };                                      // false for NaN
     constexpr float most_error_box = 10.0F; // as LevelError
     constexpr float most_share = 1e6F;
     return allowed(seen.mean_box, most_error_box) && allowed(seen.p95_box, most_error_box) &&
@@ -197,7 +199,7 @@ void put_section(std::string_view name, const JsonWriter& fields, PackDescriptio
         {std::string(name), nlohmann::json(fields.document()).dump(), {}}); // keys in order
 }
 
-/// Calls read(fields) with the section's; false without it.
+/// Calls read(fields) with the section's fields; returns false if there is no section.
 template <typename Read>
 Result<bool> read_section(std::string_view name, const PackDescription& pack, const Read& read) {
     const PackSection* const section = find_section(pack, name);

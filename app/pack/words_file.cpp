@@ -40,7 +40,7 @@ struct LanguageEntry {
     std::string name;
     std::vector<PlainWord> words;
     Part glyphs;
-    Part atlas; ///< of no bytes where the texts have no letters
+    Part atlas; ///< empty if the texts have no letters
     std::vector<SoundPart> sounds;
 };
 
@@ -169,7 +169,7 @@ Result<Bytes> write_words(std::span<const LanguageWords> languages) {
         Packing packing;
     };
     std::vector<LanguageEntry> entries;
-    std::vector<Entry> written; // the manifest comes before them and has their hashes
+    std::vector<Entry> written; // the manifest precedes them and has their hashes
     const auto add = [&](std::string name, Bytes bytes, Packing packing) {
         Part part{name, bytes.size(), sha256_hex(bytes)};
         written.push_back({std::move(name), std::move(bytes), packing});

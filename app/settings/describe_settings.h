@@ -1,9 +1,9 @@
-/// Every setting, once: its name, its range, what it is for. Its default is that of its struct. The reader of
-/// the file (TableReader), its report (config_json.cpp) and its page (settings_page.cpp) walk this
+/// Every setting, described once: its name, its range, its purpose. Its default is that of its struct. The
+/// reader of the file (TableReader), the report (config_json.cpp) and the page (settings_page.cpp) walk this
 /// description, in this order.
 ///
-/// A walker's `reads` is true if it fills in what it walks. An `input` is read and other settings are
-/// computed from it; it is not kept.
+/// A walker's `reads` is true if it fills in the values. An `input` is read and other settings are computed from
+/// it; it is not kept.
 ///
 /// Threads  pure; any.
 #pragma once

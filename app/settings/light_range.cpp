@@ -11,9 +11,9 @@ namespace frustumscreen {
 namespace {
 
 constexpr double least_share_of_brightest = 0.25;
-constexpr int yaws = 30; ///< of a quarter turn, after which a square prop looks the same
+constexpr int yaws = 30; ///< over a quarter turn, after which a square prop looks the same
 
-/// Adds the prop in one pose, given by where it sees the lens.
+/// Adds the prop in one pose, given by the lens in the prop's frame.
 void include(const PropShape& prop, const glm::dvec3& lens, LightRange& range) {
     double darkest = std::numeric_limits<double>::infinity();
     double brightest = 0.0;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Azimuths within `half` of `middle`; half >= pi is the full circle.
+/// Azimuths within `half` of `middle`; half >= pi: the full circle.
 struct Arc {
     double middle = 0.0;
     double half = pi;
@@ -55,15 +55,15 @@ Polygon table_within(const TableSettings& table, double rim) {
     return {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
 }
 
-/// A point of the prop, which goes round the axis as the prop is turned.
+/// A point of the prop, which moves on a circle about the axis as the prop turns.
 struct Round {
     double radius = 0.0;
     double z = 0.0;
-    double off = 0.0; ///< azimuth, from that of the face whose corner it is
+    double off = 0.0; ///< azimuth, from that of the face with this corner
     [[nodiscard]] bool operator==(const Round&) const = default;
 };
 
-/// A face, at any yaw: its plane is run cos(azimuth) x + ... + rise z = offset.
+/// A face at any yaw: its plane is run cos(azimuth) x + ... + rise z = offset.
 struct TurnedFace {
     double run = 0.0; ///< length of the normal's horizontal part; 0: it looks straight up or down
     double rise = 0.0;
@@ -83,7 +83,7 @@ TurnedFace turned(const PropFace& face) {
     return result;
 }
 
-/// The sides of a frustum are alike: at any yaw they are one face.
+/// The sides of a frustum are congruent: at any yaw they count as one face.
 bool are_alike(const TurnedFace& a, const TurnedFace& b) {
     constexpr double rounding = 1e-12;
     const auto near = [](double x, double y) { return std::abs(x - y) <= rounding; };
@@ -129,7 +129,7 @@ struct Scene {
         const double toward = distance * arc.least_cosine_to(std::atan2(to_lens.y, to_lens.x));
         return (face.run * toward + face.rise * lens.z - face.offset) / std::hypot(distance, lens.z);
     }
-    /// Is an arc of the circle about the prop's axis inside the picture?
+    /// True if an arc of the circle about the prop's axis is inside the picture.
     [[nodiscard]] bool in_picture(const glm::dvec2& place, const Round& round, const Arc& arc) const {
         return std::all_of(edges.begin(), edges.end(), [&](const PictureEdge& edge) {
             const double middle = glm::dot(edge.inward, glm::dvec3(place, round.z) - lens);
@@ -141,13 +141,13 @@ struct Scene {
 
     std::array<PictureEdge, 4> edges;
     glm::dvec3 lens;
-    std::vector<TurnedFace> faces; ///< one of those that are alike, and none that lies on the table
+    std::vector<TurnedFace> faces; ///< one of each kind, without those that lie on the table
     std::vector<Round> corners;    ///< of the solid
     double reach = 0.0;            ///< from the axis
     double middle_reach = 0.0;     ///< from the prop's middle
 };
 
-/// The azimuths into which a face looks at some yaw that shows it to the eye; nothing if there are none.
+/// The azimuths of a face at the yaws that show it to the eye; nothing if there are none.
 std::optional<Arc> seen_azimuths(const TurnedFace& face, const glm::dvec2& place, const glm::dvec3& eye) {
     if (face.run == 0.0) {
         return face.rise * eye.z > face.offset ? std::optional(full_circle) : std::nullopt;
@@ -191,7 +191,8 @@ double lit_radius(const Scene& scene) {
     return near;
 }
 
-/// The places of `polygon` that lie in the picture at height z with a circle, and with a ball, around them.
+/// The places of `polygon` at height z that lie in the picture together with a circle, and with a ball, around
+/// them.
 Polygon clipped_to_picture(Polygon polygon, const Scene& scene, double z, double circle, double ball = 0.0) {
     for (const PictureEdge& edge : scene.edges) {
         const double offset = glm::dot(edge.inward, scene.lens) - edge.inward.z * z;
@@ -200,7 +201,7 @@ Polygon clipped_to_picture(Polygon polygon, const Scene& scene, double z, double
     return polygon;
 }
 
-/// Where the prop in the hand lies in the picture, its middle just high enough to turn it in any way.
+/// Places at which the prop in the hand lies in the picture, its middle just high enough to turn it in any way.
 Polygon hand_zone(const Settings& settings, const Scene& scene) {
     const double ball = scene.middle_reach;
     return clipped_to_picture(table_within(settings.table, ball), scene, ball, 0.0, ball);
@@ -230,7 +231,7 @@ Polygon any_eye_zone(const Settings& settings, const Scene& scene) {
     return settings.prop.zone == PropZone::Hand ? hand_zone(settings, scene) : upright_zone(settings, scene);
 }
 
-/// Every degree, and the corners of the zone for any eye, which is a part of the zone that is searched for.
+/// Every degree, and the corners of the zone for any eye, which is a part of the zone searched for.
 std::vector<double> azimuths_from(const glm::dvec2& middle, const Polygon& any_eye) {
     std::vector<double> azimuths;
     for (int degree = -179; degree <= 180; ++degree) {
@@ -267,7 +268,7 @@ Polygon default_eye_zone(const Settings& settings, const Scene& scene, const Pol
         *std::min_element(places.begin(), places.end(), [&](const auto& a, const auto& b) {
             return glm::distance(a, mean) < glm::distance(b, mean);
         });
-    // On a table hardly wider than the prop, steps of its width would never get to its ends.
+    // On a table hardly wider than the prop, steps in proportion to its width would never reach its ends.
     const double step = std::fmax(std::fmin(x, y) / 250.0, std::fmax(x, y) / 5000.0);
     Polygon zone;
     for (const double azimuth : azimuths_from(middle, any_eye)) {

@@ -11,10 +11,10 @@ namespace frustumscreen {
 
 namespace {
 
-/// Each dot of a key nests a table, and toml++ destroys tables by recursion: this bounds its depth.
+/// Each dot of a key nests a table, and toml++ destroys tables by recursion: this bounds the depth.
 constexpr std::size_t most_dots = 5000;
 
-/// Where a string or a comment that begins at `at` ends; `at` itself where none begins.
+/// The end of the string or comment that begins at `at`; `at` itself if none begins there.
 std::size_t end_of_text(std::string_view text, std::size_t at) {
     const auto after = [&](std::string_view end, std::size_t from) {
         const std::size_t found = text.find(end, from);
@@ -38,12 +38,12 @@ std::size_t end_of_text(std::string_view text, std::size_t at) {
         if (text[at] == '\n' && quotes.size() == 1) {
             return at;
         }
-        at += text[at] == '\\' ? 1 : 0; // and what it escapes
+        at += text[at] == '\\' ? 1 : 0; // skips the escaped letter too
     }
     return text.size();
 }
 
-/// Those of keys and numbers; sentences may have as many as they like.
+/// The dots of keys and numbers; strings and comments may have any number of dots.
 std::size_t dots_outside_texts(std::string_view text) {
     std::size_t dots = 0;
     for (std::size_t at = 0; at < text.size();) {

@@ -21,7 +21,7 @@ constexpr std::uintmax_t most_status_bytes = 1U << 20;
 constexpr std::uintmax_t most_ends_bytes = 16U << 20;
 constexpr std::size_t most_depth = 16;
 
-/// The exhibit's and its watchdog's status have it alike.
+/// The stamp is the same in the exhibit's and its watchdog's status.
 StatusStamp read_stamp(const nlohmann::json& document) {
     StatusReader fields(document);
     StatusStamp stamp;
@@ -67,7 +67,7 @@ StatusDocument parse_status(std::string_view json, const StatusClock& clock) {
     document.other_boot = !boot.empty() && !clock.boot_id.empty() && boot != clock.boot_id;
     if (written.monotonic && !document.other_boot) {
         const double age_s = to_seconds(clock.now - *written.monotonic);
-        if (age_s >= -0.1) { // it may have been written since the clock was read
+        if (age_s >= -0.1) { // the status may be written just after the clock was read
             document.age_s = std::max(age_s, 0.0);
         }
     }
@@ -94,7 +94,7 @@ void renew_surroundings(Surroundings& known, const StatusPlaces& places, const S
     known.monotonic_s = to_seconds(clock.now.time_since_epoch());
     if (known.system.empty()) {
         known.system = system_name();
-        known.crashes = read_crashes(places.crash_folder); // a later one ends the process that would read it
+        known.crashes = read_crashes(places.crash_folder); // a later crash ends this process
     }
     if (MachineState& machine = known.machine;
         !machine.seen || clock.now - *machine.seen >= between_looks_at_machine) {

@@ -26,7 +26,7 @@ std::string quoted(std::string_view text) {
     return quoted + "\"";
 }
 
-/// Samples of one family come one after the other.
+/// The text of the metrics. The samples of a family must be added in sequence.
 class Metrics {
 public:
     void add(const Metric& metric, std::string_view of, double number) {
@@ -41,7 +41,7 @@ public:
         fmt::format_to(out, "frustumscreen_{}{} {:.15g}\n", family_, label, number);
     }
     void add(const Metric& metric, double number) { add(metric, metric.of, number); }
-    /// Those that a description names, as far as `document` has them.
+    /// Adds the metrics of a description that `document` has.
     [[nodiscard]] StatusReader reader(const nlohmann::json& document) {
         return StatusReader(document, [this](const Metric& metric, std::string_view of, double number) {
             add(metric, of, number);

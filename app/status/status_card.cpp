@@ -13,7 +13,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Those that are asked for first on the telephone come first.
+/// In the order in which a technician on the telephone asks for them.
 constexpr std::array<std::string_view, 13> on_card{
     "projector",          "tracker",     "camera",   "buttons", "sound",
     "calibration in use", "calibration", "watchdog", "machine", "last faults",

@@ -17,11 +17,11 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t most_told = 3; ///< faults, and packs that were left out
+constexpr std::size_t most_told = 3; ///< faults, and packs left out
 constexpr std::size_t most_titles = 6;
 constexpr std::size_t longest_text = 300; ///< bytes of a title or a reason
 
-/// The lines as they grow; a line without a text is left out.
+/// Collects the lines; a line without a text is left out.
 class Lines {
 public:
     void add(const char* name, std::string_view text, bool for_staff = true) {
@@ -35,7 +35,7 @@ private:
     std::vector<StatusLine> lines_;
 };
 
-/// Of what may be longer than a line; what a reader has cut stays as it is.
+/// Shortens a text that may be longer than a line. A text that was already cut keeps its "...".
 std::string brief(std::string_view text) {
     constexpr std::string_view cut = "...";
     return printable(text, longest_text + (text.ends_with(cut) ? cut.size() : 0));
@@ -49,7 +49,7 @@ std::string or_else(std::string_view text, std::string_view otherwise) {
     return brief(text.empty() ? otherwise : text);
 }
 
-/// The time of day `ago_s` before now; with the date where that was another day. Empty: no such time.
+/// The time of day `ago_s` before now, with the date if that was another day. Empty: the time is impossible.
 std::string day_time(std::time_t now, double ago_s) {
     const std::time_t then = now - static_cast<std::time_t>(std::clamp(ago_s, 0.0, 1e9));
     if (now < 0 || then < 0) {
@@ -249,7 +249,7 @@ std::string fault_line(const WatchdogFault& fault) {
     return fault.detail.empty() ? text : fmt::format("{} ({})", text, fault.detail);
 }
 
-/// What it sees and does nothing about.
+/// The watchdog's observations that it does not act on.
 std::string notes_line(const StatusDocument& watchdog) {
     std::vector<std::string> notes;
     if (watchdog.fresh()) {
@@ -259,7 +259,7 @@ std::string notes_line(const StatusDocument& watchdog) {
     return fmt::format("{}", fmt::join(notes, "; "));
 }
 
-/// How it is with the computer itself.
+/// The state of the computer itself.
 std::string computer_line(const Surroundings& around) {
     const MachineState& machine = around.machine;
     std::string text = fmt::format("on for {}", words_of_time(around.monotonic_s));
@@ -294,7 +294,7 @@ void add_faults(Lines& lines, const StatusDocument& watchdog) {
     if (faults.empty()) {
         lines.add("last faults", "none");
     }
-    // The newest one comes first, whichever way the file has them. No one sets the clock that it counts by.
+    // The newest comes first, in whatever order the file has them. The clock of awake_s is never set.
     std::stable_sort(faults.begin(), faults.end(),
                      [](const WatchdogFault& a, const WatchdogFault& b) { return a.awake_s > b.awake_s; });
     for (std::size_t k = 0; k < std::min(faults.size(), most_told); ++k) {

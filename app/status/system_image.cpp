@@ -17,7 +17,7 @@ constexpr std::size_t most_notes = 8;
 constexpr std::size_t most_word_bytes = 40;
 constexpr std::size_t most_note_bytes = 300;
 constexpr std::string_view slot_prefix = "frustumscreen-"; ///< the partition's name
-constexpr std::string_view own_prefix = "system: ";        ///< other notes say what else they are about
+constexpr std::string_view own_prefix = "system: ";        ///< the prefix of notes on the system
 
 std::vector<std::string> lines_of(const std::filesystem::path& file, std::size_t most_line_bytes) {
     std::vector<std::string> lines;

@@ -45,7 +45,7 @@ private:
     [[nodiscard]] bool picture_lives(MonotonicTime now, const Outcome& outcome);
     void count_endings(MonotonicTime now, std::uint32_t failures);
     [[nodiscard]] std::optional<Cause> trouble_of(MonotonicTime now, const Outcome& outcome, bool lives);
-    /// Whether `bad` was true at every look for `patience`.
+    /// True if `bad` was true at every look for `patience`.
     [[nodiscard]] bool lasts(Cause cause, bool bad, MonotonicTime now, Nanoseconds patience);
     void begin_anew(MonotonicTime now);
 

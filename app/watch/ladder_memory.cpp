@@ -30,7 +30,7 @@ template <typename Value> std::int64_t number_of(const std::optional<Value>& val
     return value ? static_cast<std::int64_t>(*value) : nothing;
 }
 
-/// In the order in which `take_memory` reads them.
+/// The numbers in the order in which `take_memory` reads them.
 std::vector<std::int64_t> numbers_of(const KeptMemory& kept) {
     const LadderMemory& memory = kept.memory;
     std::vector<std::int64_t> numbers{static_cast<std::int64_t>(kept.writes),
@@ -72,7 +72,7 @@ public:
     }
     std::uint8_t byte(std::int64_t most) { return static_cast<std::uint8_t>(take(0, most)); }
     Awake awake(Awake latest) { return Awake(take(0, latest.count())); }
-    /// One of `count` values.
+    /// An enumerator, one of `count`; nullopt for -1.
     template <typename Enum> std::optional<Enum> one_of(std::size_t count) {
         const std::int64_t value = take(nothing, static_cast<std::int64_t>(count) - 1);
         return value == nothing ? std::nullopt : std::optional(static_cast<Enum>(value));

@@ -1,4 +1,4 @@
-// What a stick may cost: entries, time, work, copies in vain.
+// Limits on the cost of a stick: entries, time, work, copies in vain.
 #include "tests/library/stick_fixture.h"
 
 namespace frustumscreen {
@@ -40,7 +40,7 @@ TEST_F(ImportCosts, AStickThatAnswersSlowlyIsRefused) {
     const ImportReport look = import_stick(stick, kiosk, request, outside);
     EXPECT_EQ(look.stage, ImportStage::Failed);
     EXPECT_EQ(look.refusal, ImportRefusal::TooMuch);
-    // Only slow once it is copied; a pace of 4 MB in 30 s is asked for.
+    // The stick is slow only during the copy; the pace asks for 4 MB in 30 s.
     stick.before_operation = nullptr;
     outside.tell = [&](const ImportReport& report) {
         if (report.stage == ImportStage::Copying) {
@@ -50,7 +50,7 @@ TEST_F(ImportCosts, AStickThatAnswersSlowlyIsRefused) {
     const ImportReport copy = import_stick(stick, kiosk, request, outside);
     EXPECT_EQ(copy.refusal, ImportRefusal::TooMuch) << copy.reason;
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{});
-    // A disk that is as slow is not the stick's fault.
+    // An equally slow disk is not the stick's fault.
     stick.before_operation = nullptr;
     outside.tell = [](const ImportReport&) {};
     kiosk.before_operation = [&](int) { now += std::chrono::seconds(40); };

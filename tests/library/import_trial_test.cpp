@@ -1,4 +1,5 @@
-// What the importer makes of the exhibit's verdict: which set is kept, to which one it goes back, and what may be cleared away.
+// The importer's use of the exhibit's verdict: which set is kept, which set to go back to, and which packs may be
+// removed.
 #include "tests/library/museum.h"
 
 namespace frustumscreen {

@@ -1,4 +1,4 @@
-// set.txt, the verdict, the report: what is written is read, and what was altered is not.
+// set.txt, the verdict, the report: written files are read back, and altered ones are refused.
 #include "app/library/import_report.h"
 #include "app/library/set_file.h"
 #include "app/library/stick_walk.h"

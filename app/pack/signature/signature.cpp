@@ -35,7 +35,7 @@ struct ReadSignature {
     std::uint64_t serial = 0;
 };
 
-/// Of the control characters only tabs are allowed, which minisign puts between fields.
+/// True if the only control characters are tabs, which minisign puts between fields.
 bool is_comment(std::string_view text) {
     while (!text.empty()) {
         const std::size_t bytes = character_bytes(text);
