@@ -47,8 +47,7 @@ struct ArtifactFile {
     double scale = 1.0;
     double lift = 0.0;
     std::vector<PackCaption> texts; ///< in the file's order; a missing title is the first text's
-    std::map<std::string, std::filesystem::path>
-        recordings; ///< of descriptions, by language; paths including the folder
+    std::map<std::string, std::filesystem::path> recordings; ///< by language; paths including the folder
     std::vector<ArtifactHotspot> hotspots;
 };
 

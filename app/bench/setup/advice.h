@@ -55,8 +55,7 @@ struct AdviceOptions {
     double evenness = 0.35;    ///< least evenness of a choice that works
     double sides_m = 0.3;      ///< largest distance of the lens behind or in front of the table's middle
     int width = 0, height = 0; ///< picture's size in pixels; 0: the present one
-    double pixels =
-        1.0; ///< least pixels on the artifact of a choice that works, as a multiple of the present
+    double pixels = 1.0;       ///< least pixels on the artifact, as a multiple of the present
     /// Least width and depth of the zone of a choice that works, for an artifact of at least `artifact_m`. Artifacts
     /// may then be smaller than at present, and the picture may extend beyond the table. 0: no zone is required.
     glm::dvec2 zone_m{0.0};

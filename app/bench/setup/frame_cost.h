@@ -18,9 +18,8 @@
 namespace frustumscreen {
 
 struct SetUpCost {
-    double times_first = 1.0; ///< median frame time divided by that of the first set-up
-    double cpu_times_first =
-        1.0;              ///< median processor time of all threads divided by that of the first set-up
+    double times_first = 1.0;     ///< median frame time divided by that of the first set-up
+    double cpu_times_first = 1.0; ///< the same for the processor time of all threads
     double samples = 0.0; ///< samples cleared and averaged for a frame, in whole tiles; mean over the poses
 };
 

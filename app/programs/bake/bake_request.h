@@ -48,10 +48,9 @@ struct BakeArguments {
 struct BakeRequest {
     std::filesystem::path scan;
     std::filesystem::path output;
-    std::filesystem::path preview; ///< as BakeArguments
-    bool watched = false;          ///< as BakeArguments
-    std::vector<std::filesystem::path>
-        inputs; ///< files that must not be overwritten, as far as known before the scan is read
+    std::filesystem::path preview;             ///< as BakeArguments
+    bool watched = false;                      ///< as BakeArguments
+    std::vector<std::filesystem::path> inputs; ///< files that must not be overwritten, as known so far
     bool force = false;
     bool clean = false;
     bool strict = false;

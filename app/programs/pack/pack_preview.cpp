@@ -19,11 +19,10 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int drawn_px = 1280; ///< square picture of the whole prop
-constexpr int side_px = 560;   ///< the part that is kept
-constexpr int caption_px = 56; ///< the strip below it
-constexpr glm::dvec3 eye_m(0.0, -0.6,
-                           0.45); ///< 30 degrees and more above the prop, as settings require of a projector
+constexpr int drawn_px = 1280;               ///< square picture of the whole prop
+constexpr int side_px = 560;                 ///< the part that is kept
+constexpr int caption_px = 56;               ///< the strip below it
+constexpr glm::dvec3 eye_m(0.0, -0.6, 0.45); ///< settings require 30 degrees
 
 /// Settings of a table whose projector stands at the eye, with the prop's sphere filling the picture.
 Result<CheckedSettings> settings_for(const PropSettings& prop) {

@@ -228,8 +228,7 @@ private:
     std::set<std::string> unknown_;         ///< keywords
     std::vector<glm::dvec3> positions_;
     std::vector<glm::dvec2> uvs_;
-    std::vector<glm::vec4>
-        colours_; ///< colour codes of the first positions, as written; possibly fewer than positions
+    std::vector<glm::vec4> colours_; ///< codes of the first positions, as written; may be fewer
     std::unordered_map<std::uint64_t, std::uint32_t> vertices_;
     std::vector<std::uint32_t> corners_;
     std::vector<glm::dvec3> points_;

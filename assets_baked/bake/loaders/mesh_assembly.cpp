@@ -64,9 +64,8 @@ void MeshAssembly::set_colour(const glm::vec4& linear) {
 }
 
 void MeshAssembly::set_colour_code(const glm::vec4& code) {
-    mesh_.colours.resize(
-        mesh_.positions.size(),
-        glm::vec4(std::numeric_limits<float>::infinity())); // infinity marks a missing colour: white
+    mesh_.colours.resize(mesh_.positions.size(),
+                         glm::vec4(std::numeric_limits<float>::infinity())); // a missing colour: white
     mesh_.colours.back() = code;
     for (int i = 0; i < 3; ++i) {
         if (std::isfinite(code[i])) {
