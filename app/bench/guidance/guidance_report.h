@@ -29,8 +29,8 @@ struct AdviceProof {
     int never = 0;                 ///< not mended within that many moves
     int without_advice = 0;        ///< situations without an advice: no sequence was found
     long single = 0;               ///< advices of a single move that were carried out
-    long failed = 0; ///< of these, the ones that neither mended the picture nor made its unlit area smaller
-    double median_ms = 0.0; ///< time to find an advice
+    long failed = 0;               ///< neither whole afterwards nor a smaller unlit area
+    double median_ms = 0.0;        ///< time to find an advice
     double p99_ms = 0.0;
 };
 

@@ -1,4 +1,4 @@
-/// What to bake: the command line overrides the folder's artifact.toml, which overrides the defaults.
+/// The inputs of a bake: the command line overrides the folder's artifact.toml, which overrides the defaults.
 ///
 /// Errors   one line. `BadInput`: the folder's file; `BadConfiguration`: the command line (wrong use).
 /// Threads  pure apart from reading the folder; any.

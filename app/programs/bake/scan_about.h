@@ -1,4 +1,4 @@
-/// What the pack tells about the scan: the request overrides the scan's file, which overrides the defaults.
+/// The pack's facts about the scan: the request overrides the scan's file, which overrides the defaults.
 ///
 /// Threads  pure; any.
 #pragma once

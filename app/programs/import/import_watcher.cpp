@@ -67,7 +67,7 @@ void ImportWatcher::tell(const ImportReport& report, MonotonicTime now) {
     }
 }
 
-/// A report that cannot be written is said once and does not stop the import.
+/// A report that cannot be written causes one message and does not stop the import.
 void ImportWatcher::write(const ImportReport& report) {
     if (file_.empty()) {
         return;

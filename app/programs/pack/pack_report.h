@@ -36,7 +36,7 @@ struct OpenedPack {
 /// metres_per_box, artifact_size_m, prop_from_artifact: 16 numbers, column-major}.
 [[nodiscard]] nlohmann::ordered_json explain_json(const OpenedPack& opened, const PropSettings& prop);
 
-/// The same reports as text; each ends with a line break.
+/// Both reports as text; each ends with a line break.
 [[nodiscard]] std::string list_text(const OpenedPack& opened, const PropSettings& prop);
 [[nodiscard]] std::string explain_text(const OpenedPack& opened, const PropSettings& prop);
 
