@@ -12,9 +12,9 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double max_scrap_share = 0.001; ///< share of the triangles, for all scraps together
-constexpr double min_shrinkage = 0.8; ///< largest ratio of the size without scraps to the size with them
-constexpr double max_step_share = 1.0 / 2000; ///< share of the size: about a texel of the finest relief
+constexpr double max_scrap_share = 0.001;     ///< of the triangles, for all scraps together
+constexpr double min_shrinkage = 0.8;         ///< largest ratio of sizes without and with scraps
+constexpr double max_step_share = 1.0 / 2000; ///< of the size: about a texel of the finest relief
 
 struct Bounds {
     glm::dvec3 low{std::numeric_limits<double>::infinity()};
