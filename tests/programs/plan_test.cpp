@@ -1,6 +1,6 @@
-// The plan explained against the show observed: a minimal, an ordinary and a full scene, on packs made in
-// memory. Bytes and programs are asked of OpenGL; pictures are compared pixel for pixel with those of a show
-// that leaves nothing out.
+// The explained plan compared with the running show: a minimal, an ordinary and a full scene, on packs made in memory.
+// Bytes and programs are queried from OpenGL; pictures are compared pixel by pixel with those of a show that leaves
+// nothing out.
 
 #include "app/render/read_back.h"
 #include "app/scene/device_plan.h"
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Rings at four levels, each with a picture of its own.
+/// Rings at four levels, each with its own picture.
 Pack full_pack() {
     Pack pack = rings(12, 4);
     for (const auto& [around, across] : {std::pair(16U, 8U), std::pair(24U, 12U), std::pair(48U, 24U)}) {
@@ -75,7 +75,7 @@ protected:
     }
     void configure(std::string_view text) {
         settings = **parse_settings(std::string(stage) + std::string(text), "kiosk.toml");
-        settings.projector.refresh_hz = 1e-3; // no deadline: both shows draw what the tolerance asks for
+        settings.projector.refresh_hz = 1e-3; // no deadline: both shows draw the level for the tolerance
     }
     std::unique_ptr<ArtifactShow> show(unsigned economies, const std::string& technique = "auto") {
         const DevicePlan devices = plan_devices(settings, false, false);
@@ -123,7 +123,7 @@ protected:
         }
         return all;
     }
-    /// Number of pictures, of those, that are not all black.
+    /// Compares `count` pictures of both shows; returns the number that are not entirely black.
     int expect_same_pictures(ArtifactShow& a, ArtifactShow& b, int count) {
         int lit = 0;
         const std::size_t programs = programs_that_exist();
@@ -140,7 +140,7 @@ protected:
                        ? 1
                        : 0;
         }
-        EXPECT_EQ(programs_that_exist(), programs); // no frame makes one
+        EXPECT_EQ(programs_that_exist(), programs); // no frame creates a program
         return lit;
     }
     void expect_as_planned(const ArtifactShow& of, std::size_t programs) {
@@ -163,13 +163,13 @@ TEST_F(PlanAgainstShow, AMinimalScene) {
     int lit = 0;
     std::mt19937 random(5);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
-    for (int k = 0; k < 12; ++k) { // each viewer is a scene, and a plan, of its own
+    for (int k = 0; k < 12; ++k) { // each viewer is a scene and a plan of its own
         configure(minimal);
         settings.eye.default_m = {0.6 * u(random), -0.6 + 0.3 * u(random), 0.45 + 0.35 * u(random)};
         const auto lean = show(AllEconomies, "level3");
-        expect_as_planned(*lean, 6); // outline, artifact, edges, three of the samples' room
+        expect_as_planned(*lean, 6); // outline, artifact, edges, three for the sample headroom
         EXPECT_EQ(lean->levels(0).uses().size(), 1U);
-        EXPECT_GT(lean->levels(0).uses()[0].unseen_triangles, 1000U); // of 6912, one eye sees about half
+        EXPECT_GT(lean->levels(0).uses()[0].unseen_triangles, 1000U); // of 6912; one eye sees about half
         EXPECT_EQ(lean->use().captions, 0U);
         const auto everything = show(0, "level3");
         EXPECT_LT(lean->use().gpu_bytes, everything->use().gpu_bytes);
@@ -211,9 +211,9 @@ TEST_F(PlanAgainstShow, AFullScene) {
     EXPECT_EQ(lean->plan(0).levels, (std::vector<std::uint32_t>{3U, 2U, 1U, 0U}));
     EXPECT_EQ(lean->use().captions, 2U);
     for (const LevelUse& level : lean->levels(0).uses()) {
-        EXPECT_EQ(level.unseen_triangles, 0U); // nothing is proved of a recording
+        EXPECT_EQ(level.unseen_triangles, 0U); // nothing can be proved about a recording
     }
-    expect_as_planned(*lean, 8); // all but those without light compensation
+    expect_as_planned(*lean, 8); // every shader except those without light compensation
     const auto everything = show(0);
     EXPECT_EQ(everything->use().gpu_bytes, lean->use().gpu_bytes);
     EXPECT_EQ(everything->use().shaders.size(), 10U);

@@ -1,4 +1,4 @@
-// What a run shows where it has nothing to show, what its end means, and what it leaves.
+// The parts of a run: the error screen, the meaning of its end, and its output.
 
 #include "app/programs/frustumscreen/run_end.h"
 #include "app/programs/frustumscreen/run_output.h"

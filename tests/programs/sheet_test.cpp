@@ -16,7 +16,7 @@ namespace {
 
 class Sheet : public testing::Test {
 protected:
-    /// Four frames of the prop sliding to the right under a white picture.
+    /// Writes four frames of the prop sliding to the right under a white picture.
     void SetUp() override {
         folder = std::filesystem::temp_directory_path() / ("sheet_" + std::to_string(::getpid()));
         std::filesystem::create_directories(folder);
@@ -66,7 +66,7 @@ TEST_F(Sheet, FramesThatLookAlikeAreShownOnce) {
                   frame(0.0, 20.0, "Bowl"), frame(0.1, 20.0, "Bowl"), frame(0.0, 359.0, "Bowl")});
     ASSERT_EQ(kept.size(), 4U);
     EXPECT_EQ(kept[0].situation.table_from_prop.translation.x,
-              0.001); // the middle of those that follow each other
+              0.001); // the middle one of successive similar frames
     EXPECT_EQ(kept[1].label, "Cup");
     EXPECT_EQ(kept[3].situation.table_from_prop.translation.x, 0.1);
 }
@@ -129,7 +129,7 @@ TEST_F(Sheet, TheContactSheetHoldsEveryFrame) {
 }
 
 TEST_F(Sheet, TheWholeTableIsOnTheSheetWhereThatIsAsked) {
-    // A green mark in each corner of the projector's picture: words, and pictures to choose from, lie there.
+    // A green mark in each corner of the projector's picture, where words and pictures for the choice are shown.
     Image8 picture(320, 200, glm::u8vec4(0, 0, 0, 255));
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
@@ -154,7 +154,8 @@ TEST_F(Sheet, TheWholeTableIsOnTheSheetWhereThatIsAsked) {
         });
     };
     EXPECT_EQ(green(false), 0);
-    // Four squares of a sixteenth of the picture's width in the projector's tile of 832 pixels, and as many seen by the visitor.
+    // Four squares, each a sixteenth of the picture's width, in the projector's tile of 832 pixels, and as many in the
+    // visitor's.
     EXPECT_GT(green(true), 1.5 * 4 * 52 * 52);
 }
 
@@ -194,7 +195,7 @@ TEST_F(Sheet, TheRoomsPictureShowsProjectorAndTable) {
         EXPECT_LT(pixel->x, 760.0);
         EXPECT_LT(pixel->y, 880.0);
     }
-    // The artifact looks as to the visitor: the camera is on the line from the prop through the eye.
+    // The artifact looks as the visitor sees it, because the camera is on the line from the prop through the eye.
     const glm::dvec3 prop = scene.table_from_prop.point(scene.prop.middle);
     const glm::dvec3 to_eye = glm::normalize(scene.eye_m - prop);
     EXPECT_NEAR(glm::dot(to_eye, glm::normalize(camera.table_from_camera.translation - prop)), 1.0, 1e-12);

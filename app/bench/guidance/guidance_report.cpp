@@ -44,7 +44,7 @@ AdviceProof prove(const GuidanceSetup& setup, const GuidanceOptions& options,
         };
         std::size_t moves = 0;
         for (; !whole(situation) && moves < most_moves; ++moves) {
-            if (reader.whole(situation)) { // none of its faces is seen: what Guide advises then
+            if (reader.whole(situation)) { // no face of the artifact is seen: Guide advises standing it up
                 situation = after({Action::Upright}, setup, situation);
                 continue;
             }

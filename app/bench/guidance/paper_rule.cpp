@@ -14,7 +14,7 @@ namespace {
 constexpr double usual_way_m = 0.10;
 constexpr double usual_turn_rad = std::numbers::pi / 6.0;
 
-/// The same action with the amount that a person takes who was told none.
+/// The action with the amount that a person takes if none is advised.
 Move without_amount(Move move) {
     if (move.action == Action::Turn) {
         move.turn_rad = move.turn_rad > 0.0 ? usual_turn_rad : -usual_turn_rad;
@@ -24,7 +24,7 @@ Move without_amount(Move move) {
     return move;
 }
 
-/// Turns the face that cannot be opened by one action towards the projector.
+/// A turn that brings the face towards the projector, for a face that no single action opens.
 Move towards_light(const FaceReader& reader, const GuidedSituation& situation, std::uint32_t face) {
     const GuidanceSetup& setup = reader.setup();
     Move move{Action::Turn};

@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// What it takes to mend the picture again, and once more.
+/// Time to mend the picture again after an unsteady pose loses it.
 constexpr double unsteady_s = 4.0;
 
 } // namespace

@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double step_s = 1.0 / 60.0; // the exhibit's own
+constexpr double step_s = 1.0 / 60.0; // the exhibit's step
 constexpr double patience_s = std::chrono::duration<double>(Guide::patience).count();
 constexpr double sees_success_after_s = 0.5;
 constexpr double least_reaction_s = 0.3;
@@ -54,21 +54,21 @@ public:
             move_on();
         }
         if (lost_since_s_ && now_s_ - *lost_since_s_ > patience_s) {
-            result.mended_s.push_back(now_s_ - *lost_since_s_); // at least
+            result.mended_s.push_back(now_s_ - *lost_since_s_); // a lower bound, as the visit ends
         }
         result.whole_share = static_cast<double>(whole) / steps;
         return result;
     }
 
 private:
-    /// A movement that has a cause, and what can be seen to be wrong with it.
+    /// A movement, its reason, and the visitor's view of its success.
     struct Doing {
         Motion motion;
-        Move asked;           ///< Wait: by the visitor's own idea
-        bool mends = false;   ///< it is there to mend the picture
-        bool wrong = false;   ///< not what was asked
-        bool doubted = false; ///< the visitor has seen that it leads nowhere
-        double dark_px = 0.0; ///< when it began
+        Move asked;           ///< Wait: the visitor's own idea
+        bool mends = false;   ///< meant to mend the picture
+        bool wrong = false;   ///< not the advised move
+        bool doubted = false; ///< the visitor has seen that it does not help
+        double dark_px = 0.0; ///< unlit pixels at its start
     };
 
     [[nodiscard]] DarkWhile doing() const {
@@ -105,7 +105,7 @@ private:
         }
     }
 
-    /// The picture is whole: ends what was done to mend it, and plays after a while.
+    /// The picture is whole: ends a mending movement, and starts to play after a while.
     void be_content(VisitResult& result) {
         if (lost_since_s_) {
             if (now_s_ - *lost_since_s_ > patience_s) {
@@ -150,13 +150,13 @@ private:
         if (!lost_since_s_) {
             lost_since_s_ = now_s_;
             read_since_s_.reset();
-            // Whose hand follows a sign looks at it already.
+            // A visitor who is following a sign already looks at it.
             attends_ = doing_ && doing_->mends;
             acted_ = false;
             ++result.losses;
         }
         adviser_ == Adviser::None || adviser_ == Adviser::Perfect ? look_at_picture() : read_sign();
-        const bool plays = doing_ && !doing_->mends; // what lost the picture ends first
+        const bool plays = doing_ && !doing_->mends; // the movement that lost the picture ends first
         if (!acts_at_s_ || now_s_ < *acts_at_s_ || plays) {
             return;
         }
@@ -164,7 +164,7 @@ private:
         act(result);
     }
 
-    /// From now on the visitor has something to react to.
+    /// Starts the visitor's reaction time.
     void react() {
         const double reaction_s = reacts_.between(least_reaction_s, longest_reaction_s);
         const bool misses = !attends_ && adviser_ != Adviser::Perfect && reacts_.happens(overlooks);
@@ -173,7 +173,7 @@ private:
         attends_ = true;
     }
 
-    /// Reacts to another sign, also with the hand still on its way; to the same one where the hand has stopped too soon.
+    /// Reacts to a new sign, even during a movement, and to the present one if the movement has ended without success.
     void read_sign() {
         const std::optional<SignOnTable>& sign = sign_.shown();
         if (!sign) {
@@ -193,7 +193,7 @@ private:
         }
     }
 
-    /// The same without a sign. Who has perfect advice knows the whole sequence after one reaction time.
+    /// As read_sign, without a sign. A visitor with perfect advice needs one reaction time for a whole sequence.
     void look_at_picture() {
         if (acts_at_s_) {
             return;
@@ -208,7 +208,7 @@ private:
         }
     }
 
-    /// Once for each movement that is not what was asked: its sign stays, or there is more in the dark.
+    /// True once for each movement that does not help: it leads away from the advice, or more becomes dark.
     [[nodiscard]] bool finds_wrong() {
         if (!doing_->mends || doing_->doubted) {
             return false;
@@ -243,7 +243,7 @@ private:
         doing_->wrong = wrong;
     }
 
-    /// The opposite; what has none is taken for some way.
+    /// The opposite move; a slide in any direction if there is no opposite.
     [[nodiscard]] Move instead_of(Move move) {
         if (move.action == Action::Upright || move.action == Action::SetDown) {
             return some_way();
@@ -261,7 +261,7 @@ private:
         return move;
     }
 
-    /// Half of the time people undo what lost the picture; a prop that leans most would stand up.
+    /// Half of the time people undo the movement that lost the picture; a leaning prop is usually set upright.
     void try_something() {
         const bool leans = tilt_rad(situation_.table_from_prop) > 0.2;
         if (leans && !setup_.in_hand && reacts_.happens(0.7)) {
@@ -284,18 +284,18 @@ private:
     FaceReader reader_;
     ShownSign sign_;
     Adviser adviser_;
-    Seeded plays_;  ///< the same play whatever is advised
+    Seeded plays_;  ///< equal for all advisers
     Seeded reacts_; ///< reaction times, misunderstandings, sloppiness
     GuidedSituation situation_;
-    std::optional<GuidedSituation> before_; ///< the latest movement
+    std::optional<GuidedSituation> before_; ///< before the latest movement
     std::optional<Doing> doing_;
     double now_s_ = 0.0;
     double next_play_s_ = 0.0;
     double whole_since_s_ = 0.0;
     std::optional<double> lost_since_s_;
-    bool attends_ = false;               ///< looks at the sign, or at the dark
-    bool acted_ = false;                 ///< or is about to, since the picture was lost
-    std::optional<double> read_since_s_; ///< the sign that was read, by when it appeared
+    bool attends_ = false;               ///< looks at the sign, or at the dark part
+    bool acted_ = false;                 ///< has reacted, or is about to, since the loss of the picture
+    std::optional<double> read_since_s_; ///< time at which the sign that was read had appeared
     double noticed_at_s_ = 0.0;
     std::optional<double> acts_at_s_;
 };

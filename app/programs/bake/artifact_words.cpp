@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// On a table of half a metre the prop and its shadow leave about this much beside them.
+/// Height in metres that the prop and its shadow leave free on a table 0.5 m deep, about.
 constexpr double most_caption_height_m = 0.25;
 
 /// The kiosk's widths at the usual type size and at the smallest.

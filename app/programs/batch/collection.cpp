@@ -44,7 +44,7 @@ void add(const fs::directory_entry& entry, Collection& collection) {
     }
 }
 
-/// Two packs with one name would replace each other.
+/// Refuses objects with equal names, because their packs would replace each other.
 void refuse_twins(std::vector<BatchObject>& objects) {
     for (std::size_t k = 1; k < objects.size(); ++k) {
         const BatchObject& first = objects[k - 1];
@@ -57,7 +57,7 @@ void refuse_twins(std::vector<BatchObject>& objects) {
     }
 }
 
-/// The page of such an object would have the name of the batch's own report.
+/// Refuses objects whose page would have the name of the batch's own report.
 void refuse_reports(std::vector<BatchObject>& objects) {
     for (BatchObject& object : objects) {
         if (object.name == "report" || object.name.starts_with("report.")) {

@@ -43,7 +43,7 @@ Result<std::string> key_of(const BatchPlan& plan, const BatchObject& object) {
     return hash_of_texts(texts);
 }
 
-/// Whether the stamp's pack exists, byte for byte.
+/// True if the stamp's pack exists, byte for byte.
 bool is_done(const std::optional<Stamp>& stamp, const std::string& key, const Outputs& outputs) {
     if (!stamp || stamp->key != key || stamp->pack_sha256.empty()) {
         return false;

@@ -13,9 +13,9 @@ namespace {
 struct Arguments {
     std::filesystem::path out;
     std::filesystem::path config;
-    std::filesystem::path pack; ///< whose frames are timed; empty: none
-    std::vector<int> picture;   ///< width, height; empty: that of the settings
-    std::vector<double> zone_m; ///< width, depth; empty: none is asked for
+    std::filesystem::path pack; ///< the pack whose frames are timed; empty: none
+    std::vector<int> picture;   ///< width, height; empty: the settings'
+    std::vector<double> zone_m; ///< width, depth; empty: not required
     AdviceOptions options;
 };
 

@@ -52,7 +52,7 @@ Mode read_run_mode(const std::filesystem::path& file) {
                      "{}: '{}' is no mode; normal, last_good_set, plain and built_in are; the mode is normal",
                      file.string(), word));
     }
-    // A person who starts the exhibit while the safe picture is wanted wants to see it.
+    // A person who starts the exhibit while the safe picture is shown wants the exhibit.
     return mode && *mode != Mode::Safe ? *mode : Mode::Normal;
 }
 

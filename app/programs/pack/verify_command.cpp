@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A pack of which all is right that was asked for.
+/// A pack that passed all requested checks.
 struct SoundPack {
     VerifiedPack pack;
     std::optional<SignatureClaim> claim; ///< none: unsigned
@@ -38,7 +38,7 @@ Result<std::vector<TrustedKey>> read_keys(const std::vector<std::filesystem::pat
     return keys;
 }
 
-/// Nothing of a pack is parsed before its signature was right, where there are keys.
+/// With keys, verifies the signature before anything else of the pack is parsed.
 Result<std::pair<pack_format::PackReader, std::string>> open_checked(OpenFile file,
                                                                      std::span<const TrustedKey> keys) {
     if (keys.empty()) {

@@ -17,7 +17,7 @@ namespace {
 constexpr auto never = [] { return false; };
 constexpr double usual_texels_per_m = 2400.0;
 
-/// A kiosk's own, unless its settings have another type size.
+/// The style of a kiosk without a type size in its settings.
 TextStyle usual_style() {
     return {ExhibitSettings{}.caption_height_m, usual_texels_per_m};
 }
@@ -36,7 +36,7 @@ ProjectedText projected(std::string text, const Image<std::uint8_t>& coverage) {
     return {std::move(text), encode_webp(picture), {picture.width, picture.height}};
 }
 
-/// In the language itself; empty where there is none.
+/// The label in the language itself; empty if there is none.
 std::string label_in(const PackHotspot& hotspot, const std::string& language) {
     const auto found = std::find_if(hotspot.labels.begin(), hotspot.labels.end(),
                                     [&](const PackLabel& label) { return label.language == language; });

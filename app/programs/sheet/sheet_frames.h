@@ -25,7 +25,7 @@ struct FrameRecord {
     std::optional<double> estimated_error_mm; ///< nullopt: the frame shows no artifact
     bool drawn = true;
     std::string artifact; ///< empty if the file has no such column
-    std::string state;    ///< of the exhibit; empty as above
+    std::string state;    ///< the exhibit's; empty as above
     std::string told;     ///< narration next to the short text or in its place; empty as above
     std::string language; ///< empty as above
 };

@@ -103,7 +103,7 @@ std::optional<bool> projector(const fs::path& root) {
     return connected;
 }
 
-/// Whether a JSON file has an object under this key, at any depth. Reads from one quotation mark to the next,
+/// True if a JSON file has an object under this key, at any depth. Reads from one quotation mark to the next,
 /// because the file may be larger than this program's memory limit.
 bool has_object(const fs::path& file, std::string_view key) {
     std::ifstream stream(file, std::ios::binary);

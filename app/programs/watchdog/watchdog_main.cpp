@@ -30,7 +30,7 @@ struct Arguments {
     std::filesystem::path run_folder = "/run/frustumscreen-watchdog";
     std::filesystem::path state_folder = "/var/lib/frustumscreen-watchdog";
     double start_patience_s = 60.0;
-    double seconds = 0.0; ///< 0: until it is told to stop
+    double seconds = 0.0; ///< 0: until it is stopped
     KioskPlaces places;
 };
 

@@ -6,7 +6,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The best packing seen in practice is some 20 faces a byte (a flat, regular grid); a much higher count is
+/// The best packing seen in practice is about 20 faces a byte (a flat, regular grid); a much higher count is
 /// false.
 constexpr std::uint64_t most_faces_per_byte = 1024;
 constexpr int most_metadata_levels = 8;

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t mode_triangles = 4;
 constexpr std::uint64_t mode_strip = 5;
 constexpr std::uint64_t mode_fan = 6;
-/// A sparse accessor may replace values of an all-zero array; a genuine one is not larger than this.
+/// Largest size of an array without data. A sparse accessor may replace some of its zeros; genuine ones are smaller.
 constexpr std::size_t most_positions_without_data = std::size_t{1} << 20U;
 
 bool is_small_integer(ComponentType type) {

@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Up to here 32 bits hold fractions of a texel at 16k; a larger UV, or one that is no number, carries no
+/// Up to this value 32 bits resolve fractions of a texel at 16k. A larger UV, or one that is not a number, has no
 /// picture.
 constexpr double largest_uv = 1e6;
 
@@ -65,7 +65,7 @@ void MeshAssembly::set_colour(const glm::vec4& linear) {
 
 void MeshAssembly::set_colour_code(const glm::vec4& code) {
     mesh_.colours.resize(mesh_.positions.size(),
-                         glm::vec4(std::numeric_limits<float>::infinity())); // as without a colour: white
+                         glm::vec4(std::numeric_limits<float>::infinity())); // a missing colour: white
     mesh_.colours.back() = code;
     for (int i = 0; i < 3; ++i) {
         if (std::isfinite(code[i])) {

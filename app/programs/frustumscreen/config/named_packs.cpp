@@ -56,7 +56,7 @@ double caption_share(const Settings& settings, const std::vector<NamedPack>& pac
     std::transform(packs.begin(), packs.end(), std::back_inserter(catalogue),
                    [](const NamedPack& pack) { return pack.entry; });
     ExhibitPlace place = exhibit_place(settings);
-    place.guidance.reset(); // advice would take the caption's place
+    place.guidance.reset(); // advice takes the caption's place
     constexpr int columns = 7;
     constexpr int rows = 5;
     constexpr std::array turns{0.0, 0.25 * std::numbers::pi};
@@ -70,7 +70,7 @@ double caption_share(const Settings& settings, const std::vector<NamedPack>& pac
                                          glm::dvec3(zone.centre_m + at * zone.half_m, 0.0)};
             situation.eye_m = settings.eye.default_m;
             situation.prop_known = situation.head_known = true;
-            // Long enough for all that fades in, and not for what is told.
+            // Long enough for all fades, and too short for a narration.
             constexpr int steps = 20;
             constexpr Nanoseconds step = std::chrono::milliseconds(100);
             Exhibit exhibit(catalogue, place, settings.exhibit.language, MonotonicTime());

@@ -17,8 +17,8 @@ namespace frustumscreen {
 namespace {
 
 constexpr std::size_t most_poses = 12;
-constexpr int loads = 5;  ///< of each scene
-constexpr int rounds = 9; ///< of all poses and scenes; the first warms up
+constexpr int loads = 5;  ///< for each scene
+constexpr int rounds = 9; ///< over all poses and scenes; the first warms up
 
 using Clock = std::chrono::steady_clock;
 
@@ -26,13 +26,13 @@ double microseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
 }
 
-/// Bytes that the program holds, as the allocator counts them.
+/// Bytes that the program has from the allocator.
 std::int64_t allocated_bytes() {
     const struct mallinfo2 info = ::mallinfo2();
     return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
 }
 
-/// The situations that the plan's devices give, half a second apart.
+/// Situations from the plan's devices, half a second apart.
 Result<std::vector<Situation>> situations(const Settings& settings, const DevicePlan& devices) {
     const MonotonicTime start;
     TRY(Inputs inputs, make_inputs(settings, devices, std::nullopt, start));
@@ -62,7 +62,7 @@ struct Scene {
     std::unique_ptr<ArtifactShow> show;
     Exhibit exhibit;
     SceneCost cost;
-    std::vector<double> us; ///< of each frame drawn
+    std::vector<double> us; ///< for each drawn frame
 };
 
 SceneCost saving(const Scene& with, const Scene& without) {
@@ -81,7 +81,7 @@ public:
               Display& display)
         : settings_(settings), devices_(devices), options_(std::move(options)), display_(display) {}
 
-    /// Loads the scene several times, alone each time, and frees it; then loads it to keep it.
+    /// Loads and frees the scene several times, with no other loaded; then loads it to keep it.
     [[nodiscard]] Result<Scene> load(unsigned economies) {
         std::vector<double> load_ms;
         std::vector<double> ram_bytes;
@@ -112,7 +112,7 @@ public:
         return scene;
     }
 
-    /// Draws all scenes at each pose, one after the other, each round in another order.
+    /// Draws all scenes at each pose in turn; each round uses another order.
     [[nodiscard]] Result<std::size_t> draw(std::vector<Scene>& scenes) {
         TRY(const std::vector<Situation> poses, situations(settings_, devices_));
         ProgressLine progress("measuring");
@@ -155,10 +155,10 @@ private:
 Result<PlanMeasurement> measure_plan(const Settings& settings, const DevicePlan& devices,
                                      const std::filesystem::path& pack, const std::string& technique,
                                      Display& display) {
-    Settings unhurried = settings; // no deadline: every scene draws the level that the tolerance asks for
+    Settings unhurried = settings; // no deadline: every scene draws the level for the tolerance
     unhurried.projector.refresh_hz = 1e-3;
     Measuring measuring(unhurried, devices, {{pack}, technique, default_samples, AllEconomies}, display);
-    // The first scene also pays for what the driver does only once.
+    // The first scene also pays the driver's one-time costs.
     TRY_VOID(without_value(measuring.load_once(0)));
     TRY(Scene planned, measuring.load(AllEconomies));
     unsigned used = 0;

@@ -1,6 +1,6 @@
-/// The frames of a pose file that a person names on a command line.
+/// The frames of a pose file that is named on the command line.
 ///
-/// Errors   the file is missing or is no pose file.
+/// Errors   the file is missing or is not a pose file.
 /// Threads  any.
 #pragma once
 

@@ -31,7 +31,7 @@ struct Request {
     std::filesystem::path poses;
     std::filesystem::path out;
     std::string view = "projector";
-    int width = 0; ///< of the pictures that are written; 0 = as the view has it
+    int width = 0; ///< width of the written pictures; 0: the view's
     int height = 0;
     bool no_light = false;
     OfflineOptions options;
@@ -70,7 +70,7 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     return end;
 }
 
-/// Poses in millimetres, or in a tracker's frame, give dark pictures.
+/// Warns about places off the table: poses in millimetres, or in a tracker's frame, give dark pictures.
 void say_off_the_table(const std::vector<Situation>& frames, const TableSettings& table) {
     const glm::dvec2 half_m = 0.5 * glm::dvec2(table.width_m, table.depth_m);
     const auto off = std::count_if(frames.begin(), frames.end(), [&](const Situation& frame) {
@@ -84,7 +84,7 @@ void say_off_the_table(const std::vector<Situation>& frames, const TableSettings
     }
 }
 
-/// Everything that is needed to make one picture.
+/// Inputs of one picture.
 struct Studio {
     const Request& request;
     const Settings& settings;
@@ -100,7 +100,7 @@ VisitorScene visitor_scene(const Studio& studio, const Situation& situation) {
             {studio.settings.table.width_m, studio.settings.table.depth_m}};
 }
 
-/// Writes one frame's files; returns its line of frames.csv.
+/// Writes one frame's files and returns its line of frames.csv.
 Result<std::string> make_frame(const Studio& studio, std::size_t frame, const Situation& situation,
                                std::vector<VisitorFrame>& visitor_frames) {
     OfflinePicture picture = studio.renderer.draw(situation.table_from_prop, situation.eye_m);
@@ -155,7 +155,7 @@ Result<void> render(const Request& request) {
         csv += line;
         progress.show(frame + 1, frames.size());
     }
-    std::filesystem::remove(request.out / visitor_cameras_name, failed); // of an earlier call
+    std::filesystem::remove(request.out / visitor_cameras_name, failed); // left by an earlier call
     if (!visitor_frames.empty()) {
         TRY_VOID(
             write_file(request.out / visitor_cameras_name, as_bytes(visitor_cameras_json(visitor_frames))));
