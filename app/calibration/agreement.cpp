@@ -126,7 +126,12 @@ std::vector<Tried> try_exchanged(std::span<const Touch> touches, const FitSetup&
     for (Choice& pair : choices_of(touches.size(), 2)) {
         Touches turned(touches.begin(), touches.end());
         std::swap(turned[pair[0]].tracker_from_sensor, turned[pair[1]].tracker_from_sensor);
-        tried.push_back(tried_from(turned, setup, start, {}));
+        FitSetup turned_setup = setup;
+        if (!setup.upright.empty()) { // it goes with the pose
+            turned_setup.upright[pair[0]] = setup.upright[pair[1]];
+            turned_setup.upright[pair[1]] = setup.upright[pair[0]];
+        }
+        tried.push_back(tried_from(turned, turned_setup, start, {}));
         tried.back().choice = std::move(pair);
     }
     std::sort(tried.begin(), tried.end(), better);

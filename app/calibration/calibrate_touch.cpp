@@ -51,19 +51,23 @@ std::vector<TouchResidual> residuals_of(std::span<const Touch> touches, std::spa
     return residuals;
 }
 
+Touches without(std::span<const Touch> touches, std::span<const std::size_t> wrong) {
+    Touches kept;
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+        if (std::find(wrong.begin(), wrong.end(), k) == wrong.end()) {
+            kept.push_back(touches[k]);
+        }
+    }
+    return kept;
+}
+
 /// True if the touches without the wrong ones cannot check each other: then others may be wrong instead.
 bool too_few_left(const AgreeingTouches& found, std::span<const Touch> touches, const FitSetup& setup,
                   const ZoneSetup& zone) {
     if (found.agreement != Agreement::Without) {
         return false;
     }
-    Touches kept;
-    for (std::size_t k = 0; k < touches.size(); ++k) {
-        if (std::find(found.wrong.begin(), found.wrong.end(), k) == found.wrong.end()) {
-            kept.push_back(touches[k]);
-        }
-    }
-    return hidden_error_of(kept, setup, found.fit, zone) > most_hidden_m;
+    return hidden_error_of(without(touches, found.wrong), setup, found.fit, zone) > most_hidden_m;
 }
 
 constexpr MeasuredKind crosses{.one = "touch",
@@ -333,7 +337,7 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
     calibration.uncertainty = picture_uncertainty(places, covariance);
     calibration.uncertainty.shares = picture_shares(places, covariance);
     calibration.zone = by_place(places, calibration.uncertainty.each_m);
-    calibration.hidden_error_m = hidden_error_of(touches, fit_setup, found.fit, zone);
+    calibration.hidden_error_m = hidden_error_of(without(touches, found.wrong), fit_setup, found.fit, zone);
     calibration.prior_shares = prior_shares(found.fit);
     calibration.residuals = residuals_of(touches, found.wrong, fit_setup, found.fit.model);
     const auto highest = std::max_element(
