@@ -13,10 +13,10 @@ namespace frustumscreen {
 namespace {
 
 /// Largest number of sets that are tried at once; beyond it, touches are added one by one.
-constexpr std::size_t most_choices = 1000;
+constexpr std::size_t max_choices = 1000;
 /// At most a fifth of the touches counts as wrong: fewer others cannot tell which ones are.
 constexpr std::size_t wrong_of = 5;
-constexpr double most_scatter = 2.0;
+constexpr double max_scatter = 2.0;
 /// A rough fit is refined if its chi squared is below so many times the limit.
 constexpr double worth_a_fit = 100.0;
 /// Sets whose chi squared differs by less than this explain the touches equally well.
@@ -49,7 +49,7 @@ std::vector<Choice> choices_of(std::size_t touches, std::size_t wrong) {
         while (k > 0 && choice[k - 1] == touches - wrong + k - 1) {
             --k;
         }
-        if (k == 0 || choices.size() > most_choices) {
+        if (k == 0 || choices.size() > max_choices) {
             return choices;
         }
         ++choice[k - 1];
@@ -194,7 +194,7 @@ AgreeingTouches find_agreement(std::span<const Touch> touches, const FitSetup& s
     Choice best;
     for (std::size_t wrong = 1; wrong <= touches.size() / wrong_of; ++wrong) {
         std::vector<Choice> choices = choices_of(touches.size(), wrong);
-        if (choices.size() > most_choices) {
+        if (choices.size() > max_choices) {
             choices = one_more(best, touches.size());
         }
         std::vector<Tried> tried = try_without(touches, setup, robust->model, std::move(choices));
@@ -210,7 +210,7 @@ AgreeingTouches find_agreement(std::span<const Touch> touches, const FitSetup& s
         }
     }
     const double scatter = std::sqrt(all.chi2 / std::max(1, all.freedom));
-    if (scatter < most_scatter && agrees(touches, setup, all, scatter)) {
+    if (scatter < max_scatter && agrees(touches, setup, all, scatter)) {
         return {{Agreement::Scattered, {}, scatter}, std::move(all)};
     }
     return {{}, std::move(all)};

@@ -21,7 +21,7 @@ namespace frustumscreen {
 namespace {
 
 /// A larger scale error comes from the printer's driver, not from damp air.
-constexpr double most_print_off = 5e-3;
+constexpr double max_print_off = 5e-3;
 
 AutoCalibration refused(std::string reason) {
     AutoCalibration calibration;
@@ -178,7 +178,7 @@ AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, cons
     if (!table.table) {
         return refused("the light of the picture's middle does not come down on the table");
     }
-    if (const double off = found.fit.model.print - 1.0; std::abs(off) > most_print_off) {
+    if (const double off = found.fit.model.print - 1.0; std::abs(off) > max_print_off) {
         return refused(fmt::format(
             "the board is printed {:.1f} % too {}: print it at 100 %, without fitting it to the page",
             100.0 * std::abs(off), off > 0.0 ? "large" : "small"));

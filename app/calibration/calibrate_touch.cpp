@@ -20,7 +20,7 @@ namespace frustumscreen {
 namespace {
 
 /// Beyond this, the remaining touches cannot tell which ones are wrong.
-constexpr double most_hidden_m = 60e-3;
+constexpr double max_hidden_m = 60e-3;
 
 double hidden_error_of(std::span<const Touch> touches, const FitSetup& setup, const Fit& fit,
                        const ZoneSetup& zone) {
@@ -67,7 +67,7 @@ bool too_few_left(const AgreeingTouches& found, std::span<const Touch> touches, 
     if (found.agreement != Agreement::Without) {
         return false;
     }
-    return hidden_error_of(without(touches, found.wrong), setup, found.fit, zone) > most_hidden_m;
+    return hidden_error_of(without(touches, found.wrong), setup, found.fit, zone) > max_hidden_m;
 }
 
 constexpr MeasuredKind crosses{.one = "touch",
@@ -153,14 +153,14 @@ std::string in_words(const PictureUncertainty& uncertainty) {
     return fmt::format(
         "the picture usually lies within {:.1f} mm of its place; 95 of 100 places within {:.1f} mm, "
         "the worst place within {:.1f} mm",
-        1e3 * shares.usual_m, 1e3 * shares.most_m, 1e3 * shares.worst_m);
+        1e3 * shares.usual_m, 1e3 * shares.max_m, 1e3 * shares.worst_m);
 }
 
 bool BoardsHeight::differ() const {
-    constexpr double least_m = 5e-4; // a ruler's resolution
+    constexpr double min_m = 5e-4; // a ruler's resolution
     constexpr double sure_sd = 3.0;
     const double off_m = std::abs(found_m - given_m);
-    return off_m > least_m && off_m > sure_sd * sd_m;
+    return off_m > min_m && off_m > sure_sd * sd_m;
 }
 
 std::string in_words(const std::optional<BoardsHeight>& boards) {

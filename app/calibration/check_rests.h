@@ -12,9 +12,9 @@
 
 namespace frustumscreen {
 
-inline constexpr std::size_t least_rests = 5;
+inline constexpr std::size_t min_rests = 5;
 /// Rests on the table or on a block; they determine the table's plane.
-inline constexpr std::size_t least_standing = 4;
+inline constexpr std::size_t min_standing = 4;
 
 /// The reason why these rests are refused, one sentence for a technician; nothing if they are accepted.
 /// Quaternions are as reported, of any length.

@@ -16,10 +16,10 @@
 
 namespace frustumscreen {
 
-inline constexpr std::size_t least_touches = 6;
-inline constexpr std::size_t least_touch_up = 3; ///< of a table that has been calibrated
+inline constexpr std::size_t min_touches = 6;
+inline constexpr std::size_t min_touch_up = 3; ///< of a table that has been calibrated
 /// Heights that differ by less count as one.
-inline constexpr double least_height_m = 0.02;
+inline constexpr double min_height_m = 0.02;
 
 /// The reason why these touches are refused, one sentence for a technician; nothing if they are accepted.
 /// Quaternions are as reported, of any length.

@@ -34,7 +34,7 @@ struct PixelRange {
 /// The range of crosses at a height: within the picture's margin, and within reach. For a rotated picture, a
 /// rectangle that is surely within reach.
 PixelRange range_at(const TouchModel& model, const CrossSetup& setup, double height_m) {
-    constexpr double least_range = 0.1; // widths
+    constexpr double min_range = 0.1; // widths
     const Pinhole& p = model.pinhole;
     const glm::dvec2 margin(setup.margin * p.width);
     PixelRange range{margin, glm::dvec2(p.width, p.height) - margin};
@@ -55,7 +55,7 @@ PixelRange range_at(const TouchModel& model, const CrossSetup& setup, double hei
     const glm::dvec2 middle(0.25 * (u[0] + u[1] + u[2] + u[3]), 0.25 * (v[0] + v[1] + v[2] + v[3]));
     const glm::dvec2 half =
         glm::max(glm::min(glm::dvec2(u[2], v[2]) - middle, middle - glm::dvec2(u[1], v[1])),
-                 glm::dvec2(0.5 * least_range * p.width));
+                 glm::dvec2(0.5 * min_range * p.width));
     return {glm::max(range.from, middle - half), glm::min(range.to, middle + half)};
 }
 
@@ -248,14 +248,14 @@ glm::dvec2 reach_of(const glm::dvec2& table_m, double prop_base_m) {
 
 double overhang_m(const TouchModel& rough, std::span<const Cross> crosses, const glm::dvec2& reach_m) {
     constexpr double rounding_m = 1e-6;
-    double most_m = 0.0;
+    double max_m = 0.0;
     for (const Cross& cross : crosses) {
         if (const std::optional<glm::dvec3> place = rough.lit(cross.pixel, cross.block_m)) {
             const glm::dvec2 over = glm::abs(glm::dvec2(*place)) - reach_m;
-            most_m = std::fmax(most_m, std::fmax(over.x, over.y));
+            max_m = std::fmax(max_m, std::fmax(over.x, over.y));
         }
     }
-    return most_m > rounding_m ? most_m : 0.0;
+    return max_m > rounding_m ? max_m : 0.0;
 }
 
 TouchModel rough_model(const Pinhole& pinhole, double above_m, double sensor_height_m) {

@@ -42,7 +42,7 @@ double ruler_error_m(const glm::dvec3& centre_m, std::span<const MeasuredCorner>
         const glm::dvec3 off = from - glm::dot(from, line) * line;
         squares += glm::dot(off, off);
     }
-    return std::fmax(std::sqrt(squares / freedom_of(corners)), least_ruler_error_m);
+    return std::fmax(std::sqrt(squares / freedom_of(corners)), min_ruler_error_m);
 }
 
 /// Move of each place by one coordinate's error of one standard deviation: two rows per place, metres.

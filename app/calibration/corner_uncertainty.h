@@ -14,7 +14,7 @@
 
 namespace frustumscreen {
 
-inline constexpr double least_ruler_error_m = 1e-3;
+inline constexpr double min_ruler_error_m = 1e-3;
 
 struct CornerUncertainty {
     double ruler_error_m = 0.0;         ///< of each coordinate, one standard deviation

@@ -56,7 +56,7 @@ Meeting meeting_of(std::span<const Line> lines) {
     return {inverse_of(square) * goal, std::sqrt(values[2] / std::fmax(values[0], 1e-30))};
 }
 
-double least_way(std::span<const Place> places, const Place& along) {
+double min_way(std::span<const Place> places, const Place& along) {
     double low = along.dot(places[0]);
     double high = low;
     for (const Place& place : places) {
@@ -210,7 +210,7 @@ CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int
     std::array<Line, 4> fitted;
     std::transform(lines.begin(), lines.end(), fitted.begin(), line_through);
     for (std::size_t k = 0; k < 4; ++k) {
-        const double way = least_way(lines[k], fitted[k].along);
+        const double way = min_way(lines[k], fitted[k].along);
         const double off = (fitted[k].middle - fitted[(k + 2) % 4].middle).norm();
         if (way < 0.05 * off) {
             return refused("the two distances are too near to each other to say where the lines meet: "

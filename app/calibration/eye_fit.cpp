@@ -27,9 +27,9 @@ using Shared = Eigen::Matrix<double, 5, 1>;
 /// 99.9 % quantile of chi squared for a sighting's two residuals.
 constexpr double sight_chi2_limit = 13.8;
 /// Largest mean of the squared whitened residuals that chance explains.
-constexpr double most_scatter2 = 4.0;
+constexpr double max_scatter2 = 4.0;
 /// If an eye's lines meet at smaller angles than this, root mean square, its distance is undetermined.
-constexpr double least_spread_rad = 0.12;
+constexpr double min_spread_rad = 0.12;
 constexpr double nearest_pupils_m = 45e-3, farthest_pupils_m = 80e-3;
 constexpr double good_m = 0.7e-3, usable_m = 1.5e-3;
 constexpr double good_hidden_m = 4e-3, usable_hidden_m = 8e-3;
@@ -141,7 +141,7 @@ bool agree(const Solution& solution, const std::vector<bool>& used) {
             return false;
         }
     }
-    return scatter2_of(solution, used) < most_scatter2;
+    return scatter2_of(solution, used) < max_scatter2;
 }
 
 bool are_enough(std::span<const Line> lines, const std::vector<bool>& used) {
@@ -149,7 +149,7 @@ bool are_enough(std::span<const Line> lines, const std::vector<bool>& used) {
     for (std::size_t k = 0; k < lines.size(); ++k) {
         count[lines[k].first == 0 ? 0 : 1] += used[k] ? 1 : 0;
     }
-    return std::min(count[0], count[1]) >= least_sights;
+    return std::min(count[0], count[1]) >= min_sights;
 }
 
 /// True if the shared errors, cross and tip, are larger than chance allows in 99.9 % of cases: then the
@@ -239,13 +239,13 @@ std::string refusal_of(std::span<const EyeSight> sights, std::span<const Line> l
     const auto of_left = static_cast<std::size_t>(
         std::count_if(lines.begin(), lines.end(), [](const Line& line) { return line.first == 0; }));
     const std::size_t of_right = lines.size() - of_left;
-    if (std::min(of_left, of_right) < least_sights) {
+    if (std::min(of_left, of_right) < min_sights) {
         return fmt::format(
             "there are {} sightings with the left eye and {} with the right one; {} with each are needed",
-            of_left, of_right, least_sights);
+            of_left, of_right, min_sights);
     }
     for (const Eigen::Index first : {0, 3}) {
-        if (spread_rad(lines, first) < least_spread_rad) {
+        if (spread_rad(lines, first) < min_spread_rad) {
             return fmt::format(
                 "the head was held nearly alike in all sightings with the {} eye, which does not tell how "
                 "far "

@@ -43,7 +43,7 @@ struct EyeFit {
 };
 
 /// Least number of sightings of each eye.
-inline constexpr std::size_t least_sights = 4;
+inline constexpr std::size_t min_sights = 4;
 
 /// `deep_m`: distance behind a face at which a visitor sees a point of the artifact; the prop's middle is
 /// half the prop's width behind it. An eye error e across the line of sight moves the picture by e * deep_m /

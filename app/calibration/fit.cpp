@@ -96,10 +96,10 @@ void whiten(Residuals& residuals, std::span<const double> weights) {
     }
 }
 
-TouchModel solved(const Residuals& residuals, int most_steps) {
+TouchModel solved(const Residuals& residuals, int max_steps) {
     using Function = ceres::TinySolverAutoDiffFunction<Residuals, Eigen::Dynamic, unknown_count>;
     ceres::TinySolver<Function> solver;
-    solver.options.max_num_iterations = most_steps;
+    solver.options.max_num_iterations = max_steps;
     solver.options.function_tolerance = 1e-9;
     solver.options.gradient_tolerance = 1e-9;
     Changes change = Changes::Zero();

@@ -46,8 +46,8 @@ public:
     [[nodiscard]] std::optional<double> place(std::size_t pixel, double contrast,
                                               const DecodeLimits& limits) const {
         const std::optional<double> within =
-            wave(pixel, std::fmax(limits.least_amplitude, limits.least_wave * contrast));
-        const std::optional<std::uint32_t> stripe = half_period(pixel, limits.least_bit * contrast);
+            wave(pixel, std::fmax(limits.min_amplitude, limits.min_wave * contrast));
+        const std::optional<std::uint32_t> stripe = half_period(pixel, limits.min_bit * contrast);
         if (!within || !stripe) {
             return std::nullopt;
         }
@@ -161,7 +161,7 @@ PixelMap decode(const StripeSetup& setup, const Captures& captures, const Decode
     map.contrast.resize(white.size());
     for (std::size_t k = 0; k < white.size(); ++k) {
         const double contrast = static_cast<double>(white[k]) - static_cast<double>(black[k]);
-        if (contrast < limits.least_contrast) {
+        if (contrast < limits.min_contrast) {
             continue;
         }
         const auto u = columns.place(k, contrast, limits);

@@ -50,10 +50,10 @@ struct Pattern {
 
 /// Limits of the decoder, in grey levels of 255 and in shares of white less black.
 struct DecodeLimits {
-    double least_contrast = 12.0; ///< of white less black: below, the projector does not light the pixel
-    double least_amplitude = 3.0; ///< of the cosine: below, the camera's noise dominates the phase
-    double least_wave = 0.05;     ///< the same as a share: below, the light is indirect or blurred
-    double least_bit =
+    double min_contrast = 12.0; ///< of white less black: below, the projector does not light the pixel
+    double min_amplitude = 3.0; ///< of the cosine: below, the camera's noise dominates the phase
+    double min_wave = 0.05;     ///< the same as a share: below, the light is indirect or blurred
+    double min_bit =
         0.2; ///< share, of a bit and its inverse: below, the bit is uncertain; one such bit per axis is a stripe's edge
 };
 

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double same_level_m = 1e-3;
 /// A homography does not model a lens's distortion over the sheet: some pixels are allowed.
-constexpr double least_limit_px = 4.0;
-constexpr double most_limit_px = 12.0;
+constexpr double min_limit_px = 4.0;
+constexpr double max_limit_px = 12.0;
 /// With three of ten points wrong, a quarter of the samples are right; the chance that none of them is, is
 /// 1e-14.
 constexpr int sample_count = 120;
@@ -79,7 +79,7 @@ Points sample_of(const Points& points, std::uint64_t& state) {
     return sample;
 }
 
-std::optional<Eigen::Matrix3d> least_median(const Points& points) {
+std::optional<Eigen::Matrix3d> min_median(const Points& points) {
     std::optional<Eigen::Matrix3d> best;
     double least = 0.0;
     std::uint64_t state = 1;
@@ -110,11 +110,11 @@ std::optional<PlaneView> plane_view(const Rest& rest) {
     if (points.size() < 4) {
         return std::nullopt;
     }
-    const auto rough = least_median(points);
+    const auto rough = min_median(points);
     if (!rough) {
         return std::nullopt;
     }
-    const double limit = std::clamp(4.0 * median_px(*rough, points), least_limit_px, most_limit_px);
+    const double limit = std::clamp(4.0 * median_px(*rough, points), min_limit_px, max_limit_px);
     Points fitting;
     for (const PropPoint* point : points) {
         if (distance_px(*rough, *point) < limit) {

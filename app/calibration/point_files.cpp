@@ -25,18 +25,18 @@ constexpr std::array<std::string_view, 4> corner_names{"top_left", "top_right", 
                                                        "bottom_left"};
 constexpr std::array<std::string_view, 2> eye_names{"left", "right"};
 /// More rows than any calibration has; a larger file is not one of these.
-constexpr std::size_t most_rows = 1000;
+constexpr std::size_t max_rows = 1000;
 /// Rests have a row for each of their points.
-constexpr std::size_t most_points = 50000;
+constexpr std::size_t max_points = 50000;
 /// More than a person makes. eye_fit.cpp tries every pair, so the limit bounds its time.
-constexpr std::size_t most_sights = 100;
+constexpr std::size_t max_sights = 100;
 
 /// The rows of one file, with their fields. Reading ends at the first fault, and `read` then returns the
 /// fault instead of points.
 class PointRows {
 public:
     using Columns = std::span<const std::string_view>;
-    PointRows(std::string_view text, std::string_view name, Columns columns, std::size_t max_rows = most_rows)
+    PointRows(std::string_view text, std::string_view name, Columns columns, std::size_t max_rows = max_rows)
         : rows_(text, name), columns_(columns), max_rows_(max_rows) {
         if (!rows_.next() ||
             !std::equal(columns.begin(), columns.end(), rows_.fields().begin(), rows_.fields().end())) {
@@ -157,7 +157,7 @@ std::string touches_text(std::span<const Touch> touches) {
 }
 
 Result<Rests> parse_rests(std::string_view text, std::string_view name) {
-    PointRows rows(text, name, rest_columns, most_points);
+    PointRows rows(text, name, rest_columns, max_points);
     Rests rests;
     while (rows.next()) {
         Rest next;
@@ -194,7 +194,7 @@ std::string rests_text(std::span<const Rest> rests) {
 }
 
 Result<ReportedSights> parse_sights(std::string_view text, std::string_view name) {
-    PointRows rows(text, name, sight_columns, most_sights);
+    PointRows rows(text, name, sight_columns, max_sights);
     ReportedSights sights;
     while (rows.next()) {
         const bool is_left = rows.choice(0, eye_names, ": the one that was open") == 0;

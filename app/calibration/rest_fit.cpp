@@ -202,9 +202,9 @@ RestResiduals residuals_at(std::span<const Rest> rests, const RestWeights& weigh
     return residuals;
 }
 
-RestModel solved(const RestResiduals& residuals, int most_steps) {
+RestModel solved(const RestResiduals& residuals, int max_steps) {
     ceres::TinySolver<RestResiduals> solver;
-    solver.options.max_num_iterations = most_steps;
+    solver.options.max_num_iterations = max_steps;
     solver.options.function_tolerance = 1e-9;
     solver.options.gradient_tolerance = 1e-9;
     RestChanges change = RestChanges::Zero();

@@ -35,7 +35,7 @@ template <typename Value> Eigen::Vector4d affine(std::span<const Touch> touches,
 }
 
 /// Below this slope, heights do not depend on places.
-constexpr double least_slope = 0.05;
+constexpr double min_slope = 0.05;
 
 /// The table in a start: the up direction, and the plane's offset.
 struct TableStart {
@@ -46,7 +46,7 @@ struct TableStart {
 TableStart table_start(std::span<const Touch> touches) {
     const HeightFit heights = fit_heights(touches);
     const double length = glm::length(heights.up);
-    if (length > least_slope) {
+    if (length > min_slope) {
         return TableStart{heights.up / length, heights.offset_m};
     }
     // All touches are at one height: the places lie in a plane, and up is the side from which the picture is

@@ -13,8 +13,8 @@ namespace {
 /// The white rim around a tag lies in its plane; the surroundings may not.
 constexpr double reach = 1.15;
 /// Share of the contrast on the tag's white.
-constexpr double least_white = 0.75;
-constexpr std::size_t least_pixels = 60;
+constexpr double min_white = 0.75;
+constexpr std::size_t min_pixels = 60;
 /// A decoded pixel whose residual is so many times the median is wrong.
 constexpr double farthest = 4.0;
 
@@ -35,7 +35,7 @@ std::pair<Points, Points> decoded_in(const PixelMap& map, const std::array<glm::
     const double white = contrasts.empty() ? 0.0 : contrasts[contrasts.size() * 9 / 10];
     std::pair<Points, Points> points;
     for (const auto& [place, k] : inside) {
-        if (map.contrast[k] > least_white * white) {
+        if (map.contrast[k] > min_white * white) {
             points.first.emplace_back(place.x, place.y);
             points.second.emplace_back(map.pixels[k].x, map.pixels[k].y);
         }
@@ -74,7 +74,7 @@ std::optional<std::array<glm::dvec2, 4>> tag_pixels(const PixelMap& map,
     std::pair<Points, Points> points = decoded_in(map, around);
     std::optional<Eigen::Matrix3d> pixel_from_camera;
     for (int round = 0; round < 3; ++round) {
-        if (points.first.size() < least_pixels) {
+        if (points.first.size() < min_pixels) {
             return std::nullopt;
         }
         pixel_from_camera = homography(points.first, points.second);

@@ -40,7 +40,7 @@ inline constexpr std::size_t zone_columns = 7, zone_rows = 5;
 /// The light's largest error for shares of places (picture_shares.h).
 struct PictureShares {
     double usual_m = 0.0; ///< at 68 of 100 places
-    double most_m = 0.0;  ///< at 95 of 100 places
+    double max_m = 0.0;   ///< at 95 of 100 places
     double worst_m = 0.0; ///< at the worst place, in 95 of 100 calibrations
 };
 

@@ -4,7 +4,7 @@
 /// Power    a file is replaced by one rename, after its bytes are on the disk: a power cut leaves the old numbers
 ///          or the new ones.
 /// Damage   a file that cannot be read is renamed to `....bad`, and never overwritten.
-/// Kept     the latest `most_days` days that have a file.
+/// Kept     the latest `max_days` days that have a file.
 /// Threads  any, never in a frame.
 /// Errors   one sentence.
 #pragma once
@@ -18,7 +18,7 @@
 
 namespace frustumscreen {
 
-inline constexpr std::size_t most_days = 400;
+inline constexpr std::size_t max_days = 400;
 
 [[nodiscard]] std::filesystem::path file_of_day(const std::filesystem::path& folder,
                                                 std::optional<std::chrono::sys_days> day);
@@ -31,7 +31,7 @@ struct OpenedDay {
 [[nodiscard]] Result<OpenedDay> open_day(const std::filesystem::path& folder,
                                          std::optional<std::chrono::sys_days> day);
 [[nodiscard]] Result<void> keep_day(const std::filesystem::path& folder, const DayCounts& counts);
-/// Removes the files of the oldest days beyond `most_days`, including those that were put aside.
+/// Removes the files of the oldest days beyond `max_days`, including those that were put aside.
 void drop_old_days(const std::filesystem::path& folder);
 
 struct ReadCounts {

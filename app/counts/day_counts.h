@@ -49,7 +49,7 @@ struct DayCounts {
 };
 
 /// Further names are added up under `other_names`.
-inline constexpr std::size_t most_counted_names = 200;
+inline constexpr std::size_t max_counted_names = 200;
 inline constexpr std::string_view other_names = "...";
 
 [[nodiscard]] std::string write_day_counts(const DayCounts& counts);

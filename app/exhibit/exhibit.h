@@ -22,20 +22,20 @@
 #include "app/exhibit/attract.h"
 #include "app/exhibit/description_shape.h"
 #include "app/exhibit/hotspot_labels.h"
+#include "app/exhibit/narrator.h"
 #include "app/exhibit/notice_place.h"
+#include "app/exhibit/placeholder.h"
 #include "app/exhibit/presence.h"
 #include "app/exhibit/selection.h"
 #include "app/exhibit/sensed.h"
 #include "app/exhibit/sentences.h"
 #include "app/exhibit/staff_tool.h"
-#include "app/exhibit/stand_in.h"
 #include "app/exhibit/states.h"
 #include "app/exhibit/table_browser.h"
-#include "app/exhibit/teller.h"
 #include "app/exhibit/zone_frame.h"
 #include "app/geometry/prop_shape.h"
 #include "app/settings/command.h"
-#include "app/tracking/situation.h"
+#include "app/tracking/tracked_state.h"
 #include "app/typography/captions.h"
 #include "app/typography/visitor_side.h"
 
@@ -115,8 +115,8 @@ struct Presentation {
     std::size_t artifact = 0;            ///< index into the catalogue
     double brightness = 0.0; ///< of the artifact: 0..1, a factor on linear light; 0 while it is not ready
     WantedArtifacts wanted;  ///< to load ahead
-    std::optional<PresentedStandIn> stand_in; ///< in the place of the chosen artifact, until that is ready
-    std::string_view language;                ///< of the caption, shown or not; valid as long as the exhibit
+    std::optional<PresentedStandIn> placeholder; ///< in the place of the chosen artifact, until that is ready
+    std::string_view language;        ///< of the caption, shown or not; valid as long as the exhibit
     std::string_view wanted_language; ///< the chosen one, to load texts ahead; valid as long as the exhibit
     std::optional<PresentedCaption> caption;
     std::optional<PlacedSign> sign;             ///< what the visitor should do
@@ -159,7 +159,7 @@ public:
 
     /// `commands`: those since the step before, in their order.
     [[nodiscard]] Presentation step(MonotonicTime now, std::span<const Command> commands,
-                                    const Situation& situation);
+                                    const TrackedState& tracked_state);
     /// Of each artifact, whether it is ready; before anything is noted, all are. Of no artifact: nothing changes.
     void note(std::span<const ArtifactState> states);
     /// This press did something else, which the exhibit knows nothing of: no chord undoes it.
@@ -167,7 +167,7 @@ public:
     /// What hides the hotspots of the artifact on show, which need not be there; of the others nothing is kept.
     void note_triangles(std::size_t artifact, ArtifactTriangles triangles);
     /// Whether something is being said: then no advice begins to be. `narration`: of the description told.
-    void hear(bool speaking, const Narration& narration = {});
+    void hear(bool speaking, const SpeechProgress& narration = {});
     /// Another set of artifacts comes, and can be shown now or not. When it suits who is there, all that belongs to this set fades
     /// out: in State::Attract with the next turn; while something is told, spoken or chosen, after that, or after `longest_wait`,
     /// which begins when the other set is ready for the first time.
@@ -207,10 +207,10 @@ private:
     void go_to(State state, MonotonicTime now);
     /// The visitor has gone.
     void rest(MonotonicTime now);
-    [[nodiscard]] Observed observe(MonotonicTime now, const Situation& situation, const Stand& stand);
-    void step_table(MonotonicTime now, const Situation& situation, const Stand& stand, Observed& seen);
+    [[nodiscard]] Observed observe(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand);
+    void step_table(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand, Observed& seen);
     /// Nothing where nobody is there, or there is nothing to mend.
-    [[nodiscard]] const Guidance* step_guide(MonotonicTime now, const Situation& situation,
+    [[nodiscard]] const Guidance* step_guide(MonotonicTime now, const TrackedState& tracked_state,
                                              const Stand& stand);
     [[nodiscard]] bool is_on_way_to_picture(MonotonicTime now);
     [[nodiscard]] const ZoneFrame& zone_of(std::size_t artifact) const;
@@ -227,21 +227,21 @@ private:
     // What is shown in the state that it is in: exhibit_shows.cpp.
     /// Behind the staff's picture all goes on but what is told.
     [[nodiscard]] bool has_artifact() const { return !catalogue_.empty() && state_ != State::Fault; }
-    [[nodiscard]] Presentation present(MonotonicTime now, const Situation& situation, const Stand& stand,
-                                       bool pressed);
+    [[nodiscard]] Presentation present(MonotonicTime now, const TrackedState& tracked_state,
+                                       const Stand& stand, bool pressed);
     [[nodiscard]] WantedArtifacts wanted() const;
-    [[nodiscard]] StandIn::Output stand_in(MonotonicTime now, const Shown& shown, const Stand& stand);
-    [[nodiscard]] std::optional<PresentedCaption> caption(MonotonicTime now, const Shown& shown,
-                                                          const Situation& situation, const Stand& stand);
+    [[nodiscard]] Placeholder::Output placeholder(MonotonicTime now, const Shown& shown, const Stand& stand);
+    [[nodiscard]] std::optional<PresentedCaption>
+    caption(MonotonicTime now, const Shown& shown, const TrackedState& tracked_state, const Stand& stand);
     [[nodiscard]] std::optional<PresentedHotspot> label(MonotonicTime now, const Shown& shown,
-                                                        const Situation& situation, const Stand& stand,
+                                                        const TrackedState& tracked_state, const Stand& stand,
                                                         const Presentation& presentation);
     [[nodiscard]] std::string_view language_of(std::size_t artifact) const;
     [[nodiscard]] std::optional<WordIndex> word() const;
-    void present_words(MonotonicTime now, const Situation& situation, const Stand& stand,
+    void present_words(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand,
                        Presentation& presentation);
     void speak(MonotonicTime now, const std::optional<WordIndex>& word, Presentation& presentation);
-    void tell(MonotonicTime now, const Situation& situation, const Shown& shown, const Stand& stand,
+    void tell(MonotonicTime now, const TrackedState& tracked_state, const Shown& shown, const Stand& stand,
               bool pressed, Presentation& presentation);
     [[nodiscard]] DescriptionIndex description_of(std::size_t artifact, std::string_view language) const;
     /// None: there is nothing to tell.
@@ -255,7 +255,7 @@ private:
     std::vector<ArtifactState> ready_;
     std::vector<bool> offered_;    ///< by artifact: selection and table offer it
     std::size_t triangles_of_ = 0; ///< the artifact whose triangles are noted
-    StandIn stand_in_;
+    Placeholder placeholder_;
     State state_ = State::Attract;
     State state_before_ = State::Attract;
     StaffTool staff_;
@@ -273,8 +273,8 @@ private:
     bool speech_due_ = false;         ///< until the words lie on the table
     std::optional<WordIndex> spoken_; ///< what they may still hear
     VisitorSide side_;                ///< what lies on the table is turned to it
-    Narration narration_;
-    Teller teller_;
+    SpeechProgress narration_;
+    Narrator narrator_;
     bool choose_ = false;       ///< pressed, and not taken yet
     bool help_ = false;         ///< the same
     bool answer_comes_ = false; ///< advice for who pressed it is being looked for

@@ -36,12 +36,12 @@ struct PresentedNotice {
 /// The notice's ring as ring_around takes it; nothing where the shape has none.
 [[nodiscard]] std::optional<TablePolygon> notice_ring(const PresentedNotice& notice);
 
-struct NoticeSurroundings {
+struct NoticeEnvironment {
     std::optional<TablePolygon> shadow; ///< hidden_by_prop from the lens
     std::optional<TablePolygon> hidden; ///< and from the eye
     glm::dvec2 prop_m{0.0};
     int quarter_turns = 0; ///< the reader's side
-    /// With the kept ones and the caption at most CaptionPlacer::most_obstacles.
+    /// With the kept ones and the caption at most CaptionPlacer::max_obstacles.
     std::span<const TableRectangle> obstacles;
     std::span<const TableRectangle> kept; ///< empty places, where something may come
     std::optional<TableRectangle> caption;
@@ -58,10 +58,10 @@ public:
 
     /// `wanted` is shown, or nothing more. Returns what is.
     [[nodiscard]] std::optional<PresentedNotice> step(MonotonicTime now, const SharedNotice& wanted,
-                                                      const NoticeSurroundings& surroundings);
+                                                      const NoticeEnvironment& environment);
 
 private:
-    void look(MonotonicTime now, const NoticeSurroundings& surroundings);
+    void look(MonotonicTime now, const NoticeEnvironment& environment);
 
     CaptionPlacer placer_;
     SharedNotice lies_; ///< that the placer has

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "app/guidance/guide.h"
-#include "app/tracking/situation.h"
+#include "app/tracking/tracked_state.h"
 
 #include <optional>
 
@@ -17,7 +17,7 @@ namespace frustumscreen {
 class Sensed {
 public:
     /// `lost`: the prop's place has not been known for a while. `touched`: when the prop moved last or a button was pressed.
-    [[nodiscard]] Sensing update(MonotonicTime now, const Situation& situation, bool lost,
+    [[nodiscard]] Sensing update(MonotonicTime now, const TrackedState& tracked_state, bool lost,
                                  const std::optional<MonotonicTime>& touched);
     /// The visitor has gone.
     void forget() { *this = {}; }

@@ -43,7 +43,7 @@ struct PresentedAdvice {
 };
 
 /// What a sentence lies beside.
-struct SentenceSurroundings {
+struct SentenceEnvironment {
     std::optional<TablePolygon> around; ///< the prop's shadow, and the sign beside it
     std::optional<TablePolygon> hidden; ///< hidden_by_prop from the eye
     glm::dvec2 prop_m{0.0};
@@ -61,9 +61,8 @@ public:
     /// What else lies on the table.
     void set_obstacles(std::span<const TableRectangle> obstacles) { placer_.set_obstacles(obstacles); }
     /// `wanted` is shown, or nothing more. Returns what is.
-    [[nodiscard]] std::optional<PresentedAdvice> place(MonotonicTime now,
-                                                       const std::optional<WordIndex>& wanted,
-                                                       const SentenceSurroundings& surroundings);
+    [[nodiscard]] std::optional<PresentedAdvice>
+    place(MonotonicTime now, const std::optional<WordIndex>& wanted, const SentenceEnvironment& environment);
     /// Its words are seen, or fade in: it may be spoken.
     [[nodiscard]] bool shows(MonotonicTime now, const WordIndex& word) const;
     /// Something is or will be shown: `place` looks at its surroundings.

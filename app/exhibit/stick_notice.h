@@ -39,9 +39,9 @@ struct NoticeText {
     std::string remark{}; ///< what is wrong with the stick's settings, in English; empty: nothing
     [[nodiscard]] bool operator==(const NoticeText&) const = default;
 };
-inline constexpr std::size_t most_notice_lines = 8;
-/// `most_lines`: with more packs than this, those that are left come together, a line for each word; there may be more of these.
-[[nodiscard]] NoticeText notice_text(const ImportReport& report, std::size_t most_lines = most_notice_lines);
+inline constexpr std::size_t max_notice_lines = 8;
+/// `max_lines`: with more packs than this, those that are left come together, a line for each word; there may be more of these.
+[[nodiscard]] NoticeText notice_text(const ImportReport& report, std::size_t max_lines = max_notice_lines);
 /// That nothing comes any more.
 [[nodiscard]] NoticeText stopped_text();
 

@@ -36,14 +36,13 @@ struct FoundPlaces {
     std::vector<glm::dvec2> middles; ///< of picture and title together; in reading order
 };
 /// [n]: for n pictures.
-using FoundByCount = std::array<FoundPlaces, most_table_places + 1>;
+using FoundByCount = std::array<FoundPlaces, max_table_places + 1>;
 
 /// A picture and its title together.
 [[nodiscard]] glm::dvec2 size_of_place(double picture, const glm::dvec2& title);
 
-/// Sizes below `least_size_m` are not tried.
-[[nodiscard]] FoundByCount find_places(const PictureRoom& room, const TableSetUp& set_up,
-                                       double least_size_m);
+/// Sizes below `min_size_m` are not tried.
+[[nodiscard]] FoundByCount find_places(const PictureRoom& room, const TableSetUp& set_up, double min_size_m);
 
 /// Moves pictures that lie on both sides of the prop to the middle between it and the edge.
 void come_nearer_to_prop(const PictureRoom& room, const glm::dvec2& whole, std::vector<glm::dvec2>& middles);

@@ -20,9 +20,9 @@ struct Advice {
 /// The advice that a visitor has, and the situation that it was given in.
 struct GivenAdvice {
     Move move;
-    GuidedSituation given;
+    GuidedState given;
     /// Whether the visitor has hardly begun to follow it.
-    [[nodiscard]] bool holds(const GuidedSituation& situation) const;
+    [[nodiscard]] bool holds(const GuidedState& tracked_state) const;
 };
 
 struct Help {
@@ -31,7 +31,7 @@ struct Help {
     double whole_share = 0.0; ///< of these ways, that lead to none
 };
 /// `margin`: a factor on how sloppy they are. `looks`: the situations looked at are added to it.
-[[nodiscard]] Help help_of(const FaceReader& reader, const GuidedSituation& situation, const Move& move,
+[[nodiscard]] Help help_of(const FaceReader& reader, const GuidedState& tracked_state, const Move& move,
                            double margin = 1.0, int* looks = nullptr);
 
 } // namespace frustumscreen

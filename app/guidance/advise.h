@@ -24,7 +24,7 @@
 namespace frustumscreen {
 
 /// Nothing if it is whole. Wait: no sequence of up to four moves was found.
-[[nodiscard]] std::optional<Advice> advise(const FaceReader& reader, const GuidedSituation& situation,
+[[nodiscard]] std::optional<Advice> advise(const FaceReader& reader, const GuidedState& tracked_state,
                                            const std::optional<GivenAdvice>& standing = std::nullopt);
 
 /// Advises one visitor from situation to situation.
@@ -34,10 +34,10 @@ public:
 
     /// As FaceReader::show; a search that goes on is to be begun anew.
     void show(std::span<const glm::dvec3> hull) { reader_.show(hull); }
-    [[nodiscard]] std::optional<Advice> advise(const GuidedSituation& situation);
+    [[nodiscard]] std::optional<Advice> advise(const GuidedState& tracked_state);
 
     /// The same in pieces (advice_search.h): begin, then advance until it is true.
-    void begin(const GuidedSituation& situation);
+    void begin(const GuidedState& tracked_state);
     [[nodiscard]] bool advance(int looks);
     [[nodiscard]] const std::optional<Advice>& found() const { return search_.found(); }
     [[nodiscard]] const FaceReader& reader() const { return reader_; }

@@ -1,7 +1,7 @@
 /// Which of the prop's faces a visitor sees, which of them the projector lights, and whether the artifact is seen whole.
 ///
-/// Seen     the eye is in front of the face's plane by a sine of at least `least_sine_of_sight` at every corner.
-/// Lit      so is the projector by `least_sine_of_light`, and all corners lie in its picture.
+/// Seen     the eye is in front of the face's plane by a sine of at least `min_sine_of_sight` at every corner.
+/// Lit      so is the projector by `min_sine_of_light`, and all corners lie in its picture.
 /// Valid    every seen face is lit. The prop is convex, so no face hides or shades another.
 /// Whole    every place of the seen faces through which the artifact is seen (seen_places.h) is lit: the projector is in front of
 ///          the face by that sine, and the place in its picture. Where no artifact is known: valid.
@@ -31,7 +31,7 @@ struct GuidanceSetup {
     PropShape prop;
     Pinhole projector;
     RigidTransform table_from_projector;
-    double least_sine_of_light = 0.035;
+    double min_sine_of_light = 0.035;
     bool in_hand = false; ///< else it stands on the table, and the table's edge ends its way
     glm::dvec2 half_table_m{0.4, 0.25};
     bool head_tracked = true; ///< else nobody is asked to walk
@@ -39,7 +39,7 @@ struct GuidanceSetup {
     std::vector<glm::dvec3> hull{};
 };
 
-struct GuidedSituation {
+struct GuidedState {
     RigidTransform table_from_prop;
     glm::dvec3 eye_m{0.0};
 };
@@ -55,7 +55,7 @@ struct FaceSets {
 
 class FaceReader {
 public:
-    static constexpr double least_sine_of_sight = 1e-3;
+    static constexpr double min_sine_of_sight = 1e-3;
     static constexpr double pixels_per_radian = 1000.0;
 
     /// The prop has at most 32 faces.
@@ -68,26 +68,26 @@ public:
         return shown_.value_or(std::span<const glm::dvec3>(setup_.hull));
     }
 
-    [[nodiscard]] FaceSets read(const GuidedSituation& situation) const;
+    [[nodiscard]] FaceSets read(const GuidedState& tracked_state) const;
     /// The same as `read(situation).valid()`, in a part of the time.
-    [[nodiscard]] bool valid(const GuidedSituation& situation) const;
-    [[nodiscard]] bool whole(const GuidedSituation& situation) const;
+    [[nodiscard]] bool valid(const GuidedState& tracked_state) const;
+    [[nodiscard]] bool whole(const GuidedState& tracked_state) const;
     /// Whole, and there is a picture: a prop of the table that lies so that the visitor sees none of its faces shows nothing.
     /// `faces`: of the situation.
-    [[nodiscard]] bool shows_whole(const GuidedSituation& situation, const FaceSets& faces) const {
-        return (faces.valid() || (!shown().empty() && whole(situation))) &&
+    [[nodiscard]] bool shows_whole(const GuidedState& tracked_state, const FaceSets& faces) const {
+        return (faces.valid() || (!shown().empty() && whole(tracked_state))) &&
                (faces.seen != 0 || setup_.in_hand);
     }
     /// Area of these faces in the picture of a pinhole at the eye that looks at the prop's middle, square pixels.
-    [[nodiscard]] double area_px(const GuidedSituation& situation, std::uint32_t faces) const;
+    [[nodiscard]] double area_px(const GuidedState& tracked_state, std::uint32_t faces) const;
     /// Area of the seen and unlit faces.
-    [[nodiscard]] double unlit_px(const GuidedSituation& situation) const {
-        return area_px(situation, read(situation).unlit());
+    [[nodiscard]] double unlit_px(const GuidedState& tracked_state) const {
+        return area_px(tracked_state, read(tracked_state).unlit());
     }
     /// Area of the places that keep it from being whole.
-    [[nodiscard]] double lost_px(const GuidedSituation& situation) const;
+    [[nodiscard]] double lost_px(const GuidedState& tracked_state) const;
     /// The face with the largest area of these, as a set; 0 of none.
-    [[nodiscard]] std::uint32_t largest_of(const GuidedSituation& situation, std::uint32_t faces) const;
+    [[nodiscard]] std::uint32_t largest_of(const GuidedState& tracked_state, std::uint32_t faces) const;
 
 private:
     GuidanceSetup setup_;

@@ -40,7 +40,7 @@ struct Guidance {
     bool left_light = false;   ///< a prop of the table was lost where it was not lit
     bool speak = false;        ///< at this step the sentence begins to be spoken
     MonotonicTime since;       ///< when the picture appeared
-    GuidedSituation situation; ///< that the advice was found for
+    GuidedState tracked_state; ///< that the advice was found for
 };
 
 class Guide {
@@ -66,9 +66,9 @@ public:
     /// empty: none is known, and every seen face counts.
     void show(std::span<const glm::dvec3> hull);
 
-    /// `situation`: of a lost prop the latest that was known. `may_speak`: false while something else is being said, or the
+    /// `tracked_state`: of a lost prop the latest that was known. `may_speak`: false while something else is being said, or the
     /// words do not lie on the table.
-    [[nodiscard]] const Guidance& step(MonotonicTime now, const GuidedSituation& situation, Sensing sensing,
+    [[nodiscard]] const Guidance& step(MonotonicTime now, const GuidedState& tracked_state, Sensing sensing,
                                        bool may_speak);
     /// Nothing needs to be said now, whatever a visitor sees; the next step begins anew.
     void rest(MonotonicTime now);
@@ -83,8 +83,8 @@ public:
     [[nodiscard]] const FaceReader& reader() const { return advisor_.reader(); }
 
 private:
-    void look(MonotonicTime now, const GuidedSituation& situation, Sensing sensing);
-    void take(MonotonicTime now, const GuidedSituation& situation, Sensing sensing);
+    void look(MonotonicTime now, const GuidedState& tracked_state, Sensing sensing);
+    void take(MonotonicTime now, const GuidedState& tracked_state, Sensing sensing);
     void raise_stage(MonotonicTime now, bool may_speak);
     void answer(MonotonicTime now, bool may_speak);
     void note_need(MonotonicTime now, bool needed);
@@ -97,10 +97,10 @@ private:
     Nanoseconds needed_for_{0};           ///< lately
     std::optional<MonotonicTime> guided_; ///< when an advice was there last
     std::optional<MonotonicTime> next_look_;
-    std::optional<GuidedSituation> looks_at_; ///< while an advice is looked for
-    MonotonicTime stage_since_;               ///< or since the visitor last came nearer
-    double nearest_effort_ = 0.0;             ///< what was left to do, at its least
-    std::optional<MonotonicTime> spoken_;     ///< when it was last said
+    std::optional<GuidedState> looks_at_; ///< while an advice is looked for
+    MonotonicTime stage_since_;           ///< or since the visitor last came nearer
+    double nearest_effort_ = 0.0;         ///< what was left to do, at its least
+    std::optional<MonotonicTime> spoken_; ///< when it was last said
     Nanoseconds pause_ = first_pause;
     bool asked_ = false;
 };

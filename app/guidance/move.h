@@ -47,8 +47,8 @@ struct Execution {
 };
 
 /// The situation after the move. What stands on the table stays on it; what is in the hand stays above it.
-[[nodiscard]] GuidedSituation after(const Move& move, const GuidanceSetup& setup,
-                                    const GuidedSituation& before, const Execution& execution = {});
+[[nodiscard]] GuidedState after(const Move& move, const GuidanceSetup& setup, const GuidedState& before,
+                                const Execution& execution = {});
 
 /// A prop that leans less than this stands upright, as far as a tracker can tell: 3.4 degrees.
 inline constexpr double upright_within_rad = 0.06;

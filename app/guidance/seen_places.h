@@ -49,7 +49,7 @@ private:
 /// The hull in the picture of a pinhole at the eye that looks along `forward` (unit); its plane is one away.
 class SeenOutline {
 public:
-    static constexpr std::size_t most_corners = 1024; ///< of the hull; of more nothing is seen
+    static constexpr std::size_t max_corners = 1024; ///< of the hull; of more nothing is seen
 
     SeenOutline(const glm::dvec3& eye, const glm::dvec3& forward, std::span<const glm::dvec3> hull);
     /// The area in that picture of what is seen through a part of a face.
@@ -58,7 +58,7 @@ public:
 private:
     glm::dvec3 eye_;
     glm::dvec3 forward_;
-    std::array<glm::dvec2, 2 * most_corners> outline_; ///< convex, counter-clockwise; as many as `count_`
+    std::array<glm::dvec2, 2 * max_corners> outline_; ///< convex, counter-clockwise; as many as `count_`
     std::size_t count_ = 0;
 };
 

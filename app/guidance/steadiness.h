@@ -9,6 +9,6 @@
 namespace frustumscreen {
 
 /// The share of these small movements after which the picture is still whole. `looks`: the situations looked at are added to it.
-[[nodiscard]] double steadiness(const FaceReader& reader, const GuidedSituation& situation, int& looks);
+[[nodiscard]] double steadiness(const FaceReader& reader, const GuidedState& tracked_state, int& looks);
 
 } // namespace frustumscreen

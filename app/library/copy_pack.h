@@ -22,7 +22,7 @@ namespace frustumscreen {
                                                                   const PackTrust& trust);
 
 /// Callbacks during a copy. A failure ends the copy.
-struct CopyEars {
+struct CopyObserver {
     std::function<MonotonicTime()> now;
     /// `bytes` were read from the stick and written; `reading` is the time of the reads.
     std::function<std::optional<ImportFailure>(std::uint64_t bytes, Nanoseconds reading)> copied;
@@ -34,6 +34,6 @@ struct CopyEars {
 /// name is on the disk once the folder of packs is synced.
 [[nodiscard]] tl::expected<InstalledPack, ImportFailure>
 copy_pack(FileTree& stick, WritableTree& library, const StickPack& pack, const PackTrust& trust,
-          std::size_t step_bytes, const CopyEars& ears);
+          std::size_t step_bytes, const CopyObserver& ears);
 
 } // namespace frustumscreen

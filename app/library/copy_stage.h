@@ -22,7 +22,7 @@ public:
     /// The references must outlive the stage. `progress` gets the bytes done: each byte of a pack counts twice,
     /// copied and checked.
     CopyStage(FileTree& stick, WritableTree& library, const ImportLimits& limits,
-              const ImportSurroundings& outside, WorkInVain& in_vain,
+              const ImportEnvironment& outside, WastedWorkBudget& in_vain,
               std::function<void(std::uint64_t bytes)> progress)
         : stick_(stick), library_(library), limits_(limits), outside_(outside), in_vain_(in_vain),
           progress_(std::move(progress)), pace_(limits) {}
@@ -38,8 +38,8 @@ private:
     FileTree& stick_;
     WritableTree& library_;
     const ImportLimits& limits_;
-    const ImportSurroundings& outside_;
-    WorkInVain& in_vain_;
+    const ImportEnvironment& outside_;
+    WastedWorkBudget& in_vain_;
     std::function<void(std::uint64_t bytes)> progress_;
     ReadingPace pace_;
     std::uint64_t done_bytes_ = 0;

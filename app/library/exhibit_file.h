@@ -19,7 +19,7 @@ namespace frustumscreen {
 
 inline constexpr std::string_view exhibit_file_name = "exhibit.toml";
 inline constexpr std::string_view exhibit_signature_name = "exhibit.toml.minisig";
-inline constexpr std::size_t most_exhibit_file_bytes = 64U << 10U;
+inline constexpr std::size_t max_exhibit_file_bytes = 64U << 10U;
 
 struct ExhibitFile {
     std::vector<std::string>

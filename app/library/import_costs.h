@@ -28,14 +28,14 @@ private:
 
 /// Work on packs that were refused. A pack may be large, and a damaged one costs as much as a good one, so a few
 /// copies in vain are allowed; hundreds are not.
-class WorkInVain {
+class WastedWorkBudget {
 public:
-    explicit WorkInVain(const ImportLimits& limits) : limits_(limits) {}
+    explicit WastedWorkBudget(const ImportLimits& limits) : limits_(limits) {}
     void add_look(Nanoseconds work) { work_ += work; }
     /// Adds a refused copy. `manifest_sha256`: of the pack.
     void add_copy(Nanoseconds work, const std::string& manifest_sha256);
     [[nodiscard]] bool is_too_much() const {
-        return work_ > limits_.refused_work && (copies_ == 0 || copies_ > limits_.most_refused_copies);
+        return work_ > limits_.refused_work && (copies_ == 0 || copies_ > limits_.max_refused_copies);
     }
     /// True if copies of the pack with this manifest were refused so often that another one is not tried.
     [[nodiscard]] bool is_hopeless(const std::string& manifest_sha256) const;

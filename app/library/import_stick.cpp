@@ -32,7 +32,7 @@ tl::unexpected<ImportFailure> failed(ImportFailure failure) {
 class Import {
 public:
     Import(FileTree& stick, WritableTree& library, const ImportRequest& request,
-           const ImportSurroundings& outside)
+           const ImportEnvironment& outside)
         : stick_(stick), library_(library), request_(request), outside_(outside), in_vain_(request.limits) {
         report_.import_id = request.import_id;
         report_.stick = printable(request.stick);
@@ -71,7 +71,7 @@ private:
     FileTree& stick_;
     WritableTree& library_;
     const ImportRequest& request_;
-    const ImportSurroundings& outside_;
+    const ImportEnvironment& outside_;
     MonotonicTime began_{}; ///< start of the look at the stick; the kiosk's own disk does not count
     ImportReport report_;
     std::vector<ImportedPack> refused_on_the_way_; ///< of which only the name is known
@@ -88,7 +88,7 @@ private:
     bool is_unsure_ = false;      ///< known_ is shown, but may not be on the disk
     std::optional<SetVerdict> verdict_;
     bool shows_another_ = false; ///< than at the first look
-    WorkInVain in_vain_;
+    WastedWorkBudget in_vain_;
     MonotonicTime told_{};
 };
 
@@ -327,7 +327,7 @@ Outcome Import::switch_set() {
     SetFile next = known_;
     remember(next, packs_, exhibit_);
     next.keys = carried_;
-    if (next.serials.size() > most_accepted_serials || next.keys.size() > most_carried_keys) {
+    if (next.serials.size() > max_accepted_serials || next.keys.size() > max_carried_keys) {
         return failed(
             too_much("the kiosk has taken as many different packs and keys as it can remember; call "
                      "a technician"));
@@ -396,10 +396,10 @@ std::optional<ImportReport> Import::run() {
 } // namespace
 
 ImportReport import_stick(FileTree& stick, WritableTree& library, const ImportRequest& request,
-                          const ImportSurroundings& surroundings) {
+                          const ImportEnvironment& environment) {
     std::optional<ImportReport> report;
     while (!report) { // a verdict only goes on, from trying to good or bad: this ends soon
-        report = Import(stick, library, request, surroundings).run();
+        report = Import(stick, library, request, environment).run();
     }
     return *std::move(report);
 }

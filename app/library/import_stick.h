@@ -37,7 +37,7 @@ struct ImportRequest {
 };
 
 /// The import's inputs from outside, which a test replaces.
-struct ImportSurroundings {
+struct ImportEnvironment {
     std::function<MonotonicTime()> now;
     std::function<Nanoseconds()> work; ///< processor time of this process
     /// Gets each stage, and the progress of copying; the receiver limits the rate.
@@ -46,6 +46,6 @@ struct ImportSurroundings {
 
 /// Returns the last report, which was passed to `tell` too: Done or Failed.
 ImportReport import_stick(FileTree& stick, WritableTree& library, const ImportRequest& request,
-                          const ImportSurroundings& surroundings);
+                          const ImportEnvironment& environment);
 
 } // namespace frustumscreen

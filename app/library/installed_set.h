@@ -7,7 +7,7 @@
 ///                               the importer.
 ///          shown/verdict.json the exhibit's verdict on a set. Only the exhibit writes it.
 /// Trial    a new set is on trial until the exhibit has shown it for 30 s without a fault. Until then `last_good`
-///          stays. It comes back if the verdict is bad, or if the exhibit started with the set `most_starts` times
+///          stays. It comes back if the verdict is bad, or if the exhibit started with the set `max_starts` times
 ///          without a verdict.
 /// Threads  pure; any.
 /// Errors   one sentence: the file is not as described above.
@@ -54,7 +54,7 @@ struct SetVerdict {
     std::string reason; ///< why it is bad, a sentence
     [[nodiscard]] bool operator==(const SetVerdict&) const = default;
 };
-inline constexpr int most_starts = 3;
+inline constexpr int max_starts = 3;
 
 inline constexpr std::string_view set_file_name = "set.txt";
 inline constexpr std::string_view packs_folder_name = "packs";

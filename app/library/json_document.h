@@ -18,10 +18,10 @@ namespace frustumscreen {
 /// `name` is used in messages, such as "the verdict". `describe(fields, value)` names the fields.
 template <typename Value>
 [[nodiscard]] Result<Value> parse_document(std::string_view json, const std::string& name,
-                                           std::size_t most_bytes, const auto& describe) {
-    if (json.size() > most_bytes) {
+                                           std::size_t max_bytes, const auto& describe) {
+    if (json.size() > max_bytes) {
         return bad_input("library.document_too_long", "{} has {} bytes; allowed are {}", name, json.size(),
-                         most_bytes);
+                         max_bytes);
     }
     pack_format::Refusal refusal{{}, name};
     const nlohmann::json document = pack_format::parse_json(refusal, json);

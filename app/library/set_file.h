@@ -42,10 +42,10 @@ struct SetFile {
     [[nodiscard]] bool operator==(const SetFile&) const;
 };
 
-inline constexpr std::size_t most_set_file_bytes = 16U << 20U;
-inline constexpr std::size_t most_installed_packs = 1000;
-inline constexpr std::size_t most_accepted_serials = 20000;
-inline constexpr std::size_t most_carried_keys = 64;
+inline constexpr std::size_t max_set_file_bytes = 16U << 20U;
+inline constexpr std::size_t max_installed_packs = 1000;
+inline constexpr std::size_t max_accepted_serials = 20000;
+inline constexpr std::size_t max_carried_keys = 64;
 
 [[nodiscard]] Result<SetFile> parse_set_file(std::string_view text);
 [[nodiscard]] std::string write_set_file(const SetFile& file);

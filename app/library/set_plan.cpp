@@ -115,10 +115,10 @@ tl::expected<PlannedSet, ImportFailure> plan_set(const InstalledSet& shown, std:
         TRY_VOID(check_packs(packs, unread, *file));
         TRY_VOID(apply(*file, planned));
     }
-    if (planned.set.packs.size() > most_installed_packs) {
+    if (planned.set.packs.size() > max_installed_packs) {
         return no_set(ImportRefusal::TooMuch,
                       fmt::format("with this stick the exhibit would have {} packs; allowed are {}",
-                                  planned.set.packs.size(), most_installed_packs));
+                                  planned.set.packs.size(), max_installed_packs));
     }
     return planned;
 }

@@ -48,7 +48,7 @@ tl::expected<void, ImportFailure> weigh(const SignedExhibitFile& exhibit, const 
 
 tl::expected<SignedExhibitFile, ImportFailure>
 read_signed_exhibit_file(FileTree& stick, const PackTrust& trust, const SetFile& known) {
-    TRY(const SignedText read, read_signed_text(stick, exhibit_file_name, most_exhibit_file_bytes));
+    TRY(const SignedText read, read_signed_text(stick, exhibit_file_name, max_exhibit_file_bytes));
     TRY(std::optional<Signer> signer, signer_of(read, trust));
     const std::string bytes = read.text.value_or("");
     SignedExhibitFile exhibit{{}, std::move(signer), sha256_hex(as_bytes(bytes))};

@@ -23,7 +23,7 @@ struct SignedText {
     std::optional<std::string> signature;
 };
 [[nodiscard]] tl::expected<SignedText, ImportFailure> read_signed_text(FileTree& stick, std::string_view name,
-                                                                       std::size_t most_bytes);
+                                                                       std::size_t max_bytes);
 
 /// The key that signed the file, which is not parsed. `today`: none: no key has expired.
 [[nodiscard]] tl::expected<Signer, ImportFailure> signer_of(std::string_view name, const SignedText& file,

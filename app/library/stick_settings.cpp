@@ -19,7 +19,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t most_serial_bytes = 64;
+constexpr std::size_t max_serial_bytes = 64;
 constexpr std::string_view next_name = "kiosk.toml.new";
 
 template <typename T> using Outcome = tl::expected<T, ImportFailure>;
@@ -53,11 +53,11 @@ std::optional<std::vector<TrustedKey>> keys_named_by(const std::string& text) {
 /// keys count.
 Outcome<Own> read_own(WritableTree& folder) {
     Own own;
-    own.text = read_text(folder, settings_file_name, most_stick_settings_bytes).value_or("");
+    own.text = read_text(folder, settings_file_name, max_stick_settings_bytes).value_or("");
     std::optional<std::vector<TrustedKey>> keys = keys_named_by(own.text);
     own.sound = keys.has_value();
     if (!keys) {
-        keys = keys_named_by(read_text(folder, settings_before_name, most_stick_settings_bytes).value_or(""));
+        keys = keys_named_by(read_text(folder, settings_before_name, max_stick_settings_bytes).value_or(""));
     }
     if (!keys) {
         return failed(ImportRefusal::Unwritable,
@@ -65,7 +65,7 @@ Outcome<Own> read_own(WritableTree& folder) {
                       "image onto its disk anew");
     }
     own.keys = *std::move(keys);
-    const FileResult<std::string> serial = read_text(folder, settings_serial_name, most_serial_bytes);
+    const FileResult<std::string> serial = read_text(folder, settings_serial_name, max_serial_bytes);
     if (!serial && serial.error().number != ENOENT) {
         return failed_on_disk(serial.error());
     }
@@ -171,7 +171,7 @@ Outcome<ImportOutcome> take(const SignedText& file, WritableTree& folder,
 std::optional<ImportedPack> take_settings(FileTree& stick, WritableTree& folder,
                                           std::optional<std::chrono::sys_days> today) {
     ImportedPack told{std::string(settings_file_name), "", {}, {}, ""};
-    const Outcome<SignedText> file = read_signed_text(stick, settings_file_name, most_stick_settings_bytes);
+    const Outcome<SignedText> file = read_signed_text(stick, settings_file_name, max_stick_settings_bytes);
     if (file && !file->text) {
         return std::nullopt;
     }

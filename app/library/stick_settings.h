@@ -21,7 +21,7 @@ namespace frustumscreen {
 inline constexpr std::string_view settings_file_name = "kiosk.toml";
 inline constexpr std::string_view settings_before_name = "kiosk.toml.before";
 inline constexpr std::string_view settings_serial_name = "kiosk.toml.serial";
-inline constexpr std::size_t most_stick_settings_bytes = 64U << 10U;
+inline constexpr std::size_t max_stick_settings_bytes = 64U << 10U;
 
 /// Takes the stick's settings and returns their line; none: it has none. `folder`: the kiosk's. `today`: none: no
 /// key has expired.

@@ -103,17 +103,17 @@ bool Walk::visit(const std::string& folder, const FolderEntry& entry) {
     } else if (!is_passed_over(entry.name)) {
         look_at(folder, entry);
     }
-    if (entries_ > limits_.most_entries) {
+    if (entries_ > limits_.max_entries) {
         failure_ = too_much(fmt::format("the stick holds more than {} files; put the packs on a stick of "
                                         "their own",
-                                        limits_.most_entries));
-    } else if (folders_.size() > limits_.most_folders) {
+                                        limits_.max_entries));
+    } else if (folders_.size() > limits_.max_folders) {
         failure_ = too_much(
             fmt::format("the stick holds more than {} folders; put the packs on a stick of their own",
-                        limits_.most_folders));
-    } else if (found_.packs.size() + found_.refused.size() > limits_.most_packs) {
+                        limits_.max_folders));
+    } else if (found_.packs.size() + found_.refused.size() > limits_.max_packs) {
         failure_ =
-            too_much(fmt::format("the stick holds more than {} packs; put fewer on it", limits_.most_packs));
+            too_much(fmt::format("the stick holds more than {} packs; put fewer on it", limits_.max_packs));
     }
     return !failure_;
 }

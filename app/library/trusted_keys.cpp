@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::chrono::days most_days_ahead(3653);
+constexpr std::chrono::days max_days_ahead(3653);
 
 const TrustedKey* find(std::span<const TrustedKey> keys, const PublicKey& key) {
     const auto found =
@@ -94,7 +94,7 @@ std::optional<std::chrono::sys_days> signing_day(std::uint64_t serial) {
 
 std::string latest_day(const std::string& latest, std::optional<std::chrono::sys_days> day) {
     const std::chrono::sys_days known = parse_day(latest).value_or(earliest_plausible_day);
-    return day && *day > known && *day <= known + most_days_ahead ? text_of_day(*day) : latest;
+    return day && *day > known && *day <= known + max_days_ahead ? text_of_day(*day) : latest;
 }
 
 std::optional<std::chrono::sys_days> day_here(std::optional<std::chrono::sys_days> clock,

@@ -21,9 +21,9 @@ constexpr std::size_t header_bytes = 24;
 constexpr std::size_t grid_bytes = 32;
 constexpr std::size_t corners = std::size_t{block_corners} * block_corners;
 constexpr std::size_t cells = std::size_t{block_cells} * block_cells;
-constexpr std::uint32_t most_directions = 6;
-constexpr double most_origin_box = 4.0;   ///< the box is 1 long
-constexpr float most_texels_along = 1e6F; ///< of a height, or of its change from cell to cell
+constexpr std::uint32_t max_directions = 6;
+constexpr double max_origin_box = 4.0;   ///< the box is 1 long
+constexpr float max_texels_along = 1e6F; ///< of a height, or of its change from cell to cell
 constexpr std::uint8_t opaque = 255;
 
 /// A block's numbers in the order of the file. Each number is stored for all blocks before the next: similar values
@@ -139,12 +139,12 @@ Result<Header> read_header(std::span<const std::byte> bytes) {
     header.blocks = reader.read<std::uint32_t>();
     header.covers = reader.read<std::uint32_t>();
     const auto within = [](std::uint32_t value, std::uint32_t most) { return value >= 1 && value <= most; };
-    if (!within(header.texels, most_relief_texels) || !within(header.directions, most_directions) ||
-        !within(header.blocks, most_relief_blocks)) {
+    if (!within(header.texels, max_relief_texels) || !within(header.directions, max_directions) ||
+        !within(header.blocks, max_relief_blocks)) {
         return bad_input("blocks.counts",
                          "it has {} texels, {} directions, {} blocks; allowed are 1 to {}, {}, {}",
-                         header.texels, header.directions, header.blocks, most_relief_texels, most_directions,
-                         most_relief_blocks);
+                         header.texels, header.directions, header.blocks, max_relief_texels, max_directions,
+                         max_relief_blocks);
     }
     const std::uint64_t needed = std::uint64_t{header.directions} * grid_bytes +
                                  std::uint64_t{header.blocks} * block_bytes +
@@ -162,7 +162,7 @@ Result<void> read_grids(ByteReader& reader, const Header& header, BlockRelief& r
     for (std::uint32_t k = 0; k < header.directions; ++k) {
         const auto direction = reader.read<std::uint32_t>();
         const auto blocks = reader.read<std::uint32_t>();
-        if (direction >= most_directions || (seen >> direction & 1U) != 0) {
+        if (direction >= max_directions || (seen >> direction & 1U) != 0) {
             return bad_input("blocks.direction",
                              "its directions have the number {}; allowed are 0 to 5, each once", direction);
         }
@@ -170,9 +170,9 @@ Result<void> read_grids(ByteReader& reader, const Header& header, BlockRelief& r
         ReliefGrid grid = grid_towards(direction);
         for (int axis = 0; axis < 3; ++axis) {
             grid.origin_box[axis] = reader.read<double>();
-            if (!(std::abs(grid.origin_box[axis]) <= most_origin_box)) { // false for NaN too
+            if (!(std::abs(grid.origin_box[axis]) <= max_origin_box)) { // false for NaN too
                 return bad_input("blocks.origin", "direction {} begins beyond {} boxes", direction,
-                                 most_origin_box);
+                                 max_origin_box);
             }
         }
         relief.grids.push_back(grid);
@@ -193,11 +193,11 @@ Result<void> read_grids(ByteReader& reader, const Header& header, BlockRelief& r
 
 Result<void> check_block(ReliefBlock& block, std::size_t k, std::uint32_t texels) {
     const auto sound = [&](Number number) {
-        return std::abs(number(block)) <= most_texels_along;
+        return std::abs(number(block)) <= max_texels_along;
     }; // false for NaN
     if (!std::all_of(numbers.begin(), numbers.end(), sound)) {
         return bad_input("blocks.not_finite", "block {} has a number that is not finite or beyond {}", k,
-                         most_texels_along);
+                         max_texels_along);
     }
     if (block.residual_step <= 0.0F || block.gradient_u.x > block.gradient_u.y ||
         block.gradient_v.x > block.gradient_v.y || block.mask == 0 || (block.cut & ~block.mask) != 0) {

@@ -44,9 +44,9 @@ bool is_similarity(const glm::dmat4& m) {
 }
 
 Result<void> check_extremes(const PackDescription& pack) {
-    if (pack.extremes.empty() || pack.extremes.size() > most_extremes) {
+    if (pack.extremes.empty() || pack.extremes.size() > max_extremes) {
         return bad_input("placement.extreme_count", "the placement has {} extremes, allowed are 1 to {}",
-                         pack.extremes.size(), most_extremes);
+                         pack.extremes.size(), max_extremes);
     }
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     glm::dvec3 high = -low;
@@ -84,9 +84,9 @@ Result<void> check_placement(const PackDescription& pack) {
             "placement.box_from_file",
             "box_from_file is not a rotation with one scale and a translation; bake the pack again");
     }
-    if (!(pack.scale >= least_scale) || !(pack.scale <= most_scale)) {
+    if (!(pack.scale >= min_scale) || !(pack.scale <= max_scale)) {
         return bad_input("placement.scale", "the placement's scale is {}, allowed are {} to {}", pack.scale,
-                         least_scale, most_scale);
+                         min_scale, max_scale);
     }
     return check_extremes(pack);
 }

@@ -84,17 +84,17 @@ using DistanceAtlas = Image<std::uint8_t>;
 inline constexpr int outline_code = 128;
 
 namespace glyph_limits {
-inline constexpr int most_texels_per_em = 256;
-inline constexpr int most_spread_texels = 64;
-inline constexpr int most_atlas_side = 8192;
-inline constexpr std::int64_t most_atlas_texels = 1 << 24;
-inline constexpr std::size_t most_boxes = 65535; ///< their numbers are 16 bits
-inline constexpr std::size_t most_texts = 1024;
-inline constexpr std::size_t most_key_bytes = 100;
-inline constexpr std::size_t most_settings = 8;
-inline constexpr std::size_t most_lines = 1000;           ///< of one setting
-inline constexpr std::size_t most_glyphs = 20000;         ///< of one setting
-inline constexpr std::int32_t most_side = 256 * em_units; ///< of a setting's box, and of a coordinate in it
+inline constexpr int max_texels_per_em = 256;
+inline constexpr int max_spread_texels = 64;
+inline constexpr int max_atlas_side = 8192;
+inline constexpr std::int64_t max_atlas_texels = 1 << 24;
+inline constexpr std::size_t max_boxes = 65535; ///< their numbers are 16 bits
+inline constexpr std::size_t max_texts = 1024;
+inline constexpr std::size_t max_key_bytes = 100;
+inline constexpr std::size_t max_settings = 8;
+inline constexpr std::size_t max_lines = 1000;           ///< of one setting
+inline constexpr std::size_t max_glyphs = 20000;         ///< of one setting
+inline constexpr std::int32_t max_side = 256 * em_units; ///< of a setting's box, and of a coordinate in it
 } // namespace glyph_limits
 
 /// True if a text may have this key: a-z 0-9 _ - and dots.

@@ -174,7 +174,7 @@ Result<Header> read_header(std::span<const std::byte> bytes, std::uint64_t part_
         std::uint64_t{header.clusters} * cluster_bytes +
         std::uint64_t{header.indices} * sizeof(std::uint32_t) +
         std::uint64_t{header.vertices} * (header.relief ? sizeof(StoredTexel) : sizeof(PackVertex));
-    if (header.vertices > most_vertices || header.indices > most_indices || header.clusters > most_clusters ||
+    if (header.vertices > max_vertices || header.indices > max_indices || header.clusters > max_clusters ||
         needed != part_bytes - header_bytes) {
         return bad_input("level.size", "{} vertices, {} indices, {} clusters need {} bytes, it has {}",
                          header.vertices, header.indices, header.clusters, needed, part_bytes - header_bytes);

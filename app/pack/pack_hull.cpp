@@ -22,7 +22,7 @@ constexpr std::string_view section_name = "hull";
 constexpr double farthest_box = 2.0;
 
 void hull_fields(auto& fields, auto& corners) {
-    fields.triples("corners", corners, most_hull_corners);
+    fields.triples("corners", corners, max_hull_corners);
 }
 
 const PackSection* find_section(const PackDescription& pack) {

@@ -16,7 +16,7 @@
 namespace frustumscreen {
 
 /// The bake keeps at most as many.
-inline constexpr std::size_t most_hull_corners = 1024;
+inline constexpr std::size_t max_hull_corners = 1024;
 
 /// The pack must not have the section yet.
 void put_hull(const std::vector<glm::dvec3>& corners, PackDescription& pack);
@@ -25,6 +25,6 @@ void put_hull(const std::vector<glm::dvec3>& corners, PackDescription& pack);
 
 /// The hull in a prop, with at most `most` corners.
 [[nodiscard]] Result<std::vector<glm::dvec3>> hull_in(const PackDescription& pack, const PropShape& prop,
-                                                      std::size_t most = most_hull_corners);
+                                                      std::size_t most = max_hull_corners);
 
 } // namespace frustumscreen

@@ -51,14 +51,14 @@ void entry_fields(auto& fields, EntryOf<SetEntry> auto& entry) {
 
 void entry_fields(auto& fields, EntryOf<SpokenEntry> auto& entry) {
     fields.text("language", entry.language);
-    fields.objects("sounds", entry.sounds, glyph_limits::most_texts, [](auto& item, auto& sound) {
+    fields.objects("sounds", entry.sounds, glyph_limits::max_texts, [](auto& item, auto& sound) {
         item.text("key", sound.key);
         item.text("part", sound.part);
     });
 }
 
 void section_fields(auto& fields, auto& entries) {
-    fields.objects("languages", entries, most_languages,
+    fields.objects("languages", entries, max_languages,
                    [](auto& item, auto& entry) { entry_fields(item, entry); });
 }
 

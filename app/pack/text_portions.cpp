@@ -11,7 +11,7 @@ namespace frustumscreen {
 namespace {
 
 /// In widths of a narrow letter: about the length of an artifact's short text with its title.
-constexpr int most_width = 170;
+constexpr int max_width = 170;
 
 struct Letter {
     char32_t code = 0;
@@ -137,7 +137,7 @@ void add_parts(std::span<const Letter> letters, std::size_t begin, std::size_t e
     while (true) {
         const std::span<const Letter> rest = letters.subspan(begin, end - begin);
         const int width = width_of(rest);
-        const int parts = (width + most_width - 1) / most_width;
+        const int parts = (width + max_width - 1) / max_width;
         const std::size_t cut = parts > 1 ? best_cut(rest, width / parts) : 0;
         if (cut == 0) {
             ends.push_back(end);
@@ -162,7 +162,7 @@ std::vector<std::string> portions_of(std::string_view text) {
     std::size_t begin = 0;
     for (std::size_t k = 0; k < ends.size(); ++k) {
         const bool next_fits = k + 1 < ends.size() &&
-                               width_of(std::span(letters).subspan(begin, ends[k + 1] - begin)) <= most_width;
+                               width_of(std::span(letters).subspan(begin, ends[k + 1] - begin)) <= max_width;
         if (next_fits) {
             continue;
         }

@@ -16,7 +16,7 @@
 namespace frustumscreen {
 
 /// A recording takes at most three minutes; this many portions take about six to read.
-inline constexpr std::size_t most_text_portions = 32;
+inline constexpr std::size_t max_text_portions = 32;
 
 [[nodiscard]] std::vector<std::string> portions_of(std::string_view text);
 /// The key of a portion among a pack's set texts.

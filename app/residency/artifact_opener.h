@@ -25,13 +25,13 @@ namespace frustumscreen {
 [[nodiscard]] Catalogue catalogue_of(std::span<const KnownArtifact> artifacts);
 
 struct OpenerOptions {
-    std::string technique = "auto"; ///< `technique`, `samples`, `economies`: as ArtifactShowOptions
+    std::string technique = "auto"; ///< `technique`, `samples`, `cull kinds`: as ArtifactShowOptions
     int samples = 1;
-    unsigned economies = AllEconomies;
+    unsigned cull_kinds = AllCullKinds;
     bool other_languages = false; ///< a visitor can change the language
     bool other_packs = false;     ///< a visitor can change the artifact
-    bool table_pictures = false;  ///< `table_pictures`, `most_blocks_on_gpu`: as SceneRequest
-    std::uint32_t most_blocks_on_gpu = 0;
+    bool table_pictures = false;  ///< `table_pictures`, `max_blocks_on_gpu`: as SceneRequest
+    std::uint32_t max_blocks_on_gpu = 0;
     double deadline_ms = 16.0;
     std::string_view program = "frustumscreen"; ///< `program`, `packs_key`: as ArtifactShowOptions
     std::string packs_key = {};

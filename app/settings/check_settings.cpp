@@ -18,12 +18,12 @@ namespace frustumscreen {
 namespace {
 
 /// Gap that must stay between the prop's top and the projector's lens.
-constexpr double least_clearance_m = 0.1;
+constexpr double min_clearance_m = 0.1;
 /// The projector looks down: the sine of its axis below the horizon is at least this (30 degrees).
-constexpr double least_downward = 0.5;
+constexpr double min_downward = 0.5;
 /// A script that repeats faster would press more often than a person can; one that repeats every microsecond would
 /// press without end.
-constexpr double least_repeat_s = 0.05;
+constexpr double min_repeat_s = 0.05;
 
 bool inside(const PropShape& prop, const glm::dvec3& p) {
     return std::all_of(prop.bounds.begin(), prop.bounds.end(),
@@ -122,14 +122,14 @@ void check_projector(const Settings& settings, Fitness& fitness) {
     check_lens(settings.projector.pinhole, "projector.k1", fitness);
     const RigidTransform& pose = settings.projector.table_from_projector;
     const std::string_view position = position_key(fitness);
-    const double least_height = settings.prop.height_m + least_clearance_m;
+    const double min_height = settings.prop.height_m + min_clearance_m;
     fitness.require(
-        "settings.projector_too_low", pose.translation.z >= least_height, position,
+        "settings.projector_too_low", pose.translation.z >= min_height, position,
         fmt::format("is {:g} metres above the table; allowed are at least {:g}, the prop's height and {:g}",
-                    pose.translation.z, least_height, least_clearance_m));
+                    pose.translation.z, min_height, min_clearance_m));
     const double downward = -pose.direction({0, 0, 1}).z;
     fitness.require(
-        "settings.projector_looks_up", downward >= least_downward, position,
+        "settings.projector_looks_up", downward >= min_downward, position,
         fmt::format("looks {:.1f} degrees below the horizon; allowed are 30 to 90, down at the table",
                     glm::degrees(std::asin(std::clamp(downward, -1.0, 1.0)))));
     check_picture(settings, fitness);
@@ -214,11 +214,11 @@ void check_devices(const Settings& settings, Fitness& fitness) {
     fitness.require(
         "settings.script_repeat",
         script.empty() || settings.panel.repeat_s == 0.0 ||
-            (settings.panel.repeat_s > last_s && settings.panel.repeat_s >= least_repeat_s),
+            (settings.panel.repeat_s > last_s && settings.panel.repeat_s >= min_repeat_s),
         "panel.repeat_s",
         fmt::format("is {}; allowed are 0 (once) and times after the last press, {} seconds, of at "
                     "least {} seconds",
-                    settings.panel.repeat_s, last_s, least_repeat_s));
+                    settings.panel.repeat_s, last_s, min_repeat_s));
 }
 
 /// A function that locates things in the camera's picture needs the camera's lens.
@@ -284,12 +284,12 @@ void check_camera(const Settings& settings, Fitness& fitness) {
         fmt::format("is {}; a frame at camera.rate_hz, {} hertz, takes {:.1f} milliseconds, allowed are 0 "
                     "and times up to that",
                     camera.rolling_shutter_ms, camera.rate_hz, frame_ms));
-    constexpr int least_kelvin = 2000; // a candle's light
+    constexpr int min_kelvin = 2000; // a candle's light
     fitness.require("settings.white_balance",
-                    camera.white_balance_k == 0 || camera.white_balance_k >= least_kelvin,
+                    camera.white_balance_k == 0 || camera.white_balance_k >= min_kelvin,
                     "camera.white_balance_k",
                     fmt::format("is {}; allowed are 0 (the camera's own) and {} to 10000 kelvin",
-                                camera.white_balance_k, least_kelvin));
+                                camera.white_balance_k, min_kelvin));
     fitness.require("settings.drift_without_camera", !camera.drift || camera.kind == CameraKind::V4l2,
                     "camera.drift",
                     "is true; it needs camera.kind = \"v4l2\", a camera that sees the whole picture");

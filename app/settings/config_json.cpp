@@ -141,7 +141,7 @@ Json usual_zone_json(const Settings& settings) {
 Json lit_zone_json(const Settings& settings) {
     const LitZone zone = lit_zone(settings);
     return {
-        {"least_sine_of_light", least_sine_of_light},
+        {"least_sine_of_light", min_sine_of_light},
         {"any_eye",
          {{"area_m2", area_of(zone.any_eye)},
           {"rectangle_centre_m", list_of(zone.any_eye_rectangle.centre_m)},
@@ -155,7 +155,7 @@ Json light_json(const Settings& settings) {
     const LightRange range =
         light_range(make_prop(settings.prop), settings.projector.table_from_projector.translation,
                     reach_on_table(settings.prop, settings.table));
-    return {{"least_sine", least_sine_of_light},
+    return {{"least_sine", min_sine_of_light},
             {"least", range.least},
             {"most", range.most},
             {"evenness", range.evenness},

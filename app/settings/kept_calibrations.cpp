@@ -85,7 +85,7 @@ Result<KeptCalibration> keep_calibration(WritableTree& folder, const Calibration
         return failed(next.name, written.error(), "cannot be written");
     }
     // The new one is on the disk: a file that cannot be removed does no harm, and is removed with the next one.
-    for (std::size_t k = most_kept_calibrations - 1; k < kept.size(); ++k) {
+    for (std::size_t k = max_kept_calibrations - 1; k < kept.size(); ++k) {
         static_cast<void>(folder.remove(kept[k].name));
     }
     for (const KeptCalibration& each : undone) {

@@ -16,7 +16,7 @@
 
 namespace frustumscreen {
 
-inline constexpr std::size_t most_kept_calibrations = 3;
+inline constexpr std::size_t max_kept_calibrations = 3;
 
 struct KeptCalibration {
     int number = 0;

@@ -20,7 +20,7 @@ struct Arc {
     double middle = 0.0;
     double half = pi;
 
-    [[nodiscard]] double least_cosine_to(double azimuth) const {
+    [[nodiscard]] double min_cosine_to(double azimuth) const {
         const double apart = std::abs(std::remainder(azimuth - middle, 2.0 * pi));
         return std::cos(std::fmin(apart + half, pi));
     }
@@ -122,11 +122,10 @@ struct Scene {
     }
 
     /// The least sine of the light on a face that looks into `arc`.
-    [[nodiscard]] double least_sine_on(const TurnedFace& face, const glm::dvec2& place,
-                                       const Arc& arc) const {
+    [[nodiscard]] double min_sine_on(const TurnedFace& face, const glm::dvec2& place, const Arc& arc) const {
         const glm::dvec2 to_lens = glm::dvec2(lens) - place;
         const double distance = glm::length(to_lens);
-        const double toward = distance * arc.least_cosine_to(std::atan2(to_lens.y, to_lens.x));
+        const double toward = distance * arc.min_cosine_to(std::atan2(to_lens.y, to_lens.x));
         return (face.run * toward + face.rise * lens.z - face.offset) / std::hypot(distance, lens.z);
     }
     /// True if an arc of the circle about the prop's axis is inside the picture.
@@ -135,7 +134,7 @@ struct Scene {
             const double middle = glm::dot(edge.inward, glm::dvec3(place, round.z) - lens);
             const double most = edge.horizontal * round.radius;
             return middle >= most ||
-                   (middle >= -most && middle + most * arc.least_cosine_to(edge.azimuth) >= 0.0);
+                   (middle >= -most && middle + most * arc.min_cosine_to(edge.azimuth) >= 0.0);
         });
     }
 
@@ -153,17 +152,17 @@ std::optional<Arc> seen_azimuths(const TurnedFace& face, const glm::dvec2& place
         return face.rise * eye.z > face.offset ? std::optional(full_circle) : std::nullopt;
     }
     const glm::dvec2 to_eye = glm::dvec2(eye) - place;
-    const double least_cosine = (face.offset - face.rise * eye.z) / (face.run * glm::length(to_eye));
-    if (!(least_cosine < 1.0)) {
+    const double min_cosine = (face.offset - face.rise * eye.z) / (face.run * glm::length(to_eye));
+    if (!(min_cosine < 1.0)) {
         return std::nullopt;
     }
-    return Arc{std::atan2(to_eye.y, to_eye.x), std::acos(std::fmax(least_cosine, -1.0))};
+    return Arc{std::atan2(to_eye.y, to_eye.x), std::acos(std::fmax(min_cosine, -1.0))};
 }
 
 bool lit_at_any_yaw(const Scene& scene, const glm::dvec2& place, const glm::dvec3& eye) {
     return std::all_of(scene.faces.begin(), scene.faces.end(), [&](const TurnedFace& face) {
         const std::optional<Arc> seen = seen_azimuths(face, place, eye);
-        return !seen || (scene.least_sine_on(face, place, *seen) >= least_sine_of_light &&
+        return !seen || (scene.min_sine_on(face, place, *seen) >= min_sine_of_light &&
                          std::all_of(face.corners.begin(), face.corners.end(), [&](const Round& corner) {
                              return scene.in_picture(place, corner, seen->turned(corner.off));
                          }));
@@ -176,7 +175,7 @@ double lit_radius(const Scene& scene) {
     const auto lit = [&](double radius) {
         const glm::dvec2 place = glm::dvec2(scene.lens) + glm::dvec2(radius, 0.0);
         return std::all_of(scene.faces.begin(), scene.faces.end(), [&](const TurnedFace& face) {
-            return scene.least_sine_on(face, place, full_circle) >= least_sine_of_light;
+            return scene.min_sine_on(face, place, full_circle) >= min_sine_of_light;
         });
     };
     if (!lit(0.0)) {
@@ -323,7 +322,7 @@ bool every_seen_face_is_lit(const Settings& settings, const RigidTransform& tabl
     };
     return std::all_of(prop.faces.begin(), prop.faces.end(), [&](const PropFace& face) {
         return face.plane.distance(eye_prop) <= 0.0 ||
-               (face.plane.distance(lens_prop) >= least_sine_of_light * glm::length(lens_prop) &&
+               (face.plane.distance(lens_prop) >= min_sine_of_light * glm::length(lens_prop) &&
                 std::all_of(face.corners.begin(), face.corners.end(), in_picture));
     });
 }

@@ -1,6 +1,6 @@
 /// The zone of the table in which every face of the prop that the visitor sees is lit.
 ///
-/// A face is lit if the projector's lens lies above the face's plane, by at least `least_sine` times its
+/// A face is lit if the projector's lens lies above the face's plane, by at least `min_sine` times its
 /// distance from the prop (below that the light only grazes the face), and all four corners lie in the picture. The
 /// prop is convex, so no face shades another.
 ///
@@ -23,7 +23,7 @@
 namespace frustumscreen {
 
 /// About 2 degrees: a face lit at less gets under a tenth of the usual light of the steep faces.
-inline constexpr double least_sine_of_light = 0.035;
+inline constexpr double min_sine_of_light = 0.035;
 
 struct LitZone {
     /// Places of the prop's axis at which every face is lit at every yaw, for eyes anywhere above the table. In the

@@ -382,7 +382,7 @@ void TableReader::finish() {
     if (table_ == nullptr || (state_->error && state_->error->id != unknown_key)) {
         return;
     }
-    constexpr std::size_t most_told = 5;
+    constexpr std::size_t max_told = 5;
     std::vector<const toml::key*> left_over;
     for (const auto& [key, node] : *table_) {
         if (std::find(known_.begin(), known_.end(), key.str()) == known_.end()) {
@@ -392,7 +392,7 @@ void TableReader::finish() {
     std::sort(left_over.begin(), left_over.end(), [](const toml::key* a, const toml::key* b) {
         return a->source().begin.line < b->source().begin.line;
     });
-    left_over.resize(std::min(left_over.size(), most_told));
+    left_over.resize(std::min(left_over.size(), max_told));
     for (const toml::key* const each : left_over) {
         const std::string key = printable(each->str(), 60);
         const std::string_view meant = usual_name(key);

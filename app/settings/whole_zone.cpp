@@ -24,7 +24,7 @@ double lit_radius(const PropShape& prop, const glm::dvec3& lens) {
         return std::all_of(prop.faces.begin(), prop.faces.end(), [&](const PropFace& face) {
             const glm::dvec3& n = face.plane.normal;
             const double height = n.z * lens.z - face.plane.offset - glm::length(glm::dvec2(n)) * radius;
-            return height >= least_sine_of_light * farthest;
+            return height >= min_sine_of_light * farthest;
         });
     };
     if (!lit(0.0)) {

@@ -36,7 +36,7 @@ struct ArtifactShowOptions {
     std::vector<std::filesystem::path> packs;
     std::string technique = "auto"; ///< "auto": the governor's choice; else see `level_of`
     int samples = default_samples;  ///< a pixel, that there is room for wherever the prop stands
-    unsigned economies = AllEconomies;
+    unsigned cull_kinds = AllCullKinds;
     std::string_view program = "frustumscreen"; ///< whose lines on standard error they are
     std::string packs_key = {}; ///< where the settings name the packs, for messages; empty: nowhere
     bool waits =
@@ -78,14 +78,14 @@ public:
         return set_->recording(word);
     }
     [[nodiscard]] SharedRecording recording(const DescriptionIndex& description) const override {
-        return set_->residents->known(description.artifact).texts.recordings[description.language];
+        return set_->artifact_cache->known(description.artifact).texts.recordings[description.language];
     }
     [[nodiscard]] bool speaks() const override;
     [[nodiscard]] std::span<const ArtifactState> artifacts() const override {
-        return set_->residents->states();
+        return set_->artifact_cache->states();
     }
     [[nodiscard]] ArtifactTriangles triangles(std::size_t artifact) const override {
-        return set_->residents->triangles(artifact);
+        return set_->artifact_cache->triangles(artifact);
     }
     /// The exhibit's own words that it has.
     [[nodiscard]] const std::vector<AdviceLanguage>& words() const { return set_->words.languages; }
@@ -93,7 +93,7 @@ public:
     [[nodiscard]] ShowUse use() const;
     /// Sentences about what a person may not have meant.
     [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
-    [[nodiscard]] const PacksLeftOut& left_out() const { return set_->residents->left_out(); }
+    [[nodiscard]] const PacksLeftOut& left_out() const { return set_->artifact_cache->left_out(); }
 
     // For another set, where `other_sets` may come:
     [[nodiscard]] SetOptions set_options() const {
@@ -110,11 +110,11 @@ public:
     [[nodiscard]] std::unique_ptr<ShownSet> exchange(std::unique_ptr<ShownSet> set);
     /// `artifact`: the index among the artifacts that are shown.
     [[nodiscard]] const ScenePlan& plan(std::size_t artifact) const {
-        return set_->residents->known(artifact).plan;
+        return set_->artifact_cache->known(artifact).plan;
     }
     /// Of an artifact that is ready, as the first is until another is shown.
     [[nodiscard]] const RunLevels& levels(std::size_t artifact) const {
-        return *set_->residents->find(artifact);
+        return *set_->artifact_cache->find(artifact);
     }
 
 private:

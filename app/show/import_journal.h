@@ -1,7 +1,7 @@
 /// What the importer says of a stick, line by line for the journal: each stage, and in the end each pack.
 ///
 /// Fields   DEVICE=stick; STATE is the line's text.
-/// Threads  one caller, the render thread; a call writes `most_lines` at most, so that 500 packs cost no frame. Allocates nothing.
+/// Threads  one caller, the render thread; a call writes `max_lines` at most, so that 500 packs cost no frame. Allocates nothing.
 /// Errors   none.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace frustumscreen {
 
 class ImportJournal {
 public:
-    static constexpr std::size_t most_lines = 16;
+    static constexpr std::size_t max_lines = 16;
     using Write = std::function<void(LogPriority priority, const Sentence& line)>;
 
     /// Call once a second. What was over long before the exhibit began is not said again. An import that comes while the one before

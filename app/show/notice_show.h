@@ -37,7 +37,7 @@ public:
     /// Whether a press ends what is shown; then it does nothing else.
     [[nodiscard]] bool take_press(MonotonicTime now, std::span<const Command> commands);
     /// Adds the notice to what the exhibit shows at this step.
-    void step(MonotonicTime now, const Situation& situation, Presentation& presentation);
+    void step(MonotonicTime now, const TrackedState& tracked_state, Presentation& presentation);
     /// What is to be said now, if nothing else is; none: nothing. It stays until it was.
     [[nodiscard]] const SharedRecording& announcement() const { return announcement_; }
     void announced() { said_ = due_; }
@@ -48,7 +48,7 @@ public:
 
 private:
     [[nodiscard]] SharedNotice wanted(const std::optional<ShownNotice>& shown) const;
-    void place(MonotonicTime now, const SharedNotice& wanted, const Situation& situation,
+    void place(MonotonicTime now, const SharedNotice& wanted, const TrackedState& tracked_state,
                Presentation& presentation);
 
     PropShape prop_;

@@ -31,7 +31,7 @@ struct OfflineOptions {
     bool light = true;
     bool hit_points = false;
     int samples = 0; ///< a pixel; 0 = finest_samples for "finest", else what the pack asks for
-    unsigned economies = AllEconomies;
+    unsigned cull_kinds = AllCullKinds;
     /// All poses that will be drawn; empty: any pose may be drawn.
     std::vector<KnownView> views;
 };

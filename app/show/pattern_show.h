@@ -19,7 +19,7 @@ namespace frustumscreen {
 
 class PatternShow final : public Show {
 public:
-    static constexpr int most_buffers = 16; ///< no display has more
+    static constexpr int max_buffers = 16; ///< no display has more
 
     [[nodiscard]] static Result<std::unique_ptr<PatternShow>> create(const Settings& settings);
 
@@ -31,8 +31,8 @@ public:
     [[nodiscard]] const PatternScene& scene() const { return scene_; }
     /// Sets the lines that the pattern shows below its own text.
     void set_lines(std::vector<std::string> lines);
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
-                                  Redraw redraw) override;
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const TrackedState& tracked_state,
+                                  const RenderTarget& target, Redraw redraw) override;
     /// The pattern stands in for artifacts that cannot be shown.
     void is_fault() { state_ = State::Fault; }
     [[nodiscard]] ShowState state() const override {
@@ -55,7 +55,7 @@ private:
     std::optional<glm::dmat4> shown_;        ///< the prop's pose in the picture that was uploaded
     std::unique_ptr<ViewfinderPanel> panel_; ///< none: the settings have no camera
     Viewfinder* viewfinder_ = nullptr;
-    int without_camera_ = most_buffers; ///< pictures drawn since the last one with what the camera sees
+    int without_camera_ = max_buffers; ///< pictures drawn since the last one with what the camera sees
 };
 
 } // namespace frustumscreen

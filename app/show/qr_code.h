@@ -1,6 +1,6 @@
 /// A text as a QR code (ISO/IEC 18004), as a picture of its modules: dark on light, with the quiet zone of four modules around it.
 ///
-/// Text     bytes as they are; readers take them for UTF-8. At most `most_bytes`.
+/// Text     bytes as they are; readers take them for UTF-8. At most `max_bytes`.
 /// Repair   level M: up to 15 % of the code may be unreadable, as where a cable lies on it.
 /// Threads  pure; any.
 /// Errors   a text that is too long, or empty, is an empty picture.
@@ -14,7 +14,7 @@
 
 namespace frustumscreen {
 
-inline constexpr std::size_t most_qr_bytes = 2000;
+inline constexpr std::size_t max_qr_bytes = 2000;
 
 /// One pixel a module; 0 is dark, 255 is light.
 [[nodiscard]] Image<std::uint8_t> qr_code(std::string_view text);

@@ -73,7 +73,7 @@ struct RunStatus : StatusReport {
     int louder_db = 0;                       ///< than the settings say, by the staff's buttons
     bool calibrates = false;                 ///< the staff may begin the table's calibration with the buttons
     SharedImport seen_import;                ///< what the importer says; none: nothing
-    SharedSurroundings surroundings;         ///< what others know; none: nobody has asked them yet
+    SharedEnvironment environment;           ///< what others know; none: nobody has asked them yet
 };
 /// Of this machine's place, 0 to 24.
 [[nodiscard]] double local_hour();
@@ -97,7 +97,7 @@ public:
     void note_hang(bool hangs);
     [[nodiscard]] bool wanted() const { return !places_.status_file.empty(); }
     /// What was read last; none: nothing yet, or there is no file.
-    [[nodiscard]] SharedSurroundings surroundings();
+    [[nodiscard]] SharedEnvironment environment();
 
 private:
     void work();
@@ -107,7 +107,7 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     RunStatus latest_;
-    SharedSurroundings surroundings_;
+    SharedEnvironment environment_;
     bool hangs_ = false;
     bool pending_ = false;
     bool closing_ = false;

@@ -2,7 +2,7 @@
 ///
 /// Good     it was shown for `long_enough` in one piece, without a fault. A break in what is told of it, longer than
 ///          `longest_silence`, begins the time anew.
-/// Bad      one of its packs cannot be shown, or it can show nothing at all, or the exhibit began with it `most_starts` times and
+/// Bad      one of its packs cannot be shown, or it can show nothing at all, or the exhibit began with it `max_starts` times and
 ///          came to no verdict. The set before comes back then, if there is one.
 /// Time     monotonic; the wall's clock is never asked, as it may be wrong. Time that goes back begins anew, too.
 /// Threads  values; one caller.

@@ -12,7 +12,7 @@
 #include "app/show/run_report.h"
 #include "app/show/viewfinder.h"
 #include "app/tracking/signal_meter.h"
-#include "app/tracking/situation.h"
+#include "app/tracking/tracked_state.h"
 #include "firmware_host/base/time.h"
 #include "firmware_host/sound/sound.h"
 
@@ -49,7 +49,7 @@ public:
     virtual ~Show() = default;
     /// Decides what `draw` draws next. `commands`: those since the step before, in their order.
     virtual void step(MonotonicTime /*now*/, std::span<const Command> /*commands*/,
-                      const Situation& /*on_table*/) {}
+                      const TrackedState& /*on_table*/) {}
     /// Whether it may be dark by the timetable; an alignment pattern may not.
     [[nodiscard]] virtual bool sleeps() const { return false; }
     /// How much light all that is drawn has, 0..1, from the next step on. 0: it is asleep, silent and not drawn.
@@ -62,8 +62,8 @@ public:
     /// How the tracker sees the prop's and the head's sensor; while the staff's picture is shown, before each `step`.
     virtual void set_signal(const TrackerSignal& /*prop*/, const TrackerSignal& /*head*/) {}
     /// What is to be heard.
-    [[nodiscard]] virtual const SoundWish& wish() const {
-        static const SoundWish silence;
+    [[nodiscard]] virtual const SoundRequest& wish() const {
+        static const SoundRequest silence;
         return silence;
     }
     /// Whether it ever has something to say.
@@ -74,7 +74,7 @@ public:
     virtual void tell(const RunStatus& /*status*/) {}
     /// Draws the picture for `now` where it differs from the one on the display; allocates nothing after the
     /// start.
-    [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const Situation& on_table,
+    [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const TrackedState& on_table,
                                           const RenderTarget& target, Redraw redraw) = 0;
     /// Takes the time of the latest picture drawn, from the poll until it was done, without the wait for a
     /// refresh.

@@ -12,9 +12,9 @@
 
 #include "app/exhibit/exhibit.h"
 #include "app/render/gpu_store.h"
+#include "app/residency/artifact_cache.h"
 #include "app/residency/artifact_opener.h"
 #include "app/residency/loaded.h"
-#include "app/residency/residents.h"
 #include "app/scene/device_plan.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/frame_time_model.h"
@@ -38,13 +38,13 @@ namespace frustumscreen {
 /// The same for all sets of a run.
 struct SetOptions {
     std::string technique =
-        "auto"; ///< this, `samples`, `economies`, `program` and `waits`: as ArtifactShowOptions
+        "auto"; ///< this, `samples`, `cull kinds`, `program` and `waits`: as ArtifactShowOptions
     int samples = 1;
-    unsigned economies = AllEconomies;
+    unsigned cull_kinds = AllCullKinds;
     std::string_view program = "frustumscreen";
     bool waits = false;
     DevicePlan devices;
-    std::uint32_t most_blocks_on_gpu = 0;  ///< as SceneRequest
+    std::uint32_t max_blocks_on_gpu = 0;   ///< as SceneRequest
     std::uint64_t gpu_bytes_that_stay = 0; ///< of the memory's budget, whatever set is shown
 };
 struct SetRequest {
@@ -71,7 +71,7 @@ struct ShownSet {
     std::string trouble;                ///< why it cannot be shown after all; empty: it can
     std::vector<std::string> notes;     ///< sentences about what a person may not have meant
     RenderNeeds needs;
-    std::unique_ptr<Residents> residents;
+    std::unique_ptr<ArtifactCache> artifact_cache;
     AdviceWords words;
     LoadedTexts word_pictures;
     TableShow table;
@@ -79,8 +79,8 @@ struct ShownSet {
         browser; ///< lay_out_catalogue; the exhibit takes it. A run's first set has none
 
     /// So many bytes more, or a little more than that, towards showing what is wished for.
-    [[nodiscard]] Result<void> upload(GpuStore& store, const ResidentsWish& wish, std::uint64_t most_bytes);
-    [[nodiscard]] bool ready(const ResidentsWish& wish) const;
+    [[nodiscard]] Result<void> upload(GpuStore& store, const CacheRequest& wish, std::uint64_t max_bytes);
+    [[nodiscard]] bool ready(const CacheRequest& wish) const;
     /// False: nothing is left in the store. Nothing can be shown any more.
     bool release_some(GpuStore& store);
 

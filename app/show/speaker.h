@@ -1,6 +1,6 @@
 /// Turns what the exhibit decides to say into what is to be heard: one voice at a time.
 ///
-///     Presentation (says, tells, prepares) -> step -> SoundWish -> Sound -> SoundReport -> hear -> Narration
+///     Presentation (says, tells, prepares) -> step -> SoundRequest -> Sound -> SoundReport -> hear -> Narration
 ///
 /// Advice is said once, when its words have been read. A description is heard as long as the presentation tells it; then it is
 /// left at its next pause or stopped, as the presentation says. What begins while something else is spoken stops that, but
@@ -35,11 +35,11 @@ public:
     void fall_silent();
     void set_gain_db(double gain_db) { wish_.set_gain_db(gain_db); }
 
-    [[nodiscard]] const SoundWish& wish() const { return wish_; }
+    [[nodiscard]] const SoundRequest& wish() const { return wish_; }
     /// Something is heard.
     [[nodiscard]] bool speaks() const { return report_.number != 0; }
     /// How the description is heard that the latest step told, or left.
-    [[nodiscard]] Narration narration() const;
+    [[nodiscard]] SpeechProgress narration() const;
 
 private:
     /// For the staff: nothing but the tone that they asked for.
@@ -51,7 +51,7 @@ private:
     [[nodiscard]] bool is_alive(std::uint64_t number) const { return number > report_.over; }
 
     std::optional<PromptReader> reader_;
-    SoundWish wish_;
+    SoundRequest wish_;
     SoundReport report_;
     std::optional<DescriptionIndex> told_;
     std::uint64_t description_ = 0; ///< its number; 0: it was not said

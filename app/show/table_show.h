@@ -35,7 +35,7 @@ public:
     /// Reads the packs; nothing of it is in the store yet.
     [[nodiscard]] static TableShow read(const Settings& settings, const Request& request);
     /// So many bytes more go into the store, or a little more than that. What the driver refuses is not shown.
-    void upload(GpuStore& store, std::uint64_t most_bytes);
+    void upload(GpuStore& store, std::uint64_t max_bytes);
     [[nodiscard]] bool ready() const { return uploaded_ == textures_.size(); }
     /// Takes some more of it out of the store; false: nothing was left. Nothing can be placed any more.
     bool release_some(GpuStore& store);
@@ -44,7 +44,7 @@ public:
     void place(const Presentation& presentation, const std::optional<TablePolygon>& shadow,
                OnTable& on_table) const;
     /// The picture that grows into the prop's place; on the prop, not hidden by it.
-    void place_stand_in(const PresentedStandIn& stand_in, OnTable& on_table) const;
+    void place_placeholder(const PresentedStandIn& placeholder, OnTable& on_table) const;
     /// One of each kind of picture, so that drivers compile for them before the first frame.
     void place_samples(const glm::dvec2& at_m, OnTable& on_table) const;
 

@@ -131,7 +131,7 @@ ExhibitVerdict verdict_of(const KnownExhibit& known) {
     if (report.state == name_of(State::Fault)) {
         return not_well("exhibit.no_artifact", "The exhibit runs, and has no artifact that it can show");
     }
-    if (std::optional<ExhibitVerdict> complaint = watchdog_complaint(known.surroundings.watchdog)) {
+    if (std::optional<ExhibitVerdict> complaint = watchdog_complaint(known.environment.watchdog)) {
         return std::move(*complaint);
     }
     const auto [missing, impaired] = complaints_of(report);

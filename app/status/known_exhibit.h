@@ -53,7 +53,7 @@ struct MachineState {
 inline constexpr Nanoseconds between_looks_at_machine = std::chrono::seconds(10);
 
 /// What other programs know of the exhibit's run; it never changes.
-struct Surroundings {
+struct Environment {
     StatusDocument watchdog;
     ServiceEnds ends;
     std::uintmax_t ends_bytes = 0; ///< of the ends' file, which only grows
@@ -64,7 +64,7 @@ struct Surroundings {
     SystemImage image;          ///< of an appliance
     std::vector<Crash> crashes; ///< the last ones, the latest first
 };
-using SharedSurroundings = std::shared_ptr<const Surroundings>;
+using SharedEnvironment = std::shared_ptr<const Environment>;
 struct StatusPlaces {
     std::filesystem::path status_file = usual_status_file; ///< the ends' file is beside it
     std::filesystem::path watchdog_file = usual_watchdog_file;
@@ -74,13 +74,13 @@ struct StatusPlaces {
     std::filesystem::path root = "/";                             ///< the folder that holds sys
 };
 /// Brings `known` up to date; files that cannot have changed are not read again.
-void renew_surroundings(Surroundings& known, const StatusPlaces& places, const StatusClock& clock);
+void renew_environment(Environment& known, const StatusPlaces& places, const StatusClock& clock);
 /// Name and version of the operating system and of the kernel.
 [[nodiscard]] std::string system_name();
 
 struct KnownExhibit {
     StatusDocument status;
-    Surroundings surroundings;
+    Environment environment;
 };
 [[nodiscard]] KnownExhibit read_known_exhibit(const StatusPlaces& places, const StatusClock& clock);
 

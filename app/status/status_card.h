@@ -5,7 +5,7 @@
 ///     The exhibit runs and is well
 ///     projector: the projector at HDMI-A-1 is lit, 1920 x 1200 at 60 Hz
 ///
-/// Text     ASCII, lines of at most `most_card_line_bytes`; a longer line is cut and ends in "...". Lines that do
+/// Text     ASCII, lines of at most `max_card_line_bytes`; a longer line is cut and ends in "...". Lines that do
 ///          not fit are left out from the end, and the last line says so.
 /// Threads  pure; any.
 #pragma once
@@ -19,7 +19,7 @@
 
 namespace frustumscreen {
 
-inline constexpr std::size_t most_card_bytes = 900, most_card_line_bytes = 110;
+inline constexpr std::size_t max_card_bytes = 900, max_card_line_bytes = 110;
 
 /// `lines`: those of status_lines, and further ones for the card. `now`: the wall clock.
 [[nodiscard]] std::string status_card(std::string_view verdict, const StatusReport& status,

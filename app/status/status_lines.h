@@ -19,10 +19,10 @@ struct StatusLine {
     std::string text;
     bool for_staff = true; ///< the staff's picture shows it too
 };
-/// `status`: null: unknown. `age_s`: of the status; none: it is out of date. `surroundings`: null: not asked yet.
+/// `status`: null: unknown. `age_s`: of the status; none: it is out of date. `environment`: null: not asked yet.
 /// `now`: the wall clock, used for times of day alone.
 [[nodiscard]] std::vector<StatusLine> status_lines(const StatusReport* status, std::optional<double> age_s,
-                                                   const Surroundings* surroundings, std::time_t now);
+                                                   const Environment* environment, std::time_t now);
 
 /// One screen of text: the verdict, then the lines.
 [[nodiscard]] std::string status_text(const KnownExhibit& known, std::time_t now);

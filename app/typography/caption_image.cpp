@@ -23,7 +23,7 @@ double type_size(CaptionRole role, double em_m) {
     case CaptionRole::Small:
         break;
     }
-    return std::max(caption_small_em * em_m, least_caption_em_m) / em_m;
+    return std::max(caption_small_em * em_m, min_caption_em_m) / em_m;
 }
 
 double brightness_of(CaptionRole role) {
@@ -52,7 +52,7 @@ struct SetParts {
 
 SetParts lay_out(const GlyphRuns& runs, std::span<const GlyphPart> parts, double em_m, double width_m,
                  double texels_per_m) {
-    const double text_em_m = std::max(em_m, least_caption_em_m);
+    const double text_em_m = std::max(em_m, min_caption_em_m);
     const double em_px = text_em_m * texels_per_m;
     const double width_em = width_m / text_em_m;
     SetParts all;
@@ -78,7 +78,7 @@ SetParts lay_out(const GlyphRuns& runs, std::span<const GlyphPart> parts, double
 }
 
 std::vector<Paragraph> paragraphs_of(std::span<const PlainPart> parts, double em_m, double texels_per_m) {
-    const double text_em_m = std::max(em_m, least_caption_em_m);
+    const double text_em_m = std::max(em_m, min_caption_em_m);
     const double em_px = text_em_m * texels_per_m;
     std::vector<Paragraph> paragraphs;
     CaptionRole before = CaptionRole::Title;

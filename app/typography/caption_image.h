@@ -47,7 +47,7 @@ struct CaptionImage {
 };
 
 /// The parts, one below the other, wrapped to `width_m`. `em_m` is the text's type size; less than 24 pt
-/// (`least_caption_em_m`) becomes 24 pt.
+/// (`min_caption_em_m`) becomes 24 pt.
 [[nodiscard]] CaptionImage make_caption(const Typesetter& typesetter, std::span<const PlainPart> parts,
                                         double em_m, double width_m, double texels_per_m);
 

@@ -10,8 +10,8 @@ namespace frustumscreen {
 namespace {
 
 constexpr int samples = 4; ///< per pixel, along each axis
-constexpr int most_side_px = 16384;
-constexpr std::int64_t most_pixels = 1 << 24;
+constexpr int max_side_px = 16384;
+constexpr std::int64_t max_pixels = 1 << 24;
 
 /// Area of a placed glyph's texels, in pixels from the top left of the setting's box.
 struct GlyphArea {
@@ -143,8 +143,7 @@ GlyphExtent extent_of(const GlyphSetting& setting, std::span<const GlyphArea> ar
     GlyphExtent extent;
     const double width = std::ceil(right) - std::floor(left);
     const double height = std::ceil(bottom) - std::floor(top);
-    if (width <= most_side_px && height <= most_side_px &&
-        width * height <= static_cast<double>(most_pixels)) {
+    if (width <= max_side_px && height <= max_side_px && width * height <= static_cast<double>(max_pixels)) {
         extent = {static_cast<int>(width), static_cast<int>(height), -static_cast<int>(std::floor(left)),
                   -static_cast<int>(std::floor(top))};
     }

@@ -31,13 +31,13 @@ struct Patience {
 class Judge {
 public:
     static constexpr Nanoseconds late_look = std::chrono::seconds(5);
-    static constexpr double least_memory_free = 0.04;
-    static constexpr double most_exhibit_memory = 0.92;
-    static constexpr double most_endings = 2.5; ///< three, less what drains between them
+    static constexpr double min_memory_free = 0.04;
+    static constexpr double max_exhibit_memory = 0.92;
+    static constexpr double max_endings = 2.5; ///< three, less what drains between them
 
     Judge(const Patience& patience, MonotonicTime start);
 
-    [[nodiscard]] Seen look(MonotonicTime now, Mode mode, const Outcome& outcome);
+    [[nodiscard]] Observation look(MonotonicTime now, Mode mode, const Outcome& outcome);
     /// An action is taken now: judge again from here on.
     void step_taken(MonotonicTime now);
 

@@ -89,7 +89,7 @@ void read_placement(TableReader& table, ArtifactFile& file) {
     if (table.has("turn_deg")) {
         file.turn_deg = turn_deg;
     }
-    table.number("scale", file.scale, {pack_format::least_scale, pack_format::most_scale, ""});
+    table.number("scale", file.scale, {pack_format::min_scale, pack_format::max_scale, ""});
     table.number("lift", file.lift, {0.0, 1.0, "heights of the artifact"});
 }
 
@@ -138,7 +138,7 @@ void read_caption(TableReader& table, PackCaption& caption, std::set<std::string
 void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
     table.vector("point", hotspot.point_file, coordinate);
     std::vector<std::pair<std::string, std::string>> labels;
-    table.named_texts("labels", labels, pack_format::most_languages);
+    table.named_texts("labels", labels, pack_format::max_languages);
     table.finish(); // as for a text
     table.require("folder.no_point", table.has("point"), "point",
                   "is missing; write it as [x, y, z] in the scan's coordinates");
@@ -170,7 +170,7 @@ void read_all(TableReader& table, ArtifactFile& file) {
     table.any_text("id", file.id);
     table.require("folder.id", file.id.empty() || is_artifact_id(file.id), "id",
                   fmt::format("is \"{}\"; allowed are 1 to {} of a-z 0-9 . _ -, a letter or a digit first",
-                              printable(file.id, 40), pack_format::most_id_bytes));
+                              printable(file.id, 40), pack_format::max_id_bytes));
     read_text(table, "licence", file.licence);
     read_text(table, "author", file.author);
     read_text(table, "source", file.source);
@@ -180,9 +180,9 @@ void read_all(TableReader& table, ArtifactFile& file) {
     table.table("placement", {}, [&](TableReader& inner) { read_placement(inner, file); });
     std::set<std::string> languages;
     table.tables(
-        "texts", file.texts, pack_format::most_languages,
+        "texts", file.texts, pack_format::max_languages,
         [&](TableReader& item, PackCaption& caption) { read_caption(item, caption, languages, file); }, {});
-    table.tables("hotspots", file.hotspots, pack_format::most_hotspots, read_hotspot, {});
+    table.tables("hotspots", file.hotspots, pack_format::max_hotspots, read_hotspot, {});
     for (PackCaption& caption : file.texts) {
         caption.title = caption.title.empty() ? file.texts.front().title : caption.title;
     }

@@ -146,7 +146,7 @@ TEST(ThinParts, TheSimplifierKeepsEveryCornerWithinItsTolerances) {
         const std::vector<glm::dvec3> points(fewer.positions.begin(), fewer.positions.end());
         const SourceScene scene(fewer_mesh, points);
         for (const glm::vec3& p : whole.positions) {
-            ASSERT_TRUE(scene.nearest(p, most_tolerances_lost * tolerance + 1e-6F).hit)
+            ASSERT_TRUE(scene.nearest(p, max_tolerances_lost * tolerance + 1e-6F).hit)
                 << p.x << ' ' << p.y << ' ' << p.z;
         }
     }

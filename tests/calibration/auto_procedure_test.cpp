@@ -99,7 +99,7 @@ public:
     }
     /// Puts the board where it is wanted, within a hand's breadth, and turns it.
     void obey(std::set<int> covered = {}) {
-        const RestWish wish = procedure.wish();
+        const RestRequest wish = procedure.wish();
         const bool leans = wish.posture == Posture::Leaning;
         const double lean = leans ? numbers.between(0.26, 0.5) : 0.0;
         const double block = wish.posture == Posture::Block ? procedure.plan().block_m : 0.0;
@@ -139,7 +139,7 @@ public:
             obey();
             go_on(6.0); // until the stripes
             go_on();    // until they end
-            if (procedure.word() != AutoWord::Taken) {
+            if (procedure.word() != AutoPrompt::Taken) {
                 std::printf("rest %d: %s\n", static_cast<int>(procedure.taken()) + 1,
                             table_words(procedure).lines.back().c_str());
             }
@@ -265,7 +265,7 @@ TEST(AutoProcedure, DoesAgainWhatWasDisturbed) {
     live.go_on(1.0,
                [](AutoProcedure::Input& input) { input.prop->translation.y += 0.004; }); // the prop is pushed
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
-    EXPECT_EQ(live.procedure.word(), AutoWord::Moved);
+    EXPECT_EQ(live.procedure.word(), AutoPrompt::Moved);
     live.go_on(6.0);
     ASSERT_EQ(live.procedure.stage(), CalibrationStage::Capture); // without a press, once it rests
 
@@ -274,7 +274,7 @@ TEST(AutoProcedure, DoesAgainWhatWasDisturbed) {
         input.camera = CameraState::NotConnected;
         input.frame = nullptr;
     });
-    EXPECT_EQ(live.procedure.word(), AutoWord::CameraFault);
+    EXPECT_EQ(live.procedure.word(), AutoPrompt::CameraFault);
     EXPECT_EQ(table_words(live.procedure).lines.back(),
               "No camera is connected; check its USB cable, and its name in the settings.");
     live.go_on(6.0);
@@ -285,11 +285,11 @@ TEST(AutoProcedure, DoesAgainWhatWasDisturbed) {
     live.go_on(1.0);
     live.scene.shade(live.now, {});
     live.go_on();
-    EXPECT_EQ(live.procedure.word(), AutoWord::Disturbed);
+    EXPECT_EQ(live.procedure.word(), AutoPrompt::Disturbed);
     EXPECT_EQ(live.procedure.taken(), 0U);
     live.go_on(6.0);
     live.go_on();
-    EXPECT_EQ(live.procedure.word(), AutoWord::Taken);
+    EXPECT_EQ(live.procedure.word(), AutoPrompt::Taken);
     EXPECT_EQ(live.procedure.taken(), 1U);
 }
 
@@ -307,7 +307,7 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
     live.go_on(6.0);
     live.go_on();
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
-    EXPECT_EQ(live.procedure.word(), AutoWord::FewTags);
+    EXPECT_EQ(live.procedure.word(), AutoPrompt::FewTags);
     const int hidden = live.board.tags[1].id;
     live.obey({hidden});
     live.go_on(6.0);
@@ -333,11 +333,11 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(live.procedure.wanted(), 5U);
     live.press_next();
-    EXPECT_EQ(live.procedure.word(), AutoWord::TooFew);
+    EXPECT_EQ(live.procedure.word(), AutoPrompt::TooFew);
     EXPECT_EQ(table_words(live.procedure).lines.back(), "5 rests are needed at least.")
         << "no more than are wanted";
     live.press_back();
-    EXPECT_EQ(live.procedure.word(), AutoWord::Dropped);
+    EXPECT_EQ(live.procedure.word(), AutoPrompt::Dropped);
     EXPECT_EQ(live.procedure.taken(), 0U);
     live.press_back();
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Begin);
@@ -406,9 +406,9 @@ TEST(AutoProcedure, TellsOfACameraThatSeesNothingAndGoesOn) {
     for (const CameraState fault : {CameraState::NotConnected, CameraState::Dark, CameraState::InUse}) {
         Beginning table(true);
         table.wait(1.5, fault); // cameras take as long to start
-        EXPECT_EQ(table.procedure.word(), AutoWord::None);
+        EXPECT_EQ(table.procedure.word(), AutoPrompt::None);
         table.wait(1.0, fault);
-        EXPECT_EQ(table.procedure.word(), AutoWord::CameraFault);
+        EXPECT_EQ(table.procedure.word(), AutoPrompt::CameraFault);
         EXPECT_EQ(table_words(table.procedure).key, "calibration.no_camera");
         std::string sentence(sentence_of(fault));
         sentence.erase(0, 1); // begins with a capital letter
@@ -446,11 +446,11 @@ TEST(AutoProcedure, GoesOnFromACameraThatDoesNotSeeTheLight) {
         well.wait(0.1, CameraState::Running);
         well.press(next);
         well.wait(0.5, CameraState::Dark); // while dark is shown
-        EXPECT_EQ(well.procedure.word(), AutoWord::None);
+        EXPECT_EQ(well.procedure.word(), AutoPrompt::None);
         well.press(back);
         EXPECT_EQ(well.procedure.stage(), CalibrationStage::Begin);
         well.wait(1.0, CameraState::Dark); // it cannot see the words' light yet
-        EXPECT_EQ(well.procedure.word(), AutoWord::None);
+        EXPECT_EQ(well.procedure.word(), AutoPrompt::None);
     }
 }
 
@@ -462,12 +462,12 @@ TEST(AutoProcedure, GoesOnFromACameraThatLooksElsewhere) {
         const CameraFrame same{{}, 0, 8, 8, std::vector<std::uint8_t>(64, 90)};
         elsewhere.see(same, 30.0);
         ASSERT_EQ(elsewhere.procedure.stage(), CalibrationStage::Delay);
-        EXPECT_EQ(elsewhere.procedure.word(), AutoWord::NoLight);
+        EXPECT_EQ(elsewhere.procedure.word(), AutoPrompt::NoLight);
         EXPECT_EQ(table_words(elsewhere.procedure).key, "calibration.no_light");
         elsewhere.press(next); // it measures again
-        EXPECT_EQ(elsewhere.procedure.word(), AutoWord::None);
+        EXPECT_EQ(elsewhere.procedure.word(), AutoPrompt::None);
         elsewhere.see(same, 30.0);
-        EXPECT_EQ(elsewhere.procedure.word(), AutoWord::NoLight);
+        EXPECT_EQ(elsewhere.procedure.word(), AutoPrompt::NoLight);
         elsewhere.press(back);
         EXPECT_EQ(elsewhere.procedure.stage(), follow ? CalibrationStage::GoesOn : CalibrationStage::Begin);
     }
@@ -475,10 +475,10 @@ TEST(AutoProcedure, GoesOnFromACameraThatLooksElsewhere) {
 
 TEST(AutoProcedure, EverythingThatIsSaidHasItsWord) {
     std::set<std::string> said;
-    for (int word = 0; word <= static_cast<int>(AutoWord::TooFew); ++word) {
+    for (int word = 0; word <= static_cast<int>(AutoPrompt::TooFew); ++word) {
         for (const Posture wished : {Posture::Flat, Posture::Block, Posture::Leaning}) {
             for (const bool may_go_on : {false, true}) {
-                said.insert(std::string(key_of(static_cast<AutoWord>(word), wished, may_go_on)));
+                said.insert(std::string(key_of(static_cast<AutoPrompt>(word), wished, may_go_on)));
             }
         }
     }

@@ -138,7 +138,7 @@ TEST(Corners, ARulerThatSeemsExactIsHeldForAMillimetre) {
     const std::vector<MeasuredCorner> corners = measured_corners(table, 0.4, 0.0, numbers);
     const CornerUncertainty exact =
         uncertainty_of(calibrate_corners(corners, p.width, p.height), corners, 0.12);
-    EXPECT_EQ(exact.ruler_error_m, least_ruler_error_m);
+    EXPECT_EQ(exact.ruler_error_m, min_ruler_error_m);
     EXPECT_GT(exact.picture.mean_m, 0.2e-3);
     EXPECT_LT(exact.picture.worst_m, 3e-3);
 }

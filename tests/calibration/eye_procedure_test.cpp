@@ -136,11 +136,11 @@ TEST(EyeProcedure, APropThatIsPushedIsTakenAnewAndNothingIsLost) {
     live.world.table_from_prop.rotation = about(0.1, {0, 0, 1}) * live.world.table_from_prop.rotation;
     live.wait(0.2);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Rest);
-    EXPECT_EQ(live.procedure.word(), EyeWord::PropMoved);
+    EXPECT_EQ(live.procedure.word(), EyePrompt::PropMoved);
     EXPECT_NE(table_words(live.procedure).lines.back().find("pushed"), std::string::npos);
     live.wait(1.2);
     ASSERT_EQ(live.procedure.stage(), CalibrationStage::Place);
-    EXPECT_EQ(live.procedure.word(), EyeWord::PropMoved) << "it is still to be read";
+    EXPECT_EQ(live.procedure.word(), EyePrompt::PropMoved) << "it is still to be read";
     EXPECT_EQ(live.procedure.at(), 4U);
     live.aim();
     live.next();
@@ -188,7 +188,7 @@ TEST(EyeProcedure, AHeadThatIsAlwaysHeldAlikeIsToldAndRefused) {
     stiff.begin();
     stiff.sight();
     stiff.sight();
-    EXPECT_EQ(stiff.procedure.word(), EyeWord::SameHead);
+    EXPECT_EQ(stiff.procedure.word(), EyePrompt::SameHead);
     EXPECT_EQ(stiff.procedure.at(), 1U) << "it is not taken";
     alike.turn = 0.13; // accepted as different, but too little to determine an eye
     alike.nod = 0.1;
@@ -212,13 +212,13 @@ TEST(EyeProcedure, WhatTheTrackerDoesNotSeeIsSaid) {
     nobody.begin();
     nobody.wait(1.0);
     EXPECT_EQ(nobody.procedure.stage(), CalibrationStage::Rest);
-    EXPECT_EQ(nobody.procedure.word(), EyeWord::PropNotSeen);
+    EXPECT_EQ(nobody.procedure.word(), EyePrompt::PropNotSeen);
     Live live(8);
     live.sees_head = false;
     live.begin();
     live.wait(1.0);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Rest);
-    EXPECT_EQ(live.procedure.word(), EyeWord::HeadNotSeen);
+    EXPECT_EQ(live.procedure.word(), EyePrompt::HeadNotSeen);
     live.sees_head = true;
     live.wait(0.1);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Shut) << "the prop has rested meanwhile";
@@ -229,7 +229,7 @@ TEST(EyeProcedure, WhatTheTrackerDoesNotSeeIsSaid) {
     live.sees_head = false; // its cable came off
     live.wait(2.2);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
-    EXPECT_EQ(live.procedure.word(), EyeWord::HeadNotSeen);
+    EXPECT_EQ(live.procedure.word(), EyePrompt::HeadNotSeen);
     EXPECT_EQ(live.procedure.at(), 1U);
     live.sees_head = true;
     live.sees_prop = false;
@@ -237,7 +237,7 @@ TEST(EyeProcedure, WhatTheTrackerDoesNotSeeIsSaid) {
     live.next();
     live.wait(0.1);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
-    EXPECT_EQ(live.procedure.word(), EyeWord::PropNotSeen);
+    EXPECT_EQ(live.procedure.word(), EyePrompt::PropNotSeen);
     live.sees_prop = true;
     live.sight();
     EXPECT_EQ(live.procedure.at(), 2U);
@@ -253,7 +253,7 @@ TEST(EyeProcedure, AHeadThatMovesBeginsItsSecondAnew) {
     live.table_from_sensor.translation.x += 0.02;
     live.wait(0.7);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::HoldStill);
-    EXPECT_EQ(live.procedure.word(), EyeWord::HeadMoved);
+    EXPECT_EQ(live.procedure.word(), EyePrompt::HeadMoved);
     live.back();
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
     live.sight();
@@ -299,14 +299,14 @@ TEST(EyeProcedure, APlaceThatDoesNotDoIsSaid) {
     Live live(12);
     live.world.table_from_prop.translation.z = 0.03;
     live.begin();
-    EXPECT_EQ(live.procedure.word(), EyeWord::OffTable);
+    EXPECT_EQ(live.procedure.word(), EyePrompt::OffTable);
     live.world.table_from_prop.translation = {0.0, 0.3, 0.0}; // nothing lights the table behind it
     live.wait(1.5);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Rest);
-    EXPECT_EQ(live.procedure.word(), EyeWord::NoRoom);
+    EXPECT_EQ(live.procedure.word(), EyePrompt::NoRoom);
     live.world.table_from_prop.translation = {0.1, -0.05, 0.0};
     live.wait(0.1);
-    EXPECT_EQ(live.procedure.word(), EyeWord::PropMoves);
+    EXPECT_EQ(live.procedure.word(), EyePrompt::PropMoves);
     live.wait(1.2);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Shut);
     const EyeProcedure cannot(live.world.scene(), live.world.registration(), "no calibration is kept");

@@ -32,9 +32,9 @@ struct FaultySet {
         }
     }
     /// Moves the prop beside its cross.
-    void slip(std::size_t k, double least_m) {
+    void slip(std::size_t k, double min_m) {
         const double angle = numbers.between(0.0, 6.283);
-        const double far = least_m * std::exp(numbers.between(0.0, std::log(0.08 / least_m)));
+        const double far = min_m * std::exp(numbers.between(0.0, std::log(0.08 / min_m)));
         touches[k].tracker_from_sensor.translation +=
             glm::conjugate(table.truth.table_from_tracker.rotation) *
             (far * glm::dvec3(std::cos(angle), std::sin(angle), 0.0));

@@ -23,7 +23,7 @@ constexpr double top_m = 0.12;
 struct Kept {
     double tables = 0.0;
     double usual = 0.0, most = 0.0, worst = 0.0; ///< shares of the places, of the places, and of the tables
-    double most_squares = 0.0;
+    double max_squares = 0.0;
     double mean_mm = 0.0, worst_mm = 0.0, farthest_mm = 0.0; ///< true errors
     double said_most_mm = 0.0, said_worst_mm = 0.0;
     int good = 0, usable = 0, repeat = 0, refused = 0;
@@ -42,7 +42,7 @@ struct Kept {
         double worst_of_table = 0.0;
         for (const double off : off_m) {
             within_usual += off <= said.usual_m ? 1.0 : 0.0;
-            within_most += off <= said.most_m ? 1.0 : 0.0;
+            within_most += off <= said.max_m ? 1.0 : 0.0;
             sum += off;
             worst_of_table = std::fmax(worst_of_table, off);
         }
@@ -50,18 +50,18 @@ struct Kept {
         tables += 1.0;
         usual += within_usual / places;
         most += within_most / places;
-        most_squares += within_most * within_most / (places * places);
+        max_squares += within_most * within_most / (places * places);
         worst += worst_of_table <= said.worst_m ? 1.0 : 0.0;
         mean_mm += 1e3 * sum / places;
         worst_mm += 1e3 * worst_of_table;
         farthest_mm = std::fmax(farthest_mm, 1e3 * worst_of_table);
-        said_most_mm += 1e3 * said.most_m;
+        said_most_mm += 1e3 * said.max_m;
         said_worst_mm += 1e3 * said.worst_m;
     }
-    [[nodiscard]] double most_share() const { return most / tables; }
-    /// Standard deviation of most_share.
-    [[nodiscard]] double most_error() const {
-        return std::sqrt(std::fmax(0.0, most_squares / tables - most_share() * most_share()) / tables);
+    [[nodiscard]] double max_share() const { return most / tables; }
+    /// Standard deviation of max_share.
+    [[nodiscard]] double max_error() const {
+        return std::sqrt(std::fmax(0.0, max_squares / tables - max_share() * max_share()) / tables);
     }
     void print(const char* what) const {
         std::printf("%s: %.0f tables, %d good, %d usable, %d repeat, %d refused; off by %.2f mm, worst place "
@@ -71,7 +71,7 @@ struct Kept {
                     "be: %.1f %% / %.1f %% (+- %.1f), worst places: %.1f %%\n",
                     what, tables, good, usable, repeat, refused, mean_mm / tables, worst_mm / tables,
                     farthest_mm, said_most_mm / tables, said_worst_mm / tables, 100.0 * usual / tables,
-                    100.0 * most_share(), 100.0 * most_error(), 100.0 * worst / tables);
+                    100.0 * max_share(), 100.0 * max_error(), 100.0 * worst / tables);
     }
 };
 
@@ -87,9 +87,9 @@ std::vector<double> lengths(std::span<const glm::dvec3> offsets) {
 void expect_kept(const Kept& kept) {
     constexpr double one_in_a_thousand = 3.09;
     ASSERT_GT(kept.tables, 0.0);
-    const double chance = kept.tables < 1000.0 ? one_in_a_thousand * kept.most_error() : 0.0;
-    EXPECT_GE(kept.most_share(), 0.93 - chance);
-    EXPECT_LE(kept.most_share(), 0.97 + chance);
+    const double chance = kept.tables < 1000.0 ? one_in_a_thousand * kept.max_error() : 0.0;
+    EXPECT_GE(kept.max_share(), 0.93 - chance);
+    EXPECT_LE(kept.max_share(), 0.97 + chance);
 }
 
 /// Touches as a technician makes them: boards whose height differs slightly from the given one, and a sensor

@@ -54,7 +54,7 @@ TEST_F(Procedure, EachRestOfASecondBecomesATouchAtTheMeanOfItsReports) {
         rest(on(k), tick * 10);
         EXPECT_EQ(procedure.stage(), CalibrationStage::Place) << "nothing is taken before Next";
         touch(k);
-        EXPECT_EQ(procedure.word(), TouchWord::Taken);
+        EXPECT_EQ(procedure.word(), TouchPrompt::Taken);
     }
     ASSERT_EQ(procedure.stage(), CalibrationStage::Solve);
     const Touches touches = procedure.touches();
@@ -76,7 +76,7 @@ TEST_F(Procedure, APropThatMovesBeginsItsSecondAnew) {
     pushed.translation.x += 0.01;
     rest(pushed, TouchProcedure::rest / 2);
     EXPECT_EQ(procedure.stage(), CalibrationStage::HoldStill);
-    EXPECT_EQ(procedure.word(), TouchWord::Moved);
+    EXPECT_EQ(procedure.word(), TouchPrompt::Moved);
     rest(pushed, TouchProcedure::rest);
     EXPECT_EQ(procedure.at(), 1U);
     press(true); // a rotation alone counts too
@@ -84,7 +84,7 @@ TEST_F(Procedure, APropThatMovesBeginsItsSecondAnew) {
     RigidTransform turned = on(1);
     turned.rotation = glm::angleAxis(0.1, glm::dvec3(0, 0, 1)) * turned.rotation;
     rest(turned, tick * 2);
-    EXPECT_EQ(procedure.word(), TouchWord::Moved);
+    EXPECT_EQ(procedure.word(), TouchPrompt::Moved);
 }
 
 TEST_F(Procedure, WhatTheTrackerDoesNotSeeIsSaid) {
@@ -93,7 +93,7 @@ TEST_F(Procedure, WhatTheTrackerDoesNotSeeIsSaid) {
     now += TouchProcedure::patience + tick;
     procedure.step({now, std::nullopt, false, false});
     EXPECT_EQ(procedure.stage(), CalibrationStage::Place);
-    EXPECT_EQ(procedure.word(), TouchWord::NotSeen);
+    EXPECT_EQ(procedure.word(), TouchPrompt::NotSeen);
     touch(0);
     EXPECT_EQ(procedure.at(), 1U);
 }
@@ -114,7 +114,7 @@ TEST_F(Procedure, NextWithoutMovingThePropIsNoTouch) {
     touch(0);
     touch(0);
     EXPECT_EQ(procedure.at(), 1U);
-    EXPECT_EQ(procedure.word(), TouchWord::SamePlace);
+    EXPECT_EQ(procedure.word(), TouchPrompt::SamePlace);
     touch(1);
     EXPECT_EQ(procedure.at(), 2U);
 }
@@ -301,7 +301,7 @@ TEST(ProcedureOnATable, EndsWithACalibrationThatIsRight) {
             now += tick;
             procedure.step({now, lies.tracker_from_sensor, false, false});
         }
-        ASSERT_NE(procedure.word(), TouchWord::SamePlace);
+        ASSERT_NE(procedure.word(), TouchPrompt::SamePlace);
     }
     const TouchCalibration judged = calibrate_touch(procedure.touches(), setup_for(table));
     ASSERT_TRUE(judged.table) << judged.reason;

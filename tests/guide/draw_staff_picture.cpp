@@ -36,12 +36,12 @@ constexpr const char* watchdog = R"({
              "done": "the tracker's USB port is switched off and on", "helped": true}]})";
 
 StaffFacts facts_of(const Settings& settings) {
-    Surroundings around;
+    Environment around;
     around.watchdog.fields = nlohmann::json::parse(watchdog);
     around.watchdog.age_s = 0.0;
     RunStatus run;
     static_cast<StatusReport&>(run) = read_status_report(nlohmann::json::parse(status));
-    run.surroundings = std::make_shared<const Surroundings>(around);
+    run.environment = std::make_shared<const Environment>(around);
     run.calibrates = true;
     constexpr std::time_t now = 1777651200; // a Friday at noon
     StaffFacts facts = staff_facts(run, settings, "Mesa Intel(R) UHD Graphics 630", State::View, now);

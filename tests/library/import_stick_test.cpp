@@ -22,7 +22,7 @@ TEST_F(ImportStick, TakesPacksFromTheRootAndOneFolderDown) {
     stick.put("lost+found/v.fspack", museum.pack("v", 1));
     stick.put("holiday.jpg", "a picture");
     std::vector<ImportStage> stages;
-    ImportSurroundings outside = quiet_surroundings();
+    ImportEnvironment outside = quiet_environment();
     outside.tell = [&](const ImportReport& report) {
         EXPECT_LE(report.done_bytes, report.total_bytes);
         if (stages.empty() || stages.back() != report.stage) {
@@ -206,9 +206,9 @@ TEST_F(ImportStick, KeepsTheLastGoodSetWhileANewOneIsOnTrial) {
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 1"}) << "comes back";
     put(2); // put in again by hand
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 2"});
-    judge(kiosk, TrialState::Trying, most_starts - 1);
+    judge(kiosk, TrialState::Trying, max_starts - 1);
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 2"});
-    judge(kiosk, TrialState::Trying, most_starts);
+    judge(kiosk, TrialState::Trying, max_starts);
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 1"}) << "the exhibit does not come up with it";
     put(3);
     judge(kiosk, TrialState::Trying, 1);

@@ -85,12 +85,12 @@ inline ImportRequest request_of(const Museum& museum) {
 }
 
 /// The clock stands still.
-inline ImportSurroundings quiet_surroundings() {
+inline ImportEnvironment quiet_environment() {
     return {[] { return MonotonicTime(); }, [] { return Nanoseconds(0); }, [](const ImportReport&) {}};
 }
 
 inline ImportReport import_quietly(FileTree& stick, WritableTree& library, const ImportRequest& request) {
-    return import_stick(stick, library, request, quiet_surroundings());
+    return import_stick(stick, library, request, quiet_environment());
 }
 
 inline const ImportedPack& line_of(const ImportReport& report, const std::string& file) {

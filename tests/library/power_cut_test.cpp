@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing_disk;
 
-constexpr int most_cuts = 512; ///< tried at one operation
+constexpr int max_cuts = 512; ///< tried at one operation
 
 /// An installed set of two packs that was good, and its predecessor, to go back to. The stick has a newer pack, a
 /// new one and a set file.
@@ -61,9 +61,9 @@ protected:
         EXPECT_EQ(inspector.fault_of(*again), "") << where;
         ++imports;
     }
-    /// Visits all states that a cut may leave, or `most_cuts` of them.
+    /// Visits all states that a cut may leave, or `max_cuts` of them.
     void sample(const VolatileDisk& disk, int operation, const std::function<void(VolatileDisk&)>& visit) {
-        sampled += disk.cut_power(most_cuts, static_cast<unsigned>(operation), visit) == most_cuts ? 1 : 0;
+        sampled += disk.cut_power(max_cuts, static_cast<unsigned>(operation), visit) == max_cuts ? 1 : 0;
     }
     /// The disk after an import that was stopped before the operation; the process's own state is lost.
     std::unique_ptr<VolatileDisk> stopped(const VolatileDisk& disk, int operation) {
@@ -84,7 +84,7 @@ protected:
     std::string old_text, new_text;
     int operations = 0;
     int cuts = 0;
-    int sampled = 0; ///< operations with at least `most_cuts` possible states before them
+    int sampled = 0; ///< operations with at least `max_cuts` possible states before them
     int imports = 0;
     Inspector inspector;
 };

@@ -130,7 +130,7 @@ int measure(std::size_t megabytes, int packs) {
     const Times copied = times_of([&] { copy_all(slow, *copy, packs); });
     ImportRequest request = testing_disk::request_of(museum);
     request.limits.step_bytes = ImportLimits().step_bytes;
-    ImportSurroundings outside = testing_disk::quiet_surroundings();
+    ImportEnvironment outside = testing_disk::quiet_environment();
     outside.now = monotonic_now;
     ImportStage stage = ImportStage::Failed;
     const Times imported = times_of([&] { stage = import_stick(as_slow, *library, request, outside).stage; });

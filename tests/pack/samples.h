@@ -277,11 +277,11 @@ struct Entries {
 
 /// Throws if the bytes are no pack: a fuzzer's bytes may claim any size.
 inline Entries take_apart(const Bytes& bytes) {
-    constexpr std::uint64_t most_bytes = 1U << 28U;
+    constexpr std::uint64_t max_bytes = 1U << 28U;
     auto zip = pack_format::ZipReader::open(bytes);
     Entries entries;
     for (const pack_format::ZipEntry& entry : zip.value().entries()) {
-        if (entry.bytes > most_bytes) {
+        if (entry.bytes > max_bytes) {
             throw std::length_error(entry.name);
         }
         const Bytes part = zip->read(entry).value();

@@ -20,7 +20,7 @@ namespace {
 constexpr int seconds_run = 10;
 constexpr double asked_at_s = 3.0;
 
-class TellingRun : public KioskFolder {
+class NarrationRun : public KioskFolder {
 protected:
     void SetUp() override {
         KioskFolder::SetUp();
@@ -109,7 +109,7 @@ const std::string long_text =
     "A description that is several times as long as the short text of its artifact. It "
     "says what there is to see of these rings, one after the other.";
 
-TEST_F(TellingRun, SpeaksTheDescriptionAndShowsItsTextMeanwhile) {
+TEST_F(NarrationRun, SpeaksTheDescriptionAndShowsItsTextMeanwhile) {
     put_pack(long_text, opus_);
     run();
     const std::vector<std::int16_t> truth = read_opus(opus_)->samples;
@@ -125,7 +125,7 @@ TEST_F(TellingRun, SpeaksTheDescriptionAndShowsItsTextMeanwhile) {
     EXPECT_NE(frames.find(",describe,en,description.0,"), std::string::npos);
 }
 
-TEST_F(TellingRun, ADamagedRecordingIsSaidOnceAndItsTextIsShown) {
+TEST_F(NarrationRun, ADamagedRecordingIsSaidOnceAndItsTextIsShown) {
     Bytes damaged = opus_;
     damaged.resize(60);
     put_pack(long_text, damaged);

@@ -52,7 +52,7 @@ Slack slack_of(const Settings& s, double x, double y, double yaw, const glm::dve
         if (glm::dot(normal, eye - corners[0]) <= 0) {
             continue;
         }
-        const double grazing = least_sine_of_light * glm::distance(lens, glm::dvec3(x, y, 0));
+        const double grazing = min_sine_of_light * glm::distance(lens, glm::dvec3(x, y, 0));
         slack.light = std::min(slack.light, glm::dot(normal, lens - corners[0]) - grazing);
         for (const glm::dvec3& c : corners) {
             const glm::dvec3 ray = c - lens;

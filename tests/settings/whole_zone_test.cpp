@@ -72,7 +72,7 @@ bool is_lit(const Settings& settings, const RigidTransform& table_from_prop, con
     const double v = pinhole.fy * p.y / p.z + pinhole.cy;
     const glm::dvec3 lens = table_from_prop.inverse().point(table_from_projector.translation);
     const bool turned = std::all_of(face.corners.begin(), face.corners.end(), [&](const glm::dvec3& corner) {
-        return face.plane.distance(lens) >= least_sine_of_light * glm::distance(lens, corner);
+        return face.plane.distance(lens) >= min_sine_of_light * glm::distance(lens, corner);
     });
     constexpr double rounding_px = 1e-6;
     return turned && p.z > 0.0 && u >= -rounding_px && v >= -rounding_px &&

@@ -9,16 +9,16 @@
 namespace frustumscreen {
 
 struct Motion {
-    GuidedSituation from;
-    GuidedSituation to;
+    GuidedState from;
+    GuidedState to;
     double lasts_s = 0.0;
     double gone_s = 0.0;
 
-    [[nodiscard]] GuidedSituation now() const;
+    [[nodiscard]] GuidedState now() const;
     [[nodiscard]] bool done() const { return gone_s >= lasts_s; }
 };
 
 /// Time that people take for a move between two situations.
-[[nodiscard]] double time_for_s(const Move& move, const GuidedSituation& from, const GuidedSituation& to);
+[[nodiscard]] double time_for_s(const Move& move, const GuidedState& from, const GuidedState& to);
 
 } // namespace frustumscreen

@@ -15,6 +15,6 @@
 namespace frustumscreen {
 
 /// Nothing if the situation is valid. The amounts are those of people who are told none: 10 cm, 30 degrees.
-[[nodiscard]] std::optional<Move> paper_advice(const FaceReader& reader, const GuidedSituation& situation);
+[[nodiscard]] std::optional<Move> paper_advice(const FaceReader& reader, const GuidedState& tracked_state);
 
 } // namespace frustumscreen

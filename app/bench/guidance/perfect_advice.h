@@ -12,6 +12,6 @@
 namespace frustumscreen {
 
 /// Nothing if the situation is valid.
-[[nodiscard]] std::optional<Move> perfect_advice(const FaceReader& reader, const GuidedSituation& situation);
+[[nodiscard]] std::optional<Move> perfect_advice(const FaceReader& reader, const GuidedState& tracked_state);
 
 } // namespace frustumscreen

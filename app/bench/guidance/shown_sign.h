@@ -23,12 +23,12 @@ class ShownSign {
 public:
     ShownSign(const GuidanceSetup& setup, Adviser adviser) : adviser_(adviser), guide_(setup) {}
 
-    void step(double now_s, const GuidedSituation& situation);
+    void step(double now_s, const GuidedState& tracked_state);
     /// The sign after the latest step.
     [[nodiscard]] const std::optional<SignOnTable>& shown() const { return shown_; }
 
 private:
-    void step_paper(double now_s, const GuidedSituation& situation);
+    void step_paper(double now_s, const GuidedState& tracked_state);
 
     Adviser adviser_;
     Guide guide_;

@@ -17,7 +17,7 @@ namespace {
 constexpr double step_s = 1.0 / 60.0; // the exhibit's step
 constexpr double patience_s = std::chrono::duration<double>(Guide::patience).count();
 constexpr double sees_success_after_s = 0.5;
-constexpr double least_reaction_s = 0.3;
+constexpr double min_reaction_s = 0.3;
 constexpr double longest_reaction_s = 1.5;
 constexpr double misunderstands = 0.10;
 constexpr double overlooks = 0.15;
@@ -28,12 +28,12 @@ class Visitor {
 public:
     Visitor(const GuidanceSetup& setup, Adviser adviser, std::uint64_t seed)
         : setup_(setup), reader_(setup), sign_(setup, adviser), adviser_(adviser), plays_(seed),
-          reacts_(~seed), situation_(seeded_situation(setup, plays_)) {
+          reacts_(~seed), tracked_state_(seeded_situation(setup, plays_)) {
         constexpr double table_height_m = 0.8;
         const double azimuth = plays_.between(-std::numbers::pi, std::numbers::pi);
         const double away_m = plays_.between(0.5, 0.9);
-        situation_.eye_m = {away_m * std::cos(azimuth), away_m * std::sin(azimuth),
-                            std::max(0.2, plays_.between(0.9, 1.9) - table_height_m)};
+        tracked_state_.eye_m = {away_m * std::cos(azimuth), away_m * std::sin(azimuth),
+                                std::max(0.2, plays_.between(0.9, 1.9) - table_height_m)};
         next_play_s_ = 1.0;
     }
 
@@ -43,8 +43,8 @@ public:
         int whole = 0;
         int steps = 0;
         for (now_s_ = 0.0; now_s_ < seconds; now_s_ += step_s, ++steps) {
-            sign_.step(now_s_, situation_);
-            if (reader_.whole(situation_)) {
+            sign_.step(now_s_, tracked_state_);
+            if (reader_.whole(tracked_state_)) {
                 ++whole;
                 be_content(result);
             } else {
@@ -84,21 +84,21 @@ private:
     }
 
     void begin(const Move& move, const Execution& execution) {
-        const GuidedSituation to = after(move, setup_, situation_, execution);
-        before_ = situation_;
-        begin(to, time_for_s(move, situation_, to));
+        const GuidedState to = after(move, setup_, tracked_state_, execution);
+        before_ = tracked_state_;
+        begin(to, time_for_s(move, tracked_state_, to));
     }
 
-    void begin(const GuidedSituation& to, double lasts_s) {
+    void begin(const GuidedState& to, double lasts_s) {
         doing_ = Doing();
-        doing_->motion = {situation_, to, lasts_s};
-        doing_->dark_px = reader_.lost_px(situation_);
+        doing_->motion = {tracked_state_, to, lasts_s};
+        doing_->dark_px = reader_.lost_px(tracked_state_);
     }
 
     void move_on() {
         if (doing_) {
             doing_->motion.gone_s += step_s;
-            situation_ = doing_->motion.now();
+            tracked_state_ = doing_->motion.now();
             if (doing_->motion.done()) {
                 doing_.reset();
             }
@@ -166,7 +166,7 @@ private:
 
     /// Starts the visitor's reaction time.
     void react() {
-        const double reaction_s = reacts_.between(least_reaction_s, longest_reaction_s);
+        const double reaction_s = reacts_.between(min_reaction_s, longest_reaction_s);
         const bool misses = !attends_ && adviser_ != Adviser::Perfect && reacts_.happens(overlooks);
         noticed_at_s_ = now_s_ + (misses ? overlooks_for_s : 0.0);
         acts_at_s_ = noticed_at_s_ + reaction_s;
@@ -214,16 +214,16 @@ private:
             return false;
         }
         const bool goes_away =
-            doing_->wrong && !GivenAdvice{doing_->asked, doing_->motion.from}.holds(situation_);
+            doing_->wrong && !GivenAdvice{doing_->asked, doing_->motion.from}.holds(tracked_state_);
         const bool darkens = doing_->asked.action == Action::Wait &&
-                             reader_.lost_px(situation_) > visibly_darker * doing_->dark_px;
+                             reader_.lost_px(tracked_state_) > visibly_darker * doing_->dark_px;
         doing_->doubted = goes_away || darkens;
         return doing_->doubted;
     }
 
     void act(VisitResult& result) {
         if (adviser_ == Adviser::Perfect) {
-            const std::optional<Move> move = perfect_advice(reader_, situation_);
+            const std::optional<Move> move = perfect_advice(reader_, tracked_state_);
             begin(move.value_or(Move{}), {});
             ++result.advices;
         } else if (sign_.shown() && sign_.shown()->move.action != Action::Wait) {
@@ -263,12 +263,12 @@ private:
 
     /// Half of the time people undo the movement that lost the picture; a leaning prop is usually set upright.
     void try_something() {
-        const bool leans = tilt_rad(situation_.table_from_prop) > 0.2;
+        const bool leans = tilt_rad(tracked_state_.table_from_prop) > 0.2;
         if (leans && !setup_.in_hand && reacts_.happens(0.7)) {
             begin({Action::Upright}, {});
         } else if (before_ && reacts_.happens(0.5)) {
             constexpr double undone_in_s = 1.0;
-            begin(GuidedSituation{before_->table_from_prop, situation_.eye_m}, undone_in_s);
+            begin(GuidedState{before_->table_from_prop, tracked_state_.eye_m}, undone_in_s);
             before_.reset();
         } else {
             Move move = some_way();
@@ -286,8 +286,8 @@ private:
     Adviser adviser_;
     Seeded plays_;  ///< equal for all advisers
     Seeded reacts_; ///< reaction times, misunderstandings, sloppiness
-    GuidedSituation situation_;
-    std::optional<GuidedSituation> before_; ///< before the latest movement
+    GuidedState tracked_state_;
+    std::optional<GuidedState> before_; ///< before the latest movement
     std::optional<Doing> doing_;
     double now_s_ = 0.0;
     double next_play_s_ = 0.0;

@@ -18,7 +18,7 @@
 #include "app/calibration/procedure/board_view.h"
 #include "app/calibration/procedure/capture_delay.h"
 #include "app/calibration/procedure/procedure.h"
-#include "app/calibration/procedure/rest_wish.h"
+#include "app/calibration/procedure/rest_request.h"
 #include "app/calibration/procedure/still_reports.h"
 #include "app/calibration/procedure/stripe_capture.h"
 
@@ -32,7 +32,7 @@
 namespace frustumscreen {
 
 /// The remark beside the instruction.
-enum class AutoWord {
+enum class AutoPrompt {
     None,
     NoLight,     ///< the camera does not see the projector's light
     CameraFault, ///< the camera's state names it
@@ -62,12 +62,12 @@ struct AutoPlan {
 /// Stripes whose period suits the picture's width: a camera pixel covers more pixels of a finer picture.
 [[nodiscard]] StripeSetup stripes_for(int width, int height);
 
-class AutoProcedure : public Procedure<AutoWord, AutoCalibration> {
+class AutoProcedure : public Procedure<AutoPrompt, AutoCalibration> {
 public:
     static constexpr Nanoseconds rest = std::chrono::milliseconds(1500);
     static constexpr Nanoseconds pause = std::chrono::seconds(3); ///< before useless stripes are shown again
     static constexpr std::size_t enough = 12;                     ///< rests
-    static constexpr int least_tags = 3;
+    static constexpr int min_tags = 3;
     static constexpr double same_place_m = 0.02;
     static constexpr double same_place_rad = 0.15;
     static constexpr double turned_rad = 0.35;
@@ -94,7 +94,7 @@ public:
     [[nodiscard]] std::size_t least() const { return std::min(enough, wanted_); }
     /// Number of tags that were whole and lit in the latest capture.
     [[nodiscard]] int tags() const { return tags_; }
-    [[nodiscard]] RestWish wish() const {
+    [[nodiscard]] RestRequest wish() const {
         return next_wish(taken_, {plan_.stripes.width, plan_.stripes.height});
     }
     [[nodiscard]] std::optional<Nanoseconds> delay() const { return delay_; }
@@ -108,11 +108,11 @@ private:
     void drop_last();
     [[nodiscard]] bool watch(const Input& input);
     [[nodiscard]] bool is_at_rest(const Input& input);
-    [[nodiscard]] tl::expected<Posture, AutoWord> posture_of(const RigidTransform& report) const;
+    [[nodiscard]] tl::expected<Posture, AutoPrompt> posture_of(const RigidTransform& report) const;
     [[nodiscard]] std::vector<FoundTag> tags_in(const CameraFrame& frame);
     void begin_capture(MonotonicTime now);
     void capture(const Input& input);
-    void end_capture(MonotonicTime now, AutoWord word);
+    void end_capture(MonotonicTime now, AutoPrompt word);
     void look_at_captures(MonotonicTime now);
     void take(MonotonicTime now, const BoardView& view);
     void after_judgement(const Input& input);

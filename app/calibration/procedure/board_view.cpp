@@ -14,12 +14,12 @@ namespace {
 constexpr double still_px = 0.6;
 /// Largest deviations, as shares of white less black: of a bit plus its inverse from white plus black, and of
 /// a cosine's steps from their wave.
-constexpr double most_of_pair = 0.35;
-constexpr double most_of_wave = 0.08;
+constexpr double max_of_pair = 0.35;
+constexpr double max_of_wave = 0.08;
 /// Largest shares of a tag's lit pixels.
-constexpr double most_disturbed = 0.2;
-constexpr double most_clipped = 0.2;
-constexpr double least_contrast = 12.0;
+constexpr double max_disturbed = 0.2;
+constexpr double max_clipped = 0.2;
+constexpr double min_contrast = 12.0;
 constexpr int white_code = 254;
 
 /// Checks single pixels of the captures: lit, clipped or disturbed.
@@ -45,11 +45,11 @@ public:
         const double both = grey(patterns_.size() - 2, pixel) + grey(patterns_.size() - 1, pixel);
         for (std::size_t k = 0; k < patterns_.size(); ++k) {
             if (patterns_[k].stripes == Stripes::Bit) {
-                if (std::abs(grey(k, pixel) + grey(k + 1, pixel) - both) > most_of_pair * contrast_here) {
+                if (std::abs(grey(k, pixel) + grey(k + 1, pixel) - both) > max_of_pair * contrast_here) {
                     return true;
                 }
             } else if (patterns_[k].stripes == Stripes::Cosine && patterns_[k].which == 0 &&
-                       besides_wave(k, pixel) > most_of_wave * contrast_here) {
+                       besides_wave(k, pixel) > max_of_wave * contrast_here) {
                 return true;
             }
         }
@@ -97,7 +97,7 @@ TagChecks checks_of(const PixelChecks& checks, const Captures& captures, const Q
     TagChecks found;
     double lit = 0.0;
     for_each_pixel(corners, captures.width, captures.height, [&](std::size_t pixel, const glm::dvec2&) {
-        if (std::abs(checks.contrast(pixel)) >= least_contrast) {
+        if (std::abs(checks.contrast(pixel)) >= min_contrast) {
             lit += 1.0;
             found.clipped += checks.is_clipped(pixel) ? 1.0 : 0.0;
             found.disturbed += checks.is_disturbed(pixel) ? 1.0 : 0.0;
@@ -161,11 +161,11 @@ BoardView view_of(const Board& board, const StripeSetup& setup, const Captures& 
         }
         const Quadrilateral corners = between(*first, *last);
         const TagChecks tag_checks = checks_of(checks, captures, corners);
-        if (tag_checks.clipped > most_clipped) {
+        if (tag_checks.clipped > max_clipped) {
             ++view.clipped;
             continue;
         }
-        if (tag_checks.disturbed > most_disturbed) {
+        if (tag_checks.disturbed > max_disturbed) {
             ++view.disturbed;
             continue;
         }

@@ -20,7 +20,7 @@ class CaptureDelay {
 public:
     static constexpr Nanoseconds settled = std::chrono::milliseconds(600);
     static constexpr int changes = 6;
-    static constexpr double least_swing = 20.0; ///< grey levels of 255, in the part that changes most
+    static constexpr double min_swing = 20.0; ///< grey levels of 255, in the part that changes most
 
     /// The pattern to show.
     [[nodiscard]] Pattern pattern() const { return {change_ % 2 == 0 ? Stripes::White : Stripes::Black}; }
@@ -30,7 +30,7 @@ public:
     [[nodiscard]] bool is_done() const { return change_ > changes; }
     /// The delay, once done; nothing if the camera does not see the projector's light.
     [[nodiscard]] std::optional<Nanoseconds> delay() const {
-        return swing_ >= least_swing ? std::optional(delay_) : std::nullopt;
+        return swing_ >= min_swing ? std::optional(delay_) : std::nullopt;
     }
 
 private:

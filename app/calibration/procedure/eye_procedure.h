@@ -32,7 +32,7 @@ namespace frustumscreen {
 enum class HeadPosture { ChinUp, ChinDown, TurnedLeft, TurnedRight };
 
 /// The remark beside the instruction.
-enum class EyeWord {
+enum class EyePrompt {
     None,
     PropMoves,   ///< the prop is not at rest yet
     PropMoved,   ///< the prop moved after its rest, which is taken again
@@ -52,14 +52,14 @@ struct AskedSight {
     std::size_t place = 0; ///< index of its cross in the plan
 };
 
-class EyeProcedure : public Procedure<EyeWord, EyeFit> {
+class EyeProcedure : public Procedure<EyePrompt, EyeFit> {
 public:
     static constexpr Nanoseconds rest = std::chrono::seconds(1);
-    static constexpr std::size_t least_reports = 5; ///< in a second of rest
-    static constexpr std::size_t of_each = 6;       ///< sightings with each eye, at first
-    static constexpr std::size_t more = 2;          ///< with each, if those are too few
-    static constexpr std::size_t most_of_each = 10;
-    static constexpr std::size_t least_crosses = 4; ///< different crosses
+    static constexpr std::size_t min_reports = 5; ///< in a second of rest
+    static constexpr std::size_t of_each = 6;     ///< sightings with each eye, at first
+    static constexpr std::size_t more = 2;        ///< with each, if those are too few
+    static constexpr std::size_t max_of_each = 10;
+    static constexpr std::size_t min_crosses = 4; ///< different crosses
     /// A head that is held still trembles and sways by some millimetres.
     static constexpr StillLimits head_limits{8e-3, 0.06};
     static constexpr double turned_rad =
@@ -95,9 +95,9 @@ private:
     void ask(std::size_t from, std::size_t to);
     void watch(const Input& input);
     void begin(const Input& input);
-    void begin_rest(MonotonicTime now, EyeWord word);
+    void begin_rest(MonotonicTime now, EyePrompt word);
     void take_rest(const Input& input);
-    [[nodiscard]] EyeWord missing(MonotonicTime now) const;
+    [[nodiscard]] EyePrompt missing(MonotonicTime now) const;
     void plan();
     void ask_for(std::size_t sight);
     void go_to_next_open();

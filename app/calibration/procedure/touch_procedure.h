@@ -38,7 +38,7 @@ struct TouchJudgement {
 };
 
 /// The remark beside the cross.
-enum class TouchWord {
+enum class TouchPrompt {
     None,
     Moved,     ///< the prop moved: the second begins again
     NotSeen,   ///< the tracker does not see the prop
@@ -46,13 +46,13 @@ enum class TouchWord {
     Taken      ///< the touch is taken
 };
 
-class TouchProcedure : public Procedure<TouchWord, TouchJudgement> {
+class TouchProcedure : public Procedure<TouchPrompt, TouchJudgement> {
 public:
     static constexpr Nanoseconds rest = std::chrono::seconds(1);
     static constexpr double same_place_m = 5e-3;
     static constexpr double same_place_rad = 0.2;
-    static constexpr std::size_t least_reports = 5; ///< in the second of rest
-    static constexpr std::size_t more_at_once = 2;  ///< crosses that come where the touches are too few
+    static constexpr std::size_t min_reports = 5;  ///< in the second of rest
+    static constexpr std::size_t more_at_once = 2; ///< crosses that come where the touches are too few
 
     /// `crosses`: at least one, in the order in which they come.
     explicit TouchProcedure(std::vector<Cross> crosses, std::string problem = {})

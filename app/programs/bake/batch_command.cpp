@@ -30,9 +30,9 @@ namespace {
 constexpr const char* program = "frustumscreen-bake";
 constexpr double bytes_per_mb = 1e6;
 /// With less memory, the libraries of a bake fail before they can report it.
-constexpr double least_memory_mb = 500.0;
+constexpr double min_memory_mb = 500.0;
 constexpr std::uintmax_t room_for_reports = 1'000'000;
-constexpr std::size_t most_sentences = 20; ///< about failures on standard error; the report has all
+constexpr std::size_t max_sentences = 20; ///< about failures on standard error; the report has all
 
 struct Arguments {
     std::filesystem::path folder;
@@ -106,7 +106,7 @@ std::vector<BatchRow> run(const BatchPlan& plan) {
     std::size_t told = 0;
     return run_batch(plan, [&](const BatchRow& row) {
         progress.show(++done, plan.objects.size());
-        if (!row.sentence.empty() && told < most_sentences) {
+        if (!row.sentence.empty() && told < max_sentences) {
             progress.clear();
             ++told;
             say_line(program, fmt::format("{}: {}", row.object, row.sentence));
@@ -158,11 +158,10 @@ ArgumentCheck is_memory_limit() {
         const char* const end = text.data() + text.size();
         const std::from_chars_result read = std::from_chars(text.data(), end, megabytes);
         const bool is_number = read.ec == std::errc{} && read.ptr == end;
-        const bool well =
-            is_number && (megabytes == 0.0 || (megabytes >= least_memory_mb && megabytes <= 1e8));
+        const bool well = is_number && (megabytes == 0.0 || (megabytes >= min_memory_mb && megabytes <= 1e8));
         return well ? std::string()
                     : fmt::format("'{}' is not allowed; allowed are {} megabytes and more, or 0 for no limit",
-                                  text, least_memory_mb);
+                                  text, min_memory_mb);
     };
     return {check, ""};
 }
@@ -181,7 +180,7 @@ void add_options(CommandLine& app, Arguments& arguments) {
         .within(1.0, 1e6)
         .capture_default_str();
     app.add_option("--memory-limit", arguments.memory_limit_mb,
-                   fmt::format("megabytes for one bake, {} or more; 0: no limit", least_memory_mb))
+                   fmt::format("megabytes for one bake, {} or more; 0: no limit", min_memory_mb))
         .check(is_memory_limit())
         .capture_default_str();
     app.add_flag("--previews", arguments.pages, "a page beside each pack, as --preview makes it");

@@ -70,7 +70,7 @@ bool is_plain(char c) {
 
 std::string default_id(const std::filesystem::path& pack_file) {
     constexpr std::size_t hash_digits = 8;
-    constexpr std::size_t most_kept = pack_format::most_id_bytes - hash_digits - 1;
+    constexpr std::size_t max_kept = pack_format::max_id_bytes - hash_digits - 1;
     const std::string name = pack_file.stem().string();
     std::string id;
     bool is_exact = true; // false: two names could give one id
@@ -85,7 +85,7 @@ std::string default_id(const std::filesystem::path& pack_file) {
     if (is_exact && is_artifact_id(id)) {
         return id;
     }
-    id = id.substr(0, most_kept);
+    id = id.substr(0, max_kept);
     return (id.empty() ? "pack" : id) + "-" + sha256_hex(as_bytes(name)).substr(0, hash_digits);
 }
 

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 5> scan_endings{".glb", ".gltf", ".obj", ".ply", ".stl"};
-constexpr std::size_t most_shards = 100'000;
+constexpr std::size_t max_shards = 100'000;
 
 bool is_scan(const fs::path& file) {
     std::string ending = file.extension().string();
@@ -106,10 +106,10 @@ Result<Shard> parse_shard(std::string_view text) {
     const std::size_t slash = std::min(text.find('/'), text.size());
     const auto number = whole_number(text.substr(0, slash));
     const auto of = whole_number(text.substr(std::min(slash + 1, text.size())));
-    if (!number || !of || *number < 1 || *number > *of || *of > most_shards) {
+    if (!number || !of || *number < 1 || *number > *of || *of > max_shards) {
         return fail(ErrorKind::BadConfiguration, "batch.shard",
                     "--shard '{}': allowed are 1/N to N/N, such as 3/8 for the third of eight, N at most {}",
-                    printable(text, 40), most_shards);
+                    printable(text, 40), max_shards);
     }
     return Shard{*number, *of};
 }

@@ -136,11 +136,11 @@ BatchRow row_of(const BatchPlan& plan, const BatchObject& object) {
 std::vector<BatchRow> run_batch(const BatchPlan& plan, const std::function<void(const BatchRow&)>& tell) {
     std::vector<BatchRow> rows(plan.objects.size());
     std::atomic<std::size_t> next{0};
-    std::mutex telling;
+    std::mutex narration_sequencer;
     const auto work = [&] {
         for (std::size_t k = next++; k < rows.size(); k = next++) {
             rows[k] = row_of(plan, plan.objects[k]);
-            const std::scoped_lock lock(telling);
+            const std::scoped_lock lock(narration_sequencer);
             tell(rows[k]);
         }
     };

@@ -19,12 +19,12 @@ struct Arguments {
     AdviceOptions options;
 };
 
-constexpr std::size_t most_timed = 5;
+constexpr std::size_t max_timed = 5;
 
 /// Times a frame of the pack in the settings as they are and in the best choices.
 Result<void> measure_costs(const Pack& pack, SetUpChoice& now, std::vector<SetUpChoice>& found,
                            BenchProgress& progress) {
-    std::vector<SetUpChoice*> timed = best_working(found, most_timed);
+    std::vector<SetUpChoice*> timed = best_working(found, max_timed);
     timed.insert(timed.begin(), &now);
     std::vector<const Settings*> set_ups;
     for (const SetUpChoice* choice : timed) {

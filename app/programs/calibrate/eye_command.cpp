@@ -70,7 +70,7 @@ std::string eye_text(const EyeFit& fit) {
 Json crosses_json(const Settings& settings) {
     const SightScene scene = sight_scene(settings);
     const SightPlan plan =
-        plan_sights(scene, wished_place(scene), scene.usual_eye_m, EyeProcedure::most_of_each);
+        plan_sights(scene, wished_place(scene), scene.usual_eye_m, EyeProcedure::max_of_each);
     Json crosses = Json::array();
     for (const SightCross& cross : plan.crosses) {
         crosses.push_back(

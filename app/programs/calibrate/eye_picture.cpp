@@ -13,28 +13,28 @@ namespace {
 
 using Stage = CalibrationStage;
 
-constexpr std::array<WordMessage<EyeWord>, 9> eye_messages{{
-    {EyeWord::PropMoves,
+constexpr std::array<WordMessage<EyePrompt>, 9> eye_messages{{
+    {EyePrompt::PropMoves,
      {"calibration.eyes.block_moves", "The prop is not at rest yet. Take your hands away."}},
-    {EyeWord::PropMoved,
+    {EyePrompt::PropMoved,
      {"calibration.eyes.block_moved",
       "The prop was pushed. Let it lie; its place is taken anew, and this sighting comes again."}},
-    {EyeWord::PropNotSeen,
+    {EyePrompt::PropNotSeen,
      {"calibration.not_seen", "The tracker does not see the prop. Look at its cable and its sensor."}},
-    {EyeWord::HeadNotSeen,
+    {EyePrompt::HeadNotSeen,
      {"calibration.eyes.head_not_seen",
       "The tracker does not see the sensor on your head. Look at its cable, and come nearer."}},
-    {EyeWord::OffTable,
+    {EyePrompt::OffTable,
      {"calibration.eyes.off_table", "The prop does not stand on the table as that was calibrated. Stand it "
                                     "upright; if it is, put the picture right first (table --touch-up)."}},
-    {EyeWord::NoRoom,
+    {EyePrompt::NoRoom,
      {"calibration.eyes.no_room", "There is no room for crosses behind the prop. Lay it on the square."}},
-    {EyeWord::HeadMoved,
+    {EyePrompt::HeadMoved,
      {"calibration.eyes.head_moved", "Your head moved. Keep it still; the second begins anew."}},
-    {EyeWord::SameHead,
+    {EyePrompt::SameHead,
      {"calibration.eyes.same_head",
       "Your head is held as before. Hold it as it is asked for, then press Next again."}},
-    {EyeWord::Taken, {"", "Good."}},
+    {EyePrompt::Taken, {"", "Good."}},
 }};
 constexpr std::array<WordMessage<HeadPosture>, 4> posture_messages{{
     {HeadPosture::ChinUp, {"calibration.eyes.chin_up", "chin up"}},
@@ -236,7 +236,7 @@ void draw_words(Canvas& canvas, const EyeProcedure& procedure, const TableDrawin
         share *= smaller;
     } while ((words.height > height || words.width > box.size().x) && share > smallest);
     const glm::dvec2 corner(box.low.x, box.high.y - 5.0 * dot - words.height);
-    const bool is_well = procedure.word() == EyeWord::Taken || procedure.word() == EyeWord::None;
+    const bool is_well = procedure.word() == EyePrompt::Taken || procedure.word() == EyePrompt::None;
     canvas.coverage(words, glm::ivec2(glm::max(corner, glm::dvec2(0.0))),
                     is_well ? TableColours::white : TableColours::front);
     draw_dots(canvas, {0.5 * (box.low.x + box.high.x), box.high.y - 2.0 * dot}, dot,
@@ -266,7 +266,7 @@ Image8 table_picture(const EyeProcedure& procedure, const TableDrawing& with) {
     }
     if (has_cross(procedure.stage())) {
         const bool is_held = procedure.stage() == Stage::HoldStill;
-        const bool moved = procedure.word() == EyeWord::HeadMoved;
+        const bool moved = procedure.word() == EyePrompt::HeadMoved;
         drawing.cross(!is_held ? TableColours::white : moved ? TableColours::bad : TableColours::good);
         drawing.tip();
     }

@@ -19,7 +19,7 @@ constexpr const char* program = "frustumscreen-calibrate";
 constexpr int back_button = 0;
 constexpr int next_button = 1;
 constexpr Nanoseconds between_feeds = std::chrono::seconds(1);
-constexpr int most_buffers = 4; // of a display: each buffer gets the picture once
+constexpr int max_buffers = 4; // of a display: each buffer gets the picture once
 
 /// The house's words. Without them a calibration goes on in English.
 std::optional<LanguageWords> house_words(const Settings& settings) {
@@ -94,7 +94,7 @@ CalibrationInput TableDevices::hear(MonotonicTime now) {
 
 void TableDevices::show(Image8 picture) {
     picture_ = std::move(picture);
-    uploads_left_ = most_buffers;
+    uploads_left_ = max_buffers;
 }
 
 void TableDevices::say(const std::vector<std::string>& words, std::string_view key) {

@@ -26,7 +26,7 @@ public:
 private:
     std::map<std::string, SharedPrompt, std::less<>> prompts_;
     std::unique_ptr<Sound> sound_;
-    SoundWish wish_;
+    SoundRequest wish_;
 };
 
 } // namespace frustumscreen

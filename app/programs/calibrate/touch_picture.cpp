@@ -15,15 +15,15 @@ namespace {
 
 using Stage = CalibrationStage;
 
-constexpr std::array<WordMessage<TouchWord>, 4> touch_messages{{
-    {TouchWord::Moved, {"calibration.moved", "The prop moved. Keep it still; the second begins anew."}},
-    {TouchWord::NotSeen,
+constexpr std::array<WordMessage<TouchPrompt>, 4> touch_messages{{
+    {TouchPrompt::Moved, {"calibration.moved", "The prop moved. Keep it still; the second begins anew."}},
+    {TouchPrompt::NotSeen,
      {"calibration.not_seen",
       "The tracker does not see the prop. Look at its cable and its sensor, then press Next again."}},
-    {TouchWord::SamePlace,
+    {TouchPrompt::SamePlace,
      {"calibration.same_place",
       "The prop still lies where it lay before. Lay it on this cross, then press Next."}},
-    {TouchWord::Taken, {"calibration.taken", "Good."}},
+    {TouchPrompt::Taken, {"calibration.taken", "Good."}},
 }};
 
 std::string height_of(const Cross& cross) {
@@ -85,7 +85,7 @@ TableWords words_of_cross(const TouchProcedure& procedure) {
                         height_of(cross)));
     }
     words.add(message_of(touch_messages, procedure.word()));
-    if (procedure.word() == TouchWord::Taken && procedure.at() > 0 &&
+    if (procedure.word() == TouchPrompt::Taken && procedure.at() > 0 &&
         cross.block_m > procedure.crosses()[procedure.at() - 1].block_m) {
         words.key = "calibration.on_boards";
     }
@@ -118,7 +118,7 @@ Message choice_of(const TouchProcedure& procedure) {
 
 Colour colour_of(const TouchProcedure& procedure) {
     if (procedure.stage() == Stage::HoldStill) {
-        return procedure.word() == TouchWord::Moved ? TableColours::bad : TableColours::good;
+        return procedure.word() == TouchPrompt::Moved ? TableColours::bad : TableColours::good;
     }
     return TableColours::white;
 }
@@ -251,7 +251,7 @@ Image8 table_picture(const TouchProcedure& procedure, const TableDrawing& with) 
               with.typesetter.set(paragraphs_of(words.lines, unit), 0.6 * width), 2.5 * unit);
     const double top = below ? (has_cross ? 0.62 : 0.4) * height : 0.38 * height - coverage.height;
     canvas.coverage(coverage, {(width - coverage.width) / 2, static_cast<int>(std::max(top, unit))},
-                    procedure.word() == TouchWord::Taken || procedure.word() == TouchWord::None
+                    procedure.word() == TouchPrompt::Taken || procedure.word() == TouchPrompt::None
                         ? TableColours::white
                         : TableColours::front);
     const double row = below ? height - 3.0 * unit : 3.0 * unit; // on the words' side

@@ -110,7 +110,7 @@ struct OpenExhibit {
     std::unique_ptr<Display> display;
     DevicePlan devices;
     std::unique_ptr<Show> show;
-    std::optional<Error> excuse;         ///< why there is nothing to show; shown instead
+    std::optional<Error> error_screen;   ///< why there is nothing to show; shown instead
     std::unique_ptr<SetArrival> arrival; ///< none: no set of packs can end the excuse
     MonotonicTime start;
     Inputs inputs;
@@ -132,8 +132,8 @@ Result<OpenExhibit> open(const RunRequest& request, const Settings& settings, co
         return make_show(request, settings, exhibit.devices, *exhibit.display, now());
     }();
     if (!show && manager.listens()) {
-        exhibit.excuse = show.error();
-        show = make_excuse(settings, journal, *exhibit.excuse);
+        exhibit.error_screen = show.error();
+        show = make_error_screen(settings, journal, *exhibit.error_screen);
         if (!library.empty()) {
             exhibit.arrival = std::make_unique<SetArrival>(library, set_before);
         }
@@ -173,8 +173,8 @@ LoopOptions loop_options(const RunRequest& request, const RunMode& mode, const O
     LoopOptions options;
     if (request.seconds > 0.0) {
         options.length = nanoseconds(request.seconds);
-    } else if (exhibit.excuse) {
-        options.length = excuse_length;
+    } else if (exhibit.error_screen) {
+        options.length = error_screen_length;
     }
     options.fast = request.fast;
     options.redraw = request.full_redraw ? Redraw::Everything : Redraw::Changes;
@@ -258,7 +258,7 @@ Result<int> loop_and_finish(const RunRequest& request, const RunMode& mode, Open
     const Result<LoopResult> result = run_loop(settings, *exhibit.display, exhibit.inputs, *exhibit.show,
                                                options, status_file, watch, exhibit.start);
     manager.stopping();
-    const RunEnd end = end_of_run(result, exhibit.excuse, exhibit.arrival && exhibit.arrival->came());
+    const RunEnd end = end_of_run(result, exhibit.error_screen, exhibit.arrival && exhibit.arrival->came());
     return finish(request, end, result, exhibit.inputs.sound.get(), journal);
 }
 

@@ -13,7 +13,7 @@ namespace frustumscreen {
 
 /// A service shows for this long why it has nothing to show. Then it ends, and systemd starts it again to look for
 /// packs; it ends at once when a set of packs is installed.
-inline constexpr Nanoseconds excuse_length = std::chrono::minutes(1);
+inline constexpr Nanoseconds error_screen_length = std::chrono::minutes(1);
 
 struct RunEnd {
     enum class Why : std::uint8_t {
@@ -25,17 +25,18 @@ struct RunEnd {
     std::optional<Error> error; ///< if the run failed
 };
 
-/// `excuse`: why there is nothing to show; none: there is. `set_came`: a set of packs was installed during the run.
-[[nodiscard]] inline RunEnd end_of_run(const Result<LoopResult>& result, const std::optional<Error>& excuse,
-                                       bool set_came) {
+/// `error_screen`: why there is nothing to show; none: there is. `set_came`: a set of packs was installed during the run.
+[[nodiscard]] inline RunEnd end_of_run(const Result<LoopResult>& result,
+                                       const std::optional<Error>& error_screen, bool set_came) {
     if (!result) {
         return {RunEnd::Why::Failed, result.error()};
     }
     if (set_came) {
         return {RunEnd::Why::SetInstalled, {}};
     }
-    if (excuse && result->status.uptime_s >= to_seconds(excuse_length)) { // a stop signal comes earlier
-        return {RunEnd::Why::Failed, excuse};
+    if (error_screen &&
+        result->status.uptime_s >= to_seconds(error_screen_length)) { // a stop signal comes earlier
+        return {RunEnd::Why::Failed, error_screen};
     }
     return {};
 }

@@ -57,8 +57,8 @@ Result<std::unique_ptr<Show>> make_show(const RunRequest& request, const Setting
     return live;
 }
 
-Result<std::unique_ptr<Show>> make_excuse(const Settings& settings, const Journal& journal,
-                                          const Error& why) {
+Result<std::unique_ptr<Show>> make_error_screen(const Settings& settings, const Journal& journal,
+                                                const Error& why) {
     journal.note(LogPriority::Error, why.message, {{"DEVICE", "exhibit"}});
     Result<std::unique_ptr<PatternShow>> pattern = PatternShow::create(settings);
     if (!pattern) {

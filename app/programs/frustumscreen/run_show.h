@@ -24,7 +24,7 @@ namespace frustumscreen {
 
 /// Shows the error to the staff on the table, because a service's standard error is not read. Returns `why` if that
 /// fails.
-[[nodiscard]] Result<std::unique_ptr<Show>> make_excuse(const Settings& settings, const Journal& journal,
-                                                        const Error& why);
+[[nodiscard]] Result<std::unique_ptr<Show>> make_error_screen(const Settings& settings,
+                                                              const Journal& journal, const Error& why);
 
 } // namespace frustumscreen

@@ -128,8 +128,8 @@ std::uint64_t set_number(const ImportArguments& arguments) {
 
 /// Nothing if there is no report, or the file is none.
 std::optional<ImportReport> last_report(const ImportArguments& arguments) {
-    constexpr std::uintmax_t most_report_bytes = 8U << 20U;
-    const Result<Bytes> bytes = read_file(arguments.report, most_report_bytes);
+    constexpr std::uintmax_t max_report_bytes = 8U << 20U;
+    const Result<Bytes> bytes = read_file(arguments.report, max_report_bytes);
     Result<ImportReport> report =
         bytes ? parse_import_report(as_text(*bytes)) : tl::unexpected<Error>(bytes.error());
     return report ? std::optional(*std::move(report)) : std::nullopt;
@@ -215,9 +215,9 @@ ImportReport import_from(const ImportArguments& arguments) {
                            request.settings);
     }
     ImportWatcher watcher(arguments.report, !arguments.json);
-    const ImportSurroundings outside{monotonic_now, processor_time, [&](const ImportReport& report) {
-                                         watcher.tell(report, monotonic_now());
-                                     }};
+    const ImportEnvironment outside{monotonic_now, processor_time, [&](const ImportReport& report) {
+                                        watcher.tell(report, monotonic_now());
+                                    }};
     return import_stick(**stick, **library, request, outside);
 }
 

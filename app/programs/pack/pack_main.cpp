@@ -106,7 +106,7 @@ int sign(SignRequest request) {
 }
 
 /// The largest number that a reader of JSON keeps exactly.
-constexpr std::uint64_t most_serial = (std::uint64_t{1} << 53U) - 1;
+constexpr std::uint64_t max_serial = (std::uint64_t{1} << 53U) - 1;
 
 void add_looking_commands(CommandLine& app, Request& request) {
     CommandLine to_verify = app.add_subcommand("verify", "checks packs wholly; status 1 if one is not sound");
@@ -146,7 +146,7 @@ void add_signing_commands(CommandLine& app, Request& request) {
     to_sign
         .add_option("--serial", request.sign.serial,
                     "a higher one replaces a lower one on the kiosk; without it the seconds since 1970")
-        .within(std::uint64_t{1}, most_serial);
+        .within(std::uint64_t{1}, max_serial);
     to_sign.add_flag("--json", request.sign.json, "for programs");
 }
 

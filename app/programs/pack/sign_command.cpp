@@ -28,10 +28,10 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::uintmax_t most_key_bytes = 4096;
+constexpr std::uintmax_t max_key_bytes = 4096;
 
 Result<SecretKey> read_secret_key(const std::filesystem::path& file) {
-    TRY(const Bytes bytes, read_file(file, most_key_bytes));
+    TRY(const Bytes bytes, read_file(file, max_key_bytes));
     TRY(const bool encrypted, at(file.string(), needs_password(as_text(bytes))));
     std::optional<Password> password;
     if (encrypted) {
@@ -94,8 +94,8 @@ Result<Signable> read_sound(OpenFile file) {
 }
 
 Result<Signed> sign_pack(const SignRequest& request, const SecretKey& key, const std::string& file) {
-    TRY(OpenFile checked, OpenFile::open(file, pack_format::most_pack_bytes));
-    TRY(OpenFile copied, OpenFile::open(file, pack_format::most_pack_bytes));
+    TRY(OpenFile checked, OpenFile::open(file, pack_format::max_pack_bytes));
+    TRY(OpenFile copied, OpenFile::open(file, pack_format::max_pack_bytes));
     TRY(const Signable pack, at(file, read_sound(std::move(checked))));
     TRY(const std::uint64_t serial, at(file, serial_for(request, pack.before)));
     return write_with_signature(std::move(copied), signature_of(key, pack.manifest, serial, file), file)
@@ -122,11 +122,11 @@ Result<void> check_sound(std::string_view text, const std::string& file) {
 }
 
 Result<Signed> sign_text(const SignRequest& request, const SecretKey& key, const std::string& file) {
-    static_assert(most_stick_settings_bytes == most_exhibit_file_bytes);
-    TRY(const Bytes text, read_file(file, most_exhibit_file_bytes));
+    static_assert(max_stick_settings_bytes == max_exhibit_file_bytes);
+    TRY(const Bytes text, read_file(file, max_exhibit_file_bytes));
     TRY_VOID(check_sound(as_text(text), file));
     const std::string beside = file + ".minisig";
-    const Result<Bytes> before = read_file(beside, pack_format::most_signature_bytes);
+    const Result<Bytes> before = read_file(beside, pack_format::max_signature_bytes);
     TRY(const std::uint64_t serial,
         at(file, serial_for(request, before ? std::optional<std::string>(as_text(*before)) : std::nullopt)));
     return write_file(beside, as_bytes(signature_of(key, text, serial, file))).map([&] {

@@ -58,7 +58,7 @@ Result<SoundPack> check(const std::string& file, std::span<const TrustedKey> key
     if (std::error_code none; std::filesystem::is_directory(file, none)) {
         return bad_input("verify.folder", file + ": this is a folder; name the *.fspack files in it");
     }
-    TRY(OpenFile opened, OpenFile::open(file, pack_format::most_pack_bytes));
+    TRY(OpenFile opened, OpenFile::open(file, pack_format::max_pack_bytes));
     TRY(auto reader, at(file, open_checked(std::move(opened), keys)));
     TRY(std::optional<SignatureClaim> claim, at(file, claim_of(reader.first)));
     Result<VerifiedPack> pack = read_pack(reader.first);

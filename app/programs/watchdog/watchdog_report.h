@@ -17,7 +17,7 @@ struct WatchdogReport {
     std::string at; ///< by the wall clock, UTC
     std::string boot_id;
     LadderMemory memory;
-    Seen seen;
+    Observation seen;
     Nanoseconds trouble_for{0}; ///< duration of the current fault, if any
     std::size_t reboots_within_day = 0;
     std::uint32_t failures = 0; ///< failures of the exhibit's process since the boot

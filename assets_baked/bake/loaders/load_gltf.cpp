@@ -224,13 +224,13 @@ private:
         for (const std::size_t node : drawn) {
             const std::size_t once = model_.nodes[node].mesh ? triangles[*model_.nodes[node].mesh] : 0;
             const std::size_t times = instances_of(model_.nodes[node]);
-            total += once > 0 && times > most_triangles / once ? most_triangles + 1 : once * times;
-            if (total > most_triangles) {
+            total += once > 0 && times > max_triangles / once ? max_triangles + 1 : once * times;
+            if (total > max_triangles) {
                 refuse("mesh.gltf_too_many_triangles",
                        "it has more than {} triangles; simplify it first, for instance in MeshLab (at "
                        "nodes[{}], parts that "
                        "are used again counted again)",
-                       most_triangles, node);
+                       max_triangles, node);
             }
         }
     }

@@ -248,7 +248,7 @@ private:
     /// Keeps polygons until the vertices are known, because faces may come first.
     void add_polygon(const std::vector<std::int64_t>& corners, std::uint64_t row) {
         for (const std::int64_t corner : corners) {
-            if (corner < 0 || corner >= static_cast<std::int64_t>(most_source_vertices)) {
+            if (corner < 0 || corner >= static_cast<std::int64_t>(max_source_vertices)) {
                 refuse_contradiction("face {}: vertex {} is out of range", row, corner);
             }
             corners_.push_back(static_cast<std::uint32_t>(corner));

@@ -30,10 +30,10 @@ std::uint32_t MeshAssembly::add_vertex(const glm::dvec3& position, const char* p
                           position.x, position.y, position.z);
         }
     }
-    if (mesh_.positions.size() >= most_source_vertices) {
+    if (mesh_.positions.size() >= max_source_vertices) {
         refuse("mesh.too_many_vertices",
                "it has more than {} vertices; simplify it first, for instance in MeshLab",
-               most_source_vertices);
+               max_source_vertices);
     }
     mesh_.positions.push_back(position);
     return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
@@ -99,9 +99,9 @@ int MeshAssembly::add_texture(SourceTexture texture) {
 }
 
 void MeshAssembly::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t material) {
-    if (mesh_.triangles.size() >= most_triangles) {
+    if (mesh_.triangles.size() >= max_triangles) {
         refuse("mesh.too_many_triangles",
-               "it has more than {} triangles; simplify it first, for instance in MeshLab", most_triangles);
+               "it has more than {} triangles; simplify it first, for instance in MeshLab", max_triangles);
     }
     mesh_.triangles.push_back({a, b, c});
     mesh_.triangle_materials.push_back(material);

@@ -31,7 +31,7 @@ private:
     Sidecars& sidecars_;
     std::filesystem::path texture_;
     std::shared_ptr<const Image8> curators_;
-    std::int64_t texels_left_ = most_texture_texels;
+    std::int64_t texels_left_ = max_texture_texels;
 };
 
 } // namespace frustumscreen

@@ -11,11 +11,11 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t most_bytes = 1000; ///< limit of a pack's line
+constexpr std::size_t max_bytes = 1000; ///< limit of a pack's line
 
 /// Joins the text to one line and removes control characters, which a terminal or page would interpret.
 std::string one_line(std::string_view text) {
-    std::size_t end = std::min(text.size(), most_bytes);
+    std::size_t end = std::min(text.size(), max_bytes);
     while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
         --end; // keeps the last character whole
     }

@@ -88,7 +88,7 @@ Result<int> run(const Request& request, std::unique_ptr<Camera>& camera) {
     if (request.is_on) {
         return report.is_on ? 0 : 1;
     }
-    report.found = list_cameras(*kernel_v4l2_devices(), camera_wish(wished));
+    report.found = list_cameras(*kernel_v4l2_devices(), camera_request(wished));
     report.begun = monotonic_now();
     if (report.is_on) {
         camera = make_camera(wished);

@@ -6,7 +6,7 @@
 #include "app/settings/settings.h"
 #include "firmware_host/camera/camera.h"
 #include "firmware_host/camera/camera_driver.h"
-#include "firmware_host/camera/frame_judge.h"
+#include "firmware_host/camera/frame_health.h"
 
 #include <optional>
 #include <string>

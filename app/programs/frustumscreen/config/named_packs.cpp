@@ -65,11 +65,11 @@ double caption_share(const Settings& settings, const std::vector<NamedPack>& pac
         const glm::dvec2 at(2.0 * (k % columns) / (columns - 1) - 1.0,
                             2.0 * (k / columns) / (rows - 1) - 1.0);
         for (const double turn : turns) {
-            Situation situation;
-            situation.table_from_prop = {glm::angleAxis(turn, glm::dvec3(0.0, 0.0, 1.0)),
-                                         glm::dvec3(zone.centre_m + at * zone.half_m, 0.0)};
-            situation.eye_m = settings.eye.default_m;
-            situation.prop_known = situation.head_known = true;
+            TrackedState tracked_state;
+            tracked_state.table_from_prop = {glm::angleAxis(turn, glm::dvec3(0.0, 0.0, 1.0)),
+                                             glm::dvec3(zone.centre_m + at * zone.half_m, 0.0)};
+            tracked_state.eye_m = settings.eye.default_m;
+            tracked_state.prop_known = tracked_state.head_known = true;
             // Long enough for all fades, and too short for a narration.
             constexpr int steps = 20;
             constexpr Nanoseconds step = std::chrono::milliseconds(100);
@@ -77,7 +77,8 @@ double caption_share(const Settings& settings, const std::vector<NamedPack>& pac
             bool lies = false;
             for (int k_step = 0; k_step <= steps; ++k_step) {
                 constexpr double readable = 0.5;
-                const Presentation presented = exhibit.step(MonotonicTime() + k_step * step, {}, situation);
+                const Presentation presented =
+                    exhibit.step(MonotonicTime() + k_step * step, {}, tracked_state);
                 lies = presented.caption && presented.caption->brightness > readable;
             }
             shown += lies ? 1 : 0;

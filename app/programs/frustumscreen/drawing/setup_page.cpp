@@ -20,8 +20,8 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double mm = 1e3;             ///< millimetres in a metre
-constexpr double least_contrast = 7.0; ///< WCAG 2.2, 1.4.6
+constexpr double mm = 1e3;           ///< millimetres in a metre
+constexpr double min_contrast = 7.0; ///< WCAG 2.2, 1.4.6
 /// The projector's dark level plus the room's light on the table, as a share of its white; WCAG assumes this much. No
 /// setting has it.
 constexpr double assumed_black = 0.05;
@@ -131,7 +131,7 @@ std::string describe_projector(const Settings& settings) {
 }
 
 double caption_em_m(const Settings& settings) {
-    return std::max(settings.exhibit.caption_height_m, least_caption_em_m);
+    return std::max(settings.exhibit.caption_height_m, min_caption_em_m);
 }
 
 /// Describes captions that are hard to read; empty if size and contrast are sufficient.
@@ -141,15 +141,15 @@ std::string describe_captions(const Settings& settings) {
         return "";
     }
     std::string text;
-    if (exhibit.caption_height_m < least_caption_em_m) {
+    if (exhibit.caption_height_m < min_caption_em_m) {
         text += fmt::format(
             "  exhibit.caption_height_m, {:.3g} mm, is less than 24 pt: captions are set at 24 pt, "
             "{:.3g} mm.\n",
-            mm * exhibit.caption_height_m, mm * least_caption_em_m);
+            mm * exhibit.caption_height_m, mm * min_caption_em_m);
     }
     const double contrast =
         (caption_text_brightness * exhibit.caption_brightness + assumed_black) / assumed_black;
-    if (contrast < least_contrast) {
+    if (contrast < min_contrast) {
         text += fmt::format(
             "  exhibit.caption_brightness, {:g}: a caption's text has a contrast of {:.1f}:1 "
             "with the table, and needs "
@@ -157,7 +157,7 @@ std::string describe_captions(const Settings& settings) {
             "its white; measure "
             "these.\n",
             exhibit.caption_brightness, contrast,
-            (least_contrast - 1.0) * assumed_black / caption_text_brightness, 100.0 * assumed_black);
+            (min_contrast - 1.0) * assumed_black / caption_text_brightness, 100.0 * assumed_black);
     }
     return text;
 }

@@ -138,7 +138,7 @@ Result<std::vector<glm::dvec3>> read_hull(const std::filesystem::path& pack, con
 /// As in the exhibit, advice is kept from pose to pose while it helps.
 Result<void> guide(const Request& request) {
     TRY(const CheckedSettings settings, load_settings(request.config));
-    TRY(const std::vector<Situation> frames, load_pose_frames(request.poses, settings->eye.default_m));
+    TRY(const std::vector<TrackedState> frames, load_pose_frames(request.poses, settings->eye.default_m));
     GuidanceSetup setup = guidance_setup(*settings);
     if (!request.pack.empty()) {
         TRY(setup.hull, read_hull(request.pack, setup.prop));
@@ -147,10 +147,11 @@ Result<void> guide(const Request& request) {
     const FaceReader& reader = advisor.reader();
     const PropShape& prop = setup.prop;
     std::string said; ///< the last line; a line is printed when the text changes
-    for (const Situation& frame : frames) {
-        const GuidedSituation situation{frame.table_from_prop, frame.eye_m};
-        const Guided guided{to_microseconds(frame.time), reader.read(situation),  reader.unlit_px(situation),
-                            !setup.hull.empty(),         reader.whole(situation), advisor.advise(situation)};
+    for (const TrackedState& frame : frames) {
+        const GuidedState tracked_state{frame.table_from_prop, frame.eye_m};
+        const Guided guided{to_microseconds(frame.time),    reader.read(tracked_state),
+                            reader.unlit_px(tracked_state), !setup.hull.empty(),
+                            reader.whole(tracked_state),    advisor.advise(tracked_state)};
         if (request.json) {
             fmt::print("{}\n", json_line(guided, prop));
         } else if (std::string words = text_words(guided, prop); words != said) {

@@ -29,15 +29,15 @@ struct SceneCost {
     double spread_us = 0.0; ///< for a saving: half the distance between the quartiles of the differences
 };
 
-struct EconomySaving {
-    Economy economy = UnusedLevels;
+struct CullSaving {
+    CullKind cull_kind = UnusedLevels;
     SceneCost saved;
 };
 
 struct PlanMeasurement {
     std::unique_ptr<ArtifactShow> show; ///< as planned
     SceneCost everything, planned, saved;
-    std::vector<EconomySaving> economies; ///< those that leave something out
+    std::vector<CullSaving> cull_kinds; ///< those that leave something out
     std::size_t poses = 0;
     std::string renderer; ///< the driver's name for the GPU
 };

@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-[[nodiscard]] Result<std::vector<Situation>> load_pose_frames(const std::filesystem::path& file,
-                                                              const glm::dvec3& default_eye_m);
+[[nodiscard]] Result<std::vector<TrackedState>> load_pose_frames(const std::filesystem::path& file,
+                                                                 const glm::dvec3& default_eye_m);
 
 } // namespace frustumscreen
