@@ -105,9 +105,19 @@ FileResult<void> keep_serial(WritableTree& folder, std::uint64_t serial, const O
     });
 }
 
+/// Keeps what the kiosk goes back to. Settings that were not proved yet do not replace those that were: two bad
+/// sticks in a row lead back to the last good settings.
 FileResult<void> keep_before(WritableTree& folder, const Own& own) {
     if (!own.sound) {
         return {}; // damaged settings are nothing to go back to
+    }
+    const auto text_of = [&](std::string_view name) {
+        return read_text(folder, name, max_stick_settings_bytes).value_or("");
+    };
+    const bool is_proved = text_of(settings_proved_name) == own.text;
+    const bool has_before = keys_named_by(text_of(settings_before_name)).has_value();
+    if (has_before && !is_proved) {
+        return {};
     }
     return replace_text(folder, settings_before_name, next_name, own.text).and_then([&] {
         return folder.sync_folder("");
