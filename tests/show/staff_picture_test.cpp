@@ -4,6 +4,7 @@
 #include "app/show/qr_code.h"
 #include "app/show/staff_picture.h"
 #include "app/status/status_card.h"
+#include "firmware_host/base/version.h"
 #include "tests/base/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -216,7 +217,7 @@ TEST(StatusCard, IsShortPlainAndCutFromItsEnd) {
               fmt::format("FrustumScreen {}, 1970-01-01 00:00\nwell\nprojector: lit\ntracker: is "
                           "???here???\ncalibration in use: none\n"
                           "packs: set 3: amphora 01234567\nit runs for 10 h 0 min\n",
-                          FRUSTUMSCREEN_VERSION));
+                          project_version()));
     for (StatusLine& line : lines) {
         line.text = std::string(1000, 'x');
     }

@@ -12,6 +12,7 @@
 #include "assets_baked/bake/load_mesh.h"
 #include "assets_baked/folder/new_folder.h"
 #include "firmware_host/base/json.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -108,7 +109,7 @@ int run(int argc, char** argv) {
         "Bakes an artifact (glTF, OBJ, PLY, STL) into a pack for the FrustumScreen. Options stand above "
         "what a folder's artifact.toml says.",
         "frustumscreen-bake");
-    app.set_version_flag("--version", "frustumscreen-bake " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
     app.footer(
         "frustumscreen-bake --watch FOLDER looks at a folder and draws its page again whenever it changes; "
         "--batch DIR "

@@ -10,6 +10,7 @@
 #include "assets_baked/folder/artifact_file.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/run_program.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/service/stop_signals.h"
 
 #include <fmt/format.h>
@@ -204,7 +205,7 @@ int watch_command(int argc, char** argv) {
                     "browser that has the page "
                     "open shows each new one by itself.",
                     program);
-    app.set_version_flag("--version", "frustumscreen-bake " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
     app.add_option("--watch", arguments.folder, "FOLDER with an artifact.toml").expected(0, 1);
     app.add_option("--preview", arguments.page,
                    "page to write (default: FOLDER.preview.html beside the folder)");

@@ -13,6 +13,7 @@
 #include "firmware_host/base/output_file.h"
 #include "firmware_host/base/printable.h"
 #include "firmware_host/base/standard_error.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -200,7 +201,7 @@ int words_command(int argc, char** argv) {
     Arguments arguments;
     CommandLine app("Bakes the exhibit's own words (advice, faults, invitations) into a file for the kiosk.",
                     program);
-    app.set_version_flag("--version", "frustumscreen-bake " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
     app.add_option("--words", arguments.folder, "folder with LANGUAGE.toml; without one the built-in words")
         .expected(0, 1);
     app.add_option("-o,--output", arguments.output, "file to write (*.fswords)").required();

@@ -4,6 +4,7 @@
 #include "app/programs/import/import_command.h"
 #include "app/programs/import/import_watcher.h"
 #include "app/programs/import/stick_label.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -65,7 +66,7 @@ int run(int argc, char** argv) {
     CommandLine app(
         "Takes packs from a stick into the set that the exhibit shows: signed, whole, or not at all.",
         "frustumscreen-import");
-    app.set_version_flag("--version", "frustumscreen-import " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-import"));
     ImportArguments arguments;
     std::string unsigned_packs = "refuse";
     bool to_list = false;

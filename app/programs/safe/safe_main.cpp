@@ -6,6 +6,7 @@
 #include "app/programs/safe/show_safe_picture.h"
 #include "app/safe/draw_safe_page.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -55,7 +56,7 @@ int run(int argc, char** argv) {
         "needs a graphics "
         "card's driver and nothing else: no settings, no packs, no OpenGL.",
         "frustumscreen-safe");
-    app.set_version_flag("--version", "frustumscreen-safe " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-safe"));
     SafeArguments arguments;
     arguments.languages = safe_languages();
     std::string png;

@@ -11,6 +11,7 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/local_time.h"
 #include "firmware_host/base/this_boot.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/service/journal.h"
 #include "firmware_host/service/service_manager.h"
 #include "firmware_host/service/stop_signals.h"
@@ -165,7 +166,7 @@ int run(int argc, char** argv) {
     CommandLine app("Watches what comes of the exhibit, and climbs the recovery ladder. A kiosk's service "
                     "manager starts it.",
                     "frustumscreen-watchdog");
-    app.set_version_flag("--version", "frustumscreen-watchdog " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-watchdog"));
     Arguments arguments;
     app.add_option("--run-folder", arguments.run_folder, "folder for its status and its orders")
         .capture_default_str();
