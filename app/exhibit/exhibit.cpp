@@ -18,7 +18,7 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
 Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& situation) {
     const bool pressed =
         std::any_of(commands.begin(), commands.end(), [](Command command) { return !is_hold(command); });
-    // Who is told something is there, also without moving.
+    // A visitor who is being told something is present, even without moving.
     const bool telling = tells();
     there_ = presence_.update(now, situation, pressed || telling);
     const bool rests = state_ == State::Staff ? staff_.is_over(now) : presence_.rests(now, place_.rest);
@@ -148,7 +148,7 @@ Observed Exhibit::observe(MonotonicTime now, const Situation& situation, const S
     return seen;
 }
 
-/// Where nobody knows where the prop is, or in the staff's mode, it rests nowhere.
+/// While the prop's pose is unknown, or in staff mode, the prop rests nowhere.
 void Exhibit::step_table(MonotonicTime now, const Situation& situation, const Stand& stand, Observed& seen) {
     if (!table_) {
         return;
@@ -168,7 +168,7 @@ void Exhibit::step_table(MonotonicTime now, const Situation& situation, const St
     const std::optional<std::size_t> chosen = table_->step(now, input);
     seen.prop_rests = table_->presented().ring.has_value();
     seen.artifact_chosen = chosen.has_value();
-    if (chosen && state_ != State::Attract) { // there a prop that stands on a picture is nobody's wish
+    if (chosen && state_ != State::Attract) { // in Attract, no visitor has chosen it
         selection_.choose(*chosen, now);
     }
     choose_ = choose_ && !table_->chose();
@@ -186,7 +186,7 @@ const Guidance* Exhibit::step_guide(MonotonicTime now, const Situation& situatio
         return nullptr;
     }
     if (table_ && table_->prop_is_on_picture()) {
-        guide_->rest(now); // what is being chosen is no mistake
+        guide_->rest(now); // a prop that chooses a picture needs no advice
         return nullptr;
     }
     const std::size_t shown = selection_.at(now).artifact;
@@ -198,7 +198,7 @@ const Guidance* Exhibit::step_guide(MonotonicTime now, const Situation& situatio
         guide_->rest(now);
         return nullptr;
     }
-    // What is heard of a description ends for who asks for help, and otherwise goes on to its next pause.
+    // A request for help ends the speech of a description at once; otherwise the speech goes on to its next pause.
     const bool may_speak =
         (!speaking_ && state_ != State::Browse && state_ != State::Describe) || (help_ && tells());
     const Guidance& guidance =
@@ -207,8 +207,8 @@ const Guidance* Exhibit::step_guide(MonotonicTime now, const Situation& situatio
     return guidance.stage != GuidanceStage::Quiet ? &guidance : nullptr;
 }
 
-/// Who slides the prop among pictures is on the way to one, and back: advice that does not lie there yet waits until the prop
-/// stands, or is moved about for long.
+/// True while the prop slides between pictures, on the way to one and back: new advice waits until the prop stands,
+/// or has been moving for long.
 bool Exhibit::is_on_way_to_picture(MonotonicTime now) {
     constexpr Nanoseconds longest_way = std::chrono::seconds(4);
     if (!presence_.prop_moves(now)) {
