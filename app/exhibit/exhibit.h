@@ -225,7 +225,7 @@ private:
     [[nodiscard]] bool may_leave_set(MonotonicTime now) const;
     void dim_what_leaves(MonotonicTime now, Presentation& presentation) const;
 
-    // What is shown in the current state: exhibit_shows.cpp.
+    // The contents of the presentation, by state: exhibit_shows.cpp.
     /// Behind the staff picture everything goes on except narration.
     [[nodiscard]] bool has_artifact() const { return !catalogue_.empty() && state_ != State::Fault; }
     [[nodiscard]] Presentation present(MonotonicTime now, const Situation& situation, const Stand& stand,

@@ -105,7 +105,7 @@ void Exhibit::dim_what_leaves(MonotonicTime now, Presentation& presentation) con
         if (part && share > 0.0) {
             part->brightness *= share;
         } else {
-            part.reset(); // what is dark is not presented
+            part.reset(); // a dark part is not presented
         }
     };
     dim(presentation.stand_in);

@@ -1,4 +1,4 @@
-// What the exhibit shows and says in its current state.
+// The contents of the presentation, by the exhibit's state.
 #include "app/exhibit/exhibit.h"
 #include "app/exhibit/languages.h"
 

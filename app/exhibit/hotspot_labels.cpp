@@ -31,7 +31,7 @@ double brightness_facing(const Hotspot& hotspot, const glm::dvec3& eye_m) {
     return distance > 0.0 ? ease(glm::dot(to_eye, hotspot.normal) / distance / facing) : 0.0;
 }
 
-/// Where the eye sees a point of the table's plane behind the hotspot; the hotspot's own place if the eye is too low.
+/// The point of the table's plane that the eye sees behind the hotspot; the hotspot's own place if the eye is too low.
 glm::dvec2 seen_on_table(const glm::dvec3& point_m, const glm::dvec3& eye_m) {
     if (!(point_m.z < 0.99 * eye_m.z)) {
         return point_m;

@@ -66,7 +66,7 @@ private:
 
     CaptionPlacer placer_;
     SharedNotice lies_; ///< the one that the placer holds
-    /// What the notice must not overlap. If there is no room, the next value is tried.
+    /// Things that the notice must not overlap. If there is no room, the next value is tried.
     enum class Beside : std::uint8_t { All, AllButEmptyPlaces, AllButCaption };
     Beside beside_ = Beside::All;
     double share_ = 0.0; ///< of its light; falls while another is wanted

@@ -1,4 +1,4 @@
-/// What the tracker does not know and a visitor could correct: a covered prop, metal, a head that is lost.
+/// Losses of the tracker that a visitor could correct: a covered prop, metal, a head that is lost.
 ///
 /// A head is missed only if its owner is still present: it was known in this visit, and the prop was touched since
 /// the head was lost. A visitor who leaves is not asked to come back.

@@ -44,7 +44,7 @@ inline constexpr std::size_t event_count = 15;
 /// The words on the table beside the caption, or in its place.
 enum class Words : std::uint8_t { None, Invitation, Advice, Telling, Fault };
 
-/// What a state shows and says; `shows` describes it for people.
+/// The properties of a state: its picture, words and voice; `shows` describes them for people.
 struct StateNote {
     State state;
     std::string_view name;

@@ -25,7 +25,7 @@
 
 namespace frustumscreen {
 
-/// What there is to tell of an artifact in one language.
+/// The narration that an artifact has in one language.
 struct Tellable {
     std::vector<Nanoseconds>
         portions; ///< reading time of each portion of the description; empty: there is none
@@ -117,7 +117,7 @@ private:
     State state_ = State::Nothing;
     MonotonicTime since_;      ///< of the state
     MonotonicTime rests_from_; ///< rest before this does not count
-    /// What rest leads to: 0 is the description, or the first hotspot if there is none.
+    /// The thing that rest leads to: 0 is the description, or the first hotspot if there is none.
     std::size_t leads_to_ = 0;
     std::optional<MonotonicTime> nobody_since_;
     bool next_waits_ = false; ///< a press that waits until the artifact is there

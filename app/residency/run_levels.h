@@ -92,7 +92,7 @@ public:
     /// On failure nothing stays in the store.
     [[nodiscard]] static Result<RunLevels> upload(const Pack& pack, const ScenePlan& plan,
                                                   std::string technique, double deadline_ms, GpuStore& store);
-    /// Removes all given levels from the store; drawing is no longer possible.
+    /// Removes all given levels from the store; drawing is then impossible.
     void release(GpuStore& store);
 
     [[nodiscard]] const std::vector<LevelUse>& uses() const { return uses_; }

@@ -51,7 +51,7 @@ private:
     LiveSituation situation_;
     SignalMeter prop_signal_, head_signal_;
     std::uint64_t errors_ = 0;
-    std::vector<PoseSample> samples_; ///< this and the next three: of this frame
+    std::vector<PoseSample> samples_; ///< `samples_` to `events_`: of this frame
     std::vector<UncertainPose> tag_poses_;
     std::vector<SeenHead> heads_;
     std::vector<PanelEvent> events_;

@@ -22,7 +22,7 @@
 
 namespace frustumscreen {
 
-/// What the render thread shows, for the verdict.
+/// The render thread's report on the shown set, for the verdict.
 struct ShownReport {
     MonotonicTime now;
     std::uint64_t number = 0; ///< of the set

@@ -38,7 +38,7 @@ void dim(Presentation& presentation, double light) {
         if (part && light > 0.0) {
             part->brightness *= light;
         } else {
-            part.reset(); // what is dark is not presented
+            part.reset(); // a dark part is not presented
         }
     };
     dim_part(presentation.stand_in);

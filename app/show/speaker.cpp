@@ -118,7 +118,7 @@ void Speaker::advise(const Presentation& presentation, const ExhibitStage& stage
     const SharedRecording recording = stage.recording(*word_);
     const SharedReading reading = recording ? reader_->find(recording) : nullptr;
     if (recording && !reading) {
-        word_ = word_ == presentation.prepares_word ? word_ : std::nullopt; // no longer needed
+        word_ = word_ == presentation.prepares_word ? word_ : std::nullopt; // not needed any more
         return;
     }
     word_.reset();

@@ -39,7 +39,7 @@ struct Blocks {
             }
         }
     }
-    /// Whether the segment meets a triangle: Cramer's rule, triangle by triangle.
+    /// True if the segment meets a triangle: Cramer's rule, triangle by triangle.
     [[nodiscard]] bool meets(const glm::dvec3& from, const glm::dvec3& to) const {
         for (std::size_t k = 0; k < indices.size(); k += 3) {
             const glm::dvec3 a(points[indices[k]]);

@@ -1,4 +1,4 @@
-// Whether an artifact is seen whole, and how much of it is lost, compared with rays from the eye.
+// The visibility of an artifact, and how much of it is lost, compared with rays from the eye.
 #include "app/guidance/seen_places.h"
 #include "guided_props.h"
 

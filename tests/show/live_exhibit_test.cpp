@@ -248,8 +248,7 @@ TEST_F(Live, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
                                              sample::exhibit(3, {"en", "de"}), "a driver");
         now = start;
         ButtonTimes times;
-        times.chatter_window =
-            seed % 2 == 0 ? times.chatter_window : Nanoseconds(0); // 0: no press is ignored
+        times.chatter_window = seed % 2 == 0 ? times.chatter_window : Nanoseconds(0); // 0: off
         Buttons buttons(3, times);
         std::array<bool, 3> levels{};
         std::vector<PanelEvent> events;
