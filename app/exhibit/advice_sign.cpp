@@ -279,7 +279,7 @@ Sign sign_of(Action action) {
 
 /// The direction in which a visitor walks along the table's edge to the requested side, the shorter way.
 glm::dvec2 way_round(const Guidance& guidance) {
-    const glm::dvec2 eye(guidance.situation.eye_m);
+    const glm::dvec2 eye(guidance.tracked_state.eye_m);
     const double there = 0.5 * pi * (static_cast<double>(guidance.move.side) - 1.0);
     const glm::dvec2 counter_clockwise = glm::normalize(glm::dvec2(-eye.y, eye.x));
     const bool to_the_right = eye.x * std::sin(there) - eye.y * std::cos(there) >= 0.0;
@@ -314,12 +314,12 @@ std::optional<PlacedSign> place_sign(const Guidance& guidance, MonotonicTime now
     const double since_s = to_seconds(now - guidance.since);
     const double phase = 0.5 - 0.5 * std::cos(2.0 * pi * since_s / period_s);
     const Sign sign = sign_of(move.action);
-    const glm::dvec2 prop(guidance.situation.table_from_prop.translation);
+    const glm::dvec2 prop(guidance.tracked_state.table_from_prop.translation);
     const double readers_angle = 0.5 * pi * quarter_turns;
     std::optional<SignPose> pose;
     if (move.action == Action::ComeRound) {
         const glm::dvec2 ahead = way_round(guidance);
-        pose = SignPose{glm::dvec2(guidance.situation.eye_m), std::atan2(ahead.y, ahead.x)};
+        pose = SignPose{glm::dvec2(guidance.tracked_state.eye_m), std::atan2(ahead.y, ahead.x)};
         glide_inside(room, ahead, phase, *pose);
         if (!clear_of(shadow, corners_of(sign, *pose))) {
             pose.reset();

@@ -22,20 +22,20 @@
 #include "app/exhibit/attract.h"
 #include "app/exhibit/description_shape.h"
 #include "app/exhibit/hotspot_labels.h"
+#include "app/exhibit/narrator.h"
 #include "app/exhibit/notice_place.h"
+#include "app/exhibit/placeholder.h"
 #include "app/exhibit/presence.h"
 #include "app/exhibit/selection.h"
 #include "app/exhibit/sensed.h"
 #include "app/exhibit/sentences.h"
 #include "app/exhibit/staff_tool.h"
-#include "app/exhibit/stand_in.h"
 #include "app/exhibit/states.h"
 #include "app/exhibit/table_browser.h"
-#include "app/exhibit/teller.h"
 #include "app/exhibit/zone_frame.h"
 #include "app/geometry/prop_shape.h"
 #include "app/settings/command.h"
-#include "app/tracking/situation.h"
+#include "app/tracking/tracked_state.h"
 #include "app/typography/captions.h"
 #include "app/typography/visitor_side.h"
 
@@ -115,8 +115,8 @@ struct Presentation {
     std::size_t artifact = 0;            ///< index into the catalogue
     double brightness = 0.0; ///< of the artifact: 0..1, a factor on linear light; 0 until it is ready
     WantedArtifacts wanted;  ///< to load ahead
-    std::optional<PresentedStandIn> stand_in; ///< in place of the chosen artifact until that is ready
-    std::string_view language;                ///< the caption's, shown or not; valid as long as the exhibit
+    std::optional<PresentedStandIn> placeholder; ///< in place of the chosen artifact until that is ready
+    std::string_view language;        ///< the caption's, shown or not; valid as long as the exhibit
     std::string_view wanted_language; ///< the chosen one, to load texts ahead; valid as long as the exhibit
     std::optional<PresentedCaption> caption;
     std::optional<PlacedSign> sign;           ///< advice as a picture
@@ -159,7 +159,7 @@ public:
 
     /// `commands`: those since the previous step, in order.
     [[nodiscard]] Presentation step(MonotonicTime now, std::span<const Command> commands,
-                                    const Situation& situation);
+                                    const TrackedState& tracked_state);
     /// Sets the state of each artifact; before the first call all are ready. An empty list changes nothing.
     void note(std::span<const ArtifactState> states);
     /// The press did something else that the exhibit does not know of: no chord undoes it.
@@ -168,7 +168,7 @@ public:
     /// artifacts are dropped.
     void note_triangles(std::size_t artifact, ArtifactTriangles triangles);
     /// `speaking`: something is being spoken, so no spoken advice begins. `narration`: of the description being told.
-    void hear(bool speaking, const Narration& narration = {});
+    void hear(bool speaking, const SpeechProgress& narration = {});
     /// Announces another set of artifacts; `ready`: it can be shown. When it does not disturb the visitor, everything
     /// of this set fades out: in State::Attract with the next turn; while something is told, spoken or chosen,
     /// afterwards, or after `longest_wait`, which begins when the other set is first ready.
@@ -208,10 +208,10 @@ private:
     void go_to(State state, MonotonicTime now);
     /// Resets everything that belongs to the visitor, who has gone.
     void rest(MonotonicTime now);
-    [[nodiscard]] Observed observe(MonotonicTime now, const Situation& situation, const Stand& stand);
-    void step_table(MonotonicTime now, const Situation& situation, const Stand& stand, Observed& seen);
+    [[nodiscard]] Observed observe(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand);
+    void step_table(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand, Observed& seen);
     /// Nothing if no visitor is present or there is nothing to correct.
-    [[nodiscard]] const Guidance* step_guide(MonotonicTime now, const Situation& situation,
+    [[nodiscard]] const Guidance* step_guide(MonotonicTime now, const TrackedState& tracked_state,
                                              const Stand& stand);
     [[nodiscard]] bool is_on_way_to_picture(MonotonicTime now);
     [[nodiscard]] const ZoneFrame& zone_of(std::size_t artifact) const;
@@ -228,21 +228,21 @@ private:
     // The contents of the presentation, by state: exhibit_shows.cpp.
     /// Behind the staff picture everything goes on except narration.
     [[nodiscard]] bool has_artifact() const { return !catalogue_.empty() && state_ != State::Fault; }
-    [[nodiscard]] Presentation present(MonotonicTime now, const Situation& situation, const Stand& stand,
-                                       bool pressed);
+    [[nodiscard]] Presentation present(MonotonicTime now, const TrackedState& tracked_state,
+                                       const Stand& stand, bool pressed);
     [[nodiscard]] WantedArtifacts wanted() const;
-    [[nodiscard]] StandIn::Output stand_in(MonotonicTime now, const Shown& shown, const Stand& stand);
-    [[nodiscard]] std::optional<PresentedCaption> caption(MonotonicTime now, const Shown& shown,
-                                                          const Situation& situation, const Stand& stand);
+    [[nodiscard]] Placeholder::Output placeholder(MonotonicTime now, const Shown& shown, const Stand& stand);
+    [[nodiscard]] std::optional<PresentedCaption>
+    caption(MonotonicTime now, const Shown& shown, const TrackedState& tracked_state, const Stand& stand);
     [[nodiscard]] std::optional<PresentedHotspot> label(MonotonicTime now, const Shown& shown,
-                                                        const Situation& situation, const Stand& stand,
+                                                        const TrackedState& tracked_state, const Stand& stand,
                                                         const Presentation& presentation);
     [[nodiscard]] std::string_view language_of(std::size_t artifact) const;
     [[nodiscard]] std::optional<WordIndex> word() const;
-    void present_words(MonotonicTime now, const Situation& situation, const Stand& stand,
+    void present_words(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand,
                        Presentation& presentation);
     void speak(MonotonicTime now, const std::optional<WordIndex>& word, Presentation& presentation);
-    void tell(MonotonicTime now, const Situation& situation, const Shown& shown, const Stand& stand,
+    void tell(MonotonicTime now, const TrackedState& tracked_state, const Shown& shown, const Stand& stand,
               bool pressed, Presentation& presentation);
     [[nodiscard]] DescriptionIndex description_of(std::size_t artifact, std::string_view language) const;
     /// Null: there is nothing to tell.
@@ -256,7 +256,7 @@ private:
     std::vector<ArtifactState> ready_;
     std::vector<bool> offered_;    ///< by artifact: offered by selection and table
     std::size_t triangles_of_ = 0; ///< the artifact whose triangles are noted
-    StandIn stand_in_;
+    Placeholder placeholder_;
     State state_ = State::Attract;
     State state_before_ = State::Attract;
     StaffTool staff_;
@@ -274,8 +274,8 @@ private:
     bool speech_due_ = false;         ///< until the words are visible on the table
     std::optional<WordIndex> spoken_; ///< the sentence that may still be heard
     VisitorSide side_;                ///< the texts on the table are turned to this side
-    Narration narration_;
-    Teller teller_;
+    SpeechProgress narration_;
+    Narrator narrator_;
     bool choose_ = false;       ///< pressed, not handled yet
     bool help_ = false;         ///< as `choose_`
     bool answer_comes_ = false; ///< advice for the visitor who pressed it is being searched

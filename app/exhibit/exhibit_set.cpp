@@ -108,7 +108,7 @@ void Exhibit::dim_what_leaves(MonotonicTime now, Presentation& presentation) con
             part.reset(); // a dark part is not presented
         }
     };
-    dim(presentation.stand_in);
+    dim(presentation.placeholder);
     dim(presentation.caption);
     dim(presentation.hotspot);
     dim(presentation.advice);
@@ -129,12 +129,12 @@ Catalogue Exhibit::show_set(Catalogue catalogue, std::optional<TableBrowser> tab
     ready_.assign(catalogue_.size(), ArtifactState::Ready);
     offered_.assign(catalogue_.size(), true);
     triangles_of_ = 0;
-    stand_in_ = StandIn();
+    placeholder_ = Placeholder();
     sentences_ = Sentences(std::move(words), place_.picture_m);
     spoken_.reset();
     speech_due_ = false;
     narration_ = {};
-    teller_ = Teller();
+    narrator_ = Narrator();
     choose_ = help_ = answer_comes_ = false;
     table_ = std::move(table);
     placer_ = CaptionPlacer(place_.picture_m);

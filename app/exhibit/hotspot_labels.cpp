@@ -47,7 +47,7 @@ std::uint32_t faces_lit_from(const PropShape& prop, const glm::dvec3& lens_in_pr
     for (std::size_t k = 0; k < prop.faces.size(); ++k) {
         const PropFace& face = prop.faces[k];
         const double distance = glm::distance(lens_in_prop_m, 0.5 * (face.corners[0] + face.corners[2]));
-        lit |= face.plane.distance(lens_in_prop_m) >= least_sine_of_light * distance ? 1U << k : 0U;
+        lit |= face.plane.distance(lens_in_prop_m) >= min_sine_of_light * distance ? 1U << k : 0U;
     }
     return lit;
 }
@@ -72,7 +72,7 @@ void HotspotLabels::turn_to(const std::optional<Key>& key, const Input& input) {
 /// Excludes the area behind the caption, seen from the prop: no line leads past a caption, so a label has no place
 /// there.
 void HotspotLabels::keep_clear(const Input& input) {
-    std::array<TableRectangle, CaptionPlacer::most_obstacles> obstacles{};
+    std::array<TableRectangle, CaptionPlacer::max_obstacles> obstacles{};
     std::size_t count = std::min(input.obstacles.size(), obstacles.size() - 1);
     std::copy_n(input.obstacles.begin(), count, obstacles.begin());
     if (input.caption) {

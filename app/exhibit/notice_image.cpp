@@ -21,7 +21,7 @@ constexpr double wide_em = 36.0;   ///< the width for which texts are broken at 
 constexpr double middle_em = 25.0; ///< beside a prop in the middle of the table
 constexpr double narrow_em = 18.0;
 constexpr double narrowest_em = 9.0;
-constexpr double most_label_share = 0.36; ///< of the width, if beside a word
+constexpr double max_label_share = 0.36; ///< of the width, if beside a word
 constexpr double between_columns_em = 1.0;
 constexpr double number_em = 2.5;
 constexpr double between_lines_em = 0.3;
@@ -49,7 +49,7 @@ struct Piece {
 class Page {
 public:
     Page(const NoticeType& type, double width_em)
-        : type_(type), em_px_(least_caption_em_m * type.texels_per_m), width_em_(width_em) {}
+        : type_(type), em_px_(min_caption_em_m * type.texels_per_m), width_em_(width_em) {}
 
     void sentences(const std::vector<std::string_view>& keys, bool ring) {
         const int ring_px = ring ? px_of(2.0 * ring_reach_m * type_.texels_per_m / em_px_) : 0;
@@ -79,7 +79,7 @@ public:
         std::vector<SetText> labels;
         int column = 0;
         for (const NoticeLine& line : lines) {
-            labels.push_back(label(line, most_label_share * width_em_));
+            labels.push_back(label(line, max_label_share * width_em_));
             column = std::max(column, labels.back().image.width);
         }
         column += px_of(between_columns_em);
@@ -160,15 +160,15 @@ private:
         return {std::move(image.coverage), image.top_px + static_cast<int>(std::lround(baseline_px))};
     }
 
-    [[nodiscard]] SetText label(const NoticeLine& line, double most_em) const {
+    [[nodiscard]] SetText label(const NoticeLine& line, double max_em) const {
         const Typesetter& typesetter = type_.typesetter;
         const bool has_file = !line.file.empty() && typesetter.can_set(line.file);
         const std::string& text = typesetter.can_set(line.label) ? line.label
                                   : has_file                     ? line.file
                                                                  : "\u2013";
         Coverage image = typesetter.line(text, em_px_);
-        if (image.width > px_of(most_em)) {
-            image = cut_off(image, px_of(most_em), px_of(fades_over_em), false);
+        if (image.width > px_of(max_em)) {
+            image = cut_off(image, px_of(max_em), px_of(fades_over_em), false);
         }
         return {std::move(image), px_of(Typesetter::ascent_em)};
     }

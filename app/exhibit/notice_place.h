@@ -37,12 +37,12 @@ struct PresentedNotice {
 /// The notice's ring, as ring_around takes it; nothing if the shape has none.
 [[nodiscard]] std::optional<TablePolygon> notice_ring(const PresentedNotice& notice);
 
-struct NoticeSurroundings {
+struct NoticeEnvironment {
     std::optional<TablePolygon> shadow; ///< hidden_by_prop from the lens
     std::optional<TablePolygon> hidden; ///< hidden_by_prop from the eye
     glm::dvec2 prop_m{0.0};
     int quarter_turns = 0; ///< the reader's side
-    /// Together with `kept` and `caption` at most CaptionPlacer::most_obstacles.
+    /// Together with `kept` and `caption` at most CaptionPlacer::max_obstacles.
     std::span<const TableRectangle> obstacles;
     std::span<const TableRectangle> kept; ///< empty places where a picture may come
     std::optional<TableRectangle> caption;
@@ -59,10 +59,10 @@ public:
 
     /// Shows `wanted`, or nothing if it is null. Returns what is shown in this step.
     [[nodiscard]] std::optional<PresentedNotice> step(MonotonicTime now, const SharedNotice& wanted,
-                                                      const NoticeSurroundings& surroundings);
+                                                      const NoticeEnvironment& environment);
 
 private:
-    void look(MonotonicTime now, const NoticeSurroundings& surroundings);
+    void look(MonotonicTime now, const NoticeEnvironment& environment);
 
     CaptionPlacer placer_;
     SharedNotice lies_; ///< the one that the placer holds

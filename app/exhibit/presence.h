@@ -8,7 +8,7 @@
 /// Threads  values; one caller. Allocates nothing.
 #pragma once
 
-#include "app/tracking/situation.h"
+#include "app/tracking/tracked_state.h"
 
 #include <optional>
 
@@ -22,7 +22,7 @@ public:
     static constexpr double turned_rad = 0.05;
 
     /// `active`: a button was pressed, or narration is heard. Returns true if a visitor is present.
-    bool update(MonotonicTime now, const Situation& situation, bool active);
+    bool update(MonotonicTime now, const TrackedState& tracked_state, bool active);
     /// True if no visitor has been present for `rest`, or ever.
     [[nodiscard]] bool rests(MonotonicTime now, Nanoseconds rest) const {
         return !moved_ || now - *moved_ >= rest;
@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    std::optional<Situation> rested_; ///< poses of prop and head at the latest movement
+    std::optional<TrackedState> rested_; ///< poses of prop and head at the latest movement
     std::optional<MonotonicTime> moved_;
     std::optional<MonotonicTime> touched_;
     std::optional<MonotonicTime> prop_moved_;

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "app/guidance/guide.h"
-#include "app/tracking/situation.h"
+#include "app/tracking/tracked_state.h"
 
 #include <optional>
 
@@ -18,7 +18,7 @@ class Sensed {
 public:
     /// `lost`: the prop's pose has been unknown for a while. `touched`: when the prop last moved or a button was
     /// pressed.
-    [[nodiscard]] Sensing update(MonotonicTime now, const Situation& situation, bool lost,
+    [[nodiscard]] Sensing update(MonotonicTime now, const TrackedState& tracked_state, bool lost,
                                  const std::optional<MonotonicTime>& touched);
     /// Forgets the visitor, who has gone.
     void forget() { *this = {}; }

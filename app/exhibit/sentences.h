@@ -43,7 +43,7 @@ struct PresentedAdvice {
 };
 
 /// The surroundings that a sentence must not overlap.
-struct SentenceSurroundings {
+struct SentenceEnvironment {
     std::optional<TablePolygon> around; ///< the prop's shadow, and the sign beside it
     std::optional<TablePolygon> hidden; ///< hidden_by_prop from the eye
     glm::dvec2 prop_m{0.0};
@@ -61,9 +61,8 @@ public:
     /// Sets the other rectangles on the table.
     void set_obstacles(std::span<const TableRectangle> obstacles) { placer_.set_obstacles(obstacles); }
     /// Shows `wanted`, or nothing. Returns what is shown in this step.
-    [[nodiscard]] std::optional<PresentedAdvice> place(MonotonicTime now,
-                                                       const std::optional<WordIndex>& wanted,
-                                                       const SentenceSurroundings& surroundings);
+    [[nodiscard]] std::optional<PresentedAdvice>
+    place(MonotonicTime now, const std::optional<WordIndex>& wanted, const SentenceEnvironment& environment);
     /// True if its words are visible or fade in, so that it may be spoken.
     [[nodiscard]] bool shows(MonotonicTime now, const WordIndex& word) const;
     /// True if a sentence is or will be shown: `place` uses its surroundings.

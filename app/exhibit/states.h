@@ -34,15 +34,15 @@ enum class Event : std::uint8_t {
     PropRests,
     PropGoesOn,
     ArtifactChosen,
-    TellingBegins,
-    TellingEnds,
+    NarrationBegins,
+    NarrationEnds,
     AdviceDue,
     AdviceOver
 };
 inline constexpr std::size_t event_count = 15;
 
 /// The words on the table beside the caption, or in its place.
-enum class Words : std::uint8_t { None, Invitation, Advice, Telling, Fault };
+enum class Words : std::uint8_t { None, Invitation, Advice, NarrationSequencer, Fault };
 
 /// The properties of a state: its picture, words and voice; `shows` describes them for people.
 struct StateNote {
@@ -62,7 +62,7 @@ inline constexpr std::array<StateNote, state_count> state_notes{{
      "the same; the ring of the picture that the prop rests on"},
     {State::Guide, "guide", true, true, Words::Advice, true,
      "the same; what to do, as a sign, in words, aloud"},
-    {State::Describe, "describe", true, true, Words::Telling, true,
+    {State::Describe, "describe", true, true, Words::NarrationSequencer, true,
      "the same; what is told of the artifact, in words and aloud; signs"},
     {State::Degraded, "degraded", true, false, Words::Advice, true,
      "nobody knows where the prop is: the artifact turns at a place of its own; what to do, in words, aloud"},
@@ -90,8 +90,8 @@ inline constexpr std::array<EventNote, event_count> event_notes{{
     {Event::PropRests, "prop rests", "it rests on a picture, and the ring fills"},
     {Event::PropGoesOn, "prop goes on", "it rests on none"},
     {Event::ArtifactChosen, "artifact chosen", "on the table: the ring is full"},
-    {Event::TellingBegins, "telling begins", "something of the artifact is being told"},
-    {Event::TellingEnds, "telling ends", "nothing is"},
+    {Event::NarrationBegins, "telling begins", "something of the artifact is being told"},
+    {Event::NarrationEnds, "telling ends", "nothing is"},
     {Event::AdviceDue, "advice due", "a face is dark, the head is lost or metal is near"},
     {Event::AdviceOver, "advice over", "nothing is to be mended, or nobody is there to do it"},
 }};
@@ -112,7 +112,7 @@ inline constexpr std::array transitions{
     Transition{State::View, Event::NothingToShow, State::Fault},
     Transition{State::View, Event::TrackerLost, State::Degraded},
     Transition{State::View, Event::PropRests, State::Browse},
-    Transition{State::View, Event::TellingBegins, State::Describe},
+    Transition{State::View, Event::NarrationBegins, State::Describe},
     Transition{State::View, Event::AdviceDue, State::Guide},
 
     // A filling ring is not disturbed: the prop's place there needs no correction.
@@ -122,14 +122,14 @@ inline constexpr std::array transitions{
     Transition{State::Browse, Event::TrackerLost, State::Degraded},
     Transition{State::Browse, Event::PropGoesOn, State::View},
     Transition{State::Browse, Event::ArtifactChosen, State::View},
-    Transition{State::Browse, Event::TellingBegins, State::Describe},
+    Transition{State::Browse, Event::NarrationBegins, State::Describe},
 
     Transition{State::Guide, Event::Rest, State::Attract},
     Transition{State::Guide, Event::Chord, State::Staff},
     Transition{State::Guide, Event::NothingToShow, State::Fault},
     Transition{State::Guide, Event::TrackerLost, State::Degraded},
     Transition{State::Guide, Event::PropRests, State::Browse},
-    Transition{State::Guide, Event::TellingBegins, State::Describe},
+    Transition{State::Guide, Event::NarrationBegins, State::Describe},
     Transition{State::Guide, Event::AdviceOver, State::View},
 
     // A description is told to its end, even without the prop or with a dark face.
@@ -137,13 +137,13 @@ inline constexpr std::array transitions{
     Transition{State::Describe, Event::Chord, State::Staff},
     Transition{State::Describe, Event::NothingToShow, State::Fault},
     Transition{State::Describe, Event::ArtifactChosen, State::View},
-    Transition{State::Describe, Event::TellingEnds, State::View},
+    Transition{State::Describe, Event::NarrationEnds, State::View},
 
     Transition{State::Degraded, Event::Rest, State::Attract},
     Transition{State::Degraded, Event::Chord, State::Staff},
     Transition{State::Degraded, Event::NothingToShow, State::Fault},
     Transition{State::Degraded, Event::TrackerBack, State::View},
-    Transition{State::Degraded, Event::TellingBegins, State::Describe},
+    Transition{State::Degraded, Event::NarrationBegins, State::Describe},
 
     // The next rest begins anew; while there is still nothing to show, that step returns to Fault.
     Transition{State::Fault, Event::Rest, State::Attract},
@@ -183,7 +183,7 @@ struct Observed {
     bool tracker_lost = false;
     bool prop_rests = false;
     bool artifact_chosen = false; ///< in this step
-    bool telling = false;
+    bool narration_sequencer = false;
     bool advice_due = false;
 };
 /// The state after the events of the conditions, in order, from NothingToShow on.
@@ -192,15 +192,15 @@ struct Observed {
     state = next(state, seen.tracker_lost ? Event::TrackerLost : Event::TrackerBack);
     state = next(state, seen.prop_rests ? Event::PropRests : Event::PropGoesOn);
     state = seen.artifact_chosen ? next(state, Event::ArtifactChosen) : state;
-    state = next(state, seen.telling ? Event::TellingBegins : Event::TellingEnds);
+    state = next(state, seen.narration_sequencer ? Event::NarrationBegins : Event::NarrationEnds);
     return next(state, seen.advice_due ? Event::AdviceDue : Event::AdviceOver);
 }
 
-inline constexpr int most_rests = 2;
-/// Number of rests that lead to Attract; more than `most_rests`: none do.
+inline constexpr int max_rests = 2;
+/// Number of rests that lead to Attract; more than `max_rests`: none do.
 [[nodiscard]] constexpr int rests_to_attract(State state) {
     int rests = 0;
-    for (; state != State::Attract && rests <= most_rests; ++rests) {
+    for (; state != State::Attract && rests <= max_rests; ++rests) {
         state = next(state, Event::Rest);
     }
     return rests;
@@ -246,7 +246,7 @@ consteval bool each_is_reached_and_rests() {
         }
     }
     return std::all_of(state_notes.begin(), state_notes.end(), [&](const StateNote& note) {
-        return reached[static_cast<std::size_t>(note.state)] && rests_to_attract(note.state) <= most_rests;
+        return reached[static_cast<std::size_t>(note.state)] && rests_to_attract(note.state) <= max_rests;
     });
 }
 

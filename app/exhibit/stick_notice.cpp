@@ -127,7 +127,7 @@ std::string_view outcome_word(ImportOutcome outcome, ImportRefusal refusal) {
     }
 }
 
-NoticeText notice_text(const ImportReport& report, std::size_t most_lines) {
+NoticeText notice_text(const ImportReport& report, std::size_t max_lines) {
     switch (report.stage) {
     case ImportStage::Found:
         return {{"stick.found"}, {}, true};
@@ -142,12 +142,12 @@ NoticeText notice_text(const ImportReport& report, std::size_t most_lines) {
         if (report.refusal != ImportRefusal::Unreadable) { // an unreadable stick may be out already
             text.sentences.emplace_back("stick.take_out");
         }
-        text.lines = lines_of(report, most_lines);
+        text.lines = lines_of(report, max_lines);
         text.remark = remark_of(report);
         return text;
     }
     }
-    NoticeText text{{"stick.take_out"}, lines_of(report, most_lines), false, remark_of(report)};
+    NoticeText text{{"stick.take_out"}, lines_of(report, max_lines), false, remark_of(report)};
     if (text.lines.empty()) {
         text.sentences.insert(text.sentences.begin(), "stick.nothing_on_it");
     }

@@ -39,10 +39,10 @@ struct NoticeText {
     std::string remark{}; ///< what is wrong with the stick's settings, in English; empty: nothing
     [[nodiscard]] bool operator==(const NoticeText&) const = default;
 };
-inline constexpr std::size_t most_notice_lines = 8;
-/// `most_lines`: with more packs than this, the rest are combined, one line for each word; these lines may exceed the
+inline constexpr std::size_t max_notice_lines = 8;
+/// `max_lines`: with more packs than this, the rest are combined, one line for each word; these lines may exceed the
 /// limit.
-[[nodiscard]] NoticeText notice_text(const ImportReport& report, std::size_t most_lines = most_notice_lines);
+[[nodiscard]] NoticeText notice_text(const ImportReport& report, std::size_t max_lines = max_notice_lines);
 /// The text for a copy that has stopped.
 [[nodiscard]] NoticeText stopped_text();
 

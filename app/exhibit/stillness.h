@@ -6,7 +6,7 @@
 /// Threads  values; one caller. Allocates nothing.
 #pragma once
 
-#include "app/tracking/situation.h"
+#include "app/tracking/tracked_state.h"
 
 #include <optional>
 
@@ -21,10 +21,10 @@ public:
     static constexpr double stepped_m = 0.12;
 
     /// Returns the time since the latest movement or press.
-    Nanoseconds update(MonotonicTime now, const Situation& situation, bool pressed);
+    Nanoseconds update(MonotonicTime now, const TrackedState& tracked_state, bool pressed);
 
 private:
-    std::optional<Situation> rested_; ///< poses of prop and head at the latest movement
+    std::optional<TrackedState> rested_; ///< poses of prop and head at the latest movement
     MonotonicTime moved_;
 };
 

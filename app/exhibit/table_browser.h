@@ -30,7 +30,7 @@ struct PlacedPicture {
 };
 
 struct PresentedTable {
-    std::array<PlacedPicture, most_table_places> places{};
+    std::array<PlacedPicture, max_table_places> places{};
     std::size_t count = 0;
     std::optional<std::size_t> ring; ///< index into `pictures()`: the prop rests on it
     double ring_full = 0.0;          ///< 0..1
@@ -98,16 +98,16 @@ private:
     std::optional<Fade> fade_;            ///< from the first step on
     std::optional<std::size_t> laid_out_; ///< the arrangement on the table
     MonotonicTime last_;
-    std::array<double, most_table_places> presence_{};                        ///< 0: the place is empty
-    std::array<double, most_table_places> under_sign_{};                      ///< 1: dimmed
-    std::array<std::optional<MonotonicTime>, most_table_places> signed_at_{}; ///< when a sign last lay on it
+    std::array<double, max_table_places> presence_{};                        ///< 0: the place is empty
+    std::array<double, max_table_places> under_sign_{};                      ///< 1: dimmed
+    std::array<std::optional<MonotonicTime>, max_table_places> signed_at_{}; ///< when a sign last lay on it
     Dwell dwell_;
-    std::array<TableRectangle, most_table_places> choosable_{};
-    std::array<std::size_t, most_table_places> choosable_places_{};
+    std::array<TableRectangle, max_table_places> choosable_{};
+    std::array<std::size_t, max_table_places> choosable_places_{};
     std::size_t choosable_count_ = 0;
     bool choosable_holds_ = false; ///< the choosable pictures match the table
     bool on_picture_ = false;
-    std::array<TableRectangle, most_table_places> obstacles_{};
+    std::array<TableRectangle, max_table_places> obstacles_{};
     std::size_t obstacle_count_ = 0;
     PresentedTable presented_;
     bool chose_ = false;

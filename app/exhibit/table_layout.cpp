@@ -56,10 +56,9 @@ struct Candidate {
     std::optional<TableArea> caption;
 };
 
-Candidate candidate_for(const PictureRoom& room, const TableSetUp& set_up, double penalty,
-                        double least_score) {
-    FoundByCount found = find_places(room, set_up, least_score + penalty);
-    std::size_t most = most_table_places;
+Candidate candidate_for(const PictureRoom& room, const TableSetUp& set_up, double penalty, double min_score) {
+    FoundByCount found = find_places(room, set_up, min_score + penalty);
+    std::size_t most = max_table_places;
     while (most > 0 && found[most].size <= 0.0) {
         --most;
     }
@@ -79,16 +78,16 @@ Candidate candidate_for(const PictureRoom& room, const TableSetUp& set_up, doubl
 /// The best layout: with an area for the caption if that leaves places; most artifacts on a page first, then larger
 /// pictures.
 Candidate best_candidate(const ReadersTable& table, const TableSetUp& set_up, bool symmetric) {
-    const std::size_t wanted = std::min(set_up.artifacts, most_table_places);
+    const std::size_t wanted = std::min(set_up.artifacts, max_table_places);
     Candidate best;
     for (std::size_t shape = 0; shape < set_up.captions_m.size(); ++shape) {
         const std::vector<TableArea> areas = caption_areas(table, set_up.captions_m[shape]);
         for (std::size_t anchor = 0; anchor < areas.size(); ++anchor) {
             const double penalty = size_for_better_shape * static_cast<double>(shape) +
                                    size_for_better_anchor * static_cast<double>(anchor);
-            const double least_score = best.shown == wanted ? best.score : 0.0;
+            const double min_score = best.shown == wanted ? best.score : 0.0;
             Candidate candidate =
-                candidate_for({table, areas[anchor], symmetric}, set_up, penalty, least_score);
+                candidate_for({table, areas[anchor], symmetric}, set_up, penalty, min_score);
             if (std::pair(candidate.shown, candidate.score) > std::pair(best.shown, best.score)) {
                 best = std::move(candidate);
             }
@@ -101,7 +100,7 @@ Candidate best_candidate(const ReadersTable& table, const TableSetUp& set_up, bo
 Candidate best_candidate(const ReadersTable& table, const TableSetUp& set_up) {
     Candidate symmetric = best_candidate(table, set_up, true);
     const double many = worth_being_lopsided * static_cast<double>(symmetric.shown);
-    if (many > static_cast<double>(std::min(set_up.artifacts, most_table_places))) {
+    if (many > static_cast<double>(std::min(set_up.artifacts, max_table_places))) {
         return symmetric;
     }
     Candidate free = best_candidate(table, set_up, false);

@@ -25,9 +25,9 @@
 
 namespace frustumscreen {
 
-inline constexpr double least_table_picture_m = 0.045; ///< smaller ones are hard to recognise
-inline constexpr double most_table_picture_m = 0.10;
-inline constexpr std::size_t most_table_places = 12; ///< a page
+inline constexpr double min_table_picture_m = 0.045; ///< smaller ones are hard to recognise
+inline constexpr double max_table_picture_m = 0.10;
+inline constexpr std::size_t max_table_places = 12; ///< a page
 
 struct TablePlace {
     TableRectangle picture; ///< square

@@ -132,7 +132,7 @@ void keep_if_better(FoundPlaces& best, const Lattice& lattice, std::size_t n, st
 
 /// For every n, keeps the best of the lattice if it beats `found`: pairs and, for the rest, singles.
 void keep_better(FoundByCount& found, const Lattice& lattice) {
-    for (std::size_t n = 1; n <= std::min(lattice.places(), most_table_places); ++n) {
+    for (std::size_t n = 1; n <= std::min(lattice.places(), max_table_places); ++n) {
         for (std::size_t pairs = 0; pairs <= std::min(lattice.pairs.size(), (n + 1) / 2); ++pairs) {
             if (2 * pairs + lattice.singles.size() >= n && lattice.size > found[n].value - rounding_m) {
                 keep_if_better(found[n], lattice, n, pairs);
@@ -199,17 +199,17 @@ glm::dvec2 size_of_place(double picture, const glm::dvec2& title) {
     return {std::max(picture, title.x), picture + table_title_gap_m + title.y};
 }
 
-FoundByCount find_places(const PictureRoom& room, const TableSetUp& set_up, double least_size_m) {
+FoundByCount find_places(const PictureRoom& room, const TableSetUp& set_up, double min_size_m) {
     FoundByCount found;
     const int steps =
-        static_cast<int>(std::lround((most_table_picture_m - least_table_picture_m) / size_step_m));
+        static_cast<int>(std::lround((max_table_picture_m - min_table_picture_m) / size_step_m));
     const Span across = column_span(room);
-    const std::size_t wanted = std::min(set_up.artifacts, most_table_places);
+    const std::size_t wanted = std::min(set_up.artifacts, max_table_places);
     Lattice lattice;
     lattice.line = room.table.home.x;
     for (int step = steps; step >= 0; --step) {
-        lattice.size = least_table_picture_m + step * size_step_m;
-        if (lattice.size < std::max(found[wanted].value + rounding_m, least_size_m)) {
+        lattice.size = min_table_picture_m + step * size_step_m;
+        if (lattice.size < std::max(found[wanted].value + rounding_m, min_size_m)) {
             break;
         }
         const glm::dvec2 whole = size_of_place(lattice.size, set_up.title_m);

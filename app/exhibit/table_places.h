@@ -36,14 +36,13 @@ struct FoundPlaces {
     std::vector<glm::dvec2> middles; ///< of picture and title together; in reading order
 };
 /// Entry n is for n pictures.
-using FoundByCount = std::array<FoundPlaces, most_table_places + 1>;
+using FoundByCount = std::array<FoundPlaces, max_table_places + 1>;
 
 /// The size of a picture and its title together.
 [[nodiscard]] glm::dvec2 size_of_place(double picture, const glm::dvec2& title);
 
-/// Finds the places for each number of pictures. Sizes below `least_size_m` are not tried.
-[[nodiscard]] FoundByCount find_places(const PictureRoom& room, const TableSetUp& set_up,
-                                       double least_size_m);
+/// Finds the places for each number of pictures. Sizes below `min_size_m` are not tried.
+[[nodiscard]] FoundByCount find_places(const PictureRoom& room, const TableSetUp& set_up, double min_size_m);
 
 /// Moves pictures on both sides of the prop to the middle between the prop and the edge.
 void come_nearer_to_prop(const PictureRoom& room, const glm::dvec2& whole, std::vector<glm::dvec2>& middles);

@@ -98,14 +98,14 @@ void for_each_execution(const Move& move, const GuidanceSetup& setup, double mar
 
 } // namespace
 
-Help help_of(const FaceReader& reader, const GuidedSituation& situation, const Move& move, double margin,
+Help help_of(const FaceReader& reader, const GuidedState& tracked_state, const Move& move, double margin,
              int* looks) {
-    const double before_px = reader.lost_px(situation);
+    const double before_px = reader.lost_px(tracked_state);
     Help help{true};
     int ways = 0;
     int whole = 0;
     for_each_execution(move, reader.setup(), margin, [&](const Execution& execution) {
-        const GuidedSituation next = after(move, reader.setup(), situation, execution);
+        const GuidedState next = after(move, reader.setup(), tracked_state, execution);
         const bool is_whole = reader.whole(next);
         ++ways;
         whole += is_whole ? 1 : 0;
@@ -119,15 +119,15 @@ Help help_of(const FaceReader& reader, const GuidedSituation& situation, const M
     return help;
 }
 
-bool GivenAdvice::holds(const GuidedSituation& situation) const {
+bool GivenAdvice::holds(const GuidedState& tracked_state) const {
     constexpr double begun_m = 0.03;
     constexpr double begun_rad = 10.0 * degree;
     constexpr double walked_m = 0.1;
-    const RigidTransform& now = situation.table_from_prop;
+    const RigidTransform& now = tracked_state.table_from_prop;
     const RigidTransform& then = given.table_from_prop;
     return glm::distance(now.translation, then.translation) < begun_m &&
            rotation_angle(now.rotation, then.rotation) < begun_rad &&
-           glm::distance(situation.eye_m, given.eye_m) < walked_m;
+           glm::distance(tracked_state.eye_m, given.eye_m) < walked_m;
 }
 
 } // namespace frustumscreen

@@ -20,9 +20,9 @@ struct Advice {
 /// The advice that a visitor has, and the situation for which it was given.
 struct GivenAdvice {
     Move move;
-    GuidedSituation given;
+    GuidedState given;
     /// True if the visitor has hardly begun to follow it.
-    [[nodiscard]] bool holds(const GuidedSituation& situation) const;
+    [[nodiscard]] bool holds(const GuidedState& tracked_state) const;
 };
 
 struct Help {
@@ -30,7 +30,7 @@ struct Help {
     double whole_share = 0.0; ///< fraction of executions that leave no unlit area
 };
 /// `margin`: a factor on the deviations. `looks`: incremented by the number of situations examined.
-[[nodiscard]] Help help_of(const FaceReader& reader, const GuidedSituation& situation, const Move& move,
+[[nodiscard]] Help help_of(const FaceReader& reader, const GuidedState& tracked_state, const Move& move,
                            double margin = 1.0, int* looks = nullptr);
 
 } // namespace frustumscreen

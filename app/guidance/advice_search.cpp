@@ -20,12 +20,12 @@ constexpr double usual_margin = 1.12;
 
 /// The moves that begin longer sequences: stood upright, then lowered to the table, the prop is where its zone is
 /// widest.
-std::optional<Move> settling(const GuidanceSetup& setup, const GuidedSituation& situation) {
+std::optional<Move> settling(const GuidanceSetup& setup, const GuidedState& tracked_state) {
     constexpr double low_enough_m = 0.03;
-    if (tilt_rad(situation.table_from_prop) > upright_within_rad) {
+    if (tilt_rad(tracked_state.table_from_prop) > upright_within_rad) {
         return Move{Action::Upright};
     }
-    const double height_m = lowest_m(setup.prop, situation.table_from_prop);
+    const double height_m = lowest_m(setup.prop, tracked_state.table_from_prop);
     if (setup.in_hand && height_m > low_enough_m) {
         Move move{Action::Lower};
         move.by_m.z = -height_m;
@@ -36,12 +36,12 @@ std::optional<Move> settling(const GuidanceSetup& setup, const GuidedSituation& 
 
 } // namespace
 
-void AdviceSearch::begin(const FaceReader& reader, const GuidedSituation& situation,
+void AdviceSearch::begin(const FaceReader& reader, const GuidedState& tracked_state,
                          const std::optional<GivenAdvice>& standing) {
-    situation_ = situation;
+    tracked_state_ = tracked_state;
     standing_ = standing;
     found_.reset();
-    over_ = reader.whole(situation);
+    over_ = reader.whole(tracked_state);
     stage_ = Stage::Begun;
     best_ = {};
 }
@@ -74,11 +74,11 @@ void AdviceSearch::end(const Move& move, int steps) {
 
 /// Collects the moves that make the artifact whole if carried out well, the easiest first.
 void AdviceSearch::collect_single_moves(const FaceReader& reader) {
-    const Candidates list = candidates(reader.setup(), situation_, MoveSet::Only);
+    const Candidates list = candidates(reader.setup(), tracked_state_, MoveSet::Only);
     looks_left_ -= static_cast<int>(list.all().size());
     candidates_ = {};
     for (const Candidate& candidate : list.all()) {
-        if (reader.whole(after(candidate.move, reader.setup(), situation_))) {
+        if (reader.whole(after(candidate.move, reader.setup(), tracked_state_))) {
             const bool stays = standing_ && alike(standing_->move, candidate.move);
             candidates_.add(candidate.move, candidate.effort + (stays ? as_advised_already : 0.0));
         }
@@ -95,7 +95,7 @@ void AdviceSearch::weigh_single_move(const FaceReader& reader) {
         stage_ = Stage::SingleMoves;
         return;
     }
-    const GuidedSituation next = after(candidates_.all()[next_].move, reader.setup(), situation_);
+    const GuidedState next = after(candidates_.all()[next_].move, reader.setup(), tracked_state_);
     candidates_.add_effort(next_++, cost_of_end(reader, next));
 }
 
@@ -111,9 +111,10 @@ void AdviceSearch::try_single_move(const FaceReader& reader) {
         return;
     }
     const auto& [move, effort] = moves[next_++];
-    const bool replaces = standing_ && standing_->holds(situation_) && !alike(standing_->move, move);
+    const bool replaces = standing_ && standing_->holds(tracked_state_) && !alike(standing_->move, move);
     int looks = 0;
-    const Help help = help_of(reader, situation_, move, replaces ? newcomers_margin : usual_margin, &looks);
+    const Help help =
+        help_of(reader, tracked_state_, move, replaces ? newcomers_margin : usual_margin, &looks);
     looks_left_ -= looks;
     const double cost = effort + not_surely_whole * (1.0 - help.whole_share);
     if (help.always && cost < best_.cost) {
@@ -124,16 +125,16 @@ void AdviceSearch::try_single_move(const FaceReader& reader) {
 /// The standing advice is kept while a sequence begins with it.
 void AdviceSearch::plan_sequences(const FaceReader& reader) {
     try_count_ = 0;
-    if (standing_ && standing_->holds(situation_)) {
-        Try kept{situation_};
+    if (standing_ && standing_->holds(tracked_state_)) {
+        Try kept{tracked_state_};
         kept.like = standing_->move;
         plan_up_to_two(kept);
-        const std::optional<Move> first = settling(reader.setup(), situation_);
+        const std::optional<Move> first = settling(reader.setup(), tracked_state_);
         if (first && alike(*first, standing_->move)) {
             plan_after_settling(reader);
         }
     }
-    plan_up_to_two({situation_});
+    plan_up_to_two({tracked_state_});
     plan_after_settling(reader);
     stage_ = Stage::Sequences;
     try_ = 0;
@@ -152,7 +153,7 @@ void AdviceSearch::plan_up_to_two(Try from) {
 }
 
 void AdviceSearch::plan_after_settling(const FaceReader& reader) {
-    Try settled{situation_};
+    Try settled{tracked_state_};
     while (const std::optional<Move> next = settling(reader.setup(), settled.from)) {
         settled.settled_by = settled.settled_by ? settled.settled_by : next;
         settled.from = after(*next, reader.setup(), settled.from);
@@ -193,16 +194,15 @@ void AdviceSearch::go_on_with_try(const FaceReader& reader) {
     if (too_much || first.effort >= best_.cost || (search.like && !alike(*search.like, first.move))) {
         return;
     }
-    const GuidedSituation next = after(first.move, reader.setup(), search.from);
-    const double rest =
-        search.depth == 1 ? cost_of_end(reader, next) : least_effort(reader, next, search.last);
+    const GuidedState next = after(first.move, reader.setup(), search.from);
+    const double rest = search.depth == 1 ? cost_of_end(reader, next) : min_effort(reader, next, search.last);
     if (first.effort + rest < best_.cost) {
         best_ = {first.move, first.effort + rest};
     }
 }
 
 /// The cost of ending in a situation: at the edge of the light, another advice would soon be needed.
-double AdviceSearch::cost_of_end(const FaceReader& reader, const GuidedSituation& end) {
+double AdviceSearch::cost_of_end(const FaceReader& reader, const GuidedState& end) {
     if (!reader.whole(end)) {
         return never;
     }
@@ -213,7 +213,7 @@ double AdviceSearch::cost_of_end(const FaceReader& reader, const GuidedSituation
 }
 
 /// The least effort of the one move that is left.
-double AdviceSearch::least_effort(const FaceReader& reader, const GuidedSituation& from, MoveSet set) {
+double AdviceSearch::min_effort(const FaceReader& reader, const GuidedState& from, MoveSet set) {
     double least = never;
     const Candidates list = candidates(reader.setup(), from, set);
     looks_left_ -= static_cast<int>(list.all().size());

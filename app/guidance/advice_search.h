@@ -25,12 +25,12 @@ public:
     static constexpr int unlimited = std::numeric_limits<int>::max();
 
     /// `standing`: the advice that the visitor already has.
-    void begin(const FaceReader& reader, const GuidedSituation& situation,
+    void begin(const FaceReader& reader, const GuidedState& tracked_state,
                const std::optional<GivenAdvice>& standing);
     /// Examines about `looks` more situations. True: the search is over.
     [[nodiscard]] bool advance(const FaceReader& reader, int looks);
     /// The situation of the latest `begin`.
-    [[nodiscard]] const GuidedSituation& situation() const { return situation_; }
+    [[nodiscard]] const GuidedState& tracked_state() const { return tracked_state_; }
     /// The result, once the search is over: as `advise`.
     [[nodiscard]] const std::optional<Advice>& found() const { return found_; }
 
@@ -44,7 +44,7 @@ private:
     };
     /// A search for sequences of one length.
     struct Try {
-        GuidedSituation from;
+        GuidedState from;
         std::optional<Move> settled_by = {}; ///< the move before the try; it is then the advice
         std::optional<Move> like = {};       ///< the try's first move must be alike
         int steps_before = 0;
@@ -59,11 +59,11 @@ private:
     void plan_after_settling(const FaceReader& reader);
     void begin_try(const FaceReader& reader);
     void go_on_with_try(const FaceReader& reader);
-    [[nodiscard]] double cost_of_end(const FaceReader& reader, const GuidedSituation& end);
-    [[nodiscard]] double least_effort(const FaceReader& reader, const GuidedSituation& from, MoveSet set);
+    [[nodiscard]] double cost_of_end(const FaceReader& reader, const GuidedState& end);
+    [[nodiscard]] double min_effort(const FaceReader& reader, const GuidedState& from, MoveSet set);
     void end(const Move& move, int steps);
 
-    GuidedSituation situation_;
+    GuidedState tracked_state_;
     std::optional<GivenAdvice> standing_;
     std::optional<Advice> found_;
     bool over_ = true;

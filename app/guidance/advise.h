@@ -25,7 +25,7 @@
 namespace frustumscreen {
 
 /// Nothing if the artifact is whole. Action::Wait: no sequence of up to four moves was found.
-[[nodiscard]] std::optional<Advice> advise(const FaceReader& reader, const GuidedSituation& situation,
+[[nodiscard]] std::optional<Advice> advise(const FaceReader& reader, const GuidedState& tracked_state,
                                            const std::optional<GivenAdvice>& standing = std::nullopt);
 
 /// Advises one visitor over a sequence of situations.
@@ -35,10 +35,10 @@ public:
 
     /// As FaceReader::show; a running search must be begun anew.
     void show(std::span<const glm::dvec3> hull) { reader_.show(hull); }
-    [[nodiscard]] std::optional<Advice> advise(const GuidedSituation& situation);
+    [[nodiscard]] std::optional<Advice> advise(const GuidedState& tracked_state);
 
     /// As `advise`, in pieces (advice_search.h): call `begin`, then `advance` until it returns true.
-    void begin(const GuidedSituation& situation);
+    void begin(const GuidedState& tracked_state);
     [[nodiscard]] bool advance(int looks);
     [[nodiscard]] const std::optional<Advice>& found() const { return search_.found(); }
     [[nodiscard]] const FaceReader& reader() const { return reader_; }

@@ -42,7 +42,7 @@ private:
 /// Only: directions and amounts are fine. Last of a sequence: places all over the table. Inner: coarse, sufficient to
 /// find which moves follow one another.
 enum class MoveSet { Only, Last, Inner };
-[[nodiscard]] Candidates candidates(const GuidanceSetup& setup, const GuidedSituation& situation,
+[[nodiscard]] Candidates candidates(const GuidanceSetup& setup, const GuidedState& tracked_state,
                                     MoveSet set);
 
 } // namespace frustumscreen

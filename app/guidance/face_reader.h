@@ -1,11 +1,11 @@
 /// The prop's faces that a visitor sees, those that the projector lights, and whether the artifact is seen whole.
 ///
-/// Seen     the eye is in front of the face's plane by a sine of at least `least_sine_of_sight` at every corner.
-/// Lit      the projector is in front of the plane by `least_sine_of_light` at every corner, and all corners lie in
+/// Seen     the eye is in front of the face's plane by a sine of at least `min_sine_of_sight` at every corner.
+/// Lit      the projector is in front of the plane by `min_sine_of_light` at every corner, and all corners lie in
 ///          its picture.
 /// Valid    every seen face is lit. The prop is convex, so no face hides or shades another.
 /// Whole    every place of the seen faces through which the artifact is seen (seen_places.h) is lit: the projector is
-///          in front of the face by `least_sine_of_light`, and the place lies in its picture. Without a known
+///          in front of the face by `min_sine_of_light`, and the place lies in its picture. Without a known
 ///          artifact: as Valid.
 ///
 /// Frames   table T, metres.
@@ -33,7 +33,7 @@ struct GuidanceSetup {
     PropShape prop;
     Pinhole projector;
     RigidTransform table_from_projector;
-    double least_sine_of_light = 0.035;
+    double min_sine_of_light = 0.035;
     bool in_hand = false; ///< false: the prop stands on the table, whose edges limit its way
     glm::dvec2 half_table_m{0.4, 0.25};
     bool head_tracked = true; ///< false: visitors are not asked to walk
@@ -41,7 +41,7 @@ struct GuidanceSetup {
     std::vector<glm::dvec3> hull{};
 };
 
-struct GuidedSituation {
+struct GuidedState {
     RigidTransform table_from_prop;
     glm::dvec3 eye_m{0.0};
 };
@@ -57,7 +57,7 @@ struct FaceSets {
 
 class FaceReader {
 public:
-    static constexpr double least_sine_of_sight = 1e-3;
+    static constexpr double min_sine_of_sight = 1e-3;
     static constexpr double pixels_per_radian = 1000.0;
 
     /// The prop has at most 32 faces.
@@ -70,26 +70,26 @@ public:
         return shown_.value_or(std::span<const glm::dvec3>(setup_.hull));
     }
 
-    [[nodiscard]] FaceSets read(const GuidedSituation& situation) const;
+    [[nodiscard]] FaceSets read(const GuidedState& tracked_state) const;
     /// As `read(situation).valid()`, but faster.
-    [[nodiscard]] bool valid(const GuidedSituation& situation) const;
-    [[nodiscard]] bool whole(const GuidedSituation& situation) const;
+    [[nodiscard]] bool valid(const GuidedState& tracked_state) const;
+    [[nodiscard]] bool whole(const GuidedState& tracked_state) const;
     /// True if the artifact is whole and there is a picture: a prop lying on the table with none of its faces seen
     /// shows nothing. `faces`: of the situation.
-    [[nodiscard]] bool shows_whole(const GuidedSituation& situation, const FaceSets& faces) const {
-        return (faces.valid() || (!shown().empty() && whole(situation))) &&
+    [[nodiscard]] bool shows_whole(const GuidedState& tracked_state, const FaceSets& faces) const {
+        return (faces.valid() || (!shown().empty() && whole(tracked_state))) &&
                (faces.seen != 0 || setup_.in_hand);
     }
     /// Area of these faces, in square pixels, in the picture of a pinhole at the eye that looks at the prop's middle.
-    [[nodiscard]] double area_px(const GuidedSituation& situation, std::uint32_t faces) const;
+    [[nodiscard]] double area_px(const GuidedState& tracked_state, std::uint32_t faces) const;
     /// Area of the seen faces that are not lit.
-    [[nodiscard]] double unlit_px(const GuidedSituation& situation) const {
-        return area_px(situation, read(situation).unlit());
+    [[nodiscard]] double unlit_px(const GuidedState& tracked_state) const {
+        return area_px(tracked_state, read(tracked_state).unlit());
     }
     /// Area of the places that prevent `whole`.
-    [[nodiscard]] double lost_px(const GuidedSituation& situation) const;
+    [[nodiscard]] double lost_px(const GuidedState& tracked_state) const;
     /// The face of the set with the largest area, as a set; 0 for the empty set.
-    [[nodiscard]] std::uint32_t largest_of(const GuidedSituation& situation, std::uint32_t faces) const;
+    [[nodiscard]] std::uint32_t largest_of(const GuidedState& tracked_state, std::uint32_t faces) const;
 
 private:
     GuidanceSetup setup_;

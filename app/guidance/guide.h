@@ -41,7 +41,7 @@ struct Guidance {
     bool left_light = false;   ///< a prop on the table was lost where it was not lit
     bool speak = false;        ///< the sentence's speech begins in this step
     MonotonicTime since;       ///< when the picture appeared
-    GuidedSituation situation; ///< for which the advice was found
+    GuidedState tracked_state; ///< for which the advice was found
 };
 
 class Guide {
@@ -67,9 +67,9 @@ public:
     /// keeps; empty: unknown, and every seen face counts.
     void show(std::span<const glm::dvec3> hull);
 
-    /// `situation`: for a lost prop, the latest known one. `may_speak`: false while something else is spoken, or
+    /// `tracked_state`: for a lost prop, the latest known one. `may_speak`: false while something else is spoken, or
     /// while the words are not visible on the table.
-    [[nodiscard]] const Guidance& step(MonotonicTime now, const GuidedSituation& situation, Sensing sensing,
+    [[nodiscard]] const Guidance& step(MonotonicTime now, const GuidedState& tracked_state, Sensing sensing,
                                        bool may_speak);
     /// No advice is needed now, whatever the visitor sees; the next step begins anew.
     void rest(MonotonicTime now);
@@ -84,8 +84,8 @@ public:
     [[nodiscard]] const FaceReader& reader() const { return advisor_.reader(); }
 
 private:
-    void look(MonotonicTime now, const GuidedSituation& situation, Sensing sensing);
-    void take(MonotonicTime now, const GuidedSituation& situation, Sensing sensing);
+    void look(MonotonicTime now, const GuidedState& tracked_state, Sensing sensing);
+    void take(MonotonicTime now, const GuidedState& tracked_state, Sensing sensing);
     void raise_stage(MonotonicTime now, bool may_speak);
     void answer(MonotonicTime now, bool may_speak);
     void note_need(MonotonicTime now, bool needed);
@@ -98,10 +98,10 @@ private:
     Nanoseconds needed_for_{0};           ///< need accumulated lately
     std::optional<MonotonicTime> guided_; ///< time of the latest advice
     std::optional<MonotonicTime> next_look_;
-    std::optional<GuidedSituation> looks_at_; ///< while an advice is searched
-    MonotonicTime stage_since_;               ///< or since the visitor last made progress
-    double nearest_effort_ = 0.0;             ///< the least effort left so far
-    std::optional<MonotonicTime> spoken_;     ///< when the advice was last spoken
+    std::optional<GuidedState> looks_at_; ///< while an advice is searched
+    MonotonicTime stage_since_;           ///< or since the visitor last made progress
+    double nearest_effort_ = 0.0;         ///< the least effort left so far
+    std::optional<MonotonicTime> spoken_; ///< when the advice was last spoken
     Nanoseconds pause_ = first_pause;
     bool asked_ = false;
 };

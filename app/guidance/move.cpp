@@ -108,10 +108,10 @@ bool alike(const Move& a, const Move& b) {
     }
 }
 
-GuidedSituation after(const Move& move, const GuidanceSetup& setup, const GuidedSituation& before,
-                      const Execution& execution) {
-    GuidedSituation situation = before;
-    RigidTransform& pose = situation.table_from_prop;
+GuidedState after(const Move& move, const GuidanceSetup& setup, const GuidedState& before,
+                  const Execution& execution) {
+    GuidedState tracked_state = before;
+    RigidTransform& pose = tracked_state.table_from_prop;
     switch (move.action) {
     case Action::Slide:
     case Action::Raise:
@@ -133,13 +133,13 @@ GuidedSituation after(const Move& move, const GuidanceSetup& setup, const Guided
         const double azimuth =
             0.5 * std::numbers::pi * (static_cast<double>(move.side) - 1.0) + execution.aside_rad;
         const double radius = glm::length(glm::dvec2(before.eye_m)) * std::sqrt(execution.amount);
-        situation.eye_m = {radius * std::cos(azimuth), radius * std::sin(azimuth), before.eye_m.z};
+        tracked_state.eye_m = {radius * std::cos(azimuth), radius * std::sin(azimuth), before.eye_m.z};
         break;
     }
     case Action::Wait:
         break;
     }
-    return situation;
+    return tracked_state;
 }
 
 double tilt_rad(const RigidTransform& table_from_prop) {

@@ -46,8 +46,8 @@ struct Execution {
 };
 
 /// The situation after the move. A prop that stands on the table stays on it; a prop in the hand stays above it.
-[[nodiscard]] GuidedSituation after(const Move& move, const GuidanceSetup& setup,
-                                    const GuidedSituation& before, const Execution& execution = {});
+[[nodiscard]] GuidedState after(const Move& move, const GuidanceSetup& setup, const GuidedState& before,
+                                const Execution& execution = {});
 
 /// A prop that leans less than this counts as upright, within a tracker's accuracy: 3.4 degrees.
 inline constexpr double upright_within_rad = 0.06;

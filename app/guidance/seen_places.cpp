@@ -152,11 +152,11 @@ bool sees_through(const glm::dvec3& eye, const FacePart& part, std::span<const g
 
 SeenOutline::SeenOutline(const glm::dvec3& eye, const glm::dvec3& forward, std::span<const glm::dvec3> hull)
     : eye_(eye), forward_(forward) {
-    if (hull.size() < 3 || hull.size() > most_corners) {
+    if (hull.size() < 3 || hull.size() > max_corners) {
         return;
     }
     const View view(eye, forward);
-    std::array<glm::dvec2, most_corners>
+    std::array<glm::dvec2, max_corners>
         points; // NOLINT(cppcoreguidelines-pro-type-member-init): as many as are used
     std::transform(hull.begin(), hull.end(), points.begin(),
                    [&](const glm::dvec3& point) { return view.seen(point); });
@@ -178,7 +178,7 @@ double SeenOutline::area_through(const FacePart& part) const {
     }
     const double turn = twice < 0.0 ? -1.0 : 1.0;
     // Both are convex: the part's few edges clip the outline, alternating between two arrays.
-    std::array<std::array<glm::dvec2, 2 * most_corners>, 2>
+    std::array<std::array<glm::dvec2, 2 * max_corners>, 2>
         chains; // NOLINT(cppcoreguidelines-pro-type-member-init)
     std::copy_n(outline_.begin(), count_, chains[0].begin());
     std::size_t count = count_;

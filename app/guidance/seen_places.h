@@ -53,7 +53,7 @@ private:
 /// distance 1.
 class SeenOutline {
 public:
-    static constexpr std::size_t most_corners = 1024; ///< of the hull; a larger hull counts as invisible
+    static constexpr std::size_t max_corners = 1024; ///< of the hull; a larger hull counts as invisible
 
     SeenOutline(const glm::dvec3& eye, const glm::dvec3& forward, std::span<const glm::dvec3> hull);
     /// Area in that picture of what is seen through a part of a face.
@@ -62,7 +62,7 @@ public:
 private:
     glm::dvec3 eye_;
     glm::dvec3 forward_;
-    std::array<glm::dvec2, 2 * most_corners> outline_; ///< convex, counter-clockwise; `count_` points
+    std::array<glm::dvec2, 2 * max_corners> outline_; ///< convex, counter-clockwise; `count_` points
     std::size_t count_ = 0;
 };
 

@@ -26,7 +26,7 @@ Nanoseconds reading_time(std::string_view text) {
 /// The portions of a description; empty if it is too long to be narrated.
 std::vector<std::string> told_portions(const PackCaption& caption) {
     std::vector<std::string> portions = portions_of(caption.description);
-    return portions.size() <= most_text_portions ? portions : std::vector<std::string>();
+    return portions.size() <= max_text_portions ? portions : std::vector<std::string>();
 }
 
 /// The caption with the attribution below it, and without, for places where both do not fit.

@@ -41,7 +41,7 @@ struct ArtifactTexts {
 
 /// Captions are small and are loaded before the artifact. The narration can only be requested once the
 /// artifact is chosen.
-enum class TextPart : std::uint8_t { Caption, Telling };
+enum class TextPart : std::uint8_t { Caption, NarrationSequencer };
 inline constexpr std::size_t text_parts = 2;
 
 /// The part's pictures: of a caption, by width, and by width again without its attribution, if it has one; of the

@@ -106,11 +106,11 @@ public:
     void measure(const PropShape& prop, const PlanView& view, Renderer& renderer, const RenderTarget& target);
 
     /// Starts the governor with measured times: one for each quality level, best first.
-    void start(const std::vector<RungTime>& times);
+    void start(const std::vector<QualityLevelTime>& times);
     /// Starts the governor with predicted times for the view. Needs no context.
     void start(const FrameCost& cost, const PropShape& prop, const PlanView& view);
     /// The times at the start; empty before.
-    [[nodiscard]] const std::vector<RungTime>& times() const { return times_; }
+    [[nodiscard]] const std::vector<QualityLevelTime>& times() const { return times_; }
 
     /// GPU memory and main memory, by the plan.
     [[nodiscard]] std::uint64_t bytes() const;
@@ -128,7 +128,7 @@ public:
 
 private:
     struct Level {
-        Rung shows; ///< without samples
+        QualityLevel shows; ///< without samples
         SeenLevel seen;
         PlacedLevel placed;
     };
@@ -136,19 +136,19 @@ private:
     [[nodiscard]] PlacedLevel placed(std::size_t slot) const;
     /// Error of the planned frame.
     [[nodiscard]] std::optional<ErrorEstimate> estimate(const PropShape& prop, const PlanView& view) const;
-    [[nodiscard]] std::size_t slot_of(const Rung& rung) const;
+    [[nodiscard]] std::size_t slot_of(const QualityLevel& quality_level) const;
     /// The planned frame's work, at this quality level.
-    [[nodiscard]] FrameWork work(const Rung& rung) const;
-    [[nodiscard]] double median_ms(const Rung& rung, const PropShape& prop, const PlanView& view,
-                                   Renderer& renderer, const RenderTarget& target);
+    [[nodiscard]] FrameWork work(const QualityLevel& quality_level) const;
+    [[nodiscard]] double median_ms(const QualityLevel& quality_level, const PropShape& prop,
+                                   const PlanView& view, Renderer& renderer, const RenderTarget& target);
 
     std::string technique_;
     std::vector<LevelUse> uses_;
     std::vector<LeftOut> left_out_;
     RenderNeeds needs_;
     std::vector<Level> levels_;
-    std::vector<Rung> rungs_;
-    std::vector<RungTime> times_;
+    std::vector<QualityLevel> quality_levels_;
+    std::vector<QualityLevelTime> times_;
     double deadline_ms_;
     Governor governor_;
     FramePlan plan_;

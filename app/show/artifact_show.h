@@ -37,7 +37,7 @@ struct ArtifactShowOptions {
     std::vector<std::filesystem::path> packs;
     std::string technique = "auto"; ///< "auto": the governor's choice; otherwise see `level_of`
     int samples = default_samples;  ///< for each pixel; the render target holds them wherever the prop stands
-    unsigned economies = AllEconomies;
+    unsigned cull_kinds = AllCullKinds;
     std::string_view program = "frustumscreen"; ///< named in lines on standard error
     std::string packs_key = {}; ///< the key of the packs in the settings, for messages; empty: none
     bool waits =
@@ -80,14 +80,14 @@ public:
         return set_->recording(word);
     }
     [[nodiscard]] SharedRecording recording(const DescriptionIndex& description) const override {
-        return set_->residents->known(description.artifact).texts.recordings[description.language];
+        return set_->artifact_cache->known(description.artifact).texts.recordings[description.language];
     }
     [[nodiscard]] bool speaks() const override;
     [[nodiscard]] std::span<const ArtifactState> artifacts() const override {
-        return set_->residents->states();
+        return set_->artifact_cache->states();
     }
     [[nodiscard]] ArtifactTriangles triangles(std::size_t artifact) const override {
-        return set_->residents->triangles(artifact);
+        return set_->artifact_cache->triangles(artifact);
     }
     /// The exhibit's own texts of the set.
     [[nodiscard]] const std::vector<AdviceLanguage>& words() const { return set_->words.languages; }
@@ -95,7 +95,7 @@ public:
     [[nodiscard]] ShowUse use() const;
     /// Sentences about settings that may be unintended.
     [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
-    [[nodiscard]] const PacksLeftOut& left_out() const { return set_->residents->left_out(); }
+    [[nodiscard]] const PacksLeftOut& left_out() const { return set_->artifact_cache->left_out(); }
 
     // For a change of the set, where `other_sets` may come:
     [[nodiscard]] SetOptions set_options() const {
@@ -112,11 +112,11 @@ public:
     [[nodiscard]] std::unique_ptr<ShownSet> exchange(std::unique_ptr<ShownSet> set);
     /// `artifact`: index into the catalogue.
     [[nodiscard]] const ScenePlan& plan(std::size_t artifact) const {
-        return set_->residents->known(artifact).plan;
+        return set_->artifact_cache->known(artifact).plan;
     }
     /// The levels of a ready artifact; the first is ready until another one is shown.
     [[nodiscard]] const RunLevels& levels(std::size_t artifact) const {
-        return *set_->residents->find(artifact);
+        return *set_->artifact_cache->find(artifact);
     }
 
 private:

@@ -87,7 +87,7 @@ void ImportJournal::note_packs(const Write& write) {
     if (!is_over(noted_->report)) {
         return;
     }
-    for (std::size_t lines = 0; lines < most_lines && packs_ < packs.size(); ++lines, ++packs_) {
+    for (std::size_t lines = 0; lines < max_lines && packs_ < packs.size(); ++lines, ++packs_) {
         const ImportedPack& pack = packs[packs_];
         write(pack.outcome == ImportOutcome::Refused ? LogPriority::Warning : LogPriority::Notice,
               line_of(pack));

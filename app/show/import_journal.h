@@ -1,7 +1,7 @@
 /// The importer's progress as lines for the journal: each stage, and at the end each pack.
 ///
 /// Fields   DEVICE=stick; STATE is the line's text.
-/// Threads  one caller, the render thread; a call writes at most `most_lines`, so that 500 packs do not delay a
+/// Threads  one caller, the render thread; a call writes at most `max_lines`, so that 500 packs do not delay a
 ///          frame. Allocates nothing.
 /// Errors   none.
 #pragma once
@@ -17,7 +17,7 @@ namespace frustumscreen {
 
 class ImportJournal {
 public:
-    static constexpr std::size_t most_lines = 16;
+    static constexpr std::size_t max_lines = 16;
     using Write = std::function<void(LogPriority priority, const Sentence& line)>;
 
     /// Call once a second. An import that was over long before the exhibit began is not logged again. A new import

@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::uintmax_t most_report_bytes = 8U << 20U;
+constexpr std::uintmax_t max_report_bytes = 8U << 20U;
 constexpr std::size_t notices_kept = 4;    ///< of one import: found, copied, may be removed, over
 constexpr std::size_t lines_of_counts = 3; ///< if all lines may not fit
 
@@ -53,7 +53,7 @@ void ImportWatch::work(const std::stop_token& stop) {
 }
 
 Result<ImportReport> ImportWatch::read() const {
-    TRY(const Bytes bytes, read_file(file_, most_report_bytes));
+    TRY(const Bytes bytes, read_file(file_, max_report_bytes));
     return at(file_.string(), parse_import_report(as_text(bytes)));
 }
 

@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::uintmax_t most_bytes = 64;
+constexpr std::uintmax_t max_bytes = 64;
 
 std::string line_of(int louder_db, double over_db) {
     return fmt::format("louder_db {} over {}\n", louder_db, over_db);
@@ -24,7 +24,7 @@ int read_kept_volume(const std::filesystem::path& file, double settings_gain_db)
     if (file.empty() || !std::filesystem::exists(file, failed)) {
         return 0;
     }
-    const Result<Bytes> bytes = read_file(file, most_bytes);
+    const Result<Bytes> bytes = read_file(file, max_bytes);
     int louder_db = 0;
     if (!bytes || std::sscanf(std::string(as_text(*bytes)).c_str(), "louder_db %4d over", &louder_db) != 1) {
         return 0;

@@ -156,7 +156,7 @@ void LibraryWatch::offer(const InstalledSet& set, const std::stop_token& stop) {
         return;
     }
     const std::string fault =
-        opened ? fault_of((*opened)->residents->left_out(), false) : opened.error().message;
+        opened ? fault_of((*opened)->artifact_cache->left_out(), false) : opened.error().message;
     if (opened) {
         for (const std::string& note : (*opened)->notes) {
             say_line(set_up_.options.program, note);

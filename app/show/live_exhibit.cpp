@@ -41,7 +41,7 @@ void dim(Presentation& presentation, double light) {
             part.reset(); // a dark part is not presented
         }
     };
-    dim_part(presentation.stand_in);
+    dim_part(presentation.placeholder);
     dim_part(presentation.caption);
     dim_part(presentation.sign);
     dim_part(presentation.advice);
@@ -74,7 +74,7 @@ void LiveExhibit::watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> l
     set_switch_ = std::make_unique<SetSwitch>(artifacts, std::move(library));
 }
 
-void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) {
+void LiveExhibit::step(MonotonicTime now, std::span<const Command> commands, const TrackedState& on_table) {
     const bool asleep = light_ <= 0.0;
     if (set_switch_ && !asleep && set_switch_->step(now, presentation_.state, exhibit_)) {
         presentation_.artifact = exhibit_.chosen(); // the previous presentation belongs to the old set
@@ -158,7 +158,7 @@ void LiveExhibit::tell(const RunStatus& status) {
     }
 }
 
-DrawResult LiveExhibit::draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
+DrawResult LiveExhibit::draw(MonotonicTime now, const TrackedState& on_table, const RenderTarget& target,
                              Redraw redraw) {
     // A buffer that is older than the change holds the other picture.
     RenderTarget own = target;

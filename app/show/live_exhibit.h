@@ -34,13 +34,13 @@ public:
     /// Accepts other sets from here on; `artifacts` is the stage.
     void watch(ArtifactShow& artifacts, std::unique_ptr<LibraryWatch> library);
 
-    void step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) override;
+    void step(MonotonicTime now, std::span<const Command> commands, const TrackedState& on_table) override;
     void tell(const RunStatus& status) override;
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const TrackedState& on_table, const RenderTarget& target,
                                   Redraw redraw) override;
     void record_time(MonotonicTime now, double ms) override;
     [[nodiscard]] ShowState state() const override;
-    [[nodiscard]] const SoundWish& wish() const override { return speaker_.wish(); }
+    [[nodiscard]] const SoundRequest& wish() const override { return speaker_.wish(); }
     [[nodiscard]] bool speaks() const override { return stage_->speaks() || notice_.speaks(); }
     void hear(const SoundReport& report) override;
     [[nodiscard]] bool sleeps() const override { return true; }

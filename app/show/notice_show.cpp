@@ -98,7 +98,7 @@ private:
         [[nodiscard]] std::span<const TableRectangle> all() const { return std::span(all_).first(count_); }
 
     private:
-        std::array<TableRectangle, CaptionPlacer::most_obstacles> all_{};
+        std::array<TableRectangle, CaptionPlacer::max_obstacles> all_{};
         std::size_t count_ = 0;
     };
     List lit_, empty_;
@@ -143,7 +143,7 @@ SharedNotice NoticeShow::wanted(const std::optional<ShownNotice>& shown) const {
     return shown->stopped ? import_->stopped : import_->notice;
 }
 
-void NoticeShow::step(MonotonicTime now, const Situation& situation, Presentation& presentation) {
+void NoticeShow::step(MonotonicTime now, const TrackedState& tracked_state, Presentation& presentation) {
     if (!watch_) {
         return;
     }
@@ -152,10 +152,10 @@ void NoticeShow::step(MonotonicTime now, const Situation& situation, Presentatio
         import_ = latest;
         notice_.take(now, import_->report, import_->is_old);
     }
-    side_.update(situation.eye_m);
+    side_.update(tracked_state.eye_m);
     const std::optional<ShownNotice> shown = notice_.at(now);
     const SharedNotice notice = wanted(shown);
-    place(now, notice, situation, presentation);
+    place(now, notice, tracked_state, presentation);
     if (presentation.notice) {
         presentation.notice->ring_full = shown ? shown->ring.value_or(1.0) : 1.0;
         presentation.settled = presentation.settled && presentation.notice->brightness >= 1.0;
@@ -170,20 +170,20 @@ void NoticeShow::step(MonotonicTime now, const Situation& situation, Presentatio
     announcement_ = !due_ ? nullptr : due_->key == "stick.found" ? found_ : take_out_;
 }
 
-void NoticeShow::place(MonotonicTime now, const SharedNotice& wanted, const Situation& situation,
+void NoticeShow::place(MonotonicTime now, const SharedNotice& wanted, const TrackedState& tracked_state,
                        Presentation& presentation) {
     const Obstacles obstacles(presentation);
-    NoticeSurroundings surroundings{hidden_by_prop(prop_, presentation.table_from_prop, lens_m_),
-                                    hidden_by_prop(prop_, presentation.table_from_prop, situation.eye_m),
-                                    glm::dvec2(presentation.table_from_prop.translation),
-                                    side_.quarter_turns(),
-                                    obstacles.lit(),
-                                    obstacles.empty(),
-                                    {}};
+    NoticeEnvironment environment{hidden_by_prop(prop_, presentation.table_from_prop, lens_m_),
+                                  hidden_by_prop(prop_, presentation.table_from_prop, tracked_state.eye_m),
+                                  glm::dvec2(presentation.table_from_prop.translation),
+                                  side_.quarter_turns(),
+                                  obstacles.lit(),
+                                  obstacles.empty(),
+                                  {}};
     if (presentation.caption) {
-        surroundings.caption = presentation.caption->rectangle;
+        environment.caption = presentation.caption->rectangle;
     }
-    presentation.notice = place_.step(now, wanted, surroundings);
+    presentation.notice = place_.step(now, wanted, environment);
     if (presentation.notice && presentation.caption) {
         presentation.caption->brightness *=
             left_to_caption(presentation.caption->rectangle, *presentation.notice);

@@ -37,7 +37,7 @@ public:
     /// True if a press ends the notice; then the press has no other effect.
     [[nodiscard]] bool take_press(MonotonicTime now, std::span<const Command> commands);
     /// Adds the notice to the presentation of this step.
-    void step(MonotonicTime now, const Situation& situation, Presentation& presentation);
+    void step(MonotonicTime now, const TrackedState& tracked_state, Presentation& presentation);
     /// The recording to play when nothing else is heard; null: none. It stays until `announced`.
     [[nodiscard]] const SharedRecording& announcement() const { return announcement_; }
     void announced() { said_ = due_; }
@@ -48,7 +48,7 @@ public:
 
 private:
     [[nodiscard]] SharedNotice wanted(const std::optional<ShownNotice>& shown) const;
-    void place(MonotonicTime now, const SharedNotice& wanted, const Situation& situation,
+    void place(MonotonicTime now, const SharedNotice& wanted, const TrackedState& tracked_state,
                Presentation& presentation);
 
     PropShape prop_;

@@ -1,6 +1,6 @@
 /// Pictures of a pack without a screen, with the same plan and renderer as the live exhibit.
 ///
-/// Frames   as situation.h: table T, metres.
+/// Frames   as tracked_state.h: table T, metres.
 /// Threads  the thread that created it, which holds its GL context.
 /// Errors   no EGL or OpenGL ES, an unknown technique, a pack that the driver cannot hold.
 #pragma once
@@ -31,7 +31,7 @@ struct OfflineOptions {
     bool light = true;
     bool hit_points = false;
     int samples = 0; ///< a pixel; 0 = finest_samples for "finest", otherwise the pack's
-    unsigned economies = AllEconomies;
+    unsigned cull_kinds = AllCullKinds;
     /// All poses that will be drawn; empty: any pose may be drawn.
     std::vector<KnownView> views;
 };

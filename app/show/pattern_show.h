@@ -20,7 +20,7 @@ namespace frustumscreen {
 
 class PatternShow final : public Show {
 public:
-    static constexpr int most_buffers = 16; ///< more than any display has
+    static constexpr int max_buffers = 16; ///< more than any display has
 
     [[nodiscard]] static Result<std::unique_ptr<PatternShow>> create(const Settings& settings);
 
@@ -32,8 +32,8 @@ public:
     [[nodiscard]] const PatternScene& scene() const { return scene_; }
     /// Sets the lines that the pattern shows below its own text.
     void set_lines(std::vector<std::string> lines);
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
-                                  Redraw redraw) override;
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const TrackedState& tracked_state,
+                                  const RenderTarget& target, Redraw redraw) override;
     /// The pattern replaces artifacts that cannot be shown.
     void is_fault() { state_ = State::Fault; }
     [[nodiscard]] ShowState state() const override {
@@ -56,7 +56,7 @@ private:
     std::optional<glm::dmat4> shown_;        ///< the prop's pose in the picture that was uploaded
     std::unique_ptr<ViewfinderPanel> panel_; ///< none: the settings have no camera
     Viewfinder* viewfinder_ = nullptr;
-    int without_camera_ = most_buffers; ///< pictures drawn since the last one with the camera's picture
+    int without_camera_ = max_buffers; ///< pictures drawn since the last one with the camera's picture
 };
 
 } // namespace frustumscreen

@@ -14,7 +14,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr std::size_t window_frames = 8192; ///< for the status's frame times
-constexpr std::size_t most_rows = 1U << 20U;
+constexpr std::size_t max_rows = 1U << 20U;
 constexpr Nanoseconds between_statuses = std::chrono::seconds(1);
 constexpr Nanoseconds between_probes = std::chrono::seconds(1);
 
@@ -22,7 +22,7 @@ constexpr Nanoseconds between_probes = std::chrono::seconds(1);
 constexpr double least_light = 1e-6;
 
 /// Limit for visits that wait to be written; it is reached only if the writer's thread is stuck.
-constexpr std::size_t most_visit_pieces = 64;
+constexpr std::size_t max_visit_pieces = 64;
 
 std::string_view shown_artifact(const ShowState& state) {
     return state.state != State::Fault ? state.artifact : std::string_view{};
@@ -47,12 +47,12 @@ public:
           light_delay_(Nanoseconds(std::llround(1e6 * settings.tracker.display_latency_ms))),
           intake_(settings, inputs), stills_(options.stills, options.length, start, display),
           times_(window_frames), presented_(start), artifact_since_(start) {
-        visit_pieces_.reserve(most_visit_pieces);
+        visit_pieces_.reserve(max_visit_pieces);
         result_.status.calibrates = static_cast<bool>(options.calibrate);
         result_.status.camera_for = camera_uses(inputs);
         if (options.keep_rows && options.length) {
             rows_expected_ =
-                std::min<std::size_t>(most_rows, static_cast<std::size_t>(*options.length / period_) + 2);
+                std::min<std::size_t>(max_rows, static_cast<std::size_t>(*options.length / period_) + 2);
             result_.rows.reserve(rows_expected_);
         }
     }
@@ -94,13 +94,13 @@ private:
         follow_hours(now);
         follow_viewfinder(now);
         watch_.enters("draws");
-        const Situation situation = intake_.situation_at(now + light_delay_.from_now());
+        const TrackedState tracked_state = intake_.tracked_state_at(now + light_delay_.from_now());
         show_.set_mark(mark(now));
         if (staff_) {
             show_.set_signal(intake_.prop_signal().at(now), intake_.head_signal().at(now));
         }
         const std::vector<Command>& commands = intake_.commands();
-        show_.step(now, commands, situation);
+        show_.step(now, commands, tracked_state);
         if (inputs_.sound) {
             const SoundReport heard = inputs_.sound->poll(now, show_.wish());
             show_.hear(heard);
@@ -111,9 +111,9 @@ private:
             show_.tell(result_.status);
         }
         if (asleep_) {
-            return sleep(now, situation, begin);
+            return sleep(now, tracked_state, begin);
         }
-        TRY(const Drawn drawn, draw(now, situation));
+        TRY(const Drawn drawn, draw(now, tracked_state));
         const double ms = milliseconds_since(begin);
         watch_.enters("reports its status");
         if (drawn.presented) {
@@ -121,8 +121,8 @@ private:
         }
         watch_.look(now, display_, inputs_);
         count(drawn.presented, drawn.changed, now, ms);
-        result_.status.prop_known = situation.prop_known;
-        result_.status.head_known = situation.head_known;
+        result_.status.prop_known = tracked_state.prop_known;
+        result_.status.head_known = tracked_state.head_known;
         const ShowState state = show_.state();
         follow_state(now, state);
         if (result_.rows.size() < rows_expected_) {
@@ -130,8 +130,8 @@ private:
                                     state.levels.error, drawn.changed, state.artifact, state.levels.level,
                                     name_of(state.state), state.language, state.told});
         }
-        shown_ = situation;
-        shown_.table_from_prop = state.stands.value_or(situation.table_from_prop);
+        shown_ = tracked_state;
+        shown_.table_from_prop = state.stands.value_or(tracked_state.table_from_prop);
         if (options_.screenshot != nullptr && !shows_camera_) { // a screenshot may become a file
             watch_.enters("reads its picture back for the staff");
             options_.screenshot->serve(display_);
@@ -149,11 +149,12 @@ private:
         bool coded = false;   ///< contains a code for the watchdog
     };
     /// Draws what changed, or the same picture again if none was presented for a second.
-    [[nodiscard]] Result<Drawn> draw(MonotonicTime now, const Situation& situation) {
+    [[nodiscard]] Result<Drawn> draw(MonotonicTime now, const TrackedState& tracked_state) {
         const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
         const bool probe =
             options_.redraw == Redraw::Changes && (now - presented_ >= between_probes || !watch_.ready());
-        const DrawResult drawn = show_.draw(now, situation, target, probe ? Redraw::Again : options_.redraw);
+        const DrawResult drawn =
+            show_.draw(now, tracked_state, target, probe ? Redraw::Again : options_.redraw);
         if (!drawn.drawn) {
             return Drawn{};
         }
@@ -193,7 +194,7 @@ private:
         if (options_.visits == nullptr) {
             return;
         }
-        if (visit_pieces_.size() < most_visit_pieces / 2) {
+        if (visit_pieces_.size() < max_visit_pieces / 2) {
             visit_counter_.step({.now = now,
                                  .used = state.used,
                                  .rests = asleep_ || state.state == State::Attract,
@@ -241,7 +242,8 @@ private:
     }
 
     /// Keeps the projector dark; devices are read and reported to the watchdog.
-    [[nodiscard]] Result<void> sleep(MonotonicTime now, const Situation& situation, MonotonicTime begin) {
+    [[nodiscard]] Result<void> sleep(MonotonicTime now, const TrackedState& tracked_state,
+                                     MonotonicTime begin) {
         watch_.enters("waits for the display");
         TRY_VOID(display_.stay_dark());
         count_visits(now, show_.state());
@@ -252,8 +254,8 @@ private:
         watch_.asleep(now);
         watch_.look(now, display_, inputs_);
         count(false, false, now, milliseconds_since(begin));
-        result_.status.prop_known = situation.prop_known;
-        result_.status.head_known = situation.head_known;
+        result_.status.prop_known = tracked_state.prop_known;
+        result_.status.head_known = tracked_state.head_known;
         if (inputs_.panel) {
             inputs_.panel->light(0);
         }
@@ -296,9 +298,9 @@ private:
         status.shown_since =
             std::chrono::system_clock::now() -
             std::chrono::duration_cast<std::chrono::system_clock::duration>(now - artifact_since_);
-        status.surroundings = status_file_.surroundings();
-        if (status.surroundings) {
-            status.versions.system = status.surroundings->system;
+        status.environment = status_file_.environment();
+        if (status.environment) {
+            status.versions.system = status.environment->system;
         }
         status.loaded = state.loaded;
         status.loaded_bytes = state.loaded_bytes;
@@ -370,7 +372,7 @@ private:
     LightDelay light_delay_;
     DeviceIntake intake_;
     StillTaker stills_;
-    Situation shown_; ///< of the latest frame, as it was drawn
+    TrackedState shown_; ///< of the latest frame, as it was drawn
     RecentFrameTimes times_;
     MonotonicTime presented_; ///< when the shown picture was presented
     Sentence artifact_;       ///< on show

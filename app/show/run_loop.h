@@ -16,7 +16,7 @@
 #include "app/show/screenshot.h"
 #include "app/show/show.h"
 #include "app/show/still_taker.h"
-#include "app/tracking/situation.h"
+#include "app/tracking/tracked_state.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/display/display.h"
 #include "firmware_host/service/stop_signals.h"

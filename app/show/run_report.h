@@ -73,7 +73,7 @@ struct RunStatus : StatusReport {
     int louder_db = 0;                       ///< relative to the settings, chosen with the staff's buttons
     bool calibrates = false;                 ///< the staff may start the table's calibration with the buttons
     SharedImport seen_import;                ///< the importer's report; null: none
-    SharedSurroundings surroundings;         ///< what other programs know; null: not read yet
+    SharedEnvironment environment;           ///< what other programs know; null: not read yet
 };
 /// The local time of day, 0 to 24.
 [[nodiscard]] double local_hour();
@@ -97,7 +97,7 @@ public:
     void note_hang(bool hangs);
     [[nodiscard]] bool wanted() const { return !places_.status_file.empty(); }
     /// The surroundings read last; null: none yet, or there is no file.
-    [[nodiscard]] SharedSurroundings surroundings();
+    [[nodiscard]] SharedEnvironment environment();
 
 private:
     void work();
@@ -107,7 +107,7 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     RunStatus latest_;
-    SharedSurroundings surroundings_;
+    SharedEnvironment environment_;
     bool hangs_ = false;
     bool pending_ = false;
     bool closing_ = false;

@@ -48,7 +48,7 @@ void SetSwitch::take_the_new(Exhibit& exhibit) {
 }
 
 std::optional<std::size_t> SetSwitch::goal(State state, const Exhibit& exhibit) const {
-    const std::span<const ArtifactState> states = coming_->residents->states();
+    const std::span<const ArtifactState> states = coming_->artifact_cache->states();
     const auto can_be_shown = [&](std::size_t artifact) {
         return states[artifact] != ArtifactState::LeftOut;
     };
@@ -71,12 +71,12 @@ std::optional<std::size_t> SetSwitch::goal(State state, const Exhibit& exhibit) 
 void SetSwitch::bring(State state, Exhibit& exhibit) {
     const std::optional<std::size_t> first = goal(state, exhibit);
     if (!first || !coming_->trouble.empty()) {
-        give_up(first ? std::string(coming_->trouble) : fault_of(coming_->residents->left_out(), true),
+        give_up(first ? std::string(coming_->trouble) : fault_of(coming_->artifact_cache->left_out(), true),
                 exhibit);
         return;
     }
     const std::array<std::size_t, 1> wanted{*first};
-    const ResidentsWish wish{*first, exhibit.language(), wanted, exhibit.language()};
+    const CacheRequest wish{*first, exhibit.language(), wanted, exhibit.language()};
     if (const Result<void> uploaded = coming_->upload(artifacts_.store(), wish, frame_bytes); !uploaded) {
         give_up(uploaded.error().message, exhibit);
         return;

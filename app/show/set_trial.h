@@ -2,7 +2,7 @@
 ///
 /// Good     it was shown for `long_enough` without interruption and without a fault. A gap between reports longer
 ///          than `longest_silence` restarts the time.
-/// Bad      one of its packs cannot be shown, or nothing can, or the exhibit began with it `most_starts` times
+/// Bad      one of its packs cannot be shown, or nothing can, or the exhibit began with it `max_starts` times
 ///          without a verdict. Then the previous set returns, if there is one.
 /// Time     monotonic; the wall clock is not used, as it may be wrong. Time that goes back also restarts the time.
 /// Threads  values; one caller.

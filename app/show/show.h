@@ -12,7 +12,7 @@
 #include "app/show/run_report.h"
 #include "app/show/viewfinder.h"
 #include "app/tracking/signal_meter.h"
-#include "app/tracking/situation.h"
+#include "app/tracking/tracked_state.h"
 #include "firmware_host/base/time.h"
 #include "firmware_host/sound/sound.h"
 
@@ -49,7 +49,7 @@ public:
     virtual ~Show() = default;
     /// Decides what `draw` draws next. `commands`: those since the previous step, in order.
     virtual void step(MonotonicTime /*now*/, std::span<const Command> /*commands*/,
-                      const Situation& /*on_table*/) {}
+                      const TrackedState& /*on_table*/) {}
     /// True if it may be dark by the timetable; an alignment pattern may not.
     [[nodiscard]] virtual bool sleeps() const { return false; }
     /// Sets the factor on all light, 0..1, from the next step on. 0: asleep, silent and not drawn.
@@ -63,8 +63,8 @@ public:
     /// picture is shown.
     virtual void set_signal(const TrackerSignal& /*prop*/, const TrackerSignal& /*head*/) {}
     /// The sound to play.
-    [[nodiscard]] virtual const SoundWish& wish() const {
-        static const SoundWish silence;
+    [[nodiscard]] virtual const SoundRequest& wish() const {
+        static const SoundRequest silence;
         return silence;
     }
     /// True if it may ever play a sound.
@@ -74,7 +74,7 @@ public:
     /// Takes the run's status: once a second, and when the staff ask.
     virtual void tell(const RunStatus& /*status*/) {}
     /// Draws the picture for `now` where it differs from the displayed one; allocates nothing after the start.
-    [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const Situation& on_table,
+    [[nodiscard]] virtual DrawResult draw(MonotonicTime now, const TrackedState& on_table,
                                           const RenderTarget& target, Redraw redraw) = 0;
     /// Takes the time of the latest picture, from the poll until the drawing was done, without the wait for a
     /// refresh.

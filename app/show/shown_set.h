@@ -13,9 +13,9 @@
 
 #include "app/exhibit/exhibit.h"
 #include "app/render/gpu_store.h"
+#include "app/residency/artifact_cache.h"
 #include "app/residency/artifact_opener.h"
 #include "app/residency/loaded.h"
-#include "app/residency/residents.h"
 #include "app/scene/device_plan.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/frame_time_model.h"
@@ -39,13 +39,13 @@ namespace frustumscreen {
 /// Options common to all sets of a run.
 struct SetOptions {
     std::string technique =
-        "auto"; ///< `technique`, `samples`, `economies`, `program` and `waits`: as ArtifactShowOptions
+        "auto"; ///< `technique`, `samples`, `cull_kinds`, `program` and `waits`: as ArtifactShowOptions
     int samples = 1;
-    unsigned economies = AllEconomies;
+    unsigned cull_kinds = AllCullKinds;
     std::string_view program = "frustumscreen";
     bool waits = false;
     DevicePlan devices;
-    std::uint32_t most_blocks_on_gpu = 0;  ///< as SceneRequest
+    std::uint32_t max_blocks_on_gpu = 0;   ///< as SceneRequest
     std::uint64_t gpu_bytes_that_stay = 0; ///< part of the memory's budget that every set needs
 };
 struct SetRequest {
@@ -72,16 +72,16 @@ struct ShownSet {
     std::string trouble;                ///< why the set cannot be shown; empty: it can
     std::vector<std::string> notes;     ///< sentences about settings that may be unintended
     RenderNeeds needs;
-    std::unique_ptr<Residents> residents;
+    std::unique_ptr<ArtifactCache> artifact_cache;
     AdviceWords words;
     LoadedTexts word_pictures;
     TableShow table;
     std::optional<TableBrowser>
         browser; ///< from lay_out_catalogue; the exhibit takes it. A run's first set has none
 
-    /// Uploads about `most_bytes` more of what `wish` needs to be shown, or a little more.
-    [[nodiscard]] Result<void> upload(GpuStore& store, const ResidentsWish& wish, std::uint64_t most_bytes);
-    [[nodiscard]] bool ready(const ResidentsWish& wish) const;
+    /// Uploads about `max_bytes` more of what `wish` needs to be shown, or a little more.
+    [[nodiscard]] Result<void> upload(GpuStore& store, const CacheRequest& wish, std::uint64_t max_bytes);
+    [[nodiscard]] bool ready(const CacheRequest& wish) const;
     /// Releases a part of the store's contents. False: nothing is left in the store. After the first call nothing can
     /// be shown.
     bool release_some(GpuStore& store);
@@ -98,7 +98,7 @@ private:
     bool words_released_ = false;
 };
 
-/// `frames`: the set's reader begins at once; none: call Residents::start later.
+/// `frames`: the set's reader begins at once; none: call ArtifactCache::start later.
 [[nodiscard]] Result<std::unique_ptr<ShownSet>> open_set(const Settings& settings, const SetOptions& options,
                                                          const SetRequest& request,
                                                          const std::optional<ExpectedFrames>& frames);

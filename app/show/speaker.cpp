@@ -143,19 +143,19 @@ void Speaker::hear(const SoundReport& report) {
     report_ = report;
 }
 
-Narration Speaker::narration() const {
+SpeechProgress Speaker::narration() const {
     if (description_ == 0) {
-        return {comes_ ? Narration::State::Coming : Narration::State::Silent, 0};
+        return {comes_ ? SpeechProgress::State::Coming : SpeechProgress::State::Silent, 0};
     }
     if (!is_alive(description_)) {
-        return {Narration::State::Over, 0};
+        return {SpeechProgress::State::Over, 0};
     }
     if (report_.number != description_) {
-        return {Narration::State::Coming, 0};
+        return {SpeechProgress::State::Coming, 0};
     }
     const std::vector<Nanoseconds>& begins = reading_->portions;
     const auto next = std::upper_bound(begins.begin(), begins.end(), report_.heard);
-    return {Narration::State::Heard,
+    return {SpeechProgress::State::Heard,
             static_cast<std::size_t>(std::max<std::ptrdiff_t>(next - begins.begin(), 1) - 1)};
 }
 

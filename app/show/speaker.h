@@ -1,6 +1,6 @@
 /// Turns the exhibit's decisions about speech into the sound to play: one voice at a time.
 ///
-///     Presentation (says, tells, prepares) -> step -> SoundWish -> Sound -> SoundReport -> hear -> Narration
+///     Presentation (says, tells, prepares) -> step -> SoundRequest -> Sound -> SoundReport -> hear -> SpeechProgress
 ///
 /// Advice is spoken once, as soon as its recording is decoded. A description is played as long as the presentation
 /// tells it; then it ends at its next pause or at once, as the presentation says. New speech stops the current one,
@@ -36,11 +36,11 @@ public:
     void fall_silent();
     void set_gain_db(double gain_db) { wish_.set_gain_db(gain_db); }
 
-    [[nodiscard]] const SoundWish& wish() const { return wish_; }
+    [[nodiscard]] const SoundRequest& wish() const { return wish_; }
     /// True while something is heard.
     [[nodiscard]] bool speaks() const { return report_.number != 0; }
     /// Playback of the description that the latest step told or left.
-    [[nodiscard]] Narration narration() const;
+    [[nodiscard]] SpeechProgress narration() const;
 
 private:
     /// Plays only the tones that the staff asked for.
@@ -52,7 +52,7 @@ private:
     [[nodiscard]] bool is_alive(std::uint64_t number) const { return number > report_.over; }
 
     std::optional<PromptReader> reader_;
-    SoundWish wish_;
+    SoundRequest wish_;
     SoundReport report_;
     std::optional<DescriptionIndex> told_;
     std::uint64_t description_ = 0; ///< its number; 0: it was not played

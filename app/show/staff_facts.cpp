@@ -24,8 +24,8 @@ std::string verdict(const RunStatus& status) {
     KnownExhibit known;
     known.status.fields = nlohmann::json::parse(status_json(status), nullptr, false);
     known.status.age_s = 0.0;
-    if (status.surroundings) {
-        known.surroundings = *status.surroundings;
+    if (status.environment) {
+        known.environment = *status.environment;
     }
     return verdict_of(known).sentence;
 }
@@ -68,7 +68,7 @@ std::string calibration_line(const CalibrationSettings& settings, std::time_t no
 StaffFacts staff_facts(const RunStatus& status, const Settings& settings, std::string_view driver,
                        State before, std::time_t now) {
     StaffFacts facts;
-    std::vector<StatusLine> lines = status_lines(&status, 0.0, status.surroundings.get(), now);
+    std::vector<StatusLine> lines = status_lines(&status, 0.0, status.environment.get(), now);
     const std::string calibration = calibration_line(settings.calibration, now);
     const auto after = std::find_if(lines.begin(), lines.end(), [](const StatusLine& line) {
         return line.name == "calibration" || line.name == "buttons";

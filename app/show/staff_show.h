@@ -33,9 +33,9 @@ public:
     void set_viewfinder(Viewfinder* viewfinder) { pattern_->set_viewfinder(viewfinder); }
     /// Draws the picture again if it has changed.
     void show(MonotonicTime now, const StaffView& view, const TrackerSignal& prop, const TrackerSignal& head);
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& situation, const RenderTarget& target,
-                                  Redraw redraw) {
-        return pattern_->draw(now, situation, target, redraw);
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const TrackedState& tracked_state,
+                                  const RenderTarget& target, Redraw redraw) {
+        return pattern_->draw(now, tracked_state, target, redraw);
     }
 
 private:

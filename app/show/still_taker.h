@@ -5,7 +5,7 @@
 #pragma once
 
 #include "app/image/image.h"
-#include "app/tracking/situation.h"
+#include "app/tracking/tracked_state.h"
 #include "firmware_host/display/display.h"
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace frustumscreen {
 
 struct Still {
     Image8 picture;
-    Situation situation;
+    TrackedState tracked_state;
     MonotonicTime time; ///< since the run's start
 };
 
@@ -25,9 +25,9 @@ public:
     StillTaker(int count, std::optional<Nanoseconds> length, MonotonicTime start, Display& display);
 
     /// Keeps the shown picture if one is due. `settled`: nothing in it fades.
-    void take(MonotonicTime now, const Situation& shown, bool settled);
+    void take(MonotonicTime now, const TrackedState& shown, bool settled);
     /// Keeps the shown picture, whatever the time.
-    void keep(MonotonicTime now, const Situation& shown);
+    void keep(MonotonicTime now, const TrackedState& shown);
     /// True if none was taken and at least one was wanted.
     [[nodiscard]] bool lacks_all() const { return taken_ == 0 && !stills_.empty(); }
     [[nodiscard]] std::vector<Still> finish() &&;

@@ -130,9 +130,9 @@ TableShow TableShow::read(const Settings& settings, const Request& request) {
     return show;
 }
 
-void TableShow::upload(GpuStore& store, std::uint64_t most_bytes) {
+void TableShow::upload(GpuStore& store, std::uint64_t max_bytes) {
     std::uint64_t bytes = 0;
-    for (; !ready() && bytes < most_bytes; ++uploaded_) {
+    for (; !ready() && bytes < max_bytes; ++uploaded_) {
         Texture& texture = textures_[uploaded_];
         const auto* const coverage = std::get_if<Image<std::uint8_t>>(&texture.picture);
         const auto* const light = std::get_if<std::vector<Image8>>(&texture.picture);
@@ -184,17 +184,17 @@ void TableShow::place(const Presentation& presentation, const std::optional<Tabl
 }
 
 /// Artifacts stand on the lower side of their places.
-void TableShow::place_stand_in(const PresentedStandIn& stand_in, OnTable& on_table) const {
-    if (stand_in.artifact >= cards_.size()) {
+void TableShow::place_placeholder(const PresentedStandIn& placeholder, OnTable& on_table) const {
+    if (placeholder.artifact >= cards_.size()) {
         return;
     }
-    const Picture& picture = cards_[stand_in.artifact].picture;
+    const Picture& picture = cards_[placeholder.artifact].picture;
     if (const TextureId texture = id(picture.texture); texture != TextureId::None) {
-        on_table.add({picture_corners(fitted(picture.size, stand_in.rectangle)),
-                      picture_brightness * stand_in.brightness, texture, true});
+        on_table.add({picture_corners(fitted(picture.size, placeholder.rectangle)),
+                      picture_brightness * placeholder.brightness, texture, true});
     } else {
-        on_table.add({picture_corners(stand_in.rectangle),
-                      mark_brightness * text_brightness_ * stand_in.brightness, id(square_), true});
+        on_table.add({picture_corners(placeholder.rectangle),
+                      mark_brightness * text_brightness_ * placeholder.brightness, id(square_), true});
     }
 }
 

@@ -34,8 +34,8 @@ public:
     TableShow() = default; ///< shows nothing
     /// Reads the packs; nothing is in the store yet.
     [[nodiscard]] static TableShow read(const Settings& settings, const Request& request);
-    /// Uploads about `most_bytes` more, or a little more. Pictures that the driver refuses are not shown.
-    void upload(GpuStore& store, std::uint64_t most_bytes);
+    /// Uploads about `max_bytes` more, or a little more. Pictures that the driver refuses are not shown.
+    void upload(GpuStore& store, std::uint64_t max_bytes);
     [[nodiscard]] bool ready() const { return uploaded_ == textures_.size(); }
     /// Releases a part of the store's contents; false: nothing was left. Nothing can be placed afterwards.
     bool release_some(GpuStore& store);
@@ -44,7 +44,7 @@ public:
     void place(const Presentation& presentation, const std::optional<TablePolygon>& shadow,
                OnTable& on_table) const;
     /// The picture that grows into the prop's place. It lies on the prop, and the prop does not hide it.
-    void place_stand_in(const PresentedStandIn& stand_in, OnTable& on_table) const;
+    void place_placeholder(const PresentedStandIn& placeholder, OnTable& on_table) const;
     /// Places one picture of each kind, so that drivers compile for them before the first frame.
     void place_samples(const glm::dvec2& at_m, OnTable& on_table) const;
 

@@ -49,8 +49,8 @@ Walk walk_of(const glm::ivec2& frame, int quarter_turns) {
 } // namespace
 
 glm::ivec2 viewfinder_room(const Pinhole& projector) {
-    return {std::min(Viewfinder::most_width, projector.width / 3),
-            std::min(Viewfinder::most_height, projector.height * 3 / 10)};
+    return {std::min(Viewfinder::max_width, projector.width / 3),
+            std::min(Viewfinder::max_height, projector.height * 3 / 10)};
 }
 
 Viewfinder::Viewfinder(const Settings& settings)

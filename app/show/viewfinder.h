@@ -27,7 +27,7 @@ namespace frustumscreen {
 
 class Viewfinder {
 public:
-    static constexpr int most_width = 320, most_height = 240;
+    static constexpr int max_width = 320, max_height = 240;
 
     /// `room`: in pixels, after the turn. `quarter_turns`: of the frame, clockwise.
     Viewfinder(const glm::ivec2& room, int quarter_turns) : room_(room), quarter_turns_(quarter_turns) {}
@@ -52,8 +52,8 @@ private:
 
     std::mutex mutex_;
     bool changed_ = false;
-    glm::ivec2 size_{0};                                                     ///< 0: there is no picture
-    std::array<std::uint8_t, std::size_t{most_width} * most_height> luma_{}; ///< [size_.y][size_.x]
+    glm::ivec2 size_{0};                                                   ///< 0: there is no picture
+    std::array<std::uint8_t, std::size_t{max_width} * max_height> luma_{}; ///< [size_.y][size_.x]
 };
 
 } // namespace frustumscreen

@@ -95,8 +95,7 @@ TEST(Dwell, TheRingEmptiesSoftlyWhenThePropGoesOnAndNothingIsChosen) {
         const glm::dvec2 at = pictures[0].centre_m + glm::dvec2(std::max(0.0, now - 1.6) * 0.2, 0.0);
         const DwellState state = dwell.update(at_s(now), at, pictures);
         EXPECT_FALSE(state.chosen);
-        EXPECT_LT(std::abs(state.full - before),
-                  1.0 / 60.0 / 0.2 + 1e-4); // emptying is faster
+        EXPECT_LT(std::abs(state.full - before), 1.0 / 60.0 / 0.2 + 1e-4); // emptying is faster
         gone_s = state.full > 0.0 ? now : gone_s;
         most = std::max(most, state.full);
         before = state.full;

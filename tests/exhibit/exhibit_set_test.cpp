@@ -23,9 +23,9 @@ protected:
         const MonotonicTime end = now + length;
         while (now < end) {
             now += milliseconds(20);
-            Situation situation = sample::situation(now);
-            situation.table_from_prop.translation.x = x_m;
-            shown = exhibit.step(now, commands, situation);
+            TrackedState tracked_state = sample::tracked_state(now);
+            tracked_state.table_from_prop.translation.x = x_m;
+            shown = exhibit.step(now, commands, tracked_state);
             commands.clear();
         }
         return shown;

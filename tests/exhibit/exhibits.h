@@ -27,12 +27,12 @@ inline Exhibit exhibit(std::size_t artifacts, const std::vector<std::string>& la
 }
 
 /// The situation with the prop at rest; its pose is unknown from `lost` on.
-inline Situation situation(MonotonicTime now, std::optional<MonotonicTime> lost = {}) {
-    Situation situation;
-    situation.eye_m = {0.0, -0.55, 0.5};
-    situation.prop_known = !lost;
-    situation.prop_age = lost ? now - *lost : Nanoseconds(0);
-    return situation;
+inline TrackedState tracked_state(MonotonicTime now, std::optional<MonotonicTime> lost = {}) {
+    TrackedState tracked_state;
+    tracked_state.eye_m = {0.0, -0.55, 0.5};
+    tracked_state.prop_known = !lost;
+    tracked_state.prop_age = lost ? now - *lost : Nanoseconds(0);
+    return tracked_state;
 }
 
 } // namespace frustumscreen::sample

@@ -105,7 +105,7 @@ TEST(GlyphImage, nothing_to_draw_is_a_dark_box_and_too_much_is_empty) {
     const GlyphImage image = glyph_image(runs_with(blank), square(), blank, 10.0);
     EXPECT_EQ(image.coverage.width, 10);
     EXPECT_EQ(light(image.coverage), 0.0);
-    const GlyphSetting endless = line_of({0}, glyph_limits::most_side);
+    const GlyphSetting endless = line_of({0}, glyph_limits::max_side);
     EXPECT_TRUE(glyph_image(runs_with(endless), square(), endless, 500.0).coverage.texels.empty());
 }
 
@@ -115,7 +115,7 @@ TEST(GlyphCaption, the_title_is_over_the_text_and_both_are_flush_with_where_they
     GlyphRuns runs = runs_with(wide);
     runs.texts[0].settings.push_back(narrow);
     const GlyphText title{"title", TextDirection::RightToLeft, {narrow}};
-    const double em_m = 2.0 * least_caption_em_m;
+    const double em_m = 2.0 * min_caption_em_m;
     const double texels_per_m = 40.0 / em_m;
     const std::array parts{GlyphPart{CaptionRole::Title, &title},
                            GlyphPart{CaptionRole::Text, &runs.texts[0]}};

@@ -57,9 +57,9 @@ TEST(Signs, LieInThePictureAndNeverOnTheProp) {
     int advised = 0;
     for (int k = 0; k < 1500; ++k) {
         Guidance guidance;
-        guidance.situation = seeded_situation(*place.guidance, seeded);
-        const std::optional<Advice> advice = advise(reader, guidance.situation);
-        const auto shadow = hidden_by_prop(place.prop, guidance.situation.table_from_prop, place.lens_m);
+        guidance.tracked_state = seeded_situation(*place.guidance, seeded);
+        const std::optional<Advice> advice = advise(reader, guidance.tracked_state);
+        const auto shadow = hidden_by_prop(place.prop, guidance.tracked_state.table_from_prop, place.lens_m);
         if (!advice || !shadow) {
             continue;
         }
@@ -72,7 +72,7 @@ TEST(Signs, LieInThePictureAndNeverOnTheProp) {
             continue;
         }
         ++shown[sign->sign];
-        const RigidTransform prop_from_table = guidance.situation.table_from_prop.inverse();
+        const RigidTransform prop_from_table = guidance.tracked_state.table_from_prop.inverse();
         const glm::dvec3 lens = prop_from_table.point(place.lens_m);
         for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0}) {
             for (const double v : {0.0, 0.5, 1.0}) {
@@ -98,7 +98,7 @@ TEST(Signs, AnArrowPointsTheWay) {
     const ExhibitPlace place = guided_place();
     Guidance guidance;
     guidance.stage = GuidanceStage::Picture;
-    guidance.situation.eye_m = {0.0, -0.6, 0.5};
+    guidance.tracked_state.eye_m = {0.0, -0.6, 0.5};
     int pointed = 0;
     for (int k = 0; k < 16; ++k) {
         const double azimuth = k * std::numbers::pi / 8.0;
@@ -124,7 +124,7 @@ TEST(Signs, AnArcTurnsTheWay) {
         Guidance guidance;
         guidance.stage = GuidanceStage::Picture;
         guidance.move = {Action::Turn, {}, turn};
-        guidance.situation.eye_m = {0.0, -0.6, 0.5};
+        guidance.tracked_state.eye_m = {0.0, -0.6, 0.5};
         const auto shadow = hidden_by_prop(place.prop, {}, place.lens_m);
         const auto sign = place_sign(guidance, MonotonicTime(seconds(1)), *shadow, place.picture_m, 0);
         ASSERT_TRUE(sign);
@@ -150,10 +150,10 @@ protected:
         Presentation presentation;
         for (; time_ <= time; time_ += milliseconds(20)) {
             const MonotonicTime now = sample::start + time_;
-            Situation situation = sample::situation(now);
-            situation.head_known = true;
-            situation.table_from_prop.translation = {x, 0.0, 0.0};
-            presentation = exhibit_.step(now, {}, situation);
+            TrackedState tracked_state = sample::tracked_state(now);
+            tracked_state.head_known = true;
+            tracked_state.table_from_prop.translation = {x, 0.0, 0.0};
+            presentation = exhibit_.step(now, {}, tracked_state);
             said_ += presentation.says ? 1 : 0;
             silences_ += presentation.falls_silent ? 1 : 0;
         }
@@ -215,18 +215,18 @@ TEST_F(GuidedExhibit, GuidesWithoutAllocating) {
 TEST(PresenceTest, IsAMovementOrAPress) {
     Presence presence;
     Seeded seeded(4);
-    Situation situation = sample::situation(sample::start);
+    TrackedState tracked_state = sample::tracked_state(sample::start);
     for (int k = 0; k < 2000; ++k) {
-        situation.table_from_prop.translation =
+        tracked_state.table_from_prop.translation =
             1e-3 * glm::dvec3(seeded.between(-1, 1), seeded.between(-1, 1), seeded.between(-1, 1));
-        EXPECT_FALSE(presence.update(sample::start + milliseconds(20 * k), situation, false));
+        EXPECT_FALSE(presence.update(sample::start + milliseconds(20 * k), tracked_state, false));
     }
     const MonotonicTime pressed = sample::start + seconds(41);
-    EXPECT_TRUE(presence.update(pressed, situation, true));
-    EXPECT_TRUE(presence.update(pressed + Presence::stays - milliseconds(1), situation, false));
-    EXPECT_FALSE(presence.update(pressed + Presence::stays, situation, false));
-    situation.table_from_prop.translation.x = 0.02;
-    EXPECT_TRUE(presence.update(pressed + seconds(60), situation, false));
+    EXPECT_TRUE(presence.update(pressed, tracked_state, true));
+    EXPECT_TRUE(presence.update(pressed + Presence::stays - milliseconds(1), tracked_state, false));
+    EXPECT_FALSE(presence.update(pressed + Presence::stays, tracked_state, false));
+    tracked_state.table_from_prop.translation.x = 0.02;
+    EXPECT_TRUE(presence.update(pressed + seconds(60), tracked_state, false));
 }
 
 } // namespace

@@ -23,7 +23,7 @@ struct Visit {
     ExhibitPlace place;
     std::optional<Exhibit> exhibit;
     MonotonicTime now = start;
-    Situation situation = sample::situation(start);
+    TrackedState tracked_state = sample::tracked_state(start);
     Presentation shown;
 
     explicit Visit(bool pictures, std::vector<glm::dvec3> hull = {}) {
@@ -45,15 +45,15 @@ struct Visit {
     }
     void step() {
         now += milliseconds(16);
-        situation.time = now;
-        shown = exhibit->step(now, {}, situation);
+        tracked_state.time = now;
+        shown = exhibit->step(now, {}, tracked_state);
     }
     /// Slides there in half a second, or in `steps` steps. Returns the number of steps with a sign.
     int slide_to(const glm::dvec2& goal, int steps = 30) {
-        const glm::dvec3 from = situation.table_from_prop.translation;
+        const glm::dvec3 from = tracked_state.table_from_prop.translation;
         int signs = 0;
         for (int k = 1; k <= steps; ++k) {
-            situation.table_from_prop.translation =
+            tracked_state.table_from_prop.translation =
                 glm::mix(from, glm::dvec3(goal, 0.0), static_cast<double>(k) / steps);
             step();
             signs += shown.sign || shown.advice || shown.says ? 1 : 0;
@@ -79,7 +79,7 @@ glm::dvec2 dark_picture(const Visit& visit) {
         const FaceReader reader(*visit.place.guidance);
         const glm::dvec2& at = picture.place.picture.centre_m;
         if (picture.artifact && picture.artifact != std::size_t{0} &&
-            !reader.valid({{glm::dquat(1, 0, 0, 0), glm::dvec3(at, 0.0)}, visit.situation.eye_m})) {
+            !reader.valid({{glm::dquat(1, 0, 0, 0), glm::dvec3(at, 0.0)}, visit.tracked_state.eye_m})) {
             return at;
         }
     }
@@ -147,7 +147,7 @@ TEST(GuidedTable, PicturesUnderTheSignAreDim) {
         for (const double x : {-0.35, -0.3, -0.25, -0.2, -0.15, 0.15, 0.2, 0.25, 0.3, 0.35}) {
             for (const double y : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
                 Visit visit(true);
-                visit.situation.eye_m = eye;
+                visit.tracked_state.eye_m = eye;
                 visit.signs_in(milliseconds(800));
                 visit.slide_to({x, y}, 10);
                 visit.signs_in(milliseconds(1400));
@@ -197,13 +197,13 @@ TEST(GuidedTable, IsQuietWhileTheArtifactIsSeenWhole) {
     constexpr glm::dvec2 at(0.20, 0.05);
     for (const bool known : {true, false}) {
         Visit visit(false, known ? usual_artifact(make_prop(Settings().prop)) : std::vector<glm::dvec3>());
-        visit.situation.table_from_prop.rotation =
+        visit.tracked_state.table_from_prop.rotation =
             glm::angleAxis(0.25 * std::numbers::pi, glm::dvec3(0, 0, 1));
-        visit.situation.eye_m = visit.shipped.eye.default_m;
+        visit.tracked_state.eye_m = visit.shipped.eye.default_m;
         visit.signs_in(milliseconds(800));
         visit.slide_to(at);
         const FaceReader reader(*visit.place.guidance);
-        ASSERT_FALSE(reader.valid({visit.situation.table_from_prop, visit.situation.eye_m}));
+        ASSERT_FALSE(reader.valid({visit.tracked_state.table_from_prop, visit.tracked_state.eye_m}));
         const int signs = visit.signs_in(milliseconds(3000));
         EXPECT_EQ(signs > 60, !known);
         EXPECT_EQ(signs == 0, known);

@@ -85,13 +85,14 @@ Exhibit make_exhibit(const HotspotSet& set) {
 struct Shower {
     Exhibit exhibit;
     MonotonicTime now = start;
-    Situation situation = sample::situation(start);
+    TrackedState tracked_state = sample::tracked_state(start);
     Presentation shown = {};
 
     void wait(milliseconds time, std::span<const Command> commands = {}) {
         for (milliseconds each{0}; each < time; each += milliseconds(20)) {
             now += milliseconds(20);
-            shown = exhibit.step(now, each.count() == 0 ? commands : std::span<const Command>{}, situation);
+            shown =
+                exhibit.step(now, each.count() == 0 ? commands : std::span<const Command>{}, tracked_state);
         }
     }
     /// Presses until this hotspot is told; nothing: until none is.
@@ -132,17 +133,17 @@ TEST(HotspotLabels, AreShownWhereARayFromTheEyeMeetsThePoint) {
     for (int k = 0; k < 300; ++k) {
         const std::size_t which = static_cast<std::size_t>(k) % set.hotspots.size();
         const double yaw = 3.14159 * u(random);
-        shower.situation.table_from_prop = {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)),
-                                            {0.15 * u(random), 0.05 * u(random), 0.0}};
+        shower.tracked_state.table_from_prop = {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)),
+                                                {0.15 * u(random), 0.05 * u(random), 0.0}};
         const double azimuth = 3.14159 * u(random);
         const double elevation = 0.7 + 0.5 * u(random);
-        shower.situation.eye_m =
+        shower.tracked_state.eye_m =
             0.8 * glm::dvec3(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
                              std::sin(elevation));
         shower.point_out(which);
         shower.wait(milliseconds(2000));
-        const RigidTransform prop_from_table = shower.situation.table_from_prop.inverse();
-        const glm::dvec3 eye = prop_from_table.point(shower.situation.eye_m);
+        const RigidTransform prop_from_table = shower.tracked_state.table_from_prop.inverse();
+        const glm::dvec3 eye = prop_from_table.point(shower.tracked_state.eye_m);
         const Hotspot& at = set.hotspots[which].at;
         const bool faces = glm::dot(eye - at.point_m, at.normal) > 0.0;
         const bool is_hidden = blocks.meets(eye, at.point_m + tolerance_m * at.normal);
@@ -157,7 +158,8 @@ TEST(HotspotLabels, AreShownWhereARayFromTheEyeMeetsThePoint) {
             const PresentedHotspot& shown = *shower.shown.hotspot;
             EXPECT_EQ(shown.hotspot, which);
             ASSERT_TRUE(shown.line);
-            const auto shadow = hidden_by_prop(place.prop, shower.situation.table_from_prop, {0.0, 0.0, 1.4});
+            const auto shadow =
+                hidden_by_prop(place.prop, shower.tracked_state.table_from_prop, {0.0, 0.0, 1.4});
             EXPECT_GT(clearance(shown.label.corners(), shadow->corners()), 0.0);
             ASSERT_TRUE(shower.shown.caption);
             EXPECT_GT(clearance(shown.label.corners(), shower.shown.caption->rectangle.corners()), 0.0);
@@ -180,10 +182,11 @@ TEST(HotspotLabels, AreDarkAsSoonAsThePointIsTurnedAway) {
     double last = 1.0;
     int dark = 0;
     for (int degree = 0; degree <= 180; degree += 2) {
-        shower.situation.table_from_prop.rotation =
+        shower.tracked_state.table_from_prop.rotation =
             glm::angleAxis(glm::radians(1.0 * degree), glm::dvec3(0, 0, 1));
         shower.wait(milliseconds(20));
-        const glm::dvec3 eye = shower.situation.table_from_prop.inverse().point(shower.situation.eye_m);
+        const glm::dvec3 eye =
+            shower.tracked_state.table_from_prop.inverse().point(shower.tracked_state.eye_m);
         const double brightness = shower.shown.hotspot ? shower.shown.hotspot->brightness : 0.0;
         if (eye.y >= -0.015) {
             EXPECT_EQ(brightness, 0.0) << degree;

@@ -254,7 +254,7 @@ TEST(LeaderLine, ComesOutOfThePropFromThePointAndCrossesNoPicture) {
     int bent = 0;
     constexpr int scenes = 2500;
     std::vector<std::vector<TableRectangle>> pages;
-    for (std::size_t artifacts = 2; artifacts <= most_table_places; ++artifacts) {
+    for (std::size_t artifacts = 2; artifacts <= max_table_places; ++artifacts) {
         pages.push_back(page_of(artifacts));
     }
     for (int k = 0; k < scenes; ++k) {

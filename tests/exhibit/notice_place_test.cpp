@@ -37,7 +37,7 @@ NoticePicture draw(const NoticeText& text, TextDirection direction = TextDirecti
 
 /// The number of solid squares of half the type size: each has the area of a quarter of an em square.
 double squares_in(const Image<std::uint8_t>& image) {
-    const double em_px = least_caption_em_m * texels_per_m;
+    const double em_px = min_caption_em_m * texels_per_m;
     double light = 0.0;
     for (const std::uint8_t texel : image.texels) {
         light += texel / 255.0;
@@ -69,8 +69,7 @@ TEST(NoticeImage, every_shape_has_all_letters) {
         }
         // Letters, then the words in lines: 24 pt, as captions.
         EXPECT_LT(picture.sizes_m[3].x, picture.sizes_m[0].x);
-        EXPECT_NEAR(picture.sizes_m[0].x, (14.0 * caption_title_em + 1.0) * least_caption_em_m + 0.032,
-                    0.004);
+        EXPECT_NEAR(picture.sizes_m[0].x, (14.0 * caption_title_em + 1.0) * min_caption_em_m + 0.032, 0.004);
     }
 }
 
@@ -101,7 +100,7 @@ TEST(NoticeImage, titles_stand_where_the_reader_begins) {
     lines.lines = {{"IIIII", "", "stick.taken"}};
     lines.sentences.clear();
     // Words are fainter than titles and have solid letters, so their light is known.
-    const double word = 3 * 0.8 * 0.25 * std::pow(least_caption_em_m * texels_per_m, 2);
+    const double word = 3 * 0.8 * 0.25 * std::pow(min_caption_em_m * texels_per_m, 2);
     const Image<std::uint8_t> to_right = draw(lines).shapes[0].image.coverage;
     const Image<std::uint8_t> to_left = draw(lines, TextDirection::RightToLeft).shapes[0].image.coverage;
     EXPECT_NEAR(light_between(to_right, 0.5, 1.0), word, 0.1 * word);
@@ -123,10 +122,10 @@ TEST(NoticeImage, a_long_name_is_cut_off) {
     NoticeText text = told;
     text.lines[0].label = std::string(900, 'W');
     const NoticePicture picture = draw(text);
-    EXPECT_LE(picture.sizes_m[0].x, 36.5 * least_caption_em_m);
-    EXPECT_LE(picture.sizes_m[1].x, 25.5 * least_caption_em_m);
-    EXPECT_LE(picture.sizes_m[2].x, 18.5 * least_caption_em_m);
-    EXPECT_LE(picture.sizes_m[3].x, 9.5 * least_caption_em_m);
+    EXPECT_LE(picture.sizes_m[0].x, 36.5 * min_caption_em_m);
+    EXPECT_LE(picture.sizes_m[1].x, 25.5 * min_caption_em_m);
+    EXPECT_LE(picture.sizes_m[2].x, 18.5 * min_caption_em_m);
+    EXPECT_LE(picture.sizes_m[3].x, 9.5 * min_caption_em_m);
 }
 
 namespace {
@@ -148,7 +147,7 @@ struct Table {
     MonotonicTime now = start;
     Nanoseconds frame = milliseconds(20);
 
-    [[nodiscard]] NoticeSurroundings surroundings() const {
+    [[nodiscard]] NoticeEnvironment environment() const {
         return {hidden_by_prop(prop, pose, {0.0, 0.0, 1.5}),
                 hidden_by_prop(prop, pose, {0.0, -0.55, 0.5}),
                 glm::dvec2(pose.translation),
@@ -161,7 +160,7 @@ struct Table {
         std::optional<PresentedNotice> shown;
         for (Nanoseconds each{0}; each < time; each += frame) {
             now += frame;
-            shown = place.step(now, wanted, surroundings());
+            shown = place.step(now, wanted, environment());
         }
         return shown;
     }
@@ -361,7 +360,7 @@ TEST(NoticePlace, whatever_happens_it_lies_on_nothing_and_nothing_is_allocated) 
                 continue;
             }
             ++lit;
-            EXPECT_GT(clearance(shown->rectangle.corners(), table.surroundings().shadow->corners()), 0.0);
+            EXPECT_GT(clearance(shown->rectangle.corners(), table.environment().shadow->corners()), 0.0);
             for (std::size_t each = 0; each < table.obstacles.size(); ++each) {
                 if (table.now - came[each] > milliseconds(300)) { // long enough to have faded
                     EXPECT_FALSE(touch(shown->rectangle, table.obstacles[each]));

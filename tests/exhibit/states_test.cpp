@@ -102,7 +102,8 @@ TEST(States, WhatStaysTheCaseComesToRest) {
 TEST(States, OnlyAFaultAndTheStaffsPatternAreWithoutAnArtifact) {
     for (const StateNote& note : state_notes) {
         EXPECT_EQ(note.artifact, note.state != State::Fault && note.state != State::Staff) << note.name;
-        EXPECT_TRUE(!note.voice || note.words == Words::Advice || note.words == Words::Telling) << note.name;
+        EXPECT_TRUE(!note.voice || note.words == Words::Advice || note.words == Words::NarrationSequencer)
+            << note.name;
     }
     EXPECT_FALSE(note_of(State::Attract).voice); // no visitor can hear it
 }

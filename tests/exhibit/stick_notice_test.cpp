@@ -105,7 +105,7 @@ TEST(NoticeText, every_pack_is_counted_once_whatever_there_is) {
                 ++expected[std::string(outcome_word(outcome, refusal))];
             }
         }
-        for (const std::size_t most : {std::size_t{3}, most_notice_lines}) {
+        for (const std::size_t most : {std::size_t{3}, max_notice_lines}) {
             std::map<std::string, int, std::less<>> told;
             bool refusals_are_over = false;
             std::set<std::string_view> single;

@@ -138,8 +138,8 @@ TEST(TableBrowser, NothingJumpsWhateverIsPressedAndWhereverTheReaderGoes) {
     std::mt19937_64 random(41);
     Visitor visitor(30);
     visitor.wait(0.6);
-    std::array<double, most_table_places> before{};
-    std::array<glm::dvec2, most_table_places> places{};
+    std::array<double, max_table_places> before{};
+    std::array<glm::dvec2, max_table_places> places{};
     const auto note = [&] {
         for (std::size_t k = 0; k < visitor.browser.presented().count; ++k) {
             before[k] = visitor.browser.presented().places[k].brightness;

@@ -93,13 +93,13 @@ TEST(TableLayout, NothingOverlapsOrLiesUnderThePropAtHomeOnAnyTable) {
         const TableLayout layout = lay_out_table(set_up, side);
         ++by_places[layout.places.size()];
         with_caption += layout.caption ? 1 : 0;
-        EXPECT_LE(layout.places.size(), most_table_places);
+        EXPECT_LE(layout.places.size(), max_table_places);
         for (const TablePlace& place : layout.places) {
             EXPECT_EQ(place.picture.quarter_turns, side);
             EXPECT_EQ(place.title.quarter_turns, side);
             EXPECT_EQ(place.picture.size_m.x, place.picture.size_m.y);
-            EXPECT_GE(place.picture.size_m.x, least_table_picture_m);
-            EXPECT_LE(place.picture.size_m.x, most_table_picture_m + 1e-12);
+            EXPECT_GE(place.picture.size_m.x, min_table_picture_m);
+            EXPECT_LE(place.picture.size_m.x, max_table_picture_m + 1e-12);
             EXPECT_EQ(place.picture.size_m, layout.places.front().picture.size_m);
             // For the reader the title lies below the picture.
             const glm::dvec2 down = turned(place.title.centre_m - place.picture.centre_m, -side);

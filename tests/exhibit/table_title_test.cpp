@@ -59,7 +59,7 @@ TEST(TableTitle, StaysOnOneLineThatFits) {
     const Squares squares;
     const CaptionImage title =
         make_table_title(squares.runs, squares.atlas, Squares::title("abc de"), texels_per_m);
-    EXPECT_NEAR(title.size_m.x, 5.5 * least_caption_em_m, 2.0 / texels_per_m);
+    EXPECT_NEAR(title.size_m.x, 5.5 * min_caption_em_m, 2.0 / texels_per_m);
     EXPECT_EQ(letters_in(title)[0], 5);
     EXPECT_LE(title.size_m.y, 0.022);
 }

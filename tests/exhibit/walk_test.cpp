@@ -101,30 +101,30 @@ public:
             silent_ = dice < 0.2;
             hangs_ = dice > 0.97;
             begins_ = now + milliseconds(static_cast<int>(random.between(0.0, 400.0)));
-            narration_ = {silent_ ? Narration::State::Silent : Narration::State::Coming, 0};
+            narration_ = {silent_ ? SpeechProgress::State::Silent : SpeechProgress::State::Coming, 0};
         }
         told_ = shown.tells ? shown.tells : shown.leaves ? told_ : std::nullopt;
         if (!told_) {
             narration_ = {};
         }
-        if (narration_.state == Narration::State::Coming && now >= begins_) {
-            narration_.state = Narration::State::Heard;
+        if (narration_.state == SpeechProgress::State::Coming && now >= begins_) {
+            narration_.state = SpeechProgress::State::Heard;
         }
-        if (narration_.state == Narration::State::Heard && !hangs_) {
+        if (narration_.state == SpeechProgress::State::Heard && !hangs_) {
             const auto gone = static_cast<std::size_t>((now - begins_) / portion);
             const bool at_pause = gone > narration_.portion;
             narration_.portion = gone;
             if (gone >= 3 || (at_pause && shown.leaves)) {
-                narration_.state = Narration::State::Over;
+                narration_.state = SpeechProgress::State::Over;
             }
         }
     }
-    [[nodiscard]] const Narration& narration() const { return narration_; }
-    [[nodiscard]] bool heard() const { return narration_.state == Narration::State::Heard; }
+    [[nodiscard]] const SpeechProgress& narration() const { return narration_; }
+    [[nodiscard]] bool heard() const { return narration_.state == SpeechProgress::State::Heard; }
 
 private:
     std::optional<DescriptionIndex> told_;
-    Narration narration_;
+    SpeechProgress narration_;
     MonotonicTime begins_;
     bool silent_ = false;
     bool hangs_ = false;
@@ -140,7 +140,7 @@ bool a_share(double value) {
 
 class Walk {
 public:
-    explicit Walk(std::uint64_t seed) : random_(seed) { situation_.eye_m = {0.0, -0.55, 0.5}; }
+    explicit Walk(std::uint64_t seed) : random_(seed) { tracked_state_.eye_m = {0.0, -0.55, 0.5}; }
 
     /// One event, or only time passes.
     void step() {
@@ -157,13 +157,13 @@ public:
         } else if (dice < 0.064) {
             lost_ = lost_ ? std::nullopt : std::optional(now_);
         } else if (dice < 0.066) {
-            situation_.head_known = !situation_.head_known;
+            tracked_state_.head_known = !tracked_state_.head_known;
         } else if (dice < 0.068) {
             look_from_elsewhere();
         } else if (dice < 0.069) {
-            situation_.tracker = random_.happens(0.6)   ? TrackerHealth::Well
-                                 : random_.happens(0.5) ? TrackerHealth::MetalNear
-                                                        : TrackerHealth::Away;
+            tracked_state_.tracker = random_.happens(0.6)   ? TrackerHealth::Well
+                                     : random_.happens(0.5) ? TrackerHealth::MetalNear
+                                                            : TrackerHealth::Away;
         } else if (dice < 0.07) {
             change_packs();
         }
@@ -201,7 +201,7 @@ private:
     /// Moves the prop to some place on the table, onto a picture, or sometimes to an odd pose.
     void move_prop() {
         moved_ = true;
-        RigidTransform& pose = situation_.table_from_prop;
+        RigidTransform& pose = tracked_state_.table_from_prop;
         if (random_.happens(0.025)) {
             pose = seeded_situation(*walked_.guidance, random_).table_from_prop;
         } else if (random_.happens(0.5) && shown_.table != nullptr && shown_.table->count > 0) {
@@ -241,18 +241,19 @@ private:
                              [](ArtifactState state) { return state != ArtifactState::LeftOut; });
     }
     void nudge_prop() {
-        situation_.table_from_prop.translation += 0.002 * glm::dvec3(random_.normal(), random_.normal(), 0.0);
+        tracked_state_.table_from_prop.translation +=
+            0.002 * glm::dvec3(random_.normal(), random_.normal(), 0.0);
     }
     void look_from_elsewhere() {
         const double azimuth = random_.happens(0.8) ? -1.57 : random_.between(-3.1, 3.1);
-        situation_.eye_m = {0.6 * std::cos(azimuth), 0.6 * std::sin(azimuth), 0.5};
+        tracked_state_.eye_m = {0.6 * std::cos(azimuth), 0.6 * std::sin(azimuth), 0.5};
     }
 
     void go_on(Nanoseconds time) {
         now_ += time;
-        situation_.time = now_;
-        situation_.prop_age = lost_ ? now_ - *lost_ : Nanoseconds(0);
-        situation_.prop_known = situation_.prop_age <= seconds(1);
+        tracked_state_.time = now_;
+        tracked_state_.prop_age = lost_ ? now_ - *lost_ : Nanoseconds(0);
+        tracked_state_.prop_known = tracked_state_.prop_age <= seconds(1);
         if (sounds_ && now_ >= sound_ends_) {
             sounds_.reset();
         }
@@ -260,7 +261,7 @@ private:
         exhibit_.note(packs_);
         exhibit_.hear(sounds_ || narrator_.heard(), narrator_.narration());
         const std::size_t artifact = shown_.artifact;
-        shown_ = exhibit_.step(now_, commands_, situation_);
+        shown_ = exhibit_.step(now_, commands_, tracked_state_);
         chosen += commands_.empty() && shown_.state == State::View && shown_.artifact != artifact ? 1 : 0;
         ++visits.at(static_cast<std::size_t>(shown_.state));
         narrator_.step(now_, shown_, random_);
@@ -308,7 +309,8 @@ private:
         EXPECT_TRUE(!elsewhere_since_ || now_ - *elsewhere_since_ < milliseconds(100))
             << name_of(shown_.state);
         note_since(told_since_, shown_.tells || shown_.leaves, true);
-        EXPECT_TRUE(!told_since_ || now_ - *told_since_ < Telling::longest_description + seconds(160))
+        EXPECT_TRUE(!told_since_ ||
+                    now_ - *told_since_ < NarrationSequencer::longest_description + seconds(160))
             << "a description that does not end";
     }
 
@@ -337,7 +339,8 @@ private:
         EXPECT_TRUE(finite(shown_.table_from_prop.translation));
         EXPECT_NEAR(glm::length(shown_.table_from_prop.rotation), 1.0, 1e-6);
         // The artifact is dark for at most two fades, as far as it is observed without a gap.
-        const bool dark = shown_.brightness + (shown_.stand_in ? shown_.stand_in->brightness : 0.0) < 0.05;
+        const bool dark =
+            shown_.brightness + (shown_.placeholder ? shown_.placeholder->brightness : 0.0) < 0.05;
         note_since(dark_since_, dark && offered() > 0, watched);
         EXPECT_TRUE(!dark_since_ || now_ - *dark_since_ < milliseconds(1200)) << "no picture";
         EXPECT_TRUE(!shown_.sign || a_share(shown_.sign->brightness));
@@ -357,7 +360,7 @@ private:
     ExhibitPlace walked_ = walked_place();
     Exhibit exhibit_ = walked_exhibit();
     Seeded random_;
-    Situation situation_;
+    TrackedState tracked_state_;
     MonotonicTime now_ = sample::start;
     std::optional<MonotonicTime> lost_;
     std::vector<Command> commands_;

@@ -27,25 +27,25 @@ Shown beyond_frustum() {
 }
 
 /// The pixels of a pinhole at the eye through which the artifact would be seen, at places without light.
-double traced_lost_px(const Shown& shown, const GuidedSituation& situation) {
+double traced_lost_px(const Shown& shown, const GuidedState& tracked_state) {
     const GuidanceSetup& setup = shown.setup;
-    const RigidTransform prop_from_table = situation.table_from_prop.inverse();
-    const glm::dvec3 eye = prop_from_table.point(situation.eye_m);
+    const RigidTransform prop_from_table = tracked_state.table_from_prop.inverse();
+    const glm::dvec3 eye = prop_from_table.point(tracked_state.eye_m);
     const glm::dvec3 lens = prop_from_table.point(setup.table_from_projector.translation);
     const RigidTransform projector_from_prop =
-        setup.table_from_projector.inverse() * situation.table_from_prop;
+        setup.table_from_projector.inverse() * tracked_state.table_from_prop;
     const glm::dvec3 forward = glm::normalize(setup.prop.middle - eye);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, prop_from_table.direction({0.0, 0.0, 1.0})));
     const glm::dvec3 down = glm::cross(forward, right);
     const FaceReader reader(setup);
-    const std::uint32_t seen = reader.read(situation).seen;
+    const std::uint32_t seen = reader.read(tracked_state).seen;
     const auto is_lit = [&](const glm::dvec3& place, const PropFace& face) {
         const glm::dvec3 p = projector_from_prop.point(place);
         const double u = setup.projector.fx * p.x / p.z + setup.projector.cx;
         const double v = setup.projector.fy * p.y / p.z + setup.projector.cy;
         const bool turned =
             std::all_of(face.corners.begin(), face.corners.end(), [&](const glm::dvec3& corner) {
-                return face.plane.distance(lens) >= setup.least_sine_of_light * glm::distance(lens, corner);
+                return face.plane.distance(lens) >= setup.min_sine_of_light * glm::distance(lens, corner);
             });
         return turned && p.z > 0.0 && u >= 0.0 && v >= 0.0 && u <= setup.projector.width &&
                v <= setup.projector.height;
@@ -82,12 +82,12 @@ TEST_P(SeenIn, WholeAndLostAreWhatRaysSay) {
     int saved = 0; // whole, though a seen face is not entirely lit
     int lost = 0;
     for (int k = 0; k < 600; ++k) {
-        const GuidedSituation situation = seeded_situation(shown.setup, seeded);
-        const double traced = traced_lost_px(shown, situation);
-        const double lost_px = reader.lost_px(situation);
-        if (reader.whole(situation)) {
+        const GuidedState tracked_state = seeded_situation(shown.setup, seeded);
+        const double traced = traced_lost_px(shown, tracked_state);
+        const double lost_px = reader.lost_px(tracked_state);
+        if (reader.whole(tracked_state)) {
             ++whole;
-            saved += reader.valid(situation) ? 0 : 1;
+            saved += reader.valid(tracked_state) ? 0 : 1;
             EXPECT_EQ(traced, 0.0) << k;
             EXPECT_LT(lost_px, 1e-6) << k;
             continue;

@@ -152,7 +152,7 @@ TEST(ArtifactReader, AReliefIsExposedAsTheMeshesOfItsArtifact) {
     EXPECT_EQ(exposure("relief96"), of_mesh);
 }
 
-/// The governor measures what its rungs draw; the relief is in the GPU's memory only if one of them draws it there.
+/// The governor measures what its quality levels draw; the relief is in the GPU memory only if one of them draws it there.
 TEST(ArtifactReader, AReliefIsPreparedInEachWayThatARungDrawsItAndNoOther) {
     const synthetic::ShownPacks packs(1);
     KnownArtifact known = packs.known(0);
@@ -166,10 +166,10 @@ TEST(ArtifactReader, AReliefIsPreparedInEachWayThatARungDrawsItAndNoOther) {
     auto display = SurfacelessDisplay::create(320, 200).value();
     Renderer renderer = Renderer::create(320, 200).value();
     const synthetic::Stage stage(320, 200);
-    for (const std::uint32_t most_blocks : {0U, 1U << 20U}) {
+    for (const std::uint32_t max_blocks : {0U, 1U << 20U}) {
         SceneRequest request;
         request.light = false;
-        request.most_blocks_on_gpu = most_blocks;
+        request.max_blocks_on_gpu = max_blocks;
         known.plan = plan_scene(settings, known.outline, request).value();
         const std::uint64_t before = renderer.store().bytes();
         LoadedLevels loaded(prepare_artifact(known, "auto", 1e9, [] { return false; }).value());
@@ -185,20 +185,20 @@ TEST(ArtifactReader, AReliefIsPreparedInEachWayThatARungDrawsItAndNoOther) {
             EXPECT_EQ(use.planned_gpu_bytes, use.gpu_bytes);
             on_gpu += use.on_gpu ? 1U : 0U;
         }
-        EXPECT_EQ(on_gpu, most_blocks > 0 ? 1U : 0U);
+        EXPECT_EQ(on_gpu, max_blocks > 0 ? 1U : 0U);
         EXPECT_EQ(renderer.store().bytes() - before, planned);
         levels.measure(stage.prop, stage.view(), renderer, {display->framebuffer(), 0});
-        for (const RungTime& time : levels.times()) {
+        for (const QualityLevelTime& time : levels.times()) {
             EXPECT_GT(time.ms, 0.0);
             EXPECT_LT(time.ms, 60e3) << "it was measured";
         }
         for (const char* way : {"relief96", "relief96-gpu"}) {
-            std::vector<RungTime> times = levels.times();
-            for (RungTime& time : times) {
+            std::vector<QualityLevelTime> times = levels.times();
+            for (QualityLevelTime& time : times) {
                 time.ms = time.relief && time.on_gpu == (std::string_view(way) == "relief96-gpu") ? 2.0 : 9.0;
             }
             levels.start(times);
-            const bool is_there = most_blocks > 0 || std::string_view(way) == "relief96";
+            const bool is_there = max_blocks > 0 || std::string_view(way) == "relief96";
             EXPECT_EQ(levels.state().level == way, is_there) << way << " " << levels.state().level;
         }
         levels.release(renderer.store());

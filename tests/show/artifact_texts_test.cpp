@@ -10,7 +10,7 @@ namespace {
 using std::chrono::milliseconds;
 
 /// The first pack has the shortest texts.
-Pack telling_pack(std::size_t number) {
+Pack narration_pack(std::size_t number) {
     Pack pack = numbered_pack(number);
     pack.languages = {"en", "de"};
     std::string description = "A first sentence says what there is to see.";
@@ -29,7 +29,7 @@ protected:
     TextsComing() {
         settings.exhibit.captions = true;
         for (std::size_t k = 0; k < files.files().size(); ++k) {
-            static_cast<void>(write_file(files.files()[k], write_pack(telling_pack(k)).value()));
+            static_cast<void>(write_file(files.files()[k], write_pack(narration_pack(k)).value()));
         }
     }
     void start(std::size_t packs, bool waits, bool other_languages = true) {
@@ -168,9 +168,9 @@ TEST_F(TextsComing, APackThatIsGoneKeepsItsArtifactWithoutTheTextsThatCameTooLat
 
 TEST_F(TextsComing, TextsOfAnotherPackAreRefused) {
     start(1, true);
-    Pack other = telling_pack(0);
+    Pack other = narration_pack(0);
     other.captions[1].text = "Ein anderer, viel längerer Text";
-    const KnownArtifact known{files.files()[0], outline_of(telling_pack(0)), {}, {}};
+    const KnownArtifact known{files.files()[0], outline_of(narration_pack(0)), {}, {}};
     const std::vector<std::size_t> captions{0, 1};
     const TextStyle style{0.010, 1000.0};
     const ArtifactTexts texts =
@@ -187,7 +187,7 @@ TEST_F(TextsComing, TextsOfAnotherPackAreRefused) {
 TEST_F(TextsComing, WhatHidesHotspotsCountsAndWhatLiesOnTheTableLeavesLessForArtifacts) {
     start(1, true);
     const std::uint64_t without = show->state(step()).loaded_bytes;
-    Pack pointing = telling_pack(0);
+    Pack pointing = narration_pack(0);
     pointing.hotspots = {{{0.0, 0.0, 0.5}, {0.0, 0.0, 1.0}, {{"en", "Here"}, {"de", "Hier"}}}};
     static_cast<void>(write_file(files.files()[0], write_pack(pointing).value()));
     start(1, true);
@@ -196,7 +196,7 @@ TEST_F(TextsComing, WhatHidesHotspotsCountsAndWhatLiesOnTheTableLeavesLessForArt
 
     for (const bool on_table : {false, true}) {
         for (std::size_t k = 0; k < 3; ++k) {
-            Pack pack = telling_pack(k);
+            Pack pack = narration_pack(k);
             pack.table_picture = Image8(512, 512, {9, 200, 99, 255}); // 1.4 MB of the GPU's memory
             static_cast<void>(write_file(files.files()[k], write_pack(pack).value()));
         }

@@ -34,13 +34,13 @@ protected:
     }
     Presentation step(std::span<const Command> commands = {}) {
         now += std::chrono::milliseconds(20);
-        Situation situation;
-        situation.prop_known = true;
-        situation.eye_m = settings.eye.default_m;
+        TrackedState tracked_state;
+        tracked_state.prop_known = true;
+        tracked_state.eye_m = settings.eye.default_m;
         exhibit->note(show->artifacts());
-        Presentation presentation = exhibit->step(now, commands, situation);
-        static_cast<void>(
-            show->draw(now, presentation, situation.eye_m, {display->framebuffer(), 0}, Redraw::Everything));
+        Presentation presentation = exhibit->step(now, commands, tracked_state);
+        static_cast<void>(show->draw(now, presentation, tracked_state.eye_m, {display->framebuffer(), 0},
+                                     Redraw::Everything));
         return presentation;
     }
     /// Steps until the artifact is ready; may loop forever.

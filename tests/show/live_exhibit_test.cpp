@@ -59,13 +59,13 @@ protected:
         frame();
         frame();
     }
-    DrawResult frame(std::span<const Command> commands = {}, const Situation& situation = {}) {
-        show->step(now, commands, situation);
+    DrawResult frame(std::span<const Command> commands = {}, const TrackedState& tracked_state = {}) {
+        show->step(now, commands, tracked_state);
         if (std::find(commands.begin(), commands.end(), Command::StaffMode) != commands.end()) {
             show->tell(status); // as the run loop does
         }
         const DrawResult drawn =
-            show->draw(now, situation, {display->framebuffer(), display->buffer_age()}, Redraw::Changes);
+            show->draw(now, tracked_state, {display->framebuffer(), display->buffer_age()}, Redraw::Changes);
         show->record_time(now, 1.0);
         if (drawn.drawn) {
             EXPECT_TRUE(display->present(now));
@@ -141,7 +141,7 @@ TEST_F(Live, EveryPageIsAnotherPicture) {
 
 TEST_F(Live, ThePropsEdgesFollowItWhereThePlaceIsShown) {
     frame(chord);
-    Situation moved;
+    TrackedState moved;
     moved.table_from_prop.translation.x = 0.1;
     EXPECT_FALSE(frame({}, moved).drawn) << "the status has no prop in it";
     turn_page();
@@ -193,13 +193,13 @@ TEST_F(Live, SaysTheDevicesStatesAndRedrawsOnlyWhenTheyChange) {
 
 TEST_F(Live, SaysWhatItsWatchdogSaysOfIt) {
     frame(chord);
-    Surroundings around;
+    Environment around;
     around.ends = parse_service_ends("5 watchdog killed KILL\n");
-    status.surroundings = std::make_shared<const Surroundings>(around);
+    status.environment = std::make_shared<const Environment>(around);
     show->tell(status);
     EXPECT_TRUE(frame().drawn);
     around.watchdog.fields = {{"faults", {{{"at", "2026-05-01T10:00:00Z"}, {"sentence", "it is hot"}}}}};
-    status.surroundings = std::make_shared<const Surroundings>(around);
+    status.environment = std::make_shared<const Environment>(around);
     show->tell(status);
     EXPECT_TRUE(frame().drawn);
 }
@@ -280,10 +280,10 @@ TEST_F(Live, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
                 prop_turns += milliseconds(lost ? 2000 + random() % 1300 : random() % 500);
             }
             const MonotonicTime shown = now;
-            Situation situation;
-            situation.prop_known = !lost;
-            situation.prop_age = lost ? now - *lost : Nanoseconds(0);
-            frame(commands, situation);
+            TrackedState tracked_state;
+            tracked_state.prop_known = !lost;
+            tracked_state.prop_age = lost ? now - *lost : Nanoseconds(0);
+            frame(commands, tracked_state);
             const Image8 picture = read_colour(display->framebuffer(), 320, 200);
             for (std::size_t k = 0; k < places.size(); ++k) {
                 const int x = k % 8 == 0 ? 0 : static_cast<int>(k % 8) * 44;
@@ -291,7 +291,7 @@ TEST_F(Live, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
             }
         }
         for (const std::vector<Luminance>& place : places) {
-            most = std::max(most, most_flashes_a_second(place));
+            most = std::max(most, max_flashes_per_second(place));
         }
     }
     EXPECT_GT(patterns, 30);

@@ -78,7 +78,7 @@ protected:
                 with_words ? fmt::format("words = \"{}\"\n", (folder / "own.fswords").string()) : ""),
             "kiosk.toml");
         settings.panel.script = {{1.0, 0}, {2.0, 1}};
-        ArtifactShowOptions options{packs.files(), "level0", 1, AllEconomies}; // no governor
+        ArtifactShowOptions options{packs.files(), "level0", 1, AllCullKinds}; // no governor
         options.waits = true;
         now = MonotonicTime(seconds(100));
         auto artifacts = ArtifactShow::create(settings, plan_devices(settings, false, false), options,
@@ -87,28 +87,28 @@ protected:
         Exhibit exhibit = make_exhibit(settings, *artifacts, now);
         show = std::make_unique<LiveExhibit>(settings, std::move(artifacts), std::move(exhibit), "a driver",
                                              PromptReader::Answer::Always);
-        situation.prop_known = true;
-        situation.eye_m = settings.eye.default_m;
+        tracked_state.prop_known = true;
+        tracked_state.eye_m = settings.eye.default_m;
         wait(milliseconds(1500));
     }
     void wait(Nanoseconds time, std::span<const Command> commands = {}) {
         const MonotonicTime end = now + time;
         while (now < end) {
             now += milliseconds(20);
-            situation.table_from_prop.translation.x =
+            tracked_state.table_from_prop.translation.x =
                 now.time_since_epoch() % seconds(1) < milliseconds(500) ? 0.0 : 0.004; // a visitor is present
-            show->step(now, std::exchange(commands, {}), situation);
+            show->step(now, std::exchange(commands, {}), tracked_state);
             std::vector<std::int16_t> block(sample_rate_hz / 50);
             mixer.mix(block);
             mixer.follow(show->wish());
             heard.insert(heard.end(), block.begin(), block.end());
             show->hear(mixer.report(Nanoseconds(0)));
         }
-        situation.table_from_prop.translation.x = 0.0;
-        show->step(now, {}, situation);
+        tracked_state.table_from_prop.translation.x = 0.0;
+        show->step(now, {}, tracked_state);
     }
     Image8 picture() {
-        static_cast<void>(show->draw(now, situation, {display->framebuffer(), 0}, Redraw::Everything));
+        static_cast<void>(show->draw(now, tracked_state, {display->framebuffer(), 0}, Redraw::Everything));
         return read_colour(display->framebuffer(), width, height);
     }
     /// Codes of the pixels in which two pictures differ, by place: 0 where they are equal.
@@ -141,7 +141,7 @@ protected:
     Settings settings;
     std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(width, height).value();
     std::unique_ptr<LiveExhibit> show;
-    Situation situation;
+    TrackedState tracked_state;
     Mixer mixer;
     std::vector<std::int16_t> heard;
     MonotonicTime now;
@@ -152,8 +152,8 @@ TEST_F(Notice, WithoutAReportNothingIsDrawnAndNothingAllocated) {
     const long before = allocations_so_far();
     for (int k = 0; k < 100; ++k) {
         now += milliseconds(20);
-        show->step(now, {}, situation);
-        static_cast<void>(show->draw(now, situation, {display->framebuffer(), 1}, Redraw::Changes));
+        show->step(now, {}, tracked_state);
+        static_cast<void>(show->draw(now, tracked_state, {display->framebuffer(), 1}, Redraw::Changes));
     }
     if (allocations_are_counted) {
         EXPECT_EQ(allocations_so_far(), before);
@@ -347,7 +347,7 @@ TEST(ImportWatch, AThreadReadsWhatIsRenamedIntoPlace) {
     EXPECT_EQ(drawn, 2) << "the words of a copy are drawn once, and that it stopped";
     EXPECT_FALSE(watch.latest({})->is_old);
     ASSERT_TRUE(wait_for(done_with(500)));
-    EXPECT_EQ(watch.latest({})->notice->text.lines.size(), most_notice_lines);
+    EXPECT_EQ(watch.latest({})->notice->text.lines.size(), max_notice_lines);
     fs::remove(file);
 }
 
@@ -375,7 +375,7 @@ TEST(ImportJournal, EachStageAndEachPackIsALine) {
     const std::size_t before = lines.size();
     for (std::size_t written = 1; written > 0; ++calls) {
         written = note(done);
-        EXPECT_LE(written, ImportJournal::most_lines + 1);
+        EXPECT_LE(written, ImportJournal::max_lines + 1);
     }
     EXPECT_EQ(lines.size() - before, 501U);
     EXPECT_EQ(std::set<std::string>(lines.begin(), lines.end()).size(), lines.size());

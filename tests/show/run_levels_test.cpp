@@ -32,7 +32,7 @@ Pack two_levels() {
 
 constexpr double deadline_ms = 16.0;
 /// A GPU that takes 9 ms for the fine level and 3 ms for the coarse one.
-const std::vector<RungTime> gpu_times{{1, {1728.0, 20000.0}, 9.0}, {1, {288.0, 20000.0}, 3.0}};
+const std::vector<QualityLevelTime> gpu_times{{1, {1728.0, 20000.0}, 9.0}, {1, {288.0, 20000.0}, 3.0}};
 
 struct Show {
     Pack pack = two_levels();

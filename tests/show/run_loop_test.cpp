@@ -32,10 +32,10 @@ public:
 class FaultyShow final : public Show {
 public:
     void step(MonotonicTime now, std::span<const Command> /*commands*/,
-              const Situation& /*on_table*/) override {
+              const TrackedState& /*on_table*/) override {
         now_ = now;
     }
-    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const Situation& /*on_table*/,
+    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const TrackedState& /*on_table*/,
                                   const RenderTarget& /*target*/, Redraw /*redraw*/) override {
         return {};
     }
@@ -79,10 +79,10 @@ class UsedShow final : public Show {
 public:
     explicit UsedShow(MonotonicTime start) : start_(start) {}
     void step(MonotonicTime now, std::span<const Command> /*commands*/,
-              const Situation& /*on_table*/) override {
+              const TrackedState& /*on_table*/) override {
         now_ = now;
     }
-    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const Situation& /*on_table*/,
+    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const TrackedState& /*on_table*/,
                                   const RenderTarget& /*target*/, Redraw /*redraw*/) override {
         return {};
     }
@@ -110,10 +110,10 @@ public:
         while_used += mark && now_ > comes ? 1 : 0;
     }
     void step(MonotonicTime now, std::span<const Command> /*commands*/,
-              const Situation& /*on_table*/) override {
+              const TrackedState& /*on_table*/) override {
         now_ = now;
     }
-    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const Situation& /*on_table*/,
+    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const TrackedState& /*on_table*/,
                                   const RenderTarget& /*target*/, Redraw /*redraw*/) override {
         return {};
     }
@@ -150,8 +150,8 @@ TEST(RunLoop, MarksOfLightAreShownWhileNobodyIsThere) {
 class TimedShow final : public Show {
 public:
     void step(MonotonicTime /*now*/, std::span<const Command> /*commands*/,
-              const Situation& /*on_table*/) override {}
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& /*on_table*/,
+              const TrackedState& /*on_table*/) override {}
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const TrackedState& /*on_table*/,
                                   const RenderTarget& /*target*/, Redraw /*redraw*/) override {
         DrawResult result;
         result.drawn = ++frames % 3 == 0;
@@ -163,13 +163,13 @@ public:
     }
     void record_time(MonotonicTime now, double ms) override {
         timed.push_back(now);
-        least_ms = std::min(least_ms, ms);
+        min_ms = std::min(min_ms, ms);
     }
     [[nodiscard]] ShowState state() const override { return {}; }
 
     int frames = 0;
     std::vector<MonotonicTime> drawn, timed;
-    double least_ms = 1.0;
+    double min_ms = 1.0;
 };
 
 TEST(RunLoop, TellsTheShowTheTimeOfEachFrameThatWasDrawn) {
@@ -180,7 +180,7 @@ TEST(RunLoop, TellsTheShowTheTimeOfEachFrameThatWasDrawn) {
     ASSERT_TRUE(run) << run.error().message;
     EXPECT_GT(show.drawn.size(), 30U);
     EXPECT_EQ(show.timed, show.drawn);
-    EXPECT_GT(show.least_ms, 0.0);
+    EXPECT_GT(show.min_ms, 0.0);
 }
 
 TEST(RunLoop, EndsWhereNothingCanBeShownForAMinute) {

@@ -100,15 +100,15 @@ protected:
     }
     void step(std::span<const Command> commands = {}, Nanoseconds length = milliseconds(40)) {
         now += length;
-        Situation situation;
-        situation.prop_known = true;
-        situation.eye_m = settings.eye.default_m;
+        TrackedState tracked_state;
+        tracked_state.prop_known = true;
+        tracked_state.eye_m = settings.eye.default_m;
         switches += sets->step(now, shown.state, *exhibit) ? 1U : 0U;
         exhibit->note(show->artifacts());
-        shown = exhibit->step(now, commands, situation);
+        shown = exhibit->step(now, commands, tracked_state);
         sets->report(now, shown.state);
         static_cast<void>(
-            show->draw(now, shown, situation.eye_m, {display->framebuffer(), 0}, Redraw::Everything));
+            show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 0}, Redraw::Everything));
     }
     void visit() {
         step(next);
@@ -157,11 +157,11 @@ protected:
         Exhibit its = make_exhibit(settings, *alone, now);
         for (int k = 0; k < 30; ++k) {
             now += milliseconds(40);
-            Situation situation;
-            situation.prop_known = true;
-            situation.eye_m = settings.eye.default_m;
-            const Presentation presentation = its.step(now, {}, situation);
-            static_cast<void>(alone->draw(now, presentation, situation.eye_m, {display->framebuffer(), 0},
+            TrackedState tracked_state;
+            tracked_state.prop_known = true;
+            tracked_state.eye_m = settings.eye.default_m;
+            const Presentation presentation = its.step(now, {}, tracked_state);
+            static_cast<void>(alone->draw(now, presentation, tracked_state.eye_m, {display->framebuffer(), 0},
                                           Redraw::Everything));
         }
         return picture();
@@ -323,7 +323,7 @@ TEST_F(SetSwitching, StartsAreCountedAndTheFourthShowsTheLastGoodSet) {
     const fs::path left = folder / "shown/verdict.json.part4194305"; // of a process that does not exist
     fs::create_directory(left.parent_path());
     ASSERT_TRUE(write_file(left, {}));
-    for (int begun = 1; begun <= most_starts; ++begun) {
+    for (int begun = 1; begun <= max_starts; ++begun) {
         start();
         step();
         EXPECT_EQ(show->set().number, 2U);

@@ -103,7 +103,7 @@ TEST(SetTrial, WithoutAnotherSetABadOneStays) {
 
 TEST(SetTrial, StartsWithoutAVerdictAreCountedAndTheFourthGoesBack) {
     std::optional<SetVerdict> kept;
-    for (int begun = 1; begun <= most_starts; ++begun) {
+    for (int begun = 1; begun <= max_starts; ++begun) {
         SetTrial trial(on_trial(), kept);
         show(trial, start, seconds(10)); // the exhibit crashes afterwards
         EXPECT_EQ(trial.target().number, 8U);

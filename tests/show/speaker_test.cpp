@@ -54,7 +54,7 @@ protected:
         presentation.says.reset();
         presentation.falls_silent = false;
         std::vector<std::int16_t> block(sample_rate_hz / 50);
-        mixer.mix(block); // as WavSound: first the samples that are due, then the new wish
+        mixer.mix(block); // as WavSound: first the samples that are due, then the new request
         mixer.follow(speaker.wish());
         heard.insert(heard.end(), block.begin(), block.end());
         speaker.hear(mixer.report(Nanoseconds(0)));
@@ -88,13 +88,13 @@ TEST_F(Speaking, a_description_is_heard_whole_from_the_frame_that_tells_it) {
     frame();
     tell();
     frame();
-    EXPECT_EQ(speaker.narration(), (Narration{Narration::State::Coming, 0}));
+    EXPECT_EQ(speaker.narration(), (SpeechProgress{SpeechProgress::State::Coming, 0}));
     frames(3);
-    EXPECT_EQ(speaker.narration().state, Narration::State::Heard);
-    while (speaker.narration().state == Narration::State::Heard) {
+    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Heard);
+    while (speaker.narration().state == SpeechProgress::State::Heard) {
         frame();
     }
-    EXPECT_EQ(speaker.narration().state, Narration::State::Over);
+    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Over);
     const std::size_t begin = 2 * sample_rate_hz / 50;
     for (std::size_t k = Mixer::fade_samples; k + Mixer::fade_samples < truth.samples.size(); ++k) {
         ASSERT_EQ(heard[begin + k], truth.samples[k]) << k;
@@ -107,7 +107,7 @@ TEST_F(Speaking, its_portions_follow_what_is_heard) {
     tell();
     frames(3);
     std::size_t portion = 0;
-    while (speaker.narration().state == Narration::State::Heard) {
+    while (speaker.narration().state == SpeechProgress::State::Heard) {
         EXPECT_GE(speaker.narration().portion, portion);
         portion = speaker.narration().portion;
         frame();
@@ -122,15 +122,15 @@ TEST_F(Speaking, what_is_told_no_more_stops_or_goes_on_to_its_pause) {
     leave(false);
     frames(3);
     EXPECT_FALSE(sounds());
-    EXPECT_EQ(speaker.narration().state, Narration::State::Over);
+    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Over);
 
     tell();
     frames(10);
     leave(true);
     frame();
-    EXPECT_EQ(speaker.narration().state, Narration::State::Heard) << "not in the middle of a word";
+    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Heard) << "not in the middle of a word";
     frames(200);
-    EXPECT_EQ(speaker.narration().state, Narration::State::Over);
+    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Over);
 
     tell();
     frames(10);
@@ -138,7 +138,7 @@ TEST_F(Speaking, what_is_told_no_more_stops_or_goes_on_to_its_pause) {
     frame();
     leave(false); // no pause came in time
     frames(3);
-    EXPECT_EQ(speaker.narration().state, Narration::State::Over);
+    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Over);
 }
 
 TEST_F(Speaking, advice_that_was_asked_for_takes_the_place_of_the_description) {
@@ -150,7 +150,7 @@ TEST_F(Speaking, advice_that_was_asked_for_takes_the_place_of_the_description) {
     frames(5);
     const Prompt truth = *read_opus(fixture("tone.opus"));
     EXPECT_TRUE(speaker.speaks());
-    EXPECT_NE(speaker.narration().state, Narration::State::Heard);
+    EXPECT_NE(speaker.narration().state, SpeechProgress::State::Heard);
     frames(100);
     const std::size_t from = heard.size() - std::min<std::size_t>(heard.size(), 105 * sample_rate_hz / 50);
     const auto at = std::search(heard.begin() + static_cast<std::ptrdiff_t>(from), heard.end(),
@@ -163,20 +163,20 @@ TEST_F(Speaking, who_manages_is_not_told_the_advice_to_its_end_but_the_descripti
     frames(20);
     presentation.falls_silent = true;
     frames(10);
-    EXPECT_EQ(speaker.narration().state, Narration::State::Heard)
+    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Heard)
         << "silence for advice is none for the description";
 }
 
 TEST_F(Speaking, what_has_no_sound_is_silent) {
     presentation.tells = presentation.prepares = DescriptionIndex{1, 0};
     frames(2);
-    EXPECT_EQ(speaker.narration().state, Narration::State::Silent);
+    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Silent);
     stage.description =
         std::make_shared<const PromptRecording>(PromptRecording{"bad", Bytes(9), {}, "", "", {}});
     ::testing::internal::CaptureStderr();
     tell();
     frames(2);
-    EXPECT_EQ(speaker.narration().state, Narration::State::Silent);
+    EXPECT_EQ(speaker.narration().state, SpeechProgress::State::Silent);
     EXPECT_NE(::testing::internal::GetCapturedStderr().find("bad is silent: "), std::string::npos);
 }
 
@@ -208,7 +208,7 @@ TEST_F(Speaking, an_announcement_waits_until_nothing_else_is_heard_and_is_said_o
     const SharedRecording soft = std::make_shared<const PromptRecording>(soft_one);
     tell();
     frames(10);
-    while (speaker.narration().state == Narration::State::Heard) {
+    while (speaker.narration().state == SpeechProgress::State::Heard) {
         EXPECT_FALSE(speaker.step(presentation, stage, loud));
         frame();
     }

@@ -105,12 +105,12 @@ protected:
 
 TEST_F(StaffPicture, AnotherProgramReadsTheCode) {
     for (const std::string& text : {std::string("a"), std::string(example_card), std::string("\u00e9 \u4e2d"),
-                                    std::string(most_card_bytes, 'x')}) {
+                                    std::string(max_card_bytes, 'x')}) {
         EXPECT_EQ(read(grown(qr_code(text), 4)), text);
     }
     EXPECT_EQ(qr_code("").width, 0);
-    EXPECT_EQ(qr_code(std::string(most_qr_bytes + 1, 'x')).width, 0);
-    EXPECT_GT(qr_code(std::string(most_qr_bytes, 'x')).width, 0);
+    EXPECT_EQ(qr_code(std::string(max_qr_bytes + 1, 'x')).width, 0);
+    EXPECT_GT(qr_code(std::string(max_qr_bytes, 'x')).width, 0);
 }
 
 /// A cable covers a part, and the telephone is turned.
@@ -134,7 +134,7 @@ TEST_F(StaffPicture, TheStatusPageHasACodeThatIsReadHoweverMuchThereIsToSay) {
         set_size(width, height);
         EXPECT_EQ(read(page({})), example_card) << width;
     }
-    facts.card = std::string(most_card_bytes, 'W');
+    facts.card = std::string(max_card_bytes, 'W');
     facts.lines.assign(40, std::string(250, 'w') + " and what is to be done about that");
     for (const auto& [width, height] : {std::pair(1280, 800), std::pair(1920, 1200)}) {
         set_size(width, height);
@@ -229,8 +229,8 @@ TEST(StatusCard, IsShortPlainAndCutFromItsEnd) {
                                {"machine", std::string(500, 'y')},
                                {"errors", std::string(500, 'y')}});
     const std::string card = status_card("well", status, lines, 0);
-    EXPECT_LE(card.size(), most_card_bytes);
-    EXPECT_GT(card.size(), most_card_bytes - most_card_line_bytes - 10);
+    EXPECT_LE(card.size(), max_card_bytes);
+    EXPECT_GT(card.size(), max_card_bytes - max_card_line_bytes - 10);
     EXPECT_TRUE(card.ends_with("\n...\n"));
 }
 

@@ -66,23 +66,24 @@ protected:
         settings = **parse_settings(
             fmt::format("[projector]\nwidth = {}\nheight = {}\n{}", width, height, more), "kiosk.toml");
         settings.panel.script = {{1.0, 2}};
-        ArtifactShowOptions options{packs, "auto", 1, AllEconomies};
+        ArtifactShowOptions options{packs, "auto", 1, AllCullKinds};
         options.waits = waits;
         show = ArtifactShow::create(settings, plan_devices(settings, false, false), options,
                                     {display->framebuffer(), 0})
                    .value();
         exhibit.emplace(make_exhibit(settings, *show, now));
-        situation.prop_known = true;
-        situation.eye_m = settings.eye.default_m;
+        tracked_state.prop_known = true;
+        tracked_state.eye_m = settings.eye.default_m;
     }
     void wait(milliseconds time, std::span<const Command> commands = {}) {
         for (milliseconds each{0}; each < time; each += milliseconds(20)) {
             now += milliseconds(20);
-            shown = exhibit->step(now, each.count() == 0 ? commands : std::span<const Command>{}, situation);
+            shown =
+                exhibit->step(now, each.count() == 0 ? commands : std::span<const Command>{}, tracked_state);
         }
     }
     Image8 picture(Redraw redraw = Redraw::Everything) {
-        static_cast<void>(show->draw(now, shown, situation.eye_m,
+        static_cast<void>(show->draw(now, shown, tracked_state.eye_m,
                                      {display->framebuffer(), redraw == Redraw::Changes ? 1 : 0}, redraw));
         return read_colour(display->framebuffer(), width, height);
     }
@@ -164,7 +165,7 @@ protected:
     std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(width, height).value();
     std::unique_ptr<ArtifactShow> show;
     std::optional<Exhibit> exhibit;
-    Situation situation;
+    TrackedState tracked_state;
     Presentation shown;
     MonotonicTime now{std::chrono::seconds(100)};
 };
@@ -174,7 +175,7 @@ TEST_F(OnTheTable, PicturesLieInTheirPlacesInTheirColours) {
         make(artifacts);
         for (const glm::dvec3& eye :
              {settings.eye.default_m, glm::dvec3(0.7, 0.0, 0.5), glm::dvec3(0.0, 0.6, 0.5)}) {
-            situation.eye_m = eye;
+            tracked_state.eye_m = eye;
             wait(milliseconds(1500));
             expect_pictures_in_their_places();
         }
@@ -213,9 +214,9 @@ TEST_F(OnTheTable, TheRingFillsWithWhatTheExhibitSays) {
     ASSERT_GE(shown.table->count, 2U);
     const PlacedPicture chosen = shown.table->pictures()[1];
     ASSERT_TRUE(chosen.artifact);
-    situation.table_from_prop.translation = glm::dvec3(chosen.place.picture.centre_m, 0.0);
+    tracked_state.table_from_prop.translation = glm::dvec3(chosen.place.picture.centre_m, 0.0);
     wait(milliseconds(400));
-    const auto shadow = hidden_by_prop(make_prop(settings.prop), situation.table_from_prop,
+    const auto shadow = hidden_by_prop(make_prop(settings.prop), tracked_state.table_from_prop,
                                        settings.projector.table_from_projector.translation);
     double last = 0.0;
     int pictures = 0;
@@ -297,23 +298,24 @@ TEST_F(OnTheTable, NoFrameAllocatesAndAPictureThatFadesIsDrawnAlone) {
     const auto next = std::find_if(placed.begin(), placed.end(),
                                    [](const PlacedPicture& each) { return each.artifact == std::size_t{1}; });
     ASSERT_NE(next, placed.end());
-    const glm::dvec2 home(situation.table_from_prop.translation);
+    const glm::dvec2 home(tracked_state.table_from_prop.translation);
     const glm::dvec2 goal = next->place.picture.centre_m;
     const long before = synthetic::allocations_so_far();
     for (int k = 0; k <= 60; ++k) {
-        situation.table_from_prop.translation = glm::dvec3(glm::mix(home, goal, k / 60.0), 0.0);
+        tracked_state.table_from_prop.translation = glm::dvec3(glm::mix(home, goal, k / 60.0), 0.0);
         wait(milliseconds(20));
         static_cast<void>(
-            show->draw(now, shown, situation.eye_m, {display->framebuffer(), 1}, Redraw::Changes));
+            show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 1}, Redraw::Changes));
     }
     wait(milliseconds(600));
-    static_cast<void>(show->draw(now, shown, situation.eye_m, {display->framebuffer(), 1}, Redraw::Changes));
+    static_cast<void>(
+        show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 1}, Redraw::Changes));
     if (synthetic::allocations_are_counted) {
         EXPECT_EQ(synthetic::allocations_so_far(), before);
     }
     wait(milliseconds(100)); // the ring alone
     const DrawResult ring =
-        show->draw(now, shown, situation.eye_m, {display->framebuffer(), 1}, Redraw::Changes);
+        show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 1}, Redraw::Changes);
     EXPECT_TRUE(ring.drawn);
     EXPECT_LT(ring.redrawn.width * ring.redrawn.height, width * height / 2);
     const Image8 partly = read_colour(display->framebuffer(), width, height);

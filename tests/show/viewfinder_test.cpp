@@ -248,7 +248,7 @@ public:
 class LookedAt final : public Show {
 public:
     LookedAt(Show& show, Viewfinder* viewfinder) : show_(show), viewfinder_(viewfinder) {}
-    void step(MonotonicTime now, std::span<const Command> commands, const Situation& on_table) override {
+    void step(MonotonicTime now, std::span<const Command> commands, const TrackedState& on_table) override {
         show_.step(now, commands, on_table);
     }
     void set_viewfinder(Viewfinder* viewfinder) override {
@@ -257,7 +257,7 @@ public:
     }
     void tell(const RunStatus& status) override { show_.tell(status); }
     [[nodiscard]] ShowState state() const override { return show_.state(); }
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& on_table, const RenderTarget& target,
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const TrackedState& on_table, const RenderTarget& target,
                                   Redraw redraw) override {
         if (viewfinder_ != nullptr) {
             viewfinder_->use(frame);

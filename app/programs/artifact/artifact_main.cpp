@@ -26,7 +26,7 @@ int report(const Error& error) {
     return 1;
 }
 
-/// In the language, or in English where there is no text in it.
+/// The caption in a language; in English if there is none in it.
 const PackCaption& caption_in(const std::vector<PackCaption>& captions, const std::string& language) {
     const auto found = std::find_if(captions.begin(), captions.end(),
                                     [&](const PackCaption& caption) { return caption.language == language; });
@@ -45,7 +45,7 @@ int list_artifacts(const std::string& language) {
     return 0;
 }
 
-/// The mesh, and with a folder its artifact.toml beside it.
+/// Writes the mesh and, if `folder` is given, its artifact.toml beside it.
 Result<void> write_artifact(const std::string& name, std::int64_t triangles,
                             const std::filesystem::path& output, const std::filesystem::path& folder) {
     TRY(const SourceMesh mesh, make_builtin(name, triangles));

@@ -22,7 +22,7 @@
 namespace frustumscreen {
 namespace {
 
-/// --new: a folder to start from.
+/// --new: makes a folder from a scan.
 Result<void> start(const BakeArguments& arguments) {
     TRY(const SourceMesh mesh, load_mesh(arguments.input, {arguments.texture}));
     ScanFacts scan{arguments.input,        mesh.side_files,    mesh.positions.front(),
@@ -38,7 +38,7 @@ Result<void> start(const BakeArguments& arguments) {
     return {};
 }
 
-/// Exit status.
+/// Prints the error and returns the exit status.
 int status_of(const Error& error) {
     complain("frustumscreen-bake", error);
     return error.kind == ErrorKind::BadConfiguration ? 2 : 1;
@@ -84,7 +84,7 @@ void add_options(CommandLine& app, BakeArguments& arguments) {
     app.add_option("--preview", arguments.preview,
                    "page to write beside the pack (*.html): how it looks, says, errs");
     app.add_flag("--json", arguments.json, "the report for programs");
-    app.add_flag("--while-watched", arguments.watched).hidden(); // for --watch
+    app.add_flag("--while-watched", arguments.watched).hidden(); // given by --watch
     app.add_option("--texture", arguments.texture,
                    "picture of the colours, where the file names one that is missing, or none");
     app.add_option("--title", arguments.title,

@@ -28,8 +28,8 @@ namespace {
 
 constexpr const char* program = "frustumscreen-bake";
 constexpr Nanoseconds quiet = std::chrono::milliseconds(300);
-constexpr int coarse_size = 128; ///< texels; a scan at 512 takes several times as long
-constexpr int look_ms = 100;     ///< for a signal to stop
+constexpr int coarse_size = 128; ///< texels; 512 texels take several times as long
+constexpr int look_ms = 100;     ///< interval between checks for a stop signal
 
 struct Arguments {
     std::filesystem::path folder;
@@ -38,7 +38,7 @@ struct Arguments {
     BakeArguments bake;
 };
 
-/// Where the pack lies that the page is drawn from, unless somebody wants it.
+/// Temporary folder for the pack that the page is drawn from, if the pack is not kept.
 class PassingFolder {
 public:
     PassingFolder() {
@@ -60,7 +60,7 @@ private:
     std::filesystem::path path_;
 };
 
-/// vase/ has its page in vase.preview.html.
+/// The page of vase/ is vase.preview.html beside it.
 std::filesystem::path page_beside(const std::filesystem::path& folder) {
     std::error_code none;
     const std::filesystem::path whole =
@@ -117,7 +117,8 @@ private:
         return stopped_;
     }
 
-    /// What is wrong with the folder is said, and the page stays as it was; what is wrong with us ends the watching.
+    /// Bakes once. An error in the folder is printed and the page stays as it was; an error of the program ends the
+    /// watching.
     Result<void> bake() {
         const MonotonicTime start = monotonic_now();
         ProgramLimits limits;
@@ -139,7 +140,7 @@ private:
         return {};
     }
 
-    /// Nobody draws the page again from here on, so it need not look for it.
+    /// Stops the page from reloading itself, because it is not drawn again.
     void rest_page() const {
         const Result<Bytes> page = has_page_ ? read_file(arguments_.page) : Result<Bytes>(Bytes());
         if (page && !page->empty()) {
@@ -155,7 +156,7 @@ private:
     bool has_page_ = false;
 };
 
-/// What is written there would count as a change, and be written again.
+/// An output inside the watched folder would count as a change and start the next bake.
 Result<void> check_is_outside(const std::filesystem::path& written, const std::filesystem::path& folder) {
     std::error_code none;
     const std::filesystem::path way =

@@ -1,4 +1,4 @@
-/// frustumscreen-calibrate: projector and tracker of a table, from points that were touched or measured.
+/// frustumscreen-calibrate: computes a table's projector and tracker from touched or measured points.
 #include "app/programs/calibrate/auto_command.h"
 #include "app/programs/calibrate/corners_command.h"
 #include "app/programs/calibrate/eye_command.h"

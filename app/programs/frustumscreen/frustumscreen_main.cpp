@@ -1,4 +1,4 @@
-/// frustumscreen: the exhibit, and what it shows without devices.
+/// frustumscreen: the exhibit and its tools; dispatches to the command named first.
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/frustumscreen/camera/camera_command.h"
 #include "app/programs/frustumscreen/config/config_command.h"

@@ -23,7 +23,8 @@ std::string line_of(const ImportedPack& pack) {
                        pack.reason);
 }
 
-/// Every pack has a line, refused ones on standard error. The status is about the stick, not about each pack.
+/// Prints a line for each pack, refused ones on standard error. The exit status is about the stick, not about each
+/// pack.
 int say(const ImportReport& report, const ImportArguments& arguments) {
     for (const ImportedPack& pack : report.packs) {
         if (pack.outcome == ImportOutcome::Refused) {

@@ -16,7 +16,7 @@
 namespace frustumscreen {
 namespace {
 
-constexpr int least_side = 320, most_side = 8192;
+constexpr int min_side = 320, max_side = 8192;
 
 struct Size {
     int width = 1920, height = 1080;
@@ -30,11 +30,11 @@ std::string read_size(const std::string& text, Size& size) {
         const std::from_chars_result height = std::from_chars(width.ptr + 1, end, size.height);
         good = height.ec == std::errc{} && height.ptr == end;
     }
-    good = good && std::min(size.width, size.height) >= least_side &&
-           std::max(size.width, size.height) <= most_side;
+    good = good && std::min(size.width, size.height) >= min_side &&
+           std::max(size.width, size.height) <= max_side;
     return good ? std::string()
                 : fmt::format("'{}' is no size; allowed are {} to {} pixels a side, such as 1280x800", text,
-                              least_side, most_side);
+                              min_side, max_side);
 }
 
 Result<void> write_picture(const std::string& file, const Size& size, const SafeArguments& arguments) {

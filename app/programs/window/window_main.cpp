@@ -32,7 +32,7 @@ namespace {
 struct Request {
     std::filesystem::path config;
     ArtifactShowOptions show;
-    double seconds = 0.0; ///< 0 = until it is closed
+    double seconds = 0.0; ///< 0: until the window is closed
     bool pattern = false;
 };
 
