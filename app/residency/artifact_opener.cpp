@@ -37,9 +37,9 @@ SceneRequest request_of(const Settings& settings, const OpenerOptions& options, 
     return request;
 }
 
-/// What of the prop the artifact is seen through, and where it is seen whole.
+/// Finds the hull through which the prop's faces show the artifact, and the zone in which it is seen whole.
 Result<void> find_whole_zone(const Settings& settings, KnownArtifact& artifact) {
-    // As many corners as a frame can look through; by 64 a ball is held with 3 % to spare.
+    // As many corners as a frame has time for; 64 hold a ball with 3 % to spare.
     constexpr std::size_t max_corners = 64;
     CatalogueEntry& entry = artifact.texts.entry;
     TRY(entry.hull, hull_in(artifact.outline.description, make_prop(settings.prop), max_corners));
