@@ -3,19 +3,22 @@
 #   kiosk  what makes a PC the exhibit: units, rules, users, settings; needs base
 #   bake   what curators use on their own computers; needs base
 # The paths are those of the units: a kiosk is one image, not a prefix.
-install(TARGETS frustumscreen frustumscreen-pack frustumscreen-import frustumscreen-calibrate
-    DESTINATION /usr/bin COMPONENT base EXCLUDE_FROM_ALL)
-
-install(TARGETS frustumscreen-bake frustumscreen-artifact frustumscreen-poses frustumscreen-sheet
-    DESTINATION /usr/bin COMPONENT bake EXCLUDE_FROM_ALL)
+set(base_programs frustumscreen frustumscreen-pack frustumscreen-import frustumscreen-calibrate)
+set(bake_programs frustumscreen-bake frustumscreen-artifact frustumscreen-poses frustumscreen-sheet)
+set(kiosk_programs frustumscreen-watchdog frustumscreen-safe)
 if(TARGET frustumscreen-window)
-    install(TARGETS frustumscreen-window DESTINATION /usr/bin COMPONENT bake EXCLUDE_FROM_ALL)
+    list(APPEND bake_programs frustumscreen-window)
 endif()
+# Builds all that the packages hold.
+add_custom_target(packaged)
+add_dependencies(packaged ${base_programs} ${bake_programs} ${kiosk_programs} frustumscreen-built-in)
+
+install(TARGETS ${base_programs} DESTINATION /usr/bin COMPONENT base EXCLUDE_FROM_ALL)
+install(TARGETS ${bake_programs} DESTINATION /usr/bin COMPONENT bake EXCLUDE_FROM_ALL)
 install(PROGRAMS assets_baked/batch/slurm_array.sh
     DESTINATION /usr/share/doc/frustumscreen-bake/examples COMPONENT bake EXCLUDE_FROM_ALL)
 
-install(TARGETS frustumscreen-watchdog frustumscreen-safe
-    DESTINATION /usr/bin COMPONENT kiosk EXCLUDE_FROM_ALL)
+install(TARGETS ${kiosk_programs} DESTINATION /usr/bin COMPONENT kiosk EXCLUDE_FROM_ALL)
 install(FILES systemd/frustumscreen.service systemd/frustumscreen-safe.service
     systemd/frustumscreen-calibrate.path systemd/frustumscreen-calibrate.service
     systemd/frustumscreen-stick@.service systemd/frustumscreen-ntfs@.service

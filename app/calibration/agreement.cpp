@@ -12,14 +12,14 @@ namespace frustumscreen {
 
 namespace {
 
-/// How many choices of touches are tried before it goes on one by one.
-constexpr std::size_t most_choices = 1000;
-/// Of all touches, at most a fifth is taken for wrong: from fewer others, nobody could tell which ones are.
+/// Largest number of sets that are tried at once; beyond it, touches are added one by one.
+constexpr std::size_t max_choices = 1000;
+/// At most a fifth of the touches counts as wrong: fewer others cannot tell which ones are.
 constexpr std::size_t wrong_of = 5;
-constexpr double most_scatter = 2.0;
-/// How far beyond the limit a rough fit may be and still be worth a fine one.
+constexpr double max_scatter = 2.0;
+/// A rough fit is refined if its chi squared is below so many times the limit.
 constexpr double worth_a_fit = 100.0;
-/// Choices that explain the touches nearly as well as the best one are not told apart.
+/// Sets whose chi squared differs by less than this explain the touches equally well.
 constexpr double alike = 6.0;
 
 using Choice = std::vector<std::size_t>;
@@ -49,7 +49,7 @@ std::vector<Choice> choices_of(std::size_t touches, std::size_t wrong) {
         while (k > 0 && choice[k - 1] == touches - wrong + k - 1) {
             --k;
         }
-        if (k == 0 || choices.size() > most_choices) {
+        if (k == 0 || choices.size() > max_choices) {
             return choices;
         }
         ++choice[k - 1];
@@ -59,7 +59,7 @@ std::vector<Choice> choices_of(std::size_t touches, std::size_t wrong) {
     }
 }
 
-/// `base` with each one more touch.
+/// `base` plus each one of the other touches.
 std::vector<Choice> one_more(const Choice& base, std::size_t touches) {
     std::vector<Choice> choices;
     for (std::size_t k = 0; k < touches; ++k) {
@@ -78,7 +78,8 @@ struct Tried {
     bool agrees = false;
 };
 
-/// From where the robust fit ended, and from a start of its own: where the wrong touches bent that one.
+/// Fits without `choice` from two starts: the robust fit, and a start without those touches, in case they
+/// bent the robust fit.
 Tried tried_from(std::span<const Touch> touches, const FitSetup& setup, const TouchModel& start,
                  Choice choice) {
     Touches kept;
@@ -107,7 +108,7 @@ bool better(const Tried& a, const Tried& b) {
     return a.fit.chi2 < b.fit.chi2;
 }
 
-/// All choices of one size, the best first.
+/// Fits without each of the sets, the best first.
 std::vector<Tried> try_without(std::span<const Touch> touches, const FitSetup& setup, const TouchModel& start,
                                std::vector<Choice> choices) {
     std::vector<Tried> tried;
@@ -118,21 +119,27 @@ std::vector<Tried> try_without(std::span<const Touch> touches, const FitSetup& s
     return tried;
 }
 
-/// All pairs, laid on each other's crosses; the best first.
+/// Fits with each pair exchanged, the best first.
 std::vector<Tried> try_exchanged(std::span<const Touch> touches, const FitSetup& setup,
                                  const TouchModel& start) {
     std::vector<Tried> tried;
     for (Choice& pair : choices_of(touches.size(), 2)) {
         Touches turned(touches.begin(), touches.end());
         std::swap(turned[pair[0]].tracker_from_sensor, turned[pair[1]].tracker_from_sensor);
-        tried.push_back(tried_from(turned, setup, start, {}));
+        FitSetup turned_setup = setup;
+        if (!setup.upright.empty()) { // it goes with the pose
+            turned_setup.upright[pair[0]] = setup.upright[pair[1]];
+            turned_setup.upright[pair[1]] = setup.upright[pair[0]];
+        }
+        tried.push_back(tried_from(turned, turned_setup, start, {}));
         tried.back().choice = std::move(pair);
     }
     std::sort(tried.begin(), tried.end(), better);
     return tried;
 }
 
-/// Those that explain the touches: the best one, and what is not to be told apart from it. Nothing, if that is more than a third of them.
+/// The best set that explains the touches, joined with those that explain them equally well. Nothing if the
+/// union is more than a third of the touches.
 std::optional<AgreeingTouches> explained(std::vector<Tried> tried, Agreement agreement, std::size_t touches) {
     if (tried.empty() || !tried[0].agrees) {
         return std::nullopt;
@@ -187,7 +194,7 @@ AgreeingTouches find_agreement(std::span<const Touch> touches, const FitSetup& s
     Choice best;
     for (std::size_t wrong = 1; wrong <= touches.size() / wrong_of; ++wrong) {
         std::vector<Choice> choices = choices_of(touches.size(), wrong);
-        if (choices.size() > most_choices) {
+        if (choices.size() > max_choices) {
             choices = one_more(best, touches.size());
         }
         std::vector<Tried> tried = try_without(touches, setup, robust->model, std::move(choices));
@@ -203,7 +210,7 @@ AgreeingTouches find_agreement(std::span<const Touch> touches, const FitSetup& s
         }
     }
     const double scatter = std::sqrt(all.chi2 / std::max(1, all.freedom));
-    if (scatter < most_scatter && agrees(touches, setup, all, scatter)) {
+    if (scatter < max_scatter && agrees(touches, setup, all, scatter)) {
         return {{Agreement::Scattered, {}, scatter}, std::move(all)};
     }
     return {{}, std::move(all)};

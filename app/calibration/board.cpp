@@ -8,23 +8,23 @@ namespace frustumscreen {
 
 namespace {
 
-/// Ids that tags on a prop's skirt hardly have: people number those from 0.
+/// Skirt tags are usually numbered from 0, so these ids hardly collide with them.
 constexpr int first_id = 570;
 constexpr double largest_m = 0.05;
-constexpr double least_m = 0.025;
-/// With the white rim that the tag needs, by its black square.
+constexpr double min_m = 0.025;
+/// Size with the white rim that a tag needs, over its black square.
 constexpr double rim = 1.25;
-/// Of the paper, which no printer reaches; and beside the prop.
+/// The paper's margin that no printer reaches.
 constexpr double margin_m = 0.008;
 constexpr double beside_prop_m = 0.001;
 constexpr double around_top_m = 0.002;
 
-/// In whole millimetres, so that a ruler can check it.
+/// Rounds down to whole millimetres, so that a ruler can check it.
 double whole_mm(double metres) {
     return std::floor(1e3 * metres + 1e-9) / 1e3;
 }
 
-/// Where a tag with its rim has such a room.
+/// The largest tag that fits a room with its rim.
 double fitting(double room_m) {
     return whole_mm(std::fmin(largest_m, room_m / rim));
 }
@@ -41,18 +41,19 @@ Result<Board> board_for(const FrustumSize& prop) {
     const double in_ring = fitting(std::fmin(band.x, band.y));
     const double in_columns = fitting(std::fmin(band.x, 2.0 * reach.y / 5.0));
     const double size = std::fmax(in_ring, in_columns);
-    if (size < least_m) {
-        return fail(ErrorKind::BadConfiguration, "board.prop_too_wide",
-                    "the prop's bottom is {:.0f} mm wide, which leaves no room for tags on a sheet of A3; "
-                    "allowed are at most {:.0f} mm",
-                    1e3 * prop.base_m, 2e3 * (reach.x - beside_prop_m - rim * least_m));
+    if (size < min_m) {
+        return fail(
+            ErrorKind::BadConfiguration, "board.prop_too_wide",
+            "the prop's bottom is {:.0f} mm wide, which leaves no room for tags on a sheet of A3; up to "
+            "{:.0f} mm are allowed",
+            1e3 * prop.base_m, 2e3 * (reach.x - beside_prop_m - rim * min_m));
     }
     const double on_top = whole_mm(std::fmin(1.6 * largest_m, (prop.top_m - 2.0 * around_top_m) / rim));
-    if (on_top < least_m) {
-        return fail(
-            ErrorKind::BadConfiguration, "board.top_too_small",
-            "the prop's top is {:.0f} mm wide, which is too small for a tag; allowed are at least {:.0f} mm",
-            1e3 * prop.top_m, 1e3 * (rim * least_m + 2.0 * around_top_m));
+    if (on_top < min_m) {
+        return fail(ErrorKind::BadConfiguration, "board.top_too_small",
+                    "the prop's top is {:.0f} mm wide, which is too small for a tag; {:.0f} mm at least "
+                    "are needed",
+                    1e3 * prop.top_m, 1e3 * (rim * min_m + 2.0 * around_top_m));
     }
     const glm::dvec2 far = reach - 0.5 * rim * size;
     Board board{prop, {}};

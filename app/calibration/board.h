@@ -1,11 +1,14 @@
-/// The board of the automatic calibration: an A3 sheet of AprilTags on which the prop stands, and a tag for the prop's top.
+/// The tag sheet of the automatic calibration, an A3 sheet of AprilTags on which the prop stands, and a tag
+/// for the prop's top.
 ///
-/// One list for what is printed (app/drawing/board/board_sheet.h) and for where its corners are: a tag that moves here moves in both.
-/// Frames   the prop's: origin at the middle of its bottom, +Z up; the sheet is the plane z = 0, its upper side the prop's back (+Y).
+/// The printed sheet (app/drawing/board/board_sheet.h) and the positions of the tags' corners come from this
+/// one list, so they cannot differ.
+/// Frames   the prop's: origin at the middle of its bottom, +Z up; the sheet is the plane z = 0, its upper
+///          side the prop's back (+Y).
 /// Units    metres.
-/// Layout   ten tags, as large as they fit, up to 5 cm: in a ring around the prop, or where that leaves no room in front of it and behind
-///          it, in two columns beside it.
-/// Errors   one sentence: a prop that is too large or too small for it.
+/// Layout   ten tags as large as the room allows, 5 cm at most: in a ring around the prop, or, where there is
+///          no room in front of the prop and behind it, in two columns beside it.
+/// Errors   one sentence: the prop is too large or too small for the sheet.
 /// Threads  pure; any.
 #pragma once
 
@@ -20,15 +23,15 @@
 namespace frustumscreen {
 
 struct Board {
-    static constexpr glm::dvec2 size_m{0.420, 0.297}; ///< the sheet's
+    static constexpr glm::dvec2 size_m{0.420, 0.297}; ///< of the sheet
 
     FrustumSize prop;
-    std::vector<PropTag> tags; ///< of the sheet; then that of the prop's top
+    std::vector<PropTag> tags; ///< the sheet's tags, then the tag of the prop's top
 
     [[nodiscard]] const PropTag& top() const { return tags.back(); }
 };
 
-/// A cube's base and top are alike.
+/// The sheet for a prop. A cube has a top as large as its base.
 [[nodiscard]] Result<Board> board_for(const FrustumSize& prop);
 
 } // namespace frustumscreen

@@ -20,8 +20,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// Beyond, a sheet was scaled by its printer's driver and not by damp air.
-constexpr double most_print_off = 5e-3;
+/// A larger scale error comes from the printer's driver, not from damp air.
+constexpr double max_print_off = 5e-3;
 
 AutoCalibration refused(std::string reason) {
     AutoCalibration calibration;
@@ -29,12 +29,13 @@ AutoCalibration refused(std::string reason) {
     return calibration;
 }
 
-/// The touches' part of a fit, what rests have more of marginalised with its priors, so that it can be judged as theirs.
+/// The touches' part of a fit, with the rests' own unknowns and their priors marginalised, so that it can be
+/// judged as a fit to touches.
 Fit touch_part(const RestFit& fit) {
     constexpr int more = int{rest_unknown_count} - int{unknown_count};
     const Eigen::Matrix<double, more, more> tail = fit.information().bottomRightCorner<more, more>();
     const Eigen::Matrix<double, unknown_count, more> across =
-        fit.from_rests.topRightCorner<unknown_count, more>(); // priors and height tie none of them together
+        fit.from_rests.topRightCorner<unknown_count, more>(); // priors and height do not couple them
     Fit part;
     part.model = fit.model.touch;
     part.middle = fit.middle;
@@ -45,7 +46,7 @@ Fit touch_part(const RestFit& fit) {
     return part;
 }
 
-/// How far a rest's points lie from their light by a model that knows the others, on average; those with weight.
+/// Mean residual of a rest's weighted points at a model that was fitted to the other rests.
 TouchResidual mean_residual(const Rest& rest, std::span<const double> weights, const RestModel& others) {
     TouchResidual residual;
     double count = 0.0;
@@ -64,7 +65,7 @@ TouchResidual mean_residual(const Rest& rest, std::span<const double> weights, c
     return {residual.on_table_m / std::fmax(1.0, count), residual.pixel / std::fmax(1.0, count)};
 }
 
-/// What all other rests say of each: a step of Gauss and Newton's method from the fit of all leaves one out, to second order.
+/// Leave-one-out residual of each rest, to second order: one Gauss-Newton step from the fit of all rests.
 std::vector<TouchResidual> residuals_of(std::span<const Rest> rests, const AgreeingRests& found) {
     const RestCovariance information = found.fit.information();
     std::vector<TouchResidual> residuals;
@@ -83,7 +84,7 @@ double hidden_error_of(const AgreeingRests& found, std::span<const ZonePlace> pl
     std::vector<UnseenError<6>> unseen;
     for (std::size_t k = 0; k < found.fit.rests.size(); ++k) {
         if (std::binary_search(found.wrong.begin(), found.wrong.end(), k)) {
-            continue; // it is left out already
+            continue; // it is left out of the fit
         }
         const FittedRest& rest = found.fit.rests[k];
         const Eigen::Matrix<double, rest_unknown_count, 6> moves =
@@ -117,13 +118,13 @@ void count_wrong_points(AutoCalibration& calibration, const RestWeights& weights
     }
 }
 
-/// The rests with one mistake undone, and the half sentence that names it.
+/// The rests with one mistake undone, and a clause that names the mistake.
 struct Mistake {
     Rests undone;
     std::string_view what;
 };
 
-/// Mistakes that spoil all rests at once.
+/// Mistakes that affect all rests at once.
 std::vector<Mistake> mistakes_in(std::span<const Rest> rests) {
     const std::size_t count = rests.size();
     Rests mirrored(rests.begin(), rests.end());
@@ -142,7 +143,7 @@ std::vector<Mistake> mistakes_in(std::span<const Rest> rests) {
             {std::move(before), "each rest's points belong to the report of the one before"}};
 }
 
-/// The mistake without which most rests agree; nothing: none of those that are tried.
+/// The mistake whose correction makes most rests agree; nothing if none does.
 std::optional<std::string> cause_of(std::span<const Rest> rests, const AutoSetup& setup) {
     for (const Mistake& mistake : mistakes_in(rests)) {
         std::vector<std::optional<PlaneView>> views;
@@ -162,7 +163,7 @@ std::optional<std::string> cause_of(std::span<const Rest> rests, const AutoSetup
     return std::nullopt;
 }
 
-/// Rests that agree, judged; refused where they leave something open.
+/// Judges rests that agree; refuses them if they leave something undetermined.
 AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, const AgreeingRests& found) {
     const Fit fit = touch_part(found.fit);
     const auto standing =
@@ -177,7 +178,7 @@ AutoCalibration judged(std::span<const Rest> rests, const AutoSetup& setup, cons
     if (!table.table) {
         return refused("the light of the picture's middle does not meet the table");
     }
-    if (const double off = found.fit.model.print - 1.0; std::abs(off) > most_print_off) {
+    if (const double off = found.fit.model.print - 1.0; std::abs(off) > max_print_off) {
         return refused(fmt::format(
             "the board is printed {:.1f} % too {}: print it at 100 %, without fitting it to the page",
             100.0 * std::abs(off), off > 0.0 ? "large" : "small"));

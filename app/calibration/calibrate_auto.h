@@ -1,10 +1,11 @@
-/// The automatic calibration: the prop rests here and there on the table, a camera tells which pixels light known points of it, and from that come
-/// projector and tracker, with a verdict. The camera itself need not be calibrated: it matches pixels with points, no more.
+/// The automatic calibration: the prop rests at several places on the table, and a camera finds the projector
+/// pixel that lights each known point of it. From that the projector and the tracker are computed, with a
+/// verdict. The camera itself needs no calibration: it only matches pixels with points.
 ///
-/// Frames   calibrated_table.h; the prop's as rest.h has it.
+/// Frames   calibrated_table.h; the prop's as in rest.h.
 /// Units    metres, pixels.
-/// Errors   none: rests from which nothing follows are refused with a reason for the technician.
-/// Time     a tenth of a second for twenty rests.
+/// Errors   none: rests that determine nothing are refused with a reason for the technician.
+/// Time     0.1 s for twenty rests.
 /// Threads  pure; any.
 #pragma once
 
@@ -16,19 +17,20 @@ namespace frustumscreen {
 struct AutoSetup {
     int width = 0; ///< the projector's picture
     int height = 0;
-    std::optional<double> sensor_height_m; ///< above the prop's bottom; not needed where some rests lean
-    double top_m = 0.12;                   ///< the prop's height: how far up the zone reaches
+    std::optional<double> sensor_height_m; ///< above the prop's bottom; not needed if some rests lean
+    double top_m = 0.12;                   ///< the prop's height; the zone reaches up to it
     RestNoise noise;
     Priors priors;
 };
 
 struct AutoCalibration {
-    /// As a calibration by touch; residuals and `repeat` are of rests, means over their points. The touched place is the prop's bottom's middle.
+    /// As for a calibration by touch. Residuals and `repeat` refer to rests; a rest's residual is the mean
+    /// over its points. The touched place is the middle of the prop's bottom.
     TouchCalibration found;
-    RigidTransform sensor_from_prop;       ///< none if refused, as all that follows
-    std::vector<std::size_t> points_wrong; ///< of each rest, how many were left out
-    double print = 1.0;                    ///< how many times as large as it should be the sheet was printed
-    double pixel_noise = 0.0;              ///< of a point, found; pixels
+    RigidTransform sensor_from_prop;       ///< meaningless if refused, like the members below
+    std::vector<std::size_t> points_wrong; ///< points left out, for each rest
+    double print = 1.0;                    ///< the printed sheet's size over its nominal size
+    double pixel_noise = 0.0;              ///< estimated noise of a point, pixels
 };
 
 [[nodiscard]] AutoCalibration calibrate_auto(std::span<const Rest> rests, const AutoSetup& setup);

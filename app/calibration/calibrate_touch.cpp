@@ -19,8 +19,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// Beyond, the touches that are left cannot tell which ones are wrong.
-constexpr double most_hidden_m = 60e-3;
+/// Beyond this, the remaining touches cannot tell which ones are wrong.
+constexpr double max_hidden_m = 60e-3;
 
 double hidden_error_of(std::span<const Touch> touches, const FitSetup& setup, const Fit& fit,
                        const ZoneSetup& zone) {
@@ -34,7 +34,7 @@ TouchCalibration refused(std::string reason) {
     return calibration;
 }
 
-/// What all other touches say of each.
+/// Leave-one-out residual of each touch; `wrong` touches are in no fit.
 std::vector<TouchResidual> residuals_of(std::span<const Touch> touches, std::span<const std::size_t> wrong,
                                         const FitSetup& setup, const TouchModel& model) {
     std::vector<TouchResidual> residuals;
@@ -51,19 +51,23 @@ std::vector<TouchResidual> residuals_of(std::span<const Touch> touches, std::spa
     return residuals;
 }
 
-/// Whether what is left without the wrong touches cannot check itself: then others may be wrong, and not those.
+Touches without(std::span<const Touch> touches, std::span<const std::size_t> wrong) {
+    Touches kept;
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+        if (std::find(wrong.begin(), wrong.end(), k) == wrong.end()) {
+            kept.push_back(touches[k]);
+        }
+    }
+    return kept;
+}
+
+/// True if the touches without the wrong ones cannot check each other: then others may be wrong instead.
 bool too_few_left(const AgreeingTouches& found, std::span<const Touch> touches, const FitSetup& setup,
                   const ZoneSetup& zone) {
     if (found.agreement != Agreement::Without) {
         return false;
     }
-    Touches kept;
-    for (std::size_t k = 0; k < touches.size(); ++k) {
-        if (std::find(found.wrong.begin(), found.wrong.end(), k) == found.wrong.end()) {
-            kept.push_back(touches[k]);
-        }
-    }
-    return hidden_error_of(kept, setup, found.fit, zone) > most_hidden_m;
+    return hidden_error_of(without(touches, found.wrong), setup, found.fit, zone) > max_hidden_m;
 }
 
 constexpr MeasuredKind crosses{.one = "touch",
@@ -78,10 +82,10 @@ bool keeps(const TouchCalibration& calibration, const PictureLimits& limits) {
     return limits.keep(calibration.uncertainty, calibration.hidden_error_m);
 }
 
-/// Limit of the three residuals of a touch: one right touch in a hundred exceeds it, so a touch beyond is repeated, not refused.
+/// 99 % quantile of chi squared for a touch's three residuals. A touch beyond it is repeated, not refused.
 constexpr double doubtful_chi2 = 11.3;
 
-/// The touch that fits the others least, if that is doubtful.
+/// The touch that fits the others least; nothing if it is within the limit.
 std::optional<std::size_t> doubtful_one(std::span<const Touch> touches, const FitSetup& setup,
                                         const Fit& fit) {
     const WhitenedTouches whitened = whitened_touches(touches, setup, fit.model, fit.middle);
@@ -96,7 +100,7 @@ std::optional<std::size_t> doubtful_one(std::span<const Touch> touches, const Fi
     return doubtful;
 }
 
-/// One verdict worse: a slip of some millimetres looks like that.
+/// Lowers the verdict by one: the touch may have slipped by some millimetres.
 void doubt(TouchCalibration& calibration, std::size_t touch) {
     if (calibration.verdict == Verdict::Good) {
         calibration.verdict = Verdict::Usable;
@@ -110,7 +114,7 @@ void doubt(TouchCalibration& calibration, std::size_t touch) {
     }
 }
 
-/// Means and worst ones, but for those to repeat.
+/// Sets the mean and worst residuals over all touches except those to repeat.
 void summarise_residuals(TouchCalibration& calibration) {
     double count = 0.0;
     for (std::size_t k = 0; k < calibration.residuals.size(); ++k) {
@@ -127,7 +131,7 @@ void summarise_residuals(TouchCalibration& calibration) {
     calibration.mean_residual_px /= count;
 }
 
-/// 'a, b and c'; one at least.
+/// Joins words, 'a, b and c'; at least one.
 std::string in_words(std::span<const std::string> words) {
     return words.size() == 1
                ? words[0]
@@ -149,14 +153,14 @@ std::string in_words(const PictureUncertainty& uncertainty) {
     return fmt::format(
         "the picture usually lies within {:.1f} mm of its place; 95 of 100 places within {:.1f} mm, "
         "the worst place within {:.1f} mm",
-        1e3 * shares.usual_m, 1e3 * shares.most_m, 1e3 * shares.worst_m);
+        1e3 * shares.usual_m, 1e3 * shares.max_m, 1e3 * shares.worst_m);
 }
 
 bool BoardsHeight::differ() const {
-    constexpr double least_m = 5e-4; // what a ruler tells
+    constexpr double min_m = 5e-4; // a ruler's resolution
     constexpr double sure_sd = 3.0;
     const double off_m = std::abs(found_m - given_m);
-    return off_m > least_m && off_m > sure_sd * sd_m;
+    return off_m > min_m && off_m > sure_sd * sd_m;
 }
 
 std::string in_words(const std::optional<BoardsHeight>& boards) {
@@ -243,13 +247,14 @@ std::string in_words(const Undetermined& open, const MeasuredKind& kind) {
 
 namespace {
 
-/// The touches with one mistake undone, and the half sentence that names it.
+/// The touches with one mistake undone, and a clause that names the mistake.
 struct Mistake {
     Touches undone;
     std::string_view what;
 };
 
-/// Mistakes that spoil all touches at once. A single wrong touch, or two exchanged ones, are found by the agreement itself.
+/// Mistakes that affect all touches at once. find_agreement finds a single wrong touch, or two exchanged
+/// ones.
 std::vector<Mistake> mistakes_in(std::span<const Touch> touches, int width) {
     const std::size_t count = touches.size();
     const auto with_pose_of = [&](const auto& number_of) {
@@ -280,7 +285,7 @@ FitSetup fit_setup_for(std::span<const Touch> touches, const TouchSetup& setup, 
     return {setup.noise, setup.priors, setup.sensor_height_m, upright_ones(touches, start.table_up)};
 }
 
-/// The mistake without which the touches agree; nothing: none of those that are tried.
+/// The mistake whose correction makes the touches agree; nothing if none does.
 std::optional<std::string> cause_of(std::span<const Touch> touches, const TouchSetup& setup) {
     for (const Mistake& mistake : mistakes_in(touches, setup.width)) {
         if (refusal_of(mistake.undone, setup.width, setup.height)) {
@@ -332,7 +337,7 @@ TouchCalibration calibrate_touch(std::span<const Touch> touches, const TouchSetu
     calibration.uncertainty = picture_uncertainty(places, covariance);
     calibration.uncertainty.shares = picture_shares(places, covariance);
     calibration.zone = by_place(places, calibration.uncertainty.each_m);
-    calibration.hidden_error_m = hidden_error_of(touches, fit_setup, found.fit, zone);
+    calibration.hidden_error_m = hidden_error_of(without(touches, found.wrong), fit_setup, found.fit, zone);
     calibration.prior_shares = prior_shares(found.fit);
     calibration.residuals = residuals_of(touches, found.wrong, fit_setup, found.fit.model);
     const auto highest = std::max_element(

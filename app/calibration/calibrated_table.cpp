@@ -4,7 +4,8 @@ namespace frustumscreen {
 
 std::optional<CalibratedTable> in_table_frame(const TouchModel& model) {
     const glm::dvec2 middle(0.5 * model.pinhole.width, 0.5 * model.pinhole.height);
-    const double step = 1e-4 * model.pinhole.width; // central differences: off by 1e-8 of the picture's bend
+    const double step =
+        1e-4 * model.pinhole.width; // central differences: error 1e-8 of the picture's curvature
     const std::optional<glm::dvec3> origin = model.lit(middle, 0.0);
     const std::optional<glm::dvec3> left = model.lit(middle - glm::dvec2(step, 0.0), 0.0);
     const std::optional<glm::dvec3> right = model.lit(middle + glm::dvec2(step, 0.0), 0.0);

@@ -12,9 +12,9 @@ namespace frustumscreen {
 
 namespace {
 
-/// A prop with its sheet is smaller, and its points lie farther apart.
+/// A prop's points on its sheet reach less than the first, and more than the second.
 constexpr double largest_prop_m = 1.0;
-constexpr double least_prop_m = 0.02;
+constexpr double min_prop_m = 0.02;
 
 std::optional<std::string> bad_points(const Rest& rest) {
     if (rest.points.empty()) {
@@ -27,10 +27,11 @@ std::optional<std::string> bad_points(const Rest& rest) {
         }
         reach = std::fmax(reach, glm::length(point.prop_m));
     }
-    if (reach > largest_prop_m || reach < least_prop_m) {
-        return fmt::format("the points of rest {} reach {:.3g} m from the prop's middle: are they in "
-                           "millimetres or inches? Allowed are metres",
-                           rest.name, reach);
+    if (reach > largest_prop_m || reach < min_prop_m) {
+        return fmt::format(
+            "the points of rest {} reach {:.3g} m from the prop's middle: are they in millimetres "
+            "or inches? Metres are wanted",
+            rest.name, reach);
     }
     return std::nullopt;
 }
@@ -38,11 +39,11 @@ std::optional<std::string> bad_points(const Rest& rest) {
 } // namespace
 
 std::optional<std::string> refusal_of(std::span<const Rest> rests, int width, int height) {
-    if (rests.size() < least_rests) {
-        return fmt::format("{} rests of the prop are too few: at least {} are needed, and 16 are recommended",
-                           rests.size(), least_rests);
+    if (rests.size() < min_rests) {
+        return fmt::format("{} rests of the prop are too few: {} at least are needed, and 16 are recommended",
+                           rests.size(), min_rests);
     }
-    Touches places; // of each point, for what is asked of every pixel
+    Touches places; // one per point, for the checks of pixels
     std::vector<int> names;
     for (const Rest& rest : rests) {
         if (auto reason = bad_points(rest)) {
@@ -76,17 +77,18 @@ std::optional<std::string> refusal_of(std::span<const Rest> rests,
                "exchanged?";
     }
     const Touches standing = as_touches(rests, views);
-    if (standing.size() < least_standing) {
-        return fmt::format("the prop stood on the table or on a block in {} rests, which does not tell where "
-                           "the table is: at least {} are needed",
-                           standing.size(), least_standing);
+    if (standing.size() < min_standing) {
+        return fmt::format(
+            "the prop stood on the table or on a block in {} rests, which does not tell where the "
+            "table is: {} at least are needed",
+            standing.size(), min_standing);
     }
     const auto [low, high] =
         std::minmax_element(standing.begin(), standing.end(),
                             [](const Touch& a, const Touch& b) { return a.block_m < b.block_m; });
-    // At one height, heights say nothing of units, nor of which way is up.
-    return high->block_m - low->block_m < least_height_m ? std::nullopt
-                                                         : refusal_of_directions(standing, "rests");
+    // Rests at one height reveal neither wrong units nor the up direction.
+    return high->block_m - low->block_m < min_height_m ? std::nullopt
+                                                       : refusal_of_directions(standing, "rests");
 }
 
 } // namespace frustumscreen

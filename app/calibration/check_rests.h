@@ -1,4 +1,5 @@
-/// Rests from which nothing can be computed, said before anything is: too few, bad numbers, wrong units, near to each other, mirrored.
+/// Refuses rests that cannot determine a calibration before anything is computed: too few, bad numbers, wrong
+/// units, too close together, mirrored.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -11,13 +12,14 @@
 
 namespace frustumscreen {
 
-inline constexpr std::size_t least_rests = 5;
-/// That stand on the table or on a block: they say where the table is.
-inline constexpr std::size_t least_standing = 4;
+inline constexpr std::size_t min_rests = 5;
+/// Rests on the table or on a block; they determine the table's plane.
+inline constexpr std::size_t min_standing = 4;
 
-/// Why these rests are refused, one sentence for a technician; nothing if they are not. Quaternions are as reported, of any length.
+/// The reason why these rests are refused, one sentence for a technician; nothing if they are accepted.
+/// Quaternions are as reported, of any length.
 [[nodiscard]] std::optional<std::string> refusal_of(std::span<const Rest> rests, int width, int height);
-/// The same of what the points' views tell, once these are known.
+/// The same check on the points' plane views.
 [[nodiscard]] std::optional<std::string> refusal_of(std::span<const Rest> rests,
                                                     std::span<const std::optional<PlaneView>> views);
 

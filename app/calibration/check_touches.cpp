@@ -16,12 +16,12 @@ namespace {
 
 using Refusal = std::optional<std::string>;
 
-/// A table is some metres at most, and a tracker reaches no farther.
+/// No table, and no tracker's range, is larger.
 constexpr double farthest_m = 6.0;
 constexpr double highest_block_m = 1.0;
-/// Shares of the picture's width: how far apart touches are at least, along their line and across it.
-constexpr double least_length = 0.25;
-constexpr double least_breadth = 0.08;
+/// Least spread of touches along their principal axis and across it, as shares of the picture's width.
+constexpr double min_length = 0.25;
+constexpr double min_breadth = 0.08;
 
 Refusal bad_numbers(std::span<const Touch> touches, const PlaceName& name) {
     for (std::size_t k = 0; k < touches.size(); ++k) {
@@ -67,7 +67,8 @@ Refusal wrong_units(std::span<const Touch> touches, const glm::dvec2& picture, c
     return std::nullopt;
 }
 
-/// How far points spread along and across their line: four standard deviations, which is the length of what is evenly filled to some tenths.
+/// Spread of points along and across their principal axis: four standard deviations, roughly the length of an
+/// evenly filled area.
 glm::dvec2 spread(std::span<const Touch> touches) {
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();
     Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
@@ -108,7 +109,7 @@ Refusal too_few(std::size_t count, std::string_view of, std::size_t least, std::
 Refusal flat(std::span<const Touch> touches) {
     const auto [low, high] = std::minmax_element(
         touches.begin(), touches.end(), [](const Touch& a, const Touch& b) { return a.block_m < b.block_m; });
-    if (high->block_m - low->block_m < least_height_m) {
+    if (high->block_m - low->block_m < min_height_m) {
         return "all touches are at one height, which does not tell a near projector from a far one: touch "
                "half of them on a block, as high as the prop";
     }
@@ -130,13 +131,13 @@ Refusal refusal_of_values(std::span<const Touch> touches, const glm::dvec2& pict
 
 Refusal refusal_of_spread(std::span<const Touch> touches, double width, std::string_view places) {
     const glm::dvec2 spread_px = spread(touches);
-    if (spread_px.x < least_length * width) {
+    if (spread_px.x < min_length * width) {
         return fmt::format(
             "the {} are too near to each other, so that the picture's edges would be guessed: spread "
             "them over the whole picture",
             places);
     }
-    if (spread_px.y < least_breadth * width) {
+    if (spread_px.y < min_breadth * width) {
         return fmt::format(
             "the {} lie nearly in one line, which does not say how the picture lies beside it: "
             "spread them over the whole picture",
@@ -149,7 +150,8 @@ Refusal refusal_of_directions(std::span<const Touch> touches, std::string_view p
     const HeightFit heights = fit_heights(touches);
     const double scale = glm::length(heights.up);
     if (scale < 0.2 || scale > 5.0) {
-        // A unit of the tracker or of the blocks: 1000, 100, 39.37, 25.4. Between, it is noise or the sensor's arm.
+        // Wrong units give factors of 1000, 100, 39.37 or 25.4. Factors between these limits are noise or the
+        // sensor's lever arm.
         return fmt::format(
             "the blocks' heights change by {:.3g} m where the tracker moved by 1 m upwards: are places and "
             "heights in the same unit, and the heights those of the touched places?",
@@ -169,13 +171,12 @@ Refusal refusal_of_directions(std::span<const Touch> touches, std::string_view p
 }
 
 std::optional<std::string> refusal_of(std::span<const Touch> touches, int width, int height) {
-    if (Refusal few = too_few(touches.size(), "touches are too few", least_touches, 9)) {
+    if (Refusal few = too_few(touches.size(), "touches are too few", min_touches, 9)) {
         return few;
     }
-    for (Refusal found :
-         {refusal_of_values(touches, {width, height}, touch_name),
-          too_few(different_places(touches), "different places were touched", least_touches, 9),
-          flat(touches), refusal_of_spread(touches, width, "touches")}) {
+    for (Refusal found : {refusal_of_values(touches, {width, height}, touch_name),
+                          too_few(different_places(touches), "different places were touched", min_touches, 9),
+                          flat(touches), refusal_of_spread(touches, width, "touches")}) {
         if (found) {
             return found;
         }
@@ -184,12 +185,12 @@ std::optional<std::string> refusal_of(std::span<const Touch> touches, int width,
 }
 
 std::optional<std::string> refusal_of_few(std::span<const Touch> touches, int width, int height) {
-    if (Refusal few = too_few(touches.size(), "touches are too few", least_touch_up, 5)) {
+    if (Refusal few = too_few(touches.size(), "touches are too few", min_touch_up, 5)) {
         return few;
     }
     for (Refusal found :
          {refusal_of_values(touches, {width, height}, touch_name),
-          too_few(different_places(touches), "different places were touched", least_touch_up, 5),
+          too_few(different_places(touches), "different places were touched", min_touch_up, 5),
           refusal_of_spread(touches, width, "touches")}) {
         if (found) {
             return found;

@@ -17,7 +17,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// What a touch at a cross would report, if the model were true.
+/// A noise-free touch at a cross, by the model.
 Touch perfect_touch(const TouchModel& model, const Cross& cross) {
     const std::optional<glm::dvec3> place = model.lit(cross.pixel, cross.block_m);
     assert(place);
@@ -31,9 +31,10 @@ struct PixelRange {
     glm::dvec2 to;
 };
 
-/// Where crosses may lie at a height: within the picture's margin, and within reach; of a rotated picture the part of which that is sure.
+/// The range of crosses at a height: within the picture's margin, and within reach. For a rotated picture, a
+/// rectangle that is surely within reach.
 PixelRange range_at(const TouchModel& model, const CrossSetup& setup, double height_m) {
-    constexpr double least_range = 0.1; // widths
+    constexpr double min_range = 0.1; // widths
     const Pinhole& p = model.pinhole;
     const glm::dvec2 margin(setup.margin * p.width);
     PixelRange range{margin, glm::dvec2(p.width, p.height) - margin};
@@ -54,7 +55,7 @@ PixelRange range_at(const TouchModel& model, const CrossSetup& setup, double hei
     const glm::dvec2 middle(0.25 * (u[0] + u[1] + u[2] + u[3]), 0.25 * (v[0] + v[1] + v[2] + v[3]));
     const glm::dvec2 half =
         glm::max(glm::min(glm::dvec2(u[2], v[2]) - middle, middle - glm::dvec2(u[1], v[1])),
-                 glm::dvec2(0.5 * least_range * p.width));
+                 glm::dvec2(0.5 * min_range * p.width));
     return {glm::max(range.from, middle - half), glm::min(range.to, middle + half)};
 }
 
@@ -62,8 +63,9 @@ std::vector<Cross> grid_of(const TouchModel& model, const CrossSetup& setup) {
     constexpr int columns = 8;
     constexpr int rows = 6;
     std::vector<Cross> crosses;
-    // All over the picture none of those between is chosen from eight touches on, but on the way they lead to better choices. Within reach they
-    // gain nothing, and a technician would need boards of more heights.
+    // Over the whole picture, no intermediate height is chosen from eight touches on, but these heights lead
+    // the exchange to better designs. Within reach they gain nothing, and a technician would need boards of
+    // more heights.
     const int steps = setup.reach_m ? 1 : 3;
     for (int step = 0; step <= steps; ++step) {
         const double block = step * setup.block_m / steps;
@@ -80,30 +82,30 @@ std::vector<Cross> grid_of(const TouchModel& model, const CrossSetup& setup) {
     return crosses;
 }
 
-/// What may be touched, what that would tell, and where the picture is to be right.
+/// Candidate crosses, the information of each, and the places where the picture must be accurate.
 struct Choice {
     std::vector<Cross> grid;
     std::vector<TouchRows> rows; ///< of each cross
     std::vector<ZonePlace> places;
-    Covariance known; ///< information without a touch
+    Covariance known; ///< information without touches
     double hidden_share =
-        0.0; ///< how much what a wrong touch could hide counts beside what noise leaves: it is rarer, and larger
+        0.0; ///< weight of the unnoticed error beside the noise: a wrong touch is rarer, and larger
     std::size_t starts = 1;
 };
 
 struct Design {
-    std::vector<std::size_t> chosen; ///< of the grid
-    std::size_t fixed = 0;           ///< the first ones of them stay
+    std::vector<std::size_t> chosen; ///< indices into the grid
+    std::size_t fixed = 0;           ///< the first ones, which are kept
     Covariance information;
-    double left = 0.0; ///< what it leaves
+    double left = 0.0; ///< objective that remains
 };
 
-/// The mean variance over the zone that an information leaves.
+/// The mean variance over the zone for an information matrix.
 double left_by(const Covariance& information, const Covariance& zone) {
     return information.llt().solve(zone).trace();
 }
 
-/// A start that is spread out, another one for each `turn`.
+/// A start whose crosses are spread out, different for each `turn`.
 Design spread_out(const Choice& choice, std::span<const std::size_t> fixed, int count, std::size_t turn) {
     Design design{{fixed.begin(), fixed.end()}, fixed.size(), choice.known};
     for (int k = 0; k < count; ++k) {
@@ -115,8 +117,8 @@ Design spread_out(const Choice& choice, std::span<const std::size_t> fixed, int 
     return design;
 }
 
-/// What an information leaves with three rows more, for many choices of these: by Woodbury's identity, 18 x 18 numbers are inverted once
-/// and not for each.
+/// The mean variance for an information matrix plus three rows, for many candidates of these rows: by
+/// Woodbury's identity, a 19 x 19 matrix is inverted once, not for each candidate.
 class LeftWith {
 public:
     LeftWith(const Covariance& information, const Covariance& zone)
@@ -133,7 +135,7 @@ private:
     double left_;
 };
 
-/// Exchanges each cross for the best one, until none is better.
+/// Exchanges each cross for the best one until no exchange improves the design.
 void exchange(Design& design, std::span<const TouchRows> rows, const Covariance& zone) {
     design.left = left_by(design.information, zone);
     for (bool better = true; better;) {
@@ -163,7 +165,7 @@ Covariance weighted(std::span<const ZonePlace> places, std::span<const double> w
     return zone;
 }
 
-/// The mean over the zone first; then places count the more, the worse they are off.
+/// Minimises the mean over the zone first, then a mean that weights places by their variance.
 Design improved(Design design, const Choice& choice) {
     std::vector<double> weights(choice.places.size(), 1.0);
     exchange(design, choice.rows, weighted(choice.places, weights));
@@ -186,7 +188,7 @@ Design improved(Design design, const Choice& choice) {
     return design;
 }
 
-/// The best `count` crosses beside those that are `fixed`; all of them.
+/// The `fixed` crosses and the best `count` in addition to them.
 std::vector<std::size_t> best_of(const Choice& choice, std::span<const std::size_t> fixed, int count) {
     std::optional<Design> best;
     for (std::size_t turn = 0; turn < choice.starts; ++turn) {
@@ -198,7 +200,7 @@ std::vector<std::size_t> best_of(const Choice& choice, std::span<const std::size
     return best->chosen;
 }
 
-/// What the grid's crosses would tell of a model.
+/// The information of the grid's crosses at a model.
 Choice choice_of(const TouchModel& rough, const CrossSetup& setup, const TouchNoise& noise) {
     Choice choice;
     choice.grid = grid_of(rough, setup);
@@ -215,7 +217,7 @@ Choice choice_of(const TouchModel& rough, const CrossSetup& setup, const TouchNo
     return choice;
 }
 
-/// From low to high.
+/// Crosses of the grid, from low to high.
 std::vector<Cross> crosses_of(const Choice& choice, std::span<const std::size_t> chosen) {
     std::vector<Cross> crosses;
     for (const std::size_t k : chosen) {
@@ -223,6 +225,18 @@ std::vector<Cross> crosses_of(const Choice& choice, std::span<const std::size_t>
     }
     std::stable_sort(crosses.begin(), crosses.end(),
                      [](const Cross& a, const Cross& b) { return a.block_m < b.block_m; });
+    return crosses;
+}
+
+/// The best `count` crosses, and after them the best `more` to add.
+std::vector<Cross> first_and_more(const Choice& choice, int count, int more) {
+    const std::vector<std::size_t> first = best_of(choice, {}, count);
+    std::vector<Cross> crosses = crosses_of(choice, first);
+    if (more > 0) {
+        const std::vector<std::size_t> all = best_of(choice, first, more);
+        const std::vector<Cross> others = crosses_of(choice, std::span(all).subspan(first.size()));
+        crosses.insert(crosses.end(), others.begin(), others.end());
+    }
     return crosses;
 }
 
@@ -234,14 +248,14 @@ glm::dvec2 reach_of(const glm::dvec2& table_m, double prop_base_m) {
 
 double overhang_m(const TouchModel& rough, std::span<const Cross> crosses, const glm::dvec2& reach_m) {
     constexpr double rounding_m = 1e-6;
-    double most_m = 0.0;
+    double max_m = 0.0;
     for (const Cross& cross : crosses) {
         if (const std::optional<glm::dvec3> place = rough.lit(cross.pixel, cross.block_m)) {
             const glm::dvec2 over = glm::abs(glm::dvec2(*place)) - reach_m;
-            most_m = std::fmax(most_m, std::fmax(over.x, over.y));
+            max_m = std::fmax(max_m, std::fmax(over.x, over.y));
         }
     }
-    return most_m > rounding_m ? most_m : 0.0;
+    return max_m > rounding_m ? max_m : 0.0;
 }
 
 TouchModel rough_model(const Pinhole& pinhole, double above_m, double sensor_height_m) {
@@ -253,14 +267,15 @@ TouchModel rough_model(const Pinhole& pinhole, double above_m, double sensor_hei
     return model;
 }
 
-std::vector<Cross> choose_crosses(const TouchModel& rough, const CrossSetup& setup) {
+std::vector<Cross> choose_crosses(const TouchModel& rough, const CrossSetup& setup, int more) {
     Choice choice = choice_of(rough, setup, setup.noise);
     choice.hidden_share = 0.05;
     choice.starts = 4;
-    return crosses_of(choice, best_of(choice, {}, setup.count));
+    return first_and_more(choice, setup.count, more);
 }
 
-/// That the projector moved is the harder case: then heights tell nothing. All else is as sure as the arithmetic allows.
+/// Assumes that the projector moved, the harder case: heights then carry no information. All else is fixed as
+/// tightly as the arithmetic allows.
 std::vector<Cross> choose_touch_up_crosses(const TouchModel& kept, const CrossSetup& setup, int more) {
     TouchNoise noise = setup.noise;
     noise.position_m = std::hypot(noise.position_m, kept_error_m);
@@ -273,14 +288,7 @@ std::vector<Cross> choose_touch_up_crosses(const TouchModel& kept, const CrossSe
     choice.known = open.llt().solve(Covariance::Identity());
     choice.hidden_share = 0.5;
     choice.starts = 8;
-    const std::vector<std::size_t> first = best_of(choice, {}, setup.count);
-    std::vector<Cross> crosses = crosses_of(choice, first);
-    if (more > 0) {
-        const std::vector<std::size_t> all = best_of(choice, first, more);
-        const std::vector<Cross> others = crosses_of(choice, std::span(all).subspan(first.size()));
-        crosses.insert(crosses.end(), others.begin(), others.end());
-    }
-    return crosses;
+    return first_and_more(choice, setup.count, more);
 }
 
 } // namespace frustumscreen

@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Where a pixel's light is at a height, in the frame that the corners were measured in.
+/// Where a pixel's light falls at a height, in the frame in which the corners were measured.
 std::optional<glm::dvec2> light_of(const CornerCalibration& calibration, const glm::dvec2& pixel,
                                    double height_m) {
     if (!calibration.pinhole) {
@@ -22,12 +22,14 @@ std::optional<glm::dvec2> light_of(const CornerCalibration& calibration, const g
     return lights_table(*calibration.pinhole, level_from_projector, pixel);
 }
 
-/// Residuals less unknowns: a corner counts in the two directions across its line; four lines through one point have eleven unknowns.
+/// Degrees of freedom: each corner has two residuals, across its ray; four rays through one point have eleven
+/// unknowns.
 int freedom_of(std::span<const MeasuredCorner> corners) {
     return 2 * static_cast<int>(corners.size()) - 11;
 }
 
-/// Standard deviation of each coordinate: how far the corners lie beside the four lines from the centre of projection to their middles.
+/// Standard deviation of each coordinate, from the corners' distances to the four rays from the centre of
+/// projection through their middles.
 double ruler_error_m(const glm::dvec3& centre_m, std::span<const MeasuredCorner> corners) {
     std::array<glm::dvec3, 4> along{};
     for (const MeasuredCorner& corner : corners) {
@@ -40,10 +42,10 @@ double ruler_error_m(const glm::dvec3& centre_m, std::span<const MeasuredCorner>
         const glm::dvec3 off = from - glm::dot(from, line) * line;
         squares += glm::dot(off, off);
     }
-    return std::fmax(std::sqrt(squares / freedom_of(corners)), least_ruler_error_m);
+    return std::fmax(std::sqrt(squares / freedom_of(corners)), min_ruler_error_m);
 }
 
-/// How one coordinate's error of one standard deviation moves each place: two rows for a place, metres.
+/// Move of each place by one coordinate's error of one standard deviation: two rows per place, metres.
 Eigen::VectorXd moves_by(const std::vector<PlaceUncertainty>& zone, const CornerCalibration& less,
                          const CornerCalibration& more, double errors_apart) {
     Eigen::VectorXd moves = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * zone.size()));

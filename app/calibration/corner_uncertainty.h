@@ -1,7 +1,9 @@
-/// How uncertain the picture of a calibration by hand is, all over the zone: what the ruler's error does to where each pixel's light is.
+/// Uncertainty of the picture over the zone after a calibration by hand: the effect of the ruler's error on
+/// where each pixel's light falls.
 ///
-/// Method   the ruler's error is told from how far the corners lie beside their rays, and is a millimetre at least; each coordinate is changed a
-///          little, the calibration done again, and how each light moves adds up. A lens that distorts is not in it, and no tracker.
+/// Method   The ruler's error is estimated from the corners' distances to their rays, and is at least 1 mm.
+///          Each coordinate is changed a little and the calibration repeated; the moves of each light add up
+///          in squares. Lens distortion and the tracker are not included.
 /// Frames   as corners.h; heights above z = 0.
 /// Units    metres.
 /// Threads  pure; any.
@@ -12,7 +14,7 @@
 
 namespace frustumscreen {
 
-inline constexpr double least_ruler_error_m = 1e-3;
+inline constexpr double min_ruler_error_m = 1e-3;
 
 struct CornerUncertainty {
     double ruler_error_m = 0.0;         ///< of each coordinate, one standard deviation
@@ -20,7 +22,7 @@ struct CornerUncertainty {
     std::vector<PlaceUncertainty> zone; ///< zone_columns x zone_rows of each height, from the table up
 };
 
-/// `calibration` is that of `corners`, and not refused. `top_m`: the prop's height.
+/// `calibration`: of `corners`, and not refused. `top_m`: the prop's height.
 [[nodiscard]] CornerUncertainty uncertainty_of(const CornerCalibration& calibration,
                                                std::span<const MeasuredCorner> corners, double top_m);
 

@@ -18,7 +18,7 @@ namespace {
 
 using Place = Eigen::Vector3d;
 
-/// The places of a corner, at all distances.
+/// The places of each corner at all distances.
 using Lines = std::array<std::vector<Place>, 4>;
 
 struct Line {
@@ -26,7 +26,7 @@ struct Line {
     Place along; ///< unit
 };
 
-/// Least squares through places.
+/// The least-squares line through places.
 Line line_through(std::span<const Place> places) {
     Place middle = Place::Zero();
     for (const Place& place : places) {
@@ -39,7 +39,7 @@ Line line_through(std::span<const Place> places) {
     return {middle, axes_of(square).vectors.col(2)};
 }
 
-/// The place with the least sum of squared distances from the lines, and how well it is determined.
+/// The least-squares intersection of lines, and its condition.
 struct Meeting {
     Place place;
     double condition;
@@ -56,7 +56,7 @@ Meeting meeting_of(std::span<const Line> lines) {
     return {inverse_of(square) * goal, std::sqrt(values[2] / std::fmax(values[0], 1e-30))};
 }
 
-double least_way(std::span<const Place> places, const Place& along) {
+double min_way(std::span<const Place> places, const Place& along) {
     double low = along.dot(places[0]);
     double high = low;
     for (const Place& place : places) {
@@ -66,7 +66,7 @@ double least_way(std::span<const Place> places, const Place& along) {
     return high - low;
 }
 
-/// From where the three other lines meet to a corner's line, across it.
+/// Vector from the intersection of the other three lines to a corner's line, across that line.
 Place beside_others(const Lines& lines, std::size_t k) {
     std::vector<Line> others;
     for (std::size_t other = 0; other < lines.size(); ++other) {
@@ -79,11 +79,11 @@ Place beside_others(const Lines& lines, std::size_t k) {
     return off - off.dot(mine.along) * mine.along;
 }
 
-/// A corner whose line misses where the three others meet by more than a ruler explains.
+/// A corner whose line misses the intersection of the others by more than the ruler's error explains.
 struct Misfit {
     std::size_t corner = 0;
     double off_m = 0.0;
-    double chi2 = 0.0; ///< of two residuals
+    double chi2 = 0.0; ///< with two degrees of freedom
 };
 
 Misfit misfit_of(Lines lines, std::size_t k) {
@@ -91,7 +91,7 @@ Misfit misfit_of(Lines lines, std::size_t k) {
     const Place off = beside_others(lines, k);
     const Place along = line_through(lines[k]).along;
     Eigen::Matrix3d covariance =
-        along * along.transpose(); // along the line nothing is off, by any covariance
+        along * along.transpose(); // the offset has no part along the line, so any variance will do
     for (std::vector<Place>& places : lines) {
         for (Place& place : places) {
             for (int axis = 0; axis < 3; ++axis) {
@@ -106,9 +106,9 @@ Misfit misfit_of(Lines lines, std::size_t k) {
     return {k, off.norm(), off.dot(inverse_of(covariance) * off)};
 }
 
-/// The corner that fits the others least; nothing: a ruler explains them all.
+/// The corner that fits the others least; nothing if the ruler's error explains all.
 std::optional<Misfit> worst_misfit(const Lines& lines) {
-    constexpr double chi2_limit = 9.2; // of two residuals, one in a hundred is beyond
+    constexpr double chi2_limit = 9.2; // 99 % quantile, two degrees of freedom
     Misfit worst;
     for (std::size_t k = 0; k < lines.size(); ++k) {
         const Misfit next = misfit_of(lines, k);
@@ -120,17 +120,19 @@ std::optional<Misfit> worst_misfit(const Lines& lines) {
 constexpr std::array<std::string_view, 4> corner_words{"top left", "top right", "bottom right",
                                                        "bottom left"};
 
-/// From the centre of projection to the corners.
+/// Rays from the centre of projection to the corners.
 struct Rays {
     Place centre;
     std::array<Place, 4> along; ///< unit
 };
 
-/// fx, fy, cx, cy and the rotation, from four rays: the homography from pixels to rays, split by RQ as a camera's.
+/// fx, fy, cx, cy and the rotation, from four rays: the homography from pixels to rays, decomposed by RQ like
+/// a camera matrix.
 std::optional<std::pair<Pinhole, Eigen::Matrix3d>> projector_of(const Rays& rays, int width, int height) {
     const double w = width;
     const double h = height;
-    // Directions d_k = s_k ray_k, with d linear in (u, v, 1): d0 - d1 + d2 - d3 = 0 fixes the lengths s up to one factor.
+    // Directions d_k = s_k ray_k are linear in (u, v, 1), so d0 - d1 + d2 - d3 = 0 determines the lengths s
+    // up to scale.
     Eigen::Matrix3d three;
     three << rays.along[0], -rays.along[1], rays.along[2];
     const Eigen::Vector3d lengths = three.fullPivLu().solve(rays.along[3]);
@@ -208,7 +210,7 @@ CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int
     std::array<Line, 4> fitted;
     std::transform(lines.begin(), lines.end(), fitted.begin(), line_through);
     for (std::size_t k = 0; k < 4; ++k) {
-        const double way = least_way(lines[k], fitted[k].along);
+        const double way = min_way(lines[k], fitted[k].along);
         const double off = (fitted[k].middle - fitted[(k + 2) % 4].middle).norm();
         if (way < 0.05 * off) {
             return refused("the two distances are too near to each other to say where the lines meet: "

@@ -1,12 +1,14 @@
-/// Calibration by hand, as the paper has it: the picture's four corners, measured at two distances or more.
+/// Calibration by hand, as in the paper: the picture's four corners, measured at two distances or more.
 ///
-/// The corners of one ray lie on a line through the centre of projection: it is where the four lines meet, by least squares. Its angles, lens shift
-/// and pose follow from the four rays, for a lens without distortion. There is no tracker in it.
-/// Frames   M: the frame in which the corners were measured, metres. The table's frame T: its z = 0 is M's z = 0.
-/// Errors   none: corners from which nothing follows are refused with a reason. So are those of which one does not fit: its line misses where the
-///          three others meet by more than errors of 5 mm in each coordinate explain once in a hundred times.
+/// The points of one corner lie on a ray through the centre of projection. The centre is the least-squares
+/// intersection of the four rays. The picture's angles, the lens shift and the pose follow from the four
+/// rays, for a lens without distortion. The tracker is not involved.
+/// Frames   M: the frame in which the corners were measured, metres. The table's frame T: its z = 0 is M's z
+///          = 0.
+/// Errors   none: corners that determine nothing are refused with a reason. So is a corner that does not fit:
+///          its ray misses the intersection of the three others by more than errors of 5 mm in each
+///          coordinate explain in 99 % of cases.
 /// Threads  pure; any.
-/// Source   Kim, Shin, Kim, Using relief texture for interactive and tangible virtual environments, 2008, 'TangibleScreen', step 1
 #pragma once
 
 #include "app/calibration/verdict.h"
@@ -26,7 +28,7 @@ enum class PictureCorner { TopLeft, TopRight, BottomRight, BottomLeft };
 [[nodiscard]] glm::dvec2 pixel_of(PictureCorner corner, int width, int height);
 
 struct MeasuredCorner {
-    int distance = 0; ///< which one it was measured at, from 1
+    int distance = 0; ///< number of the distance, from 1
     PictureCorner corner = PictureCorner::TopLeft;
     glm::dvec3 place_m{0.0};
 };
@@ -35,19 +37,19 @@ struct CornerCalibration {
     Verdict verdict = Verdict::Refused;
     std::string reason;
     std::vector<std::size_t>
-        repeat; ///< rows to measure again, counted from 0: those of a corner that does not fit
-    std::optional<Pinhole> pinhole; ///< none if refused, as all that follows
+        repeat; ///< rows to measure again, counted from 0: all of a corner that does not fit
+    std::optional<Pinhole> pinhole; ///< none if refused, as are the members below
     RigidTransform table_from_projector;
     RigidTransform measured_from_projector; ///< M from J
     glm::dvec3 centre_m{0.0};               ///< of projection, in M
-    double horizontal_deg = 0.0;            ///< angles of the picture
+    double horizontal_deg = 0.0;            ///< angle of the picture
     double vertical_deg = 0.0;
-    double mean_residual_m = 0.0; ///< of the corners from the rays of the projector that was found
+    double mean_residual_m = 0.0; ///< distance of the corners from the fitted projector's rays
     double worst_residual_m = 0.0;
     double mean_residual_px = 0.0;
     double worst_residual_px = 0.0;
     double condition =
-        0.0; ///< of the four lines' meeting: how many times as uncertain its worst direction is as its best
+        0.0; ///< condition of the four rays' intersection: largest over smallest standard deviation
 };
 
 /// Assumed error of a corner's coordinate, one standard deviation.

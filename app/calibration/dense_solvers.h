@@ -1,5 +1,6 @@
-/// Solvers of small dense problems of any size. Eigen compiles a solver anew for each fixed size in each file, which took a third of this
-/// room's time; where a loop is waited for (choose_crosses.h), the fixed sizes stay.
+/// Solvers for small dense problems of any size. Eigen compiles a solver for each fixed size in each file, a
+/// third of this module's build time. choose_crosses.cpp keeps fixed sizes, because a person waits for its
+/// loop.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -10,10 +11,10 @@ namespace frustumscreen {
 
 struct SymmetricAxes {
     Eigen::VectorXd values;  ///< eigenvalues, rising
-    Eigen::MatrixXd vectors; ///< a column each, of length 1
+    Eigen::MatrixXd vectors; ///< unit columns
 };
 [[nodiscard]] SymmetricAxes axes_of(const Eigen::MatrixXd& symmetric);
-/// Of a symmetric, positive definite matrix: of an information, the covariance.
+/// Inverse of a symmetric, positive definite matrix: the covariance of an information matrix.
 [[nodiscard]] Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& information);
 
 } // namespace frustumscreen

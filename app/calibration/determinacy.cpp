@@ -8,15 +8,16 @@ namespace frustumscreen {
 
 namespace {
 
-/// Beyond which the sensor's place in the prop counts as not determined.
+/// Largest standard deviation of the sensor's place in the prop that counts as determined.
 constexpr double widest_offset_m = 8e-3;
-/// And the picture, on average over the zone.
+/// Largest mean standard deviation of the picture over the zone that counts as determined.
 constexpr double widest_picture_m = 6e-3;
 
 } // namespace
 
 std::optional<Undetermined> undetermined(const Fit& fit, const ZoneSetup& zone) {
-    // What is not determined at all is left some hundred metres and radians wide, not infinitely.
+    // The last term is a weak prior: what is undetermined is some hundred metres or radians wide, not
+    // infinite.
     const Covariance known =
         fit.from_touches + fit.from_height + fit.from_priors / 100.0 + 1e-5 * Covariance::Identity();
     const Covariance covariance = inverse_of(known);

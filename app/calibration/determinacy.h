@@ -1,7 +1,8 @@
-/// What points do not determine.
+/// Finds what the points do not determine.
 ///
-/// Method   the information of the touches with priors ten times as wide as those of the fit, so that no answer is the priors' own. The sensor's
-///          place in the prop by its own covariance, whose widest direction names what is missing; the rest by the picture that it leaves.
+/// Method   Uses the information of the touches with priors ten times as wide as in the fit, so that no
+///          answer comes from the priors alone. The sensor's place in the prop is judged by its own
+///          covariance, whose widest direction names what is missing; all else by the picture's uncertainty.
 /// Threads  pure; any.
 #pragma once
 
@@ -12,18 +13,19 @@ namespace frustumscreen {
 
 struct Undetermined {
     enum class What {
-        SensorAcross, ///< where in the prop the sensor sits: it was not turned
-        SensorAbove,  ///< how high it sits: the prop was upright always
+        SensorAcross, ///< the sensor's place across the prop: the prop was never turned
+        SensorAbove,  ///< the sensor's height: the prop was always upright
         Picture,
     };
     What what = What::Picture;
-    double picture_m = 0.0; ///< how far open the picture is
+    double picture_m = 0.0; ///< uncertainty of the picture
 };
 
-/// Of a fit; nothing if the points determine all. Its middle and its three information matrices are what counts.
+/// The undetermined part of a fit; nothing if the points determine everything. Uses only the fit's middle and
+/// its three information matrices.
 [[nodiscard]] std::optional<Undetermined> undetermined(const Fit& fit, const ZoneSetup& zone);
 
-/// Of what is known of an unknown, the share that comes from its prior: 0 = nothing, 1 = all.
+/// Share of an unknown's information that comes from its prior: 0 = none, 1 = all.
 struct PriorShares {
     double aspect = 0.0, centre_u = 0.0, centre_v = 0.0, k1 = 0.0, k2 = 0.0;
 };

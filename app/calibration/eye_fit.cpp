@@ -21,24 +21,24 @@ namespace {
 /// Left eye, then right.
 using Both = Eigen::Matrix<double, 6, 1>;
 using BothCovariance = Eigen::Matrix<double, 6, 6>;
-/// What all sightings share: the cross along the table (2), the tip (3).
+/// Errors that all sightings share: the cross along the table (2), the tip (3).
 using Shared = Eigen::Matrix<double, 5, 1>;
 
-/// Of two residuals of a sighting that is right, one in a thousand is beyond.
+/// 99.9 % quantile of chi squared for a sighting's two residuals.
 constexpr double sight_chi2_limit = 13.8;
-/// Of all residuals, in units of what they should be on average: more is no chance.
-constexpr double most_scatter2 = 4.0;
-/// Lines that meet at smaller angles than this, root mean square, leave an eye's distance open.
-constexpr double least_spread_rad = 0.12;
+/// Largest mean of the squared whitened residuals that chance explains.
+constexpr double max_scatter2 = 4.0;
+/// If an eye's lines meet at smaller angles than this, root mean square, its distance is undetermined.
+constexpr double min_spread_rad = 0.12;
 constexpr double nearest_pupils_m = 45e-3, farthest_pupils_m = 80e-3;
 constexpr double good_m = 0.7e-3, usable_m = 1.5e-3;
 constexpr double good_hidden_m = 4e-3, usable_hidden_m = 8e-3;
 
 /// A sighting's line in the sensor's frame.
 struct Line {
-    Eigen::Index first = 0;     ///< of its eye's unknowns
-    Eigen::Vector3d tip, along; ///< from the cross towards the eye
-    double from_cross = 0.0;    ///< to the tip
+    Eigen::Index first = 0;     ///< index of its eye's unknowns
+    Eigen::Vector3d tip, along; ///< `along`: from the cross to the eye
+    double from_cross = 0.0;    ///< distance from the cross to the tip
     Eigen::Matrix<double, 2, 3> across;
     Eigen::Matrix3d sensor_from_table;
 };
@@ -60,10 +60,11 @@ Line line_of(const EyeSight& sight) {
 struct Rows {
     Eigen::Matrix<double, 2, 6> rows = Eigen::Matrix<double, 2, 6>::Zero();
     Eigen::Vector2d goal;
-    Eigen::Matrix<double, 2, 5> by_shared; ///< how the goal moves with what is shared
+    Eigen::Matrix<double, 2, 5> by_shared; ///< derivatives of the goal by the shared errors
 };
 
-/// An eye that is D away from the tip sees the tip's error grow by 1 + D / b, the cross's by D / b, b from cross to tip.
+/// At an eye at distance D from the tip, the tip's error is magnified by 1 + D / b and the cross's by D / b;
+/// b is the distance from cross to tip.
 Rows rows_at(const Line& line, const Eigen::Vector3d& eye, const SightNoise& noise) {
     const double times = std::fmax(0.0, (eye - line.tip).dot(line.along)) / line.from_cross;
     const double turned = noise.head_rad * eye.norm();
@@ -79,17 +80,16 @@ Rows rows_at(const Line& line, const Eigen::Vector3d& eye, const SightNoise& noi
 
 struct Solution {
     Both eyes = Both::Zero();
-    BothCovariance by_noise, covariance; ///< the second with what is shared
+    BothCovariance by_noise, covariance; ///< `covariance` includes the shared errors
     std::vector<Rows> rows;
 };
 
-/// From the sightings that are `used`.
+/// Fits both eyes to the sightings that are `used`.
 Solution solved(std::span<const Line> lines, const std::vector<bool>& used, const SightNoise& noise) {
     Solution solution;
     constexpr int rounds = 5;
     for (int round = 0; round < rounds; ++round) {
-        BothCovariance information =
-            BothCovariance::Identity() * 1e-6; // metres: what is open is some hundred metres wide
+        BothCovariance information = BothCovariance::Identity() * 1e-6; // a weak prior
         Both right = Both::Zero();
         Eigen::Matrix<double, 6, 5> shared = Eigen::Matrix<double, 6, 5>::Zero();
         solution.rows.clear();
@@ -110,7 +110,8 @@ Solution solved(std::span<const Line> lines, const std::vector<bool>& used, cons
     return solution;
 }
 
-/// The covariance of a sighting's residuals is what its own part in the fit leaves of the noise, and what is shared, which shows where heads are turned.
+/// Covariance of a sighting's residuals: the noise less the sighting's own part in the fit, plus the shared
+/// errors, which appear where the head turns.
 Eigen::Matrix2d left_of(const Rows& rows, const Solution& solution) {
     return Eigen::Matrix2d::Identity() - rows.rows * solution.by_noise * rows.rows.transpose() +
            rows.by_shared * rows.by_shared.transpose();
@@ -121,7 +122,7 @@ double chi2_of(const Rows& rows, const Solution& solution) {
     return residual.dot(left_of(rows, solution).ldlt().solve(residual));
 }
 
-/// Chi squared of the residuals of those that are used, in units of its mean.
+/// Chi squared of the used sightings over its degrees of freedom.
 double scatter2_of(const Solution& solution, const std::vector<bool>& used) {
     double chi2 = 0.0;
     double freedom = -6.0;
@@ -140,7 +141,7 @@ bool agree(const Solution& solution, const std::vector<bool>& used) {
             return false;
         }
     }
-    return scatter2_of(solution, used) < most_scatter2;
+    return scatter2_of(solution, used) < max_scatter2;
 }
 
 bool are_enough(std::span<const Line> lines, const std::vector<bool>& used) {
@@ -148,15 +149,15 @@ bool are_enough(std::span<const Line> lines, const std::vector<bool>& used) {
     for (std::size_t k = 0; k < lines.size(); ++k) {
         count[lines[k].first == 0 ? 0 : 1] += used[k] ? 1 : 0;
     }
-    return std::min(count[0], count[1]) >= least_sights;
+    return std::min(count[0], count[1]) >= min_sights;
 }
 
-/// Whether what all sightings share, cross and tip, is off by more than chance does once in a thousand times: then the picture does not lie where the
-/// calibration says. It shows where the head was turned, since then the lines do not meet.
+/// True if the shared errors, cross and tip, are larger than chance allows in 99.9 % of cases: then the
+/// picture is not where the calibration says. Turned heads reveal this, because the lines then do not meet.
 bool is_shared_off(const Solution& solution, const std::vector<bool>& used) {
     Eigen::Matrix<double, 6, 5> mixed = Eigen::Matrix<double, 6, 5>::Zero();
     Eigen::Matrix<double, 5, 5> told =
-        Eigen::Matrix<double, 5, 5>::Zero(); // information, what the eyes take up left out
+        Eigen::Matrix<double, 5, 5>::Zero(); // information of the shared errors, with the eyes marginalised
     Shared pull = Shared::Zero();
     for (std::size_t k = 0; k < used.size(); ++k) {
         if (used[k]) {
@@ -167,9 +168,10 @@ bool is_shared_off(const Solution& solution, const std::vector<bool>& used) {
         }
     }
     told -= mixed.transpose() * solution.by_noise * mixed;
-    // The pull is told * shared + noise of covariance told, and shared has unit variance. Axes of which nothing is told are left out.
+    // The pull is told * shared + noise with covariance told; `shared` has unit variance. Axes without
+    // information are skipped.
     const SymmetricAxes axes = axes_of(told);
-    constexpr double limit = 20.5; // chi squared of five
+    constexpr double limit = 20.5; // 99.9 % quantile of chi squared, five degrees of freedom
     double chi2 = 0.0;
     for (Eigen::Index k = 0; k < 5; ++k) {
         const double t = axes.values[k];
@@ -178,7 +180,8 @@ bool is_shared_off(const Solution& solution, const std::vector<bool>& used) {
     return chi2 > limit;
 }
 
-/// Without the fewest sightings, one or two, all others agree; where several choices do, the one that scatters least. Nothing: no such choice.
+/// Leaves out the fewest sightings, one or two, without which all others agree; of several sets, the one with
+/// the least scatter. Nothing if no such set exists.
 std::optional<std::vector<bool>> agreeing(std::span<const Line> lines, const SightNoise& noise) {
     const std::vector<bool> all(lines.size(), true);
     if (agree(solved(lines, all, noise), all)) {
@@ -210,7 +213,8 @@ std::optional<std::vector<bool>> agreeing(std::span<const Line> lines, const Sig
     return best;
 }
 
-/// How far an eye's lines are from being parallel in the sensor's frame: root mean square of their angles about the worse of two axes across their middle.
+/// Spread of an eye's line directions in the sensor's frame: root mean square angle about the worse of the
+/// two axes across their mean.
 double spread_rad(std::span<const Line> lines, Eigen::Index first) {
     Eigen::Matrix3d parallel = Eigen::Matrix3d::Zero();
     double count = 0.0;
@@ -224,7 +228,7 @@ double spread_rad(std::span<const Line> lines, Eigen::Index first) {
     return std::sqrt(std::fmax(0.0, 1.0 - axes.values[2]));
 }
 
-/// Why nothing can follow from these; empty: something can.
+/// The reason why the sightings determine nothing; empty if they may.
 std::string refusal_of(std::span<const EyeSight> sights, std::span<const Line> lines) {
     for (std::size_t k = 0; k < lines.size(); ++k) {
         if (!(lines[k].from_cross > 0.02) || sights[k].tip_m.z < sights[k].cross_m.z) {
@@ -235,13 +239,13 @@ std::string refusal_of(std::span<const EyeSight> sights, std::span<const Line> l
     const auto of_left = static_cast<std::size_t>(
         std::count_if(lines.begin(), lines.end(), [](const Line& line) { return line.first == 0; }));
     const std::size_t of_right = lines.size() - of_left;
-    if (std::min(of_left, of_right) < least_sights) {
+    if (std::min(of_left, of_right) < min_sights) {
         return fmt::format(
             "there are {} sightings with the left eye and {} with the right one; {} with each are needed",
-            of_left, of_right, least_sights);
+            of_left, of_right, min_sights);
     }
     for (const Eigen::Index first : {0, 3}) {
-        if (spread_rad(lines, first) < least_spread_rad) {
+        if (spread_rad(lines, first) < min_spread_rad) {
             return fmt::format(
                 "the head was held nearly alike in all sightings with the {} eye, which does not tell how "
                 "far in front of the sensor it is: between them turn the head, and move the chin up and down",
@@ -251,14 +255,15 @@ std::string refusal_of(std::span<const EyeSight> sights, std::span<const Line> l
     return {};
 }
 
-/// The middle is the mean of both.
+/// The linear map from both eyes to their mean.
 Eigen::Matrix<double, 3, 6> middle_rows() {
     Eigen::Matrix<double, 3, 6> rows;
     rows << 0.5 * Eigen::Matrix3d::Identity(), 0.5 * Eigen::Matrix3d::Identity();
     return rows;
 }
 
-/// What an eye's covariance puts on the picture: its part across the lines of sight, at their distance.
+/// Picture error that an eye's covariance causes: its part across the lines of sight, scaled by their
+/// distance.
 double on_picture_m(const Eigen::Matrix3d& spread, std::span<const Line> lines, const Eigen::Vector3d& eye,
                     double deep_m) {
     double sum = 0.0;
@@ -281,7 +286,7 @@ EyeFit::Eyes eyes_of(const Solution& solution, std::span<const Line> lines, cons
         std::fmax(1.0, scatter2_of(solution, used)) * to_middle * solution.covariance * to_middle.transpose();
     eyes.picture_m = on_picture_m(eyes.covariance, lines, middle, deep_m);
     for (std::size_t k = 0; k < lines.size(); ++k) {
-        if (used[k]) { // the error that is just not noticed, in its worst direction (Baarda 1968)
+        if (used[k]) { // the largest unnoticed error, in its worst direction (Baarda 1968)
             const Rows& rows = solution.rows[k];
             const Eigen::Matrix<double, 3, 2> moves = to_middle * solution.by_noise * rows.rows.transpose();
             const Eigen::Matrix3d hidden =

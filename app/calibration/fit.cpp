@@ -16,13 +16,13 @@ namespace {
 
 using Jet = ceres::Jet<double, unknown_count>;
 
-/// Residuals of touches at a model with changes, each touch's three whitened together.
+/// Residuals of touches at a changed model; each touch's three are whitened jointly.
 struct Residuals {
     std::span<const Touch> touches;
     const FitSetup& setup;
     const TouchModel& base;
     glm::dvec3 middle;
-    std::vector<Eigen::Matrix3d> whitening; ///< of each touch, with the square root of its weight in it
+    std::vector<Eigen::Matrix3d> whitening; ///< of each touch, times the square root of its weight
 
     [[nodiscard]] int count() const {
         return 3 * static_cast<int>(touches.size()) + prior_count + (setup.sensor_height_m ? 1 : 0);
@@ -34,7 +34,7 @@ struct Residuals {
         return model.pixel_and_height(model.touched(touch)) -
                Eigen::Matrix<T, 3, 1>(T(touch.pixel.x), T(touch.pixel.y), model.boards * touch.block_m);
     }
-    /// The sensor above the touched place, in touches that stand upright; less what was given.
+    /// The sensor's mean height above the touched place in upright touches, less the given height.
     template <typename T> T height_off(const ChangedModel<T>& model) const {
         std::vector<Eigen::Matrix3d> upright;
         for (std::size_t k = 0; k < touches.size(); ++k) {
@@ -58,7 +58,7 @@ struct Residuals {
     }
 };
 
-/// The inverse square root of the covariance of a touch's residuals, which the tracker's noise moves together.
+/// The inverse square root of the covariance of a touch's residuals. The tracker's noise correlates them.
 Eigen::Matrix3d whitening_of(const TouchModel& model, const glm::dvec3& middle, const Touch& touch,
                              const TouchNoise& noise) {
     using PointJet = ceres::Jet<double, 3>;
@@ -96,10 +96,10 @@ void whiten(Residuals& residuals, std::span<const double> weights) {
     }
 }
 
-TouchModel solved(const Residuals& residuals, int most_steps) {
+TouchModel solved(const Residuals& residuals, int max_steps) {
     using Function = ceres::TinySolverAutoDiffFunction<Residuals, Eigen::Dynamic, unknown_count>;
     ceres::TinySolver<Function> solver;
-    solver.options.max_num_iterations = most_steps;
+    solver.options.max_num_iterations = max_steps;
     solver.options.function_tolerance = 1e-9;
     solver.options.gradient_tolerance = 1e-9;
     Changes change = Changes::Zero();
@@ -122,7 +122,7 @@ std::vector<Jet> differentiated(const Residuals& residuals) {
     return out;
 }
 
-/// What the fit is worth at its end: residuals and information, touch by touch.
+/// The result of a fit: residuals and information, touch by touch.
 Fit measured(const Residuals& residuals, std::span<const double> weights) {
     Fit fit;
     fit.model = residuals.base;
@@ -149,7 +149,7 @@ Fit measured(const Residuals& residuals, std::span<const double> weights) {
     return fit;
 }
 
-/// Each round whitens anew, then takes so many steps at most.
+/// Each round whitens at the current model, then takes at most the given number of steps.
 Fit fit_in(std::span<const int> rounds, std::span<const Touch> touches, std::span<const double> weights,
            const FitSetup& setup, const TouchModel& start) {
     assert(!touches.empty());
@@ -209,7 +209,7 @@ Fit fit_roughly(std::span<const Touch> touches, const FitSetup& setup, const Tou
 Fit fit_robustly(std::span<const Touch> touches, const FitSetup& setup, const TouchModel& start) {
     std::vector<double> weights(touches.size(), 1.0);
     Fit fit = fit_touches(touches, weights, setup, start);
-    // Cauchy's weights; they begin wide, so that a start that is off does not decide which touches are believed.
+    // Cauchy weights, wide at first, so that an inaccurate start does not decide which touches count.
     for (const double width : {20.0, 10.0, 5.0, 3.0, 3.0, 3.0}) {
         std::vector<double> next(touches.size());
         for (std::size_t k = 0; k < touches.size(); ++k) {

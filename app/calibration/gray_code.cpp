@@ -11,7 +11,7 @@ namespace {
 
 constexpr double turn = 2.0 * std::numbers::pi;
 
-/// Bits that number the half periods along an axis.
+/// Number of bits that encode the half periods along an axis.
 int bit_count(const StripeSetup& setup, bool rows) {
     const int length = rows ? setup.height : setup.width;
     const int stripes = (2 * length + setup.period_px - 1) / setup.period_px;
@@ -29,7 +29,7 @@ std::uint32_t from_gray(std::uint32_t code) {
     return code;
 }
 
-/// The captures of one axis, and what is decoded of it at one pixel of the camera.
+/// Decodes one axis from its captures, at one camera pixel.
 class Axis {
 public:
     Axis(const StripeSetup& setup, const Captures& captures, std::size_t first, bool rows)
@@ -46,8 +46,8 @@ public:
     [[nodiscard]] std::optional<double> place(std::size_t pixel, double contrast,
                                               const DecodeLimits& limits) const {
         const std::optional<double> within =
-            wave(pixel, std::fmax(limits.least_amplitude, limits.least_wave * contrast));
-        const std::optional<std::uint32_t> stripe = half_period(pixel, limits.least_bit * contrast);
+            wave(pixel, std::fmax(limits.min_amplitude, limits.min_wave * contrast));
+        const std::optional<std::uint32_t> stripe = half_period(pixel, limits.min_bit * contrast);
         if (!within || !stripe) {
             return std::nullopt;
         }
@@ -61,7 +61,7 @@ private:
     [[nodiscard]] double grey(std::size_t picture, std::size_t pixel) const {
         return captures_.pictures[first_ + picture][pixel];
     }
-    /// The place within the period; nothing where the wave is weak, or the camera's white clips it.
+    /// The place within the period; nothing if the amplitude is too small or a capture is clipped.
     [[nodiscard]] std::optional<double> wave(std::size_t pixel, double least) const {
         double along = 0.0;
         double across = 0.0;
@@ -80,7 +80,7 @@ private:
     [[nodiscard]] std::optional<std::uint32_t> half_period(std::size_t pixel, double least) const {
         std::uint32_t code = 0;
         int doubtful = 0;
-        for (std::size_t bit = 0; bit < static_cast<std::size_t>(bits_); ++bit) { // the highest comes first
+        for (std::size_t bit = 0; bit < static_cast<std::size_t>(bits_); ++bit) { // highest bit first
             const double difference = grey(2 * bit, pixel) - grey(2 * bit + 1, pixel);
             code = 2 * code + (difference > 0.0 ? 1U : 0U);
             doubtful += std::abs(difference) < least ? 1 : 0;
@@ -161,7 +161,7 @@ PixelMap decode(const StripeSetup& setup, const Captures& captures, const Decode
     map.contrast.resize(white.size());
     for (std::size_t k = 0; k < white.size(); ++k) {
         const double contrast = static_cast<double>(white[k]) - static_cast<double>(black[k]);
-        if (contrast < limits.least_contrast) {
+        if (contrast < limits.min_contrast) {
             continue;
         }
         const auto u = columns.place(k, contrast, limits);

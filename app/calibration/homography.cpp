@@ -42,7 +42,7 @@ std::optional<Eigen::Matrix3d> homography(std::span<const Eigen::Vector2d> from,
         sum += rows.transpose() * rows;
     }
     const SymmetricAxes axes = axes_of(sum);
-    constexpr double least = 1e-4; // of the second; one direction alone is to be undetermined
+    constexpr double least = 1e-4; // of the second eigenvalue: only one direction may be undetermined
     if (!(axes.values[1] > least)) {
         return std::nullopt;
     }

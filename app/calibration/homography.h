@@ -1,8 +1,9 @@
-/// The homography that takes points of one plane to points of another, by least squares.
+/// The homography that maps points of one plane to points of another, by least squares.
 ///
-/// Method   the direct linear transformation, about both sides' middles and at their scales.
+/// Method   The direct linear transformation, with both sides centred and scaled.
 /// Threads  pure; any.
-/// Source   Hartley, In defense of the eight-point algorithm, 1997; Hartley and Zisserman, Multiple view geometry, 2004, 4.1
+/// Source   Hartley, In defense of the eight-point algorithm, 1997; Hartley and Zisserman, Multiple view
+///          geometry, 2004, 4.1
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// As many `to` as `from`. Nothing for fewer than four, or if they do not span a plane.
+/// `from` and `to` have the same length. Nothing for fewer than four points, or if they do not span a plane.
 [[nodiscard]] std::optional<Eigen::Matrix3d> homography(std::span<const Eigen::Vector2d> from,
                                                         std::span<const Eigen::Vector2d> to);
 

@@ -1,4 +1,5 @@
-/// What the verdicts ask for (docs/calibration.md): standard deviations of the picture over the zone, and what a wrong touch could hide.
+/// The limits of the verdicts (docs/calibration.md): standard deviations of the picture over the zone, and
+/// the largest unnoticed error of a wrong touch.
 ///
 /// Units    metres.
 /// Threads  values; any.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Eigen::Index draw_count = 1000;
 
-/// Normal numbers by Box and Muller: the standard's own differ between libraries.
+/// Normally distributed numbers by Box and Muller: std::normal_distribution differs between libraries.
 class NormalNumbers {
 public:
     double next() {
@@ -22,13 +22,13 @@ public:
     }
 
 private:
-    /// Above 0, up to 1.
+    /// Uniform in (0, 1].
     double even() { return (static_cast<double>(bits_() >> 11U) + 1.0) * 0x1p-53; }
 
     std::mt19937_64 bits_{1};
 };
 
-/// The value that a share of them keeps to.
+/// The quantile of `share`.
 double quantile(std::vector<double> values, double share) {
     const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), values.begin() + at, values.end());

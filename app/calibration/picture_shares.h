@@ -1,6 +1,8 @@
-/// The light's error on the table as shares: the distance that holds at 68 and at 95 of 100 places, and at the worst place.
+/// The light's error on the table as shares: the distance that holds at 68 and at 95 of 100 places, and at
+/// the worst place.
 ///
-/// Method   a thousand seeded draws from the fit's covariance; each moves the light of every place of the zone.
+/// Method   A thousand seeded draws from the fit's covariance; each moves the light of every place of the
+///          zone.
 /// Units    metres.
 /// Time     ten milliseconds.
 /// Threads  pure; any.

@@ -12,10 +12,11 @@ namespace frustumscreen {
 namespace {
 
 constexpr double same_level_m = 1e-3;
-/// A lens's distortion over a sheet is not in a homography: some pixels are allowed.
-constexpr double least_limit_px = 4.0;
-constexpr double most_limit_px = 12.0;
-/// With three of ten points wrong, a quarter of the samples are right: that none of so many is has a chance of 1e-14.
+/// A homography does not model a lens's distortion over the sheet: some pixels are allowed.
+constexpr double min_limit_px = 4.0;
+constexpr double max_limit_px = 12.0;
+/// With three of ten points wrong, a quarter of the samples are right; the chance that none of them is, is
+/// 1e-14.
 constexpr int sample_count = 120;
 
 using Points = std::vector<const PropPoint*>;
@@ -47,7 +48,7 @@ double median_px(const Eigen::Matrix3d& pixel_from_plane, const Points& points) 
     return *middle;
 }
 
-/// The level with most points.
+/// The points of the level that has most of them.
 Points on_one_level(const Rest& rest, double& level_m) {
     Points best;
     for (const PropPoint& mine : rest.points) {
@@ -65,7 +66,7 @@ Points on_one_level(const Rest& rest, double& level_m) {
     return best;
 }
 
-/// Four different points of so many; `state` goes on from sample to sample.
+/// Four different points; `state` is that of the random generator.
 Points sample_of(const Points& points, std::uint64_t& state) {
     Points left = points;
     Points sample;
@@ -78,7 +79,7 @@ Points sample_of(const Points& points, std::uint64_t& state) {
     return sample;
 }
 
-std::optional<Eigen::Matrix3d> least_median(const Points& points) {
+std::optional<Eigen::Matrix3d> min_median(const Points& points) {
     std::optional<Eigen::Matrix3d> best;
     double least = 0.0;
     std::uint64_t state = 1;
@@ -109,11 +110,11 @@ std::optional<PlaneView> plane_view(const Rest& rest) {
     if (points.size() < 4) {
         return std::nullopt;
     }
-    const auto rough = least_median(points);
+    const auto rough = min_median(points);
     if (!rough) {
         return std::nullopt;
     }
-    const double limit = std::clamp(4.0 * median_px(*rough, points), least_limit_px, most_limit_px);
+    const double limit = std::clamp(4.0 * median_px(*rough, points), min_limit_px, max_limit_px);
     Points fitting;
     for (const PropPoint* point : points) {
         if (distance_px(*rough, *point) < limit) {
@@ -129,7 +130,8 @@ std::optional<PlaneView> plane_view(const Rest& rest) {
         view.on_level.push_back(std::abs(point.prop_m.z - view.level_m) < same_level_m);
         view.fits.push_back(view.on_level.back() && distance_px(*fine, point) < limit);
     }
-    // +x and +y of the prop, seen from above, against +u and +v, which goes down: the sense turns over, or the picture is mirrored.
+    // +x and +y of the prop, seen from above, against +u and +v: v points down, so the orientation flips
+    // unless the picture is mirrored.
     const glm::dvec2 middle(points[0]->prop_m.x, points[0]->prop_m.y);
     const glm::dvec2 along_x = view.pixel(middle + glm::dvec2(1e-3, 0.0)) - view.pixel(middle);
     const glm::dvec2 along_y = view.pixel(middle + glm::dvec2(0.0, 1e-3)) - view.pixel(middle);

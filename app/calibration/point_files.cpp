@@ -24,18 +24,19 @@ constexpr std::array<std::string_view, 5> corner_columns{"distance", "corner", "
 constexpr std::array<std::string_view, 4> corner_names{"top_left", "top_right", "bottom_right",
                                                        "bottom_left"};
 constexpr std::array<std::string_view, 2> eye_names{"left", "right"};
-/// More than any table has; a file of millions is some other file.
-constexpr std::size_t most_rows = 1000;
+/// More rows than any calibration has; a larger file is not one of these.
+constexpr std::size_t max_rows = 1000;
 /// Rests have a row for each of their points.
-constexpr std::size_t most_points = 50000;
-/// Nobody makes as many; each two are tried without.
-constexpr std::size_t most_sights = 100;
+constexpr std::size_t max_points = 50000;
+/// More than a person makes. eye_fit.cpp tries every pair, so the limit bounds its time.
+constexpr std::size_t max_sights = 100;
 
-/// The rows of one file, with their fields. The first fault counts and ends them; what is read after it is never handed out.
+/// The rows of one file, with their fields. Reading ends at the first fault, and `read` then returns the
+/// fault instead of points.
 class PointRows {
 public:
     using Columns = std::span<const std::string_view>;
-    PointRows(std::string_view text, std::string_view name, Columns columns, std::size_t max_rows = most_rows)
+    PointRows(std::string_view text, std::string_view name, Columns columns, std::size_t max_rows = max_rows)
         : rows_(text, name), columns_(columns), max_rows_(max_rows) {
         if (!rows_.next() ||
             !std::equal(columns.begin(), columns.end(), rows_.fields().begin(), rows_.fields().end())) {
@@ -66,7 +67,7 @@ public:
         }
         return number;
     }
-    /// `allowed`: what a refusal says of it.
+    /// `allowed`: the allowed values in the message.
     int integer(std::size_t column, std::int64_t min, std::int64_t max, std::string_view allowed) {
         const std::int64_t number = integer_in(field(column)).value_or(min - 1);
         if (number < min || number > max) {
@@ -86,8 +87,8 @@ public:
     }
     glm::dvec2 pixel(std::size_t first) { return {number(first), number(first + 1)}; }
     glm::dvec3 place(std::size_t first) { return {number(first), number(first + 1), number(first + 2)}; }
-    /// The tracker's report: place and quaternion, which is judged once the whole row is known to be numbers. A length of nearly 1 is rounded, and
-    /// becomes 1.
+    /// The tracker's report: place and quaternion. The quaternion is checked after all fields of the row are
+    /// known to be numbers. A length within 0.02 of 1 counts as rounding and is normalised.
     RigidTransform report(std::size_t first, bool is_last_empty = false) {
         constexpr double max_rounded = 0.02;
         for (std::size_t column = first; column + (is_last_empty ? 1 : 0) < columns_.size(); ++column) {
@@ -123,7 +124,7 @@ private:
     std::optional<Error> fault_;
 };
 
-/// As PointRows::report reads it.
+/// The text that PointRows::report reads.
 std::string report_text(const RigidTransform& report) {
     const glm::dvec3& t = report.translation;
     const glm::dquat& q = report.rotation;
@@ -156,7 +157,7 @@ std::string touches_text(std::span<const Touch> touches) {
 }
 
 Result<Rests> parse_rests(std::string_view text, std::string_view name) {
-    PointRows rows(text, name, rest_columns, most_points);
+    PointRows rows(text, name, rest_columns, max_points);
     Rests rests;
     while (rows.next()) {
         Rest next;
@@ -194,7 +195,7 @@ std::string rests_text(std::span<const Rest> rests) {
 }
 
 Result<ReportedSights> parse_sights(std::string_view text, std::string_view name) {
-    PointRows rows(text, name, sight_columns, most_sights);
+    PointRows rows(text, name, sight_columns, max_sights);
     ReportedSights sights;
     while (rows.next()) {
         const bool is_left = rows.choice(0, eye_names, ": the one that was open") == 0;

@@ -1,4 +1,4 @@
-/// The residuals of what is known beforehand of any projector and any boards, whichever points are fitted.
+/// Residuals of the priors, which hold for any projector and any boards, independent of the points.
 ///
 /// Numbers  templates over T: double, or numbers that carry derivatives (ceres::Jet).
 /// Threads  pure; any.
@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 inline constexpr int prior_count = 6;
 
-/// prior_count residuals in units of their standard deviations; `change`: unknown_count numbers.
+/// Writes prior_count residuals in units of their standard deviations; `change`: unknown_count numbers.
 template <typename T>
 void prior_residuals(const Priors& priors, const TouchModel& model, const T* change, T* out) {
     const Pinhole& base = model.pinhole;
@@ -27,7 +27,8 @@ void prior_residuals(const Priors& priors, const TouchModel& model, const T* cha
     out[5] = (change[boards_share] + (model.boards - 1.0)) / priors.boards;
 }
 
-/// How high the sensor is above the touched place, on average over rotations of the sensor in K; there is one at least.
+/// Mean height of the sensor above the touched place, over rotations of the sensor in K; at least one
+/// rotation.
 template <typename T>
 T sensor_height(const ChangedModel<T>& model, std::span<const Eigen::Matrix3d> tracker_from_sensor) {
     T sum(0.0);

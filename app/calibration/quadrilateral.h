@@ -1,4 +1,4 @@
-/// The pixels of a picture that lie in a quadrilateral, of either sense.
+/// The pixels of a picture inside a quadrilateral of either orientation.
 ///
 /// Units    pixels, the centre of the top left one is (0.5, 0.5).
 /// Threads  pure; any.

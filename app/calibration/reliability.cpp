@@ -8,7 +8,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The covariance of a touch's residuals is what its own part in the fit leaves of the noise.
+/// Covariance of a touch's whitened residuals: the noise less the touch's own part in the fit.
 Eigen::Matrix3d left_of(const TouchRows& rows, const Covariance& covariance) {
     return Eigen::Matrix3d::Identity() - rows * covariance * rows.transpose();
 }
@@ -28,7 +28,8 @@ double hidden_error_m(std::span<const TouchRows> touches, const Covariance& cova
                       std::span<const ZonePlace> places) {
     std::vector<UnseenError<3>> unseen;
     for (const TouchRows& rows : touches) {
-        // Of all errors b with b' left b = limit, that which moves the picture most: the ellipse's image.
+        // Among all errors b with b' left b = limit, the one that moves the picture most: the ellipse's
+        // image.
         unseen.push_back({covariance * rows.transpose(), left_of(rows, covariance).inverse()});
     }
     return hidden_error_m(std::span<const UnseenError<3>>(unseen), touch_chi2_limit, places);

@@ -1,5 +1,5 @@
-/// Whether a touch is as the others predict it, and what a wrong one, or a wrong rest, could do that is not noticed.
-///
+/// Tests whether a touch agrees with the others' prediction, and bounds the error of one wrong touch or rest
+/// that goes unnoticed.
 /// Units    metres; residuals whitened, so that chi squared is what it should be.
 /// Threads  pure; any.
 /// Source   Baarda, A testing procedure for use in geodetic networks, 1968: data snooping, external reliability
@@ -15,11 +15,12 @@ namespace frustumscreen {
 /// Limit of the three residuals of a touch: one right touch in a thousand exceeds it.
 inline constexpr double touch_chi2_limit = 16.0;
 
-/// Chi squared of a touch's residuals as the others predict them.
+/// Leave-one-out chi squared of a touch's residuals.
 [[nodiscard]] double left_out_chi2(const TouchRows& rows, const Eigen::Vector3d& residual,
                                    const Covariance& covariance);
 
-/// An error that the fit may swallow: how the unknowns move with it, and the covariance that leaves it just unnoticed, for a chi squared of 1.
+/// An error that a fit may absorb unnoticed: the unknowns' derivatives by it, and its covariance at the limit
+/// of detection, for a chi squared limit of 1.
 template <int errors> struct UnseenError {
     Eigen::Matrix<double, unknown_count, errors> moves;
     Eigen::Matrix<double, errors, errors> spread;
@@ -28,7 +29,8 @@ template <int errors> struct UnseenError {
 /// The larger eigenvalue.
 [[nodiscard]] double largest(const Eigen::Matrix2d& symmetric);
 
-/// How far one wrong report could move the picture and yet agree, at the worst report and place of the zone.
+/// The largest move of the picture by one wrong report that goes unnoticed, over all reports and places of
+/// the zone.
 template <int errors>
 double hidden_error_m(std::span<const UnseenError<errors>> unseen, double chi2_limit,
                       std::span<const ZonePlace> places) {
@@ -42,7 +44,7 @@ double hidden_error_m(std::span<const UnseenError<errors>> unseen, double chi2_l
     return std::sqrt(chi2_limit * worst2);
 }
 
-/// Of one wrong touch.
+/// The same for one wrong touch.
 [[nodiscard]] double hidden_error_m(std::span<const TouchRows> touches, const Covariance& covariance,
                                     std::span<const ZonePlace> places);
 

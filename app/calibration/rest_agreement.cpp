@@ -11,17 +11,17 @@ namespace frustumscreen {
 
 namespace {
 
-/// Of all rests, at most a fifth is taken for wrong, and of all points at most so many.
+/// At most a fifth of the rests, and this share of the points, counts as wrong.
 constexpr std::size_t wrong_of = 5;
-constexpr double most_wrong_points = 0.4;
-constexpr double most_scatter = 2.0;
-/// Below, it is chance: a dozen rests do not tell their noise better.
-constexpr double least_scatter = 1.4;
-/// Of a point's two residuals, one in a quarter of a million is beyond.
+constexpr double max_wrong_points = 0.4;
+constexpr double max_scatter = 2.0;
+/// A dozen rests do not estimate their noise better; less scatter is chance.
+constexpr double min_scatter = 1.4;
+/// Quantile of chi squared for a point's two residuals; one right point in 250 000 exceeds it.
 constexpr double point_chi2_limit = 25.0;
-/// What the pixels' noise may be found to be.
-constexpr double least_noise_px = 0.05;
-constexpr double most_noise_px = 1.0;
+/// Limits of the estimated pixel noise.
+constexpr double min_noise_px = 0.05;
+constexpr double max_noise_px = 1.0;
 /// Medians of chi squared with two and with six degrees of freedom.
 constexpr double median_of_2 = 1.386;
 constexpr double median_of_6 = 5.348;
@@ -39,7 +39,8 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// Those of each level that fit together; what lies off it follows later. Rests whose points do not fit say nothing.
+/// Weights 1 for the points of each level that fit together; points off the level follow later. Rests without
+/// a view get no weight.
 RestWeights first_weights(std::span<const Rest> rests, std::span<const std::optional<PlaneView>> views) {
     RestWeights weights = equal_weights(rests);
     for (std::size_t k = 0; k < rests.size(); ++k) {
@@ -71,7 +72,7 @@ double noise_found(const RestFit& fit) {
             squares.push_back(glm::dot(off, off));
         }
     }
-    return std::clamp(std::sqrt(median(std::move(squares)) / median_of_2), least_noise_px, most_noise_px);
+    return std::clamp(std::sqrt(median(std::move(squares)) / median_of_2), min_noise_px, max_noise_px);
 }
 
 RestFit robust_fit(std::span<const Rest> rests, std::span<const std::optional<PlaneView>> views,
@@ -91,7 +92,7 @@ RestFit robust_fit(std::span<const Rest> rests, std::span<const std::optional<Pl
     return std::move(*best);
 }
 
-/// How far each rest's report is from what all others say of it; chi squared with six degrees of freedom.
+/// Leave-one-out chi squared of each rest's report, with six degrees of freedom.
 std::vector<double> left_out_chi2(const RestFit& fit) {
     const RestCovariance covariance = inverse_of(fit.information());
     std::vector<double> chi2;
@@ -102,13 +103,13 @@ std::vector<double> left_out_chi2(const RestFit& fit) {
     return chi2;
 }
 
-/// 1, or more if the reports of most rests scatter beyond chance.
+/// Ratio of the reports' noise to the expected noise; 1 unless most rests scatter beyond chance.
 double scatter_of(const std::vector<double>& chi2) {
     const double scatter = std::sqrt(median(chi2) / median_of_6);
-    return scatter > least_scatter ? scatter : 1.0;
+    return scatter > min_scatter ? scatter : 1.0;
 }
 
-/// Leaves points out that are beyond the noise; the share of them.
+/// Leaves out points beyond the noise and returns their share.
 double leave_points_out(AgreeingRests& found, double pixel_noise) {
     double wrong = 0.0;
     double count = 0.0;
@@ -139,7 +140,7 @@ AgreeingRests find_agreement(std::span<const Rest> rests, std::span<const std::o
     RestFitSetup setup = given;
     found.pixel_noise = setup.noise.pixel = noise_found(found.fit);
     for (int round = 0; round < 2; ++round) {
-        if (leave_points_out(found, setup.noise.pixel) > most_wrong_points) {
+        if (leave_points_out(found, setup.noise.pixel) > max_wrong_points) {
             return found;
         }
         found.fit = fit_rests(rests, found.weights, setup, found.fit.model, last_rounds);
@@ -151,7 +152,7 @@ AgreeingRests find_agreement(std::span<const Rest> rests, std::span<const std::o
         }
         found.scatter = scatter_of(chi2);
         const auto worst = std::max_element(chi2.begin(), chi2.end());
-        if (*worst < rest_chi2_limit * std::pow(std::min(found.scatter, most_scatter), 2.0)) {
+        if (*worst < rest_chi2_limit * std::pow(std::min(found.scatter, max_scatter), 2.0)) {
             break;
         }
         found.wrong.push_back(static_cast<std::size_t>(worst - chi2.begin()));
@@ -162,7 +163,7 @@ AgreeingRests find_agreement(std::span<const Rest> rests, std::span<const std::o
         found.fit = fit_rests(rests, found.weights, setup, found.fit.model, last_rounds);
     }
     std::sort(found.wrong.begin(), found.wrong.end());
-    if (found.scatter < most_scatter) {
+    if (found.scatter < max_scatter) {
         found.agreement = !found.wrong.empty()  ? Agreement::Without
                           : found.scatter > 1.0 ? Agreement::Scattered
                                                 : Agreement::All;

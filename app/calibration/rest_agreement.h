@@ -1,7 +1,8 @@
-/// Which rests and which of their points agree with each other, and which do not.
+/// Finds the rests and points that agree with each other, and those that do not.
 ///
-/// Method   Cauchy's weights for points and for the tracker's reports, beginning wide; then points beyond the noise are left out, and rests whose report
-///          the others contradict, the worst first. The pixels' noise is found from the points: nobody knows it beforehand.
+/// Method   Cauchy weights for points and for the tracker's reports, wide at first. Then points beyond the
+///          noise are left out, and so are rests whose report contradicts the others, worst first. The pixel
+///          noise is estimated from the points.
 /// Threads  pure; any.
 #pragma once
 
@@ -11,21 +12,22 @@
 
 namespace frustumscreen {
 
-/// Of six residuals of a tracker's report that is right, one in ten thousand is beyond.
+/// 99.99 % quantile of chi squared for the six residuals of a correct tracker report.
 inline constexpr double rest_chi2_limit = 27.9;
 
-struct AgreeingRests : Agreed { ///< never Exchanged; the scatter is the tracker's
+struct AgreeingRests : Agreed { ///< never Exchanged; `scatter` is the tracker's
     RestFit fit;
-    RestWeights weights;      ///< 1 or no_weight
-    double pixel_noise = 0.0; ///< found
+    RestWeights weights;      ///< each is 1 or no_weight
+    double pixel_noise = 0.0; ///< estimated
 };
 
-/// `views` of each rest; `starts`: one at least.
+/// `views`: one per rest. `starts`: at least one.
 [[nodiscard]] AgreeingRests find_agreement(std::span<const Rest> rests,
                                            std::span<const std::optional<PlaneView>> views,
                                            const RestFitSetup& setup, std::span<const RestModel> starts);
 
-/// What the others leave of a wrong report of a rest unseen: covariance of the report's residuals, in units of the tracker's noise.
+/// The part of a report's errors that the other rests do not reveal: covariance of the report's residuals, in
+/// units of the tracker's noise.
 [[nodiscard]] PoseCovariance unexplained(const FittedRest& rest, const RestCovariance& covariance);
 
 } // namespace frustumscreen

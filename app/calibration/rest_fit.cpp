@@ -16,10 +16,10 @@ namespace {
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, rest_unknown_count>;
 using PoseRows = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 using Jet = ceres::Jet<double, rest_unknown_count>;
-/// Those of any projector, and that of the print.
+/// The priors of any projector and the print's prior.
 constexpr int rest_prior_count = prior_count + 1;
 
-/// Where the heights of a standing prop's bottom are taken, so that they tell its tilt.
+/// Places of the prop's bottom at which its height is a residual; three of them determine its tilt.
 const std::array<Eigen::Vector3d, 3> bottom_places{
     {{0.05, 0.0, 0.0}, {-0.025, 0.0433, 0.0}, {-0.025, -0.0433, 0.0}}};
 
@@ -37,7 +37,7 @@ template <typename T> std::array<T, rest_unknown_count> no_changes(bool differen
     return change;
 }
 
-/// Residuals of a rest before they are whitened, in the order of its rows.
+/// Residuals of a rest before whitening, in the order of its rows.
 template <typename T>
 Eigen::Matrix<T, Eigen::Dynamic, 1> raw_residuals(const ChangedRestModel<T>& model, const Rest& rest) {
     using Vector = Eigen::Matrix<T, 3, 1>;
@@ -61,7 +61,7 @@ Eigen::Matrix<T, Eigen::Dynamic, 1> raw_residuals(const ChangedRestModel<T>& mod
     return out;
 }
 
-/// How they change with an error of the tracker's report: shift and turn, in units of its noise.
+/// Derivatives of these residuals by an error of the tracker's report: shift and turn, in units of its noise.
 PoseRows pose_rows(const RestModel& model, const glm::dvec3& middle, const Rest& rest,
                    const RestNoise& noise) {
     using PoseJet = ceres::Jet<double, 6>;
@@ -98,7 +98,7 @@ PoseRows pose_rows(const RestModel& model, const glm::dvec3& middle, const Rest&
     return rows;
 }
 
-/// The variance of each residual of a rest, but for the tracker's part.
+/// The variance of each residual of a rest, without the tracker's part.
 Eigen::VectorXd own_variances(const Rest& rest, std::span<const double> weights, const RestNoise& noise) {
     Eigen::VectorXd variances = Eigen::VectorXd::Constant(row_count(rest), noise.block_m * noise.block_m);
     for (std::size_t k = 0; k < rest.points.size(); ++k) {
@@ -108,7 +108,7 @@ Eigen::VectorXd own_variances(const Rest& rest, std::span<const double> weights,
     return variances;
 }
 
-/// All residuals at a model with changes; the solver's idea of a function.
+/// All residuals at a changed model, as the solver's function type.
 struct RestResiduals {
     using Scalar = double;
     enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = rest_unknown_count };
@@ -157,7 +157,8 @@ private:
         }
         put_block<T>(rest, nullptr, residuals, from, put);
     }
-    /// Whitens numbers and derivatives apart: dense numbers, where a product of Jets would take ten times as long.
+    /// Whitens values and derivatives separately as dense matrices; a product of Jets takes ten times as
+    /// long.
     template <typename T, typename Put>
     static Eigen::Index put_block(const Eigen::Matrix<T, Eigen::Dynamic, 1>& raw,
                                   const Eigen::LLT<Eigen::MatrixXd>* covariance,
@@ -201,9 +202,9 @@ RestResiduals residuals_at(std::span<const Rest> rests, const RestWeights& weigh
     return residuals;
 }
 
-RestModel solved(const RestResiduals& residuals, int most_steps) {
+RestModel solved(const RestResiduals& residuals, int max_steps) {
     ceres::TinySolver<RestResiduals> solver;
-    solver.options.max_num_iterations = most_steps;
+    solver.options.max_num_iterations = max_steps;
     solver.options.function_tolerance = 1e-9;
     solver.options.gradient_tolerance = 1e-9;
     RestChanges change = RestChanges::Zero();
@@ -228,7 +229,7 @@ FittedRest fitted_rest(const RestResiduals& residuals, const RestWeights& weight
     return fitted;
 }
 
-/// What the fit is worth at its end.
+/// The result of a fit.
 RestFit measured(const RestResiduals& residuals, const RestWeights& weights) {
     Eigen::VectorXd all(residuals.count);
     Rows rows(residuals.count, static_cast<int>(rest_unknown_count));

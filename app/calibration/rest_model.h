@@ -1,4 +1,5 @@
-/// What rests determine: all that touches do, how the prop is turned in the sensor, and how large its tags were printed. Four unknowns more.
+/// The model that rests determine: that of touches, the prop's rotation in the sensor, and the print's scale.
+/// Four more unknowns.
 ///
 /// The touched place is the middle of the prop's bottom.
 /// Frames   as touch_model.h and unknowns.h have them.
@@ -15,9 +16,9 @@ namespace frustumscreen {
 struct RestModel {
     TouchModel touch;
     glm::dquat sensor_from_prop{1.0, 0.0, 0.0, 0.0};
-    double print = 1.0; ///< times as large as it should be, about the prop's axis
+    double print = 1.0; ///< scale of the printed sheet, about the prop's axis
 
-    /// Where a point truly is that was printed.
+    /// The true place of a printed point.
     [[nodiscard]] glm::dvec3 printed(const glm::dvec3& prop_point) const {
         return {print * prop_point.x, print * prop_point.y, prop_point.z};
     }
@@ -25,7 +26,7 @@ struct RestModel {
     [[nodiscard]] RigidTransform prop_in_sensor() const { return {sensor_from_prop, touch.sensor_offset_m}; }
 };
 
-/// After the touches' unknowns.
+/// Unknowns in addition to those of touches.
 enum RestUnknown {
     prop_turn_x = unknown_count, ///< of the prop, in the sensor's frame
     prop_turn_y,
@@ -37,7 +38,7 @@ enum RestUnknown {
 using RestChanges = Eigen::Matrix<double, rest_unknown_count, 1>;
 using RestCovariance = Eigen::Matrix<double, rest_unknown_count, rest_unknown_count>;
 
-/// A model with changes, ready to predict where points of the prop are.
+/// A changed model, ready to predict where points of the prop are.
 template <typename T> struct ChangedRestModel {
     using Vector = Eigen::Matrix<T, 3, 1>;
 
@@ -45,7 +46,7 @@ template <typename T> struct ChangedRestModel {
         : touch(base.touch, middle, change),
           turn(small_rotation(change[prop_turn_x], change[prop_turn_y], change[prop_turn_z]) *
                eigen(base.sensor_from_prop).cast<T>()) {
-        using std::exp; // a Jet's own is found beside it
+        using std::exp; // finds a Jet's own by argument lookup
         print = exp(change[print_log]) * base.print;
     }
 

@@ -9,7 +9,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// How the prop is turned in K by a model: its X axis lies where the light of it goes on its level, its Z axis up.
+/// The prop's rotation in K by a model: its X axis follows the light along the level, its Z axis is the
+/// table's normal.
 std::optional<Eigen::Matrix3d> prop_in_tracker(const TouchModel& model, const PlaneView& view,
                                                double block_m) {
     constexpr double reach_m = 0.03;
@@ -27,7 +28,7 @@ std::optional<Eigen::Matrix3d> prop_in_tracker(const TouchModel& model, const Pl
     return turn;
 }
 
-/// The rotation nearest to the sum of what each rest says.
+/// The rotation nearest to the sum of each rest's estimate.
 glm::dquat mean_turn(const TouchModel& model, std::span<const Rest> rests,
                      std::span<const std::optional<PlaneView>> views) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();

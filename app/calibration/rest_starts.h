@@ -1,4 +1,5 @@
-/// Where the fit of a model to rests begins: the touches' starts, for the middle of each rest's level as if it had been laid on its pixel.
+/// Starts of the fit to rests: the starts of touches, as if the middle of each rest's level had been laid on
+/// its pixel.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -11,11 +12,11 @@
 
 namespace frustumscreen {
 
-/// The rests on blocks as touches of their levels' middles; those that have a view.
+/// Rests on blocks that have a view, as touches of their levels' middles.
 [[nodiscard]] Touches as_touches(std::span<const Rest> rests,
                                  std::span<const std::optional<PlaneView>> views);
 
-/// `views`: of one rest on a block at least.
+/// `views`: at least one of a rest on a block.
 [[nodiscard]] std::vector<RestModel> starting_rest_models(std::span<const Rest> rests,
                                                           std::span<const std::optional<PlaneView>> views,
                                                           int width, int height);

@@ -1,6 +1,8 @@
-/// What may have moved since a table was calibrated, as six unknowns: the projector, or the tracker's source with all that it reports.
+/// The move of the projector, or of the tracker's source with all that it reports, since a table was
+/// calibrated: six unknowns.
 ///
-/// Frames   the move is in the tracker's frame K, about a place in it: of the source, or as seen from it of the projector.
+/// Frames   The move is in the tracker's frame K, about a place in it: of the source, or of the projector
+///          relative to it.
 /// Units    metres, radians.
 /// Threads  pure; any.
 #pragma once
@@ -12,7 +14,7 @@
 
 namespace frustumscreen {
 
-/// Either: both explain the touches; for the picture on the prop it is the same.
+/// Either: both moves explain the touches and correct the picture alike.
 enum class Moved { Nothing, Projector, Tracker, Either };
 [[nodiscard]] std::string_view name_of(Moved moved);
 
@@ -20,19 +22,19 @@ enum class Moved { Nothing, Projector, Tracker, Either };
 using RigidMove = Eigen::Matrix<double, 6, 1>;
 using ByRigidMove = Eigen::Matrix<double, unknown_count, 6>;
 
-/// Standard deviations before anything was touched: a bump, no new set-up.
+/// Standard deviations of the prior: a bump, not a new set-up.
 inline constexpr double usual_turn_rad = 0.026; // one degree and a half
 inline constexpr double usual_shift_m = 0.03;
-/// One over their squares.
+/// Inverse variances of the prior.
 [[nodiscard]] RigidMove usual_move_weights();
-/// The kept table is itself off by about this much: what touches tell of it beyond the touches' own noise.
+/// Error of the kept table itself, in addition to the touches' noise.
 inline constexpr double kept_error_m = 6e-4;
 
 [[nodiscard]] TouchModel model_of(const CalibratedTable& table);
-/// `which`: the projector, or the tracker, whose source takes the table along in its frame.
+/// `which`: the projector, or the tracker; the table moves with the tracker's source in its frame.
 [[nodiscard]] TouchModel moved_model(const TouchModel& kept, Moved which, const RigidMove& move,
                                      const glm::dvec3& middle);
-/// How the model's unknowns change with a move.
+/// Derivatives of the model's unknowns by a move.
 [[nodiscard]] ByRigidMove by_move(const TouchModel& model, Moved which);
 
 } // namespace frustumscreen

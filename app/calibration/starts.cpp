@@ -34,10 +34,10 @@ template <typename Value> Eigen::Vector4d affine(std::span<const Touch> touches,
     return found;
 }
 
-/// Below, heights hardly change with places.
-constexpr double least_slope = 0.05;
+/// Below this slope, heights do not depend on places.
+constexpr double min_slope = 0.05;
 
-/// The table's side of a start: which way is up, and how high the sensors are.
+/// The table in a start: the up direction, and the plane's offset.
 struct TableStart {
     glm::dvec3 up;
     double offset_m;
@@ -46,10 +46,11 @@ struct TableStart {
 TableStart table_start(std::span<const Touch> touches) {
     const HeightFit heights = fit_heights(touches);
     const double length = glm::length(heights.up);
-    if (length > least_slope) {
+    if (length > min_slope) {
         return TableStart{heights.up / length, heights.offset_m};
     }
-    // All at one height: the places lie in a plane, and of its sides that is up from which the picture is not mirrored.
+    // All touches are at one height: the places lie in a plane, and up is the side from which the picture is
+    // not mirrored.
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(places(touches).leftCols<3>(), Eigen::ComputeFullV);
     const PixelFit pixels = fit_pixels(touches);
     glm::dvec3 up = glm_vector(svd.matrixV().col(2));
@@ -77,7 +78,7 @@ TouchModel straight_down(const TableStart& table, const PixelFit& pixels, const 
     return model;
 }
 
-/// The camera matrix of scaled points and pixels: the direction that the equations determine least.
+/// The camera matrix of scaled points and pixels: the equations' least singular vector.
 Eigen::Matrix<double, 3, 4> camera_matrix(std::span<const Touch> touches, int width) {
     const Eigen::MatrixX4d rows = places(touches);
     const double reach = rows.leftCols<3>().rowwise().norm().mean();
@@ -104,7 +105,7 @@ Eigen::Matrix<double, 3, 4> camera_matrix(std::span<const Touch> touches, int wi
     return pixel_from_scaled * p * scaled_from_point;
 }
 
-/// Projector and pose of a camera matrix; nothing where it is none that could stand above a table.
+/// Projector and pose of a camera matrix; nothing if no projector above a table has that matrix.
 std::optional<TouchModel> decomposed(Eigen::Matrix<double, 3, 4> p, const TableStart& table,
                                      const glm::dvec3& middle, int width, int height) {
     Eigen::Vector4d at_middle;
@@ -116,7 +117,7 @@ std::optional<TouchModel> decomposed(Eigen::Matrix<double, 3, 4> p, const TableS
     if (!(m.determinant() > 0.0)) {
         return std::nullopt;
     }
-    // m = intrinsics * rotation, by Cholesky: m mT = k kT, turned over so that k is an upper triangle.
+    // m = intrinsics * rotation, by a reversed Cholesky factorisation: m mT = k kT with upper triangular k.
     const Eigen::Matrix3d square = m * m.transpose() / m.row(2).squaredNorm();
     const double cx = square(0, 2);
     const double cy = square(1, 2);

@@ -1,7 +1,8 @@
-/// Where the fit of a model to touches begins: rough models, of which the best one after the fit counts.
+/// Starts of the fit to touches: rough models, of which the one with the best fit counts.
 ///
-/// By the direct linear transformation, if the touches determine one; and by projectors that look straight down, of several throws.
-/// Both take the sensor for the touched place: the fit finds how far it is off.
+/// They come from the direct linear transformation, if the touches determine one, and from projectors at
+/// several throws that look straight down. Both equate the sensor with the touched place: the fit finds the
+/// offset.
 /// Threads  pure; any.
 /// Source   Hartley, In defense of the eight-point algorithm, 1997 (the scaling); Hartley and Zisserman, Multiple view
 ///          geometry, 2004, 6.1 and 7.1 (camera matrix from points)
@@ -14,7 +15,8 @@
 
 namespace frustumscreen {
 
-/// Least squares: height above the table = dot(up, x) + offset. `up` is not made a unit: its length tells units apart.
+/// Least squares: height above the table = dot(up, x) + offset. `up` is not normalised: its length reveals
+/// wrong units.
 struct HeightFit {
     glm::dvec3 up{0.0};
     double offset_m = 0.0;
@@ -28,10 +30,10 @@ struct PixelFit {
 };
 [[nodiscard]] PixelFit fit_pixels(std::span<const Touch> touches);
 
-/// Where all touches are at one height, up is square to it.
+/// If all touches are at one height, `up` is normal to their plane.
 [[nodiscard]] std::vector<TouchModel> starting_models(std::span<const Touch> touches, int width, int height);
 
-/// The one of them that looks straight down, with a focal length in pixels.
+/// The start that looks straight down, with a focal length in pixels.
 [[nodiscard]] TouchModel start_with(std::span<const Touch> touches, int width, int height, double focal_px);
 
 } // namespace frustumscreen

@@ -10,17 +10,18 @@ namespace frustumscreen {
 
 namespace {
 
-/// The white rim around a tag belongs to its plane; what is farther out may not.
+/// The white rim around a tag lies in its plane; the surroundings may not.
 constexpr double reach = 1.15;
-/// Share of the contrast of the tag's white.
-constexpr double least_white = 0.75;
-constexpr std::size_t least_pixels = 60;
-/// A decoded pixel that is so many times as far off as most is wrong.
+/// Share of the contrast on the tag's white.
+constexpr double min_white = 0.75;
+constexpr std::size_t min_pixels = 60;
+/// A decoded pixel whose residual is so many times the median is wrong.
 constexpr double farthest = 4.0;
 
 using Points = std::vector<Eigen::Vector2d>;
 
-/// Decoded pixels on white in a quadrilateral: the camera's, and the projector's. On black, and on its edge, the light of white beside it tells.
+/// Decoded pixels on white inside a quadrilateral: the camera's, and the projector's. Pixels on black, and on
+/// its edge, are dominated by light from the white beside them.
 std::pair<Points, Points> decoded_in(const PixelMap& map, const std::array<glm::dvec2, 4>& corners) {
     std::vector<std::pair<glm::dvec2, std::size_t>> inside;
     std::vector<std::uint8_t> contrasts;
@@ -34,7 +35,7 @@ std::pair<Points, Points> decoded_in(const PixelMap& map, const std::array<glm::
     const double white = contrasts.empty() ? 0.0 : contrasts[contrasts.size() * 9 / 10];
     std::pair<Points, Points> points;
     for (const auto& [place, k] : inside) {
-        if (map.contrast[k] > least_white * white) {
+        if (map.contrast[k] > min_white * white) {
             points.first.emplace_back(place.x, place.y);
             points.second.emplace_back(map.pixels[k].x, map.pixels[k].y);
         }
@@ -42,7 +43,7 @@ std::pair<Points, Points> decoded_in(const PixelMap& map, const std::array<glm::
     return points;
 }
 
-/// Those whose pixel is within a few medians of what the homography says.
+/// The points whose residual against the homography is within a few medians.
 std::pair<Points, Points> believed(const std::pair<Points, Points>& points, const Eigen::Matrix3d& map) {
     std::vector<double> off;
     for (std::size_t k = 0; k < points.first.size(); ++k) {
@@ -73,7 +74,7 @@ std::optional<std::array<glm::dvec2, 4>> tag_pixels(const PixelMap& map,
     std::pair<Points, Points> points = decoded_in(map, around);
     std::optional<Eigen::Matrix3d> pixel_from_camera;
     for (int round = 0; round < 3; ++round) {
-        if (points.first.size() < least_pixels) {
+        if (points.first.size() < min_pixels) {
             return std::nullopt;
         }
         pixel_from_camera = homography(points.first, points.second);

@@ -1,7 +1,8 @@
-/// The projector's pixels at the corners of a tag, from what was decoded all over it.
+/// The projector's pixels at a tag's corners, from the pixels decoded all over the tag.
 ///
-/// A tag is flat, so that over it the projector's pixel follows the camera's by a homography, whatever the two lenses do at large. It is fitted to some
-/// hundred decoded pixels: their noise nearly vanishes, and corners on black print, which decode badly, need not be decoded themselves.
+/// A tag is flat, so a homography maps the camera's pixels on it to the projector's, whatever the distortion
+/// of the two lenses. It is fitted to some hundred decoded pixels, which averages their noise. Corners on
+/// black print, which decode badly, need no decoding.
 /// Threads  pure; any.
 #pragma once
 
@@ -11,7 +12,8 @@
 
 namespace frustumscreen {
 
-/// `corners`: in the camera's picture, around the tag. Nothing, if too little around there is decoded.
+/// `corners`: of the tag in the camera's picture, in order around it. Nothing if too few pixels there are
+/// decoded.
 [[nodiscard]] std::optional<std::array<glm::dvec2, 4>> tag_pixels(const PixelMap& map,
                                                                   const std::array<glm::dvec2, 4>& corners);
 

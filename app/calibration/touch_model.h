@@ -1,6 +1,7 @@
-/// What touches determine: the projector, the table and the sensor in the prop, as the tracker's frame has them.
+/// The model that touches determine: the projector, the table and the sensor's offset in the prop, in the
+/// tracker's frame.
 ///
-/// Frames   K, the tracker's own; J, the projector's. calibrated_table.h takes it into the table's frame.
+/// Frames   K, the tracker's own; J, the projector's. calibrated_table.h converts it to the table's frame.
 /// Units    metres, pixels.
 /// Threads  values; any.
 #pragma once
@@ -16,9 +17,9 @@ struct TouchModel {
     glm::dvec3 sensor_offset_m{0.0};    ///< the touched place in the sensor's frame
     glm::dvec3 table_up{0.0, 0.0, 1.0}; ///< unit, in K
     double table_offset_m = 0.0;        ///< height above the table = dot(table_up, x) + table_offset_m
-    double boards = 1.0;                ///< the boards' true height over the one that was given
+    double boards = 1.0;                ///< true over given height of the boards
 
-    /// The true height of what lies on boards that are said to be so high.
+    /// True height of boards of nominal height `block_m`.
     [[nodiscard]] double raised(double block_m) const { return boards * block_m; }
 
     [[nodiscard]] glm::dvec3 touched(const RigidTransform& tracker_from_sensor) const {
@@ -30,7 +31,7 @@ struct TouchModel {
     [[nodiscard]] std::optional<glm::dvec2> pixel(const glm::dvec3& tracker_point) const {
         return pinhole.pixel(projector_from_tracker.point(tracker_point));
     }
-    /// Where the light of a pixel is at a height above the table; nothing if it does not come down there.
+    /// Where a pixel's light falls at a height above the table; nothing if it does not reach that height.
     [[nodiscard]] std::optional<glm::dvec3> lit(const glm::dvec2& pixel, double height_m) const;
 };
 

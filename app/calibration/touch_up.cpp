@@ -16,10 +16,11 @@ namespace frustumscreen {
 
 namespace {
 
-/// With few touches what a wrong one hides must stay within what the verdict promises: few check each other, and all are believed.
+/// Limits for few touches. They check each other little, and all of them count, so an unnoticed error must
+/// stay within what the verdict promises.
 constexpr PictureLimits few_good{for_good.mean_m, for_good.worst_m, 5e-3};
 constexpr PictureLimits few_usable{for_usable.mean_m, for_usable.worst_m, 8e-3};
-/// Chi squared by which one explanation must beat the other to be named: odds of twenty to one.
+/// Least difference of chi squared that names one explanation: likelihood ratio 20.
 constexpr double apart = 6.0;
 
 struct Explanation {
@@ -43,7 +44,7 @@ Explanation explained(std::span<const Touch> touches, const FitSetup& setup, con
     const RigidMove weights = usual_move_weights();
     RigidMove move = RigidMove::Zero();
     Explanation out;
-    constexpr int steps = 12; // Gauss and Newton's; a few are enough from so near
+    constexpr int steps = 12; // Gauss-Newton steps; few are needed from so near
     for (int step = 0; step <= steps; ++step) {
         out.model = moved_model(kept, which, move, middle);
         const WhitenedTouches seen = whitened_touches(touches, setup, out.model, middle);
@@ -82,7 +83,7 @@ std::vector<TouchResidual> residuals_at(const TouchModel& model, std::span<const
     return residuals;
 }
 
-/// What the other touches say of each, by the same explanation.
+/// Leave-one-out residual of each touch, for the same explanation.
 std::vector<TouchResidual> left_out(std::span<const Touch> touches, const FitSetup& noise,
                                     const TouchModel& kept, Moved which) {
     std::vector<TouchResidual> residuals;
@@ -95,7 +96,8 @@ std::vector<TouchResidual> left_out(std::span<const Touch> touches, const FitSet
     return residuals;
 }
 
-/// Where the kept table put the light of the zone's places, beside where they are.
+/// Mean distance over the zone between the light that the kept table chooses and the place that it means to
+/// light.
 double off_by(const TouchModel& kept, const TouchModel& now, std::span<const ZonePlace> places) {
     double sum = 0.0;
     double count = 0.0;
@@ -121,7 +123,7 @@ std::string what_moved(Moved moved) {
     }
 }
 
-/// Where nothing moved all equations check each other; but few touches would not have shown a small move.
+/// If nothing moved, all equations check each other; but a few touches do not reveal a small move.
 void judge_unmoved(TouchUp& result) {
     if (result.uncertainty.mean_m <= for_good.mean_m) {
         result.verdict = Verdict::Good;
@@ -161,7 +163,7 @@ std::vector<ZonePlace> zone_of(const TouchModel& model, std::span<const Touch> t
                        {top_m, touches[static_cast<std::size_t>(some)].tracker_from_sensor.rotation});
 }
 
-/// The kept table, corrected by what moved.
+/// The kept table, corrected for the move.
 CalibratedTable corrected(const CalibratedTable& kept, const Explanation& best, bool by_tracker) {
     CalibratedTable table = kept;
     if (by_tracker) {
@@ -208,7 +210,7 @@ TouchUp touch_up(const CalibratedTable& kept, std::span<const Touch> touches, co
     }
     result.residuals = something
                            ? left_out(touches, noise, before, by_tracker ? Moved::Tracker : Moved::Projector)
-                           : residuals_at(before, touches); // which knows none of them
+                           : residuals_at(before, touches); // the kept table is independent of the touches
     judge(result);
     return result;
 }

@@ -1,7 +1,9 @@
-/// The 19 unknowns of a calibration by touch, as small changes of a model: what the solver moves, and what covariances are of.
+/// The 19 unknowns of a calibration by touch, as small changes of a model. The solver changes them, and
+/// covariances refer to them.
 ///
-/// Each is near 1 in size where it matters: shares of the focal length and of the picture's width, radians, metres. Turns are about the touches'
-/// middle, so that where the tracker's origin is does not matter to the arithmetic.
+/// They are scaled to magnitudes near 1: shares of the focal length and of the picture's width, radians,
+/// metres. Rotations are about the touches' middle, so the arithmetic does not depend on the tracker's
+/// origin.
 /// Numbers  templates over T: double, or numbers that carry derivatives (ceres::Jet).
 /// Threads  values; any.
 #pragma once
@@ -32,14 +34,14 @@ enum Unknown {
     tilt_a,
     tilt_b, ///< of the table, about two axes in it
     table_height,
-    boards_share, ///< by which the boards are higher than they are said to be
+    boards_share, ///< relative excess of the boards' true height
     unknown_count
 };
 
 using Changes = Eigen::Matrix<double, unknown_count, 1>;
 using Covariance = Eigen::Matrix<double, unknown_count, unknown_count>;
 
-/// A model with changes, ready to predict what a touch reports.
+/// A changed model, ready to predict what a touch reports.
 template <typename T> struct ChangedModel {
     using Vector = Eigen::Matrix<T, 3, 1>;
     using Matrix = Eigen::Matrix<T, 3, 3>;
@@ -48,7 +50,8 @@ template <typename T> struct ChangedModel {
     ChangedModel(const TouchModel& base, const glm::dvec3& middle, const T* change);
 
     [[nodiscard]] Vector touched(const Touch& touch) const;
-    /// Pixel and height of a point in K; the depth is kept positive, so that a start that lies behind the projector has a value.
+    /// Pixel and height of a point in K. The depth is kept positive, so that a start behind the projector has
+    /// a value.
     [[nodiscard]] Vector pixel_and_height(const Vector& tracker_point) const;
 
     T fx, fy, cx, cy, k1, k2;
@@ -74,7 +77,8 @@ template <typename T> struct ChangedModel {
     return {v.x(), v.y(), v.z()};
 }
 
-/// The rotation by a vector, exact to second order, then made a rotation by Cayley's formula: smooth at zero, where derivatives are taken.
+/// The rotation by a vector, exact to second order, made orthogonal by Cayley's formula: smooth at zero,
+/// where derivatives are taken.
 template <typename T> Eigen::Matrix<T, 3, 3> small_rotation(const T& x, const T& y, const T& z) {
     // The quaternion (1, v / 2), normalised.
     const T a = x * 0.5;
@@ -88,7 +92,7 @@ template <typename T> Eigen::Matrix<T, 3, 3> small_rotation(const T& x, const T&
     return r;
 }
 
-/// Two axes in the table, square to its normal and to one another.
+/// Two orthogonal unit axes in the table's plane.
 [[nodiscard]] Eigen::Matrix<double, 3, 2> table_axes(const glm::dvec3& up);
 
 template <typename T>
@@ -133,7 +137,7 @@ template <typename T> auto ChangedModel<T>::pixel_and_height(const Vector& track
     return Vector(fx * x * factor + cx, fy * y * factor + cy, up.dot(from_middle) + middle_height);
 }
 
-/// The model with changes in it.
+/// The model with the changes applied.
 [[nodiscard]] TouchModel changed(const TouchModel& base, const glm::dvec3& middle, const Changes& change);
 
 } // namespace frustumscreen

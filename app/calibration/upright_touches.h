@@ -1,4 +1,4 @@
-/// The touches in which the prop stands as in most of them; in the others it lies on a side.
+/// Finds the touches in which the prop stands as in most of them; in the others it lies on a side.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace frustumscreen {
 
-/// `up`: the table's, in K; it lies alike in the frames of the sensors that are upright. One answer for each touch.
+/// `up`: the table's normal in K. Upright sensors see it in the same direction. One answer per touch.
 [[nodiscard]] std::vector<bool> upright_ones(std::span<const Touch> touches, const glm::dvec3& up);
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-/// What a technician is told of a calibration.
+/// The verdict on a calibration, for a technician.
 ///
 /// Threads  values; any.
 #pragma once
@@ -8,10 +8,10 @@
 namespace frustumscreen {
 
 enum class Verdict {
-    Good,    ///< as well as it gets
-    Usable,  ///< visitors will hardly notice what is left
-    Repeat,  ///< not yet: some points are to be done again, or more of them
-    Refused, ///< these points say nothing; the reason says why
+    Good,    ///< as accurate as possible
+    Usable,  ///< visitors will hardly notice the remaining error
+    Repeat,  ///< some points must be repeated, or more are needed
+    Refused, ///< the points determine nothing; the reason says why
 };
 [[nodiscard]] std::string_view name_of(Verdict verdict);
 

@@ -17,10 +17,10 @@ namespace fs = std::filesystem;
 constexpr std::string_view undated_name = "undated.json";
 constexpr std::string_view day_form = "2026-11-27";
 constexpr std::string_view ending = ".json";
-constexpr std::uintmax_t most_bytes = 1U << 20U;
-constexpr int most_put_aside = 100; ///< of one day
+constexpr std::uintmax_t max_bytes = 1U << 20U;
+constexpr int max_put_aside = 100; ///< of one day
 
-/// The day that a file's name begins with.
+/// The day at the beginning of a file's name.
 std::optional<std::chrono::sys_days> day_of(const fs::path& file) {
     return parse_day(file.filename().string().substr(0, day_form.size()));
 }
@@ -31,7 +31,7 @@ bool is_counts(const fs::path& file) {
 }
 
 Result<DayCounts> read_day(const fs::path& file) {
-    TRY(const Bytes bytes, read_file(file, most_bytes));
+    TRY(const Bytes bytes, read_file(file, max_bytes));
     Result<DayCounts> counts = at(file.string(), parse_day_counts(as_text(bytes)));
     if (counts && file.filename() != undated_name && counts->day != day_of(file)) {
         return bad_input("counts.other_day", "{}: its numbers are not of the day in its name", file.string());
@@ -39,9 +39,9 @@ Result<DayCounts> read_day(const fs::path& file) {
     return counts;
 }
 
-/// Returns the name that it has now.
+/// Returns the file's new name.
 Result<fs::path> put_aside(const fs::path& file) {
-    for (int k = 1; k <= most_put_aside; ++k) {
+    for (int k = 1; k <= max_put_aside; ++k) {
         fs::path aside = file;
         aside += k == 1 ? ".bad" : fmt::format(".{}.bad", k);
         std::error_code failed;
@@ -56,7 +56,7 @@ Result<fs::path> put_aside(const fs::path& file) {
                          file.string(), failed.message());
     }
     return bad_input("counts.much_damage", "{}: it is damaged, and so were {} before it; look at the disk",
-                     file.string(), most_put_aside);
+                     file.string(), max_put_aside);
 }
 
 } // namespace
@@ -73,7 +73,7 @@ Result<OpenedDay> open_day(const fs::path& folder, std::optional<std::chrono::sy
     if (!fs::exists(file, missing)) {
         return opened;
     }
-    TRY_VOID(without_value(read_file(file, most_bytes))); // what cannot be read now may be whole
+    TRY_VOID(without_value(read_file(file, max_bytes))); // a file that cannot be read now may be undamaged
     Result<DayCounts> counts = read_day(file);
     if (counts) {
         opened.counts = *std::move(counts);
@@ -99,7 +99,7 @@ void drop_old_days(const fs::path& folder) {
             files[*day].push_back(entry->path());
         }
     }
-    while (files.size() > most_days) {
+    while (files.size() > max_days) {
         for (const fs::path& file : files.begin()->second) {
             fs::remove(file, stop);
         }

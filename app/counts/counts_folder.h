@@ -1,8 +1,10 @@
-/// The folder that the numbers are kept in: a file for each day, `2026-11-27.json`, and `undated.json` for the time while the clock was wrong.
+/// The folder of the visits' numbers: a file for each day, `2026-11-27.json`, and `undated.json` for times with a
+/// wrong clock.
 ///
-/// Power    a file is replaced by one rename, after its bytes are on the disk: the old numbers or the new ones.
-/// Damage   a file that cannot be read is renamed to `....bad`, and never written over.
-/// Kept     the latest `most_days` days that have a file.
+/// Power    a file is replaced by one rename, after its bytes are on the disk: a power cut leaves the old numbers
+///          or the new ones.
+/// Damage   a file that cannot be read is renamed to `....bad`, and never overwritten.
+/// Kept     the latest `max_days` days that have a file.
 /// Threads  any, never in a frame.
 /// Errors   one sentence.
 #pragma once
@@ -16,20 +18,20 @@
 
 namespace frustumscreen {
 
-inline constexpr std::size_t most_days = 400;
+inline constexpr std::size_t max_days = 400;
 
 [[nodiscard]] std::filesystem::path file_of_day(const std::filesystem::path& folder,
                                                 std::optional<std::chrono::sys_days> day);
 
 struct OpenedDay {
-    DayCounts counts;    ///< none, where the file is missing or damaged
-    std::string trouble; ///< a sentence: a damaged file was put aside; empty: all is well
+    DayCounts counts;    ///< empty if the file is missing or damaged
+    std::string trouble; ///< a sentence: a damaged file was put aside; empty: no trouble
 };
-/// To go on with a day. Errors: the file is damaged, and cannot be put aside; or it cannot be read now.
+/// Opens a day to add to it. Errors: the file is damaged and cannot be put aside, or it cannot be read now.
 [[nodiscard]] Result<OpenedDay> open_day(const std::filesystem::path& folder,
                                          std::optional<std::chrono::sys_days> day);
 [[nodiscard]] Result<void> keep_day(const std::filesystem::path& folder, const DayCounts& counts);
-/// Removes the files of the oldest days beyond `most_days`, those that were put aside too.
+/// Removes the files of the oldest days beyond `max_days`, including those that were put aside.
 void drop_old_days(const std::filesystem::path& folder);
 
 struct ReadCounts {
@@ -37,7 +39,7 @@ struct ReadCounts {
     DayCounts undated;
     std::vector<std::string> trouble; ///< a sentence for each file that cannot be read
 };
-/// Only reads. Errors: there is no such folder, or it cannot be read.
+/// Only reads. Errors: the folder is missing, or cannot be read.
 [[nodiscard]] Result<ReadCounts> read_counts(const std::filesystem::path& folder);
 
 } // namespace frustumscreen

@@ -18,20 +18,20 @@ using std::chrono::sys_days;
 
 constexpr double width = 1200.0;
 constexpr double margin = 56.0;
-constexpr double grid_left = margin + 46.0; ///< beside the hours' names
+constexpr double grid_left = margin + 46.0; ///< right of the hours' names
 constexpr double hour_bars = 150.0;         ///< right of the grid
 constexpr double gap = 24.0;
 constexpr double row_height = 22.0;
 constexpr double widest_column = 26.0;
 constexpr double day_bars = 80.0; ///< above the grid
 constexpr double list_row = 26.0;
-constexpr std::size_t most_artifacts = 12, most_languages = 8;
+constexpr std::size_t max_artifacts = 12, max_languages = 8;
 
 constexpr const char* ink = "#1f2a2e";
 constexpr const char* quiet_ink = "#66757a";
 constexpr const char* hairline = "#d5dcdd";
 constexpr const char* bar_colour = "#2a7f86";
-/// One hue from light to dark, so that it reads in grey print, too.
+/// One hue from light to dark, so that it is legible in grey print too.
 constexpr std::array<std::array<double, 3>, 3> ramp{{{226, 240, 239}, {84, 165, 168}, {8, 64, 74}}};
 
 constexpr std::array<const char*, 12> months{"January",   "February", "March",    "April",
@@ -55,7 +55,7 @@ std::string day_words(sys_days day) {
                        months.at(static_cast<unsigned>(date.month()) - 1), static_cast<int>(date.year()));
 }
 
-/// Characters, as far as a list's column needs to know.
+/// Cuts a name to `most` characters, counted well enough for a list's column.
 std::string shortened(const std::string& name, std::size_t most) {
     std::string text;
     std::size_t characters = 0;
@@ -106,11 +106,11 @@ private:
     std::string body_;
 };
 
-/// Which days and hours the grid shows, and where.
+/// The days and hours of the grid, and its place.
 struct Grid {
     sys_days first;
     std::size_t days = 1;
-    std::size_t from_hour = 9, to_hour = 18; ///< the last one's end
+    std::size_t from_hour = 9, to_hour = 18; ///< `to_hour`: the end of the last one
     double column = 0.0, top = 0.0;
 
     Grid(const CountsSummary& summary, double grid_top) : first(summary.first), top(grid_top) {
@@ -159,7 +159,7 @@ void draw_figures(Sheet& sheet, const CountsSummary& summary) {
     }
 }
 
-/// Names of months, and of days where there is room for them.
+/// Draws names of months, and of days if there is room for them.
 void draw_days(Sheet& sheet, const Grid& grid) {
     double free_from = 0.0;
     const bool names_days = grid.column > 4.0;
@@ -216,39 +216,39 @@ void draw_legend(Sheet& sheet, Place at, std::uint64_t most) {
 }
 
 void draw_grid(Sheet& sheet, const Grid& grid, const std::vector<DayCounts>& days) {
-    std::uint64_t most_an_hour = 1;
-    std::uint64_t most_a_day = 1;
+    std::uint64_t max_per_hour = 1;
+    std::uint64_t max_per_day = 1;
     for (const DayCounts& day : days) {
-        most_a_day = std::max(most_a_day, day.all().visits);
+        max_per_day = std::max(max_per_day, day.all().visits);
         for (const Tally& hour : day.hours) {
-            most_an_hour = std::max(most_an_hour, hour.visits);
+            max_per_hour = std::max(max_per_hour, hour.visits);
         }
     }
     sheet.text({grid_left, grid.top - day_bars - 22}, "Each day and each hour", 16, ink, "start", true);
-    sheet.text({grid_left - 8, grid.top - day_bars + 4}, grouped(most_a_day), 11, quiet_ink, "end");
+    sheet.text({grid_left - 8, grid.top - day_bars + 4}, grouped(max_per_day), 11, quiet_ink, "end");
     sheet.text({grid_left - 8, grid.top - 8}, "visits", 11, quiet_ink, "end");
     sheet.line({grid_left, grid.top - day_bars}, {grid.right(), grid.top - day_bars});
     for (const DayCounts& day : days) {
         const double x = grid.x(*day.day);
         const std::uint64_t visits = day.all().visits;
-        const double high = (day_bars - 6.0) * static_cast<double>(visits) / static_cast<double>(most_a_day);
+        const double high = (day_bars - 6.0) * static_cast<double>(visits) / static_cast<double>(max_per_day);
         sheet.rectangle({x, grid.top - 6 - high}, grid.cell(), high, bar_colour,
                         fmt::format("{}: {} visits, {:.0f} minutes", text_of_day(*day.day), visits,
                                     minutes_of(day.all())));
         for (std::size_t hour = grid.from_hour; hour < grid.to_hour; ++hour) {
             const std::uint64_t count = day.hours.at(hour).visits;
-            const double share = most_an_hour > 1 ? (static_cast<double>(count) - 1.0) /
-                                                        (static_cast<double>(most_an_hour) - 1.0)
+            const double share = max_per_hour > 1 ? (static_cast<double>(count) - 1.0) /
+                                                        (static_cast<double>(max_per_hour) - 1.0)
                                                   : 1.0;
             sheet.rectangle({x, grid.y(hour)}, grid.cell(), row_height - 1,
                             count == 0 ? "#f4f6f6" : colour_of(share),
                             fmt::format("{}, {}:00: {} visits", text_of_day(*day.day), hour, count));
         }
     }
-    draw_legend(sheet, {width - margin - 170, grid.top - day_bars - 32}, most_an_hour);
+    draw_legend(sheet, {width - margin - 170, grid.top - day_bars - 32}, max_per_hour);
 }
 
-/// `names`: the room for them. Returns where it ends.
+/// `names`: width for the names. Returns the list's lower end.
 double draw_list(Sheet& sheet, Place at, double wide, double names, const char* title,
                  const std::vector<NamedTally>& all, std::size_t most) {
     sheet.text(at, title, 16, ink, "start", true);
@@ -293,9 +293,9 @@ std::string counts_plot(const std::vector<DayCounts>& days) {
     const double half = 0.5 * (width - 2.0 * margin);
     const double artifacts_end =
         draw_list(sheet, {margin, lists}, 1.2 * half, 290.0, "How long each artifact was shown to visitors",
-                  summary.artifacts, most_artifacts);
+                  summary.artifacts, max_artifacts);
     const double languages_end = draw_list(sheet, {margin + 1.26 * half, lists}, 0.74 * half, 90.0,
-                                           "In which language", summary.languages, most_languages);
+                                           "In which language", summary.languages, max_languages);
     const double end = std::max(artifacts_end, languages_end) + 34.0;
     sheet.text(
         {margin, end},

@@ -1,5 +1,5 @@
-/// The numbers of visits as one picture, SVG: hours against days, what each hour and each day adds up to, and how long each artifact and each
-/// language was shown.
+/// The numbers of visits as one SVG picture: hours against days, the totals of each hour and each day, and how long
+/// each artifact and each language was shown.
 ///
 /// Frame    CSS pixels, origin at the top left; 1200 wide.
 /// Threads  pure; any.
@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// `days` ascending; a day that is not among them has no numbers, and stays blank.
+/// `days` is ascending; a missing day has no numbers and stays blank.
 [[nodiscard]] std::string counts_plot(const std::vector<DayCounts>& days);
 
 } // namespace frustumscreen

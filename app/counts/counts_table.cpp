@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_lines = 12; ///< of artifacts, and of languages
+constexpr std::size_t max_lines = 12; ///< of artifacts, and of languages
 constexpr std::array<const char*, 7> weekday_names{"Monday", "Tuesday",  "Wednesday", "Thursday",
                                                    "Friday", "Saturday", "Sunday"};
 
@@ -33,7 +33,7 @@ std::vector<NamedTally> ranked(const Tallies& tallies) {
     return all;
 }
 
-/// A text that begins like a formula is none in a spreadsheet.
+/// Quotes a text; a text that begins like a formula must not become one in a spreadsheet.
 std::string csv_field(const std::string& text) {
     std::string quoted = "\"";
     if (!text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos) {
@@ -66,15 +66,15 @@ void add_rows(std::string& csv, const DayCounts& counts) {
 
 void add_list(std::string& text, const char* title, const std::vector<NamedTally>& all) {
     fmt::format_to(std::back_inserter(text), "\n{:<44} {:>9} {:>9}\n", title, "minutes", "visits");
-    for (std::size_t k = 0; k < std::min(all.size(), most_lines); ++k) {
+    for (std::size_t k = 0; k < std::min(all.size(), max_lines); ++k) {
         fmt::format_to(std::back_inserter(text), "{:<44} {:>9} {:>9}\n",
                        all[k].name.empty() ? "(none)" : all[k].name,
                        grouped(static_cast<std::uint64_t>(minutes_of(all[k].tally) + 0.5)),
                        grouped(all[k].tally.visits));
     }
-    if (all.size() > most_lines) {
+    if (all.size() > max_lines) {
         fmt::format_to(std::back_inserter(text), "and {} more; --csv and --json have all\n",
-                       all.size() - most_lines);
+                       all.size() - max_lines);
     }
 }
 

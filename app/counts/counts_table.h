@@ -1,4 +1,4 @@
-/// The numbers of visits as a curator reads them: summed, as a table for a spreadsheet, as JSON.
+/// The numbers of visits for a curator: summed, as a table for a spreadsheet, as JSON.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -18,21 +18,21 @@ struct NamedTally {
 };
 
 struct CountsSummary {
-    std::chrono::sys_days first{}, last{}; ///< with numbers
-    std::size_t days = 0;                  ///< with numbers; 0: there are none
+    std::chrono::sys_days first{}, last{}; ///< that have numbers
+    std::size_t days = 0;                  ///< that have numbers; 0: none
     Tally all;
     std::array<Tally, 24> hours{};
     std::array<Tally, 7> weekdays{};              ///< from Monday
-    std::array<std::size_t, 7> days_of_weekday{}; ///< with numbers
+    std::array<std::size_t, 7> days_of_weekday{}; ///< that have numbers
     std::vector<NamedTally> artifacts, languages; ///< the longest shown first
 };
-/// Dates of the days; counts of a time at which the clock was wrong have none.
+/// Uses only the days with a date; counts taken while the clock was wrong have none.
 [[nodiscard]] CountsSummary summary_of(const std::vector<DayCounts>& days);
 
 /// A text of some lines.
 [[nodiscard]] std::string counts_text(const ReadCounts& counts);
-/// CSV: day,kind,name,visits,minutes. `kind`: hour, artifact or language; `name`: 0 to 23, its title, its tag. `day` is empty for what was
-/// counted while the clock was wrong.
+/// CSV: day,kind,name,visits,minutes. `kind`: hour, artifact or language; `name`: 0 to 23, its title, its tag.
+/// `day` is empty for counts taken while the clock was wrong.
 [[nodiscard]] std::string counts_csv(const ReadCounts& counts);
 [[nodiscard]] std::string counts_json(const ReadCounts& counts);
 

@@ -32,7 +32,7 @@ Json json_of(const Tallies& tallies) {
 }
 
 void add_to(Tallies& tallies, std::string_view name, const Tally& tally) {
-    const bool has_room = tallies.size() < most_counted_names || tallies.contains(std::string(name));
+    const bool has_room = tallies.size() < max_counted_names || tallies.contains(std::string(name));
     tallies[std::string(has_room ? name : other_names)] += tally;
 }
 
@@ -52,7 +52,7 @@ std::optional<Tally> tally_in(const nlohmann::json& entry) {
     return visits && ms ? std::optional(Tally{*visits, *ms}) : std::nullopt;
 }
 
-/// Calls with each entry of a list; false: there is no such list, or an entry that is none.
+/// Calls `take` with each entry of a list; returns false if there is no list, or an entry is invalid.
 template <typename Take> bool each_in(const nlohmann::json& document, const char* key, const Take& take) {
     const auto list = document.find(key);
     if (list == document.end() || !list->is_array()) {
@@ -70,7 +70,7 @@ template <typename Take> bool each_in(const nlohmann::json& document, const char
 bool read_names(const nlohmann::json& document, const char* key, Tallies& tallies) {
     return each_in(document, key, [&tallies](const nlohmann::json& entry, const Tally& tally) {
         const auto name = entry.find("name");
-        return name != entry.end() && name->is_string() && tallies.size() <= most_counted_names &&
+        return name != entry.end() && name->is_string() && tallies.size() <= max_counted_names &&
                tallies.emplace(printable(name->get<std::string>(), Sentence::longest), tally).second;
     });
 }

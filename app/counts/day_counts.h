@@ -4,7 +4,8 @@
 ///      "artifacts": [{"name": "Amphora", "visits": 2, "ms": 120000}, ...], "languages": [{"name": "en", ...}, ...]}
 ///
 /// Visits   of an hour: those that began in it; of an artifact or a language: those in which it was shown.
-/// Time     of the hours, of all artifacts and of all languages together is the same: a file where it is not, is damaged.
+/// Time     the totals of the hours, of the artifacts and of the languages are equal; a file in which they differ
+///          is damaged.
 /// Units    milliseconds, so that sums are exact.
 /// Threads  values; any.
 /// Errors   one line: what is wrong in the text.
@@ -41,14 +42,14 @@ struct DayCounts {
     Tallies artifacts, languages; ///< by name: the pack's title, the language's tag
     [[nodiscard]] bool operator==(const DayCounts&) const = default;
 
-    /// `hour`: of local time, when the piece ended.
+    /// `hour`: local time at the end of the piece.
     void add(const VisitPiece& piece, std::size_t hour);
     void add(const DayCounts& other);
     [[nodiscard]] Tally all() const;
 };
 
-/// More names than this go together under `other_names`.
-inline constexpr std::size_t most_counted_names = 200;
+/// Further names are added up under `other_names`.
+inline constexpr std::size_t max_counted_names = 200;
 inline constexpr std::string_view other_names = "...";
 
 [[nodiscard]] std::string write_day_counts(const DayCounts& counts);

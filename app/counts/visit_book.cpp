@@ -10,7 +10,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t most_posted = 512; ///< more than an hour of one long visit
+constexpr std::size_t max_posted = 512; ///< more than an hour of one long visit
 constexpr Nanoseconds between_looks = std::chrono::seconds(1);
 
 } // namespace
@@ -50,7 +50,7 @@ void DayKeeper::turn_to(std::optional<std::chrono::sys_days> day, MonotonicTime 
     drop_old_days(folder_);
 }
 
-/// What was counted before the file could be read is added to it.
+/// Adds the counts made before the file could be read to those of the file.
 void DayKeeper::open(MonotonicTime now) {
     if (opened_ || (next_ && now < *next_)) {
         return;
@@ -87,7 +87,7 @@ void DayKeeper::finish() {
 
 VisitBook::VisitBook(std::filesystem::path folder, LocalOffset offset)
     : keeper_(std::move(folder), std::move(offset)) {
-    posted_.reserve(most_posted);
+    posted_.reserve(max_posted);
     thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
 }
 
@@ -109,7 +109,7 @@ void VisitBook::post_last(std::vector<VisitPiece>& pieces) {
 
 void VisitBook::take(std::vector<VisitPiece>& pieces) {
     for (const VisitPiece& piece : pieces) {
-        if (posted_.size() < most_posted) {
+        if (posted_.size() < max_posted) {
             posted_.push_back(piece);
         }
     }
@@ -128,7 +128,7 @@ void VisitBook::work(const std::stop_token& stop) {
     bool ends = false;
     while (!ends) {
         ends = stop.stop_requested();
-        pieces.reserve(most_posted);
+        pieces.reserve(max_posted);
         {
             const std::lock_guard lock(mutex_);
             std::swap(pieces, posted_);

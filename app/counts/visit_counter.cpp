@@ -6,16 +6,16 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t most_names =
-    64; ///< of one visit; a hundred artifacts in one visit are counted once too often
-constexpr std::size_t most_held = 16;
+constexpr std::size_t max_names =
+    64; ///< of one visit; a further artifact counts as new each time it is shown
+constexpr std::size_t max_held = 16;
 
-/// Whether it was not in the list; then it is.
+/// True if `name` is not yet in the list; adds it.
 bool is_new(const Sentence& name, std::vector<Sentence>& names) {
     if (std::find(names.begin(), names.end(), name) != names.end()) {
         return false;
     }
-    if (names.size() < most_names) {
+    if (names.size() < max_names) {
         names.push_back(name);
     }
     return true;
@@ -24,9 +24,9 @@ bool is_new(const Sentence& name, std::vector<Sentence>& names) {
 } // namespace
 
 VisitCounter::VisitCounter() {
-    held_.reserve(most_held);
-    artifacts_.reserve(most_names);
-    languages_.reserve(most_names);
+    held_.reserve(max_held);
+    artifacts_.reserve(max_names);
+    languages_.reserve(max_names);
 }
 
 void VisitCounter::step(const Frame& frame, std::vector<VisitPiece>& pieces) {
@@ -73,8 +73,8 @@ void VisitCounter::begin_piece(const Frame& frame) {
 
 void VisitCounter::end_piece(MonotonicTime now, std::vector<VisitPiece>& pieces) {
     piece_.length = now - piece_began_;
-    if (held_.size() == most_held) {
-        release(pieces); // nobody holds two buttons and presses a third sixteen times
+    if (held_.size() == max_held) {
+        release(pieces); // sixteen pieces within `staff_within` are not the staff's
     }
     held_.push_back(piece_);
     if (now - *began_ >= staff_within) {

@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double most_tab_m = 0.015;
+constexpr double max_tab_m = 0.015;
 constexpr double steepest_tab = std::numbers::pi / 4.0;
 constexpr double rounding_m = 1e-9;
 
@@ -100,8 +100,8 @@ NetTab tab_on(const PropNet& net, const glm::dvec2& begin, const glm::dvec2& end
     const double at_end = std::fmin(steepest_tab, 0.5 * free_angle(net, end));
     const double slant = 1.0 / std::tan(at_begin) + 1.0 / std::tan(at_end);
     const double length = glm::distance(begin, end);
-    constexpr double most_of_edge = 0.8;
-    const double depth = std::fmin(most_tab_m, most_of_edge * length / slant);
+    constexpr double max_of_edge = 0.8;
+    const double depth = std::fmin(max_tab_m, max_of_edge * length / slant);
     const glm::dvec2 along = (end - begin) / length;
     const glm::dvec2 outward(along.y, -along.x); // the face is to the left of its edges
     return {{begin, begin + depth * (outward + along / std::tan(at_begin)),

@@ -75,10 +75,10 @@ double lettering_mm(const PropNet& net, const View& view) {
         shortest_m = std::fmin(shortest_m, glm::distance(face.corners[0], face.corners[1]));
         shortest_m = std::fmin(shortest_m, glm::distance(face.corners[2], face.corners[3]));
     }
-    constexpr double most_mm = 4.0;
-    constexpr double least_mm = 1.2;
+    constexpr double max_mm = 4.0;
+    constexpr double min_mm = 1.2;
     constexpr double letters = 7.0; // per side
-    return std::clamp(view.mm_per_m * shortest_m / letters, least_mm, most_mm);
+    return std::clamp(view.mm_per_m * shortest_m / letters, min_mm, max_mm);
 }
 
 void draw_net(SvgSheet& sheet, const PropNet& net, const View& view) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double board_m = 0.03; ///< drawn thickness of the table top; not a setting
 constexpr double symbol_mm = 2.0;
-constexpr double most_of_eye_zone_m = 2.5; ///< a larger distance is only in the notes
+constexpr double max_of_eye_zone_m = 2.5; ///< a larger distance is only in the notes
 constexpr Pen light{"#b08000", 0.25, "#fff3b8"};
 constexpr Pen light_edge{"#b08000", 0.25};
 constexpr Pen zone_pen{"#107030", 0.35, "#c8ecd0"};
@@ -85,7 +85,7 @@ private:
     [[nodiscard]] std::vector<glm::dvec2> eye_zone_outline() const {
         const EyeSettings& eye = settings_.eye;
         const double lowest = glm::radians(eye.lowest_elevation_deg);
-        const double farthest = std::fmin(eye.farthest_m, most_of_eye_zone_m);
+        const double farthest = std::fmin(eye.farthest_m, max_of_eye_zone_m);
         constexpr int pieces = 48;
         std::vector<glm::dvec2> outline;
         for (int k = 0; k <= 2 * pieces + 1; ++k) {
@@ -175,13 +175,13 @@ private:
         };
         across(-half_depth(), half_depth(), 8.0);
         // From the front edge: a line at the middle would cross the words of the table's own dimension.
-        constexpr double least_m = 5e-4;
-        if (eye.y < -half_depth() - least_m) {
+        constexpr double min_m = 5e-4;
+        if (eye.y < -half_depth() - min_m) {
             across(-half_depth(), eye.y, 8.0); // words that do not fit are on the visitor's side
-        } else if (eye.y > -half_depth() + least_m) {
+        } else if (eye.y > -half_depth() + min_m) {
             across(-half_depth(), eye.y, 16.0);
         }
-        if (std::abs(lens_.y) > least_m && std::abs(lens_.y + half_depth()) > least_m) {
+        if (std::abs(lens_.y) > min_m && std::abs(lens_.y + half_depth()) > min_m) {
             across(std::fmin(lens_.y, -half_depth()), std::fmax(lens_.y, -half_depth()), 24.0);
         }
         const double left_m = std::fmin(-half_depth(), eye.y);
@@ -209,8 +209,8 @@ private:
             symbols.push_back(
                 {glm::dvec2(settings_.tracker.registration.table_from_tracker.translation), draw_tracker});
         }
-        const double most_m = 2.5 * std::fmax(half_width(), half_depth());
-        std::erase_if(symbols, [&](const Symbol& symbol) { return glm::length(symbol.place) > most_m; });
+        const double max_m = 2.5 * std::fmax(half_width(), half_depth());
+        std::erase_if(symbols, [&](const Symbol& symbol) { return glm::length(symbol.place) > max_m; });
         return symbols;
     }
 

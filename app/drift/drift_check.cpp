@@ -12,8 +12,8 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t least_anchors = 3; // tags; fewer determine little away from themselves
-constexpr double most_anchor_misfit_px = 1.5;
+constexpr std::size_t min_anchors = 3; // tags; fewer determine little away from themselves
+constexpr double max_anchor_misfit_px = 1.5;
 
 Eigen::Vector2d eigen(const glm::dvec2& v) {
     return {v.x, v.y};
@@ -60,7 +60,7 @@ CameraWay camera_way(const std::vector<AnchorTag>& before, const std::vector<Anc
             to.push_back(eigen(same->corners_px.at(k)));
         }
     }
-    const auto found = from.size() >= 4 * least_anchors ? homography(from, to) : std::nullopt;
+    const auto found = from.size() >= 4 * min_anchors ? homography(from, to) : std::nullopt;
     if (!found) {
         return way;
     }
@@ -68,7 +68,7 @@ CameraWay camera_way(const std::vector<AnchorTag>& before, const std::vector<Anc
     for (std::size_t k = 0; k < from.size(); ++k) {
         misfit += (mapped(*found, from[k]) - to[k]).norm() / static_cast<double>(from.size());
     }
-    way.known = misfit <= most_anchor_misfit_px; // otherwise one of the tags was moved
+    way.known = misfit <= max_anchor_misfit_px; // otherwise one of the tags was moved
     if (way.known) {
         way.reference_from_now = *found;
     }
@@ -111,7 +111,7 @@ std::vector<double> misfits_m(const DriftReference& reference, const std::vector
 /// Removes marks that were lifted or displaced while learning: those far from the places given by most others
 /// (least median of squares; a lens distorts by some millimetres).
 void leave_out_strays(DriftReference& reference) {
-    constexpr double most_misfit_m = 0.012;
+    constexpr double max_misfit_m = 0.012;
     std::vector<std::size_t> seen;
     for (std::size_t k = 0; k < reference.marks_px.size(); ++k) {
         if (reference.marks_px[k]) {
@@ -141,21 +141,21 @@ void leave_out_strays(DriftReference& reference) {
         }
     } while (std::prev_permutation(chosen.begin(), chosen.end()));
     for (std::size_t k = 0; k < best.size(); ++k) {
-        if (best[k] > most_misfit_m) {
+        if (best[k] > max_misfit_m) {
             reference.marks_px[k].reset();
         }
     }
 }
 
 /// Whether the marks seen in both sets are at equal places; one mark may differ.
-bool agree(const MarkSet& a, const MarkSet& b, double most_px) {
+bool agree(const MarkSet& a, const MarkSet& b, double max_px) {
     std::size_t same = 0, apart = 0;
     for (std::size_t k = 0; k < a.marks_px.size(); ++k) {
         if (a.marks_px[k] && b.marks_px[k]) {
-            ++(glm::distance(*a.marks_px[k], *b.marks_px[k]) < most_px ? same : apart);
+            ++(glm::distance(*a.marks_px[k], *b.marks_px[k]) < max_px ? same : apart);
         }
     }
-    return same >= DriftCheck::least_marks && apart <= 1;
+    return same >= DriftCheck::min_marks && apart <= 1;
 }
 
 } // namespace
@@ -178,7 +178,7 @@ std::optional<DriftMeasure> measure_drift(const DriftReference& reference, const
             lengths.push_back(way.norm());
         }
     }
-    if (ways.size() < DriftCheck::least_marks || 2 * ways.size() < known) {
+    if (ways.size() < DriftCheck::min_marks || 2 * ways.size() < known) {
         return std::nullopt;
     }
     return DriftMeasure{median(lengths), median(ways), ways.size(), camera.known};
@@ -197,7 +197,7 @@ bool DriftCheck::take(const MarkSet& set) {
         return learn(set);
     }
     latest_.push_back({set.time, measure_drift(reference_, set)});
-    while (latest_.size() > agreeing && latest_.back().time - latest_[1].time >= least_time) {
+    while (latest_.size() > agreeing && latest_.back().time - latest_[1].time >= min_time) {
         latest_.pop_front();
     }
     judge();
@@ -214,7 +214,7 @@ bool DriftCheck::learn(const MarkSet& set) {
     }
     first_.push_back(set);
     if (first_.size() < learned_from) {
-        verdict_.state = set.seen() < least_marks ? DriftState::Blind : DriftState::Learning;
+        verdict_.state = set.seen() < min_marks ? DriftState::Blind : DriftState::Learning;
         return false;
     }
     fill(reference_, first_);
@@ -227,8 +227,7 @@ bool DriftCheck::learn(const MarkSet& set) {
 
 /// The verdict changes only if all of the latest sets agree.
 void DriftCheck::judge() {
-    const bool enough =
-        latest_.size() >= agreeing && latest_.back().time - latest_.front().time >= least_time;
+    const bool enough = latest_.size() >= agreeing && latest_.back().time - latest_.front().time >= min_time;
     const auto blind = static_cast<std::size_t>(
         std::count_if(latest_.begin(), latest_.end(), [](const Dated& each) { return !each.measure; }));
     if (blind > 0) {

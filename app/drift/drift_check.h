@@ -7,7 +7,7 @@
 /// Camera   stands still above the table and need not be calibrated. If at least three tags are fixed on the
 ///          table around the picture, they show the camera's own movement, which is then removed. Without
 ///          them the movements of camera and projector cannot be told apart.
-/// Told     a verdict changes once `agreeing` consecutive sets, over `least_time`, agree; a hand, a shadow or
+/// Told     a verdict changes once `agreeing` consecutive sets, over `min_time`, agree; a hand, a shadow or
 ///          a prop that hides some marks does not change it.
 /// Units    metres on the table.
 /// Time     a parameter: that of the sets.
@@ -54,9 +54,9 @@ public:
     static constexpr std::size_t agreeing = 5;     ///< consecutive sets
     static constexpr std::size_t learned_from = 3; ///< agreeing sets that become the reference
     static constexpr double learn_agree_px = 1.0;
-    static constexpr Nanoseconds least_time = std::chrono::minutes(3); ///< from the first of the agreeing
-                                                                       ///< sets to the last
-    static constexpr std::size_t least_marks = 4;
+    static constexpr Nanoseconds min_time = std::chrono::minutes(3); ///< from the first of the agreeing
+                                                                     ///< sets to the last
+    static constexpr std::size_t min_marks = 4;
 
     /// `blank`: a reference with the places of the marks, without pixels.
     explicit DriftCheck(DriftReference blank) : reference_(std::move(blank)) {}

@@ -14,8 +14,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int version = 1;
-constexpr std::size_t most_anchors = 64;
-constexpr int most_pixels = 16384; // limit of a camera's side
+constexpr std::size_t max_anchors = 64;
+constexpr int max_pixels = 16384; // limit of a camera's side
 
 Json json_of(const glm::dvec2& place) {
     return {place.x, place.y};
@@ -58,10 +58,10 @@ DriftReference reference_of(const Json& json) {
     for (const Json& tag : json.at("anchors")) {
         reference.anchors.push_back(tag_of(tag));
     }
-    const bool is_sized = reference.width > 0 && reference.height > 0 && reference.width <= most_pixels &&
-                          reference.height <= most_pixels;
-    if (json.at("version").get<int>() != version || !is_sized || reference.marks_m.size() > most_marks ||
-        reference.anchors.size() > most_anchors) {
+    const bool is_sized = reference.width > 0 && reference.height > 0 && reference.width <= max_pixels &&
+                          reference.height <= max_pixels;
+    if (json.at("version").get<int>() != version || !is_sized || reference.marks_m.size() > max_marks ||
+        reference.anchors.size() > max_anchors) {
         throw std::invalid_argument("another version, or numbers out of range");
     }
     return reference;

@@ -19,7 +19,7 @@
 
 namespace frustumscreen {
 
-inline constexpr std::size_t most_marks = 10;
+inline constexpr std::size_t max_marks = 10;
 /// In the folder of the kept calibrations.
 inline constexpr const char* drift_file = "drift.json";
 

@@ -12,12 +12,12 @@ namespace {
 
 constexpr int reach = 3; ///< half width of the box that noise is averaged over
 constexpr int box = 2 * reach + 1;
-constexpr double least_height = 1.5;          ///< codes
-constexpr double least_height_in_noise = 5.0; ///< standard deviations of the box's mean
-constexpr double least_radius_px = 1.5, most_radius_px = 40.0;
-constexpr double outline = 0.25;        ///< of its height; brighter pixels belong to the mark
-constexpr double most_change = 0.25;    ///< of its height, from before to after
-constexpr double most_elongation = 4.0; ///< ratio of its variances
+constexpr double min_height = 1.5;          ///< codes
+constexpr double min_height_in_noise = 5.0; ///< standard deviations of the box's mean
+constexpr double min_radius_px = 1.5, max_radius_px = 40.0;
+constexpr double outline = 0.25;       ///< of its height; brighter pixels belong to the mark
+constexpr double max_change = 0.25;    ///< of its height, from before to after
+constexpr double max_elongation = 4.0; ///< ratio of its variances
 
 /// Box means of a picture, into `out`; near the edges over the available pixels. `rows` is scratch memory.
 void box_means(std::span<const float> from, int width, int height, std::vector<float>& rows,
@@ -92,7 +92,7 @@ void MarkFinder::add(MarkPhase phase, std::span<const std::uint8_t> luma, int wi
     int& count = phase == MarkPhase::Before ? counts_.before
                  : phase == MarkPhase::Lit  ? counts_.lit
                                             : counts_.after;
-    if (count < most_frames) {
+    if (count < max_frames) {
         add_to(phase == MarkPhase::Before ? before_
                : phase == MarkPhase::Lit  ? lit_
                                           : after_,
@@ -152,7 +152,7 @@ std::optional<FoundMark> MarkFinder::find(const std::optional<PixelWindow>& near
     for (std::size_t k = 1; k < means_.size(); ++k) {
         peak = score(k) > score(peak) ? k : peak;
     }
-    if (score(peak) < std::fmax(least_height, least_height_in_noise * noise)) {
+    if (score(peak) < std::fmax(min_height, min_height_in_noise * noise)) {
         return std::nullopt;
     }
     std::optional<FoundMark> mark = measure(peak, size);
@@ -165,8 +165,7 @@ std::optional<FoundMark> MarkFinder::find(const std::optional<PixelWindow>& near
 /// Collects the mark's pixels around the peak by flood fill; returns false if they are not a mark.
 bool MarkFinder::gather(std::size_t peak, const glm::ivec2& size) {
     const float least = static_cast<float>(outline) * means_[peak];
-    const std::size_t most =
-        static_cast<std::size_t>(4.0 * std::numbers::pi * most_radius_px * most_radius_px);
+    const std::size_t most = static_cast<std::size_t>(4.0 * std::numbers::pi * max_radius_px * max_radius_px);
     taken_.assign(means_.size(), 0);
     part_.assign(1, peak);
     taken_[peak] = 1;
@@ -213,9 +212,9 @@ std::optional<FoundMark> MarkFinder::measure(std::size_t peak, const glm::ivec2&
         glm::dvec3(mark.pixel.x * mark.pixel.x, mark.pixel.x * mark.pixel.y, mark.pixel.y * mark.pixel.y);
     const double mean = 0.5 * (spread.x + spread.z);
     const double apart = std::hypot(0.5 * (spread.x - spread.z), spread.y);
-    const bool is_round = mean + apart < most_elongation * (mean - apart);
-    if (sum <= 0.0 || !is_round || change > most_change * height || mark.radius_px < least_radius_px ||
-        mark.radius_px > most_radius_px) {
+    const bool is_round = mean + apart < max_elongation * (mean - apart);
+    if (sum <= 0.0 || !is_round || change > max_change * height || mark.radius_px < min_radius_px ||
+        mark.radius_px > max_radius_px) {
         return std::nullopt;
     }
     return mark;

@@ -32,7 +32,7 @@ enum class MarkPhase : std::uint8_t { Before, Lit, After };
 
 class MarkFinder {
 public:
-    static constexpr int most_frames = 250; ///< per phase; further frames are ignored
+    static constexpr int max_frames = 250; ///< per phase; further frames are ignored
 
     /// Forgets the frames of the previous mark.
     void begin() { counts_ = {}; }

@@ -13,7 +13,7 @@
 
 namespace frustumscreen {
 
-/// At most most_marks; places outside the table are skipped.
+/// At most max_marks; places outside the table are skipped.
 [[nodiscard]] std::vector<glm::dvec2> mark_places(const Settings& settings);
 
 } // namespace frustumscreen

@@ -15,12 +15,13 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
       sentences_(place.words, place.picture_m), table_(lay_out_catalogue(catalogue_, place)),
       placer_(place.picture_m), labels_(place.picture_m) {}
 
-Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands, const Situation& situation) {
+Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
+                           const TrackedState& tracked_state) {
     const bool pressed =
         std::any_of(commands.begin(), commands.end(), [](Command command) { return !is_hold(command); });
-    // Who is told something is there, also without moving.
-    const bool telling = tells();
-    there_ = presence_.update(now, situation, pressed || telling);
+    // A visitor who is being told something is present, even without moving.
+    const bool narration_sequencer = tells();
+    there_ = presence_.update(now, tracked_state, pressed || narration_sequencer);
     const bool rests = state_ == State::Staff ? staff_.is_over(now) : presence_.rests(now, place_.rest);
     if (rests && state_ != State::Staff && state_ != State::Attract) {
         rest(now);
@@ -32,18 +33,18 @@ Presentation Exhibit::step(MonotonicTime now, std::span<const Command> commands,
     }
     staff_.step(now);
     if (!attract_) {
-        attract_.emplace(place_.attract_place_m, situation.prop_known, now);
+        attract_.emplace(place_.attract_place_m, tracked_state.prop_known, now);
     }
     const Stand stand =
-        attract_->at(now, situation.prop_known, situation.prop_age, situation.table_from_prop);
-    side_.update(situation.eye_m);
-    go_to(state_after(state_, observe(now, situation, stand)), now);
+        attract_->at(now, tracked_state.prop_known, tracked_state.prop_age, tracked_state.table_from_prop);
+    side_.update(tracked_state.eye_m);
+    go_to(state_after(state_, observe(now, tracked_state, stand)), now);
     follow_set(now);
     if (state_ == State::Attract && now >= next_turn_ && !leaves_set()) {
         selection_.choose(selection_.next(), now);
         next_turn_ = now + turn_time;
     }
-    return present(now, situation, stand, pressed);
+    return present(now, tracked_state, stand, pressed);
 }
 
 void Exhibit::note(std::span<const ArtifactState> states) {
@@ -137,19 +138,20 @@ void Exhibit::rest(MonotonicTime now) {
     next_turn_ = now + turn_time;
 }
 
-Observed Exhibit::observe(MonotonicTime now, const Situation& situation, const Stand& stand) {
+Observed Exhibit::observe(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand) {
     Observed seen;
     seen.nothing_to_show = std::find(offered_.begin(), offered_.end(), true) == offered_.end();
     seen.tracker_lost = attract_->lost();
-    step_table(now, situation, stand, seen);
-    guidance_ = step_guide(now, situation, stand);
-    seen.telling = tells();
+    step_table(now, tracked_state, stand, seen);
+    guidance_ = step_guide(now, tracked_state, stand);
+    seen.narration_sequencer = tells();
     seen.advice_due = guidance_ != nullptr;
     return seen;
 }
 
-/// Where nobody knows where the prop is, or in the staff's mode, it rests nowhere.
-void Exhibit::step_table(MonotonicTime now, const Situation& situation, const Stand& stand, Observed& seen) {
+/// While the prop's pose is unknown, or in staff mode, the prop rests nowhere.
+void Exhibit::step_table(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand,
+                         Observed& seen) {
     if (!table_) {
         return;
     }
@@ -162,13 +164,13 @@ void Exhibit::step_table(MonotonicTime now, const Situation& situation, const St
     if (sign_) {
         input.sign = hull_of({}, sign_->corners_m);
     }
-    if (situation.prop_known && state_ != State::Staff) {
-        input.prop_m = standing_place(place_.prop, situation.table_from_prop);
+    if (tracked_state.prop_known && state_ != State::Staff) {
+        input.prop_m = standing_place(place_.prop, tracked_state.table_from_prop);
     }
     const std::optional<std::size_t> chosen = table_->step(now, input);
     seen.prop_rests = table_->presented().ring.has_value();
     seen.artifact_chosen = chosen.has_value();
-    if (chosen && state_ != State::Attract) { // there a prop that stands on a picture is nobody's wish
+    if (chosen && state_ != State::Attract) { // in Attract, no visitor has chosen it
         selection_.choose(*chosen, now);
     }
     choose_ = choose_ && !table_->chose();
@@ -176,17 +178,18 @@ void Exhibit::step_table(MonotonicTime now, const Situation& situation, const St
     sentences_.set_obstacles(table_->obstacles());
 }
 
-const Guidance* Exhibit::step_guide(MonotonicTime now, const Situation& situation, const Stand& stand) {
+const Guidance* Exhibit::step_guide(MonotonicTime now, const TrackedState& tracked_state,
+                                    const Stand& stand) {
     const bool lost = attract_->lost();
     answer_comes_ = false;
-    const Sensing sensing = sensed_.update(now, situation, lost, presence_.touched());
+    const Sensing sensing = sensed_.update(now, tracked_state, lost, presence_.touched());
     const bool on_way = sensing == Sensing::Good && is_on_way_to_picture(now);
-    const bool can_be_guided = lost || (situation.prop_known && !stand.attracts);
+    const bool can_be_guided = lost || (tracked_state.prop_known && !stand.attracts);
     if (!guide_ || !there_ || !can_be_guided || state_ == State::Attract || state_ == State::Staff) {
         return nullptr;
     }
     if (table_ && table_->prop_is_on_picture()) {
-        guide_->rest(now); // what is being chosen is no mistake
+        guide_->rest(now); // a prop that chooses a picture needs no advice
         return nullptr;
     }
     const std::size_t shown = selection_.at(now).artifact;
@@ -198,17 +201,17 @@ const Guidance* Exhibit::step_guide(MonotonicTime now, const Situation& situatio
         guide_->rest(now);
         return nullptr;
     }
-    // What is heard of a description ends for who asks for help, and otherwise goes on to its next pause.
+    // A request for help ends the speech of a description at once; otherwise the speech goes on to its next pause.
     const bool may_speak =
         (!speaking_ && state_ != State::Browse && state_ != State::Describe) || (help_ && tells());
     const Guidance& guidance =
-        guide_->step(now, {situation.table_from_prop, situation.eye_m}, sensing, may_speak);
+        guide_->step(now, {tracked_state.table_from_prop, tracked_state.eye_m}, sensing, may_speak);
     answer_comes_ = help_ && guide_->answers();
     return guidance.stage != GuidanceStage::Quiet ? &guidance : nullptr;
 }
 
-/// Who slides the prop among pictures is on the way to one, and back: advice that does not lie there yet waits until the prop
-/// stands, or is moved about for long.
+/// True while the prop slides between pictures, on the way to one and back: new advice waits until the prop stands,
+/// or has been moving for long.
 bool Exhibit::is_on_way_to_picture(MonotonicTime now) {
     constexpr Nanoseconds longest_way = std::chrono::seconds(4);
     if (!presence_.prop_moves(now)) {
@@ -221,10 +224,10 @@ bool Exhibit::is_on_way_to_picture(MonotonicTime now) {
 }
 
 bool Exhibit::tells() const {
-    return teller_.told().portion.has_value() || teller_.told().hotspot.has_value();
+    return narrator_.told().portion.has_value() || narrator_.told().hotspot.has_value();
 }
 
-void Exhibit::hear(bool speaking, const Narration& narration) {
+void Exhibit::hear(bool speaking, const SpeechProgress& narration) {
     if (speaking_ && !speaking) {
         spoken_.reset();
     }

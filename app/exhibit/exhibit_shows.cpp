@@ -1,4 +1,4 @@
-// What the exhibit shows and says in the state that it is in.
+// The contents of the presentation, by the exhibit's state.
 #include "app/exhibit/exhibit.h"
 #include "app/exhibit/languages.h"
 
@@ -8,32 +8,32 @@
 
 namespace frustumscreen {
 
-Presentation Exhibit::present(MonotonicTime now, const Situation& situation, const Stand& stand,
+Presentation Exhibit::present(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand,
                               bool pressed) {
     const Shown shown = selection_.at(now);
     Presentation presentation;
     presentation.state = state_;
     presentation.state_before = state_before_;
     presentation.artifact = shown.artifact;
-    const StandIn::Output comes = stand_in(now, shown, stand);
+    const Placeholder::Output comes = placeholder(now, shown, stand);
     presentation.brightness = comes.brightness * stand.brightness;
-    presentation.stand_in = comes.picture;
+    presentation.placeholder = comes.picture;
     presentation.wanted = wanted();
     presentation.wanted_language = selection_.language();
     presentation.language = language_of(shown.artifact);
-    present_words(now, situation, stand, presentation);
+    present_words(now, tracked_state, stand, presentation);
     sign_ = presentation.sign;
-    tell(now, situation, shown, stand, pressed, presentation);
-    presentation.caption = caption(now, shown, situation, stand);
+    tell(now, tracked_state, shown, stand, pressed, presentation);
+    presentation.caption = caption(now, shown, tracked_state, stand);
     if (presentation.caption && presentation.advice) {
-        // One text at a time, or the two would lie on each other.
+        // Only one text at a time, so that the two do not overlap.
         presentation.caption->brightness *= std::max(0.0, 1.0 - 2.0 * presentation.advice->brightness);
     }
-    presentation.hotspot = label(now, shown, situation, stand, presentation);
+    presentation.hotspot = label(now, shown, tracked_state, stand, presentation);
     presentation.table = table_ ? &table_->presented() : nullptr;
     presentation.table_language = shown.language;
     presentation.title_brightness = shown.language_brightness;
-    // Pictures invite out of the zone, and its frame would cross them.
+    // Table pictures invite the prop out of the zone, and the zone's frame would cross them.
     const bool framed = !stand.attracts && !(table_ && table_->presented().count > 0);
     const ZoneFrame& zone = zone_of(shown.artifact);
     presentation.zone_sides = zone.sides();
@@ -43,7 +43,7 @@ Presentation Exhibit::present(MonotonicTime now, const Situation& situation, con
     const double opacity = placer_.at(now).opacity;
     const bool table_changes = table_ && table_->presented().changing;
     presentation.settled = !table_changes && !labels_.changing() && !shown.changing && !stand.changing &&
-                           !comes.waits && !teller_.text().changing && (opacity <= 0.0 || opacity >= 1.0);
+                           !comes.waits && !narrator_.text().changing && (opacity <= 0.0 || opacity >= 1.0);
     waits_ = comes.waits;
     dim_what_leaves(now, presentation);
     presentation.staff = state_ == State::Staff;
@@ -79,7 +79,7 @@ WantedArtifacts Exhibit::wanted() const {
 
 namespace {
 
-/// Where a standing artifact is seen in the prop: as large as the prop is high, on the reader's half.
+/// The area of a standing artifact in the prop: as large as the prop is high, on the reader's half.
 TableRectangle place_in(const PropShape& prop, const RigidTransform& table_from_prop, int quarter_turns) {
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     glm::dvec3 high(-low);
@@ -94,12 +94,12 @@ TableRectangle place_in(const PropShape& prop, const RigidTransform& table_from_
 
 } // namespace
 
-StandIn::Output Exhibit::stand_in(MonotonicTime now, const Shown& shown, const Stand& stand) {
+Placeholder::Output Exhibit::placeholder(MonotonicTime now, const Shown& shown, const Stand& stand) {
     if (catalogue_.empty()) {
         return {0.0, std::nullopt, false};
     }
     const std::size_t chosen = selection_.artifact();
-    StandIn::Input input{
+    Placeholder::Input input{
         shown,         chosen,       ready(shown.artifact),
         ready(chosen), std::nullopt, place_in(place_.prop, stand.table_from_prop, side_.quarter_turns())};
     if (table_) {
@@ -109,7 +109,7 @@ StandIn::Output Exhibit::stand_in(MonotonicTime now, const Shown& shown, const S
             }
         }
     }
-    StandIn::Output comes = stand_in_.step(now, input);
+    Placeholder::Output comes = placeholder_.step(now, input);
     if (!has_artifact()) {
         return {0.0, std::nullopt, false};
     }
@@ -120,13 +120,13 @@ StandIn::Output Exhibit::stand_in(MonotonicTime now, const Shown& shown, const S
 }
 
 std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown& shown,
-                                                 const Situation& situation, const Stand& stand) {
+                                                 const TrackedState& tracked_state, const Stand& stand) {
     if (!has_artifact() || catalogue_[shown.artifact].languages.empty()) {
         return std::nullopt;
     }
     const CatalogueEntry& entry = catalogue_[shown.artifact];
     const std::size_t language = caption_for(shown.language, entry.languages);
-    const CaptionText text = teller_.text();
+    const CaptionText text = narrator_.text();
     const std::vector<glm::dvec2>& sizes =
         text.portion ? entry.descriptions[language].largest_m : entry.caption_sizes_m[language];
     if (placed_ != &sizes) {
@@ -135,7 +135,7 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
     }
     const RigidTransform& pose = stand.table_from_prop;
     placer_.update(now, stand_hides(place_.prop, stand, place_.lens_m),
-                   stand_hides(place_.prop, stand, situation.eye_m), glm::dvec2(pose.translation),
+                   stand_hides(place_.prop, stand, tracked_state.eye_m), glm::dvec2(pose.translation),
                    side_.quarter_turns());
     const CaptionPlace place = placer_.at(now);
     const double brightness = place.opacity * (shown.caption_brightness * stand.brightness) * text.brightness;
@@ -151,15 +151,16 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
     return caption;
 }
 
-/// Beside the pictures and the caption; without words of advice, which say what to do first.
+/// The hotspot's label, beside the pictures and the caption. It is dark while advice shows words, which take
+/// priority.
 std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& shown,
-                                               const Situation& situation, const Stand& stand,
+                                               const TrackedState& tracked_state, const Stand& stand,
                                                const Presentation& presentation) {
     if (!has_artifact() || catalogue_[shown.artifact].languages.empty()) {
         return std::nullopt;
     }
     const CatalogueEntry& entry = catalogue_[shown.artifact];
-    std::array<TableRectangle, CaptionPlacer::most_obstacles> obstacles{};
+    std::array<TableRectangle, CaptionPlacer::max_obstacles> obstacles{};
     std::size_t count = 0;
     for (const TableRectangle& place : table_ ? table_->obstacles() : std::span<const TableRectangle>()) {
         obstacles.at(count++) = place;
@@ -172,7 +173,7 @@ std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& s
         now, {&entry.hotspots, shown.artifact, stand.attracts ? std::nullopt : presentation.tells_of,
               caption_for(shown.language, entry.languages),
               shown.caption_brightness * stand.brightness * (1.0 - advised), &place_.prop,
-              stand.table_from_prop, situation.eye_m, place_.lens_m, std::span(obstacles).first(count),
+              stand.table_from_prop, tracked_state.eye_m, place_.lens_m, std::span(obstacles).first(count),
               presentation.caption ? std::optional(presentation.caption->rectangle) : std::nullopt,
               side_.quarter_turns()});
 }
@@ -192,9 +193,9 @@ const Tellable* Exhibit::tellable(const DescriptionIndex& description) const {
                : nullptr;
 }
 
-void Exhibit::tell(MonotonicTime now, const Situation& situation, const Shown& shown, const Stand& stand,
-                   bool pressed, Presentation& presentation) {
-    TellerInput input;
+void Exhibit::tell(MonotonicTime now, const TrackedState& tracked_state, const Shown& shown,
+                   const Stand& stand, bool pressed, Presentation& presentation) {
+    NarratorInput input;
     input.subject = description_of(selection_.artifact(), selection_.language());
     input.visible = description_of(shown.artifact, shown.language);
     input.tellable = note_of(state_).artifact && !leaves_set() ? tellable(input.subject) : nullptr;
@@ -208,7 +209,7 @@ void Exhibit::tell(MonotonicTime now, const Situation& situation, const Shown& s
     input.text_has_place = placer_.at(now).opacity > 0.0;
     input.stage = guidance_ != nullptr ? guidance_->stage : GuidanceStage::Quiet;
     input.narration = narration_;
-    const Told& told = teller_.step(now, situation, input);
+    const Told& told = narrator_.step(now, tracked_state, input);
     presentation.tells_of = told.hotspot;
     presentation.leaves = told.leaves;
     if (told.speaks) {
@@ -219,54 +220,54 @@ void Exhibit::tell(MonotonicTime now, const Situation& situation, const Shown& s
     }
 }
 
-/// The sentence that this state has on the table, in the visitor's language.
+/// The current state's sentence on the table, in the visitor's language.
 std::optional<WordIndex> Exhibit::word() const {
     if (leaves_set()) {
-        return std::nullopt; // another set has other words
+        return std::nullopt; // another set has other texts
     }
     switch (note_of(state_).words) {
     case Words::Invitation:
         return sentences_.find("attract_line", selection_.language());
     case Words::Fault:
         return sentences_.find("fault.no_artifact", selection_.language());
-    case Words::Advice: // once it is more than a sign
+    case Words::Advice: // from the stage at which advice has words
         return guidance_ != nullptr && guidance_->stage >= GuidanceStage::Text
                    ? sentences_.find(words_key(*guidance_), selection_.language())
                    : std::nullopt;
-    case Words::Telling:
+    case Words::NarrationSequencer:
     case Words::None:
         break;
     }
     return std::nullopt;
 }
 
-void Exhibit::present_words(MonotonicTime now, const Situation& situation, const Stand& stand,
+void Exhibit::present_words(MonotonicTime now, const TrackedState& tracked_state, const Stand& stand,
                             Presentation& presentation) {
     const StateNote& note = note_of(state_);
     const std::optional<WordIndex> wanted = word();
     const bool signs = note.sign && guidance_ != nullptr;
-    SentenceSurroundings surroundings;
+    SentenceEnvironment environment;
     if (signs || wanted || sentences_.busy()) {
         const RigidTransform& pose = stand.table_from_prop;
-        surroundings = {stand_hides(place_.prop, stand, place_.lens_m),
-                        stand_hides(place_.prop, stand, situation.eye_m), glm::dvec2(pose.translation),
-                        side_.quarter_turns()};
+        environment = {stand_hides(place_.prop, stand, place_.lens_m),
+                       stand_hides(place_.prop, stand, tracked_state.eye_m), glm::dvec2(pose.translation),
+                       side_.quarter_turns()};
     }
-    if (signs && surroundings.around) {
+    if (signs && environment.around) {
         presentation.sign =
-            place_sign(*guidance_, now, *surroundings.around, place_.picture_m, side_.quarter_turns());
+            place_sign(*guidance_, now, *environment.around, place_.picture_m, side_.quarter_turns());
         if (presentation.sign) {
-            surroundings.around = hull_of(*surroundings.around, presentation.sign->corners_m);
+            environment.around = hull_of(*environment.around, presentation.sign->corners_m);
         }
     }
-    presentation.advice = sentences_.place(now, wanted, surroundings);
+    presentation.advice = sentences_.place(now, wanted, environment);
     if (guidance_ != nullptr && !leaves_set()) {
         presentation.prepares_word = sentences_.find(words_key(*guidance_), selection_.language());
     }
     speak(now, wanted, presentation);
 }
 
-/// Nothing is heard whose words do not lie on the table: what is due waits for them.
+/// Speech waits until its words are visible on the table.
 void Exhibit::speak(MonotonicTime now, const std::optional<WordIndex>& word, Presentation& presentation) {
     if (spoken_ && spoken_ != word) {
         spoken_.reset();
@@ -281,7 +282,7 @@ void Exhibit::speak(MonotonicTime now, const std::optional<WordIndex>& word, Pre
     }
 }
 
-/// The language of the artifact's caption; without captions the chosen one.
+/// The language of the artifact's caption; without captions, the chosen language.
 std::string_view Exhibit::language_of(std::size_t artifact) const {
     if (artifact >= catalogue_.size() || catalogue_[artifact].languages.empty()) {
         return selection_.language();
@@ -292,7 +293,7 @@ std::string_view Exhibit::language_of(std::size_t artifact) const {
 
 std::uint32_t Exhibit::lamps() const {
     if (state_ == State::Staff) {
-        return (1U << place_.buttons) - 1U; // each of them is tested, and its lamp
+        return (1U << place_.buttons) - 1U; // each button and its lamp is tested
     }
     std::uint32_t lamps = 0;
     for (std::size_t button = 0; button < button_commands.size(); ++button) {

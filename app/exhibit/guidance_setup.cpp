@@ -8,7 +8,7 @@ GuidanceSetup guidance_setup(const Settings& settings) {
     return {make_prop(settings.prop),
             settings.projector.pinhole,
             settings.projector.table_from_projector,
-            least_sine_of_light,
+            min_sine_of_light,
             settings.prop.zone == PropZone::Hand,
             0.5 * glm::dvec2(settings.table.width_m, settings.table.depth_m),
             settings.eye.tracked};

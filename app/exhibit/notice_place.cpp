@@ -13,7 +13,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr double beside_caption_m =
-    0.015; ///< more than between others: nobody reads on from one to the other
+    0.015; ///< more than between pictures, so that notice and caption do not read as one text
 
 } // namespace
 
@@ -34,30 +34,30 @@ std::optional<TablePolygon> notice_ring(const PresentedNotice& notice) {
     return round;
 }
 
-void NoticePlace::look(MonotonicTime now, const NoticeSurroundings& surroundings) {
-    std::array<TableRectangle, CaptionPlacer::most_obstacles> obstacles{};
+void NoticePlace::look(MonotonicTime now, const NoticeEnvironment& environment) {
+    std::array<TableRectangle, CaptionPlacer::max_obstacles> obstacles{};
     std::size_t count = 0;
     const auto add = [&](std::span<const TableRectangle> more) {
         const std::size_t fit = std::min(more.size(), obstacles.size() - count);
         std::copy_n(more.begin(), fit, obstacles.begin() + static_cast<std::ptrdiff_t>(count));
         count += fit;
     };
-    if (surroundings.caption && beside_ != Beside::AllButCaption) {
-        TableRectangle caption = *surroundings.caption;
+    if (environment.caption && beside_ != Beside::AllButCaption) {
+        TableRectangle caption = *environment.caption;
         caption.size_m += 2.0 * beside_caption_m;
         add(std::span(&caption, 1));
     }
-    add(surroundings.obstacles);
+    add(environment.obstacles);
     if (beside_ == Beside::All) {
-        add(surroundings.kept);
+        add(environment.kept);
     }
     placer_.set_obstacles(std::span(obstacles).first(count));
-    placer_.update(now, surroundings.shadow, surroundings.hidden, surroundings.prop_m,
-                   surroundings.quarter_turns);
+    placer_.update(now, environment.shadow, environment.hidden, environment.prop_m,
+                   environment.quarter_turns);
 }
 
 std::optional<PresentedNotice> NoticePlace::step(MonotonicTime now, const SharedNotice& wanted,
-                                                 const NoticeSurroundings& surroundings) {
+                                                 const NoticeEnvironment& environment) {
     const double step = to_seconds(now - last_) / to_seconds(leaves);
     last_ = now;
     const bool stays = lies_ == wanted;
@@ -72,9 +72,9 @@ std::optional<PresentedNotice> NoticePlace::step(MonotonicTime now, const Shared
     if (!lies_) {
         return std::nullopt;
     }
-    look(now, surroundings);
+    look(now, environment);
     const CaptionPlace place = placer_.at(now);
-    if (placer_.searched_in_vain()) { // the next search is another one
+    if (placer_.searched_in_vain()) { // the next search uses other obstacles
         beside_ = beside_ == Beside::All                 ? Beside::AllButEmptyPlaces
                   : beside_ == Beside::AllButEmptyPlaces ? Beside::AllButCaption
                                                          : Beside::All;

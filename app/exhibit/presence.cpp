@@ -6,7 +6,7 @@ namespace frustumscreen {
 
 namespace {
 
-bool prop_has_moved(const Situation& now, const Situation& then) {
+bool prop_has_moved(const TrackedState& now, const TrackedState& then) {
     const RigidTransform& a = now.table_from_prop;
     const RigidTransform& b = then.table_from_prop;
     return now.prop_known &&
@@ -14,17 +14,17 @@ bool prop_has_moved(const Situation& now, const Situation& then) {
             rotation_angle(a.rotation, b.rotation) > Presence::turned_rad);
 }
 
-bool head_has_moved(const Situation& now, const Situation& then) {
-    constexpr double nodded_m = 0.05; // nobody holds their head still
+bool head_has_moved(const TrackedState& now, const TrackedState& then) {
+    constexpr double nodded_m = 0.05; // a head is never quite still
     return now.eye_known() && (!then.eye_known() || glm::distance(now.eye_m, then.eye_m) > nodded_m);
 }
 
 } // namespace
 
-bool Presence::update(MonotonicTime now, const Situation& situation, bool active) {
-    const bool prop = rested_ && prop_has_moved(situation, *rested_);
-    const bool moved = prop || (rested_ && head_has_moved(situation, *rested_));
-    rested_ = moved || !rested_ ? situation : rested_;
+bool Presence::update(MonotonicTime now, const TrackedState& tracked_state, bool active) {
+    const bool prop = rested_ && prop_has_moved(tracked_state, *rested_);
+    const bool moved = prop || (rested_ && head_has_moved(tracked_state, *rested_));
+    rested_ = moved || !rested_ ? tracked_state : rested_;
     moved_ = moved || active ? now : moved_;
     prop_moved_ = prop ? now : prop_moved_;
     touched_ = prop || active ? now : touched_;

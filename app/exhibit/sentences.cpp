@@ -34,7 +34,7 @@ bool Sentences::shows(MonotonicTime now, const WordIndex& word) const {
 }
 
 std::optional<PresentedAdvice> Sentences::place(MonotonicTime now, const std::optional<WordIndex>& wanted,
-                                                const SentenceSurroundings& surroundings) {
+                                                const SentenceEnvironment& environment) {
     const double step = to_seconds(now - last_) / to_seconds(leaves);
     last_ = now;
     const bool stays = lies_ == wanted;
@@ -50,8 +50,8 @@ std::optional<PresentedAdvice> Sentences::place(MonotonicTime now, const std::op
     if (!lies_) {
         return std::nullopt;
     }
-    placer_.update(now, surroundings.around, surroundings.hidden, surroundings.prop_m,
-                   surroundings.quarter_turns);
+    placer_.update(now, environment.around, environment.hidden, environment.prop_m,
+                   environment.quarter_turns);
     const CaptionPlace place = placer_.at(now);
     const double brightness = place.opacity * ease(share_);
     return brightness > 0.0 ? std::optional(PresentedAdvice{*lies_, place.shape, place.rectangle, brightness})

@@ -1,12 +1,13 @@
-/// The exhibit's states, and what leads from one to the other: one table, from which the program runs and docs/states.md
-/// is written.
+/// The exhibit's states and the transitions between them: one table, by which the program runs and from which
+/// docs/states.md is written.
 ///
 ///     next(State::View, Event::AdviceDue) == State::Guide
 ///
-/// Rules    An event that a state has no row for changes nothing there. Most events say what is the case, and are raised in
-///          every step in which it is: so none can be missed. Within a step they are raised in the order of `Event`.
-/// Rest     leads from every state to Attract, in two rests at most: the compiler checks it, and that each state can be
-///          reached.
+/// Rules    An event without a row for the current state changes nothing. Most events report a condition and are
+///          raised in every step in which it holds, so none can be missed. Within a step they are raised in the order
+///          of `Event`.
+/// Rest     leads from every state to Attract in at most two rests. The compiler checks this, and that each state can
+///          be reached.
 /// Threads  pure; any.
 #pragma once
 
@@ -33,22 +34,22 @@ enum class Event : std::uint8_t {
     PropRests,
     PropGoesOn,
     ArtifactChosen,
-    TellingBegins,
-    TellingEnds,
+    NarrationBegins,
+    NarrationEnds,
     AdviceDue,
     AdviceOver
 };
 inline constexpr std::size_t event_count = 15;
 
-/// The words that lie on the table beside the caption, or in its place.
-enum class Words : std::uint8_t { None, Invitation, Advice, Telling, Fault };
+/// The words on the table beside the caption, or in its place.
+enum class Words : std::uint8_t { None, Invitation, Advice, NarrationSequencer, Fault };
 
-/// What a state shows and says; `shows` says it to people.
+/// The properties of a state: its picture, words and voice; `shows` describes them for people.
 struct StateNote {
     State state;
     std::string_view name;
-    bool artifact; ///< it is shown
-    bool sign;     ///< a dark face brings the sign of the move that mends it
+    bool artifact; ///< the artifact is shown
+    bool sign;     ///< a dark face brings the sign of the move that corrects it
     Words words;
     bool voice; ///< its words may be spoken
     std::string_view shows;
@@ -61,7 +62,7 @@ inline constexpr std::array<StateNote, state_count> state_notes{{
      "the same; the ring of the picture that the prop rests on"},
     {State::Guide, "guide", true, true, Words::Advice, true,
      "the same; what to do, as a sign, in words, aloud"},
-    {State::Describe, "describe", true, true, Words::Telling, true,
+    {State::Describe, "describe", true, true, Words::NarrationSequencer, true,
      "the same; what is told of the artifact, in words and aloud; signs"},
     {State::Degraded, "degraded", true, false, Words::Advice, true,
      "nobody knows where the prop is: the artifact turns at a place of its own; what to do, in words, aloud"},
@@ -89,8 +90,8 @@ inline constexpr std::array<EventNote, event_count> event_notes{{
     {Event::PropRests, "prop rests", "it rests on a picture, and the ring fills"},
     {Event::PropGoesOn, "prop goes on", "it rests on none"},
     {Event::ArtifactChosen, "artifact chosen", "on the table: the ring is full"},
-    {Event::TellingBegins, "telling begins", "something of the artifact is being told"},
-    {Event::TellingEnds, "telling ends", "nothing is"},
+    {Event::NarrationBegins, "telling begins", "something of the artifact is being told"},
+    {Event::NarrationEnds, "telling ends", "nothing is"},
     {Event::AdviceDue, "advice due", "a face is dark, the head is lost or metal is near"},
     {Event::AdviceOver, "advice over", "nothing is to be mended, or nobody is there to do it"},
 }};
@@ -111,50 +112,50 @@ inline constexpr std::array transitions{
     Transition{State::View, Event::NothingToShow, State::Fault},
     Transition{State::View, Event::TrackerLost, State::Degraded},
     Transition{State::View, Event::PropRests, State::Browse},
-    Transition{State::View, Event::TellingBegins, State::Describe},
+    Transition{State::View, Event::NarrationBegins, State::Describe},
     Transition{State::View, Event::AdviceDue, State::Guide},
 
-    // A ring that fills is not disturbed: what the prop stands on is no place to be mended.
+    // A filling ring is not disturbed: the prop's place there needs no correction.
     Transition{State::Browse, Event::Rest, State::Attract},
     Transition{State::Browse, Event::Chord, State::Staff},
     Transition{State::Browse, Event::NothingToShow, State::Fault},
     Transition{State::Browse, Event::TrackerLost, State::Degraded},
     Transition{State::Browse, Event::PropGoesOn, State::View},
     Transition{State::Browse, Event::ArtifactChosen, State::View},
-    Transition{State::Browse, Event::TellingBegins, State::Describe},
+    Transition{State::Browse, Event::NarrationBegins, State::Describe},
 
     Transition{State::Guide, Event::Rest, State::Attract},
     Transition{State::Guide, Event::Chord, State::Staff},
     Transition{State::Guide, Event::NothingToShow, State::Fault},
     Transition{State::Guide, Event::TrackerLost, State::Degraded},
     Transition{State::Guide, Event::PropRests, State::Browse},
-    Transition{State::Guide, Event::TellingBegins, State::Describe},
+    Transition{State::Guide, Event::NarrationBegins, State::Describe},
     Transition{State::Guide, Event::AdviceOver, State::View},
 
-    // What is told is told to its end, also without the prop and with a dark face.
+    // A description is told to its end, even without the prop or with a dark face.
     Transition{State::Describe, Event::Rest, State::Attract},
     Transition{State::Describe, Event::Chord, State::Staff},
     Transition{State::Describe, Event::NothingToShow, State::Fault},
     Transition{State::Describe, Event::ArtifactChosen, State::View},
-    Transition{State::Describe, Event::TellingEnds, State::View},
+    Transition{State::Describe, Event::NarrationEnds, State::View},
 
     Transition{State::Degraded, Event::Rest, State::Attract},
     Transition{State::Degraded, Event::Chord, State::Staff},
     Transition{State::Degraded, Event::NothingToShow, State::Fault},
     Transition{State::Degraded, Event::TrackerBack, State::View},
-    Transition{State::Degraded, Event::TellingBegins, State::Describe},
+    Transition{State::Degraded, Event::NarrationBegins, State::Describe},
 
-    // The next rest begins anew; while there is still nothing to show, that step leads back.
+    // The next rest begins anew; while there is still nothing to show, that step returns to Fault.
     Transition{State::Fault, Event::Rest, State::Attract},
     Transition{State::Fault, Event::Chord, State::Staff},
     Transition{State::Fault, Event::SomethingToShow, State::View},
 
-    // A press turns its pages. What is the case is looked at afterwards.
+    // A press turns its pages. Conditions are observed after it ends.
     Transition{State::Staff, Event::Rest, State::View},
     Transition{State::Staff, Event::Chord, State::View},
 };
 
-/// The same state where the table has no row.
+/// The state after an event; the same state if the table has no row.
 [[nodiscard]] constexpr State next(State from, Event event) {
     for (const Transition& transition : transitions) {
         if (transition.from == from && transition.on == event) {
@@ -170,36 +171,36 @@ inline constexpr std::array transitions{
 [[nodiscard]] constexpr const EventNote& note_of(Event event) {
     return event_notes[static_cast<std::size_t>(event)];
 }
-/// In the place of a state's name while the exhibit sleeps (hours.h); behind it the states go on.
+/// Shown in place of a state's name while the exhibit sleeps (hours.h); the states go on meanwhile.
 inline constexpr std::string_view asleep_name = "asleep";
 [[nodiscard]] constexpr std::string_view name_of(State state) {
     return note_of(state).name;
 }
 
-/// What is the case in a step, as far as it moves states.
+/// The conditions of a step that move states.
 struct Observed {
     bool nothing_to_show = false;
     bool tracker_lost = false;
     bool prop_rests = false;
     bool artifact_chosen = false; ///< in this step
-    bool telling = false;
+    bool narration_sequencer = false;
     bool advice_due = false;
 };
-/// The state after the events of what is the case, in their order: those from NothingToShow on.
+/// The state after the events of the conditions, in order, from NothingToShow on.
 [[nodiscard]] constexpr State state_after(State state, const Observed& seen) {
     state = next(state, seen.nothing_to_show ? Event::NothingToShow : Event::SomethingToShow);
     state = next(state, seen.tracker_lost ? Event::TrackerLost : Event::TrackerBack);
     state = next(state, seen.prop_rests ? Event::PropRests : Event::PropGoesOn);
     state = seen.artifact_chosen ? next(state, Event::ArtifactChosen) : state;
-    state = next(state, seen.telling ? Event::TellingBegins : Event::TellingEnds);
+    state = next(state, seen.narration_sequencer ? Event::NarrationBegins : Event::NarrationEnds);
     return next(state, seen.advice_due ? Event::AdviceDue : Event::AdviceOver);
 }
 
-inline constexpr int most_rests = 2;
-/// How many rests lead to Attract; more than `most_rests`: none do.
+inline constexpr int max_rests = 2;
+/// Number of rests that lead to Attract; more than `max_rests`: none do.
 [[nodiscard]] constexpr int rests_to_attract(State state) {
     int rests = 0;
-    for (; state != State::Attract && rests <= most_rests; ++rests) {
+    for (; state != State::Attract && rests <= max_rests; ++rests) {
         state = next(state, Event::Rest);
     }
     return rests;
@@ -221,7 +222,7 @@ consteval bool notes_are_in_order() {
     return true;
 }
 
-/// One row for a state and an event, and it leads elsewhere.
+/// True if a state and an event have one row at most, and each row leads to another state.
 consteval bool rows_are_unique() {
     for (std::size_t k = 0; k < transitions.size(); ++k) {
         const Transition& row = transitions[k];
@@ -245,7 +246,7 @@ consteval bool each_is_reached_and_rests() {
         }
     }
     return std::all_of(state_notes.begin(), state_notes.end(), [&](const StateNote& note) {
-        return reached[static_cast<std::size_t>(note.state)] && rests_to_attract(note.state) <= most_rests;
+        return reached[static_cast<std::size_t>(note.state)] && rests_to_attract(note.state) <= max_rests;
     });
 }
 

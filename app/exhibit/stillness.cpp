@@ -7,7 +7,7 @@ namespace frustumscreen {
 
 namespace {
 
-bool has_moved(const Situation& now, const Situation& then) {
+bool has_moved(const TrackedState& now, const TrackedState& then) {
     const RigidTransform& a = now.table_from_prop;
     const RigidTransform& b = then.table_from_prop;
     const double cosine = std::min(1.0, std::abs(glm::dot(a.rotation, b.rotation)));
@@ -19,9 +19,9 @@ bool has_moved(const Situation& now, const Situation& then) {
 
 } // namespace
 
-Nanoseconds Stillness::update(MonotonicTime now, const Situation& situation, bool pressed) {
-    if (!rested_ || pressed || has_moved(situation, *rested_)) {
-        rested_ = situation;
+Nanoseconds Stillness::update(MonotonicTime now, const TrackedState& tracked_state, bool pressed) {
+    if (!rested_ || pressed || has_moved(tracked_state, *rested_)) {
+        rested_ = tracked_state;
         moved_ = now;
     }
     return now - moved_;

@@ -23,7 +23,7 @@ std::optional<glm::dmat4> collineation(const Plane& plane, const glm::dvec3& eye
                                        const glm::dmat4& projector_clip_from_frame, const Box& box) {
     const glm::dvec3 centre = (box.low + box.high) * 0.5;
     const double eye_height = plane.distance(eye);
-    if (!(eye_height > least_sine * glm::distance(eye, centre))) {
+    if (!(eye_height > min_sine * glm::distance(eye, centre))) {
         return std::nullopt;
     }
     glm::dmat4 clip = projector_clip_from_frame * eye_onto_plane(plane, eye);

@@ -37,13 +37,13 @@ struct Box {
 /// good eyes just resolve; and the light smears one pixel of 0.6 mm over 0.6 m. The picture's condition
 /// number is 1 / sine: at this limit clip w spans three of the seven decades of the 32-bit matrix; below it
 /// the GPU's rounding would become visible.
-inline constexpr double least_sine = 1e-3;
+inline constexpr double min_sine = 1e-3;
 
 /// Clip coordinates (OpenGL) of points X as they must be drawn on `plane` for the eye; the depth row is
 /// fitted so that the part of `box` in front of the eye's own plane fills the depth range. Scaled so that w
 /// is about 1.
 ///
-/// nullopt if the eye is not above the plane by `least_sine` times its distance from the box's centre.
+/// nullopt if the eye is not above the plane by `min_sine` times its distance from the box's centre.
 [[nodiscard]] std::optional<glm::dmat4> collineation(const Plane& plane, const glm::dvec3& eye,
                                                      const glm::dmat4& projector_clip_from_frame,
                                                      const Box& box);

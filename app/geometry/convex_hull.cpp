@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Nearer to a face than this share of the cloud's size, a point counts as on it.
+/// A point nearer to a face than this share of the cloud's size counts as on it.
 constexpr double on_face_share = 1e-10;
 constexpr double flat_share = 1e-7;
 
@@ -46,7 +46,8 @@ public:
     Quickhull(std::span<const glm::dvec3> points, double size)
         : points_(points), on_face_(on_face_share * size) {}
 
-    /// False: all points lie on a plane, whose unit normal `flat` then is, or on a line, which leaves it empty.
+    /// False if all points lie on a plane, whose unit normal is then in `flat`, or on a line, which leaves
+    /// `flat` empty.
     bool begin(double size, std::optional<glm::dvec3>& flat) {
         const std::size_t a = farthest([&](const glm::dvec3& p) { return -p.x - 0.1 * p.y - 0.01 * p.z; });
         const std::size_t b = farthest([&](const glm::dvec3& p) { return glm::distance(p, points_[a]); });
@@ -82,7 +83,7 @@ public:
         return true;
     }
 
-    /// Until nothing lies outside, or there are so many corners.
+    /// Adds corners until no point lies outside, or there are `most` corners.
     void grow(std::size_t most) {
         while (corners_ < most) {
             const auto widest = std::max_element(
@@ -129,7 +130,7 @@ private:
         glm::dvec3 normal{0.0}; ///< unit, outward
         double offset = 0.0;
         std::vector<std::size_t> outside; ///< points before this face and no other
-        double most = 0.0;                ///< how far the farthest of them lies before it
+        double most = 0.0;                ///< distance of the farthest of them
         std::size_t farthest = 0;
     };
 
@@ -151,7 +152,7 @@ private:
     [[nodiscard]] double before(const Face& face, std::size_t point) const {
         return glm::dot(face.normal, points_[point]) - face.offset;
     }
-    /// Each point goes to the face that it lies farthest before.
+    /// Assigns each point to the face that it lies farthest in front of.
     void adopt(std::vector<Face> faces, std::span<const std::size_t> points) {
         for (const std::size_t point : points) {
             Face* best = nullptr;
@@ -170,9 +171,9 @@ private:
         }
         std::move(faces.begin(), faces.end(), std::back_inserter(faces_));
     }
-    /// The faces that see the point give way to those between it and their border.
+    /// Replaces the faces that see the point by faces between it and their border.
     void add(std::size_t point) {
-        std::set<std::pair<std::size_t, std::size_t>> edges; // of the faces that go, each in its direction
+        std::set<std::pair<std::size_t, std::size_t>> edges; // of the replaced faces, each in its direction
         std::vector<std::size_t> homeless;
         std::vector<Face> stay;
         for (Face& face : faces_) {
@@ -206,7 +207,8 @@ private:
 
 namespace {
 
-/// Changes coordinates so that a cloud reaches about as far in every direction: what is scaled there grows by the same share in each.
+/// Coordinates in which a cloud extends about equally in every direction, so that scaling grows it by the
+/// same share in each.
 struct Evened {
     glm::dvec3 mean{0.0};
     glm::dmat3 cloud_from_even{1.0}; ///< lower triangular
@@ -241,7 +243,8 @@ struct Evened {
     }
 };
 
-/// Nothing if the points lie on a plane; its normal is then in `flat`, which stays empty where they lie on a line.
+/// Nothing if the points lie on a plane; its normal is then in `flat`, which stays empty if they lie on a
+/// line.
 std::optional<std::vector<glm::dvec3>> solid_around(std::span<const glm::dvec3> points, std::size_t most,
                                                     std::optional<glm::dvec3>& flat) {
     const Box box = box_around(points);
@@ -285,7 +288,7 @@ std::vector<glm::dvec3> enclosing_corners(std::span<const glm::dvec3> points, st
     if (!flat) {
         return corners_of(box);
     }
-    // A sheet gets a thickness that nobody sees.
+    // A flat cloud gets an invisible thickness.
     const glm::dvec3 extent = box.high - box.low;
     const double thickness = 10.0 * flat_share * std::max({extent.x, extent.y, extent.z});
     std::vector<glm::dvec3> thick(points.begin(), points.end());

@@ -1,6 +1,6 @@
-/// The planes through the lens and the edges of a picture: what lies inside all four is in the picture.
+/// The planes through the lens and the edges of a picture: a point inside all four is in the picture.
 ///
-/// Behind a lens that distorts the edges are bent. The planes are then straight ones that lie within the picture.
+/// A lens that distorts bends the edges. The planes then bound a convex region inside the picture.
 ///
 /// Frame    pinhole; or another one, by the pinhole's pose.
 /// Threads  pure; any.
@@ -14,7 +14,7 @@
 
 namespace frustumscreen {
 
-/// Normals look into the picture: top, right, bottom, left.
+/// Normals point into the picture: top, right, bottom, left.
 [[nodiscard]] std::array<Plane, 4> picture_planes(const Pinhole& pinhole,
                                                   const RigidTransform& to_from_pinhole);
 

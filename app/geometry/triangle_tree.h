@@ -32,7 +32,7 @@ public:
         return triangles_.capacity() * sizeof(Triangle) + nodes_.capacity() * sizeof(Node);
     }
     /// Upper bound for a tree of this many triangles.
-    [[nodiscard]] static constexpr std::uint64_t most_bytes(std::uint64_t triangles) {
+    [[nodiscard]] static constexpr std::uint64_t max_bytes(std::uint64_t triangles) {
         return triangles * (sizeof(Triangle) + sizeof(Node));
     }
 

@@ -9,23 +9,23 @@ namespace frustumscreen {
 
 namespace {
 
-/// What stands in an order of advice: all in units of effort.
-constexpr double not_surely_whole = 3.0; ///< where no way of carrying it out mends all
+/// Terms of the order of advice, in units of effort.
+constexpr double not_surely_whole = 3.0; ///< if no execution makes the artifact whole
 constexpr double as_advised_already = -2.0;
-constexpr double unsteady = 6.0; ///< where no small movement leaves it whole
-/// What replaces an advice that stands must help people who are even sloppier, or the two would take turns.
+constexpr double unsteady = 6.0; ///< if no small movement leaves it whole
+/// An advice that replaces the standing one must help with larger deviations, or the two would alternate.
 constexpr double newcomers_margin = 1.25;
-/// People are looked at on a grid; a little more than its corners holds between them too.
+/// Executions are sampled on a grid; a margin slightly beyond its corners covers the values between them.
 constexpr double usual_margin = 1.12;
 
-/// The moves with which longer sequences begin: stood upright, then lowered to the table, the prop is where a zone is
+/// The moves that begin longer sequences: stood upright, then lowered to the table, the prop is where its zone is
 /// widest.
-std::optional<Move> settling(const GuidanceSetup& setup, const GuidedSituation& situation) {
+std::optional<Move> settling(const GuidanceSetup& setup, const GuidedState& tracked_state) {
     constexpr double low_enough_m = 0.03;
-    if (tilt_rad(situation.table_from_prop) > upright_within_rad) {
+    if (tilt_rad(tracked_state.table_from_prop) > upright_within_rad) {
         return Move{Action::Upright};
     }
-    const double height_m = lowest_m(setup.prop, situation.table_from_prop);
+    const double height_m = lowest_m(setup.prop, tracked_state.table_from_prop);
     if (setup.in_hand && height_m > low_enough_m) {
         Move move{Action::Lower};
         move.by_m.z = -height_m;
@@ -36,12 +36,12 @@ std::optional<Move> settling(const GuidanceSetup& setup, const GuidedSituation& 
 
 } // namespace
 
-void AdviceSearch::begin(const FaceReader& reader, const GuidedSituation& situation,
+void AdviceSearch::begin(const FaceReader& reader, const GuidedState& tracked_state,
                          const std::optional<GivenAdvice>& standing) {
-    situation_ = situation;
+    tracked_state_ = tracked_state;
     standing_ = standing;
     found_.reset();
-    over_ = reader.whole(situation);
+    over_ = reader.whole(tracked_state);
     stage_ = Stage::Begun;
     best_ = {};
 }
@@ -72,13 +72,13 @@ void AdviceSearch::end(const Move& move, int steps) {
     over_ = true;
 }
 
-/// Those that make it whole if they are done well, the easiest first.
+/// Collects the moves that make the artifact whole if carried out well, the easiest first.
 void AdviceSearch::collect_single_moves(const FaceReader& reader) {
-    const Candidates list = candidates(reader.setup(), situation_, MoveSet::Only);
+    const Candidates list = candidates(reader.setup(), tracked_state_, MoveSet::Only);
     looks_left_ -= static_cast<int>(list.all().size());
     candidates_ = {};
     for (const Candidate& candidate : list.all()) {
-        if (reader.whole(after(candidate.move, reader.setup(), situation_))) {
+        if (reader.whole(after(candidate.move, reader.setup(), tracked_state_))) {
             const bool stays = standing_ && alike(standing_->move, candidate.move);
             candidates_.add(candidate.move, candidate.effort + (stays ? as_advised_already : 0.0));
         }
@@ -87,7 +87,7 @@ void AdviceSearch::collect_single_moves(const FaceReader& reader) {
     stage_ = Stage::Steadiness;
 }
 
-/// As well as by its effort, by where it ends.
+/// Adds to a move's effort the steadiness of the situation that it ends in.
 void AdviceSearch::weigh_single_move(const FaceReader& reader) {
     if (next_ == candidates_.all().size()) {
         candidates_.sort_by_effort();
@@ -95,11 +95,11 @@ void AdviceSearch::weigh_single_move(const FaceReader& reader) {
         stage_ = Stage::SingleMoves;
         return;
     }
-    const GuidedSituation next = after(candidates_.all()[next_].move, reader.setup(), situation_);
+    const GuidedState next = after(candidates_.all()[next_].move, reader.setup(), tracked_state_);
     candidates_.add_effort(next_++, cost_of_end(reader, next));
 }
 
-/// The best one makes it whole if it is done well, and helpful however it is done.
+/// Finds the best move that makes the artifact whole if carried out well and helps however it is carried out.
 void AdviceSearch::try_single_move(const FaceReader& reader) {
     const std::span<const Candidate> moves = candidates_.all();
     if (next_ == moves.size() || moves[next_].effort >= best_.cost) {
@@ -111,9 +111,10 @@ void AdviceSearch::try_single_move(const FaceReader& reader) {
         return;
     }
     const auto& [move, effort] = moves[next_++];
-    const bool replaces = standing_ && standing_->holds(situation_) && !alike(standing_->move, move);
+    const bool replaces = standing_ && standing_->holds(tracked_state_) && !alike(standing_->move, move);
     int looks = 0;
-    const Help help = help_of(reader, situation_, move, replaces ? newcomers_margin : usual_margin, &looks);
+    const Help help =
+        help_of(reader, tracked_state_, move, replaces ? newcomers_margin : usual_margin, &looks);
     looks_left_ -= looks;
     const double cost = effort + not_surely_whole * (1.0 - help.whole_share);
     if (help.always && cost < best_.cost) {
@@ -121,26 +122,26 @@ void AdviceSearch::try_single_move(const FaceReader& reader) {
     }
 }
 
-/// What stands is kept while a sequence begins with it.
+/// The standing advice is kept while a sequence begins with it.
 void AdviceSearch::plan_sequences(const FaceReader& reader) {
     try_count_ = 0;
-    if (standing_ && standing_->holds(situation_)) {
-        Try kept{situation_};
+    if (standing_ && standing_->holds(tracked_state_)) {
+        Try kept{tracked_state_};
         kept.like = standing_->move;
         plan_up_to_two(kept);
-        const std::optional<Move> first = settling(reader.setup(), situation_);
+        const std::optional<Move> first = settling(reader.setup(), tracked_state_);
         if (first && alike(*first, standing_->move)) {
             plan_after_settling(reader);
         }
     }
-    plan_up_to_two({situation_});
+    plan_up_to_two({tracked_state_});
     plan_after_settling(reader);
     stage_ = Stage::Sequences;
     try_ = 0;
     begin_try(reader);
 }
 
-/// With the last move all over the table only where no coarse one is found.
+/// Tries the last move all over the table only if no coarse one is found.
 void AdviceSearch::plan_up_to_two(Try from) {
     constexpr std::array<std::pair<int, MoveSet>, 4> searches{
         {{1, MoveSet::Only}, {1, MoveSet::Last}, {2, MoveSet::Inner}, {2, MoveSet::Last}}};
@@ -152,7 +153,7 @@ void AdviceSearch::plan_up_to_two(Try from) {
 }
 
 void AdviceSearch::plan_after_settling(const FaceReader& reader) {
-    Try settled{situation_};
+    Try settled{tracked_state_};
     while (const std::optional<Move> next = settling(reader.setup(), settled.from)) {
         settled.settled_by = settled.settled_by ? settled.settled_by : next;
         settled.from = after(*next, reader.setup(), settled.from);
@@ -165,19 +166,19 @@ void AdviceSearch::begin_try(const FaceReader& reader) {
     best_ = {};
     next_ = 0;
     if (try_ == try_count_) {
-        end(Move{}, 1); // it has to wait
+        end(Move{}, 1); // the visitor has to wait
         return;
     }
     const Try& search = tries_.at(try_);
     candidates_ = candidates(reader.setup(), search.from, search.depth == 1 ? search.last : MoveSet::Inner);
 }
 
-/// Each move is done well, at the end it is whole; only the first move and the length matter.
+/// Each move is carried out well, and the artifact is whole at the end; only the first move and the length matter.
 void AdviceSearch::go_on_with_try(const FaceReader& reader) {
     const Try& search = tries_.at(try_);
     if (next_ == candidates_.all().size()) {
         if (best_.any()) {
-            // A single move that people may get wrong is mended by one more.
+            // An uncertain single move may need one more as a correction.
             end(search.settled_by.value_or(best_.move), std::max(2, search.depth + search.steps_before));
         } else {
             ++try_;
@@ -187,21 +188,21 @@ void AdviceSearch::go_on_with_try(const FaceReader& reader) {
     }
     const Candidate& first = candidates_.all()[next_++];
     --looks_left_;
-    // In the hand a place and a turn at once are hardly met; where that is not sure to help, two moves are easier.
+    // A place and a turn at once are hard to carry out in the hand; if that is not sure to help, two moves are
+    // easier.
     const bool too_much = reader.setup().in_hand && stands_elsewhere(first.move);
     if (too_much || first.effort >= best_.cost || (search.like && !alike(*search.like, first.move))) {
         return;
     }
-    const GuidedSituation next = after(first.move, reader.setup(), search.from);
-    const double rest =
-        search.depth == 1 ? cost_of_end(reader, next) : least_effort(reader, next, search.last);
+    const GuidedState next = after(first.move, reader.setup(), search.from);
+    const double rest = search.depth == 1 ? cost_of_end(reader, next) : min_effort(reader, next, search.last);
     if (first.effort + rest < best_.cost) {
         best_ = {first.move, first.effort + rest};
     }
 }
 
-/// Who is led to the edge of what is lit soon has to be led again.
-double AdviceSearch::cost_of_end(const FaceReader& reader, const GuidedSituation& end) {
+/// The cost of ending in a situation: at the edge of the light, another advice would soon be needed.
+double AdviceSearch::cost_of_end(const FaceReader& reader, const GuidedState& end) {
     if (!reader.whole(end)) {
         return never;
     }
@@ -211,8 +212,8 @@ double AdviceSearch::cost_of_end(const FaceReader& reader, const GuidedSituation
     return cost;
 }
 
-/// Of the one move that is left.
-double AdviceSearch::least_effort(const FaceReader& reader, const GuidedSituation& from, MoveSet set) {
+/// The least effort of the one move that is left.
+double AdviceSearch::min_effort(const FaceReader& reader, const GuidedState& from, MoveSet set) {
     double least = never;
     const Candidates list = candidates(reader.setup(), from, set);
     looks_left_ -= static_cast<int>(list.all().size());

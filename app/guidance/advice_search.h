@@ -1,9 +1,10 @@
-/// Looks for an advice in pieces, so that no frame waits for it: each piece looks at about as many situations as it may.
+/// Searches for an advice in pieces, so that no frame waits for it: each piece examines about as many situations as
+/// allowed.
 ///
-/// First single moves, the least effort first; then sequences, the shortest first. What is found does not depend on the
+/// Single moves come first, in order of effort; then sequences, the shortest first. The result does not depend on the
 /// pieces.
 ///
-/// Cost     a situation about 1 us; a single move needs hundreds, a sequence tens of thousands.
+/// Cost     about 1 us for a situation; a single move needs hundreds, a sequence tens of thousands.
 /// Threads  values; one caller. Allocates nothing.
 #pragma once
 
@@ -23,14 +24,14 @@ class AdviceSearch {
 public:
     static constexpr int unlimited = std::numeric_limits<int>::max();
 
-    /// `standing`: the advice that the visitor has already.
-    void begin(const FaceReader& reader, const GuidedSituation& situation,
+    /// `standing`: the advice that the visitor already has.
+    void begin(const FaceReader& reader, const GuidedState& tracked_state,
                const std::optional<GivenAdvice>& standing);
-    /// Goes on by about `looks` situations. True: it is over.
+    /// Examines about `looks` more situations. True: the search is over.
     [[nodiscard]] bool advance(const FaceReader& reader, int looks);
-    /// That of the latest `begin`.
-    [[nodiscard]] const GuidedSituation& situation() const { return situation_; }
-    /// Once it is over: as `advise`.
+    /// The situation of the latest `begin`.
+    [[nodiscard]] const GuidedState& tracked_state() const { return tracked_state_; }
+    /// The result, once the search is over: as `advise`.
     [[nodiscard]] const std::optional<Advice>& found() const { return found_; }
 
 private:
@@ -43,9 +44,9 @@ private:
     };
     /// A search for sequences of one length.
     struct Try {
-        GuidedSituation from;
-        std::optional<Move> settled_by = {}; ///< what comes before it; then this is the advice
-        std::optional<Move> like = {};       ///< its first move is to be alike
+        GuidedState from;
+        std::optional<Move> settled_by = {}; ///< the move before the try; it is then the advice
+        std::optional<Move> like = {};       ///< the try's first move must be alike
         int steps_before = 0;
         int depth = 1;
         MoveSet last = MoveSet::Only;
@@ -58,18 +59,18 @@ private:
     void plan_after_settling(const FaceReader& reader);
     void begin_try(const FaceReader& reader);
     void go_on_with_try(const FaceReader& reader);
-    [[nodiscard]] double cost_of_end(const FaceReader& reader, const GuidedSituation& end);
-    [[nodiscard]] double least_effort(const FaceReader& reader, const GuidedSituation& from, MoveSet set);
+    [[nodiscard]] double cost_of_end(const FaceReader& reader, const GuidedState& end);
+    [[nodiscard]] double min_effort(const FaceReader& reader, const GuidedState& from, MoveSet set);
     void end(const Move& move, int steps);
 
-    GuidedSituation situation_;
+    GuidedState tracked_state_;
     std::optional<GivenAdvice> standing_;
     std::optional<Advice> found_;
     bool over_ = true;
     int looks_left_ = 0;
     Stage stage_ = Stage::Begun;
     Candidates candidates_; ///< single moves, or the first moves of the try
-    std::size_t next_ = 0;  ///< of `candidates_`
+    std::size_t next_ = 0;  ///< index into `candidates_`
     Best best_;
     std::array<Try, 24> tries_{};
     std::size_t try_count_ = 0;

@@ -11,17 +11,18 @@ namespace frustumscreen {
 
 namespace {
 
-/// A point this near to the eye or behind it is taken as this near, in shares of the distance to the prop's middle.
+/// A point closer to the eye than this, or behind it, is moved to this distance, as a fraction of that to the prop's
+/// middle.
 constexpr double nearest_share = 0.01;
 
-/// A pinhole at the eye looks at the prop's middle.
+/// The direction from the eye to the prop's middle.
 glm::dvec3 forward_from(const glm::dvec3& eye, const PropShape& prop) {
     const glm::dvec3 way = prop.middle - eye;
     return way / std::fmax(glm::length(way), 1e-9);
 }
 
 /// The sine at a corner is the height over the plane divided by the corner's distance.
-bool sees(const glm::dvec3& point, const PropFace& face, double least_sine) {
+bool sees(const glm::dvec3& point, const PropFace& face, double min_sine) {
     const double height = face.plane.distance(point);
     if (!(height > 0.0)) {
         return false;
@@ -31,27 +32,27 @@ bool sees(const glm::dvec3& point, const PropFace& face, double least_sine) {
         const glm::dvec3 way = corner - point;
         farthest = std::fmax(farthest, glm::dot(way, way));
     }
-    return height * height >= least_sine * least_sine * farthest;
+    return height * height >= min_sine * min_sine * farthest;
 }
 
-/// Where the eye and the projector are, seen from the prop.
+/// The eye and the projector in the prop's frame.
 struct Views {
     glm::dvec3 eye;
     glm::dvec3 lens;
     RigidTransform projector_from_prop;
 
     Views(const GuidanceSetup& setup, const RigidTransform& projector_from_table,
-          const GuidedSituation& situation)
-        : projector_from_prop(projector_from_table * situation.table_from_prop) {
-        const RigidTransform prop_from_table = situation.table_from_prop.inverse();
-        eye = prop_from_table.point(situation.eye_m);
+          const GuidedState& tracked_state)
+        : projector_from_prop(projector_from_table * tracked_state.table_from_prop) {
+        const RigidTransform prop_from_table = tracked_state.table_from_prop.inverse();
+        eye = prop_from_table.point(tracked_state.eye_m);
         lens = prop_from_table.point(setup.table_from_projector.translation);
     }
     [[nodiscard]] bool seen(const PropFace& face) const {
-        return sees(eye, face, FaceReader::least_sine_of_sight);
+        return sees(eye, face, FaceReader::min_sine_of_sight);
     }
     [[nodiscard]] bool turned_to_light(const PropFace& face, const GuidanceSetup& setup) const {
-        return sees(lens, face, setup.least_sine_of_light);
+        return sees(lens, face, setup.min_sine_of_light);
     }
     [[nodiscard]] bool lit(const PropFace& face, const GuidanceSetup& setup) const {
         const Pinhole& pinhole = setup.projector;
@@ -62,7 +63,7 @@ struct Views {
                           pixel->y <= pinhole.height;
                });
     }
-    /// Calls `visit` with parts that together are all of the face that is not lit, and do not overlap, until it returns false.
+    /// Calls `visit` with disjoint parts that together are the face's unlit area, until it returns false.
     template <typename Visit>
     bool for_each_unlit(const PropFace& face, const GuidanceSetup& setup, const std::array<Plane, 4>& picture,
                         const Visit& visit) const {
@@ -97,8 +98,8 @@ FaceReader::FaceReader(GuidanceSetup setup)
     assert(setup_.prop.faces.size() <= 32);
 }
 
-FaceSets FaceReader::read(const GuidedSituation& situation) const {
-    const Views views(setup_, projector_from_table_, situation);
+FaceSets FaceReader::read(const GuidedState& tracked_state) const {
+    const Views views(setup_, projector_from_table_, tracked_state);
     FaceSets sets;
     for (std::size_t k = 0; k < setup_.prop.faces.size(); ++k) {
         const PropFace& face = setup_.prop.faces[k];
@@ -108,18 +109,18 @@ FaceSets FaceReader::read(const GuidedSituation& situation) const {
     return sets;
 }
 
-bool FaceReader::valid(const GuidedSituation& situation) const {
-    const Views views(setup_, projector_from_table_, situation);
+bool FaceReader::valid(const GuidedState& tracked_state) const {
+    const Views views(setup_, projector_from_table_, tracked_state);
     return std::all_of(setup_.prop.faces.begin(), setup_.prop.faces.end(),
                        [&](const PropFace& face) { return !views.seen(face) || views.lit(face, setup_); });
 }
 
-bool FaceReader::whole(const GuidedSituation& situation) const {
+bool FaceReader::whole(const GuidedState& tracked_state) const {
     const std::span<const glm::dvec3> hull = shown();
     if (hull.empty()) {
-        return valid(situation);
+        return valid(tracked_state);
     }
-    const Views views(setup_, projector_from_table_, situation);
+    const Views views(setup_, projector_from_table_, tracked_state);
     return std::all_of(setup_.prop.faces.begin(), setup_.prop.faces.end(), [&](const PropFace& face) {
         return !views.seen(face) || views.lit(face, setup_) ||
                views.for_each_unlit(face, setup_, picture_, [&](const FacePart& unlit) {
@@ -128,12 +129,12 @@ bool FaceReader::whole(const GuidedSituation& situation) const {
     });
 }
 
-double FaceReader::lost_px(const GuidedSituation& situation) const {
+double FaceReader::lost_px(const GuidedState& tracked_state) const {
     const std::span<const glm::dvec3> hull = shown();
     if (hull.empty()) {
-        return unlit_px(situation);
+        return unlit_px(tracked_state);
     }
-    const Views views(setup_, projector_from_table_, situation);
+    const Views views(setup_, projector_from_table_, tracked_state);
     const SeenOutline outline(views.eye, forward_from(views.eye, setup_.prop), hull);
     double area = 0.0;
     for (const PropFace& face : setup_.prop.faces) {
@@ -148,12 +149,12 @@ double FaceReader::lost_px(const GuidedSituation& situation) const {
     return area * pixels_per_radian * pixels_per_radian;
 }
 
-double FaceReader::area_px(const GuidedSituation& situation, std::uint32_t faces) const {
+double FaceReader::area_px(const GuidedState& tracked_state, std::uint32_t faces) const {
     if (faces == 0) {
         return 0.0;
     }
     const PropShape& prop = setup_.prop;
-    const glm::dvec3 eye = situation.table_from_prop.inverse().point(situation.eye_m);
+    const glm::dvec3 eye = tracked_state.table_from_prop.inverse().point(tracked_state.eye_m);
     const glm::dvec3 way = prop.middle - eye;
     const double distance = std::fmax(glm::length(way), 1e-9);
     const glm::dvec3 forward = way / distance;
@@ -182,12 +183,12 @@ double FaceReader::area_px(const GuidedSituation& situation, std::uint32_t faces
     return area * pixels_per_radian * pixels_per_radian;
 }
 
-std::uint32_t FaceReader::largest_of(const GuidedSituation& situation, std::uint32_t faces) const {
+std::uint32_t FaceReader::largest_of(const GuidedState& tracked_state, std::uint32_t faces) const {
     std::uint32_t largest = 0;
     double most = 0.0;
     for (std::uint32_t rest = faces; rest != 0; rest &= rest - 1) {
         const std::uint32_t face = rest & (~rest + 1);
-        const double area = area_px(situation, face);
+        const double area = area_px(tracked_state, face);
         if (area > most) {
             most = area;
             largest = face;

@@ -67,7 +67,7 @@ RigidTransform standing(const Move& move, const GuidanceSetup& setup, const Rigi
         held.translation += way_of(move, execution);
         return held;
     }
-    // The arm that strays aside turns the prop with it.
+    // An arm that moves sideways turns the prop with it.
     const glm::dvec2 place(table_from_prop.translation + way_of(move, execution));
     return {turn * table_from_prop.rotation, {place, 0.0}};
 }
@@ -91,7 +91,7 @@ bool alike(const Move& a, const Move& b) {
     }
     switch (a.action) {
     case Action::Slide:
-        // Up to 30 degrees apart.
+        // Directions up to 30 degrees apart.
         return glm::dot(a.by_m, b.by_m) >= 0.86 * glm::length(a.by_m) * glm::length(b.by_m);
     case Action::Turn:
         return (a.turn_rad > 0.0) == (b.turn_rad > 0.0);
@@ -108,10 +108,10 @@ bool alike(const Move& a, const Move& b) {
     }
 }
 
-GuidedSituation after(const Move& move, const GuidanceSetup& setup, const GuidedSituation& before,
-                      const Execution& execution) {
-    GuidedSituation situation = before;
-    RigidTransform& pose = situation.table_from_prop;
+GuidedState after(const Move& move, const GuidanceSetup& setup, const GuidedState& before,
+                  const Execution& execution) {
+    GuidedState tracked_state = before;
+    RigidTransform& pose = tracked_state.table_from_prop;
     switch (move.action) {
     case Action::Slide:
     case Action::Raise:
@@ -133,13 +133,13 @@ GuidedSituation after(const Move& move, const GuidanceSetup& setup, const Guided
         const double azimuth =
             0.5 * std::numbers::pi * (static_cast<double>(move.side) - 1.0) + execution.aside_rad;
         const double radius = glm::length(glm::dvec2(before.eye_m)) * std::sqrt(execution.amount);
-        situation.eye_m = {radius * std::cos(azimuth), radius * std::sin(azimuth), before.eye_m.z};
+        tracked_state.eye_m = {radius * std::cos(azimuth), radius * std::sin(azimuth), before.eye_m.z};
         break;
     }
     case Action::Wait:
         break;
     }
-    return situation;
+    return tracked_state;
 }
 
 double tilt_rad(const RigidTransform& table_from_prop) {

@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Remembers the first fault, which otherwise is lost in the ZIP library.
+/// Keeps the first fault, which the ZIP library would lose.
 class WatchedContent final : public FileContent {
 public:
     WatchedContent(std::unique_ptr<const FileContent> content, int& fault)
@@ -31,7 +31,7 @@ private:
     int& fault_;
 };
 
-/// A pack of which only the signature is checked yet, and the fault that reading it met, 0: none.
+/// A pack of which only the signature is checked so far, and the size of its file.
 struct WatchedPack {
     tl::expected<SignedPack, PackRefusal> pack;
     std::uint64_t bytes = 0;
@@ -70,10 +70,10 @@ tl::unexpected<ImportFailure> changed() {
                    false});
 }
 
-/// Returns the hash of what was written.
+/// Returns the hash of the bytes written.
 tl::expected<std::string, ImportFailure> copy_bytes(const FileContent& from, const StickPack& pack,
                                                     NewFile& to, std::size_t step_bytes,
-                                                    const CopyEars& ears) {
+                                                    const CopyObserver& ears) {
     Bytes step(std::min<std::uint64_t>(step_bytes, pack.pack.bytes));
     Sha256 hash;
     for (std::uint64_t at = 0; at < pack.pack.bytes; at += step.size()) {
@@ -99,7 +99,7 @@ tl::expected<std::string, ImportFailure> copy_bytes(const FileContent& from, con
 
 tl::expected<std::string, ImportFailure> copy_file(FileTree& stick, WritableTree& library,
                                                    const StickPack& pack, std::size_t step_bytes,
-                                                   const CopyEars& ears) {
+                                                   const CopyObserver& ears) {
     const FileResult<std::unique_ptr<const FileContent>> from = stick.open(pack.path);
     if (!from) {
         return failed(stick_failure(pack.path, from.error()));
@@ -122,10 +122,10 @@ std::uint64_t unpacked_bytes(const pack_format::Manifest& manifest) {
     return sum;
 }
 
-/// From the copy alone.
+/// Reads the copy alone.
 tl::expected<InstalledPack, ImportFailure> check_copy(WritableTree& library, const StickPack& pack,
                                                       const PackTrust& trust, std::size_t step_bytes,
-                                                      const CopyEars& ears) {
+                                                      const CopyObserver& ears) {
     int fault = 0;
     FileResult<WatchedPack> opened = open_watched(library, std::string(incoming_file_name), trust, fault);
     if (!opened) {
@@ -179,7 +179,7 @@ tl::expected<StickPack, ImportFailure> look_at_pack(FileTree& tree, const std::s
 
 tl::expected<InstalledPack, ImportFailure> copy_pack(FileTree& stick, WritableTree& library,
                                                      const StickPack& pack, const PackTrust& trust,
-                                                     std::size_t step_bytes, const CopyEars& ears) {
+                                                     std::size_t step_bytes, const CopyObserver& ears) {
     TRY(const std::string hash, copy_file(stick, library, pack, step_bytes, ears));
     TRY(InstalledPack copied, check_copy(library, pack, trust, step_bytes, ears));
     copied.sha256 = hash;

@@ -1,8 +1,8 @@
-/// One pack from the stick onto the kiosk's disk: copied, on the disk, checked, and only then under its name.
+/// Copies one pack from the stick to the kiosk's disk, syncs it, checks it, and only then gives it its name.
 ///
-/// Checked  everything that is said of the pack afterwards comes from the copy, whose signature, manifest and parts were checked:
-///          a stick that says other things the second time changes nothing.
-/// Memory   a step, and what the pack's directory and manifest take.
+/// Checked  everything reported of the pack afterwards comes from the copy, whose signature, manifest and parts
+///          were checked. A stick that returns other bytes on a second read changes nothing.
+/// Memory   one step, and the pack's directory and manifest.
 /// Threads  one caller.
 #pragma once
 
@@ -17,23 +17,23 @@
 
 namespace frustumscreen {
 
-/// What is known of a pack once its signature was right.
+/// Opens a pack on the stick, checks its signature and returns what is known of it.
 [[nodiscard]] tl::expected<StickPack, ImportFailure> look_at_pack(FileTree& tree, const std::string& path,
                                                                   const PackTrust& trust);
 
-/// What is heard while a pack is copied. A failure ends the work.
-struct CopyEars {
+/// Callbacks during a copy. A failure ends the copy.
+struct CopyObserver {
     std::function<MonotonicTime()> now;
-    /// So many bytes were read from the stick and written, and the reading took this long.
+    /// `bytes` were read from the stick and written; `reading` is the time of the reads.
     std::function<std::optional<ImportFailure>(std::uint64_t bytes, Nanoseconds reading)> copied;
-    /// So many bytes of the copy were checked, as a share of the file: all of them in the end.
+    /// `bytes` of the copy were checked; the calls add up to the whole file.
     std::function<void(std::uint64_t bytes)> checked;
 };
 
-/// `pack`: as it was looked at. `step_bytes` are copied at a time. Its file and sha256 are filled in. The name is on the disk once
-/// the folder of packs was synced.
+/// Copies `step_bytes` at a time. `pack`: as look_at_pack returned it; the result has its file and sha256 too. The
+/// name is on the disk once the folder of packs is synced.
 [[nodiscard]] tl::expected<InstalledPack, ImportFailure>
 copy_pack(FileTree& stick, WritableTree& library, const StickPack& pack, const PackTrust& trust,
-          std::size_t step_bytes, const CopyEars& ears);
+          std::size_t step_bytes, const CopyObserver& ears);
 
 } // namespace frustumscreen

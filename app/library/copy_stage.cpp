@@ -17,7 +17,7 @@ Outcome failed(ImportFailure failure) {
 } // namespace
 
 Outcome CopyStage::run(std::vector<StickPack>& packs, const PackTrust& trust) {
-    std::uint64_t decided_bytes = 0; // whole packs, however far they came
+    std::uint64_t decided_bytes = 0; // whole packs, even if their copy ended early
     for (const std::size_t k : copy_order(packs)) {
         StickPack& pack = packs[k];
         if (!pack.is_wanted()) {
@@ -52,7 +52,7 @@ Outcome CopyStage::copy(StickPack& pack, const PackTrust& trust) {
         add(bytes);
         return pace_.add(bytes, reading) ? std::nullopt : std::optional(too_slow());
     };
-    const CopyEars ears{outside_.now, on_copied, [this](std::uint64_t bytes) { add(bytes); }};
+    const CopyObserver ears{outside_.now, on_copied, [this](std::uint64_t bytes) { add(bytes); }};
     const Nanoseconds before = outside_.work();
     const tl::expected<InstalledPack, ImportFailure> copied =
         copy_pack(stick_, library_, pack, trust, limits_.step_bytes, ears);

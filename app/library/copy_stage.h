@@ -1,8 +1,9 @@
-/// A stick's packs onto the kiosk's disk, one after the other, the newest of an artifact first; what this may cost is bounded.
+/// Copies a stick's packs to the kiosk's disk, one after the other, the newest of each artifact first, within the
+/// import's limits.
 ///
 /// Memory   as copy_pack.h.
 /// Threads  one caller.
-/// Errors   what concerns the stick as a whole; what concerns one pack stands in its line.
+/// Errors   those of the stick as a whole are returned; those of one pack are in its line.
 #pragma once
 
 #include "app/library/copy_pack.h"
@@ -18,14 +19,15 @@ namespace frustumscreen {
 
 class CopyStage {
 public:
-    /// All are used until it ends. `progress` hears how many bytes are done: each byte of a pack is copied, and checked.
+    /// The references must outlive the stage. `progress` gets the bytes done: each byte of a pack counts twice,
+    /// copied and checked.
     CopyStage(FileTree& stick, WritableTree& library, const ImportLimits& limits,
-              const ImportSurroundings& outside, WorkInVain& in_vain,
+              const ImportEnvironment& outside, WastedWorkBudget& in_vain,
               std::function<void(std::uint64_t bytes)> progress)
         : stick_(stick), library_(library), limits_(limits), outside_(outside), in_vain_(in_vain),
           progress_(std::move(progress)), pace_(limits) {}
 
-    /// Those that are wanted are taken or refused, and their names are on the disk.
+    /// Takes or refuses each wanted pack. At the end, the names of the taken packs are on the disk.
     [[nodiscard]] tl::expected<void, ImportFailure> run(std::vector<StickPack>& packs,
                                                         const PackTrust& trust);
 
@@ -36,8 +38,8 @@ private:
     FileTree& stick_;
     WritableTree& library_;
     const ImportLimits& limits_;
-    const ImportSurroundings& outside_;
-    WorkInVain& in_vain_;
+    const ImportEnvironment& outside_;
+    WastedWorkBudget& in_vain_;
     std::function<void(std::uint64_t bytes)> progress_;
     ReadingPace pace_;
     std::uint64_t done_bytes_ = 0;

@@ -18,12 +18,12 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t most_keys = 16; ///< in one file
-constexpr std::size_t most_attract_texts = 64;
-constexpr std::size_t most_key_name_bytes = 100;
+constexpr std::size_t max_keys = 16; ///< in one file
+constexpr std::size_t max_attract_texts = 64;
+constexpr std::size_t max_key_name_bytes = 100;
 
 void read_ids(TableReader& table, std::string_view key, std::vector<std::string>& ids) {
-    table.texts(key, ids, most_installed_packs);
+    table.texts(key, ids, max_installed_packs);
     std::set<std::string_view> seen;
     for (const std::string& id : ids) {
         table.require("exhibit_file.id", is_artifact_id(id), key,
@@ -37,7 +37,7 @@ void read_ids(TableReader& table, std::string_view key, std::vector<std::string>
 
 void read_attract(TableReader& table, ExhibitFile& file) {
     std::vector<std::pair<std::string, std::string>> texts;
-    table.named_texts("attract", texts, most_attract_texts);
+    table.named_texts("attract", texts, max_attract_texts);
     if (!table.has("attract")) {
         return;
     }
@@ -64,11 +64,10 @@ void read_attract(TableReader& table, ExhibitFile& file) {
 
 void read_key(TableReader& table, CarriedKey& key) {
     table.any_text("name", key.name);
-    table.require(
-        "exhibit_file.key_name", !key.name.empty() && key.name == printable(key.name, most_key_name_bytes),
-        "name",
-        fmt::format("is missing or not a name; allowed is one line of 1 to {} bytes, such as \"2031\"",
-                    most_key_name_bytes));
+    table.require("exhibit_file.key_name",
+                  !key.name.empty() && key.name == printable(key.name, max_key_name_bytes), "name",
+                  fmt::format("is missing or no name; allowed is one line of 1 to {} bytes, such as \"2031\"",
+                              max_key_name_bytes));
     table.any_text("public_key", key.public_key);
     const Result<PublicKey> parsed = parse_public_key(key.public_key);
     table.require("exhibit_file.public_key", parsed.has_value(), "public_key",
@@ -90,7 +89,7 @@ void read_all(TableReader& table, ExhibitFile& file) {
                       fmt::format("names \"{}\", which order names too; name it in one of them", id));
     }
     read_attract(table, file);
-    table.tables("key", file.keys, most_keys, read_key, {});
+    table.tables("key", file.keys, max_keys, read_key, {});
 }
 
 } // namespace
@@ -98,10 +97,10 @@ void read_all(TableReader& table, ExhibitFile& file) {
 Result<ExhibitFile> parse_exhibit_file(std::string_view text) {
     ReadState state{std::string(exhibit_file_name), {}, {}, std::nullopt};
     ExhibitFile file;
-    read_toml(state, text, most_exhibit_file_bytes, [&](const toml::table& root) {
+    read_toml(state, text, max_exhibit_file_bytes, [&](const toml::table& root) {
         TableReader keys(state, &root, "");
         read_all(keys, file);
-        keys.finish(); // a misspelt order is said before one that is missing
+        keys.finish(); // a misspelt key is reported before a missing one
         keys.require("exhibit_file.only", !file.only || !file.order.empty(), "only",
                      "would remove every pack, because order names none; write order = [\"id\", ...]");
     });

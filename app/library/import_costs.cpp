@@ -14,15 +14,15 @@ bool ReadingPace::add(std::uint64_t bytes, Nanoseconds reading) {
     return is_fast_enough;
 }
 
-void WorkInVain::add_copy(Nanoseconds work, const std::string& manifest_sha256) {
+void WastedWorkBudget::add_copy(Nanoseconds work, const std::string& manifest_sha256) {
     work_ += work;
     ++copies_;
     ++copies_of_[manifest_sha256];
 }
 
-bool WorkInVain::is_hopeless(const std::string& manifest_sha256) const {
+bool WastedWorkBudget::is_hopeless(const std::string& manifest_sha256) const {
     const auto copies = copies_of_.find(manifest_sha256);
-    return copies != copies_of_.end() && copies->second >= limits_.most_refused_copies_of_one;
+    return copies != copies_of_.end() && copies->second >= limits_.max_refused_copies_of_one;
 }
 
 } // namespace frustumscreen

@@ -1,6 +1,7 @@
-/// What a stick has cost so far: whether it still gives bytes fast enough, and how much work was done for packs that are refused.
+/// Costs of a stick so far: whether it still delivers bytes fast enough, and how much work went into packs that
+/// were refused.
 ///
-/// Units    time by the clock for reads, of the processor for work.
+/// Units    reads: wall time; work: processor time.
 /// Threads  one caller.
 #pragma once
 
@@ -12,11 +13,11 @@
 
 namespace frustumscreen {
 
-/// Only reads of the stick count: a disk that writes slowly is not the stick's fault.
+/// Read rate of the stick. Time spent writing does not count: a slow disk is not the stick's fault.
 class ReadingPace {
 public:
     explicit ReadingPace(const ImportLimits& limits) : limits_(limits) {}
-    /// `bytes` took `reading`. False: it is too slow.
+    /// Adds `bytes` that took `reading`. False if the stick is too slow.
     [[nodiscard]] bool add(std::uint64_t bytes, Nanoseconds reading);
 
 private:
@@ -25,18 +26,18 @@ private:
     Nanoseconds reading_{0};
 };
 
-/// A pack of the museum's may be large, and one that is damaged costs as much as a good one: some copies in vain are nobody's
-/// harm, hundreds are.
-class WorkInVain {
+/// Work on packs that were refused. A pack may be large, and a damaged one costs as much as a good one, so a few
+/// copies in vain are allowed; hundreds are not.
+class WastedWorkBudget {
 public:
-    explicit WorkInVain(const ImportLimits& limits) : limits_(limits) {}
+    explicit WastedWorkBudget(const ImportLimits& limits) : limits_(limits) {}
     void add_look(Nanoseconds work) { work_ += work; }
-    /// `manifest_sha256`: of the pack whose copy was refused.
+    /// Adds a refused copy. `manifest_sha256`: of the pack.
     void add_copy(Nanoseconds work, const std::string& manifest_sha256);
     [[nodiscard]] bool is_too_much() const {
-        return work_ > limits_.refused_work && (copies_ == 0 || copies_ > limits_.most_refused_copies);
+        return work_ > limits_.refused_work && (copies_ == 0 || copies_ > limits_.max_refused_copies);
     }
-    /// Whether copies of the pack with this manifest were refused so often that another one need not be tried.
+    /// True if copies of the pack with this manifest were refused so often that another one is not tried.
     [[nodiscard]] bool is_hopeless(const std::string& manifest_sha256) const;
 
 private:

@@ -11,7 +11,7 @@ bool is_last(ImportStage stage) {
     return stage == ImportStage::Done || stage == ImportStage::Failed;
 }
 
-/// stick7 of stick7p1.
+/// The disk of a partition: stick7 for stick7p1.
 std::string_view disk_of(std::string_view import_id) {
     return import_id.substr(0, import_id.find('p'));
 }
@@ -28,7 +28,7 @@ std::optional<ImportReport> last_word(const std::optional<ImportReport>& last, s
         return std::nullopt;
     }
     ImportReport report = is_ours ? *last : ImportReport{};
-    if (report.stage == ImportStage::MayTakeOut) { // what was left to do nobody needs to hear of
+    if (report.stage == ImportStage::MayTakeOut) { // the remaining work does not concern the staff
         report.stage = ImportStage::Done;
         return report;
     }
@@ -42,7 +42,7 @@ std::optional<ImportReport> last_word(const std::optional<ImportReport>& last, s
         report.reason =
             "the stick needs more time or memory than is allowed; put fewer files on it, or try another one";
     }
-    for (ImportedPack& pack : report.packs) { // none was switched to
+    for (ImportedPack& pack : report.packs) { // the set was not switched
         if (pack.outcome == ImportOutcome::Pending || pack.outcome == ImportOutcome::Taken) {
             pack.outcome = ImportOutcome::Refused;
             pack.refusal = report.refusal;

@@ -1,5 +1,5 @@
-/// The last word on an import that could not say it itself, because it was stopped in the middle: the service manager says so,
-/// and another run of the program writes it. And whose report stands while several sticks are put in.
+/// The final report of an import that was stopped before it could write one: the service manager starts another run
+/// of the program, which writes it. Also decides which report stands while several sticks are put in.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -13,20 +13,20 @@
 
 namespace frustumscreen {
 
-/// Of the import `import_id` that has ended, while the report said `last`; none: it was said, or the report is that of another
-/// stick which is being read, or came after this one had ended well. `service_result`: why it ended, as systemd calls it in
-/// SERVICE_RESULT. `set_number`: of what is installed.
+/// The final report of the import `import_id`, which has ended; `last` is the report on file. None if the import
+/// wrote its own final report, if another stick is being read, or if another stick's report came after this import
+/// had succeeded. `service_result`: systemd's SERVICE_RESULT. `set_number`: of the installed set.
 [[nodiscard]] std::optional<ImportReport> last_word(const std::optional<ImportReport>& last,
                                                     std::string import_id, std::string_view service_result,
                                                     std::uint64_t set_number);
 
-/// The stick cannot be mounted, and the report said `last`. False: that was about this stick, or another partition of the same disk
-/// was read. Ids are as the udev rules give them: stick7p1.
+/// True if the staff is told that the stick cannot be mounted; `last` is the report on file. False if `last` is
+/// about this stick, or if another partition of the same disk was read. Ids are those of the udev rules: stick7p1.
 [[nodiscard]] bool is_to_be_told_unmounted(const std::optional<ImportReport>& last,
                                            std::string_view import_id);
 
-/// How long the import `import_id` waits, so that another one's report `last` that is over stands for `stands`. `age`: of that, by
-/// a clock that may have been set meanwhile.
+/// How long the import `import_id` waits before its first report, so that the final report `last` of another stick
+/// stays for `stands`. `age`: of `last`, by a clock that may have been set in between.
 [[nodiscard]] Nanoseconds wait_before_first_word(const std::optional<ImportReport>& last,
                                                  std::string_view import_id, Nanoseconds age,
                                                  Nanoseconds stands);

@@ -1,4 +1,4 @@
-/// Why a stick as a whole, or one of its packs, is not taken: for the table as a value, for the staff as a sentence.
+/// Why a stick, or one of its packs, is refused: a value for the table, a sentence for the staff.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -15,19 +15,20 @@ namespace frustumscreen {
 struct ImportFailure {
     ImportRefusal refusal = ImportRefusal::NotAPack;
     std::string reason;       ///< one sentence
-    bool whole = false;       ///< the stick as a whole, not this pack alone
-    bool by_set_file = false; ///< that is because of what the set file says
+    bool whole = false;       ///< concerns the whole stick, not only this pack
+    bool by_set_file = false; ///< it follows from what the set file says
 };
 
-/// Something on the stick could not be read. A file or folder that is closed to us is one thing, a stick that fails another.
+/// A part of the stick could not be read. A file without read permission and a failing stick have different
+/// sentences.
 [[nodiscard]] ImportFailure stick_failure(std::string_view path, FileFault fault);
-/// Something on the kiosk's disk could not be read or written.
+/// A file on the kiosk's disk could not be read or written.
 [[nodiscard]] ImportFailure disk_failure(std::string_view path, FileFault fault);
 [[nodiscard]] ImportFailure failure_of(const PackRefusal& refusal);
 [[nodiscard]] ImportFailure failure_of(const SignatureRefusal& refusal);
-/// The packs need `wanted` bytes, `free` are left, and `margin` of these stay free.
+/// The packs need `wanted` bytes; `free` are left, of which `margin` must stay free.
 [[nodiscard]] ImportFailure no_room(std::uint64_t wanted, std::uint64_t free, std::uint64_t margin);
-/// The new set is shown, and nobody knows whether it is on the disk.
+/// The new set is shown, but may not be on the disk.
 [[nodiscard]] ImportFailure unsure_switch();
 [[nodiscard]] ImportFailure too_slow();
 [[nodiscard]] ImportFailure too_much(std::string reason);

@@ -9,9 +9,9 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t most_report_bytes = 8U << 20U;
-constexpr std::size_t most_reported_packs = 4000;
-constexpr std::size_t most_text_bytes = 1000;
+constexpr std::size_t max_report_bytes = 8U << 20U;
+constexpr std::size_t max_reported_packs = 4000;
+constexpr std::size_t max_text_bytes = 1000;
 constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 
 void report_fields(auto& fields, auto& report) {
@@ -23,7 +23,7 @@ void report_fields(auto& fields, auto& report) {
     fields.choice("refusal", report.refusal, import_refusal_names);
     fields.text("reason", report.reason);
     fields.whole("set_number", report.set_number, no_limit);
-    fields.objects("packs", report.packs, most_reported_packs, [](auto& item, auto& pack) {
+    fields.objects("packs", report.packs, max_reported_packs, [](auto& item, auto& pack) {
         item.text("file", pack.file);
         item.text("title", pack.title);
         item.choice("outcome", pack.outcome, import_outcome_names);
@@ -32,14 +32,14 @@ void report_fields(auto& fields, auto& report) {
     });
 }
 
-/// Whoever wrote them, they go to the table and the journal.
+/// The texts may come from any writer, and go to the table and the journal.
 void make_printable(ImportReport& report) {
     for (std::string* text : {&report.import_id, &report.stick, &report.reason}) {
-        *text = printable(*text, most_text_bytes);
+        *text = printable(*text, max_text_bytes);
     }
     for (ImportedPack& pack : report.packs) {
         for (std::string* text : {&pack.file, &pack.title, &pack.reason}) {
-            *text = printable(*text, most_text_bytes);
+            *text = printable(*text, max_text_bytes);
         }
     }
 }
@@ -48,7 +48,7 @@ void make_printable(ImportReport& report) {
 
 Result<ImportReport> parse_import_report(std::string_view json) {
     Result<ImportReport> report =
-        parse_document<ImportReport>(json, "the report", most_report_bytes,
+        parse_document<ImportReport>(json, "the report", max_report_bytes,
                                      [](auto& fields, auto& value) { report_fields(fields, value); });
     if (report) {
         make_printable(*report);

@@ -1,8 +1,8 @@
-/// What the importer says of a stick while it reads it, and what came of it: for the table, the journal and the status.
+/// The importer's report on a stick, during and after the import: for the table, the journal and the status.
 ///
-/// File     JSON, renewed by rename, a few times a second at most while something is copied. It stays when the importer ends.
+/// File     JSON, replaced by rename, at most a few times a second during a copy. It stays after the importer ends.
 /// Threads  values; any.
-/// Errors   one sentence: bytes that are no report.
+/// Errors   one sentence: the bytes are no report.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -16,33 +16,33 @@
 namespace frustumscreen {
 
 enum class ImportStage : std::uint8_t {
-    Found,      ///< a stick is there; it is looked through
+    Found,      ///< a stick is there; its files are looked at
     Copying,    ///< `done_bytes` of `total_bytes`
-    MayTakeOut, ///< nothing more is read from it; what was copied is checked and switched to
-    Done,       ///< the new set can be shown, or all is as it was
-    Failed,     ///< the stick as a whole: `refusal` and `reason`
+    MayTakeOut, ///< reading from the stick has ended; the copies are checked and the set is switched
+    Done,       ///< the new set can be shown, or nothing has changed
+    Failed,     ///< the stick as a whole is refused: `refusal` and `reason`
 };
 
 inline constexpr std::array<std::string_view, 5> import_stage_names{"found", "copying", "may_take_out",
                                                                     "done", "failed"};
 
-/// What became of a pack.
+/// The outcome of a pack.
 enum class ImportOutcome : std::uint8_t { Pending, Taken, AlreadyThere, Refused, Removed };
 inline constexpr std::array<std::string_view, 5> import_outcome_names{"pending", "taken", "already_there",
                                                                       "refused", "removed"};
 
-/// Why a pack or a stick was refused. The exhibit's own words have `stick.refused.NAME` for each.
+/// Why a pack or a stick was refused. The exhibit's own texts have `stick.refused.NAME` for each value.
 enum class ImportRefusal : std::uint8_t {
     None,
     Unsigned,   ///< no signature
-    WrongKey,   ///< signed with a key that is not one of the museum's, or with one that has ended
+    WrongKey,   ///< signed with a key that is not one of the museum's, or that has expired
     Altered,    ///< signature, hash or checksum do not match
-    Older,      ///< than what is installed
-    NotAPack,   ///< damaged, or of no known format; beyond a limit
+    Older,      ///< older than the installed one
+    NotAPack,   ///< damaged, of unknown format, or beyond a limit
     NoRoom,     ///< the kiosk's disk is too full
     Unreadable, ///< the stick cannot be read, or was pulled out
     Unwritable, ///< the kiosk's disk cannot be written
-    TooMuch,    ///< more files or folders than a stick may have; too slow
+    TooMuch,    ///< more files or folders than allowed, or too slow
 };
 inline constexpr std::array<std::string_view, 10> import_refusal_names{
     "none",       "unsigned", "wrong_key",  "altered",    "older",
@@ -50,20 +50,20 @@ inline constexpr std::array<std::string_view, 10> import_refusal_names{
 
 struct ImportedPack {
     std::string file;  ///< its name on the stick, printable
-    std::string title; ///< empty as long as nothing of the pack may be believed
+    std::string title; ///< empty until the pack's signature is checked
     ImportOutcome outcome = ImportOutcome::Pending;
     ImportRefusal refusal = ImportRefusal::None;
     std::string reason; ///< a sentence
     [[nodiscard]] bool operator==(const ImportedPack&) const = default;
 };
 struct ImportReport {
-    std::string import_id; ///< another one for each stick that is put in
+    std::string import_id; ///< different for each stick that is put in
     std::string stick;     ///< its label, printable; may be empty
     ImportStage stage = ImportStage::Found;
     std::uint64_t done_bytes = 0, total_bytes = 0;
     ImportRefusal refusal = ImportRefusal::None;
     std::string reason;
-    std::uint64_t set_number = 0; ///< that is installed now
+    std::uint64_t set_number = 0; ///< of the installed set
     std::vector<ImportedPack> packs;
     [[nodiscard]] bool operator==(const ImportReport&) const = default;
 };

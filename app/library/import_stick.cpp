@@ -21,7 +21,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr Nanoseconds between_reports = std::chrono::milliseconds(100); ///< while something is copied
+constexpr Nanoseconds between_reports = std::chrono::milliseconds(100); ///< during a copy
 
 using Outcome = tl::expected<void, ImportFailure>;
 
@@ -32,13 +32,14 @@ tl::unexpected<ImportFailure> failed(ImportFailure failure) {
 class Import {
 public:
     Import(FileTree& stick, WritableTree& library, const ImportRequest& request,
-           const ImportSurroundings& outside)
+           const ImportEnvironment& outside)
         : stick_(stick), library_(library), request_(request), outside_(outside), in_vain_(request.limits) {
         report_.import_id = request.import_id;
         report_.stick = printable(request.stick);
     }
 
-    /// Nothing: the exhibit shows another set by now than the one that all was weighed against; it is to be begun anew.
+    /// Nothing if the exhibit has changed to another set than the one that the packs were weighed against: the
+    /// import starts again.
     std::optional<ImportReport> run();
 
 private:
@@ -70,24 +71,24 @@ private:
     FileTree& stick_;
     WritableTree& library_;
     const ImportRequest& request_;
-    const ImportSurroundings& outside_;
-    MonotonicTime began_{}; ///< looking; the kiosk's own disk is not the stick's fault
+    const ImportEnvironment& outside_;
+    MonotonicTime began_{}; ///< start of the look at the stick; the kiosk's own disk does not count
     ImportReport report_;
-    std::vector<ImportedPack> refused_on_the_way_; ///< of which nothing is known but the name
-    std::optional<ImportedPack> misnamed_;         ///< what may be meant as set file
+    std::vector<ImportedPack> refused_on_the_way_; ///< of which only the name is known
+    std::optional<ImportedPack> misnamed_;         ///< a file that may be meant as set file
     std::optional<ImportedPack> misnamed_settings_;
     std::vector<StickPack> packs_;
     std::vector<InstalledPack> removed_;
     std::optional<ImportedPack> exhibit_line_;
     std::optional<SignedExhibitFile> exhibit_;
     std::vector<TrustedKey> keys_;
-    std::vector<CarriedKey> carried_; ///< with those that the set file brings
+    std::vector<CarriedKey> carried_; ///< including those that the set file brings
     SetFile known_;
     bool may_clear_away_ = false; ///< known_ is on the disk
-    bool is_unsure_ = false;      ///< known_ is shown, and may not be on the disk
+    bool is_unsure_ = false;      ///< known_ is shown, but may not be on the disk
     std::optional<SetVerdict> verdict_;
-    bool shows_another_ = false; ///< since the first look
-    WorkInVain in_vain_;
+    bool shows_another_ = false; ///< than at the first look
+    WastedWorkBudget in_vain_;
     MonotonicTime told_{};
 };
 
@@ -120,7 +121,7 @@ void Import::tell(ImportStage stage) {
 void Import::fail_whole(const ImportFailure& failure) {
     report_.refusal = failure.refusal;
     report_.reason = failure.reason;
-    if (!is_unsure_) { // every line says so
+    if (!is_unsure_) { // nothing was taken, and every line says so
         removed_.clear();
         const bool is_by_exhibit_file =
             exhibit_line_ && (exhibit_line_->outcome == ImportOutcome::Refused || failure.by_set_file);
@@ -150,7 +151,8 @@ Outcome Import::read_library() {
     return remember_day();
 }
 
-/// Before the stick is looked at, so that one that is refused counts too. Where no key ends, the day is of no account.
+/// Comes before the look at the stick, so that a refused stick counts too. If no key has a last day, the day does
+/// not matter.
 Outcome Import::remember_day() {
     SetFile next = known_;
     next.latest_day = latest_day(known_.latest_day, request_.today);
@@ -221,7 +223,7 @@ Outcome Import::look() {
     return read_exhibit_file(files.has_exhibit_file).and_then([&] { return look_at_packs(files.packs); });
 }
 
-/// Each installed file is read once, however often the stick has its pack.
+/// Reads each installed file once, however often the stick has its pack.
 void Import::weigh() {
     std::map<std::string, bool> sound;
     weigh_packs(packs_, shown(), known_, [&](const InstalledPack& pack) {
@@ -233,7 +235,7 @@ void Import::weigh() {
     });
 }
 
-/// Whether the set file allows the set at all is known before anything is copied, and looked at again after.
+/// Checks the set file against the packs before anything is copied; switch_set plans again afterwards.
 Outcome Import::plan() {
     return without_value(plan_set(shown(), packs_, refused_on_the_way_,
                                   exhibit_ ? std::optional(exhibit_->file) : std::nullopt));
@@ -244,7 +246,7 @@ Outcome Import::look_for_room() {
     for (const StickPack& pack : packs_) {
         wanted += pack.is_wanted() ? pack.pack.bytes : 0;
     }
-    report_.total_bytes = 2 * wanted; // each byte is copied, and checked
+    report_.total_bytes = 2 * wanted; // each byte is copied and checked
     if (wanted == 0) {
         return {};
     }
@@ -260,7 +262,7 @@ Outcome Import::look_for_room() {
     return *free < needed ? failed(no_room(wanted, *free, request_.limits.margin_bytes)) : Outcome();
 }
 
-/// Where the set is good, nothing older is needed. Their packs need not be there for nothing.
+/// If the current set is good, no older set is needed, and the files of older packs may go.
 Outcome Import::forget_older_sets() {
     SetFile next = known_;
     next.choice.last_good.reset();
@@ -280,7 +282,7 @@ Outcome Import::rewrite(SetFile next) {
     return {};
 }
 
-/// A report has a line for each pack, so it is not made for each step.
+/// A report has a line for each pack, so it is not written at each step.
 void Import::progress(std::uint64_t bytes) {
     report_.done_bytes = std::min(bytes, report_.total_bytes);
     if (outside_.now() - told_ >= between_reports) {
@@ -297,7 +299,7 @@ Outcome Import::copy() {
     return stage.run(packs_, trust());
 }
 
-/// Copying takes minutes, in which the exhibit may have come to a verdict.
+/// Copying takes minutes, in which the exhibit may reach a verdict.
 Outcome Import::read_verdict_again() {
     const std::uint64_t weighed = shown().number;
     TRY(verdict_, read_verdict(library_));
@@ -305,7 +307,7 @@ Outcome Import::read_verdict_again() {
     return {};
 }
 
-/// Who takes a key back hears which packs it leaves behind.
+/// A museum that withdraws a key reads which packs still carry its signature.
 std::string Import::of_ended_keys(const InstalledSet& set) {
     if (!exhibit_ || exhibit_->file.keys.empty()) {
         return {};
@@ -317,19 +319,19 @@ std::string Import::of_ended_keys(const InstalledSet& set) {
                                        names_in_words(packs));
 }
 
-/// Serials and keys are kept even where the set stays as it is.
+/// Serials and keys are kept even if the set stays as it is.
 Outcome Import::switch_set() {
     TRY(PlannedSet planned, plan_set(shown(), packs_, refused_on_the_way_,
                                      exhibit_ ? std::optional(exhibit_->file) : std::nullopt));
     SetFile next = known_;
     remember(next, packs_, exhibit_);
     next.keys = carried_;
-    if (next.serials.size() > most_accepted_serials || next.keys.size() > most_carried_keys) {
+    if (next.serials.size() > max_accepted_serials || next.keys.size() > max_carried_keys) {
         return failed(
             too_much("the kiosk has taken as many different packs and keys as it can remember; call "
                      "a technician"));
     }
-    // What was mended the exhibit opens only as another set.
+    // The exhibit opens a mended file only with another set.
     const bool has_mended = std::any_of(packs_.begin(), packs_.end(), [](const StickPack& pack) {
         return pack.mends && pack.told.outcome == ImportOutcome::Taken;
     });
@@ -337,7 +339,7 @@ Outcome Import::switch_set() {
         replace_set(next, std::move(planned.set), verdict_);
     }
     if (!(next == known_)) {
-        may_clear_away_ = false; // as long as nobody knows which of the two is on the disk
+        may_clear_away_ = false; // until it is certain which of the two is on the disk
         if (const FileResult<void> switched = switch_to(library_, next); !switched) {
             const tl::expected<SetFile, ImportFailure> now = read_set_file(library_);
             is_unsure_ = now && *now == next;
@@ -393,10 +395,10 @@ std::optional<ImportReport> Import::run() {
 } // namespace
 
 ImportReport import_stick(FileTree& stick, WritableTree& library, const ImportRequest& request,
-                          const ImportSurroundings& surroundings) {
+                          const ImportEnvironment& environment) {
     std::optional<ImportReport> report;
     while (!report) { // a verdict only goes on, from trying to good or bad: this ends soon
-        report = Import(stick, library, request, surroundings).run();
+        report = Import(stick, library, request, environment).run();
     }
     return *std::move(report);
 }

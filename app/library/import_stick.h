@@ -1,10 +1,12 @@
-/// A stick's packs into the installed set: looked at, copied, checked, switched to at once, told.
+/// Imports a stick's packs into the installed set: looks at them, copies and checks them, switches to the new set
+/// at once, reports.
 ///
-/// Order    installed_set.h and library_folder.h; nothing of a pack is parsed before its signature was right, but the ZIP's
-///          directory. Whatever happens and whenever it ends, the old set or the new one is installed, whole.
-/// Whole    what a pack is refused for concerns that pack; a stick that fails, a full disk, or a set file that is refused
-///          concern the stick: nothing of it is taken.
-/// Memory   bounded, whatever the stick holds.
+/// Order    installed_set.h and library_folder.h. Nothing of a pack but the ZIP's directory is parsed before its
+///          signature is checked. Whenever the import is interrupted, either the old set or the new one is
+///          installed, whole.
+/// Whole    a fault of a pack concerns that pack alone. A failing stick, a full disk or a refused set file concerns
+///          the stick: nothing of it is taken.
+/// Memory   bounded, whatever is on the stick.
 /// Threads  one caller; only one import for a folder at a time (the program holds a lock).
 /// Errors   in the report, each with one sentence.
 #pragma once
@@ -25,25 +27,25 @@ namespace frustumscreen {
 
 struct ImportRequest {
     std::string import_id;
-    std::string stick;            ///< its label
-    std::vector<TrustedKey> keys; ///< of the settings; those that sets brought come from set.txt
-    std::optional<std::chrono::sys_days> today; ///< for the ends of keys alone
+    std::string stick;                          ///< its label
+    std::vector<TrustedKey> keys;               ///< of the settings; set.txt has those that sets brought
+    std::optional<std::chrono::sys_days> today; ///< used only for the last days of keys
     UnsignedPacks unsigned_packs = UnsignedPacks::Refuse;
     bool takes_settings = false;          ///< the kiosk takes its settings from sticks
-    std::optional<ImportedPack> settings; ///< what became of the stick's settings: the report's first line
+    std::optional<ImportedPack> settings; ///< outcome of the stick's settings: the report's first line
     ImportLimits limits;
 };
 
-/// What the import asks of the outside, so that a test is that outside.
-struct ImportSurroundings {
+/// The import's inputs from outside, which a test replaces.
+struct ImportEnvironment {
     std::function<MonotonicTime()> now;
     std::function<Nanoseconds()> work; ///< processor time of this process
-    /// Hears each stage, and how far copying is; the receiver thins it out.
+    /// Gets each stage, and the progress of copying; the receiver limits the rate.
     std::function<void(const ImportReport&)> tell;
 };
 
-/// The last report, which was told too: Done or Failed.
+/// Returns the last report, which was passed to `tell` too: Done or Failed.
 ImportReport import_stick(FileTree& stick, WritableTree& library, const ImportRequest& request,
-                          const ImportSurroundings& surroundings);
+                          const ImportEnvironment& environment);
 
 } // namespace frustumscreen

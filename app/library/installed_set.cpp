@@ -10,16 +10,16 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t most_verdict_bytes = 64U << 10U;
-constexpr std::size_t most_reason_bytes = 1000;
-constexpr int most_counted_starts = 1000000;
+constexpr std::size_t max_verdict_bytes = 64U << 10U;
+constexpr std::size_t max_reason_bytes = 1000;
+constexpr int max_counted_starts = 1000000;
 /// In the order of TrialState.
 constexpr std::array<std::string_view, 3> verdict_names{"trying", "good", "bad"};
 
 void verdict_fields(auto& fields, auto& verdict) {
     fields.whole("number", verdict.number, std::numeric_limits<std::uint64_t>::max());
     fields.choice("verdict", verdict.state, verdict_names);
-    fields.whole("starts", verdict.starts, most_counted_starts);
+    fields.whole("starts", verdict.starts, max_counted_starts);
     fields.text("reason", verdict.reason);
 }
 
@@ -29,16 +29,16 @@ const InstalledSet& set_to_show(const SetChoice& choice, const std::optional<Set
     if (!choice.last_good || !verdict || verdict->number != choice.set.number) {
         return choice.set;
     }
-    const bool gave_up = verdict->state == TrialState::Trying && verdict->starts >= most_starts;
+    const bool gave_up = verdict->state == TrialState::Trying && verdict->starts >= max_starts;
     return verdict->state == TrialState::Bad || gave_up ? *choice.last_good : choice.set;
 }
 
 Result<SetVerdict> parse_verdict(std::string_view json) {
     Result<SetVerdict> verdict =
-        parse_document<SetVerdict>(json, "the verdict", most_verdict_bytes,
+        parse_document<SetVerdict>(json, "the verdict", max_verdict_bytes,
                                    [](auto& fields, auto& value) { verdict_fields(fields, value); });
     if (verdict) {
-        verdict->reason = printable(verdict->reason, most_reason_bytes);
+        verdict->reason = printable(verdict->reason, max_reason_bytes);
     }
     return verdict;
 }

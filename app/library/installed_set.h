@@ -1,14 +1,16 @@
-/// The installed set of packs: which files the exhibit shows, in which order, and what is known of them.
+/// The installed set of packs: which files the exhibit shows, in which order, and what is known of each.
 ///
 /// Files    all below one folder:
-///          set.txt            first line `frustumscreen-set 1 SHA256`, the hash of all that follows: JSON (set_file.h).
-///                             It is switched by rename. Only the importer writes it.
-///          packs/SHA256.fspack  named by their bytes, so that a file is never changed, only added or removed. Only the importer.
-///          shown/verdict.json what the exhibit has seen of a set. Only the exhibit writes it.
-/// Trial    a new set is on trial until the exhibit has shown it for 30 s without a fault; till then `last_good` stays, and comes
-///          back if the verdict is bad, or if the exhibit began with the set `most_starts` times without coming to a verdict.
+///          set.txt            first line `frustumscreen-set 1 SHA256`, the hash of all that follows: JSON
+///                             (set_file.h). Replaced by rename. Only the importer writes it.
+///          packs/SHA256.fspack  named by the hash of their bytes: a file is added or removed, never changed. Only
+///                               the importer.
+///          shown/verdict.json the exhibit's verdict on a set. Only the exhibit writes it.
+/// Trial    a new set is on trial until the exhibit has shown it for 30 s without a fault. Until then `last_good`
+///          stays. It comes back if the verdict is bad, or if the exhibit started with the set `max_starts` times
+///          without a verdict.
 /// Threads  pure; any.
-/// Errors   one sentence: a file that is not as above.
+/// Errors   one sentence: the file is not as described above.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -23,23 +25,23 @@ namespace frustumscreen {
 
 struct InstalledPack {
     std::string file;         ///< relative to the folder
-    std::string id;           ///< the artifact's own name; empty: it has none
+    std::string id;           ///< the artifact's id; empty: it has none
     std::string title;        ///< from the manifest
-    std::uint64_t serial = 0; ///< of its signature; 0: it is unsigned
+    std::uint64_t serial = 0; ///< of its signature; 0: unsigned
     std::string sha256;       ///< of the file
     std::uint64_t bytes = 0;
-    std::string manifest_sha256{}; ///< of the manifest's bytes, which stand for all that the pack holds
+    std::string manifest_sha256{}; ///< of the manifest, which has the hashes of all parts
     [[nodiscard]] bool operator==(const InstalledPack&) const = default;
 };
-/// A text of the attract mode.
+/// A text of the attract state.
 struct AttractText {
     std::string language; ///< BCP 47
     std::string text;
     [[nodiscard]] bool operator==(const AttractText&) const = default;
 };
 struct InstalledSet {
-    std::uint64_t number = 0;         ///< each switch has a higher one
-    std::vector<InstalledPack> packs; ///< in the order in which they are shown; none: those of the settings
+    std::uint64_t number = 0;         ///< higher after each switch
+    std::vector<InstalledPack> packs; ///< in the order of showing; none: the packs of the settings
     std::vector<AttractText> attract;
     [[nodiscard]] bool operator==(const InstalledSet&) const = default;
 };
@@ -48,22 +50,22 @@ enum class TrialState : std::uint8_t { Trying, Good, Bad };
 struct SetVerdict {
     std::uint64_t number = 0; ///< of the set
     TrialState state = TrialState::Trying;
-    int starts = 0;     ///< of the exhibit with this set, while it is on trial
-    std::string reason; ///< of a bad one, a sentence
+    int starts = 0;     ///< of the exhibit with this set during its trial
+    std::string reason; ///< why it is bad, a sentence
     [[nodiscard]] bool operator==(const SetVerdict&) const = default;
 };
-inline constexpr int most_starts = 3;
+inline constexpr int max_starts = 3;
 
 inline constexpr std::string_view set_file_name = "set.txt";
 inline constexpr std::string_view packs_folder_name = "packs";
 inline constexpr std::string_view verdict_file_name = "shown/verdict.json";
 
-/// What set.txt holds, as far as the exhibit needs it.
+/// The part of set.txt that the exhibit needs.
 struct SetChoice {
     InstalledSet set;
-    std::optional<InstalledSet> last_good; ///< none: `set` has been good, or no set was installed yet
+    std::optional<InstalledSet> last_good; ///< none: `set` was good, or no set is installed yet
 };
-/// The set that an exhibit started now would show.
+/// The set that the exhibit shows if it is started now.
 [[nodiscard]] const InstalledSet& set_to_show(const SetChoice& choice,
                                               const std::optional<SetVerdict>& verdict);
 

@@ -1,4 +1,4 @@
-/// A small JSON document of our own, read and written by one description (JsonReader, JsonWriter).
+/// A small JSON document of the project, read and written by the same description (JsonReader, JsonWriter).
 ///
 /// Errors   the first one, as one line.
 /// Threads  pure; any.
@@ -15,13 +15,13 @@
 
 namespace frustumscreen {
 
-/// `name` is what messages call it, such as "the verdict". `describe(fields, value)` names the fields.
+/// `name` is used in messages, such as "the verdict". `describe(fields, value)` names the fields.
 template <typename Value>
 [[nodiscard]] Result<Value> parse_document(std::string_view json, const std::string& name,
-                                           std::size_t most_bytes, const auto& describe) {
-    if (json.size() > most_bytes) {
+                                           std::size_t max_bytes, const auto& describe) {
+    if (json.size() > max_bytes) {
         return bad_input("library.document_too_long", "{} has {} bytes; allowed are {}", name, json.size(),
-                         most_bytes);
+                         max_bytes);
     }
     pack_format::Refusal refusal{{}, name};
     const nlohmann::json document = pack_format::parse_json(refusal, json);
@@ -40,7 +40,7 @@ template <typename Value>
 template <typename Value> [[nodiscard]] std::string write_document(const Value& value, const auto& describe) {
     pack_format::JsonWriter fields;
     describe(fields, value);
-    // What is no UTF-8 is replaced: a report must not fail for a name on a stick.
+    // Invalid UTF-8 is replaced: a name on a stick must not make a report fail.
     return fields.document().dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

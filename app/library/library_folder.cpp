@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t most_verdict_bytes = 64U << 10U;
+constexpr std::size_t max_verdict_bytes = 64U << 10U;
 constexpr std::string_view pack_ending = ".fspack";
 
 void note_files(const InstalledSet& set, std::set<std::string>& named) {
@@ -23,7 +23,7 @@ void note_files(const InstalledSet& set, std::set<std::string>& named) {
     }
 }
 
-/// Of ours: what somebody else put there is left alone.
+/// True for the importer's own files: others in the folder are left alone.
 bool is_pack_of_ours(std::string_view name) {
     return name.ends_with(pack_ending) && is_sha256_text(name.substr(0, name.size() - pack_ending.size()));
 }
@@ -31,7 +31,7 @@ bool is_pack_of_ours(std::string_view name) {
 } // namespace
 
 tl::expected<SetFile, ImportFailure> read_set_file(FileTree& library) {
-    const FileResult<std::string> text = read_text(library, set_file_name, most_set_file_bytes);
+    const FileResult<std::string> text = read_text(library, set_file_name, max_set_file_bytes);
     if (!text) {
         return text.error().number == ENOENT
                    ? tl::expected<SetFile, ImportFailure>()
@@ -49,7 +49,7 @@ tl::expected<SetFile, ImportFailure> read_set_file(FileTree& library) {
 }
 
 tl::expected<std::optional<SetVerdict>, ImportFailure> read_verdict(FileTree& library) {
-    const FileResult<std::string> text = read_text(library, verdict_file_name, most_verdict_bytes);
+    const FileResult<std::string> text = read_text(library, verdict_file_name, max_verdict_bytes);
     if (!text && text.error().number != ENOENT) {
         return tl::unexpected<ImportFailure>(disk_failure(verdict_file_name, text.error()));
     }
@@ -75,7 +75,8 @@ bool is_sound(FileTree& library, const InstalledPack& pack, std::size_t step_byt
 }
 
 FileResult<void> settle(WritableTree& library) {
-    // Whoever wrote set.txt may have been stopped before its name was on the disk; only then may anything be cleared away.
+    // The writer of set.txt may have been stopped before its name was on the disk. Nothing may be removed before it
+    // is.
     return library.make_folder(std::string(packs_folder_name)).and_then([&] {
         return library.sync_folder("");
     });

@@ -49,7 +49,7 @@ bool is_judged(const SetFile& known, const std::optional<SetVerdict>& verdict, T
 }
 
 void replace_set(SetFile& known, InstalledSet set, const std::optional<SetVerdict>& verdict) {
-    // A bad one is not shown any more; one that is on its last trial still is.
+    // A bad set is not shown; a set on its last trial still is.
     InstalledSet before =
         is_judged(known, verdict, TrialState::Bad) ? set_to_show(known.choice, verdict) : known.choice.set;
     set.number = std::max(known.choice.set.number, verdict ? verdict->number : 0) + 1;

@@ -1,4 +1,4 @@
-/// What set.txt says after an import: the new set with the one to go back to, and what must never be forgotten.
+/// The contents of set.txt after an import: the new set, the set to go back to, and what must never be forgotten.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -12,20 +12,20 @@
 
 namespace frustumscreen {
 
-/// Keeps the serials of packs that are taken, the set file's, and the latest day on which any of these was signed.
+/// Records the serials of taken packs and of the set file, and the latest day on which any of these was signed.
 void remember(SetFile& known, const std::vector<StickPack>& packs,
               const std::optional<SignedExhibitFile>& exhibit);
 
-/// What a set that replaces the one of `choice` goes back to: that one if it was good, or if nothing is known to be better.
-/// Without packs: those of the settings, as before the first set.
+/// The set to go back to from a set that replaces that of `choice`: the one of `choice` if it was good, or if no
+/// better is known. A set without packs stands for the packs of the settings.
 [[nodiscard]] InstalledSet set_to_go_back_to(const SetChoice& choice,
                                              const std::optional<SetVerdict>& verdict);
 
-/// Whether the exhibit has come to this verdict on what is installed.
+/// True if the exhibit has come to this verdict on the installed set.
 [[nodiscard]] bool is_judged(const SetFile& known, const std::optional<SetVerdict>& verdict, TrialState as);
 
-/// Puts `set` in the place of what `known` has; its number is higher than any that the exhibit has judged, though set.txt may have
-/// been removed.
+/// Replaces the set of `known` by `set`. The new number is higher than any that the exhibit has judged, even if
+/// set.txt has been removed in between.
 void replace_set(SetFile& known, InstalledSet set, const std::optional<SetVerdict>& verdict);
 
 } // namespace frustumscreen

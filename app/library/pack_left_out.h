@@ -1,4 +1,4 @@
-/// A pack that is named or installed and not shown, and why.
+/// A pack that is named or installed but not shown, and why.
 ///
 /// Threads  a value.
 #pragma once
@@ -15,7 +15,7 @@ struct PackLeftOut {
     std::string reason;
 };
 
-/// It never changes.
+/// The list never changes.
 using PacksLeftOut = std::shared_ptr<const std::vector<PackLeftOut>>;
 
 /// The reason without the pack's name, with which an error's message begins.

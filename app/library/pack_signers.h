@@ -1,9 +1,10 @@
-/// Who signed the packs that are installed, and whether that key still counts.
+/// Who signed the installed packs, and whether that key still counts.
 ///
-/// An installed pack was checked when it was taken, and its file is called by its hash: what its signature says is believed here.
+/// An installed pack was checked when it was taken, and its file is named by its hash, so its signature is not
+/// checked again.
 ///
-/// Errors   none: of a pack whose file cannot be read nothing is said.
-/// Threads  one caller; of each file the directory and the signature are read.
+/// Errors   none: a pack whose file cannot be read is left out.
+/// Threads  one caller; of each file, only the directory and the signature are read.
 #pragma once
 
 #include "app/library/set_file.h"
@@ -18,14 +19,15 @@
 
 namespace frustumscreen {
 
-/// Id of the key as text_of_key_id gives it; none: the pack is unsigned, or cannot be read.
+/// Id of the signing key as text_of_key_id gives it; none: the pack is unsigned, or cannot be read.
 [[nodiscard]] std::optional<std::string> signing_key(FileTree& library, const InstalledPack& pack);
 
-/// Whether what it signs is taken today. `counting`: as trusted_keys.h; `today`: none: no key has ended.
+/// True if a signature by this key is accepted today. `counting`: as trusted_keys.h. `today`: none: no key has
+/// expired.
 [[nodiscard]] bool counts_today(std::span<const TrustedKey> counting, std::string_view key_id,
                                 std::optional<std::chrono::sys_days> today);
 
-/// Those that were signed with a key that is no longer trusted, by id, or by title where they have none.
+/// The packs that were signed with a key that has stopped counting, by id, or by title if they have no id.
 [[nodiscard]] std::vector<std::string> packs_of_ended_keys(FileTree& library, const InstalledSet& set,
                                                            std::span<const TrustedKey> counting,
                                                            std::optional<std::chrono::sys_days> today);

@@ -16,11 +16,11 @@ namespace {
 constexpr std::string_view first_words = "frustumscreen-set 1 ";
 constexpr std::size_t hash_digits = 64;
 constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
-constexpr std::size_t most_attract_texts = 64;
+constexpr std::size_t max_attract_texts = 64;
 
 void set_fields(auto& fields, auto& set) {
     fields.whole("number", set.number, no_limit);
-    fields.objects("packs", set.packs, most_installed_packs, [](auto& item, auto& pack) {
+    fields.objects("packs", set.packs, max_installed_packs, [](auto& item, auto& pack) {
         item.text("file", pack.file);
         item.text("id", pack.id);
         item.text("title", pack.title);
@@ -29,7 +29,7 @@ void set_fields(auto& fields, auto& set) {
         item.whole("bytes", pack.bytes, no_limit);
         item.text("manifest_sha256", pack.manifest_sha256);
     });
-    fields.objects("attract", set.attract, most_attract_texts, [](auto& item, auto& text) {
+    fields.objects("attract", set.attract, max_attract_texts, [](auto& item, auto& text) {
         item.text("language", text.language);
         item.text("text", text.text);
     });
@@ -43,11 +43,11 @@ void file_fields(auto& fields, auto& file) {
     fields.whole("exhibit_serial", file.exhibit_serial, no_limit);
     fields.text("exhibit_sha256", file.exhibit_sha256);
     fields.text("latest_day", file.latest_day);
-    fields.objects("serials", file.serials, most_accepted_serials, [](auto& item, auto& each) {
+    fields.objects("serials", file.serials, max_accepted_serials, [](auto& item, auto& each) {
         item.text("id", each.id);
         item.whole("serial", each.serial, no_limit);
     });
-    fields.objects("keys", file.keys, most_carried_keys, [](auto& item, auto& key) {
+    fields.objects("keys", file.keys, max_carried_keys, [](auto& item, auto& key) {
         item.text("name", key.name);
         item.text("public_key", key.public_key);
         item.text("until", key.until);
@@ -56,7 +56,7 @@ void file_fields(auto& fields, auto& file) {
     });
 }
 
-/// A file's name leads nowhere else: it is made of the hash.
+/// True if each file's name is its hash, so that it cannot lead out of the folder.
 bool names_are_hashes(const InstalledSet& set) {
     return std::all_of(set.packs.begin(), set.packs.end(), [](const InstalledPack& pack) {
         return is_sha256_text(pack.sha256) && pack.file == installed_file_name(pack.sha256);
@@ -91,7 +91,7 @@ Result<SetFile> parse_set_file(std::string_view text) {
     if (text.substr(first_words.size(), hash_digits) != sha256_hex(as_bytes(body))) {
         return bad_input("set.wrong_hash", "it does not match the hash in its first line; it is damaged");
     }
-    TRY(SetFile file, parse_document<SetFile>(body, "the set", most_set_file_bytes,
+    TRY(SetFile file, parse_document<SetFile>(body, "the set", max_set_file_bytes,
                                               [](auto& fields, auto& value) { file_fields(fields, value); }));
     const InstalledSet none;
     if (!names_are_hashes(file.choice.set) || !names_are_hashes(file.choice.last_good.value_or(none)) ||

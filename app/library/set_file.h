@@ -1,8 +1,8 @@
-/// set.txt: the installed set, the one to go back to, and what the importer must never forget.
+/// set.txt: the installed set, the set to go back to, and what the importer must never forget.
 ///
 /// File     first line `frustumscreen-set 1 SHA256`, the hash of all bytes that follow; they are JSON.
 /// Threads  pure; any.
-/// Errors   one sentence: a file that is not as above. No value of it is used then.
+/// Errors   one sentence: the file is not as described above. None of its values is used then.
 #pragma once
 
 #include "app/library/installed_set.h"
@@ -15,7 +15,7 @@
 
 namespace frustumscreen {
 
-/// The highest serial that was ever taken of an artifact; a lower one never is again.
+/// The highest serial that was ever taken of an artifact; a lower one is refused.
 struct AcceptedSerial {
     std::string id;
     std::uint64_t serial = 0;
@@ -25,27 +25,27 @@ struct AcceptedSerial {
 struct CarriedKey {
     std::string name;
     std::string public_key; ///< as minisign writes it, one line
-    std::string until;      ///< its last day, 2030-12-31; empty: it does not end
-    std::string signer{};   ///< public key of the one that signed the set
-    std::string since{};    ///< the day on which it came; empty: there was no clock
+    std::string until;      ///< its last day, 2030-12-31; empty: none
+    std::string signer{};   ///< public key of the signer of the set
+    std::string since{};    ///< the day it came; empty: there was no clock
     [[nodiscard]] bool operator==(const CarriedKey&) const = default;
 };
 struct SetFile {
     SetChoice choice;
-    /// What was shown before the last switch: its files stay, as the exhibit may still show them.
+    /// The set shown before the last switch: its files stay, because the exhibit may still show them.
     std::optional<InstalledSet> before;
     std::uint64_t exhibit_serial = 0; ///< of the last signed exhibit.toml
     std::string exhibit_sha256{};     ///< of that file; empty: there was none
-    std::string latest_day{};         ///< that was ever seen (trusted_keys.h); empty: none
+    std::string latest_day{};         ///< the latest day seen (trusted_keys.h); empty: none
     std::vector<AcceptedSerial> serials;
     std::vector<CarriedKey> keys;
     [[nodiscard]] bool operator==(const SetFile&) const;
 };
 
-inline constexpr std::size_t most_set_file_bytes = 16U << 20U;
-inline constexpr std::size_t most_installed_packs = 1000;
-inline constexpr std::size_t most_accepted_serials = 20000;
-inline constexpr std::size_t most_carried_keys = 64;
+inline constexpr std::size_t max_set_file_bytes = 16U << 20U;
+inline constexpr std::size_t max_installed_packs = 1000;
+inline constexpr std::size_t max_accepted_serials = 20000;
+inline constexpr std::size_t max_carried_keys = 64;
 
 [[nodiscard]] Result<SetFile> parse_set_file(std::string_view text);
 [[nodiscard]] std::string write_set_file(const SetFile& file);

@@ -35,7 +35,7 @@ tl::unexpected<ImportFailure> torn(const ImportedPack& refused) {
                                                refused.file, refused.reason, exhibit_file_name));
 }
 
-/// A pack that is refused for another reason than that a newer one is there leaves a hole in the set.
+/// Refuses a set with a gap: a pack that is refused for any reason but that a newer one is there.
 tl::expected<void, ImportFailure> check_packs(std::span<const StickPack> packs,
                                               std::span<const ImportedPack> unread, const ExhibitFile& file) {
     if (!unread.empty()) {
@@ -63,7 +63,7 @@ tl::expected<void, ImportFailure> check_packs(std::span<const StickPack> packs,
     return {};
 }
 
-/// ", or write the nearest id, vase"; empty: none is near.
+/// ", or write the nearest id, vase"; empty: no id is near.
 std::string nearest_id(const std::vector<InstalledPack>& packs, const std::string& id) {
     const auto apart = [&](const InstalledPack& pack) { return letters_apart(id, pack.id); };
     const auto nearest =
@@ -115,10 +115,10 @@ tl::expected<PlannedSet, ImportFailure> plan_set(const InstalledSet& shown, std:
         TRY_VOID(check_packs(packs, unread, *file));
         TRY_VOID(apply(*file, planned));
     }
-    if (planned.set.packs.size() > most_installed_packs) {
+    if (planned.set.packs.size() > max_installed_packs) {
         return no_set(ImportRefusal::TooMuch,
                       fmt::format("with this stick the exhibit would have {} packs; allowed are {}",
-                                  planned.set.packs.size(), most_installed_packs));
+                                  planned.set.packs.size(), max_installed_packs));
     }
     return planned;
 }

@@ -1,8 +1,8 @@
-/// The set that comes of the one that is shown, the packs of a stick and its set file.
+/// The new set, from the set that is shown, the packs of a stick and its set file.
 ///
-/// Rules    a pack with an id that is there replaces it in its place; others are appended in the order of their names on the
-///          stick. With a set file: what it names comes first in its order, and must be there; a stick with a set file is taken
-///          whole or not at all.
+/// Rules    a pack whose id is in the set replaces that pack in its place; others are appended in the order of
+///          their names on the stick. With a set file, the packs it names come first, in its order, and all must be
+///          there. A stick with a set file is taken whole or not at all.
 /// Threads  pure; any.
 #pragma once
 
@@ -16,12 +16,12 @@
 namespace frustumscreen {
 
 struct PlannedSet {
-    InstalledSet set; ///< its number is that of `shown`
+    InstalledSet set; ///< has the number of `shown`
     std::vector<InstalledPack> removed;
 };
 
-/// Of `packs` those that are wanted come in. `unread`: packs and folders of which nothing is known but that they are refused; any of
-/// them may hold what belongs to the set. `file`: none: packs alone. Errors: why nothing of the stick is taken.
+/// Adds the wanted ones of `packs`. `unread`: refused packs and folders whose contents are unknown; any of them may
+/// hold a pack of the set. `file`: none: the stick has only packs. Errors: why nothing of the stick is taken.
 [[nodiscard]] tl::expected<PlannedSet, ImportFailure> plan_set(const InstalledSet& shown,
                                                                std::span<const StickPack> packs,
                                                                std::span<const ImportedPack> unread,

@@ -18,7 +18,7 @@ tl::unexpected<ImportFailure> failed(ImportFailure failure) {
     return tl::unexpected<ImportFailure>(std::move(failure));
 }
 
-/// Nothing: it is unsigned, and allowed.
+/// Nothing: the file is unsigned, which is allowed.
 tl::expected<std::optional<Signer>, ImportFailure> signer_of(const SignedText& file, const PackTrust& trust) {
     if (!file.signature && trust.unsigned_packs == UnsignedPacks::Allow) {
         return std::nullopt;
@@ -28,7 +28,7 @@ tl::expected<std::optional<Signer>, ImportFailure> signer_of(const SignedText& f
     });
 }
 
-/// Errors: another one that counts was taken before.
+/// Errors: a newer file, or another one of the same serial, was taken before.
 tl::expected<void, ImportFailure> weigh(const SignedExhibitFile& exhibit, const SetFile& known) {
     if (exhibit.serial() < known.exhibit_serial) {
         return failed(lower_serial(exhibit_file_name, exhibit.serial(), known.exhibit_serial));
@@ -48,7 +48,7 @@ tl::expected<void, ImportFailure> weigh(const SignedExhibitFile& exhibit, const 
 
 tl::expected<SignedExhibitFile, ImportFailure>
 read_signed_exhibit_file(FileTree& stick, const PackTrust& trust, const SetFile& known) {
-    TRY(const SignedText read, read_signed_text(stick, exhibit_file_name, most_exhibit_file_bytes));
+    TRY(const SignedText read, read_signed_text(stick, exhibit_file_name, max_exhibit_file_bytes));
     TRY(std::optional<Signer> signer, signer_of(read, trust));
     const std::string bytes = read.text.value_or("");
     SignedExhibitFile exhibit{{}, std::move(signer), sha256_hex(as_bytes(bytes))};

@@ -1,4 +1,4 @@
-/// The set file of a stick with its signature.
+/// A stick's set file with its signature.
 ///
 /// Threads  one caller.
 #pragma once
@@ -17,15 +17,15 @@ namespace frustumscreen {
 
 struct SignedExhibitFile {
     ExhibitFile file;
-    std::optional<Signer> signer; ///< none: it is unsigned, and allowed
+    std::optional<Signer> signer; ///< none: unsigned, which is allowed
     std::string sha256;
 
-    /// 0: it is unsigned.
+    /// 0: unsigned.
     [[nodiscard]] std::uint64_t serial() const { return signer ? signer->serial : 0; }
 };
 
-/// Nothing of the file is parsed before its signature was right. `known`: what was taken before. Errors concern the stick as a
-/// whole.
+/// Parses the file only after its signature is checked. `known`: what was taken before. Errors concern the stick as
+/// a whole.
 [[nodiscard]] tl::expected<SignedExhibitFile, ImportFailure>
 read_signed_exhibit_file(FileTree& stick, const PackTrust& trust, const SetFile& known);
 

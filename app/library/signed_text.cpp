@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::string_view signature_ending = ".minisig";
 
-/// Nothing: there is no such file.
+/// Nothing if there is no such file.
 tl::expected<std::optional<std::string>, ImportFailure>
-read_if_there(FileTree& stick, const std::string& name, std::size_t most_bytes) {
-    FileResult<std::string> text = read_text(stick, name, most_bytes);
+read_if_there(FileTree& stick, const std::string& name, std::size_t max_bytes) {
+    FileResult<std::string> text = read_text(stick, name, max_bytes);
     if (text) {
         return *std::move(text);
     }
@@ -28,7 +28,7 @@ read_if_there(FileTree& stick, const std::string& name, std::size_t most_bytes) 
     if (text.error().number == EFBIG) {
         return tl::unexpected<ImportFailure>(ImportFailure{
             ImportRefusal::NotAPack,
-            fmt::format("{}: it is too large; allowed are at most {} bytes", name, most_bytes), false});
+            fmt::format("{}: it is too large; allowed are at most {} bytes", name, max_bytes), false});
     }
     return tl::unexpected<ImportFailure>(stick_failure(name, text.error()));
 }
@@ -36,13 +36,13 @@ read_if_there(FileTree& stick, const std::string& name, std::size_t most_bytes) 
 } // namespace
 
 tl::expected<SignedText, ImportFailure> read_signed_text(FileTree& stick, std::string_view name,
-                                                         std::size_t most_bytes) {
-    TRY(auto text, read_if_there(stick, std::string(name), most_bytes));
+                                                         std::size_t max_bytes) {
+    TRY(auto text, read_if_there(stick, std::string(name), max_bytes));
     if (!text) {
         return SignedText();
     }
     TRY(auto signature,
-        read_if_there(stick, fmt::format("{}{}", name, signature_ending), pack_format::most_signature_bytes));
+        read_if_there(stick, fmt::format("{}{}", name, signature_ending), pack_format::max_signature_bytes));
     return SignedText{std::move(text), std::move(signature)};
 }
 

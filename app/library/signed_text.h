@@ -23,9 +23,9 @@ struct SignedText {
     std::optional<std::string> signature;
 };
 [[nodiscard]] tl::expected<SignedText, ImportFailure> read_signed_text(FileTree& stick, std::string_view name,
-                                                                       std::size_t most_bytes);
+                                                                       std::size_t max_bytes);
 
-/// Which of the keys has signed it. Nothing of it is parsed. `today`: none: no key has ended.
+/// The key that signed the file, which is not parsed. `today`: none: no key has expired.
 [[nodiscard]] tl::expected<Signer, ImportFailure> signer_of(std::string_view name, const SignedText& file,
                                                             std::span<const TrustedKey> keys,
                                                             std::optional<std::chrono::sys_days> today);

@@ -16,7 +16,7 @@ void be_there_already(StickPack& pack, std::string reason) {
     pack.told.reason = std::move(reason);
 }
 
-/// The name stands before the reason already: "exhibit.toml:2: is wrong" becomes "line 2: is wrong".
+/// Removes the name, which the line already has: "exhibit.toml:2: is wrong" becomes "line 2: is wrong".
 std::string without_name(const std::string& reason, const std::string& name) {
     if (!reason.starts_with(name + ":")) {
         return reason;
@@ -25,7 +25,8 @@ std::string without_name(const std::string& reason, const std::string& name) {
     return rest.starts_with(' ') ? rest.substr(1) : "line " + rest;
 }
 
-/// Which of the two is meant nobody can know, so this one is refused, and a set that it belongs to.
+/// Refuses a pack that contradicts another one, and thereby a set that it belongs to: which of the two is meant
+/// cannot be known.
 void clash(StickPack& pack, std::string_view other) {
     pack.clashes = true;
     refuse(pack.told,

@@ -19,7 +19,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t most_serial_bytes = 64;
+constexpr std::size_t max_serial_bytes = 64;
 constexpr std::string_view next_name = "kiosk.toml.new";
 
 template <typename T> using Outcome = tl::expected<T, ImportFailure>;
@@ -35,35 +35,36 @@ tl::unexpected<ImportFailure> failed_on_disk(FileFault fault) {
     return tl::unexpected<ImportFailure>(disk_failure(settings_file_name, fault));
 }
 
-/// What the kiosk has now.
+/// The kiosk's present settings.
 struct Own {
-    std::string text;             ///< of kiosk.toml; empty: it cannot be read
-    bool sound = false;           ///< these are settings
-    std::vector<TrustedKey> keys; ///< that its settings name
+    std::string text;             ///< of kiosk.toml; empty: unreadable
+    bool sound = false;           ///< `text` is valid settings
+    std::vector<TrustedKey> keys; ///< named by the settings
     std::uint64_t serial = 0;     ///< the highest that was taken; 0: none
 };
 
-/// Nothing: these are no settings.
+/// Nothing if these are no settings.
 std::optional<std::vector<TrustedKey>> keys_named_by(const std::string& text) {
     const Result<CheckedSettings> settings = parse_settings(text, settings_file_name);
     return settings && !text.empty() ? std::optional((*settings)->exhibit.keys) : std::nullopt;
 }
 
-/// Settings that a failing disk has spoilt do not open the door: then those of before say whom to believe.
+/// A failing disk must not open the kiosk to any file: if the settings are damaged, their predecessor says which
+/// keys count.
 Outcome<Own> read_own(WritableTree& folder) {
     Own own;
-    own.text = read_text(folder, settings_file_name, most_stick_settings_bytes).value_or("");
+    own.text = read_text(folder, settings_file_name, max_stick_settings_bytes).value_or("");
     std::optional<std::vector<TrustedKey>> keys = keys_named_by(own.text);
     own.sound = keys.has_value();
     if (!keys) {
-        keys = keys_named_by(read_text(folder, settings_before_name, most_stick_settings_bytes).value_or(""));
+        keys = keys_named_by(read_text(folder, settings_before_name, max_stick_settings_bytes).value_or(""));
     }
     if (!keys) {
         return failed(ImportRefusal::Unwritable, "the kiosk's own settings are damaged, so it does not know "
                                                  "which keys to trust; write the image onto its disk anew");
     }
     own.keys = *std::move(keys);
-    const FileResult<std::string> serial = read_text(folder, settings_serial_name, most_serial_bytes);
+    const FileResult<std::string> serial = read_text(folder, settings_serial_name, max_serial_bytes);
     if (!serial && serial.error().number != ENOENT) {
         return failed_on_disk(serial.error());
     }
@@ -72,7 +73,7 @@ Outcome<Own> read_own(WritableTree& folder) {
     return own;
 }
 
-/// Whether these bytes may be believed: their serial, 0 where nobody has to sign. Nothing of them is parsed.
+/// The serial of a trusted file, which is not parsed; 0 if no signature is needed.
 Outcome<std::uint64_t> believe(const SignedText& file, const Own& own,
                                std::optional<std::chrono::sys_days> today) {
     if (own.keys.empty()) {
@@ -85,13 +86,15 @@ Outcome<std::uint64_t> believe(const SignedText& file, const Own& own,
     return signer.serial;
 }
 
-/// Of settings that nobody had to sign, and that one of their own keys has signed all the same: older ones are refused from then on.
+/// The serial of settings that needed no signature but are signed with one of their own keys: older ones are
+/// refused afterwards.
 std::uint64_t serial_of_first(const SignedText& file, const CheckedSettings& settings) {
     const Outcome<Signer> signer = signer_of(settings_file_name, file, settings->exhibit.keys, std::nullopt);
     return signer ? signer->serial : 0;
 }
 
-/// The serial first: a power cut between the two leaves the old settings, and the same stick is taken again.
+/// Comes before the settings: after a power cut between the two, the old settings stand, and the same stick is
+/// taken again.
 FileResult<void> keep_serial(WritableTree& folder, std::uint64_t serial, const Own& own) {
     if (serial <= own.serial) {
         return {};
@@ -101,16 +104,27 @@ FileResult<void> keep_serial(WritableTree& folder, std::uint64_t serial, const O
     });
 }
 
+/// Keeps what the kiosk goes back to. Settings that were not proved yet do not replace those that were: two bad
+/// sticks in a row lead back to the last good settings.
 FileResult<void> keep_before(WritableTree& folder, const Own& own) {
     if (!own.sound) {
-        return {}; // what is spoilt is nothing to go back to
+        return {}; // damaged settings are nothing to go back to
+    }
+    const auto text_of = [&](std::string_view name) {
+        return read_text(folder, name, max_stick_settings_bytes).value_or("");
+    };
+    const bool is_proved = text_of(settings_proved_name) == own.text;
+    const bool has_before = keys_named_by(text_of(settings_before_name)).has_value();
+    if (has_before && !is_proved) {
+        return {};
     }
     return replace_text(folder, settings_before_name, next_name, own.text).and_then([&] {
         return folder.sync_folder("");
     });
 }
 
-/// Detects a copy that was interrupted: an empty file, or a last line without its end. A signed file needs no such check of its end.
+/// Detects a copy that was interrupted: an empty file, or a last line without its end. The signature shows that of
+/// a signed file.
 std::optional<std::string> fault_of_copy(const SignedText& file) {
     const std::string& text = *file.text;
     if (text.find_first_not_of(" \t\r\n\0\xef\xbb\xbf", 0, 8) == std::string::npos) {
@@ -165,7 +179,7 @@ Outcome<ImportOutcome> take(const SignedText& file, WritableTree& folder,
 std::optional<ImportedPack> take_settings(FileTree& stick, WritableTree& folder,
                                           std::optional<std::chrono::sys_days> today) {
     ImportedPack told{std::string(settings_file_name), "", {}, {}, ""};
-    const Outcome<SignedText> file = read_signed_text(stick, settings_file_name, most_stick_settings_bytes);
+    const Outcome<SignedText> file = read_signed_text(stick, settings_file_name, max_stick_settings_bytes);
     if (file && !file->text) {
         return std::nullopt;
     }

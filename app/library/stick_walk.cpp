@@ -16,7 +16,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr std::string_view pack_ending = ".fspack";
-/// Without regard to capital letters.
+/// In small letters.
 constexpr auto system_names =
     std::to_array<std::string_view>({"$recycle.bin", "recycler", "recycled", "system volume information",
                                      "lost+found", "found.000", "__macosx"});
@@ -29,7 +29,8 @@ std::string in_small_letters(std::string_view name) {
     return small;
 }
 
-/// Whether a name is nearly STEM.toml. For "exhibit": exhibit.toml.txt, Exhibit.toml, exhibit (1).toml, and their signatures.
+/// True if a name is nearly STEM.toml. For "exhibit": exhibit.toml.txt, Exhibit.toml, exhibit (1).toml, and their
+/// signatures.
 bool looks_like(std::string_view stem, std::string_view name) {
     const std::string small = in_small_letters(name);
     return small.starts_with(stem) && small.find(".toml") != std::string::npos;
@@ -94,7 +95,7 @@ void Walk::look_at(const std::string& folder, const FolderEntry& entry) {
     }
 }
 
-/// False ends the list.
+/// Returns false to end the listing.
 bool Walk::visit(const std::string& folder, const FolderEntry& entry) {
     ++entries_;
     if (too_late_()) {
@@ -102,17 +103,17 @@ bool Walk::visit(const std::string& folder, const FolderEntry& entry) {
     } else if (!is_passed_over(entry.name)) {
         look_at(folder, entry);
     }
-    if (entries_ > limits_.most_entries) {
+    if (entries_ > limits_.max_entries) {
         failure_ = too_much(fmt::format("the stick holds more than {} files; put the packs on a stick of "
                                         "their own",
-                                        limits_.most_entries));
-    } else if (folders_.size() > limits_.most_folders) {
+                                        limits_.max_entries));
+    } else if (folders_.size() > limits_.max_folders) {
         failure_ = too_much(
             fmt::format("the stick holds more than {} folders; put the packs on a stick of their own",
-                        limits_.most_folders));
-    } else if (found_.packs.size() + found_.refused.size() > limits_.most_packs) {
+                        limits_.max_folders));
+    } else if (found_.packs.size() + found_.refused.size() > limits_.max_packs) {
         failure_ =
-            too_much(fmt::format("the stick holds more than {} packs; put fewer on it", limits_.most_packs));
+            too_much(fmt::format("the stick holds more than {} packs; put fewer on it", limits_.max_packs));
     }
     return !failure_;
 }

@@ -1,8 +1,10 @@
-/// Which files of a stick are looked at: `*.fspack` in its root or one folder down, and the set file in its root.
+/// Finds the files of a stick that count: `*.fspack` in its root or one folder down, and the set file in its root.
 ///
-/// Passed over  names that begin with a dot (macOS's `._*` twins among them), recycle bins, what systems keep for themselves.
-/// Misnamed     a set file that is called nearly so, or lies in a folder, is told, where there is none that is called so.
-/// Errors       a stick with too many entries, one that cannot be read or takes too long: the stick as a whole.
+/// Passed over  names that begin with a dot (such as macOS's `._*` twins), recycle bins, the operating systems' own
+///              folders.
+/// Misnamed     a file nearly named like the set file, or in a folder, is reported if no file has the right name
+///              and place.
+/// Errors       too many entries, a read error, too long a time: the stick as a whole.
 /// Threads      one caller.
 #pragma once
 
@@ -20,14 +22,14 @@ namespace frustumscreen {
 
 struct StickFiles {
     std::vector<std::string> packs;    ///< paths, in the order of their names
-    std::vector<ImportedPack> refused; ///< folders that cannot be read, packs that are no files
+    std::vector<ImportedPack> refused; ///< unreadable folders, and packs that are not files
     std::optional<ImportedPack>
-        misnamed; ///< of what may be meant as set file, the first by name; none if there is one
-    std::optional<ImportedPack> misnamed_settings; ///< the same of a kiosk's settings
+        misnamed; ///< a file that may be meant as set file, the first by name; none if there is a set file
+    std::optional<ImportedPack> misnamed_settings; ///< the same for a kiosk's settings
     bool has_exhibit_file = false;
 };
 
-/// Whether nothing of this name is ever looked at.
+/// True if a file or folder of this name is always ignored.
 [[nodiscard]] bool is_passed_over(std::string_view name);
 
 /// `too_late` is asked after every entry.

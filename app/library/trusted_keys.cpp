@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::chrono::days most_days_ahead(3653);
+constexpr std::chrono::days max_days_ahead(3653);
 
 const TrustedKey* find(std::span<const TrustedKey> keys, const PublicKey& key) {
     const auto found =
@@ -23,7 +23,7 @@ bool had_ended(const TrustedKey& key, std::optional<std::chrono::sys_days> day) 
     return key.until && day && *day > *key.until;
 }
 
-/// Whether the one that signed for it counts, as far as is known by now.
+/// True if the signer of a key counts, among the keys found so far.
 bool is_vouched_for(const CarriedKey& carried, std::span<const TrustedKey> counting) {
     const Result<PublicKey> signer = parse_public_key(carried.signer);
     return signer && std::any_of(counting.begin(), counting.end(), [&](const TrustedKey& each) {
@@ -36,7 +36,7 @@ bool is_vouched_for(const CarriedKey& carried, std::span<const TrustedKey> count
 std::vector<TrustedKey> trusted_keys(std::span<const TrustedKey> settings,
                                      std::span<const CarriedKey> carried) {
     std::vector<TrustedKey> counting(settings.begin(), settings.end());
-    for (bool is_longer = true; is_longer;) { // a key may stand behind the one that it vouches for
+    for (bool is_longer = true; is_longer;) { // a key may stand behind the one that it signs for
         is_longer = false;
         for (const CarriedKey& each : carried) {
             const Result<PublicKey> key = parse_public_key(each.public_key);
@@ -67,7 +67,7 @@ Result<std::vector<CarriedKey>> with_brought_keys(std::vector<CarriedKey> carrie
             continue;
         }
         if (place->name == key.name && place->until == key.until && place->signer == key.signer) {
-            key.since = place->since; // the same once more
+            key.since = place->since; // the same key again
         }
         *place = std::move(key);
     }
@@ -94,7 +94,7 @@ std::optional<std::chrono::sys_days> signing_day(std::uint64_t serial) {
 
 std::string latest_day(const std::string& latest, std::optional<std::chrono::sys_days> day) {
     const std::chrono::sys_days known = parse_day(latest).value_or(earliest_plausible_day);
-    return day && *day > known && *day <= known + most_days_ahead ? text_of_day(*day) : latest;
+    return day && *day > known && *day <= known + max_days_ahead ? text_of_day(*day) : latest;
 }
 
 std::optional<std::chrono::sys_days> day_here(std::optional<std::chrono::sys_days> clock,

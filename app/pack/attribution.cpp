@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view section_name = "attribution";
 constexpr std::string_view between = " \u00B7 ";
 
-/// Those that are not empty.
+/// Joins the parts that are not empty.
 std::string joined(std::initializer_list<std::string_view> parts, std::string_view separator) {
     std::string all;
     for (const std::string_view part : parts) {
@@ -30,7 +30,7 @@ std::string joined(std::initializer_list<std::string_view> parts, std::string_vi
     return all;
 }
 
-/// The licence's name alone: "CC-BY-4.0 (http://creativecommons.org/licenses/by/4.0/)" as Sketchfab writes it.
+/// The licence's name alone, from "CC-BY-4.0 (http://creativecommons.org/licenses/by/4.0/)" as Sketchfab writes it.
 std::string_view without_address_behind(std::string_view licence) {
     const std::size_t bracket = licence.find(" (http");
     return bracket != 0 && licence.ends_with(')') ? trimmed(licence.substr(0, bracket)) : licence;
@@ -45,7 +45,7 @@ std::string scan_line(const PackCaption& caption, const ScanRights& rights) {
     return line.empty() ? line : "3D: " + line;
 }
 
-/// Whether it is one of Creative Commons' that ask for the author's name: all but CC0.
+/// True for a Creative Commons licence that requires the author's name: all but CC0.
 bool asks_for_author(std::string_view licence) {
     std::string letters;
     for (const char c : licence.substr(0, 5)) {

@@ -21,12 +21,13 @@ constexpr std::size_t header_bytes = 24;
 constexpr std::size_t grid_bytes = 32;
 constexpr std::size_t corners = std::size_t{block_corners} * block_corners;
 constexpr std::size_t cells = std::size_t{block_cells} * block_cells;
-constexpr std::uint32_t most_directions = 6;
-constexpr double most_origin_box = 4.0;   ///< the box is 1 long
-constexpr float most_texels_along = 1e6F; ///< of a height, or what it changes by from cell to cell
+constexpr std::uint32_t max_directions = 6;
+constexpr double max_origin_box = 4.0;   ///< the box is 1 long
+constexpr float max_texels_along = 1e6F; ///< of a height, or of its change from cell to cell
 constexpr std::uint8_t opaque = 255;
 
-/// A block's numbers in the order of the file. Each is stored for all blocks before the next one: like beside like packs better.
+/// A block's numbers in the order of the file. Each number is stored for all blocks before the next: similar values
+/// pack better.
 using Number = float& (*)(ReliefBlock&);
 constexpr std::array<Number, 9> numbers{
     [](ReliefBlock& block) -> float& { return block.w0; },
@@ -40,11 +41,11 @@ constexpr std::array<Number, 9> numbers{
     [](ReliefBlock& block) -> float& { return block.gradient_v.y; },
 };
 constexpr std::size_t places_bytes = 2 * sizeof(std::uint16_t);
-constexpr std::size_t planes = 4; ///< of bytes, one for each corner: height, red, green, blue
+constexpr std::size_t planes = 4; ///< byte planes of the corners: height, red, green, blue
 constexpr std::size_t block_bytes =
     places_bytes + numbers.size() * sizeof(float) + 2 * sizeof(std::uint64_t) + planes * corners;
 
-/// Across and along a direction, as pack.h names them.
+/// The axes across and along a direction, as in pack.h.
 ReliefGrid grid_towards(std::uint32_t direction) {
     constexpr std::array<std::array<int, 3>, 3> axes{{{1, 2, 0}, {0, 2, 1}, {0, 1, 2}}};
     return {axes.at(direction / 2), direction % 2 == 0 ? 1.0 : -1.0, {}};
@@ -54,7 +55,8 @@ std::uint32_t direction_of(const ReliefGrid& grid) {
     return 2 * static_cast<std::uint32_t>(grid.axis[2]) + (grid.sign < 0.0 ? 1 : 0);
 }
 
-/// What a corner adds to the one on its left, or above it at a row's beginning: neighbours are nearly alike.
+/// The corner that a corner is stored relative to: its left neighbour, or the one above at a row's beginning;
+/// neighbours are similar.
 std::size_t before(std::size_t corner) {
     return corner % block_corners > 0 ? corner - 1 : corner - block_corners;
 }
@@ -76,7 +78,7 @@ Plane read_plane(ByteReader& reader) {
     return values;
 }
 
-/// From the words of the 64 cells; neighbouring cells share corners.
+/// Codes of the corners, from the words of the 64 cells; neighbouring cells share corners.
 Plane codes_of(std::span<const std::uint32_t> cell_words) {
     Plane codes{};
     for (int row = 0; row < block_corners; ++row) {
@@ -103,7 +105,7 @@ void append_cell_words(const Plane& codes, std::vector<std::uint32_t>& words) {
     }
 }
 
-/// The columns and rows of the cells that are there.
+/// The range of columns and rows of the existing cells.
 std::array<std::uint8_t, 4> extent_of(std::uint64_t mask) {
     std::array<std::uint8_t, 4> extent{block_cells, 0, block_cells, 0};
     for (std::uint8_t cell = 0; cell < cells; ++cell) {
@@ -137,12 +139,12 @@ Result<Header> read_header(std::span<const std::byte> bytes) {
     header.blocks = reader.read<std::uint32_t>();
     header.covers = reader.read<std::uint32_t>();
     const auto within = [](std::uint32_t value, std::uint32_t most) { return value >= 1 && value <= most; };
-    if (!within(header.texels, most_relief_texels) || !within(header.directions, most_directions) ||
-        !within(header.blocks, most_relief_blocks)) {
+    if (!within(header.texels, max_relief_texels) || !within(header.directions, max_directions) ||
+        !within(header.blocks, max_relief_blocks)) {
         return bad_input("blocks.counts",
                          "it has {} texels, {} directions, {} blocks; allowed are 1 to {}, {}, {}",
-                         header.texels, header.directions, header.blocks, most_relief_texels, most_directions,
-                         most_relief_blocks);
+                         header.texels, header.directions, header.blocks, max_relief_texels, max_directions,
+                         max_relief_blocks);
     }
     const std::uint64_t needed = std::uint64_t{header.directions} * grid_bytes +
                                  std::uint64_t{header.blocks} * block_bytes +
@@ -160,7 +162,7 @@ Result<void> read_grids(ByteReader& reader, const Header& header, BlockRelief& r
     for (std::uint32_t k = 0; k < header.directions; ++k) {
         const auto direction = reader.read<std::uint32_t>();
         const auto blocks = reader.read<std::uint32_t>();
-        if (direction >= most_directions || (seen >> direction & 1U) != 0) {
+        if (direction >= max_directions || (seen >> direction & 1U) != 0) {
             return bad_input("blocks.direction",
                              "its directions have the number {}; allowed are 0 to 5, each once", direction);
         }
@@ -168,9 +170,9 @@ Result<void> read_grids(ByteReader& reader, const Header& header, BlockRelief& r
         ReliefGrid grid = grid_towards(direction);
         for (int axis = 0; axis < 3; ++axis) {
             grid.origin_box[axis] = reader.read<double>();
-            if (!(std::abs(grid.origin_box[axis]) <= most_origin_box)) { // NaN too
+            if (!(std::abs(grid.origin_box[axis]) <= max_origin_box)) { // false for NaN too
                 return bad_input("blocks.origin", "direction {} begins beyond {} boxes", direction,
-                                 most_origin_box);
+                                 max_origin_box);
             }
         }
         relief.grids.push_back(grid);
@@ -190,10 +192,12 @@ Result<void> read_grids(ByteReader& reader, const Header& header, BlockRelief& r
 }
 
 Result<void> check_block(ReliefBlock& block, std::size_t k, std::uint32_t texels) {
-    const auto sound = [&](Number number) { return std::abs(number(block)) <= most_texels_along; }; // not NaN
+    const auto sound = [&](Number number) {
+        return std::abs(number(block)) <= max_texels_along;
+    }; // false for NaN
     if (!std::all_of(numbers.begin(), numbers.end(), sound)) {
-        return bad_input("blocks.not_finite", "block {} has a number that is not finite or is beyond {}", k,
-                         most_texels_along);
+        return bad_input("blocks.not_finite", "block {} has a number that is not finite or beyond {}", k,
+                         max_texels_along);
     }
     if (block.residual_step <= 0.0F || block.gradient_u.x > block.gradient_u.y ||
         block.gradient_v.x > block.gradient_v.y || block.mask == 0 || (block.cut & ~block.mask) != 0) {
@@ -202,7 +206,7 @@ Result<void> check_block(ReliefBlock& block, std::size_t k, std::uint32_t texels
                          "beginning, no cell, or a cut in a cell that is not there",
                          k);
     }
-    // A grid reaches some cells beyond the box.
+    // A grid extends some cells beyond the box.
     const auto end = static_cast<float>(texels + 2 * block_cells);
     if (block.u0 > end || block.v0 > end) {
         return bad_input("blocks.outside_grid", "block {} lies at ({}, {}), outside a grid of {} texels", k,
@@ -211,7 +215,7 @@ Result<void> check_block(ReliefBlock& block, std::size_t k, std::uint32_t texels
     return {};
 }
 
-/// Which cells are cut, and with it all that is to be checked of the blocks.
+/// Reads which cells are cut, and checks the blocks.
 Result<void> read_cuts(ByteReader& reader, const Header& header, BlockRelief& relief) {
     std::uint64_t covers = 0;
     for (std::size_t k = 0; k < relief.blocks.size(); ++k) {

@@ -1,4 +1,4 @@
-/// One relief of a pack as the bytes of its part. FORMAT.md has them.
+/// One relief of a pack, as the bytes of its part. FORMAT.md defines them.
 ///
 /// Errors   `decode_blocks` takes outside bytes: one line, without the part's name (the caller knows it). Every count is checked
 ///          before memory is allocated for it, every number is finite and in its range.
@@ -13,7 +13,7 @@
 
 namespace frustumscreen::pack_format {
 
-/// `relief` as `bake_blocks` makes it: opaque colours, the axes of pack.h.
+/// `relief` as made by `bake_blocks`: opaque colours, the axes of pack.h.
 [[nodiscard]] Bytes encode_blocks(const BlockRelief& relief);
 [[nodiscard]] Result<BlockRelief> decode_blocks(std::span<const std::byte> bytes);
 

@@ -34,13 +34,13 @@ Result<void> check_clusters(const PackLevel& level) {
 
 Result<void> check_errors(const LevelError& error) {
     const auto allowed = [](float value, float most) { return value >= 0.0F && value <= most; };
-    if (!allowed(error.mean_box, most_error_box) || !allowed(error.p95_box, most_error_box) ||
-        !allowed(error.max_box, most_error_box) || !allowed(error.colour_rmse, most_colour_rmse)) {
+    if (!allowed(error.mean_box, max_error_box) || !allowed(error.p95_box, max_error_box) ||
+        !allowed(error.max_box, max_error_box) || !allowed(error.colour_rmse, max_colour_rmse)) {
         return bad_input("level.error_range",
                          "its error is {} mean, {} p95, {} max, {} colour; allowed are 0 to {} and colour 0 "
                          "to {}",
-                         error.mean_box, error.p95_box, error.max_box, error.colour_rmse, most_error_box,
-                         most_colour_rmse);
+                         error.mean_box, error.p95_box, error.max_box, error.colour_rmse, max_error_box,
+                         max_colour_rmse);
     }
     return {};
 }
@@ -76,13 +76,13 @@ Result<void> check_cluster(const PackCluster& cluster, std::size_t k, std::uint6
 }
 
 Result<void> check_mesh(const PackLevel& level) {
-    if (level.vertices.size() > most_vertices || level.indices.size() > most_indices ||
-        level.clusters.size() > most_clusters || level.indices.empty() || level.indices.size() % 3 != 0) {
+    if (level.vertices.size() > max_vertices || level.indices.size() > max_indices ||
+        level.clusters.size() > max_clusters || level.indices.empty() || level.indices.size() % 3 != 0) {
         return bad_input("level.counts",
                          "it has {} vertices, {} indices, {} clusters; allowed are {}, {} (a multiple of 3, "
                          "not 0), {}",
-                         level.vertices.size(), level.indices.size(), level.clusters.size(), most_vertices,
-                         most_indices, most_clusters);
+                         level.vertices.size(), level.indices.size(), level.clusters.size(), max_vertices,
+                         max_indices, max_clusters);
     }
     const std::uint32_t highest = *std::max_element(level.indices.begin(), level.indices.end());
     if (highest >= level.vertices.size()) {
@@ -98,9 +98,9 @@ Result<void> check_mesh(const PackLevel& level) {
 }
 
 Result<void> check_level_count(const PackDescription& pack, std::size_t levels) {
-    if (levels == 0 || levels > most_levels) {
+    if (levels == 0 || levels > max_levels) {
         return bad_input("pack.level_count", "the pack has {} levels, allowed are 1 to {}", levels,
-                         most_levels);
+                         max_levels);
     }
     if (pack.default_level >= levels) {
         return bad_input("pack.default_level", "default_level is {}, the pack has {} levels",

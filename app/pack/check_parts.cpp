@@ -16,9 +16,9 @@ using namespace pack_format;
 
 namespace {
 
-/// Of a picture: enough for what stands before its texels.
+/// Enough of a picture to hold all that precedes its texels.
 constexpr std::size_t beginning_bytes = 64U << 10U;
-constexpr std::size_t most_charts_bytes = 12 + 20 * most_charts;
+constexpr std::size_t max_charts_bytes = 12 + 20 * max_charts;
 
 class PartChecks {
 public:
@@ -31,21 +31,21 @@ private:
     Result<void> hash(const std::string& name);
     Result<void> level(const LevelRecord& record);
     Result<void> charts(const std::string& name);
-    Result<void> picture(const std::string& name, std::int64_t most_side, std::int64_t most_area);
-    Result<Bytes> beginning_of(const std::string& name, std::size_t most_bytes);
+    Result<void> picture(const std::string& name, std::int64_t max_side, std::int64_t max_area);
+    Result<Bytes> beginning_of(const std::string& name, std::size_t max_bytes);
     PackReader& reader_;
     const std::function<void(std::uint64_t bytes)>& progress_;
-    std::int64_t texels_left_ = most_texels_together;
+    std::int64_t texels_left_ = max_texels_together;
 };
 
 Result<void> PartChecks::hash(const std::string& name) {
     return reader_.check(name, [this](std::span<const std::byte> bytes) { progress_(bytes.size()); });
 }
 
-Result<Bytes> PartChecks::beginning_of(const std::string& name, std::size_t most_bytes) {
+Result<Bytes> PartChecks::beginning_of(const std::string& name, std::size_t max_bytes) {
     Bytes beginning;
     const Result<void> read = reader_.check(name, [&](std::span<const std::byte> bytes) {
-        const auto more = bytes.first(std::min(bytes.size(), most_bytes - beginning.size()));
+        const auto more = bytes.first(std::min(bytes.size(), max_bytes - beginning.size()));
         beginning.insert(beginning.end(), more.begin(), more.end());
         progress_(bytes.size());
     });
@@ -65,19 +65,19 @@ Result<void> PartChecks::level(const LevelRecord& record) {
 }
 
 Result<void> PartChecks::charts(const std::string& name) {
-    TRY(const Bytes bytes, beginning_of(name, most_charts_bytes + 1));
+    TRY(const Bytes bytes, beginning_of(name, max_charts_bytes + 1));
     return without_value(at(name, decode_charts(bytes)));
 }
 
-Result<void> PartChecks::picture(const std::string& name, std::int64_t most_side, std::int64_t most_area) {
+Result<void> PartChecks::picture(const std::string& name, std::int64_t max_side, std::int64_t max_area) {
     TRY(const Bytes bytes, beginning_of(name, beginning_bytes));
     TRY(const PictureExtent extent,
         at(name, begins_as_webp(bytes) ? extent_of_webp(bytes) : extent_of_png(bytes)));
-    const std::int64_t area = extent.width * extent.height; // libraries bound both by 31 bits
-    if (area == 0 || std::max(extent.width, extent.height) > most_side || area > most_area) {
+    const std::int64_t area = extent.width * extent.height; // the decoders bound both to 31 bits
+    if (area == 0 || std::max(extent.width, extent.height) > max_side || area > max_area) {
         return bad_input("pack.picture_size",
                          "{}: the picture has {} x {} texels; allowed are {} a side and {} in all", name,
-                         extent.width, extent.height, most_side, most_area);
+                         extent.width, extent.height, max_side, max_area);
     }
     texels_left_ -= area;
     return {};
@@ -89,10 +89,10 @@ Result<void> PartChecks::all() {
         return check_level_count(manifest.description, manifest.levels.size());
     });
     for (std::size_t k = 0; good && k < manifest.textures.size(); ++k) {
-        good = picture(manifest.textures[k], most_side_texels, std::min(most_texels, texels_left_));
+        good = picture(manifest.textures[k], max_side_texels, std::min(max_texels, texels_left_));
     }
     if (good && manifest.relief) {
-        good = picture(manifest.relief->atlas, most_side_texels, most_texels).and_then([&] {
+        good = picture(manifest.relief->atlas, max_side_texels, max_texels).and_then([&] {
             return charts(manifest.relief->charts);
         });
     }
@@ -100,7 +100,7 @@ Result<void> PartChecks::all() {
         good = level(manifest.levels[k]);
     }
     if (good && !manifest.table_picture.empty()) {
-        constexpr std::int64_t side = most_table_picture_side;
+        constexpr std::int64_t side = max_table_picture_side;
         good = picture(manifest.table_picture, side, side * side);
     }
     for (const PackSection& section : manifest.description.sections) {

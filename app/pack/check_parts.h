@@ -1,6 +1,6 @@
-/// A pack held against its manifest in little memory: what it says of itself, that every part is there and matches its hash, and
-/// that nothing else is. Of what the parts hold, as much as can be seen while they pass by: triangles and charts wholly, of
-/// pictures the size. The rest is looked at by whoever loads them (pack_file.h).
+/// Checks a pack against its manifest in little memory: the manifest itself, that every part is there and matches
+/// its hash, and that there are no other parts. Contents are checked as far as a pass over the bytes allows:
+/// triangles and charts completely, pictures for their size. The loader of a part checks the rest (pack_file.h).
 ///
 /// Memory   some megabytes, however large the parts are.
 /// Errors   one line naming the part, as load_pack.
@@ -15,7 +15,8 @@
 
 namespace frustumscreen {
 
-/// `reader` is fresh, and used up by this. `progress` hears of unpacked bytes as they pass.
+/// `reader` must be fresh, and cannot be used afterwards. `progress` gets the number of unpacked bytes as they
+/// pass.
 [[nodiscard]] Result<void> check_parts(pack_format::PackReader& reader,
                                        const std::function<void(std::uint64_t bytes)>& progress);
 

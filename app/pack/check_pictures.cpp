@@ -11,19 +11,19 @@ namespace {
 
 template <typename Texel> Result<void> check_size(const std::string& what, const Image<Texel>& image) {
     const std::int64_t texels = static_cast<std::int64_t>(image.width) * image.height;
-    const bool sides = image.width > 0 && image.height > 0 && image.width <= most_side_texels &&
-                       image.height <= most_side_texels;
-    if (!sides || texels > most_texels || static_cast<std::size_t>(texels) != image.texels.size()) {
+    const bool sides = image.width > 0 && image.height > 0 && image.width <= max_side_texels &&
+                       image.height <= max_side_texels;
+    if (!sides || texels > max_texels || static_cast<std::size_t>(texels) != image.texels.size()) {
         return bad_input("pack.texture_size", "{} is {} x {} texels; allowed are 1 to {} a side, {} in all",
-                         what, image.width, image.height, most_side_texels, most_texels);
+                         what, image.width, image.height, max_side_texels, max_texels);
     }
     return {};
 }
 
 Result<void> check_textures(const Pack& pack, Read read) {
-    if (pack.textures.size() > most_textures) {
+    if (pack.textures.size() > max_textures) {
         return bad_input("pack.texture_count", "the pack has {} textures, allowed are {}",
-                         pack.textures.size(), most_textures);
+                         pack.textures.size(), max_textures);
     }
     std::int64_t together = 0;
     for (std::size_t k = 0; k < pack.textures.size(); ++k) {
@@ -33,14 +33,14 @@ Result<void> check_textures(const Pack& pack, Read read) {
         TRY_VOID(check_size(fmt::format("texture {}", k), pack.textures[k]));
         together += static_cast<std::int64_t>(pack.textures[k].texels.size());
     }
-    if (together > most_texels_together) {
+    if (together > max_texels_together) {
         return bad_input("pack.textures_together", "the textures have {} texels together, allowed are {}",
-                         together, most_texels_together);
+                         together, max_texels_together);
     }
     return {};
 }
 
-/// Every chart must lie inside the atlas and on texels of its own.
+/// Every chart must lie inside the atlas, on texels that no other chart has.
 Result<void> check_charts(const ReliefAtlas& atlas) {
     std::vector<bool> taken(atlas.relief.texels.size());
     for (std::size_t k = 0; k < atlas.charts.size(); ++k) {
@@ -55,7 +55,7 @@ Result<void> check_charts(const ReliefAtlas& atlas) {
             return bad_input("atlas.chart_direction", "chart {} has direction {}; allowed are 0 to 5", k,
                              static_cast<int>(chart.direction));
         }
-        // A chart's rings may reach a little beyond the box.
+        // A chart's rings may extend a little beyond the box.
         if (!(std::abs(chart.u0_box) <= 2.0F) || !(std::abs(chart.v0_box) <= 2.0F)) {
             return bad_input("atlas.chart_origin", "chart {} begins at ({}, {}), outside the box", k,
                              chart.u0_box, chart.v0_box);
@@ -84,9 +84,9 @@ Result<void> check_relief(const ReliefAtlas& atlas) {
         return bad_input("atlas.texel", "texel_box is {}; allowed are edges above 0 up to 1",
                          atlas.texel_box);
     }
-    if (atlas.charts.empty() || atlas.charts.size() > most_charts) {
+    if (atlas.charts.empty() || atlas.charts.size() > max_charts) {
         return bad_input("atlas.chart_count", "the relief has {} charts, allowed are 1 to {}",
-                         atlas.charts.size(), most_charts);
+                         atlas.charts.size(), max_charts);
     }
     return check_charts(atlas);
 }
@@ -98,9 +98,9 @@ Result<void> check_table_picture(const Image8& picture) {
         return {};
     }
     TRY_VOID(check_size("the table's picture", picture));
-    if (picture.width > most_table_picture_side || picture.height > most_table_picture_side) {
+    if (picture.width > max_table_picture_side || picture.height > max_table_picture_side) {
         return bad_input("pack.table_picture", "the table's picture is {} x {} texels; allowed are {} a side",
-                         picture.width, picture.height, most_table_picture_side);
+                         picture.width, picture.height, max_table_picture_side);
     }
     return {};
 }

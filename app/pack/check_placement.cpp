@@ -13,14 +13,14 @@ namespace frustumscreen::pack_format {
 namespace {
 
 constexpr double similarity_tolerance = 1e-6; ///< relative
-/// Extremes of an artifact that was authored far from its origin have lost some digits there.
+/// The extremes of an artifact authored far from its origin have lost some digits there.
 constexpr double extremes_tolerance = 1e-3; ///< box units
 
 bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Rotation times one positive scale, and a translation: no mirror, no shear, no perspective.
+/// True for a rotation times one positive scale, and a translation: no mirror, no shear, no perspective.
 bool is_similarity(const glm::dmat4& m) {
     const glm::dmat3 linear(m);
     const double scale = std::cbrt(glm::determinant(linear));
@@ -44,9 +44,9 @@ bool is_similarity(const glm::dmat4& m) {
 }
 
 Result<void> check_extremes(const PackDescription& pack) {
-    if (pack.extremes.empty() || pack.extremes.size() > most_extremes) {
+    if (pack.extremes.empty() || pack.extremes.size() > max_extremes) {
         return bad_input("placement.extreme_count", "the placement has {} extremes, allowed are 1 to {}",
-                         pack.extremes.size(), most_extremes);
+                         pack.extremes.size(), max_extremes);
     }
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     glm::dvec3 high = -low;
@@ -84,9 +84,9 @@ Result<void> check_placement(const PackDescription& pack) {
             "placement.box_from_file",
             "box_from_file is not a rotation with one scale and a translation; bake the pack again");
     }
-    if (!(pack.scale >= least_scale) || !(pack.scale <= most_scale)) {
+    if (!(pack.scale >= min_scale) || !(pack.scale <= max_scale)) {
         return bad_input("placement.scale", "the placement's scale is {}, allowed are {} to {}", pack.scale,
-                         least_scale, most_scale);
+                         min_scale, max_scale);
     }
     return check_extremes(pack);
 }

@@ -20,14 +20,14 @@ constexpr double box_tolerance = 1e-3;   // as the placement's extremes
 
 bool is_section_name(std::string_view name) {
     const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
-    return !name.empty() && name.size() <= most_section_name_bytes &&
+    return !name.empty() && name.size() <= max_section_name_bytes &&
            std::all_of(name.begin(), name.end(), allowed);
 }
 
-/// Whether the text is a JSON object that the manifest can hold.
+/// True if the text is a JSON object that the manifest can hold.
 bool is_object(const std::string& text) {
     Refusal refusal;
-    const nlohmann::json data = parse_json(refusal, text, most_manifest_depth - depth_of_data);
+    const nlohmann::json data = parse_json(refusal, text, max_manifest_depth - depth_of_data);
     return !refusal.error && data.is_object();
 }
 
@@ -54,11 +54,11 @@ Result<void> check_sections(const PackDescription& pack) {
     for (const PackSection& section : pack.sections) {
         parts += section.parts.size();
         data_bytes += section.data.size();
-        if (data_bytes > most_section_data_bytes) {
+        if (data_bytes > max_section_data_bytes) {
             return bad_input("sections.too_large",
                              "the sections have more than {} bytes of data together; put what is large "
                              "into parts",
-                             most_section_data_bytes);
+                             max_section_data_bytes);
         }
         if (!is_section_name(section.name) || is_known_section(section.name) ||
             !names.insert(section.name).second) {
@@ -71,17 +71,17 @@ Result<void> check_sections(const PackDescription& pack) {
                              section.name);
         }
     }
-    if (names.size() > most_sections || parts > most_section_parts) {
+    if (names.size() > max_sections || parts > max_section_parts) {
         return bad_input("sections.counts", "the pack has {} sections with {} parts, allowed are {} and {}",
-                         names.size(), parts, most_sections, most_section_parts);
+                         names.size(), parts, max_sections, max_section_parts);
     }
     return {};
 }
 
 Result<void> check_hotspots(const PackDescription& pack) {
-    if (pack.hotspots.size() > most_hotspots) {
+    if (pack.hotspots.size() > max_hotspots) {
         return bad_input("hotspot.count", "the pack has {} hotspots, allowed are {}", pack.hotspots.size(),
-                         most_hotspots);
+                         max_hotspots);
     }
     for (std::size_t k = 0; k < pack.hotspots.size(); ++k) {
         const auto place = fmt::format("hotspot {}", k);

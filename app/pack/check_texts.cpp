@@ -49,10 +49,10 @@ Result<void> check_caption(const std::string& place, const PackCaption& caption)
 }
 
 Result<void> check_captions(const PackDescription& pack) {
-    if (pack.languages.size() > most_languages || pack.captions.size() > most_languages) {
+    if (pack.languages.size() > max_languages || pack.captions.size() > max_languages) {
         return bad_input("pack.language_count",
                          "the pack has {} languages and {} captions, allowed are {} of each",
-                         pack.languages.size(), pack.captions.size(), most_languages);
+                         pack.languages.size(), pack.captions.size(), max_languages);
     }
     for (std::size_t k = 0; k < pack.languages.size(); ++k) {
         TRY_VOID(check_language(fmt::format("language {}", k), pack.languages[k]));
@@ -83,9 +83,9 @@ Result<void> check_provenance(const PackProvenance& provenance) {
 } // namespace
 
 Result<void> check_labels(const std::string& place, const std::vector<PackLabel>& labels) {
-    if (labels.size() > most_languages) {
+    if (labels.size() > max_languages) {
         return bad_input("hotspot.label_count", "{} has labels in {} languages, allowed are {}", place,
-                         labels.size(), most_languages);
+                         labels.size(), max_languages);
     }
     std::set<std::string_view> languages;
     for (const PackLabel& label : labels) {
@@ -104,7 +104,7 @@ Result<void> check_texts(const PackDescription& pack) {
         return bad_input("pack.id",
                          "the id is '{}'; allowed are 1 to {} of a-z 0-9 . _ -, a letter or a digit "
                          "first",
-                         printable(pack.id, 40), most_id_bytes);
+                         printable(pack.id, 40), max_id_bytes);
     }
     TRY_VOID(check_line("the title", pack.title));
     TRY_VOID(check_captions(pack));
@@ -115,9 +115,9 @@ Result<void> check_texts(const PackDescription& pack) {
     if (pack.samples != 1 && pack.samples != 2 && pack.samples != 4 && pack.samples != 8) {
         return bad_input("pack.samples", "samples is {}; allowed are 1, 2, 4 and 8", pack.samples);
     }
-    if (pack.relief_size < 0 || pack.relief_size > most_side_texels) {
+    if (pack.relief_size < 0 || pack.relief_size > max_side_texels) {
         return bad_input("pack.relief_size", "relief_size is {}; allowed are 0 to {} texels",
-                         pack.relief_size, most_side_texels);
+                         pack.relief_size, max_side_texels);
     }
     return check_provenance(pack.provenance);
 }

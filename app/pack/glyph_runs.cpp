@@ -25,10 +25,10 @@ constexpr std::size_t line_bytes = 8;
 constexpr std::size_t glyph_bytes = 8;
 
 bool is_side(std::int32_t units) {
-    return units >= 0 && units <= most_side;
+    return units >= 0 && units <= max_side;
 }
 bool is_place(std::int32_t units) {
-    return units >= -most_side && units <= 2 * most_side;
+    return units >= -max_side && units <= 2 * max_side;
 }
 
 void append_setting(Bytes& bytes, const GlyphSetting& setting) {
@@ -56,23 +56,23 @@ Result<GlyphRuns> read_header(ByteReader& reader, std::size_t& boxes, std::size_
     runs.atlas_height = reader.read<std::uint16_t>();
     boxes = reader.read<std::uint32_t>();
     texts = reader.read<std::uint32_t>();
-    if (runs.texels_per_em < 1 || runs.texels_per_em > most_texels_per_em || runs.spread_texels < 1 ||
-        runs.spread_texels > most_spread_texels) {
+    if (runs.texels_per_em < 1 || runs.texels_per_em > max_texels_per_em || runs.spread_texels < 1 ||
+        runs.spread_texels > max_spread_texels) {
         return bad_input(
             "glyphs.scale",
             "its glyphs have {} texels an em and a spread of {}; allowed are 1 to {} and 1 to {}",
-            runs.texels_per_em, runs.spread_texels, most_texels_per_em, most_spread_texels);
+            runs.texels_per_em, runs.spread_texels, max_texels_per_em, max_spread_texels);
     }
-    if (runs.atlas_width > most_atlas_side || runs.atlas_height > most_atlas_side ||
-        std::int64_t{runs.atlas_width} * runs.atlas_height > most_atlas_texels) {
+    if (runs.atlas_width > max_atlas_side || runs.atlas_height > max_atlas_side ||
+        std::int64_t{runs.atlas_width} * runs.atlas_height > max_atlas_texels) {
         return bad_input("glyphs.atlas_size",
                          "its atlas has {} x {} texels; allowed are {} a side and {} in all",
-                         runs.atlas_width, runs.atlas_height, most_atlas_side, most_atlas_texels);
+                         runs.atlas_width, runs.atlas_height, max_atlas_side, max_atlas_texels);
     }
-    if (boxes > most_boxes || texts > most_texts || boxes * box_bytes > reader.left()) {
+    if (boxes > max_boxes || texts > max_texts || boxes * box_bytes > reader.left()) {
         return bad_input("glyphs.counts",
                          "it claims {} glyphs and {} texts in {} bytes; allowed are {} and {}", boxes, texts,
-                         reader.left(), most_boxes, most_texts);
+                         reader.left(), max_boxes, max_texts);
     }
     return runs;
 }
@@ -94,7 +94,7 @@ Result<void> read_boxes(ByteReader& reader, std::size_t count, GlyphRuns& runs) 
     return {};
 }
 
-/// Checks that the lines and glyphs are there before it makes room for them.
+/// Checks that the bytes of the lines and glyphs are there before it allocates memory for them.
 Result<GlyphSetting> read_setting(ByteReader& reader, std::size_t boxes) {
     GlyphSetting setting;
     setting.limit = reader.read<std::int32_t>();
@@ -104,13 +104,13 @@ Result<GlyphSetting> read_setting(ByteReader& reader, std::size_t boxes) {
     const std::size_t glyphs = reader.read<std::uint32_t>();
     if (!is_side(setting.limit) || !is_side(setting.width) || !is_side(setting.height)) {
         return bad_input("glyphs.setting_size", "is {} x {} for a width of {}; allowed are 0 to {}",
-                         setting.width, setting.height, setting.limit, most_side);
+                         setting.width, setting.height, setting.limit, max_side);
     }
-    if (lines > most_lines || glyphs > most_glyphs ||
+    if (lines > max_lines || glyphs > max_glyphs ||
         lines * line_bytes + glyphs * glyph_bytes > reader.left()) {
         return bad_input("glyphs.setting_counts",
                          "claims {} lines and {} glyphs in {} bytes; allowed are {} and {}", lines, glyphs,
-                         reader.left(), most_lines, most_glyphs);
+                         reader.left(), max_lines, max_glyphs);
     }
     setting.lines.resize(lines);
     std::uint64_t together = 0;
@@ -120,7 +120,7 @@ Result<GlyphSetting> read_setting(ByteReader& reader, std::size_t boxes) {
         together += line.glyphs;
         if (!is_place(line.baseline)) {
             return bad_input("glyphs.baseline", "has a line at {}; allowed are {} to {}", line.baseline,
-                             -most_side, 2 * most_side);
+                             -max_side, 2 * max_side);
         }
     }
     if (together != glyphs) {
@@ -134,7 +134,7 @@ Result<GlyphSetting> read_setting(ByteReader& reader, std::size_t boxes) {
         if (glyph.glyph >= boxes || !is_place(glyph.x)) {
             return bad_input("glyphs.place",
                              "has glyph {} at {}; there are {} glyphs, and allowed places are {} to {}",
-                             glyph.glyph, glyph.x, boxes, -most_side, 2 * most_side);
+                             glyph.glyph, glyph.x, boxes, -max_side, 2 * max_side);
         }
     }
     return setting;
@@ -149,11 +149,11 @@ Result<GlyphText> read_text(ByteReader& reader, std::size_t number, std::size_t 
     text.key.assign(key.begin(), key.end());
     if (!is_text_key(text.key)) {
         return bad_input("glyphs.key", "text {} has a bad key; allowed are 1 to {} of a-z 0-9 _ - and dots",
-                         number, most_key_bytes);
+                         number, max_key_bytes);
     }
-    if (direction > 1 || settings > most_settings) {
+    if (direction > 1 || settings > max_settings) {
         return bad_input("glyphs.text", "text {} has direction {} and {} settings; allowed are 0 or 1 and {}",
-                         text.key, direction, settings, most_settings);
+                         text.key, direction, settings, max_settings);
     }
     text.direction = static_cast<TextDirection>(direction);
     for (std::size_t k = 0; k < settings; ++k) {
@@ -179,11 +179,11 @@ bool is_text_key(std::string_view key) {
     const auto allowed = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
     };
-    return !key.empty() && key.size() <= most_key_bytes && std::all_of(key.begin(), key.end(), allowed);
+    return !key.empty() && key.size() <= max_key_bytes && std::all_of(key.begin(), key.end(), allowed);
 }
 
 Bytes encode_glyph_runs(const GlyphRuns& runs) {
-    assert(runs.boxes.size() <= most_boxes && runs.texts.size() <= most_texts);
+    assert(runs.boxes.size() <= max_boxes && runs.texts.size() <= max_texts);
     Bytes bytes;
     for (const char c : magic) {
         append(bytes, c);
@@ -203,7 +203,7 @@ Bytes encode_glyph_runs(const GlyphRuns& runs) {
         append(bytes, box.top);
     }
     for (const GlyphText& text : runs.texts) {
-        assert(is_text_key(text.key) && text.settings.size() <= most_settings);
+        assert(is_text_key(text.key) && text.settings.size() <= max_settings);
         append(bytes, static_cast<std::uint8_t>(text.key.size()));
         append(bytes, static_cast<std::uint8_t>(text.direction));
         append(bytes, static_cast<std::uint16_t>(text.settings.size()));
@@ -255,7 +255,7 @@ Result<DistanceAtlas> decode_distance_atlas(std::span<const std::byte> bytes, co
                              : bad_input("glyphs.picture_unused",
                                          "there is a picture of glyphs, and the texts have none");
     }
-    TRY(const Image8 grey, decode_webp8(bytes, most_atlas_texels));
+    TRY(const Image8 grey, decode_webp8(bytes, max_atlas_texels));
     if (grey.width != runs.atlas_width || grey.height != runs.atlas_height) {
         return bad_input("glyphs.picture_size", "it has {} x {} texels; the texts need {} x {}", grey.width,
                          grey.height, runs.atlas_width, runs.atlas_height);

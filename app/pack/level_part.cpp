@@ -21,13 +21,14 @@ constexpr std::uint32_t level_version = 1;
 constexpr std::size_t header_bytes = 24;
 constexpr std::size_t cluster_bytes = 52;
 
-/// A vertex of a relief level as it is stored.
+/// A relief level's vertex as stored.
 struct StoredTexel {
     std::uint16_t chart = 0, x = 0, y = 0;
 };
 static_assert(sizeof(StoredTexel) == 6);
 
-/// The texel whose centre has this code; nothing if the code is more than its rounding away from one.
+/// The texel whose centre has this code; nothing if the code differs from the nearest centre's by more than its
+/// rounding.
 std::optional<int> texel_of(std::uint16_t code, int width) {
     const int texel = static_cast<int>(std::floor(code / 65535.0 * width));
     if (texel < 0 || texel >= width || std::abs(uv_code(texel, width) - code) > 1) {
@@ -36,7 +37,7 @@ std::optional<int> texel_of(std::uint16_t code, int width) {
     return texel;
 }
 
-/// Which chart owns each texel of the atlas; charts are disjoint.
+/// The chart of each texel of the atlas; charts are disjoint.
 Image<std::int32_t> chart_of_texels(const ReliefAtlas& relief) {
     Image<std::int32_t> owner(relief.relief.width, relief.relief.height, -1);
     for (std::size_t k = 0; k < relief.charts.size(); ++k) {
@@ -50,7 +51,7 @@ Image<std::int32_t> chart_of_texels(const ReliefAtlas& relief) {
     return owner;
 }
 
-/// Whether two positions are equal, except for the rounding of their codes and of 32-bit arithmetic.
+/// True if two positions are equal, except for the rounding of their codes and of 32-bit arithmetic.
 bool same_place(const PackVertex& a, const PackVertex& b, const glm::dvec3& box_size) {
     constexpr double codes = 2.0;
     constexpr double rounding_box = 1e-6;
@@ -173,7 +174,7 @@ Result<Header> read_header(std::span<const std::byte> bytes, std::uint64_t part_
         std::uint64_t{header.clusters} * cluster_bytes +
         std::uint64_t{header.indices} * sizeof(std::uint32_t) +
         std::uint64_t{header.vertices} * (header.relief ? sizeof(StoredTexel) : sizeof(PackVertex));
-    if (header.vertices > most_vertices || header.indices > most_indices || header.clusters > most_clusters ||
+    if (header.vertices > max_vertices || header.indices > max_indices || header.clusters > max_clusters ||
         needed != part_bytes - header_bytes) {
         return bad_input("level.size", "{} vertices, {} indices, {} clusters need {} bytes, it has {}",
                          header.vertices, header.indices, header.clusters, needed, part_bytes - header_bytes);
@@ -226,7 +227,7 @@ Result<PackLevel> decode_level(std::span<const std::byte> bytes, const ReliefAtl
     return level;
 }
 
-/// 0: nothing is left.
+/// Size of the next item; 0: nothing is left.
 std::size_t LevelScan::next_bytes() const {
     return !has_header_                 ? header_bytes
            : clusters_seen_ < clusters_ ? cluster_bytes

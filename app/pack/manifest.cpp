@@ -15,7 +15,7 @@ namespace frustumscreen::pack_format {
 
 namespace {
 
-/// A later format may look different in everything but these two fields, so they are read first and alone.
+/// Reads these two fields first and alone: everything else may differ in a later format.
 void read_format(Refusal& refusal, const nlohmann::json& document) {
     JsonReader fields(refusal, &document, "");
     std::string format;
@@ -58,9 +58,9 @@ void check_parts(Refusal& refusal, const std::vector<PartRecord>& parts) {
         }
         together += part.bytes;
     }
-    if (together > most_parts_bytes) {
+    if (together > max_parts_bytes) {
         refusal.refuse("manifest.parts_together", "parts",
-                       fmt::format("have {} bytes together, allowed are {}", together, most_parts_bytes));
+                       fmt::format("have {} bytes together, allowed are {}", together, max_parts_bytes));
     }
 }
 
@@ -82,9 +82,9 @@ bool is_part_name(std::string_view name) {
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' ||
                c == '/';
     };
-    return !name.empty() && name.size() <= most_name_bytes &&
-           std::all_of(name.begin(), name.end(), allowed) && name.front() != '/' &&
-           name.find("..") == std::string_view::npos && name != manifest_name && name != signature_name;
+    return !name.empty() && name.size() <= max_name_bytes && std::all_of(name.begin(), name.end(), allowed) &&
+           name.front() != '/' && name.find("..") == std::string_view::npos && name != manifest_name &&
+           name != signature_name;
 }
 
 Result<Manifest> parse_manifest(std::string_view text) {

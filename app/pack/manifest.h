@@ -30,12 +30,12 @@ struct ReliefRecord {
     std::string charts; ///< part
 };
 
-/// The file names its texture by the texture's part.
+/// A level in the file; its texture is named by the texture's part.
 struct LevelRecord : LevelOutline {
     std::string mesh; ///< part
 };
 
-/// A section as it stands in the file.
+/// A section as in the file.
 struct SectionRecord {
     std::string name;
     std::vector<std::string> parts;
@@ -44,18 +44,18 @@ struct SectionRecord {
 
 struct Manifest {
     PackDescription description;
-    std::string table_picture; ///< part; empty = none
+    std::string table_picture; ///< part; empty: none
     std::vector<std::string> textures;
     std::optional<ReliefRecord> relief;
     std::vector<LevelRecord> levels;
     std::vector<PartRecord> parts;
 };
 
-/// Checks syntax, types and names, and only those values that size something or refer to something.
+/// Checks syntax, types and names, and only the values that give a size or refer to something.
 [[nodiscard]] Result<Manifest> parse_manifest(std::string_view text);
 [[nodiscard]] std::string write_manifest(const Manifest& manifest);
 
-/// Whether a part may have this name.
+/// True if a part may have this name.
 [[nodiscard]] bool is_part_name(std::string_view name);
 
 } // namespace frustumscreen::pack_format

@@ -37,7 +37,7 @@ void label_fields(auto& fields, auto& label) {
 void hotspot_fields(auto& fields, auto& hotspot) {
     fields.numbers("point", std::span(glm::value_ptr(hotspot.point), 3));
     fields.numbers("normal", std::span(glm::value_ptr(hotspot.normal), 3));
-    fields.objects("labels", hotspot.labels, most_languages,
+    fields.objects("labels", hotspot.labels, max_languages,
                    [](auto& item, auto& label) { label_fields(item, label); });
 }
 
@@ -46,12 +46,12 @@ void identity_fields(auto& fields, auto& pack) {
 }
 
 void details_fields(auto& fields, auto& captions) {
-    fields.objects("captions", captions, most_languages,
+    fields.objects("captions", captions, max_languages,
                    [](auto& item, auto& caption) { detail_fields(item, caption); });
 }
 
 void hotspots_fields(auto& fields, auto& pack) {
-    fields.objects("hotspots", pack.hotspots, most_hotspots,
+    fields.objects("hotspots", pack.hotspots, max_hotspots,
                    [](auto& item, auto& hotspot) { hotspot_fields(item, hotspot); });
 }
 
@@ -60,7 +60,7 @@ bool says_more_than_a_caption(const PackCaption& caption) {
              caption.credit.empty() && caption.description.empty());
 }
 
-/// Adds what is said in a language to that language's caption.
+/// Adds the details in a language to the caption of that language.
 void add_details(Refusal& refusal, std::vector<PackCaption> read, std::vector<PackCaption>& captions) {
     std::set<std::string> seen;
     for (PackCaption& from : read) {
@@ -123,10 +123,10 @@ void take_sections(Refusal& refusal, std::vector<SectionRecord> records, Manifes
     for (SectionRecord& record : records) {
         parts += record.parts.size();
         data_bytes += record.data.size();
-        if (data_bytes > most_section_data_bytes) {
+        if (data_bytes > max_section_data_bytes) {
             refusal.refuse("manifest.sections_too_large", "sections",
                            fmt::format("have more than {} bytes of data together; allowed are fewer",
-                                       most_section_data_bytes));
+                                       max_section_data_bytes));
         }
         if (refusal.error) {
             return;
@@ -138,9 +138,9 @@ void take_sections(Refusal& refusal, std::vector<SectionRecord> records, Manifes
                 {std::move(record.name), std::move(record.data), std::move(record.parts)});
         }
     }
-    if (parts > most_section_parts) {
+    if (parts > max_section_parts) {
         refusal.refuse("manifest.section_part_count", "sections",
-                       fmt::format("have {} parts together, allowed are {}", parts, most_section_parts));
+                       fmt::format("have {} parts together, allowed are {}", parts, max_section_parts));
     }
 }
 

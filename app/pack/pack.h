@@ -1,4 +1,4 @@
-/// What a pack holds, in memory. FORMAT.md has the bytes.
+/// The contents of a pack, in memory. FORMAT.md defines the bytes.
 ///
 /// Frames   box: the artifact turned so that its up axis is +Z, its bounding box centred on the Z axis and
 ///          standing on z = 0, scaled so that the box's longest edge is 1. One pack serves every prop: the
@@ -20,7 +20,7 @@
 
 namespace frustumscreen {
 
-/// What is said of the artifact in one language. All but the language may be empty.
+/// The artifact's texts in one language. All but the language may be empty.
 struct PackCaption {
     std::string language; ///< BCP 47
     std::string title;
@@ -28,8 +28,8 @@ struct PackCaption {
     std::string period{};
     std::string place{};
     std::string maker{};
-    std::string credit{};      ///< the line that names whose it is
-    std::string description{}; ///< for who hears it: what there is to see
+    std::string credit{};      ///< the line that names the owner
+    std::string description{}; ///< for listeners: what there is to see
 
     [[nodiscard]] bool operator==(const PackCaption&) const = default;
 };
@@ -41,7 +41,7 @@ struct PackLabel {
     [[nodiscard]] bool operator==(const PackLabel&) const = default;
 };
 
-/// A place on the artifact that there is something to say about.
+/// A point of the artifact with a label.
 struct PackHotspot {
     glm::dvec3 point{0.0};            ///< on the surface, box frame
     glm::dvec3 normal{0.0, 0.0, 1.0}; ///< of the surface there: unit, outward, box frame
@@ -50,11 +50,11 @@ struct PackHotspot {
     [[nodiscard]] bool operator==(const PackHotspot&) const = default;
 };
 
-/// A part of a pack that this description has no member for: who knows its name interprets it.
+/// A section without a member in this description, interpreted by the code that knows its name.
 struct PackSection {
     std::string name;
     std::string data = "{}";        ///< a JSON object, keys in order, without white space
-    std::vector<std::string> parts; ///< names; their bytes are read apart (pack_sections.h)
+    std::vector<std::string> parts; ///< names; their bytes are read separately (pack_sections.h)
 
     [[nodiscard]] bool operator==(const PackSection&) const = default;
 };
@@ -62,13 +62,13 @@ struct PackSection {
 struct PackProvenance {
     std::string source_name;   ///< file name without folders
     std::string source_sha256; ///< hexadecimal, over the file named
-    std::string licence;       ///< SPDX expression or free text; empty = not stated
+    std::string licence;       ///< SPDX expression or free text; empty: not stated
     std::uint64_t source_triangles = 0;
 
     [[nodiscard]] bool operator==(const PackProvenance&) const = default;
 };
 
-/// The direction that a chart of the relief is seen from: the normals of a prop's box.
+/// The direction from which a chart of the relief is seen: the normals of a prop's box.
 /// In-plane axes (u, v): +-X: (y, z); +-Y: (x, z); +-Z: (x, y).
 enum class ReliefDirection : std::uint8_t { PlusX, MinusX, PlusY, MinusY, PlusZ, MinusZ };
 
@@ -81,7 +81,7 @@ struct ReliefChart {
 
 /// Layered relief (layered depth images in the directions of the prop's faces; Kim 2008, Shade 1998) as one
 /// packed atlas.
-/// relief: coordinate along the direction's axis, 0 = box minimum, 65534 = box maximum, 65535 = empty.
+/// relief: coordinate along the direction's axis, 0: box minimum, 65534: box maximum, 65535: empty.
 struct ReliefAtlas {
     float texel_box = 0.0F; ///< edge of a texel, box units
     std::vector<ReliefChart> charts;
@@ -103,7 +103,7 @@ struct PackCluster {
     glm::vec3 centre{0.0F};
     float radius = 0.0F;
     /// Back-facing from an eye e if dot(normalize(cone_apex - e), cone_axis) >= cone_cutoff.
-    /// A cut-off above 1: never.
+    /// A cut-off above 1: never back-facing.
     glm::vec3 cone_apex{0.0F};
     glm::vec3 cone_axis{0.0F, 0.0F, 1.0F};
     float cone_cutoff = 2.0F;
@@ -111,7 +111,7 @@ struct PackCluster {
 
 enum class LevelTechnique { Relief, Mesh };
 
-/// Distance between a level's surface and the source's, both ways, over surface that a visitor can see.
+/// Distance between a level's surface and the source's, both ways, over the surface that a visitor can see.
 /// Box units.
 struct LevelError {
     float mean_box = 0.0F;
@@ -122,7 +122,7 @@ struct LevelError {
     [[nodiscard]] bool operator==(const LevelError&) const = default;
 };
 
-/// A picture of the artifact at one cost: clusters of counter-clockwise triangles over one colour texture.
+/// One mesh of the artifact, at one cost: clusters of counter-clockwise triangles with one colour texture.
 struct PackLevel {
     LevelTechnique technique = LevelTechnique::Mesh;
     LevelError error;
@@ -132,25 +132,25 @@ struct PackLevel {
     std::vector<PackCluster> clusters; ///< cover `indices` in order, without gaps
 };
 
-/// All of a pack but its pictures and triangles.
+/// A pack without its pictures and triangles.
 struct PackDescription {
-    std::string id; ///< the artifact's own name, the same in each pack that replaces another; empty = none
+    std::string id; ///< of the artifact, the same in each pack that replaces another; empty: none
     std::string title;
     std::vector<std::string> languages;
     std::vector<PackCaption> captions;
     std::vector<PackHotspot> hotspots;
     std::vector<PackSection> sections;
     PackProvenance provenance;
-    std::string prop_kind = "frustum"; ///< the prop whose directions the relief was baked for
+    std::string prop_kind = "frustum"; ///< the prop whose directions were used to bake the relief
     bool unlit = false;
-    /// Samples a pixel that keep this artifact's outlines and texture smooth, as the bake measured: 1, 2, 4
+    /// Samples per pixel that keep this artifact's outlines and texture smooth, as measured by the bake: 1, 2, 4
     /// or 8.
     int samples = 4;
     int relief_size = 0;              ///< --size: texels along the longest edge of a face
     glm::dvec3 box_size{1.0};         ///< extents; the longest is 1
     glm::dmat4 box_from_file{1.0};    ///< the file's own coordinates (glTF: scene) to the box
     std::vector<glm::dvec3> extremes; ///< box frame: outermost vertices, for the largest scale inside a prop
-    double scale = 1.0;               ///< on the largest size inside the prop
+    double scale = 1.0;               ///< relative to the largest size inside the prop
     std::uint32_t default_level = 0;
 
     [[nodiscard]] bool operator==(const PackDescription&) const = default;
@@ -160,9 +160,9 @@ struct Pack : PackDescription {
     std::vector<Image8> textures;  ///< sRGB colour
     ReliefAtlas relief;            ///< empty if no level is a relief
     std::vector<PackLevel> levels; ///< coarse to fine
-    /// The artifact cut out, for the table; empty = none. It is not read with chosen levels: see load_pack_card.
+    /// The artifact cut out, for the table; empty: none. Not read with chosen levels: see load_pack_card.
     Image8 table_picture;
-    /// Bytes of the sections' parts, by name; none where only some levels were chosen.
+    /// Bytes of the sections' parts, by name; empty if only some levels were chosen.
     std::map<std::string, std::vector<std::byte>> section_parts;
 };
 

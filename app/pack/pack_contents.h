@@ -1,4 +1,4 @@
-/// What lies in a pack's container, for reports: the parts and their sizes, nothing of them decoded.
+/// The contents of a pack's container, for reports: the parts and their sizes, not decoded.
 ///
 /// Errors   as verify_pack, as far as the container and the manifest go.
 /// Threads  pure; any.

@@ -1,7 +1,7 @@
-/// The pack as a file: one ZIP container with a manifest and hashed binary parts. FORMAT.md has the bytes.
+/// The pack as a file: one ZIP container with a manifest and hashed binary parts. FORMAT.md defines the bytes.
 ///
 /// Errors   one line: what is wrong, where inside the pack, what to do. Every length, offset, count and
-///          dimension is checked before use; no part is used before its hash was checked.
+///          dimension is checked before use; no part is used before its hash is checked.
 /// Threads  pure; any.
 #pragma once
 
@@ -16,14 +16,14 @@
 
 namespace frustumscreen {
 
-/// What is written. Packs of all earlier versions are read.
+/// The version that is written. Packs of all earlier versions are read.
 inline constexpr int pack_format_version = 2;
 
 namespace pack_format {
 class PackReader;
 }
 
-/// A pack in which everything that was read was checked; only the functions below make one. Levels and textures
+/// A pack whose parts were checked as they were read; only the functions below make one. Levels and textures
 /// that were not chosen are empty but keep their places, so that indices are those of the file.
 class VerifiedPack {
 public:
@@ -36,17 +36,17 @@ private:
     Pack pack_;
 };
 
-/// Deterministic: the same pack gives the same bytes.
+/// Deterministic: equal packs give equal bytes.
 [[nodiscard]] Result<Bytes> write_pack(const Pack& pack);
-/// Without `choose`, all of it is read. Parts of levels that are not chosen are neither unpacked nor hashed.
+/// Without `choose`, reads all of it. Parts of levels that are not chosen are neither unpacked nor hashed.
 [[nodiscard]] Result<VerifiedPack> verify_pack(std::span<const std::byte> bytes,
                                                const ChooseLevels& choose = {});
-/// Reads and verifies, part by part: what is not chosen is not read either. Messages begin with the file's name.
+/// Reads and verifies part by part; a part that is not chosen is not read. Messages begin with the file's name.
 [[nodiscard]] Result<VerifiedPack> load_pack(const std::filesystem::path& file,
                                              const ChooseLevels& choose = {});
 
-/// As load_pack, from a container that is open: what was read of it before, its signature for instance, is not read again. A
-/// reader serves once. Messages do not begin with the file's name.
+/// As load_pack, from an open container: what was read before, such as its signature, is not read again. A reader
+/// can be used once. Messages do not begin with the file's name.
 [[nodiscard]] Result<VerifiedPack> read_pack(pack_format::PackReader& reader,
                                              const ChooseLevels& choose = {});
 

@@ -18,11 +18,11 @@ using namespace pack_format;
 namespace {
 
 constexpr std::string_view section_name = "hull";
-/// The solid may be a little larger than the box, where it has fewer corners than the artifact.
+/// The hull may be a little larger than the box if it has fewer corners than the artifact.
 constexpr double farthest_box = 2.0;
 
 void hull_fields(auto& fields, auto& corners) {
-    fields.triples("corners", corners, most_hull_corners);
+    fields.triples("corners", corners, max_hull_corners);
 }
 
 const PackSection* find_section(const PackDescription& pack) {
@@ -42,7 +42,7 @@ std::vector<glm::dvec3> box_corners(const PackDescription& pack) {
 }
 
 bool is_near_box(const glm::dvec3& corner) {
-    return glm::length(corner) <= farthest_box; // not NaN
+    return glm::length(corner) <= farthest_box; // false for NaN
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-/// The convex solid that holds an artifact, by its corners: a pack's section `hull` (FORMAT.md). Who sees all of the solid sees all
-/// of the artifact.
+/// The convex hull of an artifact, by its corners: a pack's section `hull` (FORMAT.md). An eye that sees all of the
+/// hull sees all of the artifact.
 ///
 /// Frame    box; box units. In a prop: prop P, metres.
 /// Errors   one line beginning with the field's place in the manifest.
@@ -15,16 +15,16 @@
 
 namespace frustumscreen {
 
-/// As many as the bake keeps.
-inline constexpr std::size_t most_hull_corners = 1024;
+/// The bake keeps at most as many.
+inline constexpr std::size_t max_hull_corners = 1024;
 
-/// The pack must not have it yet.
+/// The pack must not have the section yet.
 void put_hull(const std::vector<glm::dvec3>& corners, PackDescription& pack);
-/// Of a pack without the section, from an earlier bake: the corners of its box.
+/// If a pack of an earlier bake lacks the section, the corners of its box.
 [[nodiscard]] Result<std::vector<glm::dvec3>> hull_of(const PackDescription& pack);
 
-/// The same as it stands in a prop, with at most `most` corners.
+/// The hull in a prop, with at most `most` corners.
 [[nodiscard]] Result<std::vector<glm::dvec3>> hull_in(const PackDescription& pack, const PropShape& prop,
-                                                      std::size_t most = most_hull_corners);
+                                                      std::size_t most = max_hull_corners);
 
 } // namespace frustumscreen

@@ -1,14 +1,14 @@
-/// Whether a file begins as a pack does, broken or not. A program may replace such a file by a new pack
+/// Tells whether a file begins like a pack, broken or not. A program may replace such a file with a new pack
 /// without asking.
 ///
-/// Threads  any. Reads the file's first bytes; a file that is not there or not readable is no pack.
+/// Threads  any. Reads the file's first bytes; a missing or unreadable file is no pack.
 #pragma once
 
 #include <filesystem>
 
 namespace frustumscreen {
 
-/// True if it begins with a local header of a ZIP container (APPNOTE 4.3.7) whose name is `manifest.json`.
+/// True if the file begins with a local header of a ZIP container (APPNOTE 4.3.7) named `manifest.json`.
 [[nodiscard]] bool begins_as_pack(const std::filesystem::path& file);
 
 } // namespace frustumscreen

@@ -1,8 +1,8 @@
-/// What a pack offers, from its manifest alone: enough to choose what is read.
+/// The levels that a pack offers, from its manifest alone: enough to choose what to read.
 ///
 /// Units    errors in box units, as LevelError.
 /// Threads  values; any.
-/// Errors   those of the choice: a level that the pack does not have.
+/// Errors   those of the choice: the pack does not have the level.
 #pragma once
 
 #include "app/pack/pack.h"
@@ -32,7 +32,7 @@ struct PackOutline {
 };
 [[nodiscard]] PackOutline outline_of(const Pack& pack);
 
-/// Indices of the levels to read; their textures come with them, and the relief if one of them needs it.
+/// Indices of the levels to read; their textures are read with them, and the relief if one of them needs it.
 using ChooseLevels = std::function<Result<std::vector<std::uint32_t>>(const PackOutline&)>;
 
 } // namespace frustumscreen

@@ -13,7 +13,7 @@ using namespace pack_format;
 
 namespace {
 
-/// Which levels are read, and what they need.
+/// The levels to read, and what they need.
 struct Chosen {
     std::vector<bool> levels;
     std::vector<bool> textures;
@@ -39,14 +39,14 @@ Result<Chosen> chosen_by(const ChooseLevels& choose, const Manifest& manifest) {
 }
 
 Result<void> read_textures(PackReader& reader, const Chosen& chosen, Pack& pack) {
-    std::int64_t left = most_texels_together;
+    std::int64_t left = max_texels_together;
     for (const std::string& name : reader.manifest().textures) {
         if (!chosen.textures[pack.textures.size()]) {
             TRY_VOID(reader.pass_over(name));
             pack.textures.emplace_back();
             continue;
         }
-        TRY(Image8 texture, read_picture(reader, name, std::min(most_texels, left)));
+        TRY(Image8 texture, read_picture(reader, name, std::min(max_texels, left)));
         left -= static_cast<std::int64_t>(texture.texels.size());
         pack.textures.push_back(std::move(texture));
     }
@@ -62,7 +62,7 @@ Result<void> read_relief(PackReader& reader, const Chosen& chosen, Pack& pack) {
         return reader.pass_over(record->atlas).and_then([&] { return reader.pass_over(record->charts); });
     }
     TRY(const Bytes atlas, reader.take(record->atlas));
-    TRY(Image16 relief, at(record->atlas, decode_png16(atlas, most_texels)));
+    TRY(Image16 relief, at(record->atlas, decode_png16(atlas, max_texels)));
     TRY(const Bytes charts_bytes, reader.take(record->charts));
     TRY(std::vector<ReliefChart> charts, at(record->charts, decode_charts(charts_bytes)));
     pack.relief = {record->texel_box, std::move(charts), std::move(relief)};
@@ -90,7 +90,7 @@ Result<void> read_levels(PackReader& reader, const Chosen& chosen, Pack& pack) {
             continue;
         }
         TRY(PackLevel level, read_level(reader, record, pack));
-        if (level.indices.empty()) { // it would count as a level that was not read
+        if (level.indices.empty()) { // an empty level would count as not read
             return at(record.mesh, check_mesh(level).error());
         }
         pack.levels.push_back(std::move(level));
@@ -118,7 +118,7 @@ Result<void> read_extras(PackReader& reader, Read read, Pack& pack) {
     return {};
 }
 
-/// Each step needs that the ones before it passed.
+/// Each step requires that the steps before it succeeded.
 Result<void> read_all(PackReader& reader, const ChooseLevels& choose, Pack& pack) {
     TRY_VOID(check_description(pack));
     TRY_VOID(check_level_count(pack, reader.manifest().levels.size()));

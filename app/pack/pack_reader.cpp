@@ -14,10 +14,10 @@ namespace frustumscreen::pack_format {
 namespace {
 
 Result<void> check_signature_size(const ZipEntry& entry) {
-    return entry.bytes <= most_signature_bytes
+    return entry.bytes <= max_signature_bytes
                ? Result<void>()
                : bad_input("pack.signature_size", "the signature has {} bytes, allowed are {}", entry.bytes,
-                           most_signature_bytes);
+                           max_signature_bytes);
 }
 
 const PartRecord* find_part(const Manifest& manifest, std::string_view name) {
@@ -59,9 +59,9 @@ Result<Bytes> read_manifest_bytes(ZipReader& zip) {
         return bad_input("pack.no_manifest", "its first entry is not manifest.json; this is not a pack");
     }
     const ZipEntry& entry = zip.entries().front();
-    if (entry.bytes > most_manifest_bytes) {
+    if (entry.bytes > max_manifest_bytes) {
         return bad_input("pack.manifest_size", "manifest.json has {} bytes, allowed are {}", entry.bytes,
-                         most_manifest_bytes);
+                         max_manifest_bytes);
     }
     return zip.read(entry);
 }
@@ -77,9 +77,9 @@ Result<std::optional<std::string>> read_signature_entry(ZipReader& zip) {
 }
 
 Result<void> check_pack_size(std::uint64_t bytes) {
-    return bytes <= most_pack_bytes
+    return bytes <= max_pack_bytes
                ? Result<void>()
-               : bad_input("pack.size", "the pack has {} bytes, allowed are {}", bytes, most_pack_bytes);
+               : bad_input("pack.size", "the pack has {} bytes, allowed are {}", bytes, max_pack_bytes);
 }
 
 Result<PackReader> PackReader::open(std::span<const std::byte> bytes) {
@@ -154,7 +154,7 @@ Result<PackReader> open_pack_file(const std::filesystem::path& file) {
     if (std::error_code none; std::filesystem::is_directory(file, none)) {
         return bad_input("pack.folder", file.string() + ": this is a folder; name the *.fspack files in it");
     }
-    TRY(OpenFile opened, OpenFile::open(file, most_pack_bytes));
+    TRY(OpenFile opened, OpenFile::open(file, max_pack_bytes));
     return at(file.string(), PackReader::open(std::move(opened)));
 }
 

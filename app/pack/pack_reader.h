@@ -1,4 +1,4 @@
-/// The container of a pack, opened: its manifest, and its parts one at a time, each checked against its hash.
+/// The container of a pack, open: its manifest, and its parts one at a time, each checked against its hash.
 ///
 /// Errors   one line naming the part.
 /// Threads  one caller.
@@ -15,34 +15,35 @@
 
 namespace frustumscreen::pack_format {
 
-/// The bytes of manifest.json, and nothing of what they say.
+/// The bytes of manifest.json, not parsed.
 [[nodiscard]] Result<Bytes> read_manifest_bytes(ZipReader& zip);
 /// The bytes of the entry `signature`; nothing if there is none.
 [[nodiscard]] Result<std::optional<std::string>> read_signature_entry(ZipReader& zip);
 
 class PackReader {
 public:
-    /// Reads the manifest, and checks that the parts are exactly those that it lists, with the sizes that it
-    /// lists. `bytes` must outlive the reader.
+    /// Reads the manifest, and checks that it lists exactly the parts of the container, with their sizes.
+    /// `bytes` must outlive the reader.
     [[nodiscard]] static Result<PackReader> open(std::span<const std::byte> bytes);
-    /// Reads of the file what is asked for and no more. Messages do not begin with its name.
+    /// Reads only the requested parts of the file. Messages do not begin with its name.
     [[nodiscard]] static Result<PackReader> open(OpenFile file);
-    /// As above, with the bytes that read_manifest_bytes gave for `zip`: who checked them first uses the same ones.
+    /// As above, with the bytes that read_manifest_bytes returned for `zip`, so that a caller that has checked them
+    /// uses the same ones.
     [[nodiscard]] static Result<PackReader> open(ZipReader zip, std::span<const std::byte> manifest);
 
     [[nodiscard]] const Manifest& manifest() const { return manifest_; }
     [[nodiscard]] const ZipReader& zip() const { return zip_; }
     /// A part's bytes; each part can be taken once.
     [[nodiscard]] Result<Bytes> take(const std::string& name);
-    /// Holds a part against its hash without keeping it; else as take(). `pass` gets its bytes, some at a time; they count only
-    /// if all is well in the end.
+    /// Checks a part against its hash without keeping it; otherwise as take(). `pass` gets the bytes piece by
+    /// piece; they are valid only if the check succeeds.
     [[nodiscard]] Result<void> check(const std::string& name,
                                      const std::function<void(std::span<const std::byte>)>& pass);
     /// Counts a part as used without reading its bytes; each part can be taken or passed over once.
     [[nodiscard]] Result<void> pass_over(const std::string& name);
     /// The bytes of the entry `signature`, unchecked; nothing if there is none.
     [[nodiscard]] Result<std::optional<std::string>> signature() { return read_signature_entry(zip_); }
-    /// Refuses parts that nothing refers to.
+    /// Refuses parts without a reference to them.
     [[nodiscard]] Result<void> finish() const;
 
 private:
@@ -54,10 +55,10 @@ private:
     std::set<std::string> taken_;
 };
 
-/// Refuses a file of more bytes than a pack may have.
+/// Refuses a file larger than a pack may be.
 [[nodiscard]] Result<void> check_pack_size(std::uint64_t bytes);
 
-/// Errors: as PackReader::open; a folder; what cannot be opened. Messages begin with the file's name.
+/// Errors: as PackReader::open; a folder; a file that cannot be opened. Messages begin with the file's name.
 [[nodiscard]] Result<PackReader> open_pack_file(const std::filesystem::path& file);
 
 } // namespace frustumscreen::pack_format

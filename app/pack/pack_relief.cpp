@@ -21,15 +21,15 @@ namespace {
 constexpr std::string_view section_name = "relief_blocks";
 
 void cast_relief_fields(auto& fields, auto& relief) {
-    fields.whole("texels", relief.texels, most_relief_texels);
-    fields.whole("blocks", relief.blocks, most_relief_blocks);
-    fields.whole("bytes", relief.bytes, most_part_bytes);
+    fields.whole("texels", relief.texels, max_relief_texels);
+    fields.whole("blocks", relief.blocks, max_relief_blocks);
+    fields.whole("bytes", relief.bytes, max_part_bytes);
     fields.object("error", [&](auto& error) { error_fields(error, relief.error); });
     fields.text("part", relief.part);
 }
 
 void reliefs_fields(auto& fields, auto& reliefs) {
-    fields.objects("reliefs", reliefs, most_reliefs,
+    fields.objects("reliefs", reliefs, max_reliefs,
                    [](auto& item, auto& relief) { cast_relief_fields(item, relief); });
 }
 
@@ -39,12 +39,13 @@ std::optional<std::string> fault_of(const std::vector<ReliefOutline>& reliefs,
     for (std::size_t k = 0; k < reliefs.size(); ++k) {
         const LevelError& error = reliefs[k].error;
         const auto measured = [](float value, float most) { return value >= 0.0F && value <= most; };
-        if (reliefs[k].texels <= last || !measured(error.mean_box, most_error_box) ||
-            !measured(error.p95_box, most_error_box) || !measured(error.max_box, most_error_box) ||
-            !measured(error.colour_rmse, most_colour_rmse)) {
-            return fmt::format("has a relief of {} texels that is not finer than the one before, or whose "
-                               "error is not a measured one; bake the pack again",
-                               reliefs[k].texels);
+        if (reliefs[k].texels <= last || !measured(error.mean_box, max_error_box) ||
+            !measured(error.p95_box, max_error_box) || !measured(error.max_box, max_error_box) ||
+            !measured(error.colour_rmse, max_colour_rmse)) {
+            return fmt::format(
+                "has a relief of {} texels that is no finer than the one before, or whose error "
+                "is no measurement; bake the pack again",
+                reliefs[k].texels);
         }
         last = reliefs[k].texels;
     }
@@ -54,7 +55,7 @@ std::optional<std::string> fault_of(const std::vector<ReliefOutline>& reliefs,
                 : std::optional<std::string>("does not name exactly its own parts; bake the pack again");
 }
 
-/// What was decoded is what the manifest tells of it.
+/// Decodes a relief and checks it against the manifest.
 Result<BlockRelief> decode(const ReliefOutline& outline, const Bytes& bytes) {
     TRY(BlockRelief relief, at(outline.part, decode_blocks(bytes)));
     if (bytes.size() != outline.bytes || relief.blocks.size() != outline.blocks ||

@@ -1,9 +1,9 @@
-/// The section `relief_blocks` of a pack: the artifact's layered relief at several resolutions, to be cast on the processor
-/// (app/relief). Each lies in a part of its own, which is read only where something casts it.
+/// The section `relief_blocks` of a pack: the artifact's layered relief at several resolutions, to be rasterized on
+/// the processor (app/relief). Each relief has a part of its own, which is read only for that purpose.
 ///
 /// Units    box, as LevelError.
-/// Errors   one line: data that FORMAT.md does not allow; a part that is not what it should be. Messages of `load_...` begin with
-///          the file's name. A pack without the section is no error: it has no relief.
+/// Errors   one line: data that FORMAT.md does not allow; a part that contradicts the manifest. Messages of
+///          `load_...` begin with the file's name. A pack without the section is no error: it has no relief.
 /// Threads  pure; any.
 #pragma once
 
@@ -19,33 +19,33 @@
 
 namespace frustumscreen {
 
-/// A relief as the manifest tells of it.
+/// A relief as the manifest describes it.
 struct ReliefOutline {
     std::uint32_t texels = 0; ///< along the box's longest edge
     std::uint32_t blocks = 0;
     std::uint64_t bytes = 0; ///< of its part, unpacked
-    LevelError error;        ///< measured as those of the levels
+    LevelError error;        ///< measured like those of the levels
     std::string part;
 
     [[nodiscard]] bool operator==(const ReliefOutline&) const = default;
 };
-/// Coarse to fine; none without the section.
+/// Coarse to fine; empty without the section.
 [[nodiscard]] Result<std::vector<ReliefOutline>> reliefs_of(const PackDescription& pack);
 
 struct MeasuredRelief {
     BlockRelief relief;
     LevelError error;
 };
-/// Once for a pack; coarse to fine, none of them twice. Without any the section is left out.
+/// Call once for a pack; coarse to fine, each resolution once. Without reliefs the section is left out.
 void put_reliefs(Pack& pack, std::span<const MeasuredRelief> reliefs);
 
-/// The one of this outline; nothing else is read but the manifest.
+/// Loads the relief of this outline; reads only its part and the manifest.
 [[nodiscard]] Result<BlockRelief> load_relief(const std::filesystem::path& file, const ReliefOutline& relief);
 
-/// The one of this outline, of a pack that was read whole.
+/// The relief of this outline, of a pack that was read whole.
 [[nodiscard]] Result<BlockRelief> relief_of(const Pack& pack, const ReliefOutline& relief);
 
-/// Holds the section against FORMAT.md; `pack` was read whole.
+/// Checks the section against FORMAT.md; `pack` was read whole.
 [[nodiscard]] Result<void> check_reliefs(const Pack& pack);
 
 } // namespace frustumscreen

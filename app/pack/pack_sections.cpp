@@ -16,7 +16,7 @@ using namespace pack_format;
 
 namespace {
 
-/// Opens the file and does with it what `work` does; messages get the file's name.
+/// Opens the file and calls `work` on it; messages get the file's name.
 template <typename Value>
 Result<Value> with_pack(const std::filesystem::path& file,
                         const std::function<Result<Value>(PackReader&)>& work) {

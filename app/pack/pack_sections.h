@@ -1,5 +1,5 @@
-/// Single things of a pack's file, read without its levels: what the table shows of an artifact, and the parts of
-/// sections. Only the manifest and what is asked for are read of the file; each part is held against its hash.
+/// Single parts of a pack's file, read without its levels: the artifact's picture and titles for the table, and the
+/// parts of sections. Reads only the manifest and the requested parts; each part is checked against its hash.
 ///
 /// Errors   as load_pack; messages begin with the file's name.
 /// Threads  pure; any.
@@ -17,17 +17,17 @@
 
 namespace frustumscreen {
 
-/// An artifact as it lies on the table.
+/// An artifact for the table.
 struct PackCard {
-    std::string id;    ///< empty = none
-    std::string title; ///< where no language is asked for
+    std::string id;    ///< empty: none
+    std::string title; ///< if no language is asked for
     std::vector<std::string> languages;
     std::vector<PackLabel> titles; ///< one for each caption
-    Image8 table_picture;          ///< cut out; empty = the pack has none
+    Image8 table_picture;          ///< cut out; empty: none
 };
 [[nodiscard]] Result<PackCard> load_pack_card(const std::filesystem::path& file);
 
-/// Names of the parts to read, each a part of one of the description's sections.
+/// Chooses the parts to read, each a part of one of the description's sections.
 using ChooseParts = std::function<Result<std::vector<std::string>>(const PackDescription&)>;
 /// The parts' bytes, by name.
 [[nodiscard]] Result<std::map<std::string, Bytes>> load_section_parts(const std::filesystem::path& file,

@@ -18,7 +18,7 @@ bool is_small_letter_or_digit(char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
 }
 
-/// Of a well-formed UTF-8 character.
+/// The code point of a well-formed UTF-8 character.
 std::uint32_t code_point(std::string_view character) {
     const auto byte = [&](std::size_t k) {
         return static_cast<std::uint32_t>(static_cast<unsigned char>(character[k]));
@@ -33,7 +33,7 @@ std::uint32_t code_point(std::string_view character) {
     return code;
 }
 
-/// Follows a text character by character and finds what does not belong there.
+/// Checks a text character by character for invalid ones.
 class TextCheck {
 public:
     explicit TextCheck(TextShape shape) : shape_(shape) {}
@@ -41,9 +41,8 @@ public:
     [[nodiscard]] std::optional<std::string> fault_of(std::string_view character) {
         if (character == "\n" && shape_ == TextShape::Lines) {
             ++lines_;
-            return lines_ > most_text_lines
-                       ? fmt::format("has more than {} lines; write less", most_text_lines)
-                       : end_of_line();
+            return lines_ > max_text_lines ? fmt::format("has more than {} lines; write less", max_text_lines)
+                                           : end_of_line();
         }
         const std::uint32_t code = code_point(character);
         if (is_control(character)) {
@@ -77,7 +76,7 @@ private:
 } // namespace
 
 std::optional<std::string> fault_of_text(std::string_view text, TextShape shape) {
-    const std::size_t most = shape == TextShape::Line ? most_line_bytes : most_text_bytes;
+    const std::size_t most = shape == TextShape::Line ? max_line_bytes : max_text_bytes;
     if (text.size() > most) {
         return fmt::format("has {} bytes, allowed are {}; write less", text.size(), most);
     }
@@ -99,7 +98,7 @@ bool has_language_form(std::string_view text) {
     const auto allowed = [](char c) {
         return is_small_letter_or_digit(c) || (c >= 'A' && c <= 'Z') || c == '-';
     };
-    return text.size() >= 2 && text.size() <= most_language_bytes &&
+    return text.size() >= 2 && text.size() <= max_language_bytes &&
            std::all_of(text.begin(), text.end(), allowed);
 }
 
@@ -107,7 +106,7 @@ bool is_artifact_id(std::string_view text) {
     const auto allowed = [](char c) {
         return is_small_letter_or_digit(c) || c == '.' || c == '_' || c == '-';
     };
-    return !text.empty() && text.size() <= most_id_bytes && is_small_letter_or_digit(text.front()) &&
+    return !text.empty() && text.size() <= max_id_bytes && is_small_letter_or_digit(text.front()) &&
            std::all_of(text.begin(), text.end(), allowed);
 }
 

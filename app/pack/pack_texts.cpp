@@ -24,7 +24,7 @@ constexpr std::string_view texts_section = "texts";
 constexpr std::string_view sounds_section = "sounds";
 constexpr std::string_view ogg_magic = "OggS";
 
-/// The names of parts. Texts without letters need no atlas.
+/// Names of the parts of a language. Texts without letters need no atlas.
 struct SetEntry {
     std::string language;
     std::string glyphs;
@@ -39,7 +39,7 @@ struct SpokenEntry {
     std::vector<SoundEntry> sounds;
 };
 
-/// To be read, or const to be written.
+/// `Plain` when reading, or const `Plain` when writing.
 template <typename Entry, typename Plain>
 concept EntryOf = std::same_as<std::remove_const_t<Entry>, Plain>;
 
@@ -51,14 +51,14 @@ void entry_fields(auto& fields, EntryOf<SetEntry> auto& entry) {
 
 void entry_fields(auto& fields, EntryOf<SpokenEntry> auto& entry) {
     fields.text("language", entry.language);
-    fields.objects("sounds", entry.sounds, glyph_limits::most_texts, [](auto& item, auto& sound) {
+    fields.objects("sounds", entry.sounds, glyph_limits::max_texts, [](auto& item, auto& sound) {
         item.text("key", sound.key);
         item.text("part", sound.part);
     });
 }
 
 void section_fields(auto& fields, auto& entries) {
-    fields.objects("languages", entries, most_languages,
+    fields.objects("languages", entries, max_languages,
                    [](auto& item, auto& entry) { entry_fields(item, entry); });
 }
 
@@ -75,7 +75,7 @@ std::vector<std::string> parts_of(const SpokenEntry& entry) {
 }
 
 bool has_good_keys(const SetEntry& /*entry*/) {
-    return true; // they stand in the part
+    return true; // the keys are in the part
 }
 
 bool has_good_keys(const SpokenEntry& entry) {
@@ -85,7 +85,7 @@ bool has_good_keys(const SpokenEntry& entry) {
     });
 }
 
-/// Each language once, and the section's parts are those named, each once.
+/// Each language must occur once, and the section's parts must be those named, each once.
 template <typename Entry>
 std::optional<std::string> fault_of(const std::vector<Entry>& entries, std::vector<std::string> parts) {
     std::set<std::string_view> languages;
@@ -111,7 +111,7 @@ const PackSection* find_section(const PackDescription& pack, std::string_view na
     return found != pack.sections.end() ? &*found : nullptr;
 }
 
-/// Empty without the section.
+/// Empty if there is no section.
 template <typename Entry>
 Result<std::vector<Entry>> entries_of(const PackDescription& pack, std::string_view name) {
     std::vector<Entry> entries;
@@ -152,7 +152,7 @@ template <typename Entry> void put_section(Pack& pack, std::string_view name, st
     pack.sections.push_back(std::move(section));
 }
 
-/// Names of parts have small letters alone.
+/// Names of parts have only small letters.
 std::string folder_of(std::string_view section, std::string language) {
     std::transform(language.begin(), language.end(), language.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });

@@ -1,11 +1,12 @@
-/// The texts of an artifact beside the plain ones of its manifest: set as glyph runs (the section `texts`) and spoken (the section
-/// `sounds`), in parts of their own for each language.
+/// The texts of an artifact in forms other than plain text: set as glyph runs (the section `texts`) and spoken (the
+/// section `sounds`), in separate parts for each language.
 ///
-/// Keys     `title`, `text`, `attribution` (attribution.h; older packs have `period`, `place`, `maker` and `credit` in its place);
-///          `description.0` ... of the description's portions (text_portions.h); `label.0` ... of the hotspots in their order. A
-///          text that is empty, or that could not be set, is not there. The sound of the description has the key `description`.
-/// Errors   one line: data that FORMAT.md does not allow; a part that is not what it should be. Messages of `load_...` begin with
-///          the file's name. A pack without the sections is no error.
+/// Keys     `title`, `text`, `attribution` (attribution.h; older packs have `period`, `place`, `maker` and `credit`
+///          in its place); `description.0` ... for the description's portions (text_portions.h); `label.0` ... for
+///          the hotspots in their order. A text that is empty, or that could not be set, is missing. The sound of
+///          the description has the key `description`.
+/// Errors   one line: data that FORMAT.md does not allow; a part that contradicts the manifest. Messages of
+///          `load_...` begin with the file's name. A pack without the sections is no error.
 /// Threads  pure; any.
 #pragma once
 
@@ -34,13 +35,13 @@ struct SpokenLanguage {
     std::map<std::string, Bytes> sounds; ///< Ogg Opus by key
 };
 
-/// Each once for a pack; a language without texts or sounds is left out.
+/// Call each once for a pack; a language without texts or sounds is left out.
 void put_sounds(Pack& pack, std::span<const SpokenLanguage> languages);
 void put_set_texts(Pack& pack, std::span<const SetLanguage> languages);
 
-/// What only lays texts out needs no pictures of their glyphs.
+/// `LeftOut`: layout alone needs no pictures of the glyphs.
 enum class Atlases : std::uint8_t { Read, LeftOut };
-/// Those of `languages` that the pack has; no part of the others is read.
+/// The languages that the pack has, of `languages`; parts of others are not read.
 [[nodiscard]] Result<std::vector<SetLanguage>> load_set_texts(const std::filesystem::path& file,
                                                               std::span<const std::string> languages,
                                                               Atlases atlases = Atlases::Read);
@@ -50,14 +51,14 @@ struct SpokenText {
     std::string key;
     bool operator==(const SpokenText&) const = default;
 };
-/// What there are sounds of.
+/// The texts that have a sound.
 [[nodiscard]] Result<std::vector<SpokenText>> list_sounds(const PackDescription& pack);
 
-/// Ogg Opus, of which nothing is decoded here; no bytes if the text is silent. Nothing else is read but the manifest.
+/// Ogg Opus, not decoded; empty if the text is silent. Reads only the sound's part and the manifest.
 [[nodiscard]] Result<Bytes> load_sound(const std::filesystem::path& file, std::string_view language,
                                        std::string_view key);
 
-/// Holds both sections against FORMAT.md; `pack` was read whole.
+/// Checks both sections against FORMAT.md; `pack` was read whole.
 [[nodiscard]] Result<void> check_set_and_spoken(const Pack& pack);
 
 } // namespace frustumscreen

@@ -17,7 +17,7 @@ using namespace pack_format;
 
 namespace {
 
-/// A part on its way into the container. Pictures are packed already.
+/// A part to be written to the container. Pictures are already packed.
 struct Part {
     std::string name;
     Bytes bytes;
@@ -45,7 +45,7 @@ void add_textures(const Pack& pack, Manifest& manifest, std::vector<Part>& parts
     }
 }
 
-/// The table's picture stands first, so that little is read of a file for it alone.
+/// The table picture comes first, so that reading it alone reads little of the file.
 void add_table_picture(const Pack& pack, Manifest& manifest, std::vector<Part>& parts) {
     if (!pack.table_picture.texels.empty()) {
         parts.push_back(picture_part("table_picture", pack.table_picture));
@@ -53,7 +53,7 @@ void add_table_picture(const Pack& pack, Manifest& manifest, std::vector<Part>& 
     }
 }
 
-/// Sounds and pictures are packed already and do not get smaller.
+/// Sounds and pictures are already packed and would not get smaller.
 Packing packing_of(const std::string& section_part) {
     return section_part.ends_with(".bin") ? Packing::Deflated : Packing::Stored;
 }
@@ -105,10 +105,10 @@ Result<void> list_parts(const std::vector<Part>& parts, Manifest& manifest) {
                              part.name);
         }
         together += part.bytes.size();
-        if (part.bytes.empty() || part.bytes.size() > most_part_bytes || together > most_parts_bytes) {
+        if (part.bytes.empty() || part.bytes.size() > max_part_bytes || together > max_parts_bytes) {
             return bad_input("pack.part_too_large",
                              "{} has {} bytes; allowed are 1 to {}, and {} for all parts together", part.name,
-                             part.bytes.size(), most_part_bytes, most_parts_bytes);
+                             part.bytes.size(), max_part_bytes, max_parts_bytes);
         }
         manifest.parts.push_back({part.name, part.bytes.size(), sha256_hex(part.bytes)});
     }
@@ -128,10 +128,10 @@ Result<Bytes> write_pack(const Pack& pack) {
     TRY_VOID(add_levels(pack, manifest, parts).and_then([&] { return add_section_parts(pack, parts); }));
     TRY_VOID(list_parts(parts, manifest));
     const std::string text = write_manifest(manifest);
-    if (text.size() > most_manifest_bytes) {
+    if (text.size() > max_manifest_bytes) {
         return bad_input("pack.manifest_too_long",
                          "the manifest has {} bytes, allowed are {}; give fewer or shorter texts",
-                         text.size(), most_manifest_bytes);
+                         text.size(), max_manifest_bytes);
     }
     ZipWriter zip;
     zip.add(std::string(manifest_name), as_bytes(text), Packing::Deflated);

@@ -5,19 +5,18 @@
 
 namespace frustumscreen::pack_format {
 
-Result<Image8> read_picture(PackReader& reader, const std::string& name, std::int64_t most_texels) {
+Result<Image8> read_picture(PackReader& reader, const std::string& name, std::int64_t max_texels) {
     TRY(const Bytes bytes, reader.take(name));
-    return at(name,
-              begins_as_webp(bytes) ? decode_webp8(bytes, most_texels) : decode_png8(bytes, most_texels));
+    return at(name, begins_as_webp(bytes) ? decode_webp8(bytes, max_texels) : decode_png8(bytes, max_texels));
 }
 
 Result<Image8> read_table_picture(PackReader& reader) {
-    constexpr std::int64_t most_texels = std::int64_t{most_table_picture_side} * most_table_picture_side;
+    constexpr std::int64_t max_texels = std::int64_t{max_table_picture_side} * max_table_picture_side;
     const std::string& name = reader.manifest().table_picture;
     if (name.empty()) {
         return Image8{};
     }
-    TRY(Image8 picture, read_picture(reader, name, most_texels));
+    TRY(Image8 picture, read_picture(reader, name, max_texels));
     TRY_VOID(at(name, check_table_picture(picture)));
     return picture;
 }

@@ -15,7 +15,7 @@ namespace frustumscreen::pack_format {
 
 /// A colour picture, PNG or lossless WebP.
 [[nodiscard]] Result<Image8> read_picture(PackReader& reader, const std::string& name,
-                                          std::int64_t most_texels);
+                                          std::int64_t max_texels);
 /// Empty if the pack has none.
 [[nodiscard]] Result<Image8> read_table_picture(PackReader& reader);
 

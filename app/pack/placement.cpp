@@ -7,8 +7,8 @@
 namespace frustumscreen {
 
 Placement place(const PackDescription& pack, const PropShape& prop) {
-    // The box stands on z = 0 by definition. Rounding may put an extreme below; this must not scale it to
-    // nothing.
+    // The box stands on z = 0 by definition. Rounding may put an extreme below; without this, the scale would then
+    // become 0.
     std::vector<glm::dvec3> extremes = pack.extremes;
     for (glm::dvec3& extreme : extremes) {
         extreme.z = std::fmax(extreme.z, 0.0);

@@ -1,4 +1,4 @@
-/// A note for a person: a pack was baked for another kind of prop than the settings have. The pack is still
+/// A note for the staff: a pack was baked for another kind of prop than that of the settings. The pack is still
 /// shown; its relief and the choice of its levels are the other prop's.
 ///
 /// Threads  pure; any.

@@ -1,4 +1,4 @@
-/// A relief level's vertices are texels of the relief atlas; this is where such a texel lies.
+/// The place of a relief level's vertex, which is a texel of the relief atlas.
 ///
 /// Frame    box. Codes are those of PackVertex: 0..65535 over the box's extent on each axis, over the
 ///          texture.
@@ -17,7 +17,7 @@ namespace frustumscreen {
 inline constexpr std::uint16_t empty_relief = 65535;
 inline constexpr double full_relief = 65534.0;
 
-/// Axes of a chart: in-plane u and v, and the direction's own; 0 = X, 1 = Y, 2 = Z.
+/// Axes of a chart: in-plane u and v, and the direction's own; 0: X, 1: Y, 2: Z.
 struct ReliefAxes {
     int u = 0, v = 1, along = 2;
 };

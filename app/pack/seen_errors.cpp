@@ -21,10 +21,10 @@ using namespace pack_format;
 namespace {
 
 constexpr std::string_view levels_section = "seen_errors";
-constexpr std::string_view reliefs_section = "seen_reliefs"; ///< its eyes are those of the other
-constexpr std::size_t most_eyes = 1000;
+constexpr std::string_view reliefs_section = "seen_reliefs"; ///< uses the eyes of the other section
+constexpr std::size_t max_eyes = 1000;
 
-/// An eye as it stands in the file.
+/// An eye as in the file.
 struct EyeRecord {
     std::array<double, 3> towards{};
     float steepness = 1.0F;
@@ -40,7 +40,7 @@ struct Records {
     std::vector<std::vector<ErrorRecord>> levels;
 };
 
-/// What was measured with some thousand rays has no more than three digits; a direction, four.
+/// A value measured with some thousand rays has no more than three significant digits; a direction needs four.
 double few_digits(double value, int digits = 3) {
     return std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
 }
@@ -94,7 +94,7 @@ SeenError error_of(const ErrorRecord& record) {
 
 void error_records(auto& fields, const char* name, auto& surfaces, std::size_t most) {
     fields.objects(name, surfaces, most, [](auto& surface, auto& eyes) {
-        surface.objects("eyes", eyes, most_eyes, [](auto& item, auto& record) {
+        surface.objects("eyes", eyes, max_eyes, [](auto& item, auto& record) {
             item.number("mean_box", record.error.mean_box);
             item.number("p95_box", record.error.p95_box);
             item.number("outline_shift_box", record.error.outline_shift_box);
@@ -105,13 +105,13 @@ void error_records(auto& fields, const char* name, auto& surfaces, std::size_t m
 }
 
 void record_fields(auto& fields, auto& records) {
-    fields.objects("eyes", records.eyes, most_eyes, [](auto& item, auto& eye) {
+    fields.objects("eyes", records.eyes, max_eyes, [](auto& item, auto& eye) {
         item.numbers("towards", std::span(eye.towards));
         item.number("steepness", eye.steepness);
         item.numbers("shares", std::span(eye.shares));
         item.numbers("places", std::span(eye.places));
     });
-    error_records(fields, "levels", records.levels, most_levels);
+    error_records(fields, "levels", records.levels, max_levels);
 }
 
 const PackSection* find_section(const PackDescription& pack, std::string_view name) {
@@ -121,13 +121,15 @@ const PackSection* find_section(const PackDescription& pack, std::string_view na
 }
 
 bool is_sound(const SeenError& seen) {
-    const auto allowed = [](float value, float most) { return value >= 0.0F && value <= most; }; // not NaN
-    constexpr float most_error_box = 10.0F; // as LevelError
-    constexpr float most_share = 1e6F;
-    return allowed(seen.mean_box, most_error_box) && allowed(seen.p95_box, most_error_box) &&
-           allowed(seen.outline_shift_box, most_error_box) && allowed(seen.silhouette_share, most_share) &&
+    const auto allowed = [](float value, float most) {
+        return value >= 0.0F && value <= most;
+    };                                     // false for NaN
+    constexpr float max_error_box = 10.0F; // as LevelError
+    constexpr float max_share = 1e6F;
+    return allowed(seen.mean_box, max_error_box) && allowed(seen.p95_box, max_error_box) &&
+           allowed(seen.outline_shift_box, max_error_box) && allowed(seen.silhouette_share, max_share) &&
            std::all_of(seen.patches_box.begin(), seen.patches_box.end(),
-                       [&](float box) { return allowed(box, most_error_box); });
+                       [&](float box) { return allowed(box, max_error_box); });
 }
 
 bool is_sound(const std::vector<SeenError>& errors, std::size_t eyes) {
@@ -196,7 +198,7 @@ void put_section(std::string_view name, const JsonWriter& fields, PackDescriptio
         {std::string(name), nlohmann::json(fields.document()).dump(), {}}); // keys in order
 }
 
-/// Calls read(fields) with the section's; false without it.
+/// Calls read(fields) with the section's fields; returns false if there is no section.
 template <typename Read>
 Result<bool> read_section(std::string_view name, const PackDescription& pack, const Read& read) {
     const PackSection* const section = find_section(pack, name);
@@ -230,7 +232,7 @@ void put_seen_errors(const SeenErrors& seen, PackDescription& pack) {
     if (!seen.reliefs.empty()) {
         const std::vector<std::vector<ErrorRecord>> reliefs = records_of(seen.reliefs);
         JsonWriter relief_fields;
-        error_records(relief_fields, "reliefs", reliefs, most_reliefs);
+        error_records(relief_fields, "reliefs", reliefs, max_reliefs);
         put_section(reliefs_section, relief_fields, pack);
     }
 }
@@ -242,7 +244,7 @@ Result<SeenErrors> seen_errors_of(const PackDescription& pack, std::size_t level
         read_section(levels_section, pack, [&](JsonReader& fields) { record_fields(fields, records); });
     const Result<bool> read = has_levels.and_then([&](bool) {
         return read_section(reliefs_section, pack, [&](JsonReader& fields) {
-            error_records(fields, "reliefs", of_reliefs, most_reliefs);
+            error_records(fields, "reliefs", of_reliefs, max_reliefs);
         });
     });
     TRY_VOID(read);

@@ -10,8 +10,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// In widths of a narrow letter: about as much as an artifact's short text has with its title.
-constexpr int most_width = 170;
+/// In widths of a narrow letter: about the length of an artifact's short text with its title.
+constexpr int max_width = 170;
 
 struct Letter {
     char32_t code = 0;
@@ -79,7 +79,7 @@ bool ends_sentence_with_stop(std::span<const Letter> letters, std::size_t stop, 
     return before > longest_abbreviation && !goes_on;
 }
 
-/// Where sentences end: numbers of letters, the last one that of all.
+/// The ends of the sentences as letter indices; the last one is the end of the text.
 std::vector<std::size_t> sentence_ends(std::span<const Letter> letters) {
     std::vector<std::size_t> ends;
     for (std::size_t k = 0; k < letters.size(); ++k) {
@@ -105,7 +105,8 @@ std::vector<std::size_t> sentence_ends(std::span<const Letter> letters) {
     return ends;
 }
 
-/// Where a part of the sentence may end nearest to `wanted`, a width from its beginning; rather behind a comma. 0: nowhere.
+/// The best end of a part of the sentence near width `wanted` from its beginning, preferably behind a comma. 0:
+/// none.
 std::size_t best_cut(std::span<const Letter> sentence, int wanted) {
     constexpr int comma_is_worth = 30;
     std::size_t best = 0;
@@ -129,13 +130,14 @@ std::size_t best_cut(std::span<const Letter> sentence, int wanted) {
     return best;
 }
 
-/// Cuts what is too long into parts of about the same width; adds their ends to `ends`, of which the last is the sentence's own.
+/// Cuts a sentence that is too long into parts of about equal width; appends their ends to `ends`, the last one the
+/// sentence's own.
 void add_parts(std::span<const Letter> letters, std::size_t begin, std::size_t end,
                std::vector<std::size_t>& ends) {
     while (true) {
         const std::span<const Letter> rest = letters.subspan(begin, end - begin);
         const int width = width_of(rest);
-        const int parts = (width + most_width - 1) / most_width;
+        const int parts = (width + max_width - 1) / max_width;
         const std::size_t cut = parts > 1 ? best_cut(rest, width / parts) : 0;
         if (cut == 0) {
             ends.push_back(end);
@@ -160,7 +162,7 @@ std::vector<std::string> portions_of(std::string_view text) {
     std::size_t begin = 0;
     for (std::size_t k = 0; k < ends.size(); ++k) {
         const bool next_fits = k + 1 < ends.size() &&
-                               width_of(std::span(letters).subspan(begin, ends[k + 1] - begin)) <= most_width;
+                               width_of(std::span(letters).subspan(begin, ends[k + 1] - begin)) <= max_width;
         if (next_fits) {
             continue;
         }

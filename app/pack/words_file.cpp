@@ -21,8 +21,8 @@ namespace {
 constexpr std::string_view manifest_entry = "manifest.json";
 constexpr std::string_view format_name = "FrustumScreen words";
 constexpr std::uint64_t words_version = 1;
-constexpr std::uint64_t most_words_manifest_bytes = 4U << 20;
-constexpr std::uint64_t most_words_part_bytes = 32U << 20;
+constexpr std::uint64_t max_words_manifest_bytes = 4U << 20;
+constexpr std::uint64_t max_words_part_bytes = 32U << 20;
 
 struct Part {
     std::string name;
@@ -40,27 +40,27 @@ struct LanguageEntry {
     std::string name;
     std::vector<PlainWord> words;
     Part glyphs;
-    Part atlas; ///< of no bytes where the texts have no letters
+    Part atlas; ///< empty if the texts have no letters
     std::vector<SoundPart> sounds;
 };
 
 void part_fields(auto& fields, auto& part) {
     fields.text("name", part.name);
-    fields.whole("bytes", part.bytes, most_words_part_bytes);
+    fields.whole("bytes", part.bytes, max_words_part_bytes);
     fields.text("sha256", part.sha256);
 }
 
 void language_fields(auto& fields, auto& entry) {
     fields.text("language", entry.language);
     fields.text("name", entry.name);
-    fields.objects("words", entry.words, glyph_limits::most_texts, [](auto& item, auto& word) {
+    fields.objects("words", entry.words, glyph_limits::max_texts, [](auto& item, auto& word) {
         item.text("key", word.key);
         item.text("text", word.text);
         item.text("language", word.language);
     });
     fields.object("glyphs", [&](auto& part) { part_fields(part, entry.glyphs); });
     fields.object("atlas", [&](auto& part) { part_fields(part, entry.atlas); });
-    fields.objects("sounds", entry.sounds, glyph_limits::most_texts, [](auto& item, auto& sound) {
+    fields.objects("sounds", entry.sounds, glyph_limits::max_texts, [](auto& item, auto& sound) {
         item.text("key", sound.key);
         item.object("part", [&](auto& part) { part_fields(part, sound.part); });
     });
@@ -69,7 +69,7 @@ void language_fields(auto& fields, auto& entry) {
 void words_fields(auto& fields, auto& languages) {
     fields.fixed("format", format_name);
     fields.fixed("version", words_version);
-    fields.objects("languages", languages, most_languages,
+    fields.objects("languages", languages, max_languages,
                    [](auto& item, auto& entry) { language_fields(item, entry); });
 }
 
@@ -104,7 +104,7 @@ Result<Bytes> entry_of(ZipReader& zip, std::string_view name, std::uint64_t most
 }
 
 Result<std::vector<LanguageEntry>> read_manifest(ZipReader& zip) {
-    TRY(const Bytes text, entry_of(zip, manifest_entry, most_words_manifest_bytes));
+    TRY(const Bytes text, entry_of(zip, manifest_entry, max_words_manifest_bytes));
     Refusal refusal;
     const nlohmann::json document = parse_json(refusal, as_text(text));
     if (!refusal.error) {
@@ -130,7 +130,7 @@ Result<std::vector<LanguageEntry>> open_words(std::span<const std::byte> file,
 }
 
 Result<Bytes> part_of(ZipReader& zip, const Part& part) {
-    Result<Bytes> bytes = entry_of(zip, part.name, most_words_part_bytes);
+    Result<Bytes> bytes = entry_of(zip, part.name, max_words_part_bytes);
     if (bytes && (bytes->size() != part.bytes || sha256_hex(*bytes) != part.sha256)) {
         return bad_input("words.part_changed",
                          "{} is not what the manifest says; bake or copy the words again",
@@ -169,7 +169,7 @@ Result<Bytes> write_words(std::span<const LanguageWords> languages) {
         Packing packing;
     };
     std::vector<LanguageEntry> entries;
-    std::vector<Entry> written; // the manifest comes before them and has their hashes
+    std::vector<Entry> written; // the manifest precedes them and has their hashes
     const auto add = [&](std::string name, Bytes bytes, Packing packing) {
         Part part{name, bytes.size(), sha256_hex(bytes)};
         written.push_back({std::move(name), std::move(bytes), packing});

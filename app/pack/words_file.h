@@ -1,7 +1,7 @@
-/// The file of the exhibit's own words, `*.fswords`: advice, faults and invitations in several languages, as plain text, set
-/// (glyph_runs.h) and, where there is a voice, spoken. FORMAT.md has its parts.
+/// The file of the exhibit's own words, `*.fswords`: advice, faults and invitations in several languages, as plain
+/// text, set (glyph_runs.h) and, if there is a voice, spoken. FORMAT.md has its parts.
 ///
-/// Errors   one line: anything but a whole file of this format; a part that is not what the manifest says.
+/// Errors   one line: a file that is incomplete or of another format; a part that contradicts the manifest.
 /// Threads  pure; any.
 #pragma once
 
@@ -20,20 +20,20 @@ namespace frustumscreen {
 struct PlainWord {
     std::string key;
     std::string text;
-    std::string language; ///< BCP 47; that of the house where a line was missing
+    std::string language; ///< BCP 47; the first language where a line was missing
     bool operator==(const PlainWord&) const = default;
 };
 
 struct LanguageWords {
     std::string language; ///< BCP 47
-    std::string name;     ///< its own
+    std::string name;     ///< in the language itself
     std::vector<PlainWord> words;
     GlyphRuns runs; ///< a text for each word, of the same key
     DistanceAtlas atlas;
-    std::map<std::string, Bytes> sounds; ///< Ogg Opus by key; words without one are silent
+    std::map<std::string, Bytes> sounds; ///< Ogg Opus by key; a word without a sound is silent
 };
 
-/// The first language is the house's. At least one.
+/// The first language is the museum's default. At least one is needed.
 [[nodiscard]] Result<Bytes> write_words(std::span<const LanguageWords> languages);
 
 struct WordsLanguage {
@@ -44,7 +44,7 @@ struct WordsLanguage {
 };
 [[nodiscard]] Result<std::vector<WordsLanguage>> list_words(std::span<const std::byte> file);
 
-/// Reads one language and no part of the others; `language` is one that the file has.
+/// Reads one language and no part of the others; the file must have `language`.
 [[nodiscard]] Result<LanguageWords> read_words(std::span<const std::byte> file, std::string_view language);
 
 } // namespace frustumscreen

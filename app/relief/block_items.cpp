@@ -57,15 +57,15 @@ struct Sides {
 constexpr Sides everywhere{-1.0F, 65e3F, -1.0F, 65e3F};
 
 FRUSTUMSCREEN_INLINE Sides sides_of(const PixelLanes& at) {
-    return {least_of(at.x), most_of(at.x), least_of(at.y), most_of(at.y)};
+    return {min_of(at.x), max_of(at.x), min_of(at.y), max_of(at.y)};
 }
 
 /// Bounds of the corners' pixels after distortion. The second derivative of a distorted pixel is at most 6
 /// |k1| r + 20 |k2| r^3, in units of the focal length. So a point between corners that are D apart is
 /// displaced by at most a quarter of that times D^2 from its place between their distorted positions.
 FRUSTUMSCREEN_INLINE Sides lit_sides(const PixelLens& lens, const PixelLanes& corners, const Sides& ideal) {
-    const float r2 = most_of(squared_radius(lens, corners));
-    if (!(r2 <= lens.most_r2)) {
+    const float r2 = max_of(squared_radius(lens, corners));
+    if (!(r2 <= lens.max_r2)) {
         return everywhere;
     }
     const float along = std::max(lens.focal.x, lens.focal.y) * std::max(lens.per_focal.x, lens.per_focal.y);
@@ -108,7 +108,7 @@ FRUSTUMSCREEN_INLINE Bounds bounds_of(const ReliefBlock& block, const GridView& 
     const Floats xt = row(0);
     const Floats yt = row(1);
     const Floats t = row(2);
-    const float shortest = least_of(t);
+    const float shortest = min_of(t);
     if (shortest > 0.0F) {
         const PixelLanes corners{xt / t, yt / t};
         const Sides ideal = sides_of(corners);
@@ -121,7 +121,7 @@ FRUSTUMSCREEN_INLINE Bounds bounds_of(const ReliefBlock& block, const GridView& 
     for (const glm::dvec3& edge : face.edges) {
         const Floats inside = static_cast<float>(edge.x) * xt + static_cast<float>(edge.y) * yt +
                               static_cast<float>(edge.z) * t;
-        outside = outside || most_of(inside) < 0.0F;
+        outside = outside || max_of(inside) < 0.0F;
     }
     return {everywhere, everywhere, std::numeric_limits<float>::infinity(), false, outside};
 }

@@ -57,15 +57,15 @@ FRUSTUMSCREEN_INLINE bool is_covered(const ReadyItem& ready, std::uint32_t place
 /// Fragments on their way into the picture. Taking each at once, lane by lane, would need a branch per
 /// fragment that cannot be predicted. So they are stored in eights, `list_` names the valid ones, and one
 /// loop takes them all.
-class Meetings {
+class Fragments {
 public:
-    FRUSTUMSCREEN_INLINE bool full() const { return eights_ == most_eights; }
-    FRUSTUMSCREEN_INLINE void add(const Meeting& meeting, Ints in, int row, Ints sample) {
-        const unsigned bits = bits_of(meeting.met & in);
+    FRUSTUMSCREEN_INLINE bool full() const { return eights_ == max_eights; }
+    FRUSTUMSCREEN_INLINE void add(const Fragment& fragment, Ints in, int row, Ints sample) {
+        const unsigned bits = bits_of(fragment.met & in);
         const std::size_t at = eights_ * lanes;
-        store(&u_[at], meeting.u);
-        store(&v_[at], meeting.v);
-        store(&nearness_[at], meeting.nearness);
+        store(&u_[at], fragment.u);
+        store(&v_[at], fragment.v);
+        store(&nearness_[at], fragment.nearness);
         store(&sample_[at], sample);
         row_[eights_] = row;
         bits_[eights_] = static_cast<std::uint8_t>(bits);
@@ -116,15 +116,15 @@ private:
         return count;
     }
 
-    static constexpr std::size_t most_eights = 64;
-    static constexpr std::size_t room = (most_eights + 1) * lanes; ///< including an eight that is overwritten
+    static constexpr std::size_t max_eights = 64;
+    static constexpr std::size_t room = (max_eights + 1) * lanes; ///< including an eight that is overwritten
     std::size_t eights_ = 0;
     std::array<float, room> u_, v_, nearness_;
     std::array<std::int32_t, room> sample_;
     std::array<std::uint32_t, room> place_;
-    std::array<std::int32_t, most_eights + 1> row_;
-    std::array<std::uint8_t, most_eights + 1> bits_; ///< which lanes are valid
-    std::array<std::uint16_t, room> list_;           ///< eight elements are written, however many are valid
+    std::array<std::int32_t, max_eights + 1> row_;
+    std::array<std::uint8_t, max_eights + 1> bits_; ///< which lanes are valid
+    std::array<std::uint16_t, room> list_;          ///< eight elements are written, however many are valid
 };
 
 FRUSTUMSCREEN_INLINE Ints in_face(const ReadyItem& ready, const PixelLanes& pixels) {
@@ -175,7 +175,7 @@ template <typename Meet> FRUSTUMSCREEN_INLINE void for_each_row(const ReadyItem&
 }
 
 /// Rasterizes eight cells of a row into the samples of the pixels within `limits`.
-FRUSTUMSCREEN_INLINE void cast_cells(CastSamples& samples, Meetings& meetings, const ReadyItem& ready,
+FRUSTUMSCREEN_INLINE void cast_cells(CastSamples& samples, Fragments& fragments, const ReadyItem& ready,
                                      const CellCorners& corners, Ints cells, int row,
                                      const PixelSpan& limits) {
     const CellRow at = cell_row(corners, cells, ready.outward);
@@ -198,10 +198,10 @@ FRUSTUMSCREEN_INLINE void cast_cells(CastSamples& samples, Meetings& meetings, c
                 in &= in_face(ready, {__builtin_convertvector(pixels.left + x, Floats) + sample.x,
                                       __builtin_convertvector(pixels.top + y, Floats) + sample.y});
             }
-            meetings.add(meeting_at(at, corners, weights), in, row,
-                         first + (y * count * all_pixels.width + x));
-            if (meetings.full()) {
-                meetings.take(samples, ready);
+            fragments.add(fragment_at(at, corners, weights), in, row,
+                          first + (y * count * all_pixels.width + x));
+            if (fragments.full()) {
+                fragments.take(samples, ready);
             }
         };
         for_each_pixel(pixels, corners, steps, sample, visit);
@@ -234,7 +234,7 @@ FRUSTUMSCREEN_INLINE bool is_hidden(const CastSamples& samples, const PixelSpan&
 }
 
 FRUSTUMSCREEN_INLINE void cast_item(CastSamples& samples, const ReadyItem& ready, const PixelSpan& limits,
-                                    Meetings& meetings) {
+                                    Fragments& fragments) {
     if (is_hidden(samples, limits, ready.item.nearest)) {
         return;
     }
@@ -242,10 +242,10 @@ FRUSTUMSCREEN_INLINE void cast_item(CastSamples& samples, const ReadyItem& ready
         samples.widen(y, {limits.left, limits.right});
     }
     const auto meet = [&](const CellCorners& corners, Ints cells, int row) FRUSTUMSCREEN_INLINED {
-        cast_cells(samples, meetings, ready, corners, cells, row, limits);
+        cast_cells(samples, fragments, ready, corners, cells, row, limits);
     };
     for_each_row(ready, meet);
-    meetings.take(samples, ready);
+    fragments.take(samples, ready);
 }
 
 /// The list's items that may meet band `k`, front to back.
@@ -261,12 +261,12 @@ std::span<const std::uint32_t> items_of(const BlockItems& items, int k) {
 
 FRUSTUMSCREEN_INLINE void cast_all(CastSamples& samples, const BlockRelief& relief, const CastView& view,
                                    const BlockItems& items) {
-    Meetings meetings;
+    Fragments fragments;
     const PixelRectangle& pixels = samples.pixels();
     for (int k = pixels.y / rows_of_band; k * rows_of_band < pixels.y + pixels.height; ++k) {
         for (const std::uint32_t place : items_of(items, k)) {
             const BlockItem& item = items.sorted[place];
-            cast_item(samples, ready(relief, view, items, item), within(item.area, pixels, k), meetings);
+            cast_item(samples, ready(relief, view, items, item), within(item.area, pixels, k), fragments);
         }
     }
 }

@@ -4,7 +4,7 @@
 /// Frames   box; pixels as in geometry/face_rays.h, of the ideal pinhole unless noted: a lens that distorts
 ///          lights other pixels.
 /// Threads  pure; any.
-/// Errors   a face that the eye or the projector sees at less than `least_sine` is left out
+/// Errors   a face that the eye or the projector sees at less than `min_sine` is left out
 ///          (geometry/collineation.h).
 #pragma once
 

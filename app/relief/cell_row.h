@@ -82,9 +82,9 @@ FRUSTUMSCREEN_INLINE CellRow cell_row(const CellCorners& at, Ints cells, float o
     const auto& [a, b, c, d] = at;
     const Floats first_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     const Floats second_area = (c.x - d.x) * (b.y - d.y) - (c.y - d.y) * (b.x - d.x);
-    constexpr float least_area = 1e-6F; // pixels
-    const Ints first_faces = outward * first_area > least_area;
-    const Ints second_faces = outward * second_area > least_area;
+    constexpr float min_area = 1e-6F; // pixels
+    const Ints first_faces = outward * first_area > min_area;
+    const Ints second_faces = outward * second_area > min_area;
     return {cells & (first_faces | second_faces),
             first_faces,
             second_faces,
@@ -137,13 +137,13 @@ FRUSTUMSCREEN_INLINE CellPixels cell_pixels(const CellRow& row, const PixelSpan&
     return pixels;
 }
 
-struct Meeting {
+struct Fragment {
     Ints met;
     Floats u, v; ///< in the cell
     Floats nearness;
 };
 
-FRUSTUMSCREEN_INLINE Meeting meeting_at(const CellRow& row, const CellCorners& at, const Weights& weights) {
+FRUSTUMSCREEN_INLINE Fragment fragment_at(const CellRow& row, const CellCorners& at, const Weights& weights) {
     const auto& [to_b, to_c, from_d_to_c, from_d_to_b] = weights;
     const Ints first = row.first_faces & (to_b >= -seam) & (to_c >= -seam) & (to_b + to_c <= 1.0F);
     constexpr float diagonal = 1.001F; // a small overlap, so that rounding leaves no gap between the two
@@ -173,12 +173,12 @@ FRUSTUMSCREEN_INLINE void for_each_pixel(const CellPixels& pixels, const CellCor
                      from_d_x * along_x.from_d_to_b + from_d_y * along_y.from_d_to_b};
     const Ints columns = pixels.there & (pixels.right - pixels.left);
     const Ints rows = pixels.there & (pixels.bottom - pixels.top);
-    const int most_columns = most_of(columns);
-    const int most_rows = most_of(rows);
-    for (int y = 0; y < most_rows; ++y) {
+    const int max_columns = max_of(columns);
+    const int max_rows = max_of(rows);
+    for (int y = 0; y < max_rows; ++y) {
         const Ints in_y = y < rows;
         Weights weights = begin;
-        for (int x = 0; x < most_columns; ++x) {
+        for (int x = 0; x < max_columns; ++x) {
             visit(weights, in_y & (x < columns), x, y);
             weights = weights.plus(along_x);
         }

@@ -71,17 +71,17 @@ template <typename Vector, typename Word> FRUSTUMSCREEN_INLINE void store(Word* 
     static_assert(sizeof(Vector) == lanes * sizeof(Word));
     std::memcpy(to, &value, sizeof value);
 }
-FRUSTUMSCREEN_INLINE float least_of(Floats values) {
+FRUSTUMSCREEN_INLINE float min_of(Floats values) {
     float least = values[0];
     for (int lane = 1; lane < lanes; ++lane) {
         least = values[lane] < least ? values[lane] : least;
     }
     return least;
 }
-FRUSTUMSCREEN_INLINE float most_of(Floats values) {
-    return -least_of(-values);
+FRUSTUMSCREEN_INLINE float max_of(Floats values) {
+    return -min_of(-values);
 }
-FRUSTUMSCREEN_INLINE std::int32_t most_of(Ints values) {
+FRUSTUMSCREEN_INLINE std::int32_t max_of(Ints values) {
     const auto larger = [](Ints a, Ints b) FRUSTUMSCREEN_INLINED { return a > b ? a : b; };
     values = larger(values, __builtin_shufflevector(values, values, 4, 5, 6, 7, 0, 1, 2, 3));
     values = larger(values, __builtin_shufflevector(values, values, 2, 3, 0, 1, 6, 7, 4, 5));

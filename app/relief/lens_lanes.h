@@ -21,7 +21,7 @@ FRUSTUMSCREEN_INLINE Floats squared_radius(const PixelLens& lens, const PixelLan
 }
 
 FRUSTUMSCREEN_INLINE PixelLanes bent(const PixelLens& lens, const PixelLanes& ideal) {
-    const Floats r2 = least(squared_radius(lens, ideal), all(lens.most_r2));
+    const Floats r2 = least(squared_radius(lens, ideal), all(lens.max_r2));
     const Floats more = r2 * (lens.k1 + lens.k2 * r2);
     return {ideal.x + (ideal.x - lens.centre.x) * more, ideal.y + (ideal.y - lens.centre.y) * more};
 }

@@ -104,7 +104,7 @@ FRUSTUMSCREEN_INLINE Met met_by(const CastSamples& samples, int x, int y, Ints p
 /// once.
 template <std::size_t count> class Several {
 public:
-    FRUSTUMSCREEN_INLINE bool full() const { return pixels_ == most_pixels; }
+    FRUSTUMSCREEN_INLINE bool full() const { return pixels_ == max_pixels; }
     FRUSTUMSCREEN_INLINE void add(const CastSamples& samples, int x, int y, glm::u8vec4& code) {
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t at = samples.at(x, y, k);
@@ -137,14 +137,14 @@ public:
     }
 
 private:
-    static constexpr std::size_t most_pixels = 64;
-    static constexpr std::size_t most_shown =
-        most_pixels * count + lanes; ///< eights are read and written whole
+    static constexpr std::size_t max_pixels = 64;
+    static constexpr std::size_t max_shown =
+        max_pixels * count + lanes; ///< eights are read and written whole
     std::size_t pixels_ = 0, shown_ = 0;
-    std::array<std::uint32_t, most_shown> block_, place_; ///< of the samples with a hit
-    std::array<glm::u8vec4, most_shown> colour_;
-    std::array<glm::u8vec4*, most_pixels> code_;
-    std::array<std::size_t, most_pixels> end_; ///< one past the pixel's last sample
+    std::array<std::uint32_t, max_shown> block_, place_; ///< of the samples with a hit
+    std::array<glm::u8vec4, max_shown> colour_;
+    std::array<glm::u8vec4*, max_pixels> code_;
+    std::array<std::size_t, max_pixels> end_; ///< one past the pixel's last sample
 };
 
 template <std::size_t count>

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t cells = std::size_t{block_cells} * block_cells;
 constexpr std::array<std::uint16_t, 6> corners_of_cell{0, 1, 2, 3, 2, 1};
 constexpr std::size_t indices_of_block = cells * corners_of_cell.size();
-constexpr std::size_t most_directions = 6;
+constexpr std::size_t max_directions = 6;
 
 std::array<std::uint16_t, indices_of_block> indices() {
     std::array<std::uint16_t, indices_of_block> made{};
@@ -26,8 +26,8 @@ std::array<std::uint16_t, indices_of_block> indices() {
 
 /// Sets the matrices of each direction's grid, computed in 64-bit arithmetic.
 void set_grids(const BlockRelief& relief, const Draw& draw, double metres_per_box, const Shader& shader) {
-    std::array<glm::mat4, most_directions> clip{};
-    std::array<glm::mat4, most_directions> prop{};
+    std::array<glm::mat4, max_directions> clip{};
+    std::array<glm::mat4, max_directions> prop{};
     GLuint mirrored = 0;
     for (std::size_t k = 0; k < relief.grids.size(); ++k) {
         const glm::dmat4 box = box_from_grid(relief.grids[k], static_cast<double>(relief.texel_box));

@@ -57,7 +57,7 @@ std::uint8_t residual_code(const BlockRelief& relief, std::size_t block, std::si
 }
 
 /// The driver's limit for a texture's side.
-int most_texels() {
+int max_texels() {
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     return limit;
@@ -76,18 +76,18 @@ GlTexture make_texture(GLenum format, int width, int height, GLint filter) {
 
 } // namespace
 
-Result<BlockSheet> sheet_of(const BlockRelief& relief, int most_texels) {
+Result<BlockSheet> sheet_of(const BlockRelief& relief, int max_texels) {
     BlockSheet sheet;
     sheet.columns = side_of(relief.blocks.size());
     sheet.rows = rows_of(relief.blocks.size(), sheet.columns);
     sheet.cover_columns = side_of(relief.covers.size());
     sheet.cover_rows = rows_of(relief.covers.size(), sheet.cover_columns);
     if (const int widest = std::max(block_corners * sheet.columns, sheet.cover_columns);
-        widest > most_texels) {
+        widest > max_texels) {
         return fail(ErrorKind::BadConfiguration, "render.relief_too_wide",
                     "render: a relief of {} blocks needs textures of {} texels a side; this driver allows "
                     "{}: take a coarser relief, or one that is cast, whose technique has no -gpu",
-                    relief.blocks.size(), widest, most_texels);
+                    relief.blocks.size(), widest, max_texels);
     }
     return sheet;
 }
@@ -102,14 +102,14 @@ std::uint64_t gpu_bytes(const BlockRelief& relief) {
 }
 
 /// A block has at most 64 covers, so the covers' texture is never the wider one.
-std::uint32_t most_blocks_on_gpu() {
-    const auto along = static_cast<std::uint32_t>(most_texels() / block_corners);
+std::uint32_t max_blocks_on_gpu() {
+    const auto along = static_cast<std::uint32_t>(max_texels() / block_corners);
     return along * along;
 }
 
 /// Allocates the textures and uploads the covers, which are a small part of the data.
 Result<void> BlockUpload::begin() {
-    TRY(sheet_, sheet_of(*relief_, most_texels()));
+    TRY(sheet_, sheet_of(*relief_, max_texels()));
     textures_.colours =
         make_texture(GL_RGBA8, block_corners * sheet_.columns, block_corners * sheet_.rows, GL_LINEAR);
     textures_.numbers = make_texture(GL_RGBA32UI, numbers_of_block * sheet_.columns, sheet_.rows, GL_NEAREST);
@@ -159,14 +159,14 @@ void BlockUpload::upload_row() {
     ++row_;
 }
 
-Result<void> BlockUpload::go_on(std::uint64_t most_bytes) {
+Result<void> BlockUpload::go_on(std::uint64_t max_bytes) {
     glActiveTexture(GL_TEXTURE0);
     if (!begun_) {
         TRY_VOID(begin());
         begun_ = true;
     }
     const std::uint64_t bytes_a_row = static_cast<std::uint64_t>(sheet_.columns) * bytes_of_block;
-    for (std::uint64_t sent = 0; sent < most_bytes && row_ < sheet_.rows; sent += bytes_a_row) {
+    for (std::uint64_t sent = 0; sent < max_bytes && row_ < sheet_.rows; sent += bytes_a_row) {
         upload_row();
     }
     if (glGetError() != GL_NO_ERROR) {

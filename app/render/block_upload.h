@@ -26,11 +26,11 @@ struct BlockSheet {
     int columns = 1, rows = 1;
     int cover_columns = 1, cover_rows = 1;
 };
-/// `most_texels`: the driver's limit for a texture's side.
-[[nodiscard]] Result<BlockSheet> sheet_of(const BlockRelief& relief, int most_texels);
+/// `max_texels`: the driver's limit for a texture's side.
+[[nodiscard]] Result<BlockSheet> sheet_of(const BlockRelief& relief, int max_texels);
 
 /// The most blocks that fit the driver's textures.
-[[nodiscard]] std::uint32_t most_blocks_on_gpu();
+[[nodiscard]] std::uint32_t max_blocks_on_gpu();
 
 /// GPU memory of a relief, bytes.
 [[nodiscard]] std::uint64_t gpu_bytes(const BlockRelief& relief);
@@ -39,9 +39,9 @@ class BlockUpload {
 public:
     explicit BlockUpload(std::shared_ptr<const BlockRelief> relief) : relief_(std::move(relief)) {}
 
-    /// Uploads `most_bytes` more, or the rest; a row of blocks is uploaded whole, so it may exceed them
+    /// Uploads `max_bytes` more, or the rest; a row of blocks is uploaded whole, so it may exceed them
     /// slightly.
-    [[nodiscard]] Result<void> go_on(std::uint64_t most_bytes);
+    [[nodiscard]] Result<void> go_on(std::uint64_t max_bytes);
     [[nodiscard]] bool done() const { return begun_ && row_ == sheet_.rows; }
 
     struct Textures {

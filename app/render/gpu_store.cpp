@@ -13,7 +13,7 @@ namespace frustumscreen {
 namespace {
 
 /// The driver's limit for a texture's side.
-int most_texels() {
+int max_texels() {
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     return limit;
@@ -105,7 +105,7 @@ Drawable GpuStore::keep(std::shared_ptr<const BlockRelief> relief) {
 }
 
 Result<TextureId> GpuStore::upload(const Image<std::uint8_t>& coverage) {
-    const int limit = most_texels();
+    const int limit = max_texels();
     if (coverage.width < 1 || coverage.height < 1 || std::max(coverage.width, coverage.height) > limit) {
         return fail(ErrorKind::BadConfiguration, "render.caption_size",
                     "render: a caption of {} x {} pixels; this driver allows 1 to {}: use smaller letters",
@@ -117,7 +117,7 @@ Result<TextureId> GpuStore::upload(const Image<std::uint8_t>& coverage) {
 Result<TextureId> GpuStore::upload_picture(std::span<const Image8> mips) {
     const int width = mips.empty() ? 0 : mips.front().width;
     const int height = mips.empty() ? 0 : mips.front().height;
-    const int limit = most_texels();
+    const int limit = max_texels();
     if (width < 1 || height < 1 || std::max(width, height) > limit) {
         return fail(ErrorKind::BadConfiguration, "render.picture_size",
                     "render: a picture of {} x {} texels; this driver allows 1 to {}", width, height, limit);

@@ -9,7 +9,7 @@
 
 namespace frustumscreen {
 
-Result<void> LevelUpload::go_on(std::uint64_t most_bytes) {
+Result<void> LevelUpload::go_on(std::uint64_t max_bytes) {
     if (data_.relief && !data_.on_gpu) {
         done_ = true; // the processor rasterizes it from main memory
         return {};
@@ -18,7 +18,7 @@ Result<void> LevelUpload::go_on(std::uint64_t most_bytes) {
         if (!blocks_) {
             blocks_.emplace(data_.relief);
         }
-        Result<void> sent = blocks_->go_on(most_bytes);
+        Result<void> sent = blocks_->go_on(max_bytes);
         done_ = sent && blocks_->done();
         return sent;
     }
@@ -26,7 +26,7 @@ Result<void> LevelUpload::go_on(std::uint64_t most_bytes) {
         TRY_VOID(begin());
         begun_ = true;
     }
-    std::uint64_t left = most_bytes;
+    std::uint64_t left = max_bytes;
     left -= std::min(left, upload_vertices(left));
     while (left > 0 && mip_ < data_.mips.size()) {
         left -= std::min(left, upload_texels(left));
@@ -76,9 +76,9 @@ Result<void> LevelUpload::begin() {
     return {};
 }
 
-std::uint64_t LevelUpload::upload_vertices(std::uint64_t most_bytes) {
+std::uint64_t LevelUpload::upload_vertices(std::uint64_t max_bytes) {
     const std::size_t count =
-        std::min<std::uint64_t>(data_.vertices.size() - vertices_there_, most_bytes / sizeof(PackVertex) + 1);
+        std::min<std::uint64_t>(data_.vertices.size() - vertices_there_, max_bytes / sizeof(PackVertex) + 1);
     if (count == 0) {
         return 0;
     }
@@ -90,11 +90,11 @@ std::uint64_t LevelUpload::upload_vertices(std::uint64_t most_bytes) {
     return count * sizeof(PackVertex);
 }
 
-std::uint64_t LevelUpload::upload_texels(std::uint64_t most_bytes) {
+std::uint64_t LevelUpload::upload_texels(std::uint64_t max_bytes) {
     Image8& mip = data_.mips[mip_];
     const std::uint64_t bytes_a_row = sizeof(glm::u8vec4) * static_cast<std::uint64_t>(mip.width);
     const int rows = static_cast<int>(
-        std::min<std::uint64_t>(static_cast<std::uint64_t>(mip.height - row_), most_bytes / bytes_a_row + 1));
+        std::min<std::uint64_t>(static_cast<std::uint64_t>(mip.height - row_), max_bytes / bytes_a_row + 1));
     glBindTexture(GL_TEXTURE_2D, texels_.get());
     glTexSubImage2D(GL_TEXTURE_2D, static_cast<GLint>(mip_), 0, row_, mip.width, rows, GL_RGBA,
                     GL_UNSIGNED_BYTE, &mip.at(0, row_));

@@ -22,17 +22,17 @@ class LevelUpload {
 public:
     explicit LevelUpload(LevelData data) : data_(std::move(data)) {}
 
-    /// Uploads `most_bytes` more, or the rest; a row of texels is uploaded whole, so it may exceed them
+    /// Uploads `max_bytes` more, or the rest; a row of texels is uploaded whole, so it may exceed them
     /// slightly.
-    [[nodiscard]] Result<void> go_on(std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max());
+    [[nodiscard]] Result<void> go_on(std::uint64_t max_bytes = std::numeric_limits<std::uint64_t>::max());
     /// True once everything is uploaded.
     [[nodiscard]] bool done() const { return done_; }
 
 private:
     friend class GpuStore;
     [[nodiscard]] Result<void> begin();
-    [[nodiscard]] std::uint64_t upload_vertices(std::uint64_t most_bytes);
-    [[nodiscard]] std::uint64_t upload_texels(std::uint64_t most_bytes);
+    [[nodiscard]] std::uint64_t upload_vertices(std::uint64_t max_bytes);
+    [[nodiscard]] std::uint64_t upload_texels(std::uint64_t max_bytes);
 
     LevelData data_;
     std::optional<BlockUpload> blocks_; ///< for a relief that the GPU draws

@@ -87,7 +87,7 @@ private:
         std::uint64_t hash = 0;
         std::uint64_t prop_hash = 0;
         PixelRectangle prop_bounds;
-        std::array<OnTable, most_on_table + 16> on_table{}; ///< including the prop's faces in black
+        std::array<OnTable, max_on_table + 16> on_table{}; ///< including the prop's faces in black
         std::size_t count = 0;
         [[nodiscard]] bool lies(const OnTable& draw) const;
         void add_changes(const Picture& other, PixelRectangle& changes) const;

@@ -25,11 +25,11 @@ glm::ivec2 SampleGrid::of(int samples) {
     }
 }
 
-Result<SampleGrid> SampleGrid::create(const PixelSize& picture, const PixelSize& part, int most_samples) {
-    const glm::ivec2 grid = of(most_samples);
+Result<SampleGrid> SampleGrid::create(const PixelSize& picture, const PixelSize& part, int max_samples) {
+    const glm::ivec2 grid = of(max_samples);
     if (grid.x == 0) {
         return fail(ErrorKind::BadConfiguration, "render.samples",
-                    "render: {} samples a pixel; allowed are 1, 2, 4, 8 and 16", most_samples);
+                    "render: {} samples a pixel; allowed are 1, 2, 4, 8 and 16", max_samples);
     }
     SampleGrid made;
     made.picture_ = {picture.width, picture.height};

@@ -20,10 +20,10 @@ namespace frustumscreen {
 
 class SampleGrid {
 public:
-    /// Allocates memory for `most_samples` a pixel, 2, 4, 8 or 16, in a part of the picture of this size; a
+    /// Allocates memory for `max_samples` a pixel, 2, 4, 8 or 16, in a part of the picture of this size; a
     /// smaller part may have more, a larger one has fewer.
     [[nodiscard]] static Result<SampleGrid> create(const PixelSize& picture, const PixelSize& part,
-                                                   int most_samples);
+                                                   int max_samples);
 
     /// Samples along a pixel's sides; zero for a number without a grid.
     [[nodiscard]] static glm::ivec2 of(int samples);

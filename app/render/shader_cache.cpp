@@ -64,8 +64,8 @@ void Shader::draw_rectangles(const glm::ivec2& picture, std::span<const PixelRec
     constexpr std::size_t corners_per_rectangle = 6;
     glUniform2f(location(Uniform::Picture), static_cast<float>(picture.x), static_cast<float>(picture.y));
     while (!rectangles.empty()) {
-        const auto some = rectangles.first(std::min(rectangles.size(), LitTiles::most_rectangles));
-        std::array<glm::vec4, LitTiles::most_rectangles> corners{};
+        const auto some = rectangles.first(std::min(rectangles.size(), LitTiles::max_rectangles));
+        std::array<glm::vec4, LitTiles::max_rectangles> corners{};
         std::transform(some.begin(), some.end(), corners.begin(),
                        [](const PixelRectangle& r) { return glm::vec4(r.x, r.y, r.width, r.height); });
         glUniform4fv(location(Uniform::Rectangles), static_cast<GLsizei>(some.size()), &corners[0].x);

@@ -277,7 +277,7 @@ ShaderSource source_of(const ShaderKey& key, bool bends) {
     const std::string defines =
         (bends ? fmt::format("#define QUAD_CELLS {}{}", quad_cells, lens) : std::string()) + defines_of(key);
     const std::string tiles_defines =
-        fmt::format("#define MOST_RECTANGLES {}\n{}", LitTiles::most_rectangles, defines_of(key));
+        fmt::format("#define MOST_RECTANGLES {}\n{}", LitTiles::max_rectangles, defines_of(key));
     const auto quad = [](std::string_view vertex) {
         return fmt::format("{}{}{}", bent_vertex, quad_vertex, vertex);
     };

@@ -22,8 +22,8 @@ SceneRequest request_of(const Settings& settings, const OpenerOptions& options, 
     SceneRequest request;
     request.technique = options.technique;
     request.room = options.samples;
-    request.economies = options.economies;
-    request.most_blocks_on_gpu = options.most_blocks_on_gpu;
+    request.cull_kinds = options.cull_kinds;
+    request.max_blocks_on_gpu = options.max_blocks_on_gpu;
     request.visibility = visibility_of(settings);
     request.table_pictures = options.table_pictures;
     std::vector<std::string> languages;
@@ -37,12 +37,12 @@ SceneRequest request_of(const Settings& settings, const OpenerOptions& options, 
     return request;
 }
 
-/// What of the prop the artifact is seen through, and where it is seen whole.
+/// Finds the hull through which the prop's faces show the artifact, and the zone in which it is seen whole.
 Result<void> find_whole_zone(const Settings& settings, KnownArtifact& artifact) {
-    // As many corners as a frame can look through; by 64 a ball is held with 3 % to spare.
-    constexpr std::size_t most_corners = 64;
+    // As many corners as a frame has time for; 64 hold a ball with 3 % to spare.
+    constexpr std::size_t max_corners = 64;
     CatalogueEntry& entry = artifact.texts.entry;
-    TRY(entry.hull, hull_in(artifact.outline.description, make_prop(settings.prop), most_corners));
+    TRY(entry.hull, hull_in(artifact.outline.description, make_prop(settings.prop), max_corners));
     if (!shows_zone_frame(settings)) {
         return {};
     }

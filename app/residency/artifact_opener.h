@@ -1,5 +1,5 @@
 /// Opens packs for the show: reads each pack's manifest, plans its scene and lays out its texts. Levels,
-/// textures and pictures of texts follow later (residents.h), except for the levels of the first usable pack.
+/// textures and pictures of texts follow later (artifact_cache.h), except for the levels of the first usable pack.
 ///
 /// Threads  any, never in a frame; needs no context.
 /// Errors   as load_pack, as far as manifest and texts are concerned; a technique that the pack does not
@@ -25,13 +25,13 @@ namespace frustumscreen {
 [[nodiscard]] Catalogue catalogue_of(std::span<const KnownArtifact> artifacts);
 
 struct OpenerOptions {
-    std::string technique = "auto"; ///< `technique`, `samples`, `economies`: as ArtifactShowOptions
+    std::string technique = "auto"; ///< `technique`, `samples`, `cull_kinds`: as ArtifactShowOptions
     int samples = 1;
-    unsigned economies = AllEconomies;
+    unsigned cull_kinds = AllCullKinds;
     bool other_languages = false; ///< a visitor can change the language
     bool other_packs = false;     ///< a visitor can change the artifact
-    bool table_pictures = false;  ///< `table_pictures`, `most_blocks_on_gpu`: as SceneRequest
-    std::uint32_t most_blocks_on_gpu = 0;
+    bool table_pictures = false;  ///< `table_pictures`, `max_blocks_on_gpu`: as SceneRequest
+    std::uint32_t max_blocks_on_gpu = 0;
     double deadline_ms = 16.0;
     std::string_view program = "frustumscreen"; ///< `program`, `packs_key`: as ArtifactShowOptions
     std::string packs_key = {};

@@ -26,10 +26,10 @@ Nanoseconds reading_time(std::string_view text) {
 /// The portions of a description; empty if it is too long to be narrated.
 std::vector<std::string> told_portions(const PackCaption& caption) {
     std::vector<std::string> portions = portions_of(caption.description);
-    return portions.size() <= most_text_portions ? portions : std::vector<std::string>();
+    return portions.size() <= max_text_portions ? portions : std::vector<std::string>();
 }
 
-/// The caption with the attribution below it, and without, for where that finds no room.
+/// The caption with the attribution below it, and without, for places where both do not fit.
 std::vector<TableText> caption_texts(const ScanRights& rights, const PackCaption& caption,
                                      std::span<const SetLanguage> set) {
     const TableText bare = caption_text(caption);
@@ -42,7 +42,7 @@ std::vector<TableText> caption_texts(const ScanRights& rights, const PackCaption
     return {whole, bare};
 }
 
-/// What is told of an artifact, portion by portion.
+/// The narration of an artifact, by portion.
 struct ToldTexts {
     std::vector<TableText> portions;
     bool ends_with_attribution = false;
@@ -68,7 +68,7 @@ Nanoseconds reading_time(const TableText& text) {
     return time;
 }
 
-/// Whether its lines begin at the right.
+/// True if the text's lines begin at the right.
 bool is_flush_right(const TableText& text, const SetLanguage* set) {
     return set != nullptr && std::any_of(text.pieces.begin(), text.pieces.end(), [&](const TextPiece& piece) {
                const GlyphText* const glyphs = set->runs.find(piece.key);

@@ -24,12 +24,12 @@ Image<std::uint8_t> line_picture() {
 
 /// The level's triangles in the box frame.
 TriangleTree tree_of(const PackLevel& level, const glm::dvec3& box_size) {
-    constexpr double most_code = 65535.0;
+    constexpr double max_code = 65535.0;
     std::vector<glm::vec3> positions;
     positions.reserve(level.vertices.size());
     for (const PackVertex& vertex : level.vertices) {
         const glm::dvec3 share =
-            glm::dvec3(vertex.position[0], vertex.position[1], vertex.position[2]) / most_code;
+            glm::dvec3(vertex.position[0], vertex.position[1], vertex.position[2]) / max_code;
         positions.emplace_back((share - glm::dvec3(0.5, 0.5, 0.0)) * box_size);
     }
     return {positions, level.indices};

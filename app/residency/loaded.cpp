@@ -13,9 +13,9 @@ LoadedLevels::LoadedLevels(PreparedArtifact prepared) : artifact(std::move(prepa
     artifact.data.clear();
 }
 
-Result<void> LoadedLevels::upload(GpuStore& store, std::uint64_t most_bytes) {
+Result<void> LoadedLevels::upload(GpuStore& store, std::uint64_t max_bytes) {
     LevelUpload& level = uploads_[uploaded_];
-    TRY_VOID(level.go_on(most_bytes));
+    TRY_VOID(level.go_on(max_bytes));
     if (level.done()) {
         artifact.levels.give(uploaded_, store.keep(std::move(level)), store);
         ++uploaded_;
@@ -34,9 +34,9 @@ LoadedTexts::LoadedTexts(TextPictures pictures) : pictures_(std::move(pictures))
     }
 }
 
-Result<void> LoadedTexts::upload(GpuStore& store, std::uint64_t most_bytes) {
+Result<void> LoadedTexts::upload(GpuStore& store, std::uint64_t max_bytes) {
     const std::uint64_t before = uploaded_bytes_;
-    while (!ready() && uploaded_bytes_ - before < most_bytes) {
+    while (!ready() && uploaded_bytes_ - before < max_bytes) {
         Image<std::uint8_t>& picture = pictures_[textures_.size()];
         const std::uint64_t bytes = caption_gpu_bytes(picture.width, picture.height);
         TRY(const TextureId texture, bytes > 0 ? store.upload(picture) : TextureId::None);

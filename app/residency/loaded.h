@@ -19,8 +19,8 @@ class LoadedLevels {
 public:
     explicit LoadedLevels(PreparedArtifact prepared);
 
-    /// Uploads about `most_bytes` more; it may exceed them slightly.
-    [[nodiscard]] Result<void> upload(GpuStore& store, std::uint64_t most_bytes);
+    /// Uploads about `max_bytes` more; it may exceed them slightly.
+    [[nodiscard]] Result<void> upload(GpuStore& store, std::uint64_t max_bytes);
     [[nodiscard]] bool ready() const { return uploaded_ == uploads_.size(); }
     /// Removes all of it from the store.
     void release(GpuStore& store) { artifact.levels.release(store); }
@@ -40,7 +40,7 @@ public:
     explicit LoadedTexts(TextPictures pictures);
 
     /// As above, but pictures are uploaded whole.
-    [[nodiscard]] Result<void> upload(GpuStore& store, std::uint64_t most_bytes);
+    [[nodiscard]] Result<void> upload(GpuStore& store, std::uint64_t max_bytes);
     [[nodiscard]] bool ready() const { return textures_.size() == pictures_.size(); }
     void release(GpuStore& store);
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }

@@ -2,7 +2,7 @@
 /// of the table to pictures.
 ///
 /// Frames   table T, metres.
-/// Threads  values; one caller. Allocates nothing; pictures beyond `most_on_table` are left out.
+/// Threads  values; one caller. Allocates nothing; pictures beyond `max_on_table` are left out.
 #pragma once
 
 #include "app/geometry/pinhole.h"
@@ -26,7 +26,7 @@ public:
     }
 
 private:
-    std::array<TablePicture, most_on_table> pictures_{};
+    std::array<TablePicture, max_on_table> pictures_{};
     std::size_t count_ = 0;
 };
 

@@ -12,7 +12,7 @@ namespace {
 /// Relative uncertainty of a sentence's length, if predicted by its letters: numbers and names take longer
 /// than they look.
 constexpr double uncertain_share = 0.3;
-constexpr double least_uncertain_s = 1.2;
+constexpr double min_uncertain_s = 1.2;
 /// A pause longer by some time may be farther away by this multiple of it: pauses between sentences are
 /// longer than those at commas.
 constexpr double pause_is_worth = 4.0;
@@ -24,13 +24,13 @@ double seconds_of(std::uint32_t sample) {
 /// The middle of the best pause near `expected_s`; `expected_s` if there is none.
 double nearest_pause(const Prompt& prompt, double expected_s, double begin_s, double uncertain_s) {
     double best = expected_s;
-    double least_cost = std::numeric_limits<double>::infinity();
+    double min_cost = std::numeric_limits<double>::infinity();
     for (const Mark& mark : prompt.marks) {
         const double middle_s = 0.5 * (seconds_of(mark.begin) + seconds_of(mark.end));
         const double off_s = std::abs(middle_s - expected_s);
         const double cost = off_s - pause_is_worth * (seconds_of(mark.end) - seconds_of(mark.begin));
-        if (middle_s > begin_s && off_s <= uncertain_s && cost < least_cost) {
-            least_cost = cost;
+        if (middle_s > begin_s && off_s <= uncertain_s && cost < min_cost) {
+            min_cost = cost;
             best = middle_s;
         }
     }
@@ -50,7 +50,7 @@ std::vector<Nanoseconds> portion_times(std::span<const Nanoseconds> shares, cons
         const double takes_s = (length_s - begin_s) * part;
         left -= to_seconds(share);
         begin_s = nearest_pause(prompt, begin_s + takes_s, begin_s,
-                                std::max(least_uncertain_s, uncertain_share * takes_s));
+                                std::max(min_uncertain_s, uncertain_share * takes_s));
     }
     return times;
 }

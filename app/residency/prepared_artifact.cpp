@@ -116,7 +116,7 @@ std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_b
         bytes += more_in_memory * relief + (draws_relief(known.plan, place, true) ? relief : 0);
     }
     if (!known.outline.description.hotspots.empty()) {
-        bytes += TriangleTree::most_bytes(known.outline.levels[coarsest_of(known.plan)].triangles);
+        bytes += TriangleTree::max_bytes(known.outline.levels[coarsest_of(known.plan)].triangles);
     }
     return bytes;
 }

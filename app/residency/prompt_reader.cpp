@@ -84,7 +84,7 @@ SharedRecording PromptReader::next() const {
     return nullptr;
 }
 
-/// The worker frees the replaced entry, and also a recording that is no longer wanted.
+/// The worker frees the replaced entry, and also a recording that is not wanted any more.
 void PromptReader::keep(const SharedRecording& recording, SharedReading reading) {
     Kept old{recording, std::move(reading), 0};
     const std::scoped_lock lock(mutex_);

@@ -19,7 +19,7 @@ public:
             bytes += item.loaded ? item.bytes : 0;
         }
         if (bytes > budget_) {
-            if (const std::optional<std::size_t> release = least_recent()) {
+            if (const std::optional<std::size_t> release = min_recent()) {
                 return {release, std::nullopt};
             }
         }
@@ -66,7 +66,7 @@ private:
         choose([&](std::size_t item) { there = there || item == asked; });
         return there;
     }
-    [[nodiscard]] std::optional<std::size_t> least_recent() const {
+    [[nodiscard]] std::optional<std::size_t> min_recent() const {
         std::optional<std::size_t> least;
         for (std::size_t k = 0; k < items_.size(); ++k) {
             if (items_[k].loaded && !is_to_be_there(k) &&

@@ -37,16 +37,17 @@ constexpr std::array relief_names{
     ReliefName{384, "relief384", "relief384-gpu"},    ReliefName{768, "relief768", "relief768-gpu"},
     ReliefName{1536, "relief1536", "relief1536-gpu"}, ReliefName{3072, "relief3072", "relief3072-gpu"}};
 
-std::string_view literal_of(const Rung& rung) {
-    if (!rung.relief) {
-        return level_names.at(rung.level);
+std::string_view literal_of(const QualityLevel& quality_level) {
+    if (!quality_level.relief) {
+        return level_names.at(quality_level.level);
     }
-    const auto* const found = std::find_if(relief_names.begin(), relief_names.end(),
-                                           [&](const auto& name) { return name.texels == rung.level; });
+    const auto* const found = std::find_if(relief_names.begin(), relief_names.end(), [&](const auto& name) {
+        return name.texels == quality_level.level;
+    });
     if (found == relief_names.end()) {
-        return rung.on_gpu ? "relief-gpu" : "relief";
+        return quality_level.on_gpu ? "relief-gpu" : "relief";
     }
-    return rung.on_gpu ? found->on_gpu : found->cast;
+    return quality_level.on_gpu ? found->on_gpu : found->cast;
 }
 
 } // namespace
@@ -74,9 +75,9 @@ PreparedLevel prepare_level(const Pack& pack, std::uint32_t level, const ScenePl
 }
 
 bool draws_relief(const ScenePlan& plan, std::size_t place, bool on_gpu) {
-    const Rung shown{plan.reliefs[place].texels, 1, false, true, on_gpu};
-    return std::any_of(plan.rungs.begin(), plan.rungs.end(),
-                       [&](const Rung& rung) { return rung.shows_as(shown); });
+    const QualityLevel shown{plan.reliefs[place].texels, 1, false, true, on_gpu};
+    return std::any_of(plan.quality_levels.begin(), plan.quality_levels.end(),
+                       [&](const QualityLevel& quality_level) { return quality_level.shows_as(shown); });
 }
 
 PreparedLevel prepare_relief(const PackDescription& pack, std::size_t place,
@@ -97,24 +98,25 @@ PreparedLevel prepare_relief(const PackDescription& pack, std::size_t place,
 
 RunLevels::RunLevels(std::string technique, const ScenePlan& plan, double deadline_ms,
                      std::span<const PreparedLevel> levels)
-    : technique_(std::move(technique)), rungs_(plan.rungs), deadline_ms_(deadline_ms),
-      governor_(rungs_, std::vector<RungTime>(rungs_.size()), deadline_ms) {
+    : technique_(std::move(technique)), quality_levels_(plan.quality_levels), deadline_ms_(deadline_ms),
+      governor_(quality_levels_, std::vector<QualityLevelTime>(quality_levels_.size()), deadline_ms) {
     std::size_t indices = 0;
     for (const PreparedLevel& level : levels) {
         uses_.push_back(level.use);
         left_out_.insert(left_out_.end(), level.left_out.begin(), level.left_out.end());
         needs_ = united(needs_, level.needs);
         indices += level.triangles ? level.triangles->indices.size() : 0;
-        levels_.push_back({Rung{level.use.level, 1, false, level.data.relief != nullptr, level.data.on_gpu},
-                           level.seen,
-                           PlacedLevel{level.triangles,
-                                       level.box_size,
-                                       plan.metres_per_box,
-                                       {},
-                                       level.samples,
-                                       plan.faces,
-                                       level.data.relief,
-                                       level.data.on_gpu}});
+        levels_.push_back(
+            {QualityLevel{level.use.level, 1, false, level.data.relief != nullptr, level.data.on_gpu},
+             level.seen,
+             PlacedLevel{level.triangles,
+                         level.box_size,
+                         plan.metres_per_box,
+                         {},
+                         level.samples,
+                         plan.faces,
+                         level.data.relief,
+                         level.data.on_gpu}});
     }
     plan_ = make_plan(plan.prop, indices, 2);
 }
@@ -150,7 +152,7 @@ void RunLevels::release(GpuStore& store) {
 
 std::uint64_t RunLevels::bytes() const {
     std::uint64_t bytes = 0;
-    std::uint64_t most_indices = 0;
+    std::uint64_t max_indices = 0;
     for (std::size_t place = 0; place < levels_.size(); ++place) {
         const PlacedLevel& placed = levels_[place].placed;
         bytes += uses_[place].planned_gpu_bytes;
@@ -160,26 +162,27 @@ std::uint64_t RunLevels::bytes() const {
             continue;
         }
         bytes += bytes_of(*placed.triangles);
-        most_indices = std::max<std::uint64_t>(most_indices, placed.triangles->indices.size());
+        max_indices = std::max<std::uint64_t>(max_indices, placed.triangles->indices.size());
     }
     // The plan of a frame lists the triangles that face the eye, and those that a face shows.
-    return bytes + 2 * sizeof(std::uint32_t) * most_indices;
+    return bytes + 2 * sizeof(std::uint32_t) * max_indices;
 }
 
-std::size_t RunLevels::slot_of(const Rung& rung) const {
+std::size_t RunLevels::slot_of(const QualityLevel& quality_level) const {
     return static_cast<std::size_t>(
-        std::find_if(levels_.begin(), levels_.end(), [&](const Level& l) { return l.shows.shows_as(rung); }) -
+        std::find_if(levels_.begin(), levels_.end(),
+                     [&](const Level& l) { return l.shows.shows_as(quality_level); }) -
         levels_.begin());
 }
 
-FrameWork RunLevels::work(const Rung& rung) const {
+FrameWork RunLevels::work(const QualityLevel& quality_level) const {
     const auto pixels = static_cast<double>(plan_.lit.pixels());
     const auto more = [&](int samples) {
-        return pixels * samples / rung.samples;
+        return pixels * samples / quality_level.samples;
     }; // a slanting view takes more samples
-    if (rung.relief) {
-        const BlockRelief& relief = *levels_[slot_of(rung)].placed.relief;
-        return {static_cast<double>(relief.blocks.size()), rung.on_gpu ? more(plan_.samples)
+    if (quality_level.relief) {
+        const BlockRelief& relief = *levels_[slot_of(quality_level)].placed.relief;
+        return {static_cast<double>(relief.blocks.size()), quality_level.on_gpu ? more(plan_.samples)
                                                            : plan_.cast_count > 0
                                                                ? more(plan_.casts[0].samples)
                                                                : pixels};
@@ -187,11 +190,11 @@ FrameWork RunLevels::work(const Rung& rung) const {
     return {static_cast<double>(plan_.indices.size()) / 3.0, more(plan_.samples)};
 }
 
-double RunLevels::median_ms(const Rung& rung, const PropShape& prop, const PlanView& view, Renderer& renderer,
-                            const RenderTarget& target) {
-    const Level& level = levels_[slot_of(rung)];
+double RunLevels::median_ms(const QualityLevel& quality_level, const PropShape& prop, const PlanView& view,
+                            Renderer& renderer, const RenderTarget& target) {
+    const Level& level = levels_[slot_of(quality_level)];
     PlacedLevel placed = level.placed;
-    placed.samples = rung.samples;
+    placed.samples = quality_level.samples;
     std::array<double, 7> ms{};
     std::size_t drawn = 0;
     double spent_ms = 0.0;
@@ -211,16 +214,17 @@ double RunLevels::median_ms(const Rung& rung, const PropShape& prop, const PlanV
 
 void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& renderer,
                         const RenderTarget& target) {
-    std::vector<RungTime> times(rungs_.size());
-    for (std::size_t k = 0; k < rungs_.size(); ++k) {
-        const double ms = median_ms(rungs_[k], prop, view, renderer, target);
-        times[k] = {rungs_[k].samples, work(rungs_[k]), ms, rungs_[k].relief, rungs_[k].on_gpu};
+    std::vector<QualityLevelTime> times(quality_levels_.size());
+    for (std::size_t k = 0; k < quality_levels_.size(); ++k) {
+        const double ms = median_ms(quality_levels_[k], prop, view, renderer, target);
+        times[k] = {quality_levels_[k].samples, work(quality_levels_[k]), ms, quality_levels_[k].relief,
+                    quality_levels_[k].on_gpu};
     }
     // Repeat in reverse order: other load on the machine may have slowed some levels and not others. Levels
     // whose frames are slow are not measured again, to keep the start short.
-    for (std::size_t k = rungs_.size(); k-- > 0;) {
+    for (std::size_t k = quality_levels_.size(); k-- > 0;) {
         if (2.0 * times[k].ms < longest_measurement_ms) {
-            times[k].ms = std::min(times[k].ms, median_ms(rungs_[k], prop, view, renderer, target));
+            times[k].ms = std::min(times[k].ms, median_ms(quality_levels_[k], prop, view, renderer, target));
         }
     }
     // The driver compiles its own programs at the first draw with a shader. Draw with each now, rather than
@@ -247,32 +251,33 @@ void RunLevels::measure(const PropShape& prop, const PlanView& view, Renderer& r
 }
 
 void RunLevels::start(const FrameCost& cost, const PropShape& prop, const PlanView& view) {
-    std::vector<RungTime> times;
-    for (const Rung& rung : rungs_) {
-        PlacedLevel placed = levels_[slot_of(rung)].placed;
-        placed.samples = rung.samples;
+    std::vector<QualityLevelTime> times;
+    for (const QualityLevel& quality_level : quality_levels_) {
+        PlacedLevel placed = levels_[slot_of(quality_level)].placed;
+        placed.samples = quality_level.samples;
         plan_frame(prop, placed, view, plan_);
-        times.push_back({rung.samples, work(rung), 0.0, rung.relief, rung.on_gpu});
+        times.push_back(
+            {quality_level.samples, work(quality_level), 0.0, quality_level.relief, quality_level.on_gpu});
         times.back().ms = cost.ms(times.back());
     }
     start(times);
 }
 
-void RunLevels::start(const std::vector<RungTime>& times) {
+void RunLevels::start(const std::vector<QualityLevelTime>& times) {
     times_ = times;
-    governor_ = Governor(rungs_, times, deadline_ms_);
-    shown_ = slot_of(governor_.rung());
+    governor_ = Governor(quality_levels_, times, deadline_ms_);
+    shown_ = slot_of(governor_.quality_level());
 }
 
 void RunLevels::enter(MonotonicTime now, double load) {
     governor_.enter(now, load);
-    shown_ = slot_of(governor_.rung());
+    shown_ = slot_of(governor_.quality_level());
     coming_.reset();
 }
 
 PlacedLevel RunLevels::placed(std::size_t slot) const {
     PlacedLevel placed = levels_[slot].placed;
-    placed.samples = governor_.rung().samples;
+    placed.samples = governor_.quality_level().samples;
     return placed;
 }
 
@@ -310,8 +315,8 @@ void RunLevels::record_time(MonotonicTime now, double ms) {
     if (coming_ || plan_.faces.empty()) {
         return; // two levels, or none, were drawn: the time does not tell about one level
     }
-    governor_.observe(now, work(governor_.rung()), ms);
-    if (const std::size_t slot = slot_of(governor_.rung()); slot != shown_) {
+    governor_.observe(now, work(governor_.quality_level()), ms);
+    if (const std::size_t slot = slot_of(governor_.quality_level()); slot != shown_) {
         coming_ = slot;
         fade_start_ = now;
     }
@@ -319,7 +324,7 @@ void RunLevels::record_time(MonotonicTime now, double ms) {
 
 LevelState RunLevels::state() const {
     const Level& to = levels_[coming_.value_or(shown_)];
-    return {technique_, literal_of(to.shows), governor_.rung().samples,
+    return {technique_, literal_of(to.shows), governor_.quality_level().samples,
             error_,     governor_.switches(), governor_.ignored()};
 }
 

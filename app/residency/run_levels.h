@@ -92,7 +92,7 @@ public:
     /// On failure nothing stays in the store.
     [[nodiscard]] static Result<RunLevels> upload(const Pack& pack, const ScenePlan& plan,
                                                   std::string technique, double deadline_ms, GpuStore& store);
-    /// Removes all given levels from the store; drawing is no longer possible.
+    /// Removes all given levels from the store; drawing is then impossible.
     void release(GpuStore& store);
 
     [[nodiscard]] const std::vector<LevelUse>& uses() const { return uses_; }
@@ -106,29 +106,29 @@ public:
     void measure(const PropShape& prop, const PlanView& view, Renderer& renderer, const RenderTarget& target);
 
     /// Starts the governor with measured times: one for each quality level, best first.
-    void start(const std::vector<RungTime>& times);
+    void start(const std::vector<QualityLevelTime>& times);
     /// Starts the governor with predicted times for the view. Needs no context.
     void start(const FrameCost& cost, const PropShape& prop, const PlanView& view);
     /// The times at the start; empty before.
-    [[nodiscard]] const std::vector<RungTime>& times() const { return times_; }
+    [[nodiscard]] const std::vector<QualityLevelTime>& times() const { return times_; }
 
     /// GPU memory and main memory, by the plan.
     [[nodiscard]] std::uint64_t bytes() const;
 
-    /// The artifact comes on while the GPU is under `load` (see Governor).
+    /// Call when the artifact comes on show while the GPU is under `load` (see Governor).
     void enter(MonotonicTime now, double load);
     [[nodiscard]] double load() const { return governor_.load(); }
 
     [[nodiscard]] DrawResult draw(MonotonicTime now, const PropShape& prop, const PlanView& view,
                                   Renderer& renderer, const RenderTarget& target, Redraw redraw);
-    /// The latest `draw` took `ms` until its picture was complete.
+    /// Records that the latest `draw` took `ms` until its picture was complete.
     void record_time(MonotonicTime now, double ms);
 
     [[nodiscard]] LevelState state() const;
 
 private:
     struct Level {
-        Rung shows; ///< without samples
+        QualityLevel shows; ///< without samples
         SeenLevel seen;
         PlacedLevel placed;
     };
@@ -136,19 +136,19 @@ private:
     [[nodiscard]] PlacedLevel placed(std::size_t slot) const;
     /// Error of the planned frame.
     [[nodiscard]] std::optional<ErrorEstimate> estimate(const PropShape& prop, const PlanView& view) const;
-    [[nodiscard]] std::size_t slot_of(const Rung& rung) const;
+    [[nodiscard]] std::size_t slot_of(const QualityLevel& quality_level) const;
     /// The planned frame's work, at this quality level.
-    [[nodiscard]] FrameWork work(const Rung& rung) const;
-    [[nodiscard]] double median_ms(const Rung& rung, const PropShape& prop, const PlanView& view,
-                                   Renderer& renderer, const RenderTarget& target);
+    [[nodiscard]] FrameWork work(const QualityLevel& quality_level) const;
+    [[nodiscard]] double median_ms(const QualityLevel& quality_level, const PropShape& prop,
+                                   const PlanView& view, Renderer& renderer, const RenderTarget& target);
 
     std::string technique_;
     std::vector<LevelUse> uses_;
     std::vector<LeftOut> left_out_;
     RenderNeeds needs_;
     std::vector<Level> levels_;
-    std::vector<Rung> rungs_;
-    std::vector<RungTime> times_;
+    std::vector<QualityLevel> quality_levels_;
+    std::vector<QualityLevelTime> times_;
     double deadline_ms_;
     Governor governor_;
     FramePlan plan_;

@@ -1,6 +1,7 @@
 #include "app/safe/safe_page.h"
 
 #include "firmware_host/base/printable.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::uint8_t visitors_grey = 235, reason_grey = 190, staff_grey = 160, machine_grey = 110;
 constexpr char32_t unknown_letter = U'\uFFFD', ellipsis = U'\u2026';
-constexpr std::size_t most_reason_lines = 4;
+constexpr std::size_t max_reason_lines = 4;
 constexpr std::string_view no_reason = "No reason was given.";
 
 /// Shares of the picture.
@@ -76,7 +77,7 @@ std::size_t first_line(std::u32string_view text, std::int32_t width) {
 
 std::vector<std::u32string> broken_into_lines(std::u32string text, std::int32_t width) {
     std::vector<std::u32string> lines;
-    while (!text.empty() && lines.size() < most_reason_lines) {
+    while (!text.empty() && lines.size() < max_reason_lines) {
         const std::size_t count = first_line(text, width);
         lines.push_back(text.substr(0, count));
         text.erase(0, count);
@@ -185,7 +186,7 @@ double set_page(SafePage& page, double top_px, const Sizes& sizes, const SafeTex
     column.add(fitting(languages.front()->for_staff, width_px, em_px), em_px, staff_grey);
     column.leave(0.5 * em_px);
     const std::string machine = fmt::format("FrustumScreen {}, {} since the computer was started",
-                                            FRUSTUMSCREEN_VERSION, in_hours(text.since_boot));
+                                            project_version(), in_hours(text.since_boot));
     for (const std::u32string& line : broken_into_lines(shown_reason(machine), width)) {
         column.add(line, em_px, machine_grey);
     }
@@ -216,10 +217,10 @@ SafePage lay_out_safe_page(int width, int height, const SafeText& text,
     if (languages.empty()) {
         return page;
     }
-    const double most_px = height - 2.0 * margin_of_side * std::min(width, height);
+    const double max_px = height - 2.0 * margin_of_side * std::min(width, height);
     Sizes sizes = largest_sizes(width, height, languages);
     double height_px = set_page(page, 0.0, sizes, text, languages);
-    for (int tries = 0; height_px > most_px && tries < 40; ++tries) {
+    for (int tries = 0; height_px > max_px && tries < 40; ++tries) {
         sizes = {sizes.visitors_em_px * shrink, sizes.staff_em_px * shrink};
         page.letters.clear();
         height_px = set_page(page, 0.0, sizes, text, languages);

@@ -51,8 +51,8 @@ FRUSTUMSCREEN_INLINE Ints lit(const CastLight::Gain& gain, const PixelLanes& at,
     const Floats linear = gain.brightness * least(all(gain.most), share.linear * gain.per_cubic_metre *
                                                                       distance * distance * distance);
     const Floats power =
-        gain.brightness_code * least(all(gain.most_code), share.code * gain.per_cubic_metre_code * distance *
-                                                              root_of(root_of(distance)));
+        gain.brightness_code * least(all(gain.max_code), share.code * gain.per_cubic_metre_code * distance *
+                                                             root_of(root_of(distance)));
     const auto channel = [&](int shift) FRUSTUMSCREEN_INLINED {
         const Floats code = __builtin_convertvector(texels >> shift & 255, Floats);
         const Floats straight = linear * code;
@@ -152,7 +152,7 @@ CastLight::Gain gain_of(const FacePlan& face, const Pinhole& pinhole, bool even_
         gain.per_cubic_metre = face.light.per_cubic_metre;
         gain.per_cubic_metre_code = std::pow(face.light.per_cubic_metre, code_power);
         gain.most = face.light.most;
-        gain.most_code = std::pow(face.light.most, code_power);
+        gain.max_code = std::pow(face.light.most, code_power);
     }
     return gain;
 }

@@ -35,7 +35,7 @@ public:
         glm::vec2 ray_per_pixel{0.0F}, first_ray{0.0F}; ///< of an ideal pixel
         glm::vec3 inverse_depth{0.0F, 0.0F, 1.0F};
         float per_cubic_metre = 0.0F, per_cubic_metre_code = 0.0F;
-        float most = 1.0F, most_code = 1.0F;
+        float most = 1.0F, max_code = 1.0F;
         float brightness = 1.0F, brightness_code = 1.0F;
     };
 

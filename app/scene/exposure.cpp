@@ -64,7 +64,7 @@ double exposure_of(const PackLevel& level, const glm::dvec3& box_size, const Ima
     }
     const double highlight = linear_from_srgb(highlight_code / 255.0);
     const double now = linear_from_srgb(static_cast<double>(code) / 255.0);
-    return std::min(most_exposure, highlight / std::max(now, 1e-6));
+    return std::min(max_exposure, highlight / std::max(now, 1e-6));
 }
 
 } // namespace frustumscreen

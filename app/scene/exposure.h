@@ -13,7 +13,7 @@
 namespace frustumscreen {
 
 /// Limit for artifacts so dark that noise hides their brightest places.
-inline constexpr double most_exposure = 8.0;
+inline constexpr double max_exposure = 8.0;
 
 /// The factor that brings the level's brightest places to `highlight_code` where the compensation's gain is
 /// 1: 98 % of its surface, by area, have no channel above that code. 1 if `highlight_code` is 0. `box_size`:

@@ -14,7 +14,7 @@ namespace frustumscreen {
 namespace {
 
 /// More faces than any prop has; a fixed limit avoids allocation per frame.
-constexpr std::size_t most_faces = 16;
+constexpr std::size_t max_faces = 16;
 
 /// Values of one frame that faces and parts share.
 struct Shared {
@@ -58,7 +58,7 @@ std::optional<FaceView> look_through(std::size_t index, const Shared& shared) {
     const PropFace& face = shared.prop.faces[index];
     const glm::dvec3 middle = 0.5 * (face.corners[0] + face.corners[2]);
     if (!(face.plane.distance(shared.projector_in_prop) >
-          least_sine * glm::distance(shared.projector_in_prop, middle))) {
+          min_sine * glm::distance(shared.projector_in_prop, middle))) {
         return std::nullopt;
     }
     const glm::dvec3 eye = shared.eye(index);
@@ -167,9 +167,9 @@ bool plan_cast(const PlacedLevel& level, const Shared& shared, FramePlan& plan) 
 
 /// Part by part, because the triangles that face the eye are found once for all faces that share the eye.
 void plan_parts(std::span<const Part> parts, const Shared& shared, FramePlan& plan) {
-    const std::size_t faces = std::min(shared.prop.faces.size(), most_faces);
-    std::array<std::optional<FaceView>, most_faces> through{};
-    std::array<std::optional<std::size_t>, most_faces> planned{}; // index into plan.faces
+    const std::size_t faces = std::min(shared.prop.faces.size(), max_faces);
+    std::array<std::optional<FaceView>, max_faces> through{};
+    std::array<std::optional<std::size_t>, max_faces> planned{}; // index into plan.faces
     for (std::size_t face = 0; face < faces; ++face) {
         through[face] = look_through(face, shared);
     }
@@ -281,8 +281,8 @@ void compensate(const Shared& shared, const LightCompensation& compensation, Fra
     if (plan.faces.empty()) {
         return; // the eye or the lens may be inside the prop
     }
-    const std::size_t faces = std::min(shared.prop.faces.size(), most_faces);
-    std::array<SeenFace, most_faces> seen{};
+    const std::size_t faces = std::min(shared.prop.faces.size(), max_faces);
+    std::array<SeenFace, max_faces> seen{};
     for (std::size_t face = 0; face < faces; ++face) {
         seen[face] = {&shared.prop.faces[face], shared.eye(face)};
     }
@@ -322,7 +322,7 @@ FramePlan make_plan(const PropShape& prop, std::size_t indices, std::size_t part
     FramePlan plan;
     const std::size_t faces = prop.faces.size();
     plan.faces.reserve(faces);
-    plan.draws.reserve(parts * faces + most_on_table + 1 + faces);
+    plan.draws.reserve(parts * faces + max_on_table + 1 + faces);
     plan.feathers.reserve(4 * faces);
     // A triangle may show on every face. Reserved memory costs nothing until it is written.
     plan.indices.reserve(faces * indices);

@@ -92,11 +92,11 @@ struct PlanView {
     /// beyond the projector's maximum are clipped.
     double brightness = 1.0;
     std::optional<TablePicture> caption = std::nullopt;
-    std::span<const TablePicture> on_table = {}; ///< drawn before the caption, at most most_on_table
+    std::span<const TablePicture> on_table = {}; ///< drawn before the caption, at most max_on_table
 };
 /// Enough for a page of pictures with their titles, the ring around the prop, a hotspot, the zone's frame,
 /// signs and words, a notice and its ring.
-inline constexpr std::size_t most_on_table = 96;
+inline constexpr std::size_t max_on_table = 96;
 
 /// A run of FramePlan::indices.
 struct IndexRange {

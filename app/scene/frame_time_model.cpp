@@ -14,10 +14,10 @@ namespace {
 
 /// Limit of |log|: larger than any real change of a GPU's speed. It keeps a run of bad values from ending in
 /// infinity.
-constexpr double most_log = 7.0;
+constexpr double max_log = 7.0;
 
 double bounded(double logarithm) {
-    return std::clamp(logarithm, -most_log, most_log);
+    return std::clamp(logarithm, -max_log, max_log);
 }
 
 /// A frame that draws hardly anything says little about the others, so relative work is limited to a factor
@@ -34,17 +34,17 @@ bool FrameTimeModel::is_time(double ms) {
     return ms > 0.0 && ms <= longest_ms; // false for NaN
 }
 
-FrameTimeModel::FrameTimeModel(const std::vector<RungTime>& rungs) {
-    for (const RungTime& start : rungs) {
-        rungs_.push_back({start});
+FrameTimeModel::FrameTimeModel(const std::vector<QualityLevelTime>& quality_levels) {
+    for (const QualityLevelTime& start : quality_levels) {
+        quality_levels_.push_back({start});
         if (!is_time(start.ms)) {
-            rungs_.back().start.ms = std::numeric_limits<double>::infinity();
+            quality_levels_.back().start.ms = std::numeric_limits<double>::infinity();
         }
     }
     fit_shares();
 }
 
-double RungCost::ms(const FrameWork& work, int samples) const {
+double QualityLevelCost::ms(const FrameWork& work, int samples) const {
     return fixed_ms + ms_per_triangle * std::fmax(work.triangles, 0.0) +
            ms_per_sample * std::fmax(work.pixels, 0.0) * samples;
 }
@@ -53,24 +53,24 @@ namespace {
 
 /// Fit over the levels that are drawn in this way. A small ridge term helps where they cannot separate the
 /// terms.
-RungCost cost_of(const std::vector<RungTime>& rungs, bool relief, bool on_gpu) {
-    const auto is_alike = [=](const RungTime& rung) {
-        return rung.relief == relief && rung.on_gpu == on_gpu;
+QualityLevelCost cost_of(const std::vector<QualityLevelTime>& quality_levels, bool relief, bool on_gpu) {
+    const auto is_alike = [=](const QualityLevelTime& quality_level) {
+        return quality_level.relief == relief && quality_level.on_gpu == on_gpu;
     };
     glm::dvec3 most(1.0, 0.0, 0.0);
-    const auto terms = [](const RungTime& start) {
+    const auto terms = [](const QualityLevelTime& start) {
         return glm::dvec3(1.0, std::fmax(start.work.triangles, 0.0),
                           std::fmax(start.work.pixels, 0.0) * start.samples);
     };
-    for (const RungTime& rung : rungs) {
-        most = is_alike(rung) ? glm::max(most, terms(rung)) : most;
+    for (const QualityLevelTime& quality_level : quality_levels) {
+        most = is_alike(quality_level) ? glm::max(most, terms(quality_level)) : most;
     }
     const glm::dvec3 scale(1.0, most.y > 0.0 ? 1.0 / most.y : 0.0, most.z > 0.0 ? 1.0 / most.z : 0.0);
     glm::dmat3 normal(0.0);
     glm::dvec3 right(0.0);
-    for (const RungTime& rung : rungs) {
-        if (is_alike(rung) && FrameTimeModel::is_time(rung.ms)) {
-            const glm::dvec3 row = terms(rung) * scale / rung.ms;
+    for (const QualityLevelTime& quality_level : quality_levels) {
+        if (is_alike(quality_level) && FrameTimeModel::is_time(quality_level.ms)) {
+            const glm::dvec3 row = terms(quality_level) * scale / quality_level.ms;
             normal += glm::outerProduct(row, row);
             right += row;
         }
@@ -86,49 +86,55 @@ RungCost cost_of(const std::vector<RungTime>& rungs, bool relief, bool on_gpu) {
 
 } // namespace
 
-FrameCost cost_of(const std::vector<RungTime>& rungs) {
-    return {cost_of(rungs, false, false), cost_of(rungs, true, false), cost_of(rungs, true, true)};
+FrameCost cost_of(const std::vector<QualityLevelTime>& quality_levels) {
+    return {cost_of(quality_levels, false, false), cost_of(quality_levels, true, false),
+            cost_of(quality_levels, true, true)};
 }
 
-double FrameCost::ms(const RungTime& rung) const {
-    return of(rung).ms(rung.work, rung.samples);
+double FrameCost::ms(const QualityLevelTime& quality_level) const {
+    return of(quality_level).ms(quality_level.work, quality_level.samples);
 }
 
 void FrameTimeModel::fit_shares() {
-    std::vector<RungTime> starts;
-    for (const Rung& rung : rungs_) {
-        starts.push_back(rung.start);
+    std::vector<QualityLevelTime> starts;
+    for (const QualityLevel& quality_level : quality_levels_) {
+        starts.push_back(quality_level.start);
     }
     const FrameCost costs = cost_of(starts);
-    for (Rung& rung : rungs_) {
-        const RungCost& cost = costs.of(rung.start);
-        const double sum = costs.ms(rung.start);
+    for (QualityLevel& quality_level : quality_levels_) {
+        const QualityLevelCost& cost = costs.of(quality_level.start);
+        const double sum = costs.ms(quality_level.start);
         if (std::isfinite(sum) && sum > 0.0) {
-            rung.triangle_share = cost.ms_per_triangle * std::fmax(rung.start.work.triangles, 0.0) / sum;
-            rung.sample_share =
-                cost.ms_per_sample * std::fmax(rung.start.work.pixels, 0.0) * rung.start.samples / sum;
+            quality_level.triangle_share =
+                cost.ms_per_triangle * std::fmax(quality_level.start.work.triangles, 0.0) / sum;
+            quality_level.sample_share = cost.ms_per_sample *
+                                         std::fmax(quality_level.start.work.pixels, 0.0) *
+                                         quality_level.start.samples / sum;
         }
     }
 }
 
-double FrameTimeModel::relative_work(const Rung& rung, double triangles, double pixels) const {
-    return 1.0 + rung.triangle_share * (triangles - 1.0) + rung.sample_share * (pixels - 1.0);
+double FrameTimeModel::relative_work(const QualityLevel& quality_level, double triangles,
+                                     double pixels) const {
+    return 1.0 + quality_level.triangle_share * (triangles - 1.0) +
+           quality_level.sample_share * (pixels - 1.0);
 }
 
-double FrameTimeModel::expected_ms(std::size_t rung) const {
-    const Rung& r = rungs_[rung];
+double FrameTimeModel::expected_ms(std::size_t quality_level) const {
+    const QualityLevel& r = quality_levels_[quality_level];
     return r.start.ms * relative_work(r, triangles_, pixels_) * std::exp(r.log_own + log_load_);
 }
 
-bool FrameTimeModel::observe(std::size_t rung, const FrameWork& work, double ms, MonotonicTime now) {
+bool FrameTimeModel::observe(std::size_t quality_level, const FrameWork& work, double ms, MonotonicTime now) {
     if (!is_time(ms)) {
         return false;
     }
-    Rung& r = rungs_[rung];
-    const bool changed = last_rung_ && *last_rung_ != rung;
-    const double dt = last_rung_ ? std::clamp(to_seconds(now - last_time_), 0.0, most_dt_s) : time_constant_s;
-    learned_s_ = changed ? 0.0 : (last_rung_ ? learned_s_ + dt : learning_s);
-    last_rung_ = rung;
+    QualityLevel& r = quality_levels_[quality_level];
+    const bool changed = last_quality_level_ && *last_quality_level_ != quality_level;
+    const double dt =
+        last_quality_level_ ? std::clamp(to_seconds(now - last_time_), 0.0, max_dt_s) : time_constant_s;
+    learned_s_ = changed ? 0.0 : (last_quality_level_ ? learned_s_ + dt : learning_s);
+    last_quality_level_ = quality_level;
     last_time_ = now;
     const double triangles = relative(work.triangles, r.start.work.triangles);
     const double pixels = relative(work.pixels, r.start.work.pixels);

@@ -1,8 +1,8 @@
 /// Predicts the time of a frame on this GPU for each quality level of an artifact.
 ///
 /// Each quality level is measured at the start, at one pose. From there a frame's time is
-///   ms(rung) = start_ms(rung) * (fixed + triangles' share * their number + samples' share * their number)
-///              * own(rung) * load
+///   ms(quality level) = start_ms(quality level) * (fixed + triangles' share * their number + samples' share * their number)
+///              * own(quality level) * load
 /// with the numbers relative to those at the start: on the shipped set-up triangles and pixels explain half
 /// of the variation between poses (17 -> 8 % of the mean, four scans on llvmpipe). `load` is common to all
 /// levels: a GPU that is throttled or shared is slow for every quality level, also for those that are not
@@ -16,7 +16,7 @@
 /// the usual time moves the estimate by a fifth, and the effect decays within some tenths of a second.
 ///
 /// Units    milliseconds of wall time.
-/// Time     a parameter; time that goes back changes nothing. At most `most_dt_s` counts for one frame, so
+/// Time     a parameter; time that goes back changes nothing. At most `max_dt_s` counts for one frame, so
 ///          that the first frame after a long pause does not decide alone.
 /// Threads  values; one caller. `observe` allocates nothing.
 /// Errors   none: a value that is not a time (NaN, infinite, zero, negative, above `longest_ms`) is refused,
@@ -38,7 +38,7 @@ struct FrameWork {
 };
 
 /// A quality level as measured at the start.
-struct RungTime {
+struct QualityLevelTime {
     int samples = 1; ///< a pixel
     FrameWork work;
     double ms = 0.0;     ///< median of some frames; not a time if never measured: infinite until the first
@@ -49,7 +49,7 @@ struct RungTime {
 
 /// Cost of frames on this GPU, fitted to the quality levels measured on one artifact. It predicts the times
 /// of another artifact whose work per frame is known.
-struct RungCost {
+struct QualityLevelCost {
     double fixed_ms = 0.0;
     double ms_per_triangle = 0.0;
     double ms_per_sample = 0.0; ///< per sample of a pixel
@@ -58,35 +58,37 @@ struct RungCost {
 /// Meshes, reliefs rasterized on the processor and reliefs drawn by the GPU are drawn in different ways, with
 /// separate costs.
 struct FrameCost {
-    RungCost mesh, cast, on_gpu;
-    [[nodiscard]] const RungCost& of(const RungTime& rung) const {
-        return rung.on_gpu ? on_gpu : rung.relief ? cast : mesh;
+    QualityLevelCost mesh, cast, on_gpu;
+    [[nodiscard]] const QualityLevelCost& of(const QualityLevelTime& quality_level) const {
+        return quality_level.on_gpu ? on_gpu : quality_level.relief ? cast : mesh;
     }
     /// For the level's work and samples.
-    [[nodiscard]] double ms(const RungTime& rung) const;
+    [[nodiscard]] double ms(const QualityLevelTime& quality_level) const;
 };
 /// Least squares, each level weighted by 1 / ms^2; no term is negative. Levels without a valid time are
 /// skipped; if none is valid, all terms are 0, which is not a valid time either.
-[[nodiscard]] FrameCost cost_of(const std::vector<RungTime>& rungs);
+[[nodiscard]] FrameCost cost_of(const std::vector<QualityLevelTime>& quality_levels);
 
 class FrameTimeModel {
 public:
     static constexpr double time_constant_s = 0.2;
-    static constexpr double most_dt_s = 0.1;
+    static constexpr double max_dt_s = 0.1;
     static constexpr double longest_ms = 10e3; ///< a longer time is a fault, not a frame time
     static constexpr double learning_s = 0.5;  ///< length of frames after a change of level that adjust `own`
     static constexpr double forgetting_s = 10.0;
 
-    explicit FrameTimeModel(const std::vector<RungTime>& rungs);
+    explicit FrameTimeModel(const std::vector<QualityLevelTime>& quality_levels);
 
-    /// Takes the time of a frame drawn at `rung`. Returns false if `ms` is not a time; then nothing changes.
-    bool observe(std::size_t rung, const FrameWork& work, double ms, MonotonicTime now);
+    /// Takes the time of a frame drawn at `quality level`. Returns false if `ms` is not a time; then nothing changes.
+    bool observe(std::size_t quality_level, const FrameWork& work, double ms, MonotonicTime now);
 
     /// The time of the next frames, if their work is that of the latest ones.
-    [[nodiscard]] double expected_ms(std::size_t rung) const;
+    [[nodiscard]] double expected_ms(std::size_t quality_level) const;
 
     /// The level as measured at the start.
-    [[nodiscard]] const RungTime& start(std::size_t rung) const { return rungs_[rung].start; }
+    [[nodiscard]] const QualityLevelTime& start(std::size_t quality_level) const {
+        return quality_levels_[quality_level].start;
+    }
 
     /// Common to all artifacts of one GPU: pass it on when another artifact is shown.
     [[nodiscard]] double load() const;
@@ -95,20 +97,21 @@ public:
     [[nodiscard]] static bool is_time(double ms);
 
 private:
-    struct Rung {
-        RungTime start;
+    struct QualityLevel {
+        QualityLevelTime start;
         double triangle_share = 0.0; ///< share of `start.ms`
         double sample_share = 0.0;
         double log_own = 0.0;
     };
     void fit_shares();
-    [[nodiscard]] double relative_work(const Rung& rung, double triangles, double pixels) const;
+    [[nodiscard]] double relative_work(const QualityLevel& quality_level, double triangles,
+                                       double pixels) const;
 
-    std::vector<Rung> rungs_;
+    std::vector<QualityLevel> quality_levels_;
     double log_load_ = 0.0;
     double triangles_ = 1.0; ///< of the latest frames, smoothed; relative to the start
     double pixels_ = 1.0;
-    std::optional<std::size_t> last_rung_;
+    std::optional<std::size_t> last_quality_level_;
     MonotonicTime last_time_;
     double learned_s_ = 0.0; ///< time of frames since the last change of level
 };

@@ -27,41 +27,41 @@ double pixel_on_prop_m(const PropShape& prop, const Pinhole& projector,
 bool within_tolerance(const LevelError& error, const SeenError& worst, double mm_per_box,
                       double tolerance_mm) {
     constexpr double outline_share = 0.5;
-    constexpr double most_over_mean = 4.0;                     // two pixels for half a pixel
+    constexpr double max_over_mean = 4.0;                      // two pixels for half a pixel
     const auto within = [mm_per_box](float box, double most) { // false for NaN
         return static_cast<double>(box) * mm_per_box <= most;
     };
     return within(worst.mean_box, tolerance_mm) &&
            within(worst.outline_shift_box, outline_share * tolerance_mm) &&
-           within(error.max_box, most_over_mean * tolerance_mm);
+           within(error.max_box, max_over_mean * tolerance_mm);
 }
 
-std::vector<Rung> ladder(std::span<const LevelOutline> levels, const std::vector<bool>& enough, int samples,
-                         const std::optional<ReliefOutline>& relief, bool also_on_gpu) {
+std::vector<QualityLevel> ladder(std::span<const LevelOutline> levels, const std::vector<bool>& enough,
+                                 int samples, const std::optional<ReliefOutline>& relief, bool also_on_gpu) {
     std::size_t best = levels.size() - 1;
     for (std::size_t k = levels.size(); k-- > 0;) {
         if (enough[k] && (!enough[best] || levels[k].triangles <= levels[best].triangles)) {
             best = k;
         }
     }
-    constexpr double most_of_finer = 0.75;
-    std::vector<Rung> rungs;
+    constexpr double max_of_finer = 0.75;
+    std::vector<QualityLevel> quality_levels;
     std::uint64_t last_triangles = levels[best].triangles;
     for (std::size_t k = best + 1; k-- > 0;) {
         const std::uint64_t triangles = levels[k].triangles;
         if (k != best &&
-            static_cast<double>(triangles) > most_of_finer * static_cast<double>(last_triangles)) {
+            static_cast<double>(triangles) > max_of_finer * static_cast<double>(last_triangles)) {
             continue;
         }
         last_triangles = triangles;
         for (int s = std::max(samples, 1); s >= 1; s /= 2) {
-            rungs.push_back(
+            quality_levels.push_back(
                 {static_cast<std::uint32_t>(k), s, k == best && s == std::max(samples, 1) && enough[k]});
         }
     }
     if (relief) {
         const int full = std::max(samples, 1);
-        std::vector<Rung> of_relief;
+        std::vector<QualityLevel> of_relief;
         for (const bool on_gpu : {false, true}) {
             if (on_gpu && !also_on_gpu) {
                 continue;
@@ -71,50 +71,55 @@ std::vector<Rung> ladder(std::span<const LevelOutline> levels, const std::vector
                 of_relief.push_back({relief->texels, 1, false, true, on_gpu});
             }
         }
-        rungs.insert(std::find_if(rungs.begin(), rungs.end(),
-                                  [&](const Rung& rung) {
-                                      return levels[rung.level].error.p95_box > relief->error.p95_box;
-                                  }),
-                     of_relief.begin(), of_relief.end());
+        quality_levels.insert(std::find_if(quality_levels.begin(), quality_levels.end(),
+                                           [&](const QualityLevel& quality_level) {
+                                               return levels[quality_level.level].error.p95_box >
+                                                      relief->error.p95_box;
+                                           }),
+                              of_relief.begin(), of_relief.end());
     }
-    return rungs;
+    return quality_levels;
 }
 
-Governor::Governor(std::vector<Rung> rungs, const std::vector<RungTime>& times, double deadline_ms)
-    : rungs_(std::move(rungs)), model_(times), deadline_ms_(deadline_ms) {
-    current_ = rungs_.size(); // no current level, so that none is favoured
+Governor::Governor(std::vector<QualityLevel> quality_levels, const std::vector<QualityLevelTime>& times,
+                   double deadline_ms)
+    : quality_levels_(std::move(quality_levels)), model_(times), deadline_ms_(deadline_ms) {
+    current_ = quality_levels_.size(); // no current level, so that none is favoured
     current_ = wanted();
 }
 
-bool Governor::fits(std::size_t rung) const {
-    return model_.expected_ms(rung) <= (rung == current_ ? leave_share : enter_share) * deadline_ms_;
+bool Governor::fits(std::size_t quality_level) const {
+    return model_.expected_ms(quality_level) <=
+           (quality_level == current_ ? leave_share : enter_share) * deadline_ms_;
 }
 
-double Governor::cost(std::size_t rung) const {
-    return model_.expected_ms(rung) * (rung == current_ ? worth_saving : 1.0);
+double Governor::cost(std::size_t quality_level) const {
+    return model_.expected_ms(quality_level) * (quality_level == current_ ? worth_saving : 1.0);
 }
 
 std::size_t Governor::wanted() const {
     constexpr auto none = std::numeric_limits<std::size_t>::max();
     std::size_t enough = none;
     std::size_t best = none;
-    std::size_t quickest = rungs_.size() - 1;
-    for (std::size_t k = rungs_.size(); k-- > 0;) {
+    std::size_t quickest = quality_levels_.size() - 1;
+    for (std::size_t k = quality_levels_.size(); k-- > 0;) {
         quickest = cost(k) < cost(quickest) ? k : quickest;
         if (fits(k)) {
             best = k;
-            enough = rungs_[k].enough && (enough == none || cost(k) <= cost(enough)) ? k : enough;
+            enough = quality_levels_[k].enough && (enough == none || cost(k) <= cost(enough)) ? k : enough;
         }
     }
     return enough != none ? enough : (best != none ? best : quickest);
 }
 
 std::optional<std::size_t> Governor::doubted() const {
-    const std::size_t count = rungs_.size();
-    const auto triangles = [this](std::size_t rung) { return model_.start(rung).work.triangles; };
+    const std::size_t count = quality_levels_.size();
+    const auto triangles = [this](std::size_t quality_level) {
+        return model_.start(quality_level).work.triangles;
+    };
     for (std::size_t step = 1; step <= count; ++step) {
         const std::size_t k = (tried_ + count - step) % count;
-        if (k != current_ && rungs_[k].samples <= rungs_[current_].samples &&
+        if (k != current_ && quality_levels_[k].samples <= quality_levels_[current_].samples &&
             triangles(k) <= triangles(current_)) {
             return k;
         }
@@ -122,15 +127,15 @@ std::optional<std::size_t> Governor::doubted() const {
     return std::nullopt;
 }
 
-void Governor::change_to(std::size_t rung, MonotonicTime now) {
+void Governor::change_to(std::size_t quality_level, MonotonicTime now) {
     const bool relief = !fits(current_);
     if (relief && entered_for_quality_) {
         // A level that was entered for quality and did not last is tried again after an ever longer time.
         const bool lasted = now - changed_ >= 4 * patience_;
-        patience_ = lasted ? least_patience : std::min(2 * patience_, most_patience);
+        patience_ = lasted ? min_patience : std::min(2 * patience_, max_patience);
     }
     entered_for_quality_ = !relief;
-    current_ = rung;
+    current_ = quality_level;
     changed_ = now;
     wanted_ = Change::None;
     ++switches_;
@@ -147,15 +152,15 @@ void Governor::observe(MonotonicTime now, const FrameWork& work, double ms) {
     }
     if (now - changed_ >= dwell && current_ == tried_) {
         if (model_.expected_ms(current_) < worth_saving * tried_at_ms_) {
-            try_patience_ = least_patience; // the try succeeded: the next one may follow as soon
+            try_patience_ = min_patience; // the try succeeded: the next one may follow as soon
         }
         tried_at_ms_ = 0.0;
     }
     std::size_t better = wanted();
     Change wanted = better == current_ ? Change::None : (fits(current_) ? Change::Quality : Change::Relief);
     if (wanted == Change::None && !fits(current_)) {
-        if (const std::optional<std::size_t> rung = doubted()) {
-            better = *rung;
+        if (const std::optional<std::size_t> quality_level = doubted()) {
+            better = *quality_level;
             wanted = Change::Try;
         }
     }
@@ -170,7 +175,7 @@ void Governor::observe(MonotonicTime now, const FrameWork& work, double ms) {
     if (wanted == Change::Try) {
         tried_ = better;
         tried_at_ms_ = model_.expected_ms(current_);
-        try_patience_ = std::min(2 * try_patience_, most_patience);
+        try_patience_ = std::min(2 * try_patience_, max_patience);
     }
     change_to(better, now);
 }

@@ -58,14 +58,14 @@ namespace frustumscreen {
                                      const RigidTransform& projector_from_prop);
 
 /// One quality level: one way to draw an artifact.
-struct Rung {
+struct QualityLevel {
     std::uint32_t level = 0; ///< index into Pack::levels; for a relief, its texels (pack_relief.h)
     int samples = 1;         ///< a pixel
     bool enough = false;     ///< within the tolerance, with the samples that the artifact asks for
     bool relief = false;     ///< a relief; rasterized on the processor unless `on_gpu`
     bool on_gpu = false;     ///< the GPU draws the relief
 
-    [[nodiscard]] bool shows_as(const Rung& other) const {
+    [[nodiscard]] bool shows_as(const QualityLevel& other) const {
         return level == other.level && relief == other.relief && on_gpu == other.on_gpu;
     }
 };
@@ -80,9 +80,10 @@ struct Rung {
 /// mesh level, whether it is good enough. `relief`, which must be good enough, comes before the less exact
 /// mesh levels, with `samples` and with 1: rasterized on the processor and, if `also_on_gpu`, drawn by the
 /// GPU.
-[[nodiscard]] std::vector<Rung> ladder(std::span<const LevelOutline> levels, const std::vector<bool>& enough,
-                                       int samples, const std::optional<ReliefOutline>& relief = std::nullopt,
-                                       bool also_on_gpu = false);
+[[nodiscard]] std::vector<QualityLevel> ladder(std::span<const LevelOutline> levels,
+                                               const std::vector<bool>& enough, int samples,
+                                               const std::optional<ReliefOutline>& relief = std::nullopt,
+                                               bool also_on_gpu = false);
 
 class Governor {
 public:
@@ -92,17 +93,18 @@ public:
     /// A level is left when it was too slow for this long: by then the effect of a single slow frame has
     /// decayed, and a lasting change is fully known.
     static constexpr Nanoseconds relief_delay = std::chrono::milliseconds(250);
-    static constexpr Nanoseconds least_patience = std::chrono::seconds(2);
-    static constexpr Nanoseconds most_patience = std::chrono::seconds(512);
+    static constexpr Nanoseconds min_patience = std::chrono::seconds(2);
+    static constexpr Nanoseconds max_patience = std::chrono::seconds(512);
 
     /// `times`: one for each level, measured on this GPU. At least one level is required.
-    Governor(std::vector<Rung> rungs, const std::vector<RungTime>& times, double deadline_ms);
+    Governor(std::vector<QualityLevel> quality_levels, const std::vector<QualityLevelTime>& times,
+             double deadline_ms);
 
     [[nodiscard]] std::size_t index() const { return current_; }
-    [[nodiscard]] const Rung& rung() const { return rungs_[current_]; }
+    [[nodiscard]] const QualityLevel& quality_level() const { return quality_levels_[current_]; }
     [[nodiscard]] double expected_ms() const { return model_.expected_ms(current_); }
 
-    /// A frame of `rung()` took `ms`; afterwards `rung()` may be another.
+    /// A frame of `quality level()` took `ms`; afterwards `quality level()` may be another.
     void observe(MonotonicTime now, const FrameWork& work, double ms);
 
     /// The artifact comes on: chooses the level for the GPU's present load. The change is invisible, so it
@@ -117,14 +119,14 @@ private:
     enum class Change { None, Relief, Quality, Try };
     [[nodiscard]] Nanoseconds delay_of(Change change) const;
     [[nodiscard]] std::size_t wanted() const;
-    [[nodiscard]] bool fits(std::size_t rung) const;
-    [[nodiscard]] double cost(std::size_t rung) const;
+    [[nodiscard]] bool fits(std::size_t quality_level) const;
+    [[nodiscard]] double cost(std::size_t quality_level) const;
     /// A level that should be quicker than `current_`, whatever its time at the start; nullopt: `current_`
     /// has the least work.
     [[nodiscard]] std::optional<std::size_t> doubted() const;
-    void change_to(std::size_t rung, MonotonicTime now);
+    void change_to(std::size_t quality_level, MonotonicTime now);
 
-    std::vector<Rung> rungs_;
+    std::vector<QualityLevel> quality_levels_;
     FrameTimeModel model_;
     double deadline_ms_;
     std::size_t current_ = 0;
@@ -132,8 +134,8 @@ private:
     MonotonicTime changed_; ///< when `current_` was entered
     Change wanted_ = Change::None;
     MonotonicTime wanted_since_;
-    Nanoseconds patience_ = least_patience;
-    Nanoseconds try_patience_ = least_patience;
+    Nanoseconds patience_ = min_patience;
+    Nanoseconds try_patience_ = min_patience;
     std::size_t tried_ = 0;    ///< the level that was tried last because of doubt
     double tried_at_ms_ = 0.0; ///< expected time of the level before it; 0: the try has been judged
     std::uint64_t switches_ = 0;

@@ -33,7 +33,7 @@ double least_light(const PropFace& face, const glm::dvec3& projector) {
 LightCompensation light_compensation(const Settings& settings) {
     LightCompensation compensation;
     compensation.reference = even_light(settings);
-    compensation.least_share = settings.prop.zone == PropZone::Hand ? 1.0 : compensation.least_share;
+    compensation.min_share = settings.prop.zone == PropZone::Hand ? 1.0 : compensation.min_share;
     return compensation;
 }
 
@@ -42,7 +42,7 @@ double reference_light(std::span<const SeenFace> faces, const glm::dvec3& projec
     double share = 1.0;
     for (const SeenFace& each : faces) {
         const double reached = std::clamp(least_light(*each.face, projector) / compensation.reference,
-                                          compensation.least_share, 1.0);
+                                          compensation.min_share, 1.0);
         const double seen = std::clamp(sine_above(*each.face, each.eye) / full_sine_of_sight, 0.0, 1.0);
         share = std::min(share, std::pow(reached, seen));
     }
@@ -57,8 +57,8 @@ FaceLight face_light(const PropFace& face, const glm::dmat4& projector_from_prop
     FaceLight light;
     light.inverse_depth = glm::vec3(m / h);
     const glm::dvec3 projector = glm::transpose(rotation) * -glm::dvec3(projector_from_prop[3]);
-    const double most = ease((sine_above(face, projector) - least_sine_of_light) /
-                             (full_sine_of_light - least_sine_of_light));
+    const double most =
+        ease((sine_above(face, projector) - min_sine_of_light) / (full_sine_of_light - min_sine_of_light));
     light.most = static_cast<float>(most);
     // `h` is measured from the projector's origin along m: the projector is -h above the plane.
     light.per_cubic_metre = static_cast<float>(most * reference / -h);

@@ -9,7 +9,7 @@
 ///
 /// Where a face that the eye sees gets less than the reference, no gain can help: the projector is at its
 /// maximum. Then the whole artifact dims with that face, weighted by how much of the face the eye sees, but
-/// not below `least_share`; a face that gets even less dims alone. A face lit at a grazing angle fades out,
+/// not below `min_share`; a face that gets even less dims alone. A face lit at a grazing angle fades out,
 /// because there a pixel becomes a long stripe.
 ///
 /// Frames   prop P, metres. Light in units of the light on a surface square to the projector at 1 m.
@@ -30,7 +30,7 @@ struct LightCompensation {
     /// The light that every place is dimmed to.
     double reference = 0.25;
     /// Lower limit for dimming the artifact as a whole, 0..1; 1: it never dims.
-    double least_share = 0.3;
+    double min_share = 0.3;
 };
 
 /// The exhibit's compensation in this set-up. In the hand an artifact never dims as a whole, because a
@@ -38,7 +38,7 @@ struct LightCompensation {
 [[nodiscard]] LightCompensation light_compensation(const Settings& settings);
 
 /// Sine of the light's elevation above a face's middle: from here on a face counts as fully lit; down to
-/// least_sine_of_light (lit_zone.h) it fades out. At 0.12, a pixel of 0.42 mm makes a stripe of 3.5 mm.
+/// min_sine_of_light (lit_zone.h) it fades out. At 0.12, a pixel of 0.42 mm makes a stripe of 3.5 mm.
 inline constexpr double full_sine_of_light = 0.3;
 
 /// A face of the prop, and the eye that its picture is for.

@@ -8,7 +8,7 @@ void LitTiles::begin(int picture_width, int picture_height) {
     width_ = picture_width;
     height_ = picture_height;
     constexpr int usual_tile = 16;
-    for (tile_ = usual_tile; tile_ * most_tiles < std::max(width_, height_);) {
+    for (tile_ = usual_tile; tile_ * max_tiles < std::max(width_, height_);) {
         tile_ *= 2;
     }
     bounds_ = {};
@@ -39,7 +39,7 @@ void LitTiles::finish() {
         const Row& row = rows_[static_cast<std::size_t>(y / tile_)];
         for (int column = 0; column * tile_ < width_; ++column) {
             const int first = column;
-            while (column < most_tiles && row.test(static_cast<std::size_t>(column))) {
+            while (column < max_tiles && row.test(static_cast<std::size_t>(column))) {
                 ++column;
             }
             if (column > first && !add({first * tile_, y, (column - first) * tile_, tile_})) {
@@ -69,7 +69,7 @@ bool LitTiles::add(const PixelRectangle& run) {
             return true;
         }
     }
-    if (count_ == most_rectangles) {
+    if (count_ == max_rectangles) {
         return false;
     }
     rectangles_[count_++] = inside;

@@ -19,7 +19,7 @@ namespace frustumscreen {
 
 class LitTiles {
 public:
-    static constexpr std::size_t most_rectangles = 96;
+    static constexpr std::size_t max_rectangles = 96;
 
     /// Begins a picture without lit tiles.
     void begin(int picture_width, int picture_height);
@@ -36,16 +36,16 @@ public:
     [[nodiscard]] PixelRectangle bounds() const { return bounds_; }
 
 private:
-    static constexpr int most_tiles = 256; ///< along a side
-    using Row = std::bitset<most_tiles>;
+    static constexpr int max_tiles = 256; ///< along a side
+    using Row = std::bitset<max_tiles>;
 
     [[nodiscard]] bool add(const PixelRectangle& rectangle);
 
     int tile_ = 16;
     int width_ = 0, height_ = 0;
     PixelRectangle bounds_;
-    std::array<Row, most_tiles> rows_{};
-    std::array<PixelRectangle, most_rectangles> rectangles_{};
+    std::array<Row, max_tiles> rows_{};
+    std::array<PixelRectangle, max_rectangles> rectangles_{};
     std::size_t count_ = 0;
 };
 

@@ -15,9 +15,9 @@ double PixelDensity::share(double distance_m, const Pinhole& projector) const {
 }
 
 int samples_at(double density, int samples) {
-    constexpr double least_density = 0.5;
+    constexpr double min_density = 0.5;
     constexpr int most = 16;
-    while (samples > 0 && samples < most && density > 0.0 && density < least_density) {
+    while (samples > 0 && samples < most && density > 0.0 && density < min_density) {
         samples *= 2;
         density *= std::numbers::sqrt2;
     }

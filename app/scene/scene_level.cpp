@@ -15,7 +15,7 @@ namespace frustumscreen {
 namespace {
 
 /// With more views than this, views are not planned one by one.
-constexpr std::size_t most_planned_views = 64;
+constexpr std::size_t max_planned_views = 64;
 
 /// For each triangle, whether some eye of the zone may see it.
 std::vector<bool> seen_triangles(const LevelTriangles& triangles, const PointZone& eyes,
@@ -70,8 +70,8 @@ void measure_detail(const Pack& pack, const ScenePlan& plan, SceneLevel& level) 
                        plan.metres_per_box,
                        {},
                        0};
-    for (const Rung& rung : plan.rungs) {
-        placed.samples = std::max(placed.samples, rung.samples);
+    for (const QualityLevel& quality_level : plan.quality_levels) {
+        placed.samples = std::max(placed.samples, quality_level.samples);
     }
     FramePlan frame = make_plan(plan.prop, placed);
     const Image8& texture = pack.textures[level.mesh.texture];
@@ -138,7 +138,7 @@ SceneLevel whole_level(const Pack& pack, std::uint32_t level) {
 
 SceneLevel scene_level(const Pack& pack, std::uint32_t level, const ScenePlan& plan) {
     SceneLevel made = whole_level(pack, level);
-    if ((plan.economies & UnseenTriangles) != 0 && !plan.visibility.eyes.anywhere) {
+    if ((plan.cull_kinds & UnseenTriangles) != 0 && !plan.visibility.eyes.anywhere) {
         const LevelTriangles triangles = triangles_of(made.mesh, pack.box_size);
         PackLevel seen =
             part_of(made.mesh, seen_triangles(triangles, plan.visibility.eyes, plan.metres_per_box));
@@ -148,7 +148,7 @@ SceneLevel scene_level(const Pack& pack, std::uint32_t level, const ScenePlan& p
         made.mesh = std::move(seen);
     }
     const std::size_t views = plan.visibility.views.size();
-    if ((plan.economies & UnusedDetail) != 0 && views > 0 && views <= most_planned_views) {
+    if ((plan.cull_kinds & UnusedDetail) != 0 && views > 0 && views <= max_planned_views) {
         measure_detail(pack, plan, made);
     }
     return made;

@@ -77,12 +77,12 @@ struct PackReliefs {
 
 /// Collects the levels and reliefs that the quality levels draw, each once.
 void choose_what_is_read(const PackReliefs& reliefs, ScenePlan& plan) {
-    for (const Rung& rung : plan.rungs) {
-        if (!rung.relief && !in(plan.levels, rung.level)) {
-            plan.levels.push_back(rung.level);
+    for (const QualityLevel& quality_level : plan.quality_levels) {
+        if (!quality_level.relief && !in(plan.levels, quality_level.level)) {
+            plan.levels.push_back(quality_level.level);
         }
-        if (rung.relief && !relief_of(plan.reliefs, rung.level)) {
-            plan.reliefs.push_back(relief_of(reliefs.outlines, rung.level).value());
+        if (quality_level.relief && !relief_of(plan.reliefs, quality_level.level)) {
+            plan.reliefs.push_back(relief_of(reliefs.outlines, quality_level.level).value());
             plan.seen_reliefs.push_back(reliefs.seen_of(plan.reliefs.back()));
         }
     }
@@ -105,7 +105,7 @@ void leave_out_levels(const PackOutline& pack, const SceneRequest& request, doub
         (governed && !plan.levels.empty() && level > plan.levels.front() ? finer : others)
             .push_back(fmt::format("{}", level));
     }
-    if ((plan.economies & UnusedLevels) == 0) {
+    if ((plan.cull_kinds & UnusedLevels) == 0) {
         plan.levels.insert(plan.levels.end(), unused.begin(), unused.end());
         return;
     }
@@ -117,26 +117,27 @@ void leave_out_levels(const PackOutline& pack, const SceneRequest& request, doub
     }
     if (!others.empty()) {
         plan.left_out.push_back({UnusedLevels, listed("level", "levels", others),
-                                 governed ? "coarser, and saves too little time to be worth a change"
-                                          : fmt::format("the technique \"{}\" draws {} alone",
-                                                        request.technique, name_of(plan.rungs.front()))});
+                                 governed
+                                     ? "coarser, and saves too little time to be worth a change"
+                                     : fmt::format("the technique \"{}\" draws {} alone", request.technique,
+                                                   name_of(plan.quality_levels.front()))});
     }
 }
 
 void choose_levels(const PackOutline& pack, const SceneRequest& request, double tolerance_mm,
-                   double pixel_box, Rung asked, const PackReliefs& reliefs, ScenePlan& plan) {
+                   double pixel_box, QualityLevel asked, const PackReliefs& reliefs, ScenePlan& plan) {
     const bool governed = request.live && request.technique == "auto";
     asked.samples = request.samples > 0 ? request.samples : pack.description.samples;
     asked.enough = true;
-    plan.rungs = {asked};
+    plan.quality_levels = {asked};
     if (governed) {
         const auto is_good = [&](const ReliefOutline& relief) {
             return within_tolerance(relief.error, worst_of(reliefs.seen_of(relief)),
                                     1e3 * plan.metres_per_box, tolerance_mm);
         };
         const std::optional<ReliefOutline> relief = relief_for(reliefs.outlines, pixel_box, is_good);
-        plan.rungs = ladder(pack.levels, good_levels(pack, plan, tolerance_mm), asked.samples, relief,
-                            relief && relief->blocks <= request.most_blocks_on_gpu);
+        plan.quality_levels = ladder(pack.levels, good_levels(pack, plan, tolerance_mm), asked.samples,
+                                     relief, relief && relief->blocks <= request.max_blocks_on_gpu);
     }
     choose_what_is_read(reliefs, plan);
     plan.exposure_level = plan.levels.empty() ? pack.description.default_level : plan.levels.front();
@@ -146,7 +147,7 @@ void choose_levels(const PackOutline& pack, const SceneRequest& request, double 
 void choose_captions(const Settings& settings, const PackOutline& pack, const SceneRequest& request,
                      ScenePlan& plan) {
     const std::size_t captions = pack.description.captions.size();
-    if ((plan.economies & UnusedCaptions) == 0 && request.live) {
+    if ((plan.cull_kinds & UnusedCaptions) == 0 && request.live) {
         for (std::size_t k = 0; k < captions; ++k) {
             plan.captions.push_back(k);
         }
@@ -172,10 +173,13 @@ void choose_captions(const Settings& settings, const PackOutline& pack, const Sc
 
 /// Shaders for each quality level, in each light and, if levels fade, dithered too. A relief rasterized on
 /// the processor gets its light there.
-void choose_rung_shaders(bool plain_light, bool even_light, bool fades, ScenePlan& plan) {
-    const auto any = [&](const auto& is) { return std::any_of(plan.rungs.begin(), plan.rungs.end(), is); };
-    const bool casts = any([](const Rung& rung) { return rung.relief && !rung.on_gpu; });
-    const bool blocks = any([](const Rung& rung) { return rung.on_gpu; });
+void choose_quality_level_shaders(bool plain_light, bool even_light, bool fades, ScenePlan& plan) {
+    const auto any = [&](const auto& is) {
+        return std::any_of(plan.quality_levels.begin(), plan.quality_levels.end(), is);
+    };
+    const bool casts =
+        any([](const QualityLevel& quality_level) { return quality_level.relief && !quality_level.on_gpu; });
+    const bool blocks = any([](const QualityLevel& quality_level) { return quality_level.on_gpu; });
     std::vector<ShaderKey> keys;
     for (const bool dithered : {false, true}) {
         if (dithered && !fades) {
@@ -205,31 +209,32 @@ void choose_rung_shaders(bool plain_light, bool even_light, bool fades, ScenePla
 
 /// Samples a pixel of the picture that the GPU draws into. A relief rasterized on the processor takes its
 /// samples there.
-int samples_of(const SceneRequest& request, const Rung& rung) {
-    if (rung.relief && !rung.on_gpu) {
+int samples_of(const SceneRequest& request, const QualityLevel& quality_level) {
+    if (quality_level.relief && !quality_level.on_gpu) {
         return 1;
     }
     const bool has_headroom = request.live && request.room > 1;
-    return has_headroom ? request.room : std::max(rung.samples, request.room);
+    return has_headroom ? request.room : std::max(quality_level.samples, request.room);
 }
 
 void choose_shaders(const SceneRequest& request, bool signs, ScenePlan& plan) {
-    const bool all = (plan.economies & UnusedShaders) == 0;
-    const bool fades = all || std::any_of(plan.rungs.begin(), plan.rungs.end(), [&](const Rung& rung) {
-                           return !rung.shows_as(plan.rungs.front());
-                       });
+    const bool all = (plan.cull_kinds & UnusedShaders) == 0;
+    const bool fades = all || std::any_of(plan.quality_levels.begin(), plan.quality_levels.end(),
+                                          [&](const QualityLevel& quality_level) {
+                                              return !quality_level.shows_as(plan.quality_levels.front());
+                                          });
     const bool plain = all || !request.light;
     const bool even = all || request.light;
     RenderNeeds& needs = plan.needs;
-    choose_rung_shaders(plain, even, fades, plan);
+    choose_quality_level_shaders(plain, even, fades, plan);
     if (even) {
         needs.draws.insert({ShaderKey::Pass::EdgeFeather});
     }
-    if (!plan.captions.empty() || (plan.economies & UnusedCaptions) == 0 || signs) {
+    if (!plan.captions.empty() || (plan.cull_kinds & UnusedCaptions) == 0 || signs) {
         needs.draws.insert({ShaderKey::Pass::TablePicture});
     }
-    for (const Rung& rung : plan.rungs) {
-        needs.samples = std::max(needs.samples, samples_of(request, rung));
+    for (const QualityLevel& quality_level : plan.quality_levels) {
+        needs.samples = std::max(needs.samples, samples_of(request, quality_level));
     }
     if (!plain) {
         plan.left_out.push_back({UnusedShaders, "the shader without light compensation",
@@ -255,7 +260,7 @@ void choose_faces(ScenePlan& plan) {
         const Plane& plane = plan.prop.faces[face].plane;
         const bool seen = above(plan.visibility.eyes, plane);
         const bool lit = above(plan.visibility.lens, plane);
-        if ((seen && lit) || (plan.economies & UnseenFaces) == 0) {
+        if ((seen && lit) || (plan.cull_kinds & UnseenFaces) == 0) {
             plan.faces |= 1U << face;
         } else {
             (seen ? unlit : unseen).emplace_back(plan.prop.faces[face].name);
@@ -308,23 +313,23 @@ std::string techniques_of(const PackOutline& pack, const std::vector<ReliefOutli
 
 } // namespace
 
-std::string name_of(const Rung& rung) {
-    return fmt::format("{}{}{}", rung.relief ? relief_prefix : level_prefix, rung.level,
-                       rung.on_gpu ? on_gpu_suffix : "");
+std::string name_of(const QualityLevel& quality_level) {
+    return fmt::format("{}{}{}", quality_level.relief ? relief_prefix : level_prefix, quality_level.level,
+                       quality_level.on_gpu ? on_gpu_suffix : "");
 }
 
-Result<Rung> rung_of(const PackOutline& pack, std::string_view technique, double pixel_box) {
+Result<QualityLevel> quality_level_of(const PackOutline& pack, std::string_view technique, double pixel_box) {
     TRY(const std::vector<ReliefOutline> reliefs, reliefs_of(pack.description));
     const auto levels = static_cast<std::uint32_t>(pack.levels.size());
     if (technique == "auto") {
-        return Rung{pack.description.default_level};
+        return QualityLevel{pack.description.default_level};
     }
     if (technique == "finest") {
-        return Rung{levels - 1};
+        return QualityLevel{levels - 1};
     }
     if (const std::optional<std::uint32_t> level = number_behind(level_prefix, technique);
         level && *level < levels) {
-        return Rung{*level};
+        return QualityLevel{*level};
     }
     const std::string_view of = without_gpu(technique);
     std::optional<std::uint32_t> texels = number_behind(relief_prefix, of);
@@ -334,7 +339,7 @@ Result<Rung> rung_of(const PackOutline& pack, std::string_view technique, double
         texels = relief->texels;
     }
     if (texels && relief_of(reliefs, *texels)) {
-        return Rung{*texels, 1, false, true, of != technique};
+        return QualityLevel{*texels, 1, false, true, of != technique};
     }
     return bad_input("scene.no_technique", "technique '{}' is not in this pack; it has {}{}", technique,
                      techniques_of(pack, reliefs),
@@ -348,10 +353,10 @@ bool is_technique(std::string_view name) {
            number_behind(relief_prefix, of);
 }
 
-std::string_view name_of(Economy economy) {
+std::string_view name_of(CullKind cull_kind) {
     constexpr std::array<std::string_view, 6> names{"levels", "captions",  "shaders",
                                                     "faces",  "triangles", "detail"};
-    return names.at(static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(economy))));
+    return names.at(static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(cull_kind))));
 }
 
 Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, const SceneRequest& request) {
@@ -359,7 +364,7 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
     TRY(SeenByEyes seen, seen_by_eyes(pack));
     ScenePlan plan;
     plan.seen = std::move(seen.levels);
-    plan.economies = request.economies;
+    plan.cull_kinds = request.cull_kinds;
     plan.projector = settings.projector.pinhole;
     plan.table_from_projector = settings.projector.table_from_projector;
     plan.prop = make_prop(settings.prop);
@@ -371,7 +376,7 @@ Result<ScenePlan> plan_scene(const Settings& settings, const PackOutline& pack, 
     }
     const double pixel_m =
         pixel_on_prop_m(plan.prop, plan.projector, settings.projector.table_from_projector.inverse());
-    TRY(const Rung asked, rung_of(pack, request.technique, pixel_m / plan.metres_per_box));
+    TRY(const QualityLevel asked, quality_level_of(pack, request.technique, pixel_m / plan.metres_per_box));
     choose_levels(pack, request, 1e3 * settings.render.error_tolerance_px * pixel_m,
                   pixel_m / plan.metres_per_box, asked, {std::move(reliefs), std::move(seen.reliefs)}, plan);
     choose_captions(settings, pack, request, plan);

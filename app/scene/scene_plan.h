@@ -1,7 +1,7 @@
 /// The needs of a scene, decided before anything of it is loaded: a pure function of the settings, a pack's
 /// outline and the possible views. Nothing outside the plan is read, compiled, allocated or opened.
 ///
-/// The plan leaves out things by cull kind (`Economy`), each with its reason. With or without them a scene
+/// The plan leaves out things by cull kind (`CullKind`), each with its reason. With or without them a scene
 /// draws the same picture, pixel for pixel, at every pose that the plan was made for: the tests check this,
 /// and `frustumscreen plan` measures the saving of each kind by drawing with and without it.
 ///
@@ -35,15 +35,16 @@ namespace frustumscreen {
 inline constexpr std::string_view on_gpu_suffix = "-gpu";
 [[nodiscard]] bool is_technique(std::string_view name);
 /// "level0", "relief96", "relief96-gpu".
-[[nodiscard]] std::string name_of(const Rung& rung);
+[[nodiscard]] std::string name_of(const QualityLevel& quality_level);
 /// The way to draw for a technique's name, without its samples. "auto": the pack's default level; "finest";
 /// "level0", "level1", ...; "relief96", "relief192", ...: by texels; "relief": the coarsest relief whose
 /// texel is not clearly larger than a pixel of `pixel_box` on the prop, otherwise the finest. A relief is
 /// rasterized on the processor; "relief-gpu", "relief96-gpu", ... are drawn by the GPU.
-[[nodiscard]] Result<Rung> rung_of(const PackOutline& pack, std::string_view technique, double pixel_box);
+[[nodiscard]] Result<QualityLevel> quality_level_of(const PackOutline& pack, std::string_view technique,
+                                                    double pixel_box);
 
 /// A cull kind: one kind of thing that a scene plan leaves out; bits.
-enum Economy : unsigned {
+enum CullKind : unsigned {
     UnusedLevels = 1,     ///< levels that neither the technique nor the governor can choose, and their
                           ///< textures
     UnusedCaptions = 2,   ///< texts, the typeface, the caption's pass
@@ -51,12 +52,12 @@ enum Economy : unsigned {
     UnseenFaces = 8,      ///< faces of the prop that are never both seen and lit
     UnseenTriangles = 16, ///< triangles, and clusters of them, that always face away
     UnusedDetail = 32,    ///< mip levels finer than any pose needs; samples that no pose takes
-    AllEconomies = 63
+    AllCullKinds = 63
 };
-[[nodiscard]] std::string_view name_of(Economy economy);
+[[nodiscard]] std::string_view name_of(CullKind cull_kind);
 
 struct LeftOut {
-    Economy economy = UnusedLevels;
+    CullKind cull_kind = UnusedLevels;
     std::string what;
     std::string why;
 };
@@ -67,23 +68,23 @@ struct SceneRequest {
     bool live = true; ///< the governor may choose among levels; otherwise a technique is one level
     /// The governor may also let the GPU draw a relief of up to this many blocks. 0 where the driver draws on
     /// the processor: there this program rasterizes them many times more quickly.
-    std::uint32_t most_blocks_on_gpu = 0;
+    std::uint32_t max_blocks_on_gpu = 0;
     bool light = true;
     int samples = 0; ///< a pixel; 0 = what the pack asks for
     /// Sample headroom: samples a pixel that the render target can hold wherever the prop stands; a smaller
     /// part of the picture may take more. Without headroom (1), and for pictures from poses, the target holds
     /// what the pack asks for.
     int room = 1;
-    unsigned economies = AllEconomies;
+    unsigned cull_kinds = AllCullKinds;
     std::vector<std::size_t> captions; ///< of Pack::captions: those that a visitor can reach
     bool table_pictures = false;       ///< other artifacts lie on the table
     Visibility visibility;
 };
 
 struct ScenePlan {
-    std::vector<Rung> rungs;            ///< the quality levels of the artifact, best first
-    std::vector<std::uint32_t> levels;  ///< of the pack, to read and upload; those of `rungs` first
-    std::vector<ReliefOutline> reliefs; ///< of the pack, to read: those of `rungs`
+    std::vector<QualityLevel> quality_levels; ///< the quality levels of the artifact, best first
+    std::vector<std::uint32_t> levels;  ///< of the pack, to read and upload; those of `quality levels` first
+    std::vector<ReliefOutline> reliefs; ///< of the pack, to read: those of `quality levels`
     /// Of the pack, for exposure_of: the first of `levels`. If only reliefs are drawn, it is the pack's
     /// default level, which is read for this purpose but not uploaded, so that meshes and reliefs of one
     /// artifact are equally bright.
@@ -92,7 +93,7 @@ struct ScenePlan {
     std::uint32_t faces = 0;           ///< of the prop, bits: those that may show
     /// As if all textures were opaque: an outline does not tell which of them have cut-out texels.
     RenderNeeds needs;
-    unsigned economies = AllEconomies;
+    unsigned cull_kinds = AllCullKinds;
     std::vector<LeftOut> left_out;
     // Inputs for the rest of the plan: scene_level.h.
     Pinhole projector;

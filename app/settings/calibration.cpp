@@ -17,7 +17,7 @@ namespace {
 constexpr int form_version = 1;
 constexpr std::array<std::string_view, 3> method_names{"corners", "touch", "auto"};
 
-/// A measured value has no default: a key that is left out is refused.
+/// A measured value has no default: a missing key is refused.
 template <typename Fields> void require_all(Fields& fields) {
     if constexpr (Fields::reads) {
         const std::vector<std::string> known(fields.known().begin(), fields.known().end());

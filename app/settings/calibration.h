@@ -1,7 +1,7 @@
-/// A calibration as it is kept: the projector and the tracker's registration as they were measured, when, how, and how well.
-/// On a kiosk it takes the place of what `[projector]` and `[tracker]` say of them.
+/// A calibration as it is kept: the measured projector and tracker registration, with date, method and accuracy.
+/// On a kiosk it replaces the values of `[projector]` and `[tracker]`.
 ///
-/// Form     TOML, with the same keys as the settings; `version` is that of the form.
+/// Form     TOML, with the keys of the settings; `version` is that of the file format.
 /// Frames   table T, as everywhere (docs/conventions.md).
 /// Errors   one line: file, line, key, what was found, what is allowed.
 /// Threads  values; any.
@@ -27,10 +27,10 @@ enum class CalibrationMethod : std::uint8_t { Corners, Touch, Auto };
 inline constexpr std::size_t largest_calibration_bytes = 65536;
 
 struct Calibration {
-    std::string made; ///< when, by the machine's clock: "2026-11-25 10:12 UTC"
+    std::string made; ///< by the machine's clock: "2026-11-25 10:12 UTC"
     CalibrationMethod method = CalibrationMethod::Touch;
-    int places = 0; ///< that were measured
-    /// Of a place that was not used, after the others were: on the table, and in the picture.
+    int places = 0; ///< number of measured places
+    /// Error at a place that was left out of the fit: on the table, and in the picture.
     double mean_mm = 0.0, worst_mm = 0.0, mean_px = 0.0;
     Pinhole pinhole;
     RigidTransform table_from_projector;

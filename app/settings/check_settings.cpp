@@ -18,12 +18,12 @@ namespace frustumscreen {
 namespace {
 
 /// Gap that must stay between the prop's top and the projector's lens.
-constexpr double least_clearance_m = 0.1;
+constexpr double min_clearance_m = 0.1;
 /// The projector looks down: the sine of its axis below the horizon is at least this (30 degrees).
-constexpr double least_downward = 0.5;
-/// A script that repeats faster than this presses more often than anybody could; one of a microsecond would
+constexpr double min_downward = 0.5;
+/// A script that repeats faster would press more often than a person can; one that repeats every microsecond would
 /// press without end.
-constexpr double least_repeat_s = 0.05;
+constexpr double min_repeat_s = 0.05;
 
 bool inside(const PropShape& prop, const glm::dvec3& p) {
     return std::all_of(prop.bounds.begin(), prop.bounds.end(),
@@ -64,7 +64,7 @@ void check_prop(const Settings& settings, Fitness& fitness) {
                                 prop.base_m, shorter));
 }
 
-/// The key that a person changes to move the picture.
+/// The key to change in order to move the picture.
 std::string_view position_key(const Fitness& fitness) {
     return fitness.names("projector.table_from_projector") ? "projector.table_from_projector"
                                                            : "projector.position_m";
@@ -87,7 +87,7 @@ std::optional<std::string> place_of_picture(const ProjectorSettings& projector) 
     return fmt::format("x {:.2f} to {:.2f} m, y {:.2f} to {:.2f} m", low.x, high.x, low.y, high.y);
 }
 
-/// The prop must find a place on the table where its bottom lies in the picture.
+/// There must be a place on the table at which the prop's bottom lies in the picture.
 void check_picture(const Settings& settings, Fitness& fitness) {
     const TableSettings& table = settings.table;
     const std::optional<std::string> place = place_of_picture(settings.projector);
@@ -105,7 +105,7 @@ void check_picture(const Settings& settings, Fitness& fitness) {
                     settings.prop.base_m, there));
 }
 
-/// The lens must not fold the picture: a tenth beyond its corners, in r^2, it still brings each direction to a place of its own.
+/// The lens must not fold the picture: up to 1.1 times the corners' r^2, each direction has a place of its own.
 void check_lens(const Pinhole& pinhole, std::string_view key, Fitness& fitness) {
     constexpr double margin = 1.1;
     const double corner = pinhole.ideal().farthest_r2();
@@ -121,14 +121,14 @@ void check_projector(const Settings& settings, Fitness& fitness) {
     check_lens(settings.projector.pinhole, "projector.k1", fitness);
     const RigidTransform& pose = settings.projector.table_from_projector;
     const std::string_view position = position_key(fitness);
-    const double least_height = settings.prop.height_m + least_clearance_m;
+    const double min_height = settings.prop.height_m + min_clearance_m;
     fitness.require(
-        "settings.projector_too_low", pose.translation.z >= least_height, position,
+        "settings.projector_too_low", pose.translation.z >= min_height, position,
         fmt::format("is {:g} metres above the table; allowed are at least {:g}, the prop's height and {:g}",
-                    pose.translation.z, least_height, least_clearance_m));
+                    pose.translation.z, min_height, min_clearance_m));
     const double downward = -pose.direction({0, 0, 1}).z;
     fitness.require(
-        "settings.projector_looks_up", downward >= least_downward, position,
+        "settings.projector_looks_up", downward >= min_downward, position,
         fmt::format("looks {:.1f} degrees below the horizon; allowed are 30 to 90, down at the table",
                     glm::degrees(std::asin(std::clamp(downward, -1.0, 1.0)))));
     check_picture(settings, fitness);
@@ -152,7 +152,7 @@ std::string_view line_id(std::string_view line) {
     return offset ? line.substr(std::min(line.find_first_not_of('0'), line.size() - 1)) : line;
 }
 
-/// The first of `lines` that is one of `taken`, or of those before it; empty if there is none.
+/// The first of `lines` that occurs in `taken` or earlier in `lines`; empty if there is none.
 std::string_view used_twice(const std::vector<std::string>& lines,
                             const std::vector<std::string>& taken = {}) {
     std::vector<std::string_view> used;
@@ -166,8 +166,8 @@ std::string_view used_twice(const std::vector<std::string>& lines,
     return {};
 }
 
-/// A line used twice would be reported by the kernel as busy, as if another program held it; a key used twice
-/// would be two buttons.
+/// The kernel would report a line used twice as busy, as if another program held it; a key used twice would be two
+/// buttons.
 void check_each_is_used_once(const PanelSettings& panel, Fitness& fitness) {
     const auto require_once = [&](std::string_view again, std::string_view key, std::string_view remedy) {
         fitness.require("settings.named_twice", again.empty(), key,
@@ -213,14 +213,14 @@ void check_devices(const Settings& settings, Fitness& fitness) {
     fitness.require(
         "settings.script_repeat",
         script.empty() || settings.panel.repeat_s == 0.0 ||
-            (settings.panel.repeat_s > last_s && settings.panel.repeat_s >= least_repeat_s),
+            (settings.panel.repeat_s > last_s && settings.panel.repeat_s >= min_repeat_s),
         "panel.repeat_s",
         fmt::format("is {}; allowed are 0 (once) and times after the last press, {} seconds, of at "
                     "least {} seconds",
-                    settings.panel.repeat_s, last_s, least_repeat_s));
+                    settings.panel.repeat_s, last_s, min_repeat_s));
 }
 
-/// What asks where things are that a camera sees needs its lens.
+/// A function that locates things in the camera's picture needs the camera's lens.
 void check_camera_lens(const CameraSettings& camera, std::string_view use, std::string_view sees,
                        Fitness& fitness) {
     fitness.require("settings.camera_needed", camera.kind == CameraKind::V4l2, use,
@@ -232,7 +232,7 @@ void check_camera_lens(const CameraSettings& camera, std::string_view use, std::
     }
 }
 
-/// Tags are of use only where the camera, the tags and their places are known.
+/// Tags need the camera's lens and pose, and the tags' places.
 void check_tags(const CameraSettings& camera, Fitness& fitness) {
     if (!camera.tags) {
         return;
@@ -252,7 +252,7 @@ void check_tags(const CameraSettings& camera, Fitness& fitness) {
     }
 }
 
-/// Heads are looked for with their tops up.
+/// Heads are detected upright, so the camera must be upright.
 void check_visitor(const Settings& settings, Fitness& fitness) {
     const CameraSettings& camera = settings.camera;
     if (!camera.visitor) {
@@ -260,7 +260,7 @@ void check_visitor(const Settings& settings, Fitness& fitness) {
     }
     check_camera_lens(camera, "camera.visitor", "the visitors", fitness);
     const RigidTransform& pose = camera.table_from_camera;
-    constexpr double upright = -0.64; // of its picture's down, along the table's up: 50 degrees
+    constexpr double upright = -0.64; // of the picture's down, along the table's up: 50 degrees
     fitness.require(
         "settings.camera_not_upright", pose.translation.z > 0.0 && pose.direction({0, 1, 0}).z < upright,
         "camera.visitor",
@@ -283,12 +283,12 @@ void check_camera(const Settings& settings, Fitness& fitness) {
         fmt::format("is {}; a frame at camera.rate_hz, {} hertz, takes {:.1f} milliseconds, allowed are 0 "
                     "and times up to that",
                     camera.rolling_shutter_ms, camera.rate_hz, frame_ms));
-    constexpr int least_kelvin = 2000; // a candle's light
+    constexpr int min_kelvin = 2000; // a candle's light
     fitness.require("settings.white_balance",
-                    camera.white_balance_k == 0 || camera.white_balance_k >= least_kelvin,
+                    camera.white_balance_k == 0 || camera.white_balance_k >= min_kelvin,
                     "camera.white_balance_k",
                     fmt::format("is {}; allowed are 0 (the camera's own) and {} to 10000 kelvin",
-                                camera.white_balance_k, least_kelvin));
+                                camera.white_balance_k, min_kelvin));
     fitness.require("settings.drift_without_camera", !camera.drift || camera.kind == CameraKind::V4l2,
                     "camera.drift",
                     "is true; it needs camera.kind = \"v4l2\", a camera that sees the whole picture");
@@ -296,7 +296,7 @@ void check_camera(const Settings& settings, Fitness& fitness) {
     check_visitor(settings, fitness);
 }
 
-/// A name for two keys would make messages say nothing.
+/// Two keys of the same name would make messages ambiguous.
 void check_keys(const Settings& settings, Fitness& fitness) {
     std::set<std::string_view> names;
     for (const TrustedKey& key : settings.exhibit.keys) {
@@ -316,7 +316,7 @@ void check_sound(const Settings& settings, Fitness& fitness) {
                     "sound.hours", "goes back in time or names an hour twice; sort it by from_h");
 }
 
-/// A day cannot be closed and open.
+/// A day cannot be both closed and open.
 void check_hours(const Settings& settings, Fitness& fitness) {
     const std::vector<HoursException>& exceptions = settings.hours.exceptions;
     for (const HoursException& each : exceptions) {

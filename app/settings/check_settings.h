@@ -1,6 +1,6 @@
-/// Checks whether settings that are right one by one also fit together.
+/// Checks that settings which are each valid also fit together.
 ///
-/// Errors   one line, with the line of the key where the file names it; nothing if all is well.
+/// Errors   one line, with the line of the key if the file has it; nothing if the settings fit.
 /// Threads  pure; any.
 #pragma once
 

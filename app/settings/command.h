@@ -1,4 +1,4 @@
-/// What the panel's buttons ask for. Only this file knows which button means what.
+/// The commands of the panel's buttons. Only this file assigns commands to buttons.
 #pragma once
 
 #include <algorithm>
@@ -13,22 +13,22 @@ enum class Command : std::uint8_t {
     PreviousArtifact,
     NextArtifact,
     NextLanguage,
-    Choose, ///< the picture that the prop rests on, at once; else the next thing to know about the artifact
-    Help,   ///< what to do, at once; where nothing is to be done, what the artifact is
-    StaffMode, ///< the chord: the first and the last button were held together
-    HoldFirst, ///< the first button's press became a long one; for the staff alone
-    HoldOther, ///< that of another button did
+    Choose,    ///< the picture that the prop rests on, at once; otherwise the next fact about the artifact
+    Help,      ///< advice, at once; if there is none, the artifact's description
+    StaffMode, ///< the first and the last button were held together
+    HoldFirst, ///< the first button is held; for the staff alone
+    HoldOther, ///< another button is held; for the staff alone
 };
 
 /// The commands of buttons 0 to 4; a panel may have fewer buttons.
 inline constexpr std::array button_commands{Command::PreviousArtifact, Command::NextArtifact,
                                             Command::NextLanguage, Command::Choose, Command::Help};
 
-/// A button's press, which counts at once.
+/// True for a button's press, which takes effect at once.
 [[nodiscard]] constexpr bool is_press(Command command) {
     return std::find(button_commands.begin(), button_commands.end(), command) != button_commands.end();
 }
-/// A visitor's press that goes on means nothing more.
+/// True for a button held longer than a press, which means nothing for visitors.
 [[nodiscard]] constexpr bool is_hold(Command command) {
     return command == Command::HoldFirst || command == Command::HoldOther;
 }

@@ -123,7 +123,7 @@ Json whole_zone_json(const WholeZone& zone) {
             {"polygon_m", list_of(zone.places)}};
 }
 
-/// For an artifact as good as any; those of packs are in `config --explain`.
+/// For a typical artifact; `config --explain` has the zones of the packs.
 Json usual_zone_json(const Settings& settings) {
     const std::vector<glm::dvec3> hull = usual_artifact(make_prop(settings.prop));
     glm::dvec3 low(hull.front());
@@ -141,7 +141,7 @@ Json usual_zone_json(const Settings& settings) {
 Json lit_zone_json(const Settings& settings) {
     const LitZone zone = lit_zone(settings);
     return {
-        {"least_sine_of_light", least_sine_of_light},
+        {"least_sine_of_light", min_sine_of_light},
         {"any_eye",
          {{"area_m2", area_of(zone.any_eye)},
           {"rectangle_centre_m", list_of(zone.any_eye_rectangle.centre_m)},
@@ -155,7 +155,7 @@ Json light_json(const Settings& settings) {
     const LightRange range =
         light_range(make_prop(settings.prop), settings.projector.table_from_projector.translation,
                     reach_on_table(settings.prop, settings.table));
-    return {{"least_sine", least_sine_of_light},
+    return {{"least_sine", min_sine_of_light},
             {"least", range.least},
             {"most", range.most},
             {"evenness", range.evenness},
@@ -171,7 +171,7 @@ Json calibration_json(const Calibration& used, const std::string& name) {
             {"residual_px", {{"mean", used.mean_px}}}};
 }
 
-/// Adds the eye's settings under the names that outside checks use.
+/// Adds the eye's settings under the names that external checks use.
 void add_eye(const Json& eye, Json& json) {
     json["eye_default_m"] = eye.at("default_m");
     json["eye_tracked"] = eye.at("tracked");
@@ -204,7 +204,7 @@ std::string config_json(const CheckedSettings& checked) {
             json[name] = table;
         }
     }
-    // `replace`: a path's bytes need not be UTF-8, and a report must not fail over that.
+    // `replace`: a path's bytes need not be UTF-8, and must not make a report fail.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,9 +1,9 @@
-/// Every setting, once: its name, its range, what it is for. Its default is that of its struct. The reader of
-/// the file (TableReader), its report (config_json.cpp) and its page (settings_page.cpp) walk this
+/// Every setting, described once: its name, its range, its purpose. Its default is that of its struct. The
+/// reader of the file (TableReader), the report (config_json.cpp) and the page (settings_page.cpp) walk this
 /// description, in this order.
 ///
-/// A walker's `reads` is true if it fills in what it walks. An `input` is read and other settings are
-/// computed from it; it is not kept.
+/// A walker's `reads` is true if it fills in the values. An `input` is read and other settings are computed from
+/// it; it is not kept.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -22,16 +22,16 @@
 
 namespace frustumscreen {
 
-inline constexpr std::size_t most_packs = 256;
+inline constexpr std::size_t max_packs = 256;
 inline constexpr std::string_view allowed_public_keys =
     "public keys of minisign: the line of 56 letters in NAME.pub, which begins with RW";
 inline constexpr std::string_view allowed_last_days = "days such as \"2030-12-31\"";
-inline constexpr std::size_t most_presses = 1000;
+inline constexpr std::size_t max_presses = 1000;
 inline constexpr double longest_script_s = 86400.0;
-inline constexpr std::size_t most_tags = 64;
-inline constexpr std::size_t most_hours = 24;
-inline constexpr std::size_t most_spans = 8;
-inline constexpr std::size_t most_exceptions = 1000;
+inline constexpr std::size_t max_tags = 64;
+inline constexpr std::size_t max_hours = 24;
+inline constexpr std::size_t max_spans = 8;
+inline constexpr std::size_t max_exceptions = 1000;
 inline constexpr std::string_view allowed_spans =
     "times such as \"10:00-18:00\"; \"20:00-02:00\" goes on after midnight, \"00:00-24:00\" is a whole day";
 inline constexpr std::string_view allowed_exceptions =
@@ -248,7 +248,7 @@ void panel_settings(auto& fields, auto& panel) {
                   "scripted: a script of presses; gpio: buttons at a GPIO chip; keys: keys of a separate "
                   "keyboard, for a bench");
     fields.tables(
-        "script", panel.script, most_presses, [](auto& item, auto& press) { press_settings(item, press); },
+        "script", panel.script, max_presses, [](auto& item, auto& press) { press_settings(item, press); },
         "scripted: presses, in the order of their times");
     fields.number("repeat_s", panel.repeat_s, {0.0, longest_script_s, "seconds"},
                   "scripted: the script begins again after this long; 0: it runs once");
@@ -328,7 +328,7 @@ void camera_settings(auto& fields, auto& camera) {
         "checks with drift marks whether the picture lies where it was calibrated, while nobody is there");
     camera_lens_settings(fields, camera);
     fields.tables(
-        "tag", camera.tag, most_tags, [](auto& item, auto& tag) { tag_settings(item, tag); },
+        "tag", camera.tag, max_tags, [](auto& item, auto& tag) { tag_settings(item, tag); },
         "the tags on the prop");
 }
 
@@ -357,7 +357,7 @@ template <typename Fields> void key_settings(Fields& fields, auto& key) {
 }
 
 template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) {
-    fields.paths("packs", exhibit.packs, most_packs, "shown in this order");
+    fields.paths("packs", exhibit.packs, max_packs, "shown in this order");
     if constexpr (Fields::reads) {
         exhibit.packs_key = exhibit.packs.empty() ? "" : fields.place("packs");
     }
@@ -388,8 +388,8 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
     fields.integer("memory_mb", exhibit.memory_mb, 16, 65536,
                    "memory for loaded artifacts, in 10^6 bytes; the least recently shown is unloaded first");
     fields.tables(
-        "keys", exhibit.keys, most_trusted_keys, [](auto& item, auto& key) { key_settings(item, key); },
-        "the museum's public keys: what comes on a stick must be signed with one of them");
+        "keys", exhibit.keys, max_trusted_keys, [](auto& item, auto& key) { key_settings(item, key); },
+        "the museum's public keys: what comes on a stick is signed with one of them");
     fields.choice(
         "unsigned", exhibit.unsigned_packs, unsigned_names,
         "packs from a stick without a signature; \"allow\" is for a bench, and the staff's picture says so");
@@ -408,21 +408,20 @@ void sound_settings(auto& fields, auto& sound) {
     fields.text("device", sound.device, "alsa: the sound card's name; aplay -L lists them");
     fields.number("gain_db", sound.gain_db, sound_gain, "volume; 0: as the words were recorded");
     fields.tables(
-        "hours", sound.hours, most_hours, [](auto& item, auto& hour) { hour_settings(item, hour); },
-        "volume by the hour, such as quieter at night; in the order of the hours, and the last row holds "
-        "over midnight");
+        "hours", sound.hours, max_hours, [](auto& item, auto& hour) { hour_settings(item, hour); },
+        "quieter at night: in the order of their hours; the last one holds over midnight");
 }
 
 void hours_settings(auto& fields, auto& hours) {
     for (std::size_t day = 0; day < weekday_names.size(); ++day) {
-        fields.parsed_list(weekday_names[day], hours.weekdays[day], most_spans, text_of_span, parse_open_span,
+        fields.parsed_list(weekday_names[day], hours.weekdays[day], max_spans, text_of_span, parse_open_span,
                            allowed_spans,
                            day == 0 ? "when the exhibit is awake; []: not at all" : "the same");
     }
-    fields.parsed_list(
-        "exceptions", hours.exceptions, most_exceptions, text_of_exception, parse_hours_exception,
-        allowed_exceptions,
-        "days with other times than the weekday's; several entries for one day count together");
+    fields.parsed_list("exceptions", hours.exceptions, max_exceptions, text_of_exception,
+                       parse_hours_exception, allowed_exceptions,
+                       "days on which other times hold, in place of the weekday's; several of one day count "
+                       "together");
     fields.parsed("time_zone", hours.time_zone, std::identity(), parse_time_zone, allowed_time_zones,
                   "time zone of these times; left out: the machine's own");
 }

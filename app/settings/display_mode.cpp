@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view preferred = "preferred";
 
-/// Takes a number off the front of `text`; false: there is none between `low` and `high`.
+/// Takes a number off the front of `text`; false if there is none between `low` and `high`.
 template <typename Number> bool take(std::string_view& text, Number low, Number high, Number& number) {
     const auto [after, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (failed != std::errc{} || !(number >= low && number <= high)) {

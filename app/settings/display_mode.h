@@ -1,5 +1,5 @@
 /// A projector's mode as a person writes it: "1280x800@60", "1280x800" or "preferred".
-/// "Preferred" is the picture's own size where the projector has it, else the projector's preferred mode.
+/// "Preferred" is the picture's own size if the projector has it, else the projector's preferred mode.
 ///
 /// Threads  values.
 #pragma once
@@ -11,12 +11,12 @@
 namespace frustumscreen {
 
 struct DisplayMode {
-    int width = 0; ///< pixels; 0 = "preferred"
+    int width = 0; ///< pixels; 0: "preferred"
     int height = 0;
-    double refresh_hz = 0.0; ///< 0 = any
+    double refresh_hz = 0.0; ///< 0: any
 };
 
-/// Returns nothing if it is none of the three, or beyond 64 to 8192 pixels and 10 to 480 hertz.
+/// Returns nothing if the text has none of these forms, or is beyond 64 to 8192 pixels and 10 to 480 hertz.
 [[nodiscard]] std::optional<DisplayMode> parse_display_mode(std::string_view text);
 [[nodiscard]] std::string text_of(const DisplayMode& mode);
 

@@ -1,5 +1,5 @@
-/// What visitors can do with the prop in this set-up: whether they are told what to do, and whether they choose with it;
-/// what the staff are told.
+/// The use that visitors make of the prop in this set-up: whether there is guidance, and whether they choose with the
+/// prop; also what the staff are told.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -8,17 +8,17 @@
 
 namespace frustumscreen {
 
-/// A prop that is not tracked cannot be moved by anybody.
+/// A prop that is not tracked cannot be moved, so there is nothing to advise.
 [[nodiscard]] inline bool guides_visitors(const Settings& settings) {
     return settings.exhibit.guidance && settings.tracker.kind != TrackerKind::None;
 }
 
-/// Nor can it be slid onto a picture.
+/// A prop that is not tracked cannot be slid onto a picture either.
 [[nodiscard]] inline bool chooses_on_table(const Settings& settings) {
     return settings.exhibit.table_pictures && settings.tracker.kind != TrackerKind::None;
 }
 
-/// The table tells the staff of a stick, in the exhibit's own words.
+/// The table reports a stick to the staff if the exhibit has words of its own.
 [[nodiscard]] inline bool tells_of_sticks(const Settings& settings) {
     return !settings.exhibit.words.empty();
 }

@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view closed = "closed";
 constexpr std::size_t longest_zone = 64;
 
-/// "07:30" or "7:30" as minutes; nothing unless it is written so, and is at most "24:00".
+/// "07:30" or "7:30" as minutes; nothing if the form is wrong, or the time is after "24:00".
 std::optional<int> parse_minute(std::string_view written) {
     constexpr std::string_view form = "00:00";
     const std::string text = (written.size() + 1 == form.size() ? "0" : "") + std::string(written);
@@ -37,7 +37,7 @@ std::optional<OpenSpan> parse_open_span(std::string_view text) {
     }
     const std::optional<int> from = parse_minute(text.substr(0, dash));
     const std::optional<int> to = parse_minute(text.substr(dash + 1));
-    // The same time twice may mean a whole day or nothing.
+    // Two equal times may mean a whole day or nothing.
     if (!from || !to || *from == minutes_a_day || *from == *to) {
         return std::nullopt;
     }

@@ -1,7 +1,7 @@
-/// When the exhibit is open, as the settings have it in texts: "10:00-18:00", "2026-12-25 closed".
+/// The opening hours, as texts in the settings: "10:00-18:00", "2026-12-25 closed".
 ///
 /// Units    minutes of the local day. A span belongs to the day on which it begins.
-/// Errors   nothing for a text that means none.
+/// Errors   nothing for an invalid text.
 /// Threads  pure; any.
 #pragma once
 
@@ -17,15 +17,15 @@ namespace frustumscreen {
 inline constexpr int minutes_a_day = 24 * 60;
 
 struct OpenSpan {
-    int from_min = 0;           ///< 0 to below a day
-    int to_min = minutes_a_day; ///< after `from_min`; beyond a day: of the next morning
+    int from_min = 0;           ///< 0 to less than a day
+    int to_min = minutes_a_day; ///< after `from_min`; beyond a day: in the next morning
     [[nodiscard]] bool operator==(const OpenSpan&) const = default;
 };
 /// "10:00-18:00"; "20:00-02:00" goes on after midnight; "00:00-24:00" is a whole day.
 [[nodiscard]] std::optional<OpenSpan> parse_open_span(std::string_view text);
 [[nodiscard]] std::string text_of_span(const OpenSpan& span);
 
-/// Stands in the place of what the weekday has. Several of one day count together.
+/// Replaces the weekday's spans. Several exceptions of one day add up.
 struct HoursException {
     std::chrono::sys_days day;    ///< of the local calendar
     std::optional<OpenSpan> open; ///< none: closed all day
@@ -35,8 +35,8 @@ struct HoursException {
 [[nodiscard]] std::optional<HoursException> parse_hours_exception(std::string_view text);
 [[nodiscard]] std::string text_of_exception(const HoursException& exception);
 
-/// A name of the system's time zones such as "Europe/Berlin", or nothing written: the machine's own. Whether there is such a zone is
-/// not looked at.
+/// A name of the system's time zones such as "Europe/Berlin"; an empty text is the machine's own. The zone need not
+/// exist: that is not checked.
 [[nodiscard]] std::optional<std::string> parse_time_zone(std::string_view text);
 
 struct HoursSettings {

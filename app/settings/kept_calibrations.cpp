@@ -37,7 +37,7 @@ tl::unexpected<Error> failed(std::string_view name, const FileFault& fault, std:
                 std::strerror(fault.number));
 }
 
-/// Those with an ending, the newest first.
+/// The files with this ending, the newest first.
 Result<std::vector<KeptCalibration>> list(FileTree& folder, std::string_view ending) {
     std::vector<KeptCalibration> found;
     const FileResult<void> listed = folder.list("", [&](const FolderEntry& entry) {
@@ -84,8 +84,8 @@ Result<KeptCalibration> keep_calibration(WritableTree& folder, const Calibration
     if (!written) {
         return failed(next.name, written.error(), "cannot be written");
     }
-    // The new one is on the disk: what is not removed now does no harm, and goes with the next one.
-    for (std::size_t k = most_kept_calibrations - 1; k < kept.size(); ++k) {
+    // The new one is on the disk: a file that cannot be removed does no harm, and is removed with the next one.
+    for (std::size_t k = max_kept_calibrations - 1; k < kept.size(); ++k) {
         static_cast<void>(folder.remove(kept[k].name));
     }
     for (const KeptCalibration& each : undone) {

@@ -1,8 +1,9 @@
-/// The calibrations of a kiosk, as files of one folder: the newest one counts, and the two before it are there to go back to.
+/// A kiosk's calibrations, as files in one folder. The newest one counts; the two before it are kept to go back to.
 ///
-/// Names    calibration-0008.toml; numbers grow. One that was undone is calibration-0008.undone until the next one is kept.
-/// Order    a new one appears by one rename, before an old one goes: at each moment the newest whole one is that of before or
-///          the new one (FileTree's order of syncs).
+/// Names    calibration-0008.toml; numbers grow. An undone one is calibration-0008.undone until the next one is
+///          kept.
+/// Order    a new one appears by one rename, before an old one is removed: at each moment the newest whole file is
+///          the previous one or the new one (FileTree's order of syncs).
 /// Errors   one line: which file, what, what to do.
 /// Threads  one caller.
 #pragma once
@@ -15,19 +16,19 @@
 
 namespace frustumscreen {
 
-inline constexpr std::size_t most_kept_calibrations = 3;
+inline constexpr std::size_t max_kept_calibrations = 3;
 
 struct KeptCalibration {
     int number = 0;
     std::string name; ///< of the file in the folder
 };
 
-/// The newest first. What else lies in the folder is passed over.
+/// The newest first. Other files in the folder are ignored.
 [[nodiscard]] Result<std::vector<KeptCalibration>> list_calibrations(FileTree& folder);
 [[nodiscard]] Result<Calibration> read_calibration(FileTree& folder, const KeptCalibration& kept);
-/// It is the newest one, and on the disk, when this returns.
+/// On return, the calibration is the newest one, and on the disk.
 [[nodiscard]] Result<KeptCalibration> keep_calibration(WritableTree& folder, const Calibration& calibration);
-/// The one before the newest counts again. Returns which one was undone. Errors: there is none.
+/// Makes the one before the newest count again. Returns the undone one. Errors: there is none.
 [[nodiscard]] Result<KeptCalibration> undo_calibration(WritableTree& folder);
 
 } // namespace frustumscreen

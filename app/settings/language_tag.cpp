@@ -6,7 +6,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// ISO 639-1. A language that has a code of two letters is always named by that one (RFC 5646, 2.2.1).
+/// ISO 639-1. A language with a two-letter code is always named by that code (RFC 5646, 2.2.1).
 constexpr std::string_view two_letter_codes =
     "aa ab ae af ak am an ar as av ay az ba be bg bi bm bn bo br bs ca ce ch co cr cs cu cv cy da de "
     "dv dz ee el en eo es et eu fa ff fi fj fo fr fy ga gd gl gn gu gv ha he hi ho hr ht hu hy hz ia "
@@ -30,7 +30,7 @@ char upper(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
 
-/// A region is written in capitals, a script with one; neither comes after a subtag of one letter.
+/// A region is in capitals, a script has one capital; neither follows a subtag of one letter.
 std::string in_usual_case(std::string_view subtag, bool after_single) {
     std::string made = lower(subtag);
     if (!after_single && made.size() == 2) {
@@ -41,7 +41,7 @@ std::string in_usual_case(std::string_view subtag, bool after_single) {
     return made;
 }
 
-/// Codes of three letters are too many for a list here: any three letters are taken for one.
+/// There are too many three-letter codes for a list here: any three letters count as a code.
 bool is_language_code(std::string_view code) {
     if (code.size() == 3) {
         return true;

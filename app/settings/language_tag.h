@@ -1,4 +1,4 @@
-/// A language as settings and captions name it.
+/// A language tag of the settings and captions.
 ///
 /// Threads  pure; any.
 /// Source   BCP 47 (RFC 5646); ISO 639-1.
@@ -13,9 +13,9 @@ namespace frustumscreen {
 inline constexpr std::string_view allowed_language_tags =
     "language tags such as \"en\" or \"de-CH\", which begin with a code of ISO 639";
 
-/// `tag` in the case that is usual (RFC 5646, 2.1.1: "de-CH", "zh-Hant"), so that equal tags are equal texts. Nothing if it is no
-/// BCP 47 tag (a language, then subtags of letters and digits), or begins with two letters that are no language. Codes of three
-/// letters are not looked up.
+/// `tag` in the usual case (RFC 5646, 2.1.1: "de-CH", "zh-Hant"), so that equal tags are equal texts. Nothing if it
+/// is no BCP 47 tag (a language, then subtags of letters and digits), or if it begins with two letters that are no
+/// language. Codes of three letters are not looked up.
 [[nodiscard]] std::optional<std::string> parse_language_tag(std::string_view tag);
 
 } // namespace frustumscreen

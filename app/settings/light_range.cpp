@@ -10,10 +10,10 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double least_share_of_brightest = 0.25;
-constexpr int yaws = 30; ///< of a quarter turn, after which a square prop looks the same
+constexpr double min_share_of_brightest = 0.25;
+constexpr int yaws = 30; ///< over a quarter turn, after which a square prop looks the same
 
-/// Adds the prop in one pose, given by where it sees the lens.
+/// Adds the prop in one pose, given by the lens in the prop's frame.
 void include(const PropShape& prop, const glm::dvec3& lens, LightRange& range) {
     double darkest = std::numeric_limits<double>::infinity();
     double brightest = 0.0;
@@ -63,10 +63,10 @@ double even_light(const Settings& settings) {
     const glm::dvec3 lens = settings.projector.table_from_projector.translation;
     if (settings.prop.zone == PropZone::Hand) {
         const double d = glm::distance(lens, glm::dvec3(0.0, 0.0, settings.prop.height_m));
-        return least_share_of_brightest / (d * d);
+        return min_share_of_brightest / (d * d);
     }
     const LightRange range = light_range(prop, lens, reach_on_table(settings.prop, settings.table));
-    return std::max(range.least, least_share_of_brightest * range.most);
+    return std::max(range.least, min_share_of_brightest * range.most);
 }
 
 } // namespace frustumscreen

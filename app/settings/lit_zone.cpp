@@ -15,12 +15,12 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Azimuths within `half` of `middle`; half >= pi is the full circle.
+/// Azimuths within `half` of `middle`; half >= pi: the full circle.
 struct Arc {
     double middle = 0.0;
     double half = pi;
 
-    [[nodiscard]] double least_cosine_to(double azimuth) const {
+    [[nodiscard]] double min_cosine_to(double azimuth) const {
         const double apart = std::abs(std::remainder(azimuth - middle, 2.0 * pi));
         return std::cos(std::fmin(apart + half, pi));
     }
@@ -55,15 +55,15 @@ Polygon table_within(const TableSettings& table, double rim) {
     return {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
 }
 
-/// A point of the prop, which goes round the axis as the prop is turned.
+/// A point of the prop, which moves on a circle about the axis as the prop turns.
 struct Round {
     double radius = 0.0;
     double z = 0.0;
-    double off = 0.0; ///< azimuth, from that of the face whose corner it is
+    double off = 0.0; ///< azimuth, from that of the face with this corner
     [[nodiscard]] bool operator==(const Round&) const = default;
 };
 
-/// A face, at any yaw: its plane is run cos(azimuth) x + ... + rise z = offset.
+/// A face at any yaw: its plane is run cos(azimuth) x + ... + rise z = offset.
 struct TurnedFace {
     double run = 0.0; ///< length of the normal's horizontal part; 0: it looks straight up or down
     double rise = 0.0;
@@ -83,7 +83,7 @@ TurnedFace turned(const PropFace& face) {
     return result;
 }
 
-/// The sides of a frustum are alike: at any yaw they are one face.
+/// The sides of a frustum are congruent: at any yaw they count as one face.
 bool are_alike(const TurnedFace& a, const TurnedFace& b) {
     constexpr double rounding = 1e-12;
     const auto near = [](double x, double y) { return std::abs(x - y) <= rounding; };
@@ -122,48 +122,47 @@ struct Scene {
     }
 
     /// The least sine of the light on a face that looks into `arc`.
-    [[nodiscard]] double least_sine_on(const TurnedFace& face, const glm::dvec2& place,
-                                       const Arc& arc) const {
+    [[nodiscard]] double min_sine_on(const TurnedFace& face, const glm::dvec2& place, const Arc& arc) const {
         const glm::dvec2 to_lens = glm::dvec2(lens) - place;
         const double distance = glm::length(to_lens);
-        const double toward = distance * arc.least_cosine_to(std::atan2(to_lens.y, to_lens.x));
+        const double toward = distance * arc.min_cosine_to(std::atan2(to_lens.y, to_lens.x));
         return (face.run * toward + face.rise * lens.z - face.offset) / std::hypot(distance, lens.z);
     }
-    /// Is an arc of the circle about the prop's axis inside the picture?
+    /// True if an arc of the circle about the prop's axis is inside the picture.
     [[nodiscard]] bool in_picture(const glm::dvec2& place, const Round& round, const Arc& arc) const {
         return std::all_of(edges.begin(), edges.end(), [&](const PictureEdge& edge) {
             const double middle = glm::dot(edge.inward, glm::dvec3(place, round.z) - lens);
             const double most = edge.horizontal * round.radius;
             return middle >= most ||
-                   (middle >= -most && middle + most * arc.least_cosine_to(edge.azimuth) >= 0.0);
+                   (middle >= -most && middle + most * arc.min_cosine_to(edge.azimuth) >= 0.0);
         });
     }
 
     std::array<PictureEdge, 4> edges;
     glm::dvec3 lens;
-    std::vector<TurnedFace> faces; ///< one of those that are alike, and none that lies on the table
+    std::vector<TurnedFace> faces; ///< one of each kind, without those that lie on the table
     std::vector<Round> corners;    ///< of the solid
     double reach = 0.0;            ///< from the axis
     double middle_reach = 0.0;     ///< from the prop's middle
 };
 
-/// The azimuths into which a face looks at some yaw that shows it to the eye; nothing if there are none.
+/// The azimuths of a face at the yaws that show it to the eye; nothing if there are none.
 std::optional<Arc> seen_azimuths(const TurnedFace& face, const glm::dvec2& place, const glm::dvec3& eye) {
     if (face.run == 0.0) {
         return face.rise * eye.z > face.offset ? std::optional(full_circle) : std::nullopt;
     }
     const glm::dvec2 to_eye = glm::dvec2(eye) - place;
-    const double least_cosine = (face.offset - face.rise * eye.z) / (face.run * glm::length(to_eye));
-    if (!(least_cosine < 1.0)) {
+    const double min_cosine = (face.offset - face.rise * eye.z) / (face.run * glm::length(to_eye));
+    if (!(min_cosine < 1.0)) {
         return std::nullopt;
     }
-    return Arc{std::atan2(to_eye.y, to_eye.x), std::acos(std::fmax(least_cosine, -1.0))};
+    return Arc{std::atan2(to_eye.y, to_eye.x), std::acos(std::fmax(min_cosine, -1.0))};
 }
 
 bool lit_at_any_yaw(const Scene& scene, const glm::dvec2& place, const glm::dvec3& eye) {
     return std::all_of(scene.faces.begin(), scene.faces.end(), [&](const TurnedFace& face) {
         const std::optional<Arc> seen = seen_azimuths(face, place, eye);
-        return !seen || (scene.least_sine_on(face, place, *seen) >= least_sine_of_light &&
+        return !seen || (scene.min_sine_on(face, place, *seen) >= min_sine_of_light &&
                          std::all_of(face.corners.begin(), face.corners.end(), [&](const Round& corner) {
                              return scene.in_picture(place, corner, seen->turned(corner.off));
                          }));
@@ -176,7 +175,7 @@ double lit_radius(const Scene& scene) {
     const auto lit = [&](double radius) {
         const glm::dvec2 place = glm::dvec2(scene.lens) + glm::dvec2(radius, 0.0);
         return std::all_of(scene.faces.begin(), scene.faces.end(), [&](const TurnedFace& face) {
-            return scene.least_sine_on(face, place, full_circle) >= least_sine_of_light;
+            return scene.min_sine_on(face, place, full_circle) >= min_sine_of_light;
         });
     };
     if (!lit(0.0)) {
@@ -191,7 +190,8 @@ double lit_radius(const Scene& scene) {
     return near;
 }
 
-/// The places of `polygon` that lie in the picture at height z with a circle, and with a ball, around them.
+/// The places of `polygon` at height z that lie in the picture together with a circle, and with a ball, around
+/// them.
 Polygon clipped_to_picture(Polygon polygon, const Scene& scene, double z, double circle, double ball = 0.0) {
     for (const PictureEdge& edge : scene.edges) {
         const double offset = glm::dot(edge.inward, scene.lens) - edge.inward.z * z;
@@ -200,7 +200,7 @@ Polygon clipped_to_picture(Polygon polygon, const Scene& scene, double z, double
     return polygon;
 }
 
-/// Where the prop in the hand lies in the picture, its middle just high enough to turn it in any way.
+/// Places at which the prop in the hand lies in the picture, its middle just high enough to turn it in any way.
 Polygon hand_zone(const Settings& settings, const Scene& scene) {
     const double ball = scene.middle_reach;
     return clipped_to_picture(table_within(settings.table, ball), scene, ball, 0.0, ball);
@@ -230,7 +230,7 @@ Polygon any_eye_zone(const Settings& settings, const Scene& scene) {
     return settings.prop.zone == PropZone::Hand ? hand_zone(settings, scene) : upright_zone(settings, scene);
 }
 
-/// Every degree, and the corners of the zone for any eye, which is a part of the zone that is searched for.
+/// Every degree, and the corners of the zone for any eye, which is a part of the zone searched for.
 std::vector<double> azimuths_from(const glm::dvec2& middle, const Polygon& any_eye) {
     std::vector<double> azimuths;
     for (int degree = -179; degree <= 180; ++degree) {
@@ -267,7 +267,7 @@ Polygon default_eye_zone(const Settings& settings, const Scene& scene, const Pol
         *std::min_element(places.begin(), places.end(), [&](const auto& a, const auto& b) {
             return glm::distance(a, mean) < glm::distance(b, mean);
         });
-    // On a table hardly wider than the prop, steps of its width would never get to its ends.
+    // On a table hardly wider than the prop, steps in proportion to its width would never reach its ends.
     const double step = std::fmax(std::fmin(x, y) / 250.0, std::fmax(x, y) / 5000.0);
     Polygon zone;
     for (const double azimuth : azimuths_from(middle, any_eye)) {
@@ -322,7 +322,7 @@ bool every_seen_face_is_lit(const Settings& settings, const RigidTransform& tabl
     };
     return std::all_of(prop.faces.begin(), prop.faces.end(), [&](const PropFace& face) {
         return face.plane.distance(eye_prop) <= 0.0 ||
-               (face.plane.distance(lens_prop) >= least_sine_of_light * glm::length(lens_prop) &&
+               (face.plane.distance(lens_prop) >= min_sine_of_light * glm::length(lens_prop) &&
                 std::all_of(face.corners.begin(), face.corners.end(), in_picture));
     });
 }

@@ -3,14 +3,14 @@
 namespace frustumscreen {
 
 std::optional<RigidTransform> looking_at(const glm::dvec3& position, const glm::dvec3& aim, double roll_deg) {
-    constexpr double least_m = 1e-6;
+    constexpr double min_m = 1e-6;
     const glm::dvec3 far_side(0.0, 1.0, 0.0);
-    if (glm::distance(aim, position) < least_m) {
+    if (glm::distance(aim, position) < min_m) {
         return std::nullopt;
     }
     const glm::dvec3 forward = glm::normalize(aim - position);
     const glm::dvec3 up = far_side - forward * glm::dot(far_side, forward);
-    if (glm::length(up) < least_m) {
+    if (glm::length(up) < min_m) {
         return std::nullopt;
     }
     const glm::dvec3 down = -glm::normalize(up);

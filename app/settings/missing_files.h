@@ -1,9 +1,10 @@
-/// Files and time zones that the settings name and that are not there.
+/// Files and time zones that the settings name but that are missing.
 ///
-/// The settings themselves are right without them: an exhibit shows the packs that there are, and a pack may be baked
-/// after the settings are written. So this is said, not refused; what cannot go on without a file refuses by itself.
+/// The settings are valid without them: an exhibit shows the packs that are there, and a pack may be baked after
+/// the settings are written. So missing files are reported, not refused; a part that cannot work without a file
+/// refuses by itself.
 ///
-/// Errors   none; a file that cannot be looked at counts as missing.
+/// Errors   none; a file that cannot be accessed counts as missing.
 /// Threads  any; looks at the file system.
 #pragma once
 
@@ -14,7 +15,8 @@
 
 namespace frustumscreen {
 
-/// One sentence for each: where the settings name it, its path, what to do. A recording counts where it is replayed.
+/// One sentence for each: where the settings name it, its path, what to do. A recording counts only if it is
+/// replayed.
 [[nodiscard]] std::vector<std::string> missing_files(const Settings& settings);
 
 } // namespace frustumscreen

@@ -32,7 +32,7 @@ void read(ReadState& state, std::string_view text, Settings& settings) {
     });
 }
 
-/// Why these settings cannot be used; nothing if all is well.
+/// Why these settings cannot be used; nothing if they can.
 std::optional<Error> refusal(const ReadState& state, const Settings& settings) {
     std::optional<Error> why = state.error ? state.error : unfit(settings, state.file, state.lines);
     if (why) {
@@ -55,7 +55,8 @@ Result<Settings> calibrated(Settings settings, const Result<Calibration>& calibr
     return settings;
 }
 
-/// A damaged calibration must not leave the table dark: the one before it is used, or what the settings say.
+/// A damaged calibration must not leave the table dark: the previous one is used, or else the values of the
+/// settings.
 void use_newest_calibration(Settings& settings, const ReadState& state) {
     const std::filesystem::path& folder = settings.calibration.folder;
     std::error_code none;

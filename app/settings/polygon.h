@@ -1,6 +1,6 @@
 /// Convex polygons on the table.
 ///
-/// Frames   table T, metres; corners counter-clockwise, empty if there is nothing.
+/// Frames   table T, metres; corners counter-clockwise; an empty polygon has none.
 /// Threads  pure; any.
 #pragma once
 

@@ -1,4 +1,4 @@
-/// Allowed values of a number, both ends included, and how they are said.
+/// Allowed values of a number, both ends included, and their wording.
 ///
 /// Threads  pure; any.
 #pragma once

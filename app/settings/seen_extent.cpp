@@ -1,11 +1,12 @@
-// Where eyes all around look through a prop.
+// The points of a prop through which eyes all around see an artifact.
 //
-// From an eye E before a face the corner h of the hull, d behind the face's plane, is seen through the place
-//     S = (d E + e h) / (d + e),     e: how far E is before the plane.
-// Let S1 and S2 be such places, of E1, h1 and E2, h2. A point between them, m S1 + (1 - m) S2, is a weighted mean of the four; the
-// eyes' part of it lies on a line between E1 and E2, the hull's on one between h1 and h2, and the point on the line between these
-// two. So what is seen through a face by a convex set of eyes is convex: it is the hull of what each corner of the one
-// and each corner of the other give. Directions are corners at infinity, E = (x, 0) in homogeneous coordinates.
+// An eye E before a face sees the corner h of the hull, d behind the face's plane, through the point
+//     S = (d E + e h) / (d + e),     e: distance of E before the plane.
+// Let S1 and S2 be two of these points, from E1, h1 and E2, h2. A point between them, m S1 + (1 - m) S2, is a
+// weighted mean of the four: the eyes' part lies on the line from E1 to E2, the hull's part on the line from h1 to
+// h2, and the point on the line between these two parts. So a convex set of eyes sees a convex hull through a
+// convex set of points: the convex hull of the points of all pairs of corners. Directions are corners at infinity,
+// E = (x, 0) in homogeneous coordinates.
 #include "app/settings/whole_zone.h"
 
 #include <algorithm>
@@ -18,18 +19,18 @@ namespace frustumscreen {
 namespace {
 
 constexpr int wedges = 72;
-constexpr double far_away_m = 1e6; ///< stands for infinity on a face
+constexpr double far_away_m = 1e6; ///< a finite stand-in for infinity on a face
 
-/// A corner of the eyes' zone: a point where w is 1, a direction where it is 0.
+/// A corner of the eyes' zone: a point if w is 1, a direction if w is 0.
 struct EyeCorner {
     glm::dvec3 x{0.0};
     double w = 1.0;
 };
 
-/// The corners of a convex solid that holds all of the eyes between two azimuths.
+/// The corners of a convex solid that contains all eyes between two azimuths.
 std::vector<EyeCorner> wedge_of(const EyesAround& eyes, int wedge) {
     constexpr double width = 2.0 * std::numbers::pi / wedges;
-    const double outward = 1.0 / std::cos(0.5 * width); // the chord touches the arc
+    const double outward = 1.0 / std::cos(0.5 * width); // the chord is tangent to the arc
     std::vector<EyeCorner> corners;
     for (const int side : {0, 1}) {
         const double azimuth = width * (wedge + side);
@@ -47,7 +48,7 @@ std::vector<EyeCorner> wedge_of(const EyesAround& eyes, int wedge) {
     return corners;
 }
 
-/// The part of it before the plane; `before` has how far each corner is.
+/// The part of the solid before the plane; `before` gets each corner's distance.
 std::vector<EyeCorner> in_front(const std::vector<EyeCorner>& corners, const Plane& plane,
                                 std::vector<double>& before) {
     const auto distance = [&](const EyeCorner& c) {
@@ -74,7 +75,7 @@ std::vector<EyeCorner> in_front(const std::vector<EyeCorner>& corners, const Pla
     return front;
 }
 
-/// A face with axes of its own in its plane.
+/// A face with coordinate axes in its plane.
 struct FaceAxes {
     explicit FaceAxes(const PropFace& of)
         : face(of), u(glm::normalize(of.corners[1] - of.corners[0])), v(glm::cross(of.plane.normal, u)),
@@ -99,7 +100,7 @@ struct FaceAxes {
     glm::dvec3 u, v, middle;
 };
 
-/// What is seen through the face's plane by these eyes.
+/// The points of the face's plane through which these eyes see the hull.
 Polygon seen_on_plane(const FaceAxes& axes, const std::vector<EyeCorner>& eyes,
                       const std::vector<double>& before, std::span<const glm::dvec3> hull) {
     std::vector<glm::dvec2> places;
@@ -140,7 +141,7 @@ Polygon seen_extent(const PropShape& prop, const EyesAround& eyes, std::span<con
     std::vector<double> before;
     for (const PropFace& face : prop.faces) {
         const FaceAxes axes(face);
-        // An artifact that reaches out of the prop may be seen through all of the face.
+        // An artifact that extends beyond the prop may be seen through all of the face.
         constexpr double rounding_m = 1e-9;
         if (std::any_of(hull.begin(), hull.end(),
                         [&](const glm::dvec3& corner) { return face.plane.distance(corner) > rounding_m; })) {

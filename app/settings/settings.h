@@ -1,10 +1,10 @@
 /// The kiosk's settings: one typed struct for each table of config/kiosk.toml, with defaults and units.
-/// describe_settings.h says what each is for, and its range.
+/// describe_settings.h has the purpose and the range of each.
 ///
-/// Defaults config/kiosk.toml, the set-up as shipped, but for the panel's script and the list of packs.
+/// Defaults config/kiosk.toml, the set-up as shipped, except the panel's script and the list of packs.
 ///
 /// Frames   table T unless the name says otherwise; metres, degrees at this edge.
-/// Ways     `parse_settings` knows syntax and types, `check` what this exhibit can do with them; the type
+/// Ways     `parse_settings` checks syntax and types, `check` whether this exhibit can use them; the type
 ///          CheckedSettings is the proof that both passed.
 /// Errors   one line: file, line, key, what was found, what is allowed.
 /// Threads  values; any.
@@ -48,7 +48,7 @@ struct DisplaySettings {
     bool force = false;
 };
 
-/// Frustum: it stands on the table. Cube: all its edges are `base_m`.
+/// Frustum: stands on the table. Cube: all its edges are `base_m`.
 enum class PropKind { Frustum, Cube };
 [[nodiscard]] std::string_view name_of(PropKind kind);
 /// Table: upright, slid and turned about its axis. Hand: lifted, turned in any way.
@@ -58,7 +58,7 @@ struct PropSettings {
     double base_m = shipped_frustum.base_m; ///< side of the bottom square
     double top_m = shipped_frustum.top_m;   ///< side of the top square
     double height_m = shipped_frustum.height_m;
-    PropZone zone = PropZone::Table; ///< where it moves
+    PropZone zone = PropZone::Table; ///< how it moves
 };
 /// A cube of the usual size, in the hand.
 [[nodiscard]] PropSettings cube_settings(double edge_m = 0.16);
@@ -69,7 +69,7 @@ struct TableSettings {
     double depth_m = 0.5;
 };
 
-/// Where visitors' eyes are, for the plan and for what is baked away.
+/// The places of visitors' eyes, for the plan and for the bake's removal of hidden parts.
 struct EyeSettings {
     glm::dvec3 default_m{0.0, -0.55, 0.50};
     double lowest_elevation_deg = 15.0;
@@ -78,7 +78,7 @@ struct EyeSettings {
     bool tracked = true;
 };
 
-/// Usb: a VIPER, PATRIOT, LIBERTY or HID tracker, whichever is connected. SpaceMouse: a stand-in for one.
+/// Usb: a VIPER, PATRIOT, LIBERTY or HID tracker, whichever is connected. SpaceMouse: a substitute for a tracker.
 /// None: the prop stands at the table's centre, its faces square to the table.
 enum class TrackerKind { Simulated, Replay, Usb, SpaceMouse, None };
 [[nodiscard]] std::string_view name_of(TrackerKind kind);
@@ -93,7 +93,7 @@ struct TrackerSettings {
     double display_latency_ms = 17.0;
 };
 
-/// A press that the scripted panel makes.
+/// A press by the scripted panel.
 struct ScriptedPress {
     double at_s = 0.0;
     int button = 1;
@@ -105,7 +105,7 @@ enum class PanelKind { Scripted, Gpio, Keys };
 struct PanelSettings {
     PanelKind kind = PanelKind::Scripted;
     std::vector<ScriptedPress> script;
-    double repeat_s = 0.0; ///< 0 = once
+    double repeat_s = 0.0; ///< 0: once
     std::string chip = "gpiochip0";
     std::vector<std::string> lines;
     LineBias bias = LineBias::PullUp;
@@ -115,7 +115,7 @@ struct PanelSettings {
     std::vector<std::string> keys;
     double debounce_ms = 30.0, stuck_s = 30.0;
 
-    /// How many real buttons there are.
+    /// Number of real buttons.
     [[nodiscard]] std::size_t buttons() const {
         return kind == PanelKind::Gpio ? lines.size() : kind == PanelKind::Keys ? keys.size() : 0;
     }
@@ -124,23 +124,23 @@ struct PanelSettings {
 struct ExhibitSettings {
     std::vector<std::filesystem::path> packs; ///< shown in this order; resolved as above
     std::string packs_key;                    ///< where the settings name them, for messages
-    /// The installed set, which goes before `packs`; resolved as above. Empty: none is looked for.
+    /// The installed set, which has priority over `packs`; resolved as above. Empty: none is looked for.
     std::filesystem::path library = "/var/lib/frustumscreen/library";
     std::string language = "en";
     bool captions = true;
     double caption_height_m = 0.010;
     double caption_brightness = 0.6; ///< share of the projector's light
-    bool zone_frame = true;          ///< a frame of light shows where the prop belongs
-    bool guidance = true;            ///< whoever sees a dark face is told what to do
+    bool zone_frame = true;          ///< a frame of light shows the prop's zone
+    bool guidance = true;            ///< a visitor who sees a dark face is told what to do
     std::filesystem::path words;     ///< the exhibit's own words; empty: none. Resolved as above
-    bool table_pictures = true;      ///< the set lies on the table, to choose from
-    double rest_s = 60.0; ///< nobody has been there for so long: artifacts in turn, the house's language
-    int memory_mb = 192;  ///< that loaded artifacts may take, 10^6 bytes
+    bool table_pictures = true;      ///< pictures of the set lie on the table, to choose from
+    double rest_s = 60.0; ///< time without visitors until artifacts come in turn, in the first language
+    int memory_mb = 192;  ///< 10^6 bytes that loaded artifacts may take
     std::vector<TrustedKey> keys; ///< the museum's: packs from a stick are signed with one of them
     UnsignedPacks unsigned_packs = UnsignedPacks::Refuse; ///< from a stick
-    /// What the importer says of a stick (library/import_report.h); not there: nothing. Resolved as above.
+    /// The importer's report on a stick (library/import_report.h); missing: there is none. Resolved as above.
     std::filesystem::path import_report = "/run/frustumscreen-import/report.json";
-    /// Of visits, numbers alone (counts/day_counts.h); a folder that is not there: nothing is counted. Resolved as above.
+    /// Numbers of visits (counts/day_counts.h); missing folder: nothing is counted. Resolved as above.
     std::filesystem::path counts = "/var/lib/frustumscreen/counts";
 };
 
@@ -155,38 +155,38 @@ struct SoundSettings {
     SoundKind kind = SoundKind::Alsa;
     std::string device = "default";
     double gain_db = 0.0;
-    std::vector<SoundHour> hours; ///< ascending; on top of the gain, each until the next
+    std::vector<SoundHour> hours; ///< ascending; added to the gain, each until the next
 };
 
-/// V4l2: a camera that the kernel has a driver for, most at USB.
+/// V4l2: a camera with a kernel driver, usually at USB.
 enum class CameraKind { None, V4l2 };
 [[nodiscard]] std::string_view name_of(CameraKind kind);
-/// A tag on the prop: its middle, and how it is turned from lying flat with its top towards +Y.
+/// A tag on the prop: its middle, and its rotation from lying flat with its top towards +Y.
 struct TagSettings {
     int id = 0;
     double size_m = 0.03;     ///< side of the black square
     glm::dvec3 centre_m{0.0}; ///< frame of the prop
     double turn_deg = 0.0;    ///< counter-clockwise seen from above
-    double lean_deg = 0.0;    ///< before that: 0 it lies, 90 it stands and looks outwards, where its foot was
+    double lean_deg = 0.0; ///< before the turn: 0 lies, 90 stands and looks outwards, from where its foot was
 };
-/// Flat, then leaned, then turned, then moved.
+/// The tag flat, then leaned, then turned, then moved.
 [[nodiscard]] RigidTransform prop_from_tag(const TagSettings& tag);
 struct CameraSettings {
     CameraKind kind = CameraKind::None;
     std::string device = "any";
     int width = 1280, height = 720;
     double rate_hz = 30.0;
-    /// 0, below 0, 0: the camera's own value.
+    /// 0, below 0 and 0 mean the camera's own value.
     double exposure_ms = 0.0;
     int gain = -1;
     int white_balance_k = 0;
     double rolling_shutter_ms = 0.0; ///< from the first row's exposure to the last one's; 0: all at once
     bool tags = false;               ///< the prop's second tracker
     bool visitor = false;            ///< the visitor's eye, with nothing on the head
-    bool drift = false;              ///< looks whether the picture lies where it was calibrated
+    bool drift = false;              ///< checks that the picture lies where it was calibrated
     std::vector<TagSettings> tag;
     Pinhole pinhole{1280, 720, 0.0, 0.0, 640.0, 360.0}; ///< fx of 0: not measured
-    RigidTransform table_from_camera;                   ///< at the table's centre: not measured
+    RigidTransform table_from_camera;                   ///< identity: not measured
 };
 
 struct RenderSettings {
@@ -194,15 +194,15 @@ struct RenderSettings {
     int highlight_code = 235; ///< sRGB code of the artifact's brightest places; 0: as in the pack
 };
 
-/// How the table is measured, where calibrations are kept (kept_calibrations.h), and which one is used.
+/// How the table is measured, where calibrations are kept (kept_calibrations.h), and which one is in use.
 struct CalibrationSettings {
     std::filesystem::path folder = "/var/lib/frustumscreen/calibration";
-    bool by_buttons = true;       ///< the staff may begin one with the buttons
-    double sensor_height_m = 0.0; ///< above the prop's bottom; 0: as tracker.sensor_from_prop has it
+    bool by_buttons = true;       ///< the staff may start a calibration with the buttons
+    double sensor_height_m = 0.0; ///< above the prop's bottom; 0: as in tracker.sensor_from_prop
     int touches = 15;
-    double block_m = 0.12;           ///< how high boards raise the prop for half of them
-    std::optional<Calibration> used; ///< it stands in `projector` and `tracker` already
-    std::string used_name;           ///< of its file
+    double block_m = 0.12;           ///< height to which boards raise the prop for half of the touches
+    std::optional<Calibration> used; ///< already copied to `projector` and `tracker`
+    std::string used_name;           ///< the file's name
     std::vector<std::string> unused; ///< why newer ones are not used, one line each
 };
 
@@ -222,7 +222,7 @@ struct Settings {
     HoursSettings hours;
 };
 
-/// A prop in the hand has no zone on the table, and one that is not tracked never leaves it.
+/// A prop in the hand has no zone on the table, and a prop that is not tracked never leaves its zone.
 [[nodiscard]] inline bool shows_zone_frame(const Settings& settings) {
     return settings.exhibit.zone_frame && settings.prop.zone == PropZone::Table &&
            settings.tracker.kind != TrackerKind::None;
@@ -241,11 +241,11 @@ private:
 };
 
 [[nodiscard]] Result<CheckedSettings> load_settings(const std::filesystem::path& file);
-/// The same of text that was read already. The newest kept calibration that is whole and fits these settings takes the place of what
-/// they say of projector and tracker.
+/// The same, from text already read. The newest kept calibration that is whole and fits these settings replaces
+/// their values of projector and tracker.
 [[nodiscard]] Result<CheckedSettings> kiosk_settings(std::string_view text,
                                                      const std::filesystem::path& file);
-/// Without a calibration. `file` names the text in messages and is what relative paths are relative to.
+/// Ignores calibrations. `file` names the text in messages, and relative paths start at its folder.
 [[nodiscard]] Result<CheckedSettings> parse_settings(std::string_view text,
                                                      const std::filesystem::path& file);
 

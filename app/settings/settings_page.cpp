@@ -110,7 +110,7 @@ public:
     [[nodiscard]] const std::string& text() const { return text_; }
 
 private:
-    /// An empty text is no default that a person could write.
+    /// An empty text is shown as no default: a person could not write it.
     void text_row(const char* key, const std::string& usual, std::string_view allowed,
                   std::string_view sentence) {
         row(key, usual.empty() ? usual : in_quotes(usual), allowed, sentence);

@@ -38,14 +38,14 @@ std::string found(const toml::node& node) {
     return node.is_table() ? "a table" : "a date or a time";
 }
 
-/// How far a mistyped key is from one that there is; a shortened one is near.
+/// Distance of a mistyped key from an existing one; a shortened key is near.
 std::size_t distance(std::string_view mistyped, std::string_view key) {
     const bool shortened =
         key.substr(0, mistyped.size()) == mistyped || mistyped.substr(0, key.size()) == key;
     return shortened ? 1 : letters_apart(mistyped, key);
 }
 
-/// What people call by a name that has no letter of it.
+/// Names that people use for a key but that share no letters with it.
 std::string_view usual_name(std::string_view key) {
     constexpr std::array<std::pair<std::string_view, std::string_view>, 3> names{
         {{"volume", "gain_db"}, {"loudness", "gain_db"}, {"size_m", "base_m"}}};
@@ -63,7 +63,7 @@ std::uint32_t line_of(const toml::node& node) {
 void ReadState::refuse(MessageId id, std::uint32_t line, std::string_view what) {
     if (!error) {
         error = Error{ErrorKind::BadInput, id, located(file, line, what)};
-    } else if (error->id == unknown_key && id == unknown_key) { // all of them are told at once
+    } else if (error->id == unknown_key && id == unknown_key) { // all unknown keys are reported at once
         error->message += fmt::format("; line {}: {}", line, what);
     }
 }
@@ -382,7 +382,7 @@ void TableReader::finish() {
     if (table_ == nullptr || (state_->error && state_->error->id != unknown_key)) {
         return;
     }
-    constexpr std::size_t most_told = 5;
+    constexpr std::size_t max_told = 5;
     std::vector<const toml::key*> left_over;
     for (const auto& [key, node] : *table_) {
         if (std::find(known_.begin(), known_.end(), key.str()) == known_.end()) {
@@ -392,7 +392,7 @@ void TableReader::finish() {
     std::sort(left_over.begin(), left_over.end(), [](const toml::key* a, const toml::key* b) {
         return a->source().begin.line < b->source().begin.line;
     });
-    left_over.resize(std::min(left_over.size(), most_told));
+    left_over.resize(std::min(left_over.size(), max_told));
     for (const toml::key* const each : left_over) {
         const std::string key = printable(each->str(), 60);
         const std::string_view meant = usual_name(key);

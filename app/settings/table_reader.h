@@ -1,9 +1,9 @@
-/// Reads one TOML table key by key: every key that is asked for is consumed, what is left over is refused.
+/// Reads one TOML table key by key: every key that is asked for is consumed, and any key left over is refused.
 /// Walks describe_settings.h and ignores its sentences.
 ///
 /// Errors   the first one of a file is kept in `ReadState`, as one line: file, line, key, what was found,
-///          what is allowed. After it every call leaves its value unchanged, so callers need not check each
-///          call.
+///          what is allowed. After an error every call leaves its value unchanged, so callers need not check
+///          each call.
 /// Threads  one caller.
 #pragma once
 
@@ -27,19 +27,19 @@
 
 namespace frustumscreen {
 
-/// Line of every key that was read, by its dotted name; a key that the file leaves out has none.
+/// Line of every key that was read, by its dotted name; a key missing in the file has none.
 using KeyLines = std::map<std::string, std::uint32_t, std::less<>>;
 
 struct ReadState {
     std::string file;
-    std::filesystem::path folder; ///< that paths are relative to
+    std::filesystem::path folder; ///< relative paths start here
     KeyLines lines;
     std::optional<Error> error;
 
     void refuse(MessageId id, std::uint32_t line, std::string_view what);
 };
 
-/// `file:line: what`, without a line where there is none.
+/// `file:line: what`, or `file: what` if the line is 0.
 [[nodiscard]] std::string located(std::string_view file, std::uint32_t line, std::string_view what);
 
 class TableReader {
@@ -64,7 +64,7 @@ public:
     void integer(std::string_view key, int& value, int low, int high, std::string_view sentence);
     void integer(std::string_view key, std::uint64_t& value, std::string_view sentence);
     void text(std::string_view key, std::string& value, std::string_view sentence = {});
-    /// Of any length, and perhaps empty: what it may hold, the caller checks.
+    /// A text of any length, or empty; the caller checks it.
     void any_text(std::string_view key, std::string& value);
     /// Texts under keys that the file chooses: { key = "text", ... }, in the keys' order.
     void named_texts(std::string_view key, std::vector<std::pair<std::string, std::string>>& values,
@@ -74,13 +74,13 @@ public:
     void path(std::string_view key, std::filesystem::path& value, std::string_view sentence);
     void paths(std::string_view key, std::vector<std::filesystem::path>& values, std::size_t most,
                std::string_view sentence);
-    /// The value whose number is the index of the word found.
+    /// The value is the index of the word found.
     template <typename Choice>
     void choice(std::string_view key, Choice& value, std::span<const std::string_view> words,
                 std::string_view /*sentence*/) {
         value = static_cast<Choice>(word_of(key, static_cast<std::size_t>(value), words));
     }
-    /// A text that has a meaning: `from_text` returns nothing for what is not `allowed`.
+    /// A text with a meaning: `from_text` returns nothing for a text that is not `allowed`.
     template <typename Value>
     void parsed(std::string_view key, Value& value, const auto& to_text, const auto& from_text,
                 std::string_view allowed, std::string_view /*sentence*/) {
@@ -92,7 +92,7 @@ public:
             refuse_text(key, written, allowed);
         }
     }
-    /// The same for each text of a list; a key that is left out leaves `values` as they are.
+    /// The same for each text of a list; a missing key leaves `values` as they are.
     template <typename Value>
     void parsed_list(std::string_view key, std::vector<Value>& values, std::size_t most,
                      const auto& /*to_text*/, const auto& from_text, std::string_view allowed,
@@ -125,23 +125,23 @@ public:
             item.finish();
         }
     }
-    /// Refuses `key` with `what` ("is ...; allowed ...") unless all is well.
+    /// Refuses `key` with `what` ("is ...; allowed ...") unless `well`.
     void require(MessageId id, bool well, std::string_view key, std::string_view what) {
         if (!well) {
             refuse(id, key, what);
         }
     }
-    /// Refuses `key` if one of `others` stands beside it.
+    /// Refuses `key` if one of `others` is present as well.
     void one_way(std::string_view key, std::initializer_list<std::string_view> others,
                  std::string_view words);
-    /// Refuses keys that nobody asked for. Call it when all were.
+    /// Refuses keys that were not asked for. Call it last.
     void finish();
 
     /// Refuses `key` with `what` ("is ...; allowed ..."), at its line.
     void refuse(MessageId id, std::string_view key, std::string_view what);
-    /// `file:line: name` of a key that was read, for messages about what it names.
+    /// `file:line: name` of a key that was read, for messages about its value.
     [[nodiscard]] std::string place(std::string_view key) const;
-    /// The keys that were asked for so far.
+    /// The keys asked for so far.
     [[nodiscard]] std::span<const std::string> known() const { return known_; }
 
 private:
@@ -152,7 +152,7 @@ private:
     bool number_of(const toml::node& node, const std::string& name, double& value, const Range& range);
     bool text_of(const toml::node& node, const std::string& name, std::string& value);
     void refuse_text(std::string_view key, std::string_view found, std::string_view allowed);
-    /// The number of the word found; `usual` if the key is left out.
+    /// The index of the word found; `usual` if the key is missing.
     [[nodiscard]] std::size_t word_of(std::string_view key, std::size_t usual,
                                       std::span<const std::string_view> words);
     [[nodiscard]] TableReader table_of(std::string_view key);

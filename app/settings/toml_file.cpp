@@ -11,10 +11,10 @@ namespace frustumscreen {
 
 namespace {
 
-/// Each dot of a key nests a table, and toml++ destroys tables by recursion: this bounds its depth.
-constexpr std::size_t most_dots = 5000;
+/// Each dot of a key nests a table, and toml++ destroys tables by recursion: this bounds the depth.
+constexpr std::size_t max_dots = 5000;
 
-/// Where a string or a comment that begins at `at` ends; `at` itself where none begins.
+/// The end of the string or comment that begins at `at`; `at` itself if none begins there.
 std::size_t end_of_text(std::string_view text, std::size_t at) {
     const auto after = [&](std::string_view end, std::size_t from) {
         const std::size_t found = text.find(end, from);
@@ -38,12 +38,12 @@ std::size_t end_of_text(std::string_view text, std::size_t at) {
         if (text[at] == '\n' && quotes.size() == 1) {
             return at;
         }
-        at += text[at] == '\\' ? 1 : 0; // and what it escapes
+        at += text[at] == '\\' ? 1 : 0; // skips the escaped letter too
     }
     return text.size();
 }
 
-/// Those of keys and numbers; sentences may have as many as they like.
+/// The dots of keys and numbers; strings and comments may have any number of dots.
 std::size_t dots_outside_texts(std::string_view text) {
     std::size_t dots = 0;
     for (std::size_t at = 0; at < text.size();) {
@@ -56,11 +56,11 @@ std::size_t dots_outside_texts(std::string_view text) {
 
 } // namespace
 
-void read_toml(ReadState& state, std::string_view text, std::uintmax_t most_bytes,
+void read_toml(ReadState& state, std::string_view text, std::uintmax_t max_bytes,
                const std::function<void(const toml::table&)>& read) {
-    if (text.size() > most_bytes) {
+    if (text.size() > max_bytes) {
         state.refuse("toml.too_long", 0,
-                     fmt::format("is {} bytes; allowed are at most {}", text.size(), most_bytes));
+                     fmt::format("is {} bytes; allowed are at most {}", text.size(), max_bytes));
         return;
     }
     if (const std::optional<std::size_t> line = line_that_is_not_utf8(text)) {
@@ -68,10 +68,10 @@ void read_toml(ReadState& state, std::string_view text, std::uintmax_t most_byte
                      "is not UTF-8; save the file as UTF-8");
         return;
     }
-    if (const std::size_t dots = dots_outside_texts(text); dots > most_dots) {
+    if (const std::size_t dots = dots_outside_texts(text); dots > max_dots) {
         state.refuse(
             "toml.too_many_dots", 0,
-            fmt::format("holds {} dots in keys and numbers; allowed are at most {}", dots, most_dots));
+            fmt::format("holds {} dots in keys and numbers; allowed are at most {}", dots, max_dots));
         return;
     }
     try {

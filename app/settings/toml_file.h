@@ -1,4 +1,4 @@
-/// A TOML file that a person wrote, as far as all such files are alike: its size, its letters, its depth, its syntax.
+/// The checks common to all TOML files that a person writes: size, encoding, depth, syntax.
 ///
 /// Errors   one line in `ReadState`: file, line, what is wrong, what is allowed.
 /// Threads  pure; any.
@@ -10,8 +10,9 @@
 
 namespace frustumscreen {
 
-/// Hands the file's table to `read`, or keeps in `state` why there is none. What `read` throws is kept there too.
-void read_toml(ReadState& state, std::string_view text, std::uintmax_t most_bytes,
+/// Passes the file's table to `read`, or keeps in `state` why there is none; an exception from `read` is kept there
+/// too.
+void read_toml(ReadState& state, std::string_view text, std::uintmax_t max_bytes,
                const std::function<void(const toml::table&)>& read);
 
 } // namespace frustumscreen

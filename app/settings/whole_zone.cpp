@@ -12,8 +12,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// The distance from the lens's foot up to which every face is turned to the light at every yaw, as FaceReader has it: by the sine at
-/// the farthest corner. Negative if there is none.
+/// The distance from the lens's foot up to which every face is turned to the light at every yaw, by FaceReader's
+/// criterion: the sine at the farthest corner. Negative if there is none.
 double lit_radius(const PropShape& prop, const glm::dvec3& lens) {
     double reach = 0.0;
     for (const glm::dvec3& corner : prop.corners) {
@@ -24,7 +24,7 @@ double lit_radius(const PropShape& prop, const glm::dvec3& lens) {
         return std::all_of(prop.faces.begin(), prop.faces.end(), [&](const PropFace& face) {
             const glm::dvec3& n = face.plane.normal;
             const double height = n.z * lens.z - face.plane.offset - glm::length(glm::dvec2(n)) * radius;
-            return height >= least_sine_of_light * farthest;
+            return height >= min_sine_of_light * farthest;
         });
     };
     if (!lit(0.0)) {
@@ -39,8 +39,8 @@ double lit_radius(const PropShape& prop, const glm::dvec3& lens) {
     return inside;
 }
 
-/// The table top without a rim: a prop stands firmly while its axis is at least half its foot's reach from the table's edge, where a
-/// corner of the foot may hang over.
+/// The table top without a rim. A prop stands firmly if its axis is at least half its foot's reach from the table's
+/// edge; a corner of the foot may then extend beyond the edge.
 Polygon places_on_table(const TableSettings& table, const PropShape& prop) {
     double rim = 0.0;
     for (const glm::dvec3& corner : prop.corners) {
@@ -62,7 +62,7 @@ WholeZone whole_zone(const Settings& settings, const EyesAround& eyes, std::span
     const glm::dvec3 lens = settings.projector.table_from_projector.translation;
     const double radius = lit_radius(prop, lens);
     Polygon places = radius > 0.0 ? places_on_table(settings.table, prop) : Polygon();
-    // A circle of places through which the artifact is seen, about the prop's axis, in the picture.
+    // The circle about the prop's axis through which the artifact is seen must lie in the picture.
     const std::array<Plane, 4> picture =
         picture_planes(settings.projector.pinhole, settings.projector.table_from_projector);
     for (const glm::dvec2& round : seen_extent(prop, eyes, hull)) {

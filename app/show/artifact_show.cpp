@@ -33,11 +33,11 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     std::unique_ptr<ArtifactShow> show(new ArtifactShow(settings, std::move(renderer)));
     show->set_options_ = {options.technique,
                           options.samples,
-                          options.economies,
+                          options.cull_kinds,
                           options.program,
                           options.waits,
                           devices,
-                          draws_on_processor(gl_driver_name()) ? 0 : most_blocks_on_gpu()};
+                          draws_on_processor(gl_driver_name()) ? 0 : max_blocks_on_gpu()};
     TRY_VOID(show->upload_what_stays(settings));
     TRY(show->set_,
         open_set(settings, show->set_options(),
@@ -45,7 +45,7 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const Settings& setti
     show->needs_ = show->set_->needs;
     if (options.other_sets) {
         const bool blocks =
-            show->set_options_.most_blocks_on_gpu > 0 || options.technique.ends_with(on_gpu_suffix);
+            show->set_options_.max_blocks_on_gpu > 0 || options.technique.ends_with(on_gpu_suffix);
         show->needs_ = united(show->needs_, needs_of_any_pack(settings, options.samples, blocks));
         show->may_speak_ = settings.sound.kind != SoundKind::None;
     }
@@ -81,7 +81,7 @@ Result<void> ArtifactShow::upload_set(bool hotspots) {
     constexpr std::uint64_t all = std::numeric_limits<std::uint64_t>::max();
     TRY_VOID(set_->word_pictures.upload(store, all));
     set_->table.upload(store, all);
-    return set_->residents->upload_first(store);
+    return set_->artifact_cache->upload_first(store);
 }
 
 std::uint64_t ArtifactShow::planned_bytes_that_stay() const {
@@ -102,31 +102,32 @@ void ArtifactShow::note_language(const Settings& settings) {
         fmt::join(languages, ", ")));
 }
 
-/// Measures at the middle of the table, seen by the default eye. What comes later is expected to cost what the first
-/// artifact does, triangle for triangle and sample for sample.
+/// Measures at the middle of the table, seen by the default eye. Later artifacts are expected to cost as much as the
+/// first one, triangle for triangle and sample for sample.
 void ArtifactShow::measure(const Settings& settings, const RenderTarget& target, bool other_sets) {
     PlanView view{projector_, table_from_projector_, {}, std::span(&settings.eye.default_m, 1)};
-    Residents& residents = *set_->residents;
-    RunLevels& first = *residents.find(0);
-    const ScenePlan& plan = residents.known(0).plan;
+    ArtifactCache& artifact_cache = *set_->artifact_cache;
+    RunLevels& first = *artifact_cache.find(0);
+    const ScenePlan& plan = artifact_cache.known(0).plan;
     view.light = plan.light;
-    view.brightness = residents.exposure(0);
-    if (plan.rungs.size() > 1 || residents.size() > 1 || other_sets) {
+    view.brightness = artifact_cache.exposure(0);
+    if (plan.quality_levels.size() > 1 || artifact_cache.size() > 1 || other_sets) {
         first.measure(prop_, view, renderer_, target);
     }
     warm_up(view, target);
     expected_ = {cost_of(first.times()), prop_, view, settings.eye.default_m};
     expected_.view.eyes_m = {};
-    residents.start(expected_.cost, prop_, expected_.view, expected_.eye_m);
+    artifact_cache.start(expected_.cost, prop_, expected_.view, expected_.eye_m);
 }
 
-/// Draws a whole picture and one that redraws what moved, each with one of all that lies on the table: drivers compile for what
-/// a frame does, and this should be done before the first frame.
+/// Draws a whole picture and one that redraws only what moved, each with one of every picture on the table: drivers
+/// compile on first use, and this should happen before the first frame.
 void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
     if (const std::vector<std::vector<glm::dvec2>>& sizes = catalogue().front().caption_sizes_m;
         !sizes.empty()) {
         for (std::size_t language = 0; language < sizes.size() && !view.caption; ++language) {
-            if (const LoadedTexts* const caption = set_->residents->texts(0, TextPart::Caption, language)) {
+            if (const LoadedTexts* const caption =
+                    set_->artifact_cache->texts(0, TextPart::Caption, language)) {
                 view.caption = TablePicture{picture_corners({attract_place_m_, sizes[language].front()}), 1.0,
                                             caption->texture(0)};
             }
@@ -145,7 +146,7 @@ void ArtifactShow::warm_up(PlanView view, const RenderTarget& target) {
     view.on_table = on_table_.pictures();
     RenderTarget drawn = target;
     for (const Redraw redraw : {Redraw::Everything, Redraw::Changes}) {
-        static_cast<void>(set_->residents->find(0)->draw({}, prop_, view, renderer_, drawn, redraw));
+        static_cast<void>(set_->artifact_cache->find(0)->draw({}, prop_, view, renderer_, drawn, redraw));
         drawn.buffer_age = 1;
         view.table_from_prop.translation.x += warm_up_step_m;
     }
@@ -179,8 +180,8 @@ Result<void> ArtifactShow::upload_signs(const Settings& settings) {
 }
 
 void ArtifactShow::keep_names() {
-    for (std::size_t artifact = 0; artifact < set_->residents->size(); ++artifact) {
-        names_.insert(set_->residents->known(artifact).outline.description.title);
+    for (std::size_t artifact = 0; artifact < set_->artifact_cache->size(); ++artifact) {
+        names_.insert(set_->artifact_cache->known(artifact).outline.description.title);
     }
     names_.insert(set_->languages.begin(), set_->languages.end());
     names_.insert(set_options_.technique);
@@ -197,8 +198,8 @@ Result<void> ArtifactShow::prepare(const ShownSet& set) {
 }
 
 std::unique_ptr<ShownSet> ArtifactShow::exchange(std::unique_ptr<ShownSet> set) {
-    past_switches_ += set_->residents->switches();
-    past_ignored_times_ += set_->residents->ignored_times();
+    past_switches_ += set_->artifact_cache->switches();
+    past_ignored_times_ += set_->artifact_cache->ignored_times();
     std::swap(set_, set);
     on_.reset();
     keep_names();
@@ -235,7 +236,7 @@ void ArtifactShow::place_hotspot(const Presentation& presentation) {
     const PresentedHotspot& hotspot = *presentation.hotspot;
     const CatalogueEntry& entry = catalogue()[hotspot.artifact];
     const LoadedTexts* const texts =
-        set_->residents->texts(hotspot.artifact, TextPart::Telling, hotspot.language);
+        set_->artifact_cache->texts(hotspot.artifact, TextPart::NarrationSequencer, hotspot.language);
     if (texts != nullptr) {
         hotspots_.place(hotspot, texts->texture(label_picture(entry, hotspot.language, hotspot.hotspot)),
                         caption_brightness_, projector_, table_from_projector_, on_table_);
@@ -258,8 +259,9 @@ std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& pres
         return std::nullopt;
     }
     const PresentedCaption& caption = *presentation.caption;
-    const LoadedTexts* const texts = set_->residents->texts(
-        presentation.artifact, caption.portion ? TextPart::Telling : TextPart::Caption, caption.language);
+    const LoadedTexts* const texts = set_->artifact_cache->texts(
+        presentation.artifact, caption.portion ? TextPart::NarrationSequencer : TextPart::Caption,
+        caption.language);
     const TextureId texture =
         texts != nullptr ? texts->texture(portion_picture(caption.portion.value_or(0), caption.shape))
                          : TextureId::None;
@@ -272,20 +274,20 @@ std::optional<TablePicture> ArtifactShow::place_caption(const Presentation& pres
 
 DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentation, const glm::dvec3& eye_m,
                               const RenderTarget& target, Redraw redraw) {
-    Residents& residents = *set_->residents;
-    residents.step(renderer_.store(), {presentation.artifact, presentation.table_language,
-                                       presentation.wanted.artifacts(), presentation.wanted_language});
+    ArtifactCache& artifact_cache = *set_->artifact_cache;
+    artifact_cache.step(renderer_.store(), {presentation.artifact, presentation.table_language,
+                                            presentation.wanted.artifacts(), presentation.wanted_language});
     PlanView view{projector_, table_from_projector_, presentation.table_from_prop, std::span(&eye_m, 1)};
-    view.light = residents.known(presentation.artifact).plan.light;
-    view.brightness = residents.exposure(presentation.artifact) * presentation.brightness;
+    view.light = artifact_cache.known(presentation.artifact).plan.light;
+    view.brightness = artifact_cache.exposure(presentation.artifact) * presentation.brightness;
     view.caption = place_caption(presentation);
     on_table_.clear();
     place_zone_frame(presentation);
     set_->table.place(presentation,
                       hidden_by_prop(prop_, presentation.table_from_prop, table_from_projector_.translation),
                       on_table_);
-    if (presentation.stand_in) {
-        set_->table.place_stand_in(*presentation.stand_in, on_table_);
+    if (presentation.placeholder) {
+        set_->table.place_placeholder(*presentation.placeholder, on_table_);
     }
     place_hotspot(presentation);
     place_signs(presentation);
@@ -293,7 +295,7 @@ DrawResult ArtifactShow::draw(MonotonicTime now, const Presentation& presentatio
                   renderer_.store(), on_table_);
     marks_.place(mark_, on_table_);
     view.on_table = on_table_.pictures();
-    RunLevels* const levels = residents.find(presentation.artifact);
+    RunLevels* const levels = artifact_cache.find(presentation.artifact);
     if (levels == nullptr) {
         on_.reset();
         plan_frame(prop_, PlacedLevel{}, view, dark_);
@@ -312,12 +314,12 @@ ShowUse ArtifactShow::use() const {
     use.shaders = renderer_.shaders();
     use.samples = needs_.samples;
     use.planned_gpu_bytes = gpu_bytes(needs_, projector_.width, projector_.height);
-    use.text_gpu_bytes = set_->residents->uploaded_text_bytes();
+    use.text_gpu_bytes = set_->artifact_cache->uploaded_text_bytes();
     use.planned_gpu_bytes += planned_bytes_that_stay() + set_->planned_gpu_bytes() + use.text_gpu_bytes;
     use.gpu_bytes = renderer_.bytes();
     for (std::size_t artifact = 0; artifact < catalogue().size(); ++artifact) {
         use.captions += catalogue()[artifact].languages.size();
-        if (const RunLevels* levels = set_->residents->find(artifact)) {
+        if (const RunLevels* levels = set_->artifact_cache->find(artifact)) {
             for (const LevelUse& level : levels->uses()) {
                 use.planned_gpu_bytes += level.planned_gpu_bytes;
             }
@@ -327,26 +329,26 @@ ShowUse ArtifactShow::use() const {
 }
 
 void ArtifactShow::record_time(MonotonicTime now, double ms) {
-    if (RunLevels* const levels = on_ ? set_->residents->find(*on_) : nullptr) {
+    if (RunLevels* const levels = on_ ? set_->artifact_cache->find(*on_) : nullptr) {
         levels->record_time(now, ms);
         load_ = levels->load();
     }
 }
 
 ShowState ArtifactShow::state(const Presentation& presentation) const {
-    const Residents& residents = *set_->residents;
-    const RunLevels* const shown = residents.find(presentation.artifact);
+    const ArtifactCache& artifact_cache = *set_->artifact_cache;
+    const RunLevels* const shown = artifact_cache.find(presentation.artifact);
     LevelState levels = shown != nullptr ? shown->state() : LevelState{};
     levels.technique = kept(levels.technique);
-    levels.switches = past_switches_ + residents.switches();
-    levels.ignored_times = past_ignored_times_ + residents.ignored_times();
-    ShowState state{kept(residents.known(presentation.artifact).outline.description.title),
+    levels.switches = past_switches_ + artifact_cache.switches();
+    levels.ignored_times = past_ignored_times_ + artifact_cache.ignored_times();
+    ShowState state{kept(artifact_cache.known(presentation.artifact).outline.description.title),
                     kept(presentation.language), levels, presentation.settled};
     state.stands = presentation.attracts ? std::optional(presentation.table_from_prop) : std::nullopt;
-    state.left_out = residents.left_out();
+    state.left_out = artifact_cache.left_out();
     state.lamps = presentation.lamps;
-    state.loaded = residents.ready();
-    state.loaded_bytes = residents.bytes();
+    state.loaded = artifact_cache.ready();
+    state.loaded_bytes = artifact_cache.bytes();
     state.state = presentation.state;
     return state;
 }

@@ -24,7 +24,7 @@ std::optional<Command> command_of(const PanelEvent& event) {
     }
 }
 
-/// The sentence is empty where there is none.
+/// The sentence is empty if there is no camera.
 DeviceState camera_state(const Inputs& inputs) {
     if (!inputs.camera) {
         return {};
@@ -40,7 +40,7 @@ DeviceState camera_state(const Inputs& inputs) {
     return {condition_of(state), Sentence(sentence_of(state))};
 }
 
-/// `device`: none: nothing is asked for.
+/// `device`: null if not configured.
 DeviceReport report_of(const auto& device) {
     return device ? DeviceReport(device->condition()) : DeviceReport{};
 }
@@ -63,7 +63,7 @@ std::string camera_uses(const Inputs& inputs) {
 
 DeviceIntake::DeviceIntake(const Settings& settings, Inputs& inputs)
     : inputs_(inputs), head_is_followed_(settings.eye.tracked), looks_for_drift_(settings.camera.drift),
-      situation_(settings.eye.default_m, 0.5 * settings.prop.height_m) {
+      tracked_state_(settings.eye.default_m, 0.5 * settings.prop.height_m) {
     samples_.reserve(1024);
     tag_poses_.reserve(64);
     heads_.reserve(64);
@@ -105,14 +105,14 @@ void DeviceIntake::take_poses(MonotonicTime now) {
             head_signal_.take(sample);
         }
         if (head_is_followed_ || sample.station != head_station) {
-            errors_ += situation_.take(sample) ? 0 : 1;
+            errors_ += tracked_state_.take(sample) ? 0 : 1;
         }
     }
     for (const UncertainPose& pose : tag_poses_) {
-        errors_ += situation_.take_tags(pose) ? 0 : 1;
+        errors_ += tracked_state_.take_tags(pose) ? 0 : 1;
     }
     for (const SeenHead& head : heads_) {
-        errors_ += situation_.take_visitor(head) ? 0 : 1;
+        errors_ += tracked_state_.take_visitor(head) ? 0 : 1;
     }
 }
 
@@ -120,17 +120,17 @@ TrackerHealth DeviceIntake::tracker_health() const {
     return inputs_.tracker ? inputs_.tracker->health() : TrackerHealth::Well;
 }
 
-Situation DeviceIntake::situation_at(MonotonicTime lit) {
+TrackedState DeviceIntake::tracked_state_at(MonotonicTime lit) {
     const TrackerHealth health = tracker_health();
-    situation_.tracker_is(health);
-    Situation situation = situation_.at(lit);
-    situation.prop_known = situation.prop_known || (!inputs_.tracker && !inputs_.tags);
-    // Visitors do not meet the tracker while the tags stand in for it.
-    situation.tracker = situation.by_tags ? TrackerHealth::Well : health;
-    return situation;
+    tracked_state_.tracker_is(health);
+    TrackedState tracked_state = tracked_state_.at(lit);
+    tracked_state.prop_known = tracked_state.prop_known || (!inputs_.tracker && !inputs_.tags);
+    // The tags stand in for the tracker, so its failure does not concern visitors.
+    tracked_state.tracker = tracked_state.by_tags ? TrackerHealth::Well : health;
+    return tracked_state;
 }
 
-void DeviceIntake::tell(const Situation& shown, RunStatus& status) const {
+void DeviceIntake::tell(const TrackedState& shown, RunStatus& status) const {
     status.device_errors = errors_;
     status.tracker_counts = inputs_.tracker ? inputs_.tracker->counts() : TrackerCounts{};
     status.tracker_hangs = inputs_.tracker && inputs_.tracker->hangs();
@@ -138,7 +138,7 @@ void DeviceIntake::tell(const Situation& shown, RunStatus& status) const {
     status.prop_by = shown.by_tags ? "tags" : inputs_.tracker ? "tracker" : "";
     status.eye_by = shown.head_known ? "sensor" : shown.head_seen ? "camera" : "settings";
     status.eye_sd_m = status.eye_by == "camera" ? std::optional(shown.eye_sd_m) : std::nullopt;
-    status.hand_overs = situation_.hand_overs();
+    status.hand_overs = tracked_state_.hand_overs();
     status.devices.tracker = report_of(inputs_.tracker);
     status.devices.panel = report_of(inputs_.panel);
     status.devices.sound = report_of(inputs_.sound);

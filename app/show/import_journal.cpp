@@ -63,7 +63,7 @@ void ImportJournal::note(const SharedImport& import, const Write& write) {
     }
     const bool goes_on = noted_ && noted_->report.import_id == import->report.import_id;
     if (!goes_on && noted_ && is_over(noted_->report) && packs_ < noted_->report.packs.size()) {
-        note_packs(write); // the one before comes to its end first
+        note_packs(write); // the previous import's packs come first
         return;
     }
     if (noted_ != import) {
@@ -87,7 +87,7 @@ void ImportJournal::note_packs(const Write& write) {
     if (!is_over(noted_->report)) {
         return;
     }
-    for (std::size_t lines = 0; lines < most_lines && packs_ < packs.size(); ++lines, ++packs_) {
+    for (std::size_t lines = 0; lines < max_lines && packs_ < packs.size(); ++lines, ++packs_) {
         const ImportedPack& pack = packs[packs_];
         write(pack.outcome == ImportOutcome::Refused ? LogPriority::Warning : LogPriority::Notice,
               line_of(pack));

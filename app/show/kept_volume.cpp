@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::uintmax_t most_bytes = 64;
+constexpr std::uintmax_t max_bytes = 64;
 
 std::string line_of(int louder_db, double over_db) {
     return fmt::format("louder_db {} over {}\n", louder_db, over_db);
@@ -24,7 +24,7 @@ int read_kept_volume(const std::filesystem::path& file, double settings_gain_db)
     if (file.empty() || !std::filesystem::exists(file, failed)) {
         return 0;
     }
-    const Result<Bytes> bytes = read_file(file, most_bytes);
+    const Result<Bytes> bytes = read_file(file, max_bytes);
     int louder_db = 0;
     if (!bytes || std::sscanf(std::string(as_text(*bytes)).c_str(), "louder_db %4d over", &louder_db) != 1) {
         return 0;
@@ -35,7 +35,7 @@ int read_kept_volume(const std::filesystem::path& file, double settings_gain_db)
 VolumeKeeper::VolumeKeeper(std::filesystem::path file, double settings_gain_db)
     : file_(std::move(file)), settings_gain_db_(settings_gain_db),
       kept_db_(read_kept_volume(file_, settings_gain_db)) {
-    // What was chosen over other settings shall not come back with them.
+    // A volume chosen over other settings must not return with them.
     std::error_code failed;
     if (kept_db_ == 0 && !file_.empty()) {
         std::filesystem::remove(file_, failed);

@@ -12,12 +12,12 @@ namespace frustumscreen {
 
 namespace {
 
-/// More than the settings may have.
-constexpr std::uintmax_t most_bytes = 1U << 20U;
+/// More than the largest allowed size of the settings.
+constexpr std::uintmax_t max_bytes = 1U << 20U;
 
-/// `as`: whose folder relative paths begin at, and whose name messages bear.
+/// `as`: the file whose folder relative paths start from and whose name appears in messages.
 Result<UsedSettings> read_from(const std::filesystem::path& file, const std::filesystem::path& as) {
-    const Result<Bytes> bytes = read_file(file, most_bytes);
+    const Result<Bytes> bytes = read_file(file, max_bytes);
     if (!bytes) {
         return as_kind(ErrorKind::BadConfiguration, bytes.error());
     }
@@ -69,7 +69,7 @@ void SettingsKeeper::note(const RunStatus& status) {
         return;
     }
     is_done_ = true;
-    const Result<Bytes> kept = read_file(file_, most_bytes);
+    const Result<Bytes> kept = read_file(file_, max_bytes);
     if (kept && as_text(*kept) == text_) {
         return;
     }

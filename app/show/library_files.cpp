@@ -17,7 +17,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::uintmax_t most_verdict_bytes = 64U << 10U;
+constexpr std::uintmax_t max_verdict_bytes = 64U << 10U;
 
 } // namespace
 
@@ -35,13 +35,13 @@ Result<std::optional<SetChoice>> read_choice(const std::filesystem::path& librar
         return std::optional<SetChoice>();
     }
     const std::filesystem::path path = library / set_file_name;
-    TRY(const Bytes bytes, read_file(path, most_set_file_bytes));
+    TRY(const Bytes bytes, read_file(path, max_set_file_bytes));
     TRY(SetFile file, at(path.string(), parse_set_file(as_text(bytes))));
     return std::optional(std::move(file.choice));
 }
 
 std::optional<SetVerdict> read_verdict(const std::filesystem::path& library) {
-    const Result<Bytes> bytes = read_file(library / verdict_file_name, most_verdict_bytes);
+    const Result<Bytes> bytes = read_file(library / verdict_file_name, max_verdict_bytes);
     const Result<SetVerdict> verdict =
         bytes ? parse_verdict(as_text(*bytes)) : Result<SetVerdict>(tl::unexpected<Error>(bytes.error()));
     return verdict ? std::optional(*verdict) : std::nullopt;
@@ -49,7 +49,7 @@ std::optional<SetVerdict> read_verdict(const std::filesystem::path& library) {
 
 Result<void> keep_verdict(const std::filesystem::path& library, const SetVerdict& verdict) {
     const std::filesystem::path path = library / verdict_file_name;
-    std::error_code failed; // then the file cannot be written either, and that says why
+    std::error_code failed; // if this fails, write_file fails too and reports why
     std::filesystem::create_directories(path.parent_path(), failed);
     return write_file(path, as_bytes(write_verdict(verdict)));
 }
@@ -62,7 +62,7 @@ std::string packs_of_ended_keys(const std::filesystem::path& library, const Inst
     }
     const tl::expected<SetFile, ImportFailure> file = read_set_file(**tree);
     if (!file) {
-        return {}; // told elsewhere
+        return {}; // reported elsewhere
     }
     return names_in_words(packs_of_ended_keys(**tree, set, trusted_keys(settings.exhibit.keys, file->keys),
                                               day_here(clock, file->latest_day)));

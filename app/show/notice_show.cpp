@@ -22,7 +22,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double empty_ring_brightness = 0.2; ///< of a text's
+constexpr double empty_ring_brightness = 0.2; ///< relative to a text's
 constexpr int sample_width = 5;
 constexpr int sample_height = 3;
 
@@ -35,7 +35,7 @@ SharedRecording recording_of(const LanguageWords& words, const std::string& key,
         fmt::format("{} in '{}'", key, words.language), sound->second, {}, words.language, key, {}, gain_db});
 }
 
-/// None: nothing can be drawn, and a line says why.
+/// The function that draws notices; null: notices cannot be drawn, and a line says why.
 ImportWatch::Draw draws_with(LanguageWords words, double texels_per_m) {
     Result<Typesetter> opened = Typesetter::open();
     if (!opened) {
@@ -52,7 +52,7 @@ ImportWatch::Draw draws_with(LanguageWords words, double texels_per_m) {
     };
 }
 
-/// A rectangle along the axes around a sign, with room for its move.
+/// The axis-parallel rectangle around a sign, with a margin for its movement.
 TableRectangle around(const PlacedSign& sign) {
     constexpr double moves_m = 0.02;
     glm::dvec2 low = sign.corners_m[0];
@@ -64,7 +64,7 @@ TableRectangle around(const PlacedSign& sign) {
     return {0.5 * (low + high), high - low + 2.0 * moves_m, 0};
 }
 
-/// What visitors are shown beside the prop, but for the caption.
+/// The pictures for visitors beside the prop, except the caption.
 class Obstacles {
 public:
     explicit Obstacles(const Presentation& presentation) {
@@ -84,7 +84,7 @@ public:
         }
     }
     [[nodiscard]] std::span<const TableRectangle> lit() const { return lit_.all(); }
-    /// Places where nothing lies now.
+    /// Places without a picture.
     [[nodiscard]] std::span<const TableRectangle> empty() const { return empty_.all(); }
 
 private:
@@ -98,7 +98,7 @@ private:
         [[nodiscard]] std::span<const TableRectangle> all() const { return std::span(all_).first(count_); }
 
     private:
-        std::array<TableRectangle, CaptionPlacer::most_obstacles> all_{};
+        std::array<TableRectangle, CaptionPlacer::max_obstacles> all_{};
         std::size_t count_ = 0;
     };
     List lit_, empty_;
@@ -113,7 +113,7 @@ NoticeShow::NoticeShow(const Settings& settings, ImportWatch::Answer answer)
         return;
     }
     ImportWatch::Draw draw = [](const NoticeText&, const NoticeText&) { return SharedNotice(); };
-    if (!tells_of_sticks(settings)) { // in the journal and the status alone
+    if (!tells_of_sticks(settings)) { // only in the journal and the status
         watch_.emplace(settings.exhibit.import_report, std::move(draw), answer);
         return;
     }
@@ -143,7 +143,7 @@ SharedNotice NoticeShow::wanted(const std::optional<ShownNotice>& shown) const {
     return shown->stopped ? import_->stopped : import_->notice;
 }
 
-void NoticeShow::step(MonotonicTime now, const Situation& situation, Presentation& presentation) {
+void NoticeShow::step(MonotonicTime now, const TrackedState& tracked_state, Presentation& presentation) {
     if (!watch_) {
         return;
     }
@@ -152,16 +152,15 @@ void NoticeShow::step(MonotonicTime now, const Situation& situation, Presentatio
         import_ = latest;
         notice_.take(now, import_->report, import_->is_old);
     }
-    side_.update(situation.eye_m);
+    side_.update(tracked_state.eye_m);
     const std::optional<ShownNotice> shown = notice_.at(now);
     const SharedNotice notice = wanted(shown);
-    place(now, notice, situation, presentation);
+    place(now, notice, tracked_state, presentation);
     if (presentation.notice) {
         presentation.notice->ring_full = shown ? shown->ring.value_or(1.0) : 1.0;
         presentation.settled = presentation.settled && presentation.notice->brightness >= 1.0;
     }
-    const bool between_two =
-        lies_there_ && notice != nullptr; // one text has gone, and the next is on its way
+    const bool between_two = lies_there_ && notice != nullptr; // between two notices
     lies_there_ = (presentation.notice || between_two) && !presentation.staff;
     due_.reset();
     if (shown && lies_there_ && presentation.notice && presentation.notice->picture == notice &&
@@ -171,20 +170,20 @@ void NoticeShow::step(MonotonicTime now, const Situation& situation, Presentatio
     announcement_ = !due_ ? nullptr : due_->key == "stick.found" ? found_ : take_out_;
 }
 
-void NoticeShow::place(MonotonicTime now, const SharedNotice& wanted, const Situation& situation,
+void NoticeShow::place(MonotonicTime now, const SharedNotice& wanted, const TrackedState& tracked_state,
                        Presentation& presentation) {
     const Obstacles obstacles(presentation);
-    NoticeSurroundings surroundings{hidden_by_prop(prop_, presentation.table_from_prop, lens_m_),
-                                    hidden_by_prop(prop_, presentation.table_from_prop, situation.eye_m),
-                                    glm::dvec2(presentation.table_from_prop.translation),
-                                    side_.quarter_turns(),
-                                    obstacles.lit(),
-                                    obstacles.empty(),
-                                    {}};
+    NoticeEnvironment environment{hidden_by_prop(prop_, presentation.table_from_prop, lens_m_),
+                                  hidden_by_prop(prop_, presentation.table_from_prop, tracked_state.eye_m),
+                                  glm::dvec2(presentation.table_from_prop.translation),
+                                  side_.quarter_turns(),
+                                  obstacles.lit(),
+                                  obstacles.empty(),
+                                  {}};
     if (presentation.caption) {
-        surroundings.caption = presentation.caption->rectangle;
+        environment.caption = presentation.caption->rectangle;
     }
-    presentation.notice = place_.step(now, wanted, surroundings);
+    presentation.notice = place_.step(now, wanted, environment);
     if (presentation.notice && presentation.caption) {
         presentation.caption->brightness *=
             left_to_caption(presentation.caption->rectangle, *presentation.notice);

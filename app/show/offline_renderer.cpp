@@ -12,7 +12,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The finest level is chosen where the cost does not matter, so it gets the smoothest outlines too.
+/// The finest level is chosen where cost does not matter, so it gets the smoothest outlines too.
 int samples_of(const OfflineOptions& options, const PackDescription& pack) {
     const int usual = options.technique == "finest" ? finest_samples : pack.samples;
     return options.samples > 0 ? options.samples : usual;
@@ -22,7 +22,7 @@ std::vector<std::uint32_t> levels_to_read(const ScenePlan& plan) {
     return plan.levels.empty() ? std::vector{plan.exposure_level} : plan.levels;
 }
 
-/// What is needed of a pack for the options.
+/// The scene plan of a pack for the options.
 Result<ScenePlan> plan_offline(const OfflineSetup& setup, const PackOutline& pack) {
     const auto& [checked, options] = setup;
     Settings settings = *checked;
@@ -35,7 +35,7 @@ Result<ScenePlan> plan_offline(const OfflineSetup& setup, const PackOutline& pac
     request.light = options.light;
     request.samples = samples_of(options, pack.description);
     request.room = default_samples;
-    request.economies = options.economies;
+    request.cull_kinds = options.cull_kinds;
     if (!options.views.empty()) {
         request.visibility = visibility_of(settings, options.views);
     }
@@ -76,7 +76,7 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineSc
     const int width = made->projector_.width;
     const int height = made->projector_.height;
     TRY(made->display_, SurfacelessDisplay::create(width, height));
-    made->technique_ = name_of(plan.rungs.front());
+    made->technique_ = name_of(plan.quality_levels.front());
     const PackLevel& brightness = pack->levels[plan.exposure_level];
     made->exposure_ =
         exposure_of(brightness, pack->box_size, pack->textures[brightness.texture], plan.highlight_code);
@@ -92,7 +92,7 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineSc
 
 Result<void> OfflineRenderer::take_level(const OfflineScene& scene) {
     const auto& [setup, plan, pack, relief] = scene;
-    const std::uint32_t number = plan.rungs.front().level;
+    const std::uint32_t number = plan.quality_levels.front().level;
     const SceneLevel level = scene_level(*pack, number, plan);
     TRY(renderer_, Renderer::create(projector_.width, projector_.height, needs_of(plan, level)));
     const Image8& texture = pack->textures[level.mesh.texture];
@@ -107,7 +107,7 @@ Result<void> OfflineRenderer::take_relief(const OfflineScene& scene) {
     const auto& [setup, plan, pack, relief] = scene;
     TRY(renderer_, Renderer::create(projector_.width, projector_.height, plan.needs));
     seen_ = plan.seen_reliefs.front();
-    const bool on_gpu = plan.rungs.front().on_gpu;
+    const bool on_gpu = plan.quality_levels.front().on_gpu;
     TRY(const Drawable drawable,
         on_gpu ? renderer_->store().upload(relief) : renderer_->store().keep(relief));
     placed_ = placed(*pack, relief, plan.metres_per_box, drawable);

@@ -29,7 +29,7 @@ void PatternShow::tell(const RunStatus& status) {
     }
 }
 
-/// Whether the framebuffer has another picture of the camera than it is to have.
+/// True if the framebuffer's camera picture is out of date.
 bool PatternShow::follow_camera(int buffer_age) {
     if (panel_ && viewfinder_ != nullptr) {
         return panel_->follow(*viewfinder_) || without_camera_ > 0;
@@ -53,9 +53,9 @@ void PatternShow::set_lines(std::vector<std::string> lines) {
     }
 }
 
-DrawResult PatternShow::draw(MonotonicTime, const Situation& situation, const RenderTarget& target,
+DrawResult PatternShow::draw(MonotonicTime, const TrackedState& tracked_state, const RenderTarget& target,
                              Redraw redraw) {
-    const glm::dmat4 pose = with_edges_ ? situation.table_from_prop.matrix() : glm::dmat4(1.0);
+    const glm::dmat4 pose = with_edges_ ? tracked_state.table_from_prop.matrix() : glm::dmat4(1.0);
     const PixelRectangle whole{0, 0, scene_.projector.width, scene_.projector.height};
     const bool other_camera = follow_camera(target.buffer_age);
     const bool unchanged = target.buffer_age > 0 && shown_ == pose && !other_camera;
@@ -63,13 +63,13 @@ DrawResult PatternShow::draw(MonotonicTime, const Situation& situation, const Re
         return {};
     }
     const bool with_camera = panel_ && viewfinder_ != nullptr;
-    without_camera_ = with_camera ? 0 : std::min(without_camera_ + 1, most_buffers);
+    without_camera_ = with_camera ? 0 : std::min(without_camera_ + 1, max_buffers);
     if (redraw == Redraw::Again && unchanged && target.buffer_age == 1) {
         return {true, {}, whole, 0};
     }
     if (shown_ != pose) {
         const Image8 picture =
-            with_edges_ ? with_prop(table_, scene_, situation.table_from_prop, typesetter_) : table_;
+            with_edges_ ? with_prop(table_, scene_, tracked_state.table_from_prop, typesetter_) : table_;
         upload_.put(lines_.empty() ? picture : with_lines(picture, lines_, typesetter_));
         shown_ = pose;
     }

@@ -9,7 +9,7 @@ namespace frustumscreen {
 Image<std::uint8_t> qr_code(std::string_view text) {
     constexpr int quiet = 4;
     constexpr int smallest_version = 0; // as small as the text allows
-    if (text.empty() || text.size() > most_qr_bytes) {
+    if (text.empty() || text.size() > max_qr_bytes) {
         return {};
     }
     const std::unique_ptr<QRcode, decltype(&QRcode_free)> code(

@@ -9,10 +9,10 @@ namespace frustumscreen {
 
 namespace {
 
-/// The timetable is asked again after so long even if nothing is to change: another program may have set the zone.
+/// The timetable is also evaluated at this interval, because another program may have set the time zone.
 constexpr std::chrono::minutes between_looks{1};
 
-/// "Mon 2026-11-23 18:00", local.
+/// Local time, as "Mon 2026-11-23 18:00".
 Sentence words_of(std::chrono::sys_seconds time) {
     const std::chrono::sys_seconds local = time + local_offset_at(time);
     return format_sentence("{:%a %F %H:%M}", fmt::gmtime(std::chrono::system_clock::to_time_t(local)));

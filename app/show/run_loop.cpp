@@ -13,16 +13,16 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t window_frames = 8192; ///< that the status' times are taken from
-constexpr std::size_t most_rows = 1U << 20U;
+constexpr std::size_t window_frames = 8192; ///< for the status's frame times
+constexpr std::size_t max_rows = 1U << 20U;
 constexpr Nanoseconds between_statuses = std::chrono::seconds(1);
 constexpr Nanoseconds between_probes = std::chrono::seconds(1);
 
 /// The smallest light that still draws; 0 means asleep.
 constexpr double least_light = 1e-6;
 
-/// Of visits that wait to be taken; nobody takes them for as long only where its thread is stuck.
-constexpr std::size_t most_visit_pieces = 64;
+/// Limit for visits that wait to be written; it is reached only if the writer's thread is stuck.
+constexpr std::size_t max_visit_pieces = 64;
 
 std::string_view shown_artifact(const ShowState& state) {
     return state.state != State::Fault ? state.artifact : std::string_view{};
@@ -47,12 +47,12 @@ public:
           light_delay_(Nanoseconds(std::llround(1e6 * settings.tracker.display_latency_ms))),
           intake_(settings, inputs), stills_(options.stills, options.length, start, display),
           times_(window_frames), presented_(start), artifact_since_(start) {
-        visit_pieces_.reserve(most_visit_pieces);
+        visit_pieces_.reserve(max_visit_pieces);
         result_.status.calibrates = static_cast<bool>(options.calibrate);
         result_.status.camera_for = camera_uses(inputs);
         if (options.keep_rows && options.length) {
             rows_expected_ =
-                std::min<std::size_t>(most_rows, static_cast<std::size_t>(*options.length / period_) + 2);
+                std::min<std::size_t>(max_rows, static_cast<std::size_t>(*options.length / period_) + 2);
             result_.rows.reserve(rows_expected_);
         }
     }
@@ -94,13 +94,13 @@ private:
         follow_hours(now);
         follow_viewfinder(now);
         watch_.enters("draws");
-        const Situation situation = intake_.situation_at(now + light_delay_.from_now());
+        const TrackedState tracked_state = intake_.tracked_state_at(now + light_delay_.from_now());
         show_.set_mark(mark(now));
         if (staff_) {
             show_.set_signal(intake_.prop_signal().at(now), intake_.head_signal().at(now));
         }
         const std::vector<Command>& commands = intake_.commands();
-        show_.step(now, commands, situation);
+        show_.step(now, commands, tracked_state);
         if (inputs_.sound) {
             const SoundReport heard = inputs_.sound->poll(now, show_.wish());
             show_.hear(heard);
@@ -111,9 +111,9 @@ private:
             show_.tell(result_.status);
         }
         if (asleep_) {
-            return sleep(now, situation, begin);
+            return sleep(now, tracked_state, begin);
         }
-        TRY(const Drawn drawn, draw(now, situation));
+        TRY(const Drawn drawn, draw(now, tracked_state));
         const double ms = milliseconds_since(begin);
         watch_.enters("reports its status");
         if (drawn.presented) {
@@ -121,8 +121,8 @@ private:
         }
         watch_.look(now, display_, inputs_);
         count(drawn.presented, drawn.changed, now, ms);
-        result_.status.prop_known = situation.prop_known;
-        result_.status.head_known = situation.head_known;
+        result_.status.prop_known = tracked_state.prop_known;
+        result_.status.head_known = tracked_state.head_known;
         const ShowState state = show_.state();
         follow_state(now, state);
         if (result_.rows.size() < rows_expected_) {
@@ -130,8 +130,8 @@ private:
                                     state.levels.error, drawn.changed, state.artifact, state.levels.level,
                                     name_of(state.state), state.language, state.told});
         }
-        shown_ = situation;
-        shown_.table_from_prop = state.stands.value_or(situation.table_from_prop);
+        shown_ = tracked_state;
+        shown_.table_from_prop = state.stands.value_or(tracked_state.table_from_prop);
         if (options_.screenshot != nullptr && !shows_camera_) { // a screenshot may become a file
             watch_.enters("reads its picture back for the staff");
             options_.screenshot->serve(display_);
@@ -145,15 +145,16 @@ private:
 
     struct Drawn {
         bool presented = false;
-        bool changed = false; ///< the picture is another one than before
-        bool coded = false;   ///< it has its code for the watchdog
+        bool changed = false; ///< the picture differs from the previous one
+        bool coded = false;   ///< contains a code for the watchdog
     };
-    /// Draws what changed, or the same picture again where none was presented for a second.
-    [[nodiscard]] Result<Drawn> draw(MonotonicTime now, const Situation& situation) {
+    /// Draws what changed, or the same picture again if none was presented for a second.
+    [[nodiscard]] Result<Drawn> draw(MonotonicTime now, const TrackedState& tracked_state) {
         const RenderTarget target{display_.framebuffer(), display_.buffer_age()};
         const bool probe =
             options_.redraw == Redraw::Changes && (now - presented_ >= between_probes || !watch_.ready());
-        const DrawResult drawn = show_.draw(now, situation, target, probe ? Redraw::Again : options_.redraw);
+        const DrawResult drawn =
+            show_.draw(now, tracked_state, target, probe ? Redraw::Again : options_.redraw);
         if (!drawn.drawn) {
             return Drawn{};
         }
@@ -193,7 +194,7 @@ private:
         if (options_.visits == nullptr) {
             return;
         }
-        if (visit_pieces_.size() < most_visit_pieces / 2) {
+        if (visit_pieces_.size() < max_visit_pieces / 2) {
             visit_counter_.step({.now = now,
                                  .used = state.used,
                                  .rests = asleep_ || state.state == State::Attract,
@@ -214,7 +215,7 @@ private:
         return inputs_.drift->step(now, attracts_ && !asleep_ && intake_.commands().empty() && is_seen);
     }
 
-    /// What the camera sees is for the staff alone, and only while they hold both of their buttons.
+    /// The camera's picture is only for the staff, and only while they hold both of their buttons.
     void follow_viewfinder(MonotonicTime now) {
         if (!inputs_.viewfinder) {
             return;
@@ -225,35 +226,36 @@ private:
         show_.set_viewfinder(shows_camera_ ? inputs_.viewfinder.get() : nullptr);
     }
 
-    /// What is pressed while it sleeps wakes it and does nothing else.
+    /// A press during sleep wakes the exhibit and has no other effect.
     void follow_hours(MonotonicTime now) {
         if (hours_ == nullptr) {
             return;
         }
         const bool was_dark = hours_->asleep();
         hours_->step(now, {std::chrono::system_clock::now(), !intake_.commands().empty(), used_,
-                           watch_.ready() && !staff_}); // who stands on a ladder is not left in the dark
+                           watch_.ready() && !staff_}); // staff on a ladder are not left in the dark
         if (was_dark) {
             intake_.drop_commands();
         }
-        asleep_ = was_dark && hours_->asleep(); // the last picture before is drawn, and black
+        asleep_ = was_dark && hours_->asleep(); // the last picture before sleep is drawn, and is black
         show_.set_light(asleep_ ? 0.0 : std::max(hours_->light(), least_light));
     }
 
-    /// The projector is dark; the devices are read, and heard of by the watchdog.
-    [[nodiscard]] Result<void> sleep(MonotonicTime now, const Situation& situation, MonotonicTime begin) {
+    /// Keeps the projector dark; devices are read and reported to the watchdog.
+    [[nodiscard]] Result<void> sleep(MonotonicTime now, const TrackedState& tracked_state,
+                                     MonotonicTime begin) {
         watch_.enters("waits for the display");
         TRY_VOID(display_.stay_dark());
         count_visits(now, show_.state());
-        presented_ = now - between_probes; // the first picture afterwards is presented in any case
+        presented_ = now - between_probes; // so that the first picture after sleep is presented
         fault_since_
-            .reset(); // nobody sees that there is nothing to show, and a new start would light the projector
+            .reset(); // a fault is not visible in the dark, and a restart of the exhibit would light the projector
         watch_.enters("reports its status");
         watch_.asleep(now);
         watch_.look(now, display_, inputs_);
         count(false, false, now, milliseconds_since(begin));
-        result_.status.prop_known = situation.prop_known;
-        result_.status.head_known = situation.head_known;
+        result_.status.prop_known = tracked_state.prop_known;
+        result_.status.head_known = tracked_state.head_known;
         if (inputs_.panel) {
             inputs_.panel->light(0);
         }
@@ -296,9 +298,9 @@ private:
         status.shown_since =
             std::chrono::system_clock::now() -
             std::chrono::duration_cast<std::chrono::system_clock::duration>(now - artifact_since_);
-        status.surroundings = status_file_.surroundings();
-        if (status.surroundings) {
-            status.versions.system = status.surroundings->system;
+        status.environment = status_file_.environment();
+        if (status.environment) {
+            status.versions.system = status.environment->system;
         }
         status.loaded = state.loaded;
         status.loaded_bytes = state.loaded_bytes;
@@ -338,7 +340,7 @@ private:
         return (options_.stop != nullptr && options_.stop->received()) || (options_.ends && options_.ends());
     }
 
-    /// Waits for it, unless the run is fast.
+    /// Waits for the next display time, unless the run is fast.
     [[nodiscard]] MonotonicTime next_display_time(MonotonicTime now) {
         if (options_.fast) {
             return now + period_;
@@ -362,23 +364,23 @@ private:
     RunWatch& watch_;
     RunHours* hours_; ///< none: it never sleeps
     bool asleep_ = false;
-    bool attracts_ = false;     ///< in the frame before: nobody was there
-    bool staff_ = false;        ///< in the frame before: the staff's picture was shown
-    bool shows_camera_ = false; ///< the staff hold their buttons and see what the camera sees
+    bool attracts_ = false;     ///< in the previous frame no visitor was present
+    bool staff_ = false;        ///< in the previous frame the staff picture was shown
+    bool shows_camera_ = false; ///< the staff hold their buttons and see the camera's picture
     MonotonicTime start_;
     Nanoseconds period_;
     LightDelay light_delay_;
     DeviceIntake intake_;
     StillTaker stills_;
-    Situation shown_; ///< of the latest frame, as it was drawn
+    TrackedState shown_; ///< of the latest frame, as it was drawn
     RecentFrameTimes times_;
-    MonotonicTime presented_; ///< when the picture on show was
-    Sentence artifact_;       ///< that is shown
+    MonotonicTime presented_; ///< when the shown picture was presented
+    Sentence artifact_;       ///< on show
     MonotonicTime artifact_since_;
-    std::optional<MonotonicTime> fault_since_; ///< nothing can be shown
-    std::optional<MonotonicTime> used_;        ///< when somebody used the exhibit last
+    std::optional<MonotonicTime> fault_since_; ///< since when nothing can be shown
+    std::optional<MonotonicTime> used_;        ///< when the exhibit was last used
     VisitCounter visit_counter_;
-    std::vector<VisitPiece> visit_pieces_; ///< that were not taken yet
+    std::vector<VisitPiece> visit_pieces_; ///< not taken yet
     CountedVisits visits_;
     std::uint8_t probe_code_ = 0;
     std::size_t rows_expected_ = 0;

@@ -21,7 +21,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Quotes a text for CSV where it must be.
+/// Quotes a text for CSV if necessary.
 std::string csv_text(std::string_view text) {
     if (text.find_first_of(",\"\n\r") == std::string_view::npos) {
         return std::string(text);
@@ -132,15 +132,15 @@ void StatusFile::note_hang(bool hangs) {
     changed_.notify_one();
 }
 
-SharedSurroundings StatusFile::surroundings() {
+SharedEnvironment StatusFile::environment() {
     const std::lock_guard lock(mutex_);
-    return surroundings_;
+    return environment_;
 }
 
 void StatusFile::work() {
     begin_device_thread("status");
     bool complained = false;
-    Surroundings surroundings;
+    Environment environment;
     std::unique_lock lock(mutex_);
     while (true) {
         changed_.wait(lock, [this] { return pending_ || closing_; });
@@ -154,9 +154,9 @@ void StatusFile::work() {
         pending_ = false;
         lock.unlock();
         stamp(status);
-        renew_surroundings(surroundings, places_, status_clock());
-        status.surroundings = std::make_shared<const Surroundings>(surroundings);
-        status.versions.system = surroundings.system;
+        renew_environment(environment, places_, status_clock());
+        status.environment = std::make_shared<const Environment>(environment);
+        status.versions.system = environment.system;
         const Result<void> written = renew_file(places_.status_file, as_bytes(status_json(status)));
         if (!written && !complained) {
             say_line("frustumscreen", written.error().message);
@@ -166,7 +166,7 @@ void StatusFile::work() {
             written_(status);
         }
         lock.lock();
-        surroundings_ = std::move(status.surroundings);
+        environment_ = std::move(status.environment);
     }
 }
 

@@ -31,9 +31,9 @@ void SetTrial::take(SetChoice choice) {
 
 void SetTrial::begin() {
     if (verdict_.state != TrialState::Trying || trust_ == Trust::Before) {
-        return; // it is not begun with
+        return; // the exhibit does not begin with it
     }
-    if (choice_.last_good && verdict_.starts >= most_starts) {
+    if (choice_.last_good && verdict_.starts >= max_starts) {
         refuse(verdict_.number,
                fmt::format("the exhibit began with it {} times and never came to show it for {} s",
                            verdict_.starts, long_enough / std::chrono::seconds(1)));

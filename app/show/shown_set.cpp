@@ -12,10 +12,10 @@ namespace frustumscreen {
 
 namespace {
 
-/// Type size of what a visitor should do, in those of a caption.
+/// Type size of advice relative to a caption's.
 constexpr double advice_em = 1.5;
 
-/// Without its words the exhibit shows signs alone, and a note says why.
+/// Without its texts the exhibit shows signs alone, and a note says why.
 AdviceWords read_words(const Settings& settings, const SetOptions& options, const SetRequest& request,
                        ShownSet& set) {
     TextStyle style = text_style(settings);
@@ -75,8 +75,8 @@ Result<std::unique_ptr<ShownSet>> open_set(const Settings& settings, const SetOp
     const bool table = chooses_on_table(settings) && options.devices.other_packs && request.packs.size() > 1;
     TRY(OpenedArtifacts opened,
         open_artifacts(settings, request.packs,
-                       {options.technique, options.samples, options.economies, options.devices.language,
-                        options.devices.other_packs, table, options.most_blocks_on_gpu, deadline_ms,
+                       {options.technique, options.samples, options.cull_kinds, options.devices.language,
+                        options.devices.other_packs, table, options.max_blocks_on_gpu, deadline_ms,
                         options.program, request.packs_key, request.goes_on}));
     auto set = std::make_unique<ShownSet>();
     set->number = request.number;
@@ -98,32 +98,32 @@ Result<std::unique_ptr<ShownSet>> open_set(const Settings& settings, const SetOp
     }
     const auto budget = static_cast<std::uint64_t>(settings.exhibit.memory_mb) * 1'000'000;
     const std::uint64_t stays = options.gpu_bytes_that_stay + set->planned_gpu_bytes();
-    set->residents = std::make_unique<Residents>(
-        ResidentsSetUp{std::move(opened.known), options.technique, deadline_ms,
-                       budget - std::min(budget, stays), text_style(settings), settings.exhibit.language,
-                       options.waits, options.program, std::move(opened.left_out)},
+    set->artifact_cache = std::make_unique<ArtifactCache>(
+        ArtifactCacheSetUp{std::move(opened.known), options.technique, deadline_ms,
+                           budget - std::min(budget, stays), text_style(settings), settings.exhibit.language,
+                           options.waits, options.program, std::move(opened.left_out)},
         std::move(*opened.first));
     if (frames) {
-        set->residents->start(frames->cost, frames->prop, frames->view, frames->eye_m);
+        set->artifact_cache->start(frames->cost, frames->prop, frames->view, frames->eye_m);
     }
     return set;
 }
 
-/// What is small and seen at once comes first.
-Result<void> ShownSet::upload(GpuStore& store, const ResidentsWish& wish, std::uint64_t most_bytes) {
+/// Small pictures that are visible at once come first.
+Result<void> ShownSet::upload(GpuStore& store, const CacheRequest& wish, std::uint64_t max_bytes) {
     if (!word_pictures.ready()) {
-        return word_pictures.upload(store, most_bytes);
+        return word_pictures.upload(store, max_bytes);
     }
     if (!table.ready()) {
-        table.upload(store, most_bytes);
+        table.upload(store, max_bytes);
         return {};
     }
-    residents->step(store, wish);
+    artifact_cache->step(store, wish);
     return {};
 }
 
-bool ShownSet::ready(const ResidentsWish& wish) const {
-    return word_pictures.ready() && table.ready() && residents->has(wish);
+bool ShownSet::ready(const CacheRequest& wish) const {
+    return word_pictures.ready() && table.ready() && artifact_cache->has(wish);
 }
 
 bool ShownSet::release_some(GpuStore& store) {
@@ -131,7 +131,7 @@ bool ShownSet::release_some(GpuStore& store) {
         word_pictures.release(store);
         return true;
     }
-    return table.release_some(store) || residents->release_some(store);
+    return table.release_some(store) || artifact_cache->release_some(store);
 }
 
 TextureId ShownSet::word(const WordIndex& word, std::size_t shape) const {
@@ -150,8 +150,8 @@ bool ShownSet::speaks() const {
             }
         }
     }
-    for (std::size_t artifact = 0; artifact < residents->size(); ++artifact) {
-        for (const SharedRecording& recording : residents->known(artifact).texts.recordings) {
+    for (std::size_t artifact = 0; artifact < artifact_cache->size(); ++artifact) {
+        for (const SharedRecording& recording : artifact_cache->known(artifact).texts.recordings) {
             if (recording) {
                 return true;
             }

@@ -19,18 +19,18 @@ namespace {
 
 constexpr const char* calibration_name = "calibration in use";
 
-/// As anybody outside judges it.
+/// The verdict as other programs judge it.
 std::string verdict(const RunStatus& status) {
     KnownExhibit known;
     known.status.fields = nlohmann::json::parse(status_json(status), nullptr, false);
     known.status.age_s = 0.0;
-    if (status.surroundings) {
-        known.surroundings = *status.surroundings;
+    if (status.environment) {
+        known.environment = *status.environment;
     }
     return verdict_of(known).sentence;
 }
 
-/// Days since "2026-11-25 10:12 UTC"; nothing: it says no date, or one to come.
+/// Days since "2026-11-25 10:12 UTC"; nothing: there is no date, or it is in the future.
 std::optional<int> age_days(const std::string& made, std::time_t now) {
     std::tm day{};
     if (std::sscanf(made.c_str(), "%4d-%2d-%2d", &day.tm_year, &day.tm_mon, &day.tm_mday) != 3) {
@@ -68,7 +68,7 @@ std::string calibration_line(const CalibrationSettings& settings, std::time_t no
 StaffFacts staff_facts(const RunStatus& status, const Settings& settings, std::string_view driver,
                        State before, std::time_t now) {
     StaffFacts facts;
-    std::vector<StatusLine> lines = status_lines(&status, 0.0, status.surroundings.get(), now);
+    std::vector<StatusLine> lines = status_lines(&status, 0.0, status.environment.get(), now);
     const std::string calibration = calibration_line(settings.calibration, now);
     const auto after = std::find_if(lines.begin(), lines.end(), [](const StatusLine& line) {
         return line.name == "calibration" || line.name == "buttons";

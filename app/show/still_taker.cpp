@@ -14,7 +14,7 @@ StillTaker::StillTaker(int count, std::optional<Nanoseconds> length, MonotonicTi
     }
 }
 
-void StillTaker::take(MonotonicTime now, const Situation& shown, bool settled) {
+void StillTaker::take(MonotonicTime now, const TrackedState& shown, bool settled) {
     if (taken_ >= stills_.size() || !length_) {
         return;
     }
@@ -27,12 +27,12 @@ void StillTaker::take(MonotonicTime now, const Situation& shown, bool settled) {
     }
 }
 
-void StillTaker::keep(MonotonicTime now, const Situation& shown) {
+void StillTaker::keep(MonotonicTime now, const TrackedState& shown) {
     Still& still = stills_.at(taken_++);
-    still.situation = shown;
+    still.tracked_state = shown;
     still.time = MonotonicTime(now - start_);
     read_colour_into(display_.framebuffer(), still.picture);
-    erase_probe(still.picture); // the code is for a watchdog and no part of the picture
+    erase_probe(still.picture); // the code is for the watchdog, not part of the picture
 }
 
 std::vector<Still> StillTaker::finish() && {

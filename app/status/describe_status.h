@@ -1,6 +1,7 @@
-/// Every field of the exhibit's status, once: its key, its sentence in docs/status.md, and its figure for Prometheus where it has one.
-/// The writer and the reader of the status file (status_fields.h), the page's table (status_report.cpp) and the numbers for Prometheus
-/// walk this description, in this order. A reader has filled in what stands above when it comes to a line.
+/// Every field of the exhibit's status, described once: its key, its sentence in docs/status.md, and its Prometheus
+/// metric if it has one. The writer and the reader of the status file (status_fields.h), the page's table
+/// (status_report.cpp) and the metrics for Prometheus walk this description, in this order. A reader has filled in
+/// the earlier lines when it comes to a line.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -17,7 +18,7 @@ namespace frustumscreen {
 
 inline constexpr std::array all_healths{Health::Well, Health::NoPicture, Health::FrozenCode,
                                         Health::ThreadHangs, Health::Hangs};
-/// A finest level is off by less than a micrometre.
+/// Millimetres, to 0.1 micrometre: a finest level is off by less than a micrometre.
 inline constexpr Digits error_digits{1.0, 1e4};
 /// Metres in the report, millimetres in the file.
 inline constexpr Digits thousandths{1e3, 1e3};
@@ -48,7 +49,7 @@ void set_fields(auto& fields, auto& set, bool library_hangs) {
     fields.field("trouble", trouble_of(set, library_hangs));
 }
 
-/// As in the importer's own file.
+/// The same fields as in the importer's own file.
 void import_fields(auto& fields, auto& report) {
     fields.field("import_id", report.import_id);
     fields.field("stick", report.stick);
@@ -241,7 +242,7 @@ void drawing_fields(auto& fields, auto& status) {
                  Metric{"device_errors_total", "Errors that devices answered with."});
 }
 
-/// `device`: its key, a literal.
+/// `device`: the key, a literal.
 void condition_fields(auto& fields, const char* device, auto& report) {
     fields.object(device, {}, [&](auto& inner) {
         inner.field("ok", report.ok, {},

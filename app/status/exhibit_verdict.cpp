@@ -22,7 +22,7 @@ ExhibitVerdict not_running(MessageId id, std::string sentence) {
     return {false, false, std::move(sentence), std::string(id.view())};
 }
 
-/// Why nothing is known of now; nothing: the status is of now.
+/// Why the status is not current; nothing if it is.
 std::optional<ExhibitVerdict> why_not_running(const StatusDocument& status) {
     if (status.fields.is_null()) {
         return not_running("exhibit.unknown", fmt::format("Nothing is known of the exhibit: {}", status.why));
@@ -58,7 +58,7 @@ ExhibitVerdict unhealthy(const std::string& word) {
                                                                  : fmt::format("its health is '{}'", word)));
 }
 
-/// What the watchdog complains of; nothing: it does not, or nobody knows.
+/// The watchdog's trouble; nothing if it has none or is unknown.
 std::optional<ExhibitVerdict> watchdog_complaint(const StatusDocument& watchdog) {
     if (!watchdog.fresh()) {
         return std::nullopt;
@@ -75,7 +75,8 @@ std::optional<ExhibitVerdict> watchdog_complaint(const StatusDocument& watchdog)
     return std::nullopt;
 }
 
-/// What of the devices a person has to put right, the first clause of each sentence: what to do stands below.
+/// What the staff must put right on the devices: the first clause of each sentence, since the lines below tell what
+/// to do.
 struct Complaints {
     std::string id; ///< of the first one
     std::string clauses;
@@ -88,7 +89,7 @@ struct Complaints {
     }
 };
 
-/// Those that cannot be used, and those that are there and impaired.
+/// The devices that cannot be used, and those that are impaired.
 std::pair<Complaints, Complaints> complaints_of(const StatusReport& status) {
     std::pair<Complaints, Complaints> found;
     auto& [missing, impaired] = found;
@@ -130,7 +131,7 @@ ExhibitVerdict verdict_of(const KnownExhibit& known) {
     if (report.state == name_of(State::Fault)) {
         return not_well("exhibit.no_artifact", "The exhibit runs, and has no artifact that it can show");
     }
-    if (std::optional<ExhibitVerdict> complaint = watchdog_complaint(known.surroundings.watchdog)) {
+    if (std::optional<ExhibitVerdict> complaint = watchdog_complaint(known.environment.watchdog)) {
         return std::move(*complaint);
     }
     const auto [missing, impaired] = complaints_of(report);

@@ -1,5 +1,6 @@
-/// Whether the exhibit is well, as far as anybody can know from outside: it shows an artifact, nobody has a complaint, and each device
-/// that its settings ask for can be used. The watchdog does not go by this but by the status' `health`: no restart plugs in a cable.
+/// The verdict on the exhibit from outside. It is well if it shows an artifact, nothing reports trouble, and each
+/// device that its settings name is usable. The watchdog follows the status field `health` instead, because no
+/// restart plugs in a cable.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -11,14 +12,14 @@
 
 namespace frustumscreen {
 
-/// What the watchdog does, by its mode's word; `word` itself where it is no mode.
+/// What the watchdog does in the mode with this word; `word` itself if there is no such mode.
 [[nodiscard]] std::string_view sentence_of_mode(std::string_view word);
 
 struct ExhibitVerdict {
-    bool runs = false; ///< its status is of now
+    bool runs = false; ///< its status is current
     bool well = false;
     std::string sentence; ///< without a full stop
-    std::string id;       ///< of the sentence, or of what it tells of a device: subject.problem
+    std::string id;       ///< of the sentence, or of the device's sentence that it repeats: subject.problem
 };
 [[nodiscard]] ExhibitVerdict verdict_of(const KnownExhibit& known);
 

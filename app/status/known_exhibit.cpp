@@ -17,11 +17,11 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::uintmax_t most_status_bytes = 1U << 20;
-constexpr std::uintmax_t most_ends_bytes = 16U << 20;
-constexpr std::size_t most_depth = 16;
+constexpr std::uintmax_t max_status_bytes = 1U << 20;
+constexpr std::uintmax_t max_ends_bytes = 16U << 20;
+constexpr std::size_t max_depth = 16;
 
-/// The exhibit's and its watchdog's status have it alike.
+/// The stamp is the same in the exhibit's and its watchdog's status.
 StatusStamp read_stamp(const nlohmann::json& document) {
     StatusReader fields(document);
     StatusStamp stamp;
@@ -55,7 +55,7 @@ StatusClock status_clock() {
 StatusDocument parse_status(std::string_view json, const StatusClock& clock) {
     StatusDocument document;
     pack_format::Refusal refusal{{}, "the file"};
-    nlohmann::json fields = pack_format::parse_json(refusal, json, most_depth);
+    nlohmann::json fields = pack_format::parse_json(refusal, json, max_depth);
     if (refusal.error || !fields.is_object()) {
         document.why = "this is not a status: " +
                        printable(refusal.error ? refusal.error->message : "no object { ... }", 200);
@@ -67,7 +67,7 @@ StatusDocument parse_status(std::string_view json, const StatusClock& clock) {
     document.other_boot = !boot.empty() && !clock.boot_id.empty() && boot != clock.boot_id;
     if (written.monotonic && !document.other_boot) {
         const double age_s = to_seconds(clock.now - *written.monotonic);
-        if (age_s >= -0.1) { // it may have been written since the clock was read
+        if (age_s >= -0.1) { // the status may be written just after the clock was read
             document.age_s = std::max(age_s, 0.0);
         }
     }
@@ -75,7 +75,7 @@ StatusDocument parse_status(std::string_view json, const StatusClock& clock) {
 }
 
 StatusDocument read_status(const std::filesystem::path& file, const StatusClock& clock) {
-    const Result<Bytes> bytes = read_file(file, most_status_bytes);
+    const Result<Bytes> bytes = read_file(file, max_status_bytes);
     if (!bytes) {
         StatusDocument document;
         document.why = printable(bytes.error().message, 300);
@@ -88,13 +88,13 @@ StatusDocument read_status(const std::filesystem::path& file, const StatusClock&
     return document;
 }
 
-void renew_surroundings(Surroundings& known, const StatusPlaces& places, const StatusClock& clock) {
+void renew_environment(Environment& known, const StatusPlaces& places, const StatusClock& clock) {
     known.image = read_system_image(places.boot_folder);
     known.watchdog = read_status(places.watchdog_file, clock);
     known.monotonic_s = to_seconds(clock.now.time_since_epoch());
     if (known.system.empty()) {
         known.system = system_name();
-        known.crashes = read_crashes(places.crash_folder); // a later one ends the process that would read it
+        known.crashes = read_crashes(places.crash_folder); // a later crash ends this process
     }
     if (MachineState& machine = known.machine;
         !machine.seen || clock.now - *machine.seen >= between_looks_at_machine) {
@@ -110,7 +110,7 @@ void renew_surroundings(Surroundings& known, const StatusPlaces& places, const S
     known.ends_bytes = bytes;
     known.ends = {};
     known.ends_trouble.clear();
-    const Result<Bytes> text = read_file(file, most_ends_bytes);
+    const Result<Bytes> text = read_file(file, max_ends_bytes);
     if (text) {
         known.ends = parse_service_ends(as_text(*text));
     } else if (bytes > 0) {
@@ -120,7 +120,7 @@ void renew_surroundings(Surroundings& known, const StatusPlaces& places, const S
 
 KnownExhibit read_known_exhibit(const StatusPlaces& places, const StatusClock& clock) {
     KnownExhibit known{read_status(places.status_file, clock), {}};
-    renew_surroundings(known.surroundings, places, clock);
+    renew_environment(known.environment, places, clock);
     return known;
 }
 

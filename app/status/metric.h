@@ -1,4 +1,4 @@
-/// What a field of a status is as a number: for Prometheus, and how many digits of it the file has.
+/// A status field as a number: its Prometheus metric, and its digits in the file.
 ///
 /// Threads  values; any.
 #pragma once
@@ -7,19 +7,20 @@
 
 namespace frustumscreen {
 
-/// A family of Prometheus, or one sample of several. A text is 1, with itself as the label's value; a word from a list is a sample for
-/// each, of which its own is 1; a list is its length; what may be null in the file is 1 where it is not.
+/// A Prometheus family, or one sample of several. A text is the sample 1 with the text as label value. A word from
+/// a list has a sample for each word; its own is 1. A list is its length. A field that may be null in the file is 1
+/// if it is not null.
 struct Metric {
-    std::string_view name = {}; ///< without frustumscreen_; counters end in _total; empty: there is none
+    std::string_view name = {}; ///< without frustumscreen_; a counter's ends in _total; empty: no metric
     std::string_view help = {};
     double scale = 1.0;          ///< to base units
     std::string_view label = {}; ///< its name
-    std::string_view of = {};    ///< its value, where neither a text nor a word says it
+    std::string_view of = {};    ///< its value, if neither a text nor a word gives it
 };
 
 struct Digits {
     double scale = 1.0; ///< the file's number for 1
-    double steps = 1e3; ///< in 1 of the file's unit: a number is rounded to whole ones
+    double steps = 1e3; ///< steps within 1 of the file's unit: a number is rounded to whole steps
 };
 
 } // namespace frustumscreen

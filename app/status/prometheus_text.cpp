@@ -26,7 +26,7 @@ std::string quoted(std::string_view text) {
     return quoted + "\"";
 }
 
-/// Samples of one family come one after the other.
+/// The text of the metrics. The samples of a family must be added in sequence.
 class Metrics {
 public:
     void add(const Metric& metric, std::string_view of, double number) {
@@ -41,7 +41,7 @@ public:
         fmt::format_to(out, "frustumscreen_{}{} {:.15g}\n", family_, label, number);
     }
     void add(const Metric& metric, double number) { add(metric, metric.of, number); }
-    /// Those that a description names, as far as `document` has them.
+    /// Adds the metrics of a description that `document` has.
     [[nodiscard]] StatusReader reader(const nlohmann::json& document) {
         return StatusReader(document, [this](const Metric& metric, std::string_view of, double number) {
             add(metric, of, number);
@@ -54,14 +54,14 @@ private:
     std::string_view family_;
 };
 
-void add_ends(Metrics& metrics, const Surroundings& surroundings) {
-    if (!surroundings.ends_trouble.empty()) {
+void add_ends(Metrics& metrics, const Environment& environment) {
+    if (!environment.ends_trouble.empty()) {
         return;
     }
     for (std::size_t k = 0; k < service_results.size(); ++k) {
         metrics.add({"ends_total", "How often the exhibit's process ended, by systemd's SERVICE_RESULT.", 1.0,
                      "result", service_results.at(k).word},
-                    static_cast<double>(surroundings.ends.counts.at(k)));
+                    static_cast<double>(environment.ends.counts.at(k)));
     }
 }
 
@@ -74,9 +74,9 @@ void add_watchdog(Metrics& metrics, const StatusDocument& watchdog) {
     }
 }
 
-void add_machine(Metrics& metrics, const Surroundings& surroundings) {
-    const MachineState& machine = surroundings.machine;
-    metrics.add({"machine_uptime_seconds", "Time since the machine was started."}, surroundings.monotonic_s);
+void add_machine(Metrics& metrics, const Environment& environment) {
+    const MachineState& machine = environment.machine;
+    metrics.add({"machine_uptime_seconds", "Time since the machine was started."}, environment.monotonic_s);
     if (machine.hottest_c) {
         metrics.add({"temperature_celsius", "Of the hottest of the machine's sensors."}, *machine.hottest_c);
     }
@@ -112,10 +112,10 @@ std::string prometheus_text(const KnownExhibit& known) {
         StatusReport report;
         all_status_fields(fields, report);
     }
-    add_ends(metrics, known.surroundings);
-    add_watchdog(metrics, known.surroundings.watchdog);
-    add_machine(metrics, known.surroundings);
-    add_system(metrics, known.surroundings.image);
+    add_ends(metrics, known.environment);
+    add_watchdog(metrics, known.environment.watchdog);
+    add_machine(metrics, known.environment);
+    add_system(metrics, known.environment.image);
     return metrics.take();
 }
 

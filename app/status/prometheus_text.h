@@ -1,4 +1,4 @@
-/// What is known of the exhibit as numbers, in Prometheus' text format, for node_exporter's textfile collector.
+/// What is known of the exhibit, as metrics in Prometheus' text format, for node_exporter's textfile collector.
 ///
 /// Units    base units: seconds, bytes, metres, ratios. Names of counters end in _total.
 /// Source   Prometheus' exposition formats, text format 0.0.4; its page on metric and label naming.
@@ -11,7 +11,7 @@
 
 namespace frustumscreen {
 
-/// Where the exhibit does not run, its own numbers are left out and frustumscreen_up is 0.
+/// If the exhibit does not run, its own metrics are left out and frustumscreen_up is 0.
 [[nodiscard]] std::string prometheus_text(const KnownExhibit& known);
 
 } // namespace frustumscreen

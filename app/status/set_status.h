@@ -1,4 +1,4 @@
-/// What the status says of the installed set of packs.
+/// The installed set of packs, as the status reports it.
 ///
 /// Threads  values that never change; any.
 #pragma once
@@ -17,17 +17,17 @@ namespace frustumscreen {
 struct SetStatus {
     std::uint64_t shown = 0; ///< number of the set on show; 0: the packs of the settings
     std::vector<InstalledPack> packs;
-    SetVerdict newest;         ///< of the set that was installed last
-    bool on_trial = false;     ///< that one: there is another set to go back to, and no verdict yet
-    std::string of_ended_keys; ///< packs on show whose key is no longer trusted (pack_signers.h); empty: none
-    std::string trouble; ///< a sentence: set.txt or the verdict cannot be read or written; empty: all is well
+    SetVerdict newest;         ///< of the latest installed set
+    bool on_trial = false;     ///< `newest` has no verdict yet, and there is another set to go back to
+    std::string of_ended_keys; ///< packs on show whose key has stopped counting (pack_signers.h); empty: none
+    std::string trouble; ///< a sentence: set.txt or the verdict cannot be read or written; empty: no trouble
     [[nodiscard]] bool operator==(const SetStatus&) const = default;
 };
 /// In the order of TrialState.
 inline constexpr std::array<std::string_view, 3> verdict_words{"trying", "good", "bad"};
 using SharedSetStatus = std::shared_ptr<const SetStatus>;
 
-/// Who writes the status cannot say this of itself.
+/// Takes the place of SetStatus::trouble: the thread that fills in SetStatus is the one that hangs.
 inline constexpr std::string_view library_hangs_sentence =
     "the library's disk does not answer; no other set can come until it answers";
 

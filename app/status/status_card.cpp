@@ -13,14 +13,14 @@ namespace frustumscreen {
 
 namespace {
 
-/// Those that are asked for first on the telephone come first.
+/// In the order in which a technician on the telephone asks for them.
 constexpr std::array<std::string_view, 13> on_card{
     "projector",          "tracker",     "camera",   "buttons", "sound",
     "calibration in use", "calibration", "watchdog", "machine", "last faults",
     "left out",           "errors",      "system"};
 
 std::string plain(std::string_view text) {
-    std::string line = printable(text, most_card_line_bytes);
+    std::string line = printable(text, max_card_line_bytes);
     std::replace_if(
         line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) > 126; }, '?');
     return line;
@@ -47,7 +47,7 @@ std::string status_card(std::string_view verdict, const StatusReport& status,
     const auto add = [&](std::string_view text) {
         const std::string line = plain(text) + "\n";
         if (!is_full) {
-            is_full = card.size() + line.size() + cut.size() > most_card_bytes;
+            is_full = card.size() + line.size() + cut.size() > max_card_bytes;
             card += is_full ? std::string(cut) : line;
         }
     };

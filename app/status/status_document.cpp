@@ -27,9 +27,9 @@ Json json_of_watchdog(const StatusDocument& document) {
     return json;
 }
 
-Json json_of_machine(const Surroundings& surroundings) {
-    const MachineState& machine = surroundings.machine;
-    return {{"on_s", rounded_or_null(surroundings.monotonic_s)},
+Json json_of_machine(const Environment& environment) {
+    const MachineState& machine = environment.machine;
+    return {{"on_s", rounded_or_null(environment.monotonic_s)},
             {"hottest_c", rounded_or_null(machine.hottest_c)},
             {"disk", machine.disk ? Json{{"free_bytes", machine.disk->free_bytes},
                                          {"size_bytes", machine.disk->size_bytes},
@@ -37,16 +37,16 @@ Json json_of_machine(const Surroundings& surroundings) {
                                   : Json(nullptr)}};
 }
 
-Json json_of(const Surroundings& surroundings) {
-    const ServiceEnds& ends = surroundings.ends;
+Json json_of(const Environment& environment) {
+    const ServiceEnds& ends = environment.ends;
     Json last = nullptr;
     if (ends.last) {
-        last = {{"ago_s", rounded_or_null(surroundings.monotonic_s - ends.last->monotonic_s)},
+        last = {{"ago_s", rounded_or_null(environment.monotonic_s - ends.last->monotonic_s)},
                 {"result", service_results.at(ends.last->result).word},
                 {"code", ends.last->code},
                 {"exit_status", ends.last->exit_status}};
     }
-    return {{"count", ends.count()}, {"last", last}, {"why_unknown", surroundings.ends_trouble}};
+    return {{"count", ends.count()}, {"last", last}, {"why_unknown", environment.ends_trouble}};
 }
 
 Json json_of(const std::vector<Crash>& crashes) {
@@ -81,11 +81,11 @@ std::string status_document(const KnownExhibit& known) {
                            {"id", verdict.id},
                            {"age_s", rounded_or_null(known.status.age_s)},
                            {"exhibit", json_of(known.status)},
-                           {"watchdog", json_of_watchdog(known.surroundings.watchdog)},
-                           {"ends", json_of(known.surroundings)},
-                           {"crashes", json_of(known.surroundings.crashes)},
-                           {"system", json_of(known.surroundings.image)},
-                           {"machine", json_of_machine(known.surroundings)}};
+                           {"watchdog", json_of_watchdog(known.environment.watchdog)},
+                           {"ends", json_of(known.environment)},
+                           {"crashes", json_of(known.environment.crashes)},
+                           {"system", json_of(known.environment.image)},
+                           {"machine", json_of_machine(known.environment)}};
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -11,7 +11,7 @@ namespace frustumscreen::status_json_values {
 namespace {
 
 constexpr std::size_t longest_text = 300; ///< bytes; the exhibit's own sentences have 240 at most
-constexpr double largest_time_ns = 4e18;  ///< two of them can be subtracted
+constexpr double largest_time_ns = 4e18;  ///< the difference of two such times does not overflow
 
 } // namespace
 

@@ -1,7 +1,7 @@
 /// Writes and reads a status as JSON, by its description (describe_status.h, watchdog_status.h).
 ///
-/// StatusReader takes what another program wrote, which may be anything: a field that is missing or of another type is nothing, and
-/// texts come as one printable line.
+/// StatusReader reads a document by another program, which may hold anything: a field that is missing or of another
+/// type reads as nothing, and a text becomes one printable line.
 ///
 /// Threads  pure; any. A document outlives its reader.
 /// Errors   none.
@@ -46,7 +46,7 @@ template <typename Value> [[nodiscard]] Json json_of(const std::optional<Value>&
     return value ? json_of(*value, digits) : Json(nullptr);
 }
 
-/// These say whether `json` is such a value; where it is not, they leave `value` as it is.
+/// Return true if `json` is a value of this type; else they leave `value` as it is.
 [[nodiscard]] bool read(const nlohmann::json& json, bool& value, Digits = {});
 [[nodiscard]] bool read(const nlohmann::json& json, double& value, Digits digits = {});
 [[nodiscard]] bool read(const nlohmann::json& json, std::string& value, Digits = {});
@@ -54,7 +54,7 @@ template <typename Value> [[nodiscard]] Json json_of(const std::optional<Value>&
 [[nodiscard]] bool read(const nlohmann::json& json, WallTime& value, Digits = {});
 [[nodiscard]] bool read(const nlohmann::json& json, std::chrono::sys_seconds& value, Digits = {});
 [[nodiscard]] bool read(const nlohmann::json& json, MonotonicTime& value, Digits = {});
-/// Those of a list that are texts.
+/// The texts of a list; other items are skipped.
 [[nodiscard]] bool read(const nlohmann::json& json, std::vector<std::string>& values, Digits = {});
 template <std::integral Whole>
 requires(!std::same_as<Whole, bool>)
@@ -145,7 +145,7 @@ private:
 
 class StatusReader {
 public:
-    /// Is told of each metric whose field the document has: one of its label's values, and the number for it.
+    /// Called for each metric whose field the document has, with one value of its label and the number for it.
     using NoteMetric = std::function<void(const Metric& metric, std::string_view of, double number)>;
 
     explicit StatusReader(const nlohmann::json& document, NoteMetric note = {})
@@ -158,7 +158,7 @@ public:
         const bool is_there = status_json_values::read(find(key), own, digits);
         value = std::move(own);
         if constexpr (std::same_as<Value, std::string>) {
-            note(metric, value, 1.0); // also where it is empty
+            note(metric, value, 1.0); // even if it is empty
         } else if constexpr (requires { static_cast<double>(value); }) {
             note_if(is_there, metric, static_cast<double>(value));
         } else if constexpr (requires { static_cast<double>(*value); }) {
@@ -172,7 +172,7 @@ public:
             note(metric, word_for(each), value == word_for(each) ? 1.0 : 0.0);
         }
     }
-    /// The first of them where the document has none of the words.
+    /// The first choice if the document has none of the words.
     template <typename Choice> void choice(const char* key, Choice& value, const auto& words) {
         std::string word;
         field(key, word);
@@ -183,7 +183,7 @@ public:
         StatusReader inner(find(key), note_);
         describe(inner);
     }
-    /// `value`: a std::optional, or a std::shared_ptr to what never changes.
+    /// `value`: a std::optional, or a std::shared_ptr to a constant.
     template <typename Held>
     void object_or_null(const char* key, Held& value, std::string_view said, const Metric& metric,
                         const auto& describe) {

@@ -4,6 +4,7 @@
 #include "app/status/exhibit_verdict.h"
 #include "app/status/watchdog_status.h"
 #include "firmware_host/base/printable.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/base/words_of_time.h"
 
 #include <fmt/chrono.h>
@@ -17,11 +18,11 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t most_told = 3; ///< faults, and packs that were left out
-constexpr std::size_t most_titles = 6;
+constexpr std::size_t max_told = 3; ///< faults, and packs left out
+constexpr std::size_t max_titles = 6;
 constexpr std::size_t longest_text = 300; ///< bytes of a title or a reason
 
-/// The lines as they grow; a line without a text is left out.
+/// Collects the lines; a line without a text is left out.
 class Lines {
 public:
     void add(const char* name, std::string_view text, bool for_staff = true) {
@@ -35,7 +36,7 @@ private:
     std::vector<StatusLine> lines_;
 };
 
-/// Of what may be longer than a line; what a reader has cut stays as it is.
+/// Shortens a text that may be longer than a line. A text that was already cut keeps its "...".
 std::string brief(std::string_view text) {
     constexpr std::string_view cut = "...";
     return printable(text, longest_text + (text.ends_with(cut) ? cut.size() : 0));
@@ -49,7 +50,7 @@ std::string or_else(std::string_view text, std::string_view otherwise) {
     return brief(text.empty() ? otherwise : text);
 }
 
-/// The time of day `ago_s` before now; with the date where that was another day. Empty: no such time.
+/// The time of day `ago_s` before now, with the date if that was another day. Empty: the time is impossible.
 std::string day_time(std::time_t now, double ago_s) {
     const std::time_t then = now - static_cast<std::time_t>(std::clamp(ago_s, 0.0, 1e9));
     if (now < 0 || then < 0) {
@@ -149,12 +150,12 @@ std::string set_line(const StatusReport& status) {
     const SetStatus& set = *status.set;
     std::string text = set.shown == 0 ? "the packs of the settings" : fmt::format("set {}", set.shown);
     std::string titles;
-    for (std::size_t k = 0; k < std::min(set.packs.size(), most_titles); ++k) {
+    for (std::size_t k = 0; k < std::min(set.packs.size(), max_titles); ++k) {
         titles += fmt::format("{}{}", k == 0 ? "" : ", ", or_else(set.packs[k].title, "?"));
     }
     if (!titles.empty()) {
         text += fmt::format(", {}: {}{}", counted(set.packs.size(), "pack", "packs"), titles,
-                            set.packs.size() > most_titles ? ", ..." : "");
+                            set.packs.size() > max_titles ? ", ..." : "");
     }
     if (const SetVerdict& newest = set.newest; newest.number != 0) {
         text += fmt::format("; the newest is set {}, {}{}{}", newest.number,
@@ -177,10 +178,10 @@ std::string left_out_line(const StatusReport& status) {
     }
     const std::vector<PackLeftOut>& packs = *status.left_out;
     std::string text;
-    for (std::size_t k = 0; k < std::min(packs.size(), most_told); ++k) {
+    for (std::size_t k = 0; k < std::min(packs.size(), max_told); ++k) {
         text += fmt::format("{}{}: {}", k == 0 ? "" : "; ", brief(packs[k].pack), brief(packs[k].reason));
     }
-    return packs.size() > most_told ? fmt::format("{}; and {} more", text, packs.size() - most_told) : text;
+    return packs.size() > max_told ? fmt::format("{}; and {} more", text, packs.size() - max_told) : text;
 }
 
 std::string stick_line(const StatusReport& status) {
@@ -197,7 +198,7 @@ std::string stick_line(const StatusReport& status) {
                        counted(import.packs.size(), "pack", "packs"), refused);
 }
 
-std::string starts_line(const StatusReport* status, std::optional<double> age_s, const Surroundings& around) {
+std::string starts_line(const StatusReport* status, std::optional<double> age_s, const Environment& around) {
     std::string text;
     if (status != nullptr && status->uptime_s) {
         text = fmt::format("it {} for {}; ", age_s ? "runs" : "ran",
@@ -249,18 +250,18 @@ std::string fault_line(const WatchdogFault& fault) {
     return fault.detail.empty() ? text : fmt::format("{} ({})", text, fault.detail);
 }
 
-/// What it sees and does nothing about.
+/// The watchdog's observations that it does not act on.
 std::string notes_line(const StatusDocument& watchdog) {
     std::vector<std::string> notes;
     if (watchdog.fresh()) {
         notes = read_watchdog_status(watchdog.fields).notes;
-        notes.resize(std::min(notes.size(), most_told));
+        notes.resize(std::min(notes.size(), max_told));
     }
     return fmt::format("{}", fmt::join(notes, "; "));
 }
 
-/// How it is with the computer itself.
-std::string computer_line(const Surroundings& around) {
+/// The state of the computer itself.
+std::string computer_line(const Environment& around) {
     const MachineState& machine = around.machine;
     std::string text = fmt::format("on for {}", words_of_time(around.monotonic_s));
     if (machine.disk) {
@@ -294,10 +295,10 @@ void add_faults(Lines& lines, const StatusDocument& watchdog) {
     if (faults.empty()) {
         lines.add("last faults", "none");
     }
-    // The newest one comes first, whichever way the file has them. No one sets the clock that it counts by.
+    // The newest comes first, in whatever order the file has them. The clock of awake_s is never set.
     std::stable_sort(faults.begin(), faults.end(),
                      [](const WatchdogFault& a, const WatchdogFault& b) { return a.awake_s > b.awake_s; });
-    for (std::size_t k = 0; k < std::min(faults.size(), most_told); ++k) {
+    for (std::size_t k = 0; k < std::min(faults.size(), max_told); ++k) {
         lines.add(k == 0 ? "last faults" : "", fault_line(faults[k]));
     }
 }
@@ -317,7 +318,7 @@ std::string versions_line(const StatusReport* status, const std::string& system)
     return status != nullptr && !status->versions.program.empty()
                ? fmt::format("FrustumScreen {}, packs of format {}, {}", status->versions.program,
                              status->versions.pack_format, or_else(status->versions.system, "?"))
-               : fmt::format("FrustumScreen {}, {}", FRUSTUMSCREEN_VERSION, system);
+               : fmt::format("FrustumScreen {}, {}", project_version(), system);
 }
 
 void add_exhibit(Lines& lines, const StatusReport& status, std::optional<double> age_s, std::time_t now) {
@@ -344,24 +345,24 @@ void add_exhibit(Lines& lines, const StatusReport& status, std::optional<double>
 } // namespace
 
 std::vector<StatusLine> status_lines(const StatusReport* status, std::optional<double> age_s,
-                                     const Surroundings* surroundings, std::time_t now) {
+                                     const Environment* environment, std::time_t now) {
     Lines lines;
     if (status != nullptr) {
         add_exhibit(lines, *status, age_s, now);
     }
-    if (surroundings != nullptr) {
-        lines.add("starts", starts_line(status, age_s, *surroundings));
-        lines.add("watchdog", watchdog_line(surroundings->watchdog));
-        lines.add("computer", computer_line(*surroundings));
-        lines.add("machine", notes_line(surroundings->watchdog));
-        lines.add("system", image_line(surroundings->image));
-        add_faults(lines, surroundings->watchdog);
-        add_crashes(lines, surroundings->crashes);
+    if (environment != nullptr) {
+        lines.add("starts", starts_line(status, age_s, *environment));
+        lines.add("watchdog", watchdog_line(environment->watchdog));
+        lines.add("computer", computer_line(*environment));
+        lines.add("machine", notes_line(environment->watchdog));
+        lines.add("system", image_line(environment->image));
+        add_faults(lines, environment->watchdog);
+        add_crashes(lines, environment->crashes);
     }
     if (status != nullptr && status->resident_mib) {
         lines.add("memory", fmt::format("{:.0f} MiB", *status->resident_mib), false);
     }
-    lines.add("versions", versions_line(status, surroundings != nullptr ? surroundings->system : ""));
+    lines.add("versions", versions_line(status, environment != nullptr ? environment->system : ""));
     return lines.take();
 }
 
@@ -376,7 +377,7 @@ std::string status_text(const KnownExhibit& known, std::time_t now) {
     const StatusReport report = read_status_report(known.status.fields);
     for (const StatusLine& line :
          status_lines(is_known ? &report : nullptr, verdict.runs ? known.status.age_s : std::nullopt,
-                      &known.surroundings, now)) {
+                      &known.environment, now)) {
         fmt::format_to(std::back_inserter(text), "{:<14} {}\n", line.name, line.text);
     }
     return text;

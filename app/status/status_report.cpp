@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Walks the description and writes a row for each field that has a sentence; those inside of another have none.
+/// Walks the description and writes a row for each field that has a sentence; fields within another one have none.
 class FieldTable {
 public:
     void field(const char* key, const auto& /*value*/, std::string_view said, const Metric& /*metric*/ = {},

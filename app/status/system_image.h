@@ -1,8 +1,9 @@
-/// What the start of an appliance has left of the system that runs: its version, its slot, and what was wrong.
+/// The running system of an appliance, as its start recorded it: version, slot, and faults.
 ///
-/// Files    version, slot and notes in one folder, lines of text; the image's initrd writes them, and whatever marks a start as good.
+/// Files    version, slot and notes in one folder, lines of text; written by the image's initrd and by the unit
+///          that marks a start good.
 /// Threads  any; reads small files.
-/// Errors   none: without the folder, as on a computer that was not made from the image, nothing is known.
+/// Errors   none: without the folder, as on a computer not installed from the image, nothing is known.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +16,9 @@ namespace frustumscreen {
 inline constexpr std::string_view usual_boot_folder = "/run/frustumscreen-boot";
 
 struct SystemImage {
-    std::string version;            ///< empty: nothing is known
+    std::string version;            ///< empty: unknown
     std::string slot;               ///< of the disk: a or b
-    std::vector<std::string> notes; ///< sentences, such as that an update did not start
+    std::vector<std::string> notes; ///< sentences, for example that an update did not start
     [[nodiscard]] bool there() const { return !version.empty(); }
 };
 [[nodiscard]] SystemImage read_system_image(const std::filesystem::path& folder);

@@ -1,4 +1,4 @@
-/// What the watchdog says of the exhibit and of itself, as far as others show it. It writes it in programs/watchdog/watchdog_report.cpp.
+/// The watchdog's status, as far as others show it. programs/watchdog/watchdog_report.cpp writes it.
 ///
 /// Threads  values; any.
 #pragma once
@@ -22,16 +22,16 @@ struct WatchdogTrouble {
     double since_s = 0.0;
 };
 struct WatchdogFault {
-    std::string at; ///< the wall clock's time
+    std::string at; ///< by the wall clock
     double awake_s = 0.0;
     std::string sentence, step, done, detail;
     std::optional<bool> helped;
 };
-/// What is missing is empty, 0 or nothing.
+/// A missing field is empty, 0 or nothing.
 struct WatchdogStatus {
     std::string mode;
     std::optional<WatchdogTrouble> trouble;
-    std::optional<std::string> step; ///< that takes effect now: its name
+    std::optional<std::string> step; ///< name of the step that takes effect now
     std::uint64_t reboots_today = 0;
     std::vector<std::string> notes;
     std::vector<WatchdogFault> faults;
@@ -68,10 +68,10 @@ void watchdog_fields(auto& fields, auto& status) {
     });
 }
 
-/// Of any JSON.
+/// Reads any JSON.
 [[nodiscard]] WatchdogStatus read_watchdog_status(const nlohmann::json& document);
-/// The id of what is said of it: watchdog.unknown, watchdog.no_time, watchdog.old; what troubles it, as watchdog.no_picture; or what it
-/// lets the exhibit show, as watchdog.normal.
+/// The id of the watchdog's line: watchdog.unknown, watchdog.no_time, watchdog.old; its trouble, such as
+/// watchdog.no_picture; or the mode of the exhibit, such as watchdog.normal.
 [[nodiscard]] std::string watchdog_id(const StatusDocument& watchdog);
 
 } // namespace frustumscreen

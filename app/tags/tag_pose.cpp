@@ -19,10 +19,10 @@ using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Number of tags to start a fit from, largest first: each further one takes time and finds no other pose.
-constexpr std::size_t most_starts = 3;
+constexpr std::size_t max_starts = 3;
 /// A tag whose RMS corner error exceeds this many times its noise is wrong.
-constexpr double most_sd_off = 6.0;
-constexpr double least_px_off = 1.5;
+constexpr double max_sd_off = 6.0;
+constexpr double min_px_off = 1.5;
 
 struct Corner {
     glm::dvec3 prop_m;
@@ -132,12 +132,12 @@ void add_corner(const Corner& corner, const Neighbours& props, Matrix& normal, V
 
 /// Descends from `start`.
 Fit refined(const SeenTags& tags, const RigidTransform& start, const View& view) {
-    constexpr int most_rounds = 40;
-    constexpr double least_gain = 1e-9; // of the cost: converged
+    constexpr int max_rounds = 40;
+    constexpr double min_gain = 1e-9; // of the cost: converged
     Fit fit{start, cost_of(tags, start, view)};
     double damping = 1e-3;
     bool done = !std::isfinite(fit.cost);
-    for (int round = 0; round < most_rounds && !done; ++round) {
+    for (int round = 0; round < max_rounds && !done; ++round) {
         fit.normal.setZero();
         Vector gradient = Vector::Zero();
         const Neighbours props = beside(fit.pose, view);
@@ -157,7 +157,7 @@ Fit refined(const SeenTags& tags, const RigidTransform& start, const View& view)
             const RigidTransform next = moved(fit.pose, step_of(factor.solve(gradient)));
             const double cost = cost_of(tags, next, view);
             if (cost < fit.cost) {
-                done = fit.cost - cost <= least_gain * fit.cost;
+                done = fit.cost - cost <= min_gain * fit.cost;
                 fit.pose = next;
                 fit.cost = cost;
                 damping *= 0.1;
@@ -183,7 +183,7 @@ struct BestFits {
 
 BestFits fit_all(const SeenTags& tags, const View& view, double variance) {
     std::vector<Fit> fits;
-    for (const SeenTag& seen : std::span(tags).first(std::min(tags.size(), most_starts))) {
+    for (const SeenTag& seen : std::span(tags).first(std::min(tags.size(), max_starts))) {
         const auto start = tag_start(seen.directions, seen.tag->size_m);
         if (!start) {
             continue;
@@ -283,7 +283,7 @@ std::optional<TagPose> pose_from_tags(std::span<const FoundTag> found, std::span
                                       const Pinhole& camera, double corner_sd_px,
                                       const RollingShutter& shutter) {
     const double variance = corner_sd_px * corner_sd_px;
-    const double most_cost = 4.0 * std::pow(std::fmax(most_sd_off * corner_sd_px, least_px_off), 2.0);
+    const double max_cost = 4.0 * std::pow(std::fmax(max_sd_off * corner_sd_px, min_px_off), 2.0);
     SeenTags tags = seen_tags(found, prop, camera);
     while (!tags.empty()) {
         const double moment_s = set_moments(tags, camera, shutter.readout_s);
@@ -300,7 +300,7 @@ std::optional<TagPose> pose_from_tags(std::span<const FoundTag> found, std::span
             std::max_element(tags.begin(), tags.end(), [&](const SeenTag& a, const SeenTag& b) {
                 return cost_of(a, best) < cost_of(b, best);
             });
-        if (cost_of(*worst, best) <= most_cost) {
+        if (cost_of(*worst, best) <= max_cost) {
             TagPose pose = with_spread(fits, tags, variance);
             pose.moment_s = moment_s;
             return pose;

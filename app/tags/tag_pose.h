@@ -46,9 +46,9 @@ inline constexpr double usual_corner_sd_px = 0.2;
 /// Whether the pose is certain enough to be followed; one with a larger spread may be that of a tag tilted to
 /// the other side.
 [[nodiscard]] inline bool is_sure(const TagPose& pose) {
-    constexpr double most_m = 0.004;
-    constexpr double most_rad = 0.045;
-    return pose.place_sd_m <= most_m && pose.turn_sd_rad <= most_rad;
+    constexpr double max_m = 0.004;
+    constexpr double max_rad = 0.045;
+    return pose.place_sd_m <= max_m && pose.turn_sd_rad <= max_rad;
 }
 
 /// nullopt: no tag of the prop was found, or the tags contradict each other. Ignores unknown ids, and ids

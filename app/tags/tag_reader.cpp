@@ -8,7 +8,7 @@ namespace frustumscreen {
 namespace {
 
 /// A slower whole search exceeds the share at 30 frames a second.
-constexpr double longest_whole_s = TagReader::most_share / 30.0;
+constexpr double longest_whole_s = TagReader::max_share / 30.0;
 constexpr int frames_at_once = 100; ///< searched at one size
 /// An older pose does not tell the current motion of the prop.
 constexpr Nanoseconds oldest_before = std::chrono::milliseconds(200);
@@ -20,7 +20,7 @@ Nanoseconds nanoseconds_of(double seconds) {
 } // namespace
 
 TagReader::TagReader(TagSetUp set_up, std::function<double()> busy)
-    : set_up_(std::move(set_up)), pace_(most_share, std::move(busy)), half_({.decimate = 2.0}) {}
+    : set_up_(std::move(set_up)), pace_(max_share, std::move(busy)), half_({.decimate = 2.0}) {}
 
 std::optional<UncertainPose> TagReader::read(const CameraFrame& frame) {
     if (!pace_.begin(frame.time)) {

@@ -18,7 +18,7 @@
 #include "app/tags/tag_pose.h"
 #include "app/tracking/uncertain_pose.h"
 #include "firmware_host/camera/camera.h"
-#include "firmware_host/camera/frame_pace.h"
+#include "firmware_host/camera/cpu_throttle.h"
 
 #include <atomic>
 #include <functional>
@@ -44,7 +44,7 @@ struct TagCounts {
 
 class TagReader {
 public:
-    static constexpr double most_share = 0.25; ///< of one core
+    static constexpr double max_share = 0.25; ///< of one core
 
     /// `busy` returns the processor time of this thread in seconds.
     explicit TagReader(TagSetUp set_up, std::function<double()> busy = thread_seconds);
@@ -58,7 +58,7 @@ private:
     void follow_size(bool posed, double took_s);
 
     TagSetUp set_up_;
-    FramePace pace_;
+    CpuThrottle pace_;
     TagDetector whole_;
     TagDetector half_;
     int half_for_ = 0;         ///< frames still to be searched at half size

@@ -9,11 +9,11 @@ namespace frustumscreen {
 namespace {
 
 /// Keeps each weight above zero: a model with weight zero could not recover.
-constexpr double least_weight = 1e-9;
+constexpr double min_weight = 1e-9;
 
 /// For steps below this fraction of a velocity's time constant the decay is negligible, and its integral
 /// would lose digits.
-constexpr double least_fading = 1e-4;
+constexpr double min_fading = 1e-4;
 
 /// glm's order: transition[column][row].
 glm::dmat3 transition(const MotionModel& model, double dt) {
@@ -41,7 +41,7 @@ glm::dmat3 driving_noise(const MotionModel& model, double dt, double velocity, d
     const double steps = dt / model.fades_s; // for Creep
     switch (model.kind) {
     case MotionModel::Kind::Creep:
-        if (steps > least_fading) {
+        if (steps > min_fading) {
             const double t = model.fades_s;
             const double faded = -std::expm1(-steps);
             const double both = q * t * t * faded * faded / 2.0;
@@ -70,7 +70,7 @@ double spread(const glm::dvec3& a, const glm::dvec3& b) {
 
 MotionTrack::MotionTrack(const MotionTrackOptions& options)
     : count_(options.models.size()), options_(options) {
-    assert(count_ >= 1 && count_ <= most_models);
+    assert(count_ >= 1 && count_ <= max_models);
     std::copy(options.models.begin(), options.models.end(), models_.begin());
     options_.models = {};
     restart();
@@ -96,7 +96,7 @@ void MotionTrack::mix(double dt_s) {
     const ModeStates before = modes_;
     for (std::size_t to = 0; to < count_; ++to) {
         double total = 0.0;
-        std::array<double, most_models> share{};
+        std::array<double, max_models> share{};
         for (std::size_t from = 0; from < count_; ++from) {
             share[from] = (from == to ? same : other) * before[from].weight;
             total += share[from];
@@ -147,7 +147,7 @@ glm::dvec3 MotionTrack::advance(double dt_s) {
 
 glm::dvec3 MotionTrack::correct(const glm::dvec3& measured) {
     const double noise = options_.measured_sd * options_.measured_sd;
-    std::array<double, most_models> log_likelihood{};
+    std::array<double, max_models> log_likelihood{};
     for (std::size_t m = 0; m < count_; ++m) {
         ModeState& mode = modes_[m];
         const glm::dvec3 surprise = measured - mode.mean[0];
@@ -167,7 +167,7 @@ glm::dvec3 MotionTrack::correct(const glm::dvec3& measured) {
     const double best = *std::max_element(log_likelihood.begin(), log_likelihood.begin() + count_);
     double total = 0.0;
     for (std::size_t m = 0; m < count_; ++m) {
-        modes_[m].weight = std::fmax(modes_[m].weight * std::exp(log_likelihood[m] - best), least_weight);
+        modes_[m].weight = std::fmax(modes_[m].weight * std::exp(log_likelihood[m] - best), min_weight);
         total += modes_[m].weight;
     }
     for (ModeState& mode : modes()) {

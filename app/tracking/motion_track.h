@@ -38,7 +38,7 @@ struct MotionModel {
 };
 
 struct MotionTrackOptions {
-    std::span<const MotionModel> models; ///< 1 to `most_models`; copied
+    std::span<const MotionModel> models; ///< 1 to `max_models`; copied
     double measured_sd = 1.0;            ///< of each axis
     double first_velocity_sd = 1.0;
     double first_acceleration_sd = 1.0;
@@ -47,7 +47,7 @@ struct MotionTrackOptions {
 
 class MotionTrack {
 public:
-    static constexpr std::size_t most_models = 4;
+    static constexpr std::size_t max_models = 4;
 
     explicit MotionTrack(const MotionTrackOptions& options);
 
@@ -74,14 +74,14 @@ private:
         glm::dmat3 covariance{0.0};       ///< of each axis
         double weight = 1.0;
     };
-    using ModeStates = std::array<ModeState, most_models>;
+    using ModeStates = std::array<ModeState, max_models>;
 
     void mix(double dt_s);
     /// Subtracts the weighted mean position from every model's, and returns it.
     glm::dvec3 rebase();
     [[nodiscard]] std::span<ModeState> modes() { return {modes_.data(), count_}; }
 
-    std::array<MotionModel, most_models> models_{};
+    std::array<MotionModel, max_models> models_{};
     std::size_t count_;
     MotionTrackOptions options_;
     ModeStates modes_{};

@@ -4,11 +4,11 @@
 
 namespace frustumscreen {
 
-std::vector<Situation> pose_frames(std::span<const PoseSample> samples, const glm::dvec3& default_eye_m) {
-    std::map<MonotonicTime, Situation> frames;
+std::vector<TrackedState> pose_frames(std::span<const PoseSample> samples, const glm::dvec3& default_eye_m) {
+    std::map<MonotonicTime, TrackedState> frames;
     for (const PoseSample& sample : samples) {
         if (sample.ok && sample.station == prop_station) {
-            Situation frame;
+            TrackedState frame;
             frame.table_from_prop = {sample.rotation, sample.position_m};
             frame.eye_m = default_eye_m;
             frame.time = sample.time;
@@ -24,7 +24,7 @@ std::vector<Situation> pose_frames(std::span<const PoseSample> samples, const gl
             frame->second.head_known = true;
         }
     }
-    std::vector<Situation> result;
+    std::vector<TrackedState> result;
     result.reserve(frames.size());
     for (const auto& [time, frame] : frames) {
         result.push_back(frame);

@@ -6,14 +6,14 @@
 /// Threads  pure; any.
 #pragma once
 
-#include "app/tracking/situation.h"
+#include "app/tracking/tracked_state.h"
 
 #include <span>
 #include <vector>
 
 namespace frustumscreen {
 
-[[nodiscard]] std::vector<Situation> pose_frames(std::span<const PoseSample> samples,
-                                                 const glm::dvec3& default_eye_m);
+[[nodiscard]] std::vector<TrackedState> pose_frames(std::span<const PoseSample> samples,
+                                                    const glm::dvec3& default_eye_m);
 
 } // namespace frustumscreen

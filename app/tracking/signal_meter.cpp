@@ -8,11 +8,11 @@
 namespace frustumscreen {
 
 void SignalMeter::take(const PoseSample& sample) {
-    samples_[count_++ % most_samples] = sample;
+    samples_[count_++ % max_samples] = sample;
 }
 
 TrackerSignal SignalMeter::at(MonotonicTime now) const {
-    const std::size_t kept = std::min(count_, most_samples);
+    const std::size_t kept = std::min(count_, max_samples);
     const auto each = [&](const auto& use) {
         for (std::size_t k = 0; k < kept; ++k) {
             if (const PoseSample& sample = samples_[k]; now - sample.time < window) {
@@ -34,7 +34,7 @@ TrackerSignal SignalMeter::at(MonotonicTime now) const {
     TrackerSignal signal;
     signal.rate_hz = static_cast<double>(all) / to_seconds(window);
     signal.usable = all > 0 ? static_cast<double>(usable) / static_cast<double>(all) : 0.0;
-    if (usable < least_samples || !(glm::length(turn) > 0.0)) {
+    if (usable < min_samples || !(glm::length(turn) > 0.0)) {
         return signal;
     }
     middle /= static_cast<double>(usable);

@@ -19,7 +19,7 @@ namespace frustumscreen {
 struct TrackerSignal {
     double rate_hz = 0.0;                      ///< of all samples
     double usable = 0.0;                       ///< share of them, 0..1
-    std::optional<double> noise_mm, noise_deg; ///< none: fewer than `SignalMeter::least_samples` can be used
+    std::optional<double> noise_mm, noise_deg; ///< none: fewer than `SignalMeter::min_samples` can be used
 
     [[nodiscard]] bool operator==(const TrackerSignal&) const = default;
 };
@@ -27,16 +27,16 @@ struct TrackerSignal {
 class SignalMeter {
 public:
     static constexpr Nanoseconds window = std::chrono::seconds(1);
-    static constexpr std::size_t most_samples =
+    static constexpr std::size_t max_samples =
         512; ///< no tracker sends more in the window; of faster ones the latest count
-    static constexpr std::size_t least_samples = 8;
+    static constexpr std::size_t min_samples = 8;
 
     void take(const PoseSample& sample);
     [[nodiscard]] TrackerSignal at(MonotonicTime now) const;
 
 private:
-    std::array<PoseSample, most_samples> samples_{}; ///< a ring
-    std::size_t count_ = 0;                          ///< taken since the start
+    std::array<PoseSample, max_samples> samples_{}; ///< a ring
+    std::size_t count_ = 0;                         ///< taken since the start
 };
 
 } // namespace frustumscreen

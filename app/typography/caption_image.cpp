@@ -13,7 +13,7 @@ namespace {
 
 constexpr double text_gap_em = 0.3; ///< between title and text
 
-/// In type sizes of the text, on the table.
+/// Type size on the table, in those of the text.
 double type_size(CaptionRole role, double em_m) {
     switch (role) {
     case CaptionRole::Title:
@@ -23,14 +23,14 @@ double type_size(CaptionRole role, double em_m) {
     case CaptionRole::Small:
         break;
     }
-    return std::max(caption_small_em * em_m, least_caption_em_m) / em_m;
+    return std::max(caption_small_em * em_m, min_caption_em_m) / em_m;
 }
 
 double brightness_of(CaptionRole role) {
     return role == CaptionRole::Title ? 1.0 : caption_text_brightness;
 }
 
-/// Of the text's type size.
+/// Gap above a part, in type sizes of the text.
 double gap_above(CaptionRole role, CaptionRole before) {
     return role == CaptionRole::Small && before == CaptionRole::Small ? 0.0 : text_gap_em;
 }
@@ -52,7 +52,7 @@ struct SetParts {
 
 SetParts lay_out(const GlyphRuns& runs, std::span<const GlyphPart> parts, double em_m, double width_m,
                  double texels_per_m) {
-    const double text_em_m = std::max(em_m, least_caption_em_m);
+    const double text_em_m = std::max(em_m, min_caption_em_m);
     const double em_px = text_em_m * texels_per_m;
     const double width_em = width_m / text_em_m;
     SetParts all;
@@ -78,7 +78,7 @@ SetParts lay_out(const GlyphRuns& runs, std::span<const GlyphPart> parts, double
 }
 
 std::vector<Paragraph> paragraphs_of(std::span<const PlainPart> parts, double em_m, double texels_per_m) {
-    const double text_em_m = std::max(em_m, least_caption_em_m);
+    const double text_em_m = std::max(em_m, min_caption_em_m);
     const double em_px = text_em_m * texels_per_m;
     std::vector<Paragraph> paragraphs;
     CaptionRole before = CaptionRole::Title;

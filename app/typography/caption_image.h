@@ -26,7 +26,7 @@ inline constexpr double caption_text_brightness = 0.8;
 /// Type size of the lines below the text, in those of the text; they too have at least 24 pt.
 inline constexpr double caption_small_em = 0.8;
 
-/// What a part of a caption is set as.
+/// The type style of a caption's part.
 enum class CaptionRole : std::uint8_t {
     Title, ///< larger and bold
     Text,
@@ -38,7 +38,7 @@ struct PlainPart {
 };
 struct GlyphPart {
     CaptionRole role = CaptionRole::Text;
-    const GlyphText* text = nullptr; ///< of the runs; null: it is left out
+    const GlyphText* text = nullptr; ///< of the runs; null: omitted
 };
 
 struct CaptionImage {
@@ -47,17 +47,18 @@ struct CaptionImage {
 };
 
 /// The parts, one below the other, wrapped to `width_m`. `em_m` is the text's type size; less than 24 pt
-/// (`least_caption_em_m`) becomes 24 pt.
+/// (`min_caption_em_m`) becomes 24 pt.
 [[nodiscard]] CaptionImage make_caption(const Typesetter& typesetter, std::span<const PlainPart> parts,
                                         double em_m, double width_m, double texels_per_m);
 
-/// The same of texts that were shaped at the bake: without a typeface, in any script. A paragraph that runs to the left is flush
-/// right. Each part is set in the widest of its settings that fits `width_m`, else in the narrowest.
+/// The caption from texts that the bake has shaped: without a typeface, in any script. A paragraph that runs
+/// to the left is flush right. Each part uses the widest of its settings that fits `width_m`, else the
+/// narrowest.
 [[nodiscard]] CaptionImage make_caption(const GlyphRuns& runs, const DistanceAtlas& atlas,
                                         std::span<const GlyphPart> parts, double em_m, double width_m,
                                         double texels_per_m);
 
-/// The `size_m` that each of these makes, without drawing anything.
+/// The `size_m` of these captions, without drawing.
 [[nodiscard]] glm::dvec2 caption_size_m(const Typesetter& typesetter, std::span<const PlainPart> parts,
                                         double em_m, double width_m, double texels_per_m);
 [[nodiscard]] glm::dvec2 caption_size_m(const GlyphRuns& runs, std::span<const GlyphPart> parts, double em_m,

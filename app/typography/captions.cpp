@@ -13,7 +13,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr double comfortable_m = 0.035; ///< preferred distance from the shadow
-constexpr double least_m = 0.02;        ///< no place is chosen closer than this
+constexpr double min_m = 0.02;          ///< no place is chosen closer than this
 constexpr double near_m = 0.015;        ///< closer than this, the caption moves
 constexpr double dimming_m = 0.012;     ///< closer than this, the caption dims; it is dark at 0
 constexpr double grid_m = 0.01;
@@ -75,7 +75,7 @@ bool separated_by_edge_of(std::span<const glm::dvec2> a, std::span<const glm::dv
     return false;
 }
 
-double least_distance_to_edges(std::span<const glm::dvec2> points, std::span<const glm::dvec2> polygon) {
+double min_distance_to_edges(std::span<const glm::dvec2> points, std::span<const glm::dvec2> polygon) {
     double least = std::numeric_limits<double>::infinity();
     for (const glm::dvec2& point : points) {
         for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -140,14 +140,14 @@ double clearance(std::span<const glm::dvec2> a, std::span<const glm::dvec2> b) {
     if (!separated_by_edge_of(a, b) && !separated_by_edge_of(b, a)) {
         return 0.0;
     }
-    return std::min(least_distance_to_edges(a, b), least_distance_to_edges(b, a));
+    return std::min(min_distance_to_edges(a, b), min_distance_to_edges(b, a));
 }
 
 CaptionPlacer::CaptionPlacer(std::span<const glm::dvec2> room, double border_m, Nanoseconds settles)
     : room_(room.begin(), room.end()), border_m_(border_m), settles_(settles) {}
 
 void CaptionPlacer::set_shapes(std::span<const glm::dvec2> sizes_m) {
-    assert(sizes_m.size() <= most_shapes);
+    assert(sizes_m.size() <= max_shapes);
     size_count_ = std::min(sizes_m.size(), sizes_.size());
     std::copy_n(sizes_m.begin(), size_count_, sizes_.begin());
     place_.reset();
@@ -157,8 +157,8 @@ void CaptionPlacer::set_shapes(std::span<const glm::dvec2> sizes_m) {
 }
 
 void CaptionPlacer::set_obstacles(std::span<const TableRectangle> obstacles) {
-    assert(obstacles.size() <= most_obstacles);
-    obstacle_count_ = std::min(obstacles.size(), most_obstacles);
+    assert(obstacles.size() <= max_obstacles);
+    obstacle_count_ = std::min(obstacles.size(), max_obstacles);
     std::copy_n(obstacles.begin(), obstacle_count_, obstacles_.begin());
 }
 
@@ -215,7 +215,7 @@ std::optional<CaptionPlacer::Choice> CaptionPlacer::choose(const TablePolygon& s
                 continue;
             }
             const double clear = clearance(rectangle.corners(), shadow.corners());
-            if (clear < least_m) {
+            if (clear < min_m) {
                 continue;
             }
             cost += cost_of_each_metre_too_close * std::max(0.0, comfortable_m - clear);
@@ -258,7 +258,7 @@ void CaptionPlacer::update(MonotonicTime now, const std::optional<TablePolygon>&
     }
     turn_to(quarter_turns);
     const TablePolygon seen_hidden = hidden ? turned_polygon(*hidden, -quarter_turns) : TablePolygon{};
-    std::array<TableRectangle, most_obstacles> seen_obstacles = obstacles_;
+    std::array<TableRectangle, max_obstacles> seen_obstacles = obstacles_;
     for (TableRectangle& obstacle : seen_obstacles) {
         obstacle.centre_m = turned(obstacle.centre_m, -quarter_turns);
         obstacle.quarter_turns -= quarter_turns;

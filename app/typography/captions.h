@@ -27,7 +27,7 @@
 namespace frustumscreen {
 
 /// 24 pt, the smallest type on the table.
-inline constexpr double least_caption_em_m = 24.0 * 0.0254 / 72.0;
+inline constexpr double min_caption_em_m = 24.0 * 0.0254 / 72.0;
 
 /// A convex polygon, counter-clockwise; empty without points.
 struct TablePolygon {
@@ -71,13 +71,13 @@ public:
                            Nanoseconds settles = {});
 
     /// Sets another caption; its shapes (one for each width it was wrapped to) are in falling preference, at
-    /// most `most_shapes`. It appears at the best place at the next update.
+    /// most `max_shapes`. It appears at the best place at the next update.
     void set_shapes(std::span<const glm::dvec2> sizes_m);
 
-    /// Other things on the table, which captions avoid. At most `most_obstacles`.
+    /// Other things on the table, which captions avoid. At most `max_obstacles`.
     void set_obstacles(std::span<const TableRectangle> obstacles);
-    static constexpr std::size_t most_obstacles = 16;
-    static constexpr std::size_t most_shapes = 6;
+    static constexpr std::size_t max_obstacles = 16;
+    static constexpr std::size_t max_shapes = 6;
 
     /// `shadow` and `hidden`: `hidden_by_prop` from the lens and from the eye. `quarter_turns`: the reader's
     /// side.
@@ -107,9 +107,9 @@ private:
     double border_m_;
     Nanoseconds settles_;
     bool comes_again_ = false; ///< it had to leave a place
-    std::array<glm::dvec2, most_shapes> sizes_{};
+    std::array<glm::dvec2, max_shapes> sizes_{};
     std::size_t size_count_ = 0;
-    std::array<TableRectangle, most_obstacles> obstacles_{}; ///< in the table's frame
+    std::array<TableRectangle, max_obstacles> obstacles_{}; ///< in the table's frame
     std::size_t obstacle_count_ = 0;
 
     std::optional<Choice> place_;

@@ -9,9 +9,9 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int samples = 4; ///< a pixel, along each axis
-constexpr int most_side_px = 16384;
-constexpr std::int64_t most_pixels = 1 << 24;
+constexpr int samples = 4; ///< per pixel, along each axis
+constexpr int max_side_px = 16384;
+constexpr std::int64_t max_pixels = 1 << 24;
 
 /// Area of a placed glyph's texels, in pixels from the top left of the setting's box.
 struct GlyphArea {
@@ -30,7 +30,7 @@ GlyphArea area_of(const GlyphBox& box, const PlacedGlyph& glyph, std::int32_t ba
     return {&box, left, top, left + box.width * scale.px_of_texel, top + box.height * scale.px_of_texel};
 }
 
-/// The code at texel coordinates (texel centres at .5) of a box, clamped to its outermost texel centres.
+/// The code at texel coordinates (texel centres at 0.5) of a box, clamped to its outermost texel centres.
 double distance_code(const DistanceAtlas& atlas, const GlyphBox& box, double x, double y) {
     const double u = std::clamp(x - 0.5, 0.0, box.width - 1.0);
     const double v = std::clamp(y - 0.5, 0.0, box.height - 1.0);
@@ -143,8 +143,7 @@ GlyphExtent extent_of(const GlyphSetting& setting, std::span<const GlyphArea> ar
     GlyphExtent extent;
     const double width = std::ceil(right) - std::floor(left);
     const double height = std::ceil(bottom) - std::floor(top);
-    if (width <= most_side_px && height <= most_side_px &&
-        width * height <= static_cast<double>(most_pixels)) {
+    if (width <= max_side_px && height <= max_side_px && width * height <= static_cast<double>(max_pixels)) {
         extent = {static_cast<int>(width), static_cast<int>(height), -static_cast<int>(std::floor(left)),
                   -static_cast<int>(std::floor(top))};
     }

@@ -15,7 +15,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t most_lines = 2;
+constexpr std::size_t max_lines = 2;
 constexpr double fades_over_em = 1.5;
 /// Two lines together are 22 mm high, like a place's title (TableSetUp::title_m).
 constexpr double first_baseline_em = 1.0;
@@ -101,7 +101,7 @@ std::vector<GlyphSetting> best_lines(const GlyphRuns& runs, const GlyphText& tit
     const GlyphSetting* narrowest = nullptr;
     for (const GlyphSetting& setting : title.settings) {
         const std::size_t lines = setting.lines.size();
-        if (setting.width <= width && lines <= most_lines && (!fits || lines < fits->lines.size())) {
+        if (setting.width <= width && lines <= max_lines && (!fits || lines < fits->lines.size())) {
             fits = &setting;
         }
         single = lines == 1 ? &setting : single;
@@ -198,16 +198,16 @@ constexpr double half_line = 0.012; ///< in half sides
 
 CaptionImage make_table_title(const GlyphRuns& runs, const DistanceAtlas& atlas, const GlyphText& title,
                               double texels_per_m) {
-    const double em_px = least_caption_em_m * texels_per_m;
+    const double em_px = min_caption_em_m * texels_per_m;
     const int width_px = static_cast<int>(table_title_width_m * texels_per_m);
     const bool to_the_left = title.direction == TextDirection::RightToLeft;
     const std::vector<GlyphSetting> lines = best_lines(runs, title, width_px / em_px * em_units);
     std::vector<SetLine> set;
-    for (std::size_t k = 0; k < std::min(lines.size(), most_lines); ++k) {
+    for (std::size_t k = 0; k < std::min(lines.size(), max_lines); ++k) {
         const GlyphImage image = glyph_image(runs, atlas, lines[k], em_px);
         const double baseline_px = lines[k].lines.front().baseline * em_px / em_units;
         SetLine line{trimmed(image.coverage), image.top_px + static_cast<int>(std::lround(baseline_px))};
-        if (line.image.width > width_px || (k + 1 == most_lines && lines.size() > most_lines)) {
+        if (line.image.width > width_px || (k + 1 == max_lines && lines.size() > max_lines)) {
             line.image = cut_off(line.image, width_px, static_cast<int>(std::lround(fades_over_em * em_px)),
                                  to_the_left);
         }
@@ -217,11 +217,11 @@ CaptionImage make_table_title(const GlyphRuns& runs, const DistanceAtlas& atlas,
 }
 
 CaptionImage make_table_title(const Typesetter& typesetter, const std::string& title, double texels_per_m) {
-    const double em_px = least_caption_em_m * texels_per_m;
+    const double em_px = min_caption_em_m * texels_per_m;
     const std::vector<Paragraph> paragraphs{{title, em_px, true, 1.0, 0.0}};
     Coverage text = typesetter.set(paragraphs, table_title_width_m * texels_per_m);
-    const double most_px = std::ceil(most_lines * Typesetter::line_pitch_em * em_px);
-    text.height = std::min(text.height, static_cast<int>(most_px));
+    const double max_px = std::ceil(max_lines * Typesetter::line_pitch_em * em_px);
+    text.height = std::min(text.height, static_cast<int>(max_px));
     text.texels.resize(static_cast<std::size_t>(text.width) * static_cast<std::size_t>(text.height));
     const glm::dvec2 size_m = glm::dvec2(text.width, text.height) / texels_per_m;
     return {std::move(text), size_m};

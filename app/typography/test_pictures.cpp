@@ -15,7 +15,7 @@ namespace {
 
 constexpr Colour white{255, 255, 255};
 
-/// White sectors and black ones in turn, averaged over each pixel in linear light.
+/// Alternating white and black sectors, averaged over each pixel in linear light.
 Image8 star(int radius) {
     constexpr int spokes = 36, samples = 4;
     Image8 picture(2 * radius, 2 * radius);
@@ -35,7 +35,7 @@ Image8 star(int radius) {
     return picture;
 }
 
-/// Upright and level lines of one, two and three pixels, as far apart as they are wide.
+/// Vertical and horizontal lines of one, two and three pixels, with gaps as wide as the lines.
 void draw_lines(Canvas& canvas, const glm::dvec2& corner, double size) {
     double along = 0.0;
     for (int width = 1; width <= 3; ++width) {

@@ -1,4 +1,4 @@
-/// Pictures by which a technician judges the projector: is it sharp everywhere, does it show every grey.
+/// Pictures for judging a projector: is it sharp everywhere, does it show every grey.
 ///
 /// Threads  as Canvas.
 #pragma once
@@ -8,13 +8,13 @@
 
 namespace frustumscreen {
 
-/// White on black: nine stars whose spokes meet, and beside each of them lines of one, two and three pixels. The outermost pixels are
-/// white. Where a star's middle is grey in a smaller circle, the picture is sharper.
+/// White on black: nine stars of spokes, and beside each of them lines of one, two and three pixels. The
+/// outermost pixels are white. The smaller the grey circle in a star's middle, the sharper the picture.
 [[nodiscard]] Image8 focus_picture(int width, int height);
 
 inline constexpr int grey_steps = 16;
-/// Columns from black to white in even steps of the codes, each with its code, and as many again for the four darkest and the four
-/// brightest codes' neighbours: who sees no difference there has a projector, or an HDMI range, that cuts them off.
+/// Columns from black to white in even steps of the codes, each with its code, and a second row with the
+/// codes near black and near white. If these look equal, the projector or the HDMI range clips them.
 [[nodiscard]] Image8 grey_picture(int width, int height, const Typesetter& typesetter);
 
 } // namespace frustumscreen

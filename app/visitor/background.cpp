@@ -11,11 +11,11 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr float least_off = 6.0F; ///< codes; smaller differences are not foreground
+constexpr float min_off = 6.0F; ///< codes; smaller differences are not foreground
 constexpr float spreads = 4.0F;
-constexpr float least_variance = 0.5F;
+constexpr float min_variance = 0.5F;
 constexpr float darkest = 16.0F; ///< codes; darker pixels determine the gain poorly
-constexpr float least_gain = 0.05F;
+constexpr float min_gain = 0.05F;
 constexpr std::size_t gain_step = 13;  ///< sample every 13th pixel for the gain
 constexpr double projector_s = 2.0;    ///< time constant of the squared change, and of the shares
 constexpr float little_change = 25.0F; ///< codes^2 of the table; smaller changes determine the shares poorly
@@ -23,8 +23,8 @@ constexpr double all_changed = 0.7;    ///< of the pixels
 constexpr Nanoseconds all_changed_for = std::chrono::seconds(1);
 
 /// Largest difference of a background pixel, in codes.
-float most_off(float variance) {
-    return std::max(least_off, spreads * std::sqrt(variance));
+float max_off(float variance) {
+    return std::max(min_off, spreads * std::sqrt(variance));
 }
 
 } // namespace
@@ -76,7 +76,7 @@ void Background::measure_gain(const SmallFrame& frame) {
     }
     constexpr std::size_t enough = 50;
     if (knows_ && ratios_.size() > enough) {
-        gain_ = std::max(least_gain, static_cast<float>(quantile_in(std::span(ratios_), 0.5)));
+        gain_ = std::max(min_gain, static_cast<float>(quantile_in(std::span(ratios_), 0.5)));
     }
 }
 
@@ -92,7 +92,7 @@ std::span<const std::uint8_t> Background::find(MonotonicTime time, const SmallFr
     std::size_t count = 0;
     for (const std::uint32_t at : heads_) {
         const Pixel& pixel = model_[at];
-        const bool is_off = knows_ && std::abs(off(at, frame.luma[at])) > most_off(pixel.variance);
+        const bool is_off = knows_ && std::abs(off(at, frame.luma[at])) > max_off(pixel.variance);
         raw_[at] = is_off && pixel.share < lit_share ? 1 : 0;
         count += is_off ? 1 : 0;
     }
@@ -161,7 +161,7 @@ void Background::learn(const SmallFrame& frame, std::span<const PixelBox> people
         }
         Pixel& pixel = model_[at];
         const float error = off(at, frame.luma[at]);
-        const float most = most_off(pixel.variance);
+        const float most = max_off(pixel.variance);
         pixel.share += projector * std::clamp(error, -most, most); // limits the effect of passing objects
         if (knows_ && (raw_[at] != 0 || foreground_[at] != 0)) {
             pixel.usual += hold(pixel, error) ? error / gain_ : 0.0F;
@@ -170,13 +170,13 @@ void Background::learn(const SmallFrame& frame, std::span<const PixelBox> people
         const float share = knows_ ? daylight : first;
         const float square = frames_ > 1 ? error * error : 0.0F; // the first frame has no prediction
         pixel.usual += share * error / gain_;
-        pixel.variance = std::max(least_variance, pixel.variance + share * (square - pixel.variance));
+        pixel.variance = std::max(min_variance, pixel.variance + share * (square - pixel.variance));
         pixel.held_s = 0.0F;
     }
 }
 
 bool Background::hold(Pixel& pixel, float error) const {
-    const bool is_same = pixel.held_s > 0.0F && std::abs(error - pixel.thing) <= most_off(pixel.variance);
+    const bool is_same = pixel.held_s > 0.0F && std::abs(error - pixel.thing) <= max_off(pixel.variance);
     if (!is_same) {
         pixel.thing = error;
         pixel.held_s = 0.0F;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int widest_gap = 2; ///< pixels that noise may remove from a row
 constexpr int narrowest = 6;  ///< pixels; a narrower head is too far away to be at the table
-constexpr int least_bump = 5; ///< rows; a lower bump next to a head is hair or an ear
+constexpr int min_bump = 5;   ///< rows; a lower bump next to a head is hair or an ear
 
 /// Foreground in a row; right is exclusive.
 struct Run {
@@ -47,7 +47,7 @@ std::size_t go_on(std::vector<Top>& tops, std::span<const std::size_t> above, co
         above.begin(), above.end(), [&](std::size_t a, std::size_t b) { return rows(a) < rows(b); });
     for (const std::size_t other : above) {
         if (other != tallest) {
-            tops[tallest].ends = tops[tallest].ends || rows(other) >= least_bump;
+            tops[tallest].ends = tops[tallest].ends || rows(other) >= min_bump;
             tops[other].ends = true;
         }
     }

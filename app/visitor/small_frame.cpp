@@ -5,7 +5,7 @@
 namespace frustumscreen {
 
 int block_of(int columns) {
-    return (columns + SmallFrame::most_columns - 1) / SmallFrame::most_columns;
+    return (columns + SmallFrame::max_columns - 1) / SmallFrame::max_columns;
 }
 
 void shrink(const CameraFrame& frame, SmallFrame& small) {

@@ -12,7 +12,7 @@
 namespace frustumscreen {
 
 struct SmallFrame {
-    static constexpr int most_columns = 320;
+    static constexpr int max_columns = 320;
     int width = 0, height = 0;
     std::vector<float> luma; ///< [height][width], row-major
 

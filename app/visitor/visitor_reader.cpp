@@ -23,7 +23,7 @@ glm::dvec3 middle_of_table() {
 } // namespace
 
 VisitorReader::VisitorReader(VisitorSetUp set_up, std::function<double()> busy)
-    : set_up_(std::move(set_up)), pace_(most_share, std::move(busy)) {}
+    : set_up_(std::move(set_up)), pace_(max_share, std::move(busy)) {}
 
 std::span<const SeenHead> VisitorReader::read(const CameraFrame& frame) {
     heads_.clear();

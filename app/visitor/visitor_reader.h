@@ -15,7 +15,7 @@
 #include "app/visitor/background.h"
 #include "app/visitor/head_fit.h"
 #include "firmware_host/camera/camera.h"
-#include "firmware_host/camera/frame_pace.h"
+#include "firmware_host/camera/cpu_throttle.h"
 
 #include <functional>
 #include <optional>
@@ -39,7 +39,7 @@ struct VisitorCounts {
 
 class VisitorReader {
 public:
-    static constexpr double most_share = 0.1; ///< of one core
+    static constexpr double max_share = 0.1; ///< of one core
     static constexpr Nanoseconds sure_after = std::chrono::milliseconds(300);
     static constexpr Nanoseconds forgotten_after = std::chrono::milliseconds(500);
     static constexpr Nanoseconds thing_after = std::chrono::seconds(60);
@@ -70,7 +70,7 @@ private:
     [[nodiscard]] SeenHead seen(const Person& person) const;
 
     VisitorSetUp set_up_;
-    FramePace pace_;
+    CpuThrottle pace_;
     Pinhole camera_; ///< of the small frame
     SmallFrame small_;
     std::optional<Background> background_;

@@ -29,7 +29,7 @@ inline constexpr std::size_t cause_count = 6;
 [[nodiscard]] std::string_view sentence_of(Cause cause);
 /// As above, for the cause of an action; nullopt: ten good minutes.
 [[nodiscard]] std::string_view sentence_of(const std::optional<Cause>& cause);
-/// Whether visitors see no picture, or no meaningful one.
+/// True if visitors see no picture, or no meaningful one.
 [[nodiscard]] constexpr bool is_dark(Cause cause) {
     return cause != Cause::MemoryShort && cause != Cause::DeviceSilent;
 }

@@ -59,7 +59,7 @@ std::string_view next_line(std::string_view& text) {
     return line;
 }
 
-/// The first frame or guess that is in a file.
+/// The first frame or guess that lies in a file.
 const std::string* named_place(const Crash& crash) {
     for (const std::vector<std::string>* places : {&crash.frames, &crash.guesses}) {
         const auto named = std::find_if(places->begin(), places->end(), [](const std::string& place) {

@@ -55,14 +55,14 @@ bool Judge::lasts(Cause cause, bool bad, MonotonicTime now, Nanoseconds patience
 }
 
 std::optional<Cause> Judge::trouble_of(MonotonicTime now, const Outcome& outcome, bool lives) {
-    const bool ends = endings_ > most_endings;
+    const bool ends = endings_ > max_endings;
     // A start takes longer than an interruption of a living picture.
     const MonotonicTime given = has_lived_ ? now : judged_since_ + patience_.start;
     const bool dark = lasts(Cause::NoPicture, !lives, now, patience_.picture) && now >= given;
     const bool empty =
         lasts(Cause::NothingToShow, lives && outcome.exhibit->artifacts == 0, now, patience_.nothing_to_show);
     const bool is_short =
-        outcome.memory_free < least_memory_free || outcome.exhibit_memory > most_exhibit_memory;
+        outcome.memory_free < min_memory_free || outcome.exhibit_memory > max_exhibit_memory;
     const bool memory = lasts(Cause::MemoryShort, is_short, now, patience_.memory);
     const bool device =
         lasts(Cause::DeviceSilent, lives && outcome.exhibit->device_hangs, now, patience_.device);
@@ -76,7 +76,7 @@ std::optional<Cause> Judge::trouble_of(MonotonicTime now, const Outcome& outcome
                     : std::nullopt;
 }
 
-Seen Judge::look(MonotonicTime now, Mode mode, const Outcome& outcome) {
+Observation Judge::look(MonotonicTime now, Mode mode, const Outcome& outcome) {
     if (now - looked_ > late_look) {
         begin_anew(now);
     }

@@ -31,13 +31,13 @@ struct Patience {
 class Judge {
 public:
     static constexpr Nanoseconds late_look = std::chrono::seconds(5);
-    static constexpr double least_memory_free = 0.04;
-    static constexpr double most_exhibit_memory = 0.92;
-    static constexpr double most_endings = 2.5; ///< three, less what drains between them
+    static constexpr double min_memory_free = 0.04;
+    static constexpr double max_exhibit_memory = 0.92;
+    static constexpr double max_endings = 2.5; ///< three, less what drains between them
 
     Judge(const Patience& patience, MonotonicTime start);
 
-    [[nodiscard]] Seen look(MonotonicTime now, Mode mode, const Outcome& outcome);
+    [[nodiscard]] Observation look(MonotonicTime now, Mode mode, const Outcome& outcome);
     /// An action is taken now: judge again from here on.
     void step_taken(MonotonicTime now);
 
@@ -45,7 +45,7 @@ private:
     [[nodiscard]] bool picture_lives(MonotonicTime now, const Outcome& outcome);
     void count_endings(MonotonicTime now, std::uint32_t failures);
     [[nodiscard]] std::optional<Cause> trouble_of(MonotonicTime now, const Outcome& outcome, bool lives);
-    /// Whether `bad` was true at every look for `patience`.
+    /// True if `bad` was true at every look for `patience`.
     [[nodiscard]] bool lasts(Cause cause, bool bad, MonotonicTime now, Nanoseconds patience);
     void begin_anew(MonotonicTime now);
 

@@ -76,7 +76,8 @@ std::size_t Ladder::reboots_within_day() const {
                       [&](const std::optional<Awake>& at) { return at && memory_.awake - *at < day; }));
 }
 
-std::optional<Act> Ladder::look(Awake awake, const Seen& seen, const Means& means) {
+std::optional<LadderAction> Ladder::look(Awake awake, const Observation& seen,
+                                         const Capabilities& capabilities) {
     assert(awake >= memory_.awake);
     memory_.awake = awake;
     forget_given_up(seen.trouble);
@@ -90,10 +91,10 @@ std::optional<Act> Ladder::look(Awake awake, const Seen& seen, const Means& mean
         return std::nullopt;
     }
     if (troubled) {
-        return climb(*seen.trouble, means);
+        return climb(*seen.trouble, capabilities);
     }
     if (memory_.mode == Mode::Safe) {
-        return leave_safe_picture(means);
+        return leave_safe_picture(capabilities);
     }
     return good_since_ ? go_down() : std::nullopt;
 }
@@ -116,20 +117,20 @@ bool Ladder::is_over(Awake pause) const {
     return !memory_.latest || memory_.awake - memory_.latest_at >= settling(*memory_.latest) + pause;
 }
 
-bool Ladder::may_reboot(const Means& means) const {
+bool Ladder::may_reboot(const Capabilities& capabilities) const {
     const std::optional<Awake>& latest = memory_.reboots.front();
-    return means.reboot && reboots_within_day() < reboots_a_day &&
+    return capabilities.reboot && reboots_within_day() < reboots_a_day &&
            (!latest || memory_.awake - *latest >= between_reboots);
 }
 
-bool Ladder::is_possible(Step step, Cause cause, const Means& means) const {
+bool Ladder::is_possible(Step step, Cause cause, const Capabilities& capabilities) const {
     switch (step) {
     case Step::RestartExhibit:
         return memory_.mode != Mode::Safe;
     case Step::ResetDevice:
-        return means.device;
+        return capabilities.device;
     case Step::LastGoodSet:
-        return means.last_good_set && memory_.mode == Mode::Normal;
+        return capabilities.last_good_set && memory_.mode == Mode::Normal;
     case Step::DrawPlainly:
         return memory_.mode == Mode::Normal || memory_.mode == Mode::LastGoodSet;
     case Step::BuiltIn:
@@ -137,16 +138,16 @@ bool Ladder::is_possible(Step step, Cause cause, const Means& means) const {
     case Step::SafePicture:
         return memory_.mode != Mode::Safe && is_dark(cause);
     case Step::Reboot:
-        return may_reboot(means);
+        return may_reboot(capabilities);
     case Step::Return:
         break;
     }
     return false;
 }
 
-std::optional<Step> Ladder::next_for(Cause cause, const Means& means) const {
+std::optional<Step> Ladder::next_for(Cause cause, const Capabilities& capabilities) const {
     const auto is_next = [&](Step step) {
-        return !holds(memory_.tried, step) && is_possible(step, cause, means);
+        return !holds(memory_.tried, step) && is_possible(step, cause, capabilities);
     };
     const std::span<const Step> steps = steps_for(cause);
     const std::optional<Step>& helped = memory_.helped.at(static_cast<std::size_t>(cause));
@@ -157,40 +158,41 @@ std::optional<Step> Ladder::next_for(Cause cause, const Means& means) const {
     return next != steps.end() ? std::optional(*next) : std::nullopt;
 }
 
-std::optional<Act> Ladder::climb(Cause cause, const Means& means) {
+std::optional<LadderAction> Ladder::climb(Cause cause, const Capabilities& capabilities) {
     const bool would_rest_in_the_dark = is_dark(cause) && memory_.mode != Mode::Safe;
     if (!is_over(pause_after(memory_.climb))) {
         const bool is_long = pause_after(memory_.climb) > longest_dark_pause;
         return would_rest_in_the_dark && is_long ? std::optional(take(Step::SafePicture, cause))
                                                  : std::nullopt;
     }
-    if (const std::optional<Step> next = next_for(cause, means)) {
+    if (const std::optional<Step> next = next_for(cause, capabilities)) {
         return take(*next, cause);
     }
     if (would_rest_in_the_dark) {
         return take(Step::SafePicture, cause); // again: it was left without success
     }
     if (is_dark(cause)) {
-        return may_reboot(means) ? std::optional(take(Step::Reboot, cause)) : std::nullopt;
+        return may_reboot(capabilities) ? std::optional(take(Step::Reboot, cause)) : std::nullopt;
     }
     memory_.given_up = static_cast<std::uint8_t>(memory_.given_up | bit(cause));
     end_episode();
     return std::nullopt;
 }
 
-std::optional<Act> Ladder::leave_safe_picture(const Means& means) {
+std::optional<LadderAction> Ladder::leave_safe_picture(const Capabilities& capabilities) {
     if (!is_over(pause_after(memory_.climb))) {
         return std::nullopt;
     }
     const Cause cause = memory_.cause.value_or(Cause::NoPicture);
-    const std::optional<Step> next = next_for(cause, {means.last_good_set, false, means.reboot});
+    const std::optional<Step> next =
+        next_for(cause, {capabilities.last_good_set, false, capabilities.reboot});
     if (next) {
         return take(*next, cause);
     }
-    return may_reboot(means) ? std::optional(take(Step::Reboot, cause)) : std::nullopt;
+    return may_reboot(capabilities) ? std::optional(take(Step::Reboot, cause)) : std::nullopt;
 }
 
-std::optional<Act> Ladder::go_down() {
+std::optional<LadderAction> Ladder::go_down() {
     if (memory_.awake - went_down_at_ >= good_for) {
         went_down_at_ += good_for;
         memory_.climb = static_cast<std::uint8_t>(std::max(memory_.climb - 1, 0));
@@ -212,7 +214,7 @@ void Ladder::end_episode() {
     memory_.cause.reset();
 }
 
-Act Ladder::take(Step step, std::optional<Cause> cause) {
+LadderAction Ladder::take(Step step, std::optional<Cause> cause) {
     memory_.tried = static_cast<std::uint8_t>(memory_.tried | (cause ? bit(step) : 0U));
     memory_.climb = std::min<std::uint8_t>(static_cast<std::uint8_t>(memory_.climb + 1), highest_climb);
     memory_.cause = memory_.cause ? memory_.cause : cause;
@@ -234,7 +236,7 @@ Act Ladder::take(Step step, std::optional<Cause> cause) {
         break;
     case Step::Return:
         memory_.mode = Mode::Normal;
-        memory_.returns = static_cast<std::uint8_t>(std::min<int>(memory_.returns + 1, most_returns));
+        memory_.returns = static_cast<std::uint8_t>(std::min<int>(memory_.returns + 1, max_returns));
         break;
     case Step::Reboot:
         memory_.mode = Mode::Normal;

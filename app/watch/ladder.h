@@ -53,24 +53,24 @@ struct LadderMemory {
 };
 
 /// The current observation, as the judge sums it up (judge.h).
-struct Seen {
+struct Observation {
     std::optional<Cause> trouble;
     bool lit =
         false; ///< the exhibit's own picture is alive; false without a fault: it is starting, or the safe
                ///< picture is shown
 };
 /// Capabilities: what is possible now.
-struct Means {
+struct Capabilities {
     bool last_good_set = false; ///< it exists, and is not the active set
     bool device = false;        ///< the tracker is plugged in
     bool reboot = false;        ///< a reboot could be recorded
 };
 /// An action to take now; the caller takes it, whether it succeeds or not, and calls `look` again a second
 /// later.
-struct Act {
+struct LadderAction {
     Step step = Step::RestartExhibit;
     std::optional<Cause> cause; ///< none: ten good minutes
-    [[nodiscard]] bool operator==(const Act&) const = default;
+    [[nodiscard]] bool operator==(const LadderAction&) const = default;
 };
 
 class Ladder {
@@ -82,13 +82,14 @@ public:
     static constexpr Awake between_reboots = std::chrono::minutes(10);
     static constexpr Awake day = std::chrono::hours(24);
     static constexpr std::uint8_t highest_climb = 12; ///< higher values do not lengthen the pause
-    static constexpr std::uint8_t most_returns = 8;   ///< as above
+    static constexpr std::uint8_t max_returns = 8;    ///< as above
 
     /// `is_boot`: the kiosk was switched on; false: only this program was restarted.
     Ladder(const LadderMemory& memory, bool is_boot);
 
     /// Call it about once a second; `awake` never decreases.
-    [[nodiscard]] std::optional<Act> look(Awake awake, const Seen& seen, const Means& means);
+    [[nodiscard]] std::optional<LadderAction> look(Awake awake, const Observation& seen,
+                                                   const Capabilities& capabilities);
     [[nodiscard]] const LadderMemory& memory() const { return memory_; }
     [[nodiscard]] std::size_t reboots_within_day() const;
 
@@ -101,16 +102,16 @@ public:
     [[nodiscard]] static Awake return_after(std::uint8_t returns);
 
 private:
-    [[nodiscard]] std::optional<Act> climb(Cause cause, const Means& means);
-    [[nodiscard]] std::optional<Act> leave_safe_picture(const Means& means);
-    [[nodiscard]] std::optional<Act> go_down();
-    [[nodiscard]] std::optional<Step> next_for(Cause cause, const Means& means) const;
-    [[nodiscard]] bool is_possible(Step step, Cause cause, const Means& means) const;
-    [[nodiscard]] bool may_reboot(const Means& means) const;
+    [[nodiscard]] std::optional<LadderAction> climb(Cause cause, const Capabilities& capabilities);
+    [[nodiscard]] std::optional<LadderAction> leave_safe_picture(const Capabilities& capabilities);
+    [[nodiscard]] std::optional<LadderAction> go_down();
+    [[nodiscard]] std::optional<Step> next_for(Cause cause, const Capabilities& capabilities) const;
+    [[nodiscard]] bool is_possible(Step step, Cause cause, const Capabilities& capabilities) const;
+    [[nodiscard]] bool may_reboot(const Capabilities& capabilities) const;
     [[nodiscard]] bool is_over(Awake pause) const;
     [[nodiscard]] bool is_given_up(Cause cause) const;
     void forget_given_up(const std::optional<Cause>& trouble);
-    Act take(Step step, std::optional<Cause> cause);
+    LadderAction take(Step step, std::optional<Cause> cause);
     void end_episode();
 
     LadderMemory memory_;

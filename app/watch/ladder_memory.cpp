@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view name = "frustumscreen-ladder-2";
 constexpr std::int64_t nothing = -1;
 constexpr std::int64_t no_limit = std::numeric_limits<std::int64_t>::max();
-constexpr std::int64_t most_milliseconds = 31'557'600'000'000; // a thousand years
+constexpr std::int64_t max_milliseconds = 31'557'600'000'000; // a thousand years
 
 std::uint64_t fnv1a(std::string_view text) {
     std::uint64_t hash = 0xcbf29ce484222325U;
@@ -30,7 +30,7 @@ template <typename Value> std::int64_t number_of(const std::optional<Value>& val
     return value ? static_cast<std::int64_t>(*value) : nothing;
 }
 
-/// In the order in which `take_memory` reads them.
+/// The numbers in the order in which `take_memory` reads them.
 std::vector<std::int64_t> numbers_of(const KeptMemory& kept) {
     const LadderMemory& memory = kept.memory;
     std::vector<std::int64_t> numbers{static_cast<std::int64_t>(kept.writes),
@@ -72,7 +72,7 @@ public:
     }
     std::uint8_t byte(std::int64_t most) { return static_cast<std::uint8_t>(take(0, most)); }
     Awake awake(Awake latest) { return Awake(take(0, latest.count())); }
-    /// One of `count` values.
+    /// An enumerator, one of `count`; nullopt for -1.
     template <typename Enum> std::optional<Enum> one_of(std::size_t count) {
         const std::int64_t value = take(nothing, static_cast<std::int64_t>(count) - 1);
         return value == nothing ? std::nullopt : std::optional(static_cast<Enum>(value));
@@ -103,11 +103,11 @@ std::optional<KeptMemory> take_memory(std::string_view text) {
     LadderMemory& memory = kept.memory;
     kept.writes = static_cast<std::uint64_t>(numbers.take(0, no_limit));
     kept.boot = static_cast<std::uint64_t>(numbers.take(0, no_limit));
-    kept.since_boot = numbers.awake(Awake(most_milliseconds));
-    memory.awake = numbers.awake(Awake(most_milliseconds));
+    kept.since_boot = numbers.awake(Awake(max_milliseconds));
+    memory.awake = numbers.awake(Awake(max_milliseconds));
     memory.mode = static_cast<Mode>(numbers.byte(mode_count - 1));
     memory.climb = numbers.byte(Ladder::highest_climb);
-    memory.returns = numbers.byte(Ladder::most_returns);
+    memory.returns = numbers.byte(Ladder::max_returns);
     memory.tried = numbers.byte(all_bits(step_count));
     memory.given_up = numbers.byte(all_bits(cause_count));
     memory.cause = numbers.one_of<Cause>(cause_count);

@@ -14,8 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double coldest_c = -100.0; ///< less is no temperature
-/// The kernel's drivers of sensors in processors (Documentation/hwmon); the thermal zones of many machines leave these out.
+constexpr double coldest_c = -100.0; ///< lower values are no temperatures
+/// Kernel drivers of the sensors in processors (Documentation/hwmon); on many machines the thermal zones do not
+/// include these.
 constexpr std::array<std::string_view, 4> processor_sensors{"coretemp", "k10temp", "k8temp", "cpu_thermal"};
 
 template <typename Visit>
@@ -29,7 +30,7 @@ void for_each_in(const fs::path& folder, std::string_view begin, const Visit& vi
     }
 }
 
-/// Keeps the hotter one; a file has thousandths of a degree.
+/// Keeps the higher temperature; a file has thousandths of a degree.
 void take_hotter(const fs::path& file, std::optional<double>& hottest) {
     double thousandths = 0.0;
     std::ifstream stream(file);

@@ -1,7 +1,8 @@
-/// What the kernel says of the machine: how hot it is, how much room its disk has.
+/// The machine's state from the kernel: its temperature, and the free space of its disk.
 ///
-/// Threads  any. Reads small files of the kernel, and the free space of a disk, which the kernel keeps in memory, too.
-/// Errors   none: what it does not say is nothing.
+/// Threads  any. Reads small files of the kernel, and a disk's free space, which the kernel keeps in memory as
+///          well.
+/// Errors   none: a value that the kernel does not give is nothing.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 
 namespace frustumscreen {
 
-/// Of the thermal zones and the processor's own sensors below `root`/sys, degrees Celsius.
+/// The highest value of the thermal zones and the processor's own sensors below `root`/sys, degrees Celsius.
 [[nodiscard]] std::optional<double> hottest_c(const std::filesystem::path& root);
 
 struct DiskSpace {
@@ -21,7 +22,7 @@ struct DiskSpace {
         return static_cast<double>(free_bytes) / static_cast<double>(size_bytes);
     }
 };
-/// Of the file system that `folder` is on.
+/// The space of the file system that holds `folder`.
 [[nodiscard]] std::optional<DiskSpace> disk_space(const std::filesystem::path& folder);
 
 } // namespace frustumscreen

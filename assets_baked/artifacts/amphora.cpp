@@ -86,8 +86,8 @@ Patch body_patch(const Profile& profile, const std::shared_ptr<const ReliefMap>&
     };
     patch.length_u_mm = turn * 80.0;
     patch.length_v_mm = profile.length_mm();
-    patch.least_u = 12;
-    patch.least_v = 12;
+    patch.min_u = 12;
+    patch.min_v = 12;
     return patch;
 }
 
@@ -132,8 +132,8 @@ Patch handle_patch(double side) {
     };
     patch.length_u_mm = 48.0;
     patch.length_v_mm = 120.0;
-    patch.least_u = 7;
-    patch.least_v = 8;
+    patch.min_u = 7;
+    patch.min_v = 8;
     return patch;
 }
 
@@ -149,10 +149,10 @@ SourceMesh make_amphora(std::int64_t triangles) {
                                   handle_patch(-1.0)};
     patches[1].columns_of = 0;
     patches[1].length_v_mm *= 0.4; // hardly any of it is visible
-    patches[1].least_v = 8;
+    patches[1].min_v = 8;
     patches[1].pole_at_end = true;
     patches[2].columns_of = 0;
-    patches[2].least_v = 3;
+    patches[2].min_v = 3;
     patches[2].length_v_mm *= 0.4;
     patches[2].pole_at_start = true;
     return make_mesh(patches, triangles, std::move(skin.texture));

@@ -11,7 +11,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr std::int64_t fewest_triangles = 1'000;
-constexpr std::int64_t most_triangles = 20'000'000;
+constexpr std::int64_t max_triangles = 20'000'000;
 
 } // namespace
 
@@ -20,9 +20,9 @@ std::vector<std::string_view> builtin_names() {
 }
 
 Result<SourceMesh> make_builtin(std::string_view name, std::int64_t triangles) {
-    if (triangles < fewest_triangles || triangles > most_triangles) {
-        return bad_input("artifact.triangles", "{} triangles are asked for; allowed are {} to {}", triangles,
-                         fewest_triangles, most_triangles);
+    if (triangles < fewest_triangles || triangles > max_triangles) {
+        return bad_input("artifact.triangles", "{} triangles asked for, {} to {} are possible", triangles,
+                         fewest_triangles, max_triangles);
     }
     if (name == "amphora") {
         return make_amphora(triangles);

@@ -86,8 +86,8 @@ Patch shell_outside() {
     };
     patch.length_u_mm = 220.0;
     patch.length_v_mm = 420.0;
-    patch.least_u = 9;
-    patch.least_v = 14;
+    patch.min_u = 9;
+    patch.min_v = 14;
     return patch;
 }
 
@@ -115,8 +115,8 @@ Patch shell_inside() {
     };
     patch.length_u_mm = 200.0;
     patch.length_v_mm = 210.0;
-    patch.least_u = 9;
-    patch.least_v = 8;
+    patch.min_u = 9;
+    patch.min_v = 8;
     patch.pole_at_start = true;
     patch.columns_of = 0;
     return patch;
@@ -139,8 +139,8 @@ Patch lip_mount() {
     };
     patch.length_u_mm = 17.0;
     patch.length_v_mm = 270.0;
-    patch.least_u = 4;
-    patch.least_v = 12;
+    patch.min_u = 4;
+    patch.min_v = 12;
     return patch;
 }
 
@@ -159,8 +159,8 @@ Patch strap(dvec2 from, dvec2 to, dvec2 across, double length_mm) {
     };
     patch.length_u_mm = 14.0;
     patch.length_v_mm = length_mm;
-    patch.least_u = 3;
-    patch.least_v = 8;
+    patch.min_u = 3;
+    patch.min_v = 8;
     return patch;
 }
 
@@ -217,8 +217,8 @@ Patch boss(double side) {
     };
     patch.length_u_mm = 90.0;
     patch.length_v_mm = dome.length_mm();
-    patch.least_u = 8;
-    patch.least_v = 3;
+    patch.min_u = 8;
+    patch.min_v = 3;
     patch.pole_at_end = true;
     return patch;
 }
@@ -230,8 +230,8 @@ SourceMesh make_nautilus_cup(std::int64_t triangles) {
     std::vector<Patch> patches = {shell_outside(), shell_inside(), lip_mount()};
     patches.push_back(turned(stem, 1.0, atlas::stem, 1.0, true));
     patches.back().length_u_mm = turn * 28.0;
-    patches.back().least_u = 10;
-    patches.back().least_v = 16;
+    patches.back().min_u = 10;
+    patches.back().min_v = 16;
     patches.back().pole_at_end = true;
     patches.push_back(turned(Profile({{0, 5}, {30, 4}, {52, 0}}), 1.0, atlas::stem, 0.02, false));
     patches.back().columns_of = 3;

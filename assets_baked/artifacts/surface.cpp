@@ -41,8 +41,8 @@ std::vector<Cells> cells_at(const std::vector<Patch>& patches, double cells_per_
     cells.reserve(patches.size());
     for (const Patch& patch : patches) {
         cells.push_back(
-            {std::max<std::int64_t>(patch.least_u, std::llround(patch.length_u_mm * cells_per_mm)),
-             std::max<std::int64_t>(patch.least_v, std::llround(patch.length_v_mm * cells_per_mm))});
+            {std::max<std::int64_t>(patch.min_u, std::llround(patch.length_u_mm * cells_per_mm)),
+             std::max<std::int64_t>(patch.min_v, std::llround(patch.length_v_mm * cells_per_mm))});
     }
     share_columns(patches, cells);
     return cells;
@@ -66,7 +66,7 @@ std::vector<Cells> share_budget(const std::vector<Patch>& patches, std::int64_t 
         for (std::size_t i = 0; i < patches.size(); ++i) {
             for (const int by : {-1, 1}) {
                 const std::int64_t left = std::abs(missing - std::int64_t{by} * 2 * cells[i].u);
-                if (left < nearest && cells[i].v + by >= patches[i].least_v) {
+                if (left < nearest && cells[i].v + by >= patches[i].min_v) {
                     nearest = left;
                     chosen = i;
                     change = by;

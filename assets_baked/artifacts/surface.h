@@ -24,8 +24,8 @@ struct Patch {
     std::function<SurfacePoint(double u, double v)> at; ///< u and v in 0..1
     double length_u_mm = 1.0;                           ///< size, to spread triangles evenly
     double length_v_mm = 1.0;
-    int least_u = 4; ///< fewest cells
-    int least_v = 2;
+    int min_u = 4; ///< fewest cells
+    int min_v = 2;
     bool pole_at_start = false; ///< the whole edge v = 0 is one point
     bool pole_at_end = false;
     int columns_of = -1; ///< index of an earlier patch with equal columns: they share an edge

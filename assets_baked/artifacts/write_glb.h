@@ -1,4 +1,4 @@
-/// Writes a SourceMesh as one binary glTF file, so that other programs can check our pictures against the
+/// Writes a SourceMesh as one binary glTF file, so that other programs can compare the exhibit's pictures with the
 /// mesh.
 ///
 /// Frame    the mesh's own coordinates, as 32-bit floats; textures embedded as PNG.

@@ -26,7 +26,7 @@ namespace {
 /// Simplification tolerances, box units: 1e-4 is 10 um on an artifact 0.1 m long. The finest level is the
 /// source itself unless that is too large. (A tolerance near zero would not give it: the library's 32-bit
 /// errors are meaningless below about 3e-4, and its result strays by that much.)
-constexpr std::size_t most_finest_triangles = 600'000;
+constexpr std::size_t max_finest_triangles = 600'000;
 constexpr float finest_tolerance = 5e-5F;
 constexpr std::array<float, 6> mesh_tolerances{1e-4F, 2.2e-4F, 3.6e-4F, 5.5e-4F, 9e-4F, 2e-3F};
 
@@ -69,7 +69,7 @@ public:
     /// From fine to coarse.
     std::vector<Surface> surfaces() {
         finest_ =
-            welded_.triangle_count() > most_finest_triangles ? simplify(welded_, finest_tolerance) : welded_;
+            welded_.triangle_count() > max_finest_triangles ? simplify(welded_, finest_tolerance) : welded_;
         options_.progress("what visitors can see", 0.02);
         visible_ = seen_sides(finest_);
         if (visible_.indices.empty()) {
@@ -225,9 +225,9 @@ void keep_front(std::vector<Surface>& surfaces) {
 /// True if the mean error is smaller and neither the 95th percentile nor the colour error is clearly larger.
 bool betters(const LevelError& dearer, const LevelError& cheaper) {
     constexpr float scatter = 1.1F; // scatter of a measure over random points
-    constexpr float least_rmse = 1.0F;
+    constexpr float min_rmse = 1.0F;
     return dearer.mean_box < cheaper.mean_box && dearer.p95_box < scatter * cheaper.p95_box &&
-           dearer.colour_rmse < scatter * cheaper.colour_rmse + least_rmse;
+           dearer.colour_rmse < scatter * cheaper.colour_rmse + min_rmse;
 }
 
 /// Moves the levels on the front, and their texture, into the pack.
@@ -283,9 +283,9 @@ BakedProp baked_cube() {
 std::uintmax_t room_for_pack(int size) {
     constexpr std::uintmax_t triangles_bytes = 20'000'000;
     constexpr std::uintmax_t bytes_each_square = 200; // for all levels and the relief
-    constexpr std::uintmax_t most_bytes = std::uintmax_t{2} << 30;
+    constexpr std::uintmax_t max_bytes = std::uintmax_t{2} << 30;
     const auto edge = static_cast<std::uintmax_t>(size);
-    return std::min(most_bytes, triangles_bytes + bytes_each_square * edge * edge);
+    return std::min(max_bytes, triangles_bytes + bytes_each_square * edge * edge);
 }
 
 Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
@@ -320,7 +320,7 @@ Result<Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
             used.push_back(bakery.points()[vertex]);
         }
     }
-    put_hull(enclosing_corners(used, most_hull_corners), pack);
+    put_hull(enclosing_corners(used, max_hull_corners), pack);
     if (frame.lift_box > 0.0) {
         used.emplace_back(0.0); // the bottom of the box, above which the artifact stands
     }

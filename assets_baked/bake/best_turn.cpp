@@ -69,7 +69,7 @@ std::vector<glm::dvec3> outermost(std::span<const glm::dvec3> points, const std:
     return found;
 }
 
-/// As above for many points: block by block, then among the blocks' results.
+/// `outermost` for many points: block by block, then among the blocks' results.
 std::vector<glm::dvec3> outermost_of_many(const std::vector<glm::dvec3>& points,
                                           const std::vector<double>& slopes) {
     constexpr std::size_t block = 32'768;

@@ -308,9 +308,9 @@ void add_block(DirectionBlocks& into, const OpenBlock& open, const GridCrossings
         }
     }
     fill_gaps(residual, [&](std::size_t k) { return !std::isnan(open.w[k]); });
-    constexpr float least_step = 1e-6F;
+    constexpr float min_step = 1e-6F;
     block.residual_low = low;
-    block.residual_step = std::max(least_step, (high - low) / 255.0F);
+    block.residual_step = std::max(min_step, (high - low) / 255.0F);
     set_cells(block, residual);
     add_cuts(into, block, open);
     const auto code = [&](int column, int row) {

@@ -48,7 +48,7 @@ struct BoxFrame {
 /// Positions in the box frame, one for each of the mesh's positions: rounded relative to the box's size,
 /// whereas box_from_file rounds relative to the artifact's distance from its origin.
 [[nodiscard]] std::vector<glm::dvec3> in_box(const SourceMesh& mesh, const BoxFrame& frame);
-/// As above for the source of a pack, which stores only the matrix.
+/// Positions in the box frame for the source of a pack, which stores only the matrix.
 [[nodiscard]] std::vector<glm::dvec3> in_box(const SourceMesh& mesh, const glm::dmat4& box_from_file);
 
 /// The points that limit the scale inside any prop that is symmetric in X and Y and has a convex outline:

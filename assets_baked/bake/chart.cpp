@@ -43,10 +43,10 @@ Chart::Chart(const glm::vec3& direction, float texel_box) : direction_(direction
     axis_v_ /= texel_box;
 }
 
-bool Chart::take(const TriangleCorners& corners, std::uint32_t mesh, float stray_box, float least_facing) {
+bool Chart::take(const TriangleCorners& corners, std::uint32_t mesh, float stray_box, float min_facing) {
     const glm::vec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const float facing = glm::dot(normal, direction_);
-    if (facing < least_facing * glm::length(normal)) {
+    if (facing < min_facing * glm::length(normal)) {
         return false;
     }
     std::array<glm::vec2, 3> flat{};
@@ -58,11 +58,11 @@ bool Chart::take(const TriangleCorners& corners, std::uint32_t mesh, float stray
     const glm::ivec2 low(glm::floor(glm::min(flat[0], glm::min(flat[1], flat[2]))));
     const glm::ivec2 high(glm::floor(glm::max(flat[0], glm::max(flat[1], flat[2]))));
     reach(low, high);
-    const float most_apart = facing > 0.0F ? stray_box * glm::length(normal) / facing : stray_box;
+    const float max_apart = facing > 0.0F ? stray_box * glm::length(normal) / facing : stray_box;
     const bool free = for_each_centre(flat, [&](const glm::ivec2& at, const glm::vec3& weights) {
         const Texel& texel = texels_.at(at.x - origin_.x, at.y - origin_.y);
         return texel.mesh == 0 ||
-               (texel.mesh != mesh && std::abs(glm::dot(weights, heights) - texel.height) <= most_apart);
+               (texel.mesh != mesh && std::abs(glm::dot(weights, heights) - texel.height) <= max_apart);
     });
     if (free) {
         for_each_centre(flat, [&](const glm::ivec2& at, const glm::vec3& weights) {

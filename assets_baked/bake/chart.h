@@ -25,10 +25,10 @@ public:
         return {glm::dot(p, axis_u_), glm::dot(p, axis_v_)};
     }
     /// Takes the triangle if the cosine between its normal and the chart's direction is at least
-    /// `least_facing`, it overlaps no other triangle of its mesh, and it is within `stray_box` of other
+    /// `min_facing`, it overlaps no other triangle of its mesh, and it is within `stray_box` of other
     /// meshes' surfaces at its position. Returns true if it was taken.
     [[nodiscard]] bool take(const TriangleCorners& corners, std::uint32_t mesh, float stray_box,
-                            float least_facing);
+                            float min_facing);
 
 private:
     struct Texel {

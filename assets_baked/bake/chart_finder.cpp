@@ -13,8 +13,8 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr float least_facing = 0.5F;        // a chart's texels are stretched by at most 2
-constexpr float least_facing_later = 0.35F; // small triangles of a finer mesh may be steeper
+constexpr float min_facing = 0.5F;        // a chart's texels are stretched by at most 2
+constexpr float min_facing_later = 0.35F; // small triangles of a finer mesh may be steeper
 
 /// For each triangle's edge k (corner k to k + 1), the triangle on its other side, if exactly two meet there.
 std::vector<std::uint32_t> neighbours(const TriangleMesh& mesh) {
@@ -61,11 +61,11 @@ void ChartFinder::take_from(const TriangleMesh& other, const std::vector<std::ui
     const std::vector<std::uint32_t> beside = beside_in(other);
     std::vector<std::uint32_t> taken;
     for (std::uint32_t t = 0; t < chart_of_.size(); ++t) {
-        if (beside[t] != no_chart && take(other_charts[beside[t]], t, least_facing_later)) {
+        if (beside[t] != no_chart && take(other_charts[beside[t]], t, min_facing_later)) {
             taken.push_back(t);
         }
     }
-    spread(std::move(taken), least_facing_later);
+    spread(std::move(taken), min_facing_later);
 }
 
 std::vector<std::uint32_t> ChartFinder::find() {
@@ -75,7 +75,7 @@ std::vector<std::uint32_t> ChartFinder::find() {
     for (int pass = 0; is_first && pass < passes; ++pass) {
         grow_anew();
     }
-    straighten_borders(is_first ? least_facing : least_facing_later);
+    straighten_borders(is_first ? min_facing : min_facing_later);
     return std::move(chart_of_);
 }
 
@@ -116,7 +116,7 @@ void ChartFinder::grow_from(std::uint32_t seed, const glm::vec3& direction) {
     charts_.emplace_back(direction, texel_box_);
     seeds_.push_back(seed);
     (void)take(chart, seed, 0.0F);
-    spread({seed}, least_facing);
+    spread({seed}, min_facing);
 }
 
 void ChartFinder::grow_the_rest() {
@@ -143,7 +143,7 @@ void ChartFinder::grow_anew() {
     for (const std::uint32_t chart : in_order_of(sizes)) {
         const std::uint32_t seed = seeds[chart];
         const float facing = glm::dot(means[chart], mesh_.area_normal(seed));
-        if (chart_of_[seed] == no_chart && facing > least_facing * glm::length(means[chart]) * areas_[seed]) {
+        if (chart_of_[seed] == no_chart && facing > min_facing * glm::length(means[chart]) * areas_[seed]) {
             grow_from(seed, glm::normalize(means[chart]));
         }
     }

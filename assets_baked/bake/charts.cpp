@@ -84,10 +84,10 @@ double area_of(const std::vector<glm::ivec2>& sizes) {
 std::vector<Place> places_of(const std::vector<Rectangle>& rectangles, int largest_atlas,
                              AtlasLayout& layout) {
     constexpr float step = 1.05F;
-    const double most_texels = static_cast<double>(largest_atlas) * largest_atlas;
+    const double max_texels = static_cast<double>(largest_atlas) * largest_atlas;
     float shrink = 1.0F;
-    if (area_of(sizes_of(rectangles, 1e-3F)) < 0.5 * most_texels) { // otherwise the gutters fill the atlas
-        while (area_of(sizes_of(rectangles, shrink)) > most_texels) {
+    if (area_of(sizes_of(rectangles, 1e-3F)) < 0.5 * max_texels) { // otherwise the gutters fill the atlas
+        while (area_of(sizes_of(rectangles, shrink)) > max_texels) {
             shrink /= step;
         }
         while (layout = pack_rectangles(sizes_of(rectangles, shrink)),

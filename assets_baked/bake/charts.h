@@ -3,7 +3,7 @@
 /// colour. All levels of an artifact use the same charts where their triangles fit, and one texture serves
 /// them all.
 ///
-/// Frames   positions in the box frame; uv in texels of the atlas (texel centres at .5).
+/// Frames   positions in the box frame; uv in texels of the atlas (texel centres at 0.5).
 /// Threads  one caller; `add` uses all cores. Deterministic.
 #pragma once
 

@@ -7,8 +7,8 @@ namespace frustumscreen {
 namespace {
 
 // Clusters are compact rather than flat, because the kiosk checks the side of each triangle itself.
-constexpr std::size_t most_vertices = 96;
-constexpr std::size_t most_triangles = 64;
+constexpr std::size_t max_vertices = 96;
+constexpr std::size_t max_triangles = 64;
 constexpr float cone_weight = 0.0F;
 
 PackCluster bounded_by(const meshopt_Bounds& bounds) {
@@ -33,12 +33,12 @@ std::vector<PackCluster> cut_into_clusters(std::span<std::uint32_t> indices,
     const float* coordinates = &positions[0].x;
     meshopt_optimizeVertexCache(indices.data(), indices.data(), indices.size(), positions.size());
     std::vector<meshopt_Meshlet> meshlets(
-        meshopt_buildMeshletsBound(indices.size(), most_vertices, most_triangles));
-    std::vector<std::uint32_t> vertices(meshlets.size() * most_vertices);
-    std::vector<unsigned char> corners(meshlets.size() * most_triangles * 3);
+        meshopt_buildMeshletsBound(indices.size(), max_vertices, max_triangles));
+    std::vector<std::uint32_t> vertices(meshlets.size() * max_vertices);
+    std::vector<unsigned char> corners(meshlets.size() * max_triangles * 3);
     meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), corners.data(), indices.data(),
                                           indices.size(), coordinates, positions.size(), sizeof(glm::vec3),
-                                          most_vertices, most_triangles, cone_weight));
+                                          max_vertices, max_triangles, cone_weight));
     std::vector<PackCluster> clusters;
     clusters.reserve(meshlets.size());
     std::uint32_t done = 0;

@@ -12,11 +12,11 @@ namespace frustumscreen {
 namespace {
 
 /// A crossing at a flatter angle to its line does not locate the surface: cosine.
-constexpr double least_cosine = 0.12;
+constexpr double min_cosine = 0.12;
 /// Difference in cosine by which another direction must see a crossing better to take it.
 constexpr double shared_cosine = 0.06;
 /// Two crossings nearer than this are one, hit in two triangles: texels.
-constexpr float least_distance = 1e-4F;
+constexpr float min_distance = 1e-4F;
 
 int lines_for(double extent_box, double texel_box) {
     const int cells =
@@ -62,9 +62,9 @@ void follow_line(const BlockInput& input, const ReliefGrid& grid, const glm::dve
         if (!hit.hit) {
             return;
         }
-        after = hit.distance + least_distance * static_cast<float>(texel_box);
+        after = hit.distance + min_distance * static_cast<float>(texel_box);
         const double cosine = static_cast<double>(glm::dot(hit.normal, outward));
-        if (cosine > least_cosine) {
+        if (cosine > min_cosine) {
             visit(hit, range.y - static_cast<double>(hit.distance) / texel_box, cosine);
         }
     }
@@ -98,7 +98,7 @@ void cross_line(const BlockInput& input, const ReliefGrid& grid, const glm::dvec
 std::optional<Crossing> crossing_from(const BlockInput& input, const ReliefGrid& grid,
                                       const SurfaceHit& hit) {
     const double cosine = grid.sign * static_cast<double>(hit.normal[grid.axis[2]]);
-    if (!(cosine > least_cosine)) {
+    if (!(cosine > min_cosine)) {
         return std::nullopt;
     }
     const double w = grid_from_box(grid, hit.point, 1.0 / input.texels).z;

@@ -95,12 +95,12 @@ Result<PackHotspot> put_on_surface(const GivenHotspot& given, const SourceScene&
     }
     const double distance = glm::distance(glm::dvec3(nearest.point), wanted);
     const glm::dvec3 nearest_file(glm::inverse(frame.box_from_file) * glm::dvec4(nearest.point, 1.0F));
-    if (!(distance <= most_hotspot_distance_box)) {
+    if (!(distance <= max_hotspot_distance_box)) {
         return bad_input("hotspot.away_from_surface",
                          "{} is {}, which is {} away from its surface; allowed are {:g} % of that size; the "
                          "nearest point of it is {}",
                          given.place, words_of(given.point_file), in_sizes(distance),
-                         100.0 * most_hotspot_distance_box, words_of(nearest_file));
+                         100.0 * max_hotspot_distance_box, words_of(nearest_file));
     }
     const int front = open_directions(source, nearest.point, nearest.normal, zone);
     const int back = open_directions(source, nearest.point, -nearest.normal, zone);

@@ -24,7 +24,7 @@ struct GivenHotspot {
 };
 
 /// Largest distance of a given point from the surface, as a share of the artifact's longest edge.
-inline constexpr double most_hotspot_distance_box = 0.05;
+inline constexpr double max_hotspot_distance_box = 0.05;
 
 /// The nearest point of the surface, with the mean normal around it, oriented to the side from which more of
 /// the viewing zone is visible.

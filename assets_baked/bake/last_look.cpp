@@ -12,8 +12,8 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double max_scrap_share = 0.001; ///< of the triangles, for all scraps together
-constexpr double min_shrinkage = 0.8; ///< without scraps the size is less than this of what it is with them
+constexpr double max_scrap_share = 0.001;     ///< of the triangles, for all scraps together
+constexpr double min_shrinkage = 0.8;         ///< largest ratio of sizes without and with scraps
 constexpr double max_step_share = 1.0 / 2000; ///< of the size: about a texel of the finest relief
 
 struct Bounds {
@@ -30,7 +30,7 @@ struct Bounds {
     }
 };
 
-/// Which part each triangle belongs to, numbered from 0, by union-find over equal positions.
+/// The part of each triangle, numbered from 0, by union-find over equal positions.
 std::vector<std::uint32_t> parts_of(const SourceMesh& mesh, std::size_t& count) {
     std::vector<std::uint32_t> same(mesh.positions.size());
     meshopt_generateVertexRemap(same.data(), nullptr, mesh.positions.size(), mesh.positions.data(),
@@ -66,7 +66,7 @@ struct Part {
     std::size_t triangles = 0;
 };
 
-/// How far a part reaches beyond `rest`, at its farthest.
+/// The largest distance by which a part extends beyond `rest`.
 double reach_beyond(const Bounds& part, const Bounds& rest) {
     const glm::dvec3 beyond = glm::max(part.high - rest.high, rest.low - part.low);
     return std::max({beyond.x, beyond.y, beyond.z});
@@ -111,7 +111,8 @@ Scraps find_scraps(const SourceMesh& mesh) {
             part.bounds.add({mesh.positions[vertex], mesh.positions[vertex]});
         }
     }
-    // The largest parts are the artifact; of the rest, those that reach beyond it by more than a tenth of its size may be scraps.
+    // The largest parts are the artifact. Other parts may be scraps if they reach beyond it by more than a tenth of its
+    // size.
     std::vector<std::uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {

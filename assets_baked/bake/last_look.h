@@ -1,8 +1,9 @@
-/// What looks wrong with a mesh that was read without a fault, said as a guess, with what to do.
+/// Looks for likely mistakes in a mesh that was read without an error, and suggests a remedy for each.
 ///
-/// Scraps   connected parts of few triangles far from the rest, which make the artifact small in its prop: what photogrammetry leaves behind.
+/// Scraps   connected parts of few triangles far from the rest, as photogrammetry leaves them; they make the artifact
+///          small in its prop.
 /// Light    colours that are all black.
-/// Steps    coordinates so large that 32-bit numbers put points on a grid that shows.
+/// Steps    coordinates so large that their 32-bit rounding is visible.
 /// Shape    parts are connected by equal positions.
 /// Threads  pure; any.
 #pragma once
@@ -15,7 +16,7 @@
 namespace frustumscreen {
 
 struct Scraps {
-    std::vector<bool> is_scrap; ///< one each triangle; empty: there are none
+    std::vector<bool> is_scrap; ///< one for each triangle; empty: no scraps
     std::size_t triangles = 0;
     double size_with = 0.0; ///< longest edge of the bounding box, file units
     double size_without = 0.0;
@@ -24,7 +25,7 @@ struct Scraps {
 [[nodiscard]] Scraps find_scraps(const SourceMesh& mesh);
 void remove_scraps(SourceMesh& mesh, const Scraps& scraps);
 
-/// Notes of scraps that stay, of light and of steps.
+/// Notes on scraps that are kept, on light and on steps.
 [[nodiscard]] std::vector<SourceNote> last_look(const SourceMesh& mesh, const Scraps& scraps);
 
 } // namespace frustumscreen

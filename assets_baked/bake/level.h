@@ -27,7 +27,7 @@ namespace frustumscreen {
 /// Rebuilds a level's surface from its quantised vertices.
 [[nodiscard]] TriangleMesh surface_of(const PackLevel& level, const glm::dvec3& box_size);
 
-/// As above with its texture, for ray casts; rays pass where the texture's alpha cuts. `texture` must outlive
+/// A level's surface with its texture, for ray casts; rays pass where the texture's alpha cuts. `texture` must outlive
 /// it.
 [[nodiscard]] SourceMesh textured_source(const PackLevel& level, const Image8& texture,
                                          const glm::dvec3& box_size);

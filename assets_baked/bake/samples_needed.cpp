@@ -93,7 +93,7 @@ std::array<double, grids.size()> errors_of(const FarView& view, const SourceScen
 int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double mm_per_box,
                    const ViewingZone& zone, double share) {
     constexpr double good_rmse = 8.0;
-    constexpr double most_samples =
+    constexpr double max_samples =
         45e3; // for the artifact's pixels on a usual table: the number that a slow GPU shades in time
     constexpr int views = 4;
     const double lowest_deg = zone.lowest_elevation_deg + 17.0;
@@ -121,7 +121,7 @@ int samples_needed(const SourceScene& source, const glm::dvec3& box_size, double
     }
     std::size_t chosen = 1; // with one sample, outlines show steps and shimmer
     while (chosen + 1 < grids.size() && worst[chosen] > good_rmse &&
-           pixels * grids[chosen + 1].x * grids[chosen + 1].y <= most_samples) {
+           pixels * grids[chosen + 1].x * grids[chosen + 1].y <= max_samples) {
         ++chosen;
     }
     return grids[chosen].x * grids[chosen].y;

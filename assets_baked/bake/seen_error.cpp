@@ -401,8 +401,8 @@ bool good_enough(const LevelError& measured, const SeenError& seen, double mm_pe
     constexpr double mean_mm = 0.09;
     constexpr double outline_shift_mm = 0.04;
     constexpr double silhouette_share = 0.012; // a thin object consists of outline
-    const auto within = [mm_per_box](float box, double most_mm) {
-        return static_cast<double>(box) * mm_per_box <= most_mm;
+    const auto within = [mm_per_box](float box, double max_mm) {
+        return static_cast<double>(box) * mm_per_box <= max_mm;
     };
     return within(measured.max_box, worst_mm) && within(seen.mean_box, mean_mm) &&
            within(seen.outline_shift_box, outline_shift_mm) &&

@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-/// Points along all such edges, a quarter of a texel apart, slightly inside their triangles, sorted by cells,
+/// Points along these edges, a quarter of a texel apart, slightly inside their triangles, sorted by cells,
 /// row by row. Only points that no other direction sees clearly better.
 [[nodiscard]] std::vector<SheetEnd> sheet_ends(const BlockInput& input, const ReliefGrid& grid);
 

@@ -118,7 +118,7 @@ std::vector<float> distances_to(const TriangleMesh& surface, const TriangleMesh&
 /// no unused vertex.
 TriangleMesh lost_part(const TriangleMesh& mesh, const TriangleMesh& fewer, float tolerance_box) {
     const float strays_box = 2.0F * tolerance_box;
-    const float lost_box = most_tolerances_lost * tolerance_box;
+    const float lost_box = max_tolerances_lost * tolerance_box;
     const std::vector<float> distances = distances_to(fewer, mesh, lost_box);
     std::vector<bool> lost(distances.size());
     std::size_t count = 0;

@@ -10,7 +10,7 @@
 namespace frustumscreen {
 
 /// Largest distance of the mesh's corners from its simplified surface, in tolerances.
-inline constexpr float most_tolerances_lost = 8.0F;
+inline constexpr float max_tolerances_lost = 8.0F;
 
 /// The fewest triangles that meshoptimizer reaches within `tolerance_box`, cell by cell, repeated until
 /// nothing changes. Its errors are 32-bit and insensitive below about 3e-4 of the mesh's extent: with cells
@@ -19,7 +19,7 @@ inline constexpr float most_tolerances_lost = 8.0F;
 /// of 100k). Several runs add up to slightly more than the tolerance; every level is measured afterwards.
 ///
 /// Quadrics are weighted by area, so a blade may shrink to its hilt at no cost, because its tip has hardly
-/// any area. Parts that are lost in this way, by more than `most_tolerances_lost`, are put back, simplified
+/// any area. Parts that are lost in this way, by more than `max_tolerances_lost`, are put back, simplified
 /// by a third of the tolerance. They overlap the remains.
 [[nodiscard]] TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box);
 

@@ -32,15 +32,14 @@ struct SourceMaterial {
     float alpha_cutoff = 0.5F;
 };
 
-/// What a reader could not keep of the file, had to guess, or took where nobody said otherwise, in one line for the person who has
-/// the file.
+/// A loss, a guess, or a value taken because nothing else was given: one line for the person who has the file.
 struct SourceNote {
     enum class Kind : std::uint8_t { Lost, Guessed, Taken };
     Kind kind = Kind::Lost;
     std::string text;
 };
 
-/// What the file says of itself, one line each; empty: nothing.
+/// The file's own metadata, one line each; empty: not given.
 struct SourceAbout {
     std::string title, author, licence, source;
     [[nodiscard]] bool operator==(const SourceAbout&) const = default;
@@ -58,7 +57,7 @@ struct SourceMesh {
     std::vector<std::filesystem::path> side_files; ///< other files that the model is made of or names
     std::vector<SourceNote> notes;                 ///< in the order in which they were found
     SourceAbout about;
-    bool is_unlit = false; ///< the file says that its colours are shown as they are, without light
+    bool is_unlit = false; ///< the file's colours are shown as they are, without light
     char default_up = 'y'; ///< 'y' for glTF, OBJ, PLY; 'z' for STL
 };
 

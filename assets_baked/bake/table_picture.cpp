@@ -121,7 +121,7 @@ Camera best_camera(const SourceScene& scene, const glm::vec3& centre, const Tria
 void expose(Image<Gathered>& picture) {
     constexpr double share_below = 0.98;
     constexpr float highlight = 0.8308F; // linear light of the sRGB code 235
-    constexpr float most_exposure = 8.0F;
+    constexpr float max_exposure = 8.0F;
     std::vector<float> brightest;
     for (const Gathered& texel : picture.texels) {
         if (texel.covered > 0.5F) {
@@ -134,7 +134,7 @@ void expose(Image<Gathered>& picture) {
     const auto place = brightest.begin() +
                        static_cast<std::ptrdiff_t>(share_below * static_cast<double>(brightest.size() - 1));
     std::nth_element(brightest.begin(), place, brightest.end());
-    const float exposure = std::min(most_exposure, highlight / std::max(*place, 1e-6F));
+    const float exposure = std::min(max_exposure, highlight / std::max(*place, 1e-6F));
     for (Gathered& texel : picture.texels) {
         texel.colour *= exposure;
     }

@@ -89,7 +89,7 @@ std::vector<glm::vec3> smooth_normals(const TriangleMesh& mesh) {
 
 std::vector<glm::vec3> corner_normals(const TriangleMesh& mesh) {
     std::vector<glm::vec3> flat(mesh.triangle_count());
-    std::vector<std::uint32_t> first_around(mesh.positions.size() + 1, 0); // of each position, into `around`
+    std::vector<std::uint32_t> first_around(mesh.positions.size() + 1, 0); // index into `around`
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
         flat[t] = mesh.area_normal(t);
     }

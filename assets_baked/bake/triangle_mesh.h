@@ -41,8 +41,8 @@ void compact(TriangleMesh& mesh);
 
 /// For each position, the mean of its triangles' normals, by area; unit, or +Z if there is none.
 [[nodiscard]] std::vector<glm::vec3> smooth_normals(const TriangleMesh& mesh);
-/// Of each triangle's corners, three each: the mean, by area, of the normals of the triangles around that position that are not across a hard
-/// edge, one of more than `hard_edge_deg`. Unit; +Z where there is none.
+/// Normals of each triangle's three corners: the mean, by area, of the normals of the triangles around that position,
+/// except those across a hard edge, which is one of more than `hard_edge_deg`. Unit; +Z if there is none.
 inline constexpr double hard_edge_deg = 50.0;
 [[nodiscard]] std::vector<glm::vec3> corner_normals(const TriangleMesh& mesh);
 

@@ -20,7 +20,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::uintmax_t largest_file_bytes = std::uintmax_t{16} << 20; // as the manifest
+constexpr std::uintmax_t largest_file_bytes = std::uintmax_t{16} << 20; // limit of a pack's manifest
 constexpr std::array<std::string_view, 6> up_words{"x", "y", "z", "-x", "-y", "-z"};
 constexpr std::array<std::string_view, 2> prop_words{"frustum", "cube"};
 struct InnerKey {
@@ -44,7 +44,7 @@ constexpr auto inner_keys = std::to_array<InnerKey>({{"language", "[[texts]]"},
                                                      {"lift", "[placement]"}});
 constexpr Range coordinate{-1e9, 1e9, "units of the scan"};
 
-/// Without the blanks around it; of blanks alone it counts as left out.
+/// Reads a text without surrounding blanks; one of only blanks counts as left out.
 void read_text(TableReader& table, std::string_view key, std::string& value,
                TextShape shape = TextShape::Line) {
     table.any_text(key, value);
@@ -54,7 +54,7 @@ void read_text(TableReader& table, std::string_view key, std::string& value,
     value = std::string(trimmed(value));
 }
 
-/// A path of the folder; one that leads out of it would not travel with it.
+/// Reads a path inside the folder; a file outside it would not move with the folder.
 void read_path(TableReader& table, std::string_view key, std::filesystem::path& value) {
     std::filesystem::path written;
     std::string text;
@@ -89,11 +89,11 @@ void read_placement(TableReader& table, ArtifactFile& file) {
     if (table.has("turn_deg")) {
         file.turn_deg = turn_deg;
     }
-    table.number("scale", file.scale, {pack_format::least_scale, pack_format::most_scale, ""});
+    table.number("scale", file.scale, {pack_format::min_scale, pack_format::max_scale, ""});
     table.number("lift", file.lift, {0.0, 1.0, "heights of the artifact"});
 }
 
-/// Brings the tag to its usual case; refuses what is no language.
+/// Reads a language tag in its usual case; refuses an invalid one.
 bool read_language(TableReader& table, std::string_view key, std::string& language) {
     const std::optional<std::string> usual =
         has_language_form(language) ? parse_language_tag(language) : std::nullopt;
@@ -119,7 +119,7 @@ void read_caption(TableReader& table, PackCaption& caption, std::set<std::string
     read_text(table, "description", caption.description, TextShape::Lines);
     std::filesystem::path recording;
     read_path(table, "recording", recording);
-    table.finish(); // a misspelt key is said before one that is missing for it
+    table.finish(); // a misspelt key is reported before a missing one
     if (caption.language.empty()) {
         table.refuse("folder.no_language", "language",
                      "is missing or empty; every [[texts]] names its language, such as \"en\"");
@@ -139,7 +139,7 @@ void read_caption(TableReader& table, PackCaption& caption, std::set<std::string
 void read_hotspot(TableReader& table, ArtifactHotspot& hotspot) {
     table.vector("point", hotspot.point_file, coordinate);
     std::vector<std::pair<std::string, std::string>> labels;
-    table.named_texts("labels", labels, pack_format::most_languages);
+    table.named_texts("labels", labels, pack_format::max_languages);
     table.finish(); // as for a text
     table.require("folder.no_point", table.has("point"), "point",
                   "is missing; write it as [x, y, z] in the scan's coordinates");
@@ -171,7 +171,7 @@ void read_all(TableReader& table, ArtifactFile& file) {
     table.any_text("id", file.id);
     table.require("folder.id", file.id.empty() || is_artifact_id(file.id), "id",
                   fmt::format("is \"{}\"; allowed are 1 to {} of a-z 0-9 . _ -, a letter or a digit first",
-                              printable(file.id, 40), pack_format::most_id_bytes));
+                              printable(file.id, 40), pack_format::max_id_bytes));
     read_text(table, "licence", file.licence);
     read_text(table, "author", file.author);
     read_text(table, "source", file.source);
@@ -181,15 +181,15 @@ void read_all(TableReader& table, ArtifactFile& file) {
     table.table("placement", {}, [&](TableReader& inner) { read_placement(inner, file); });
     std::set<std::string> languages;
     table.tables(
-        "texts", file.texts, pack_format::most_languages,
+        "texts", file.texts, pack_format::max_languages,
         [&](TableReader& item, PackCaption& caption) { read_caption(item, caption, languages, file); }, {});
-    table.tables("hotspots", file.hotspots, pack_format::most_hotspots, read_hotspot, {});
+    table.tables("hotspots", file.hotspots, pack_format::max_hotspots, read_hotspot, {});
     for (PackCaption& caption : file.texts) {
         caption.title = caption.title.empty() ? file.texts.front().title : caption.title;
     }
 }
 
-/// [texts] for [[texts]].
+/// Refuses [texts] in place of [[texts]].
 void refuse_single_tables(const toml::table& root, ReadState& state) {
     for (const auto& [key, each] : {std::pair("texts", "language"), {"hotspots", "place"}}) {
         const toml::node* node = root.get(key);
@@ -202,7 +202,7 @@ void refuse_single_tables(const toml::table& root, ReadState& state) {
     }
 }
 
-/// [[text]] for [[texts]]: a text has a key of that name, but not one that holds tables.
+/// Refuses [[text]] in place of [[texts]]: a text has a key of that name, but not one that holds tables.
 void refuse_misspelt_tables(const toml::table& root, ReadState& state) {
     for (const auto& [key, node] : root) {
         const std::string_view name = key.str().substr(0, 60);
@@ -217,7 +217,7 @@ void refuse_misspelt_tables(const toml::table& root, ReadState& state) {
     }
 }
 
-/// Tells of a key of the whole file, right or misspelt, which belongs into one of its tables.
+/// Reports a key at the top of the file, right or misspelt, that belongs into one of its tables.
 void refuse_misplaced_key(const toml::table& root, std::span<const std::string> outer_keys,
                           ReadState& state) {
     std::optional<std::pair<std::uint32_t, std::string>> first;

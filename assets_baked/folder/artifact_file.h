@@ -1,8 +1,8 @@
-/// A curator's folder: `artifact.toml`, which says all that the bake needs to know, beside the scan.
+/// A curator's folder: the scan, and `artifact.toml` with all inputs of the bake.
 ///
 /// Frames   hotspots in the scan's own coordinates.
-/// Errors   the first one, as one line: file, line, key, what was found, what is allowed; the nearest right key for
-///          one that is not known.
+/// Errors   only the first, as one line: file, line, key, the value found, the values allowed; for an unknown key
+///          the nearest known one.
 /// Threads  pure apart from reading the file; any.
 #pragma once
 
@@ -21,7 +21,8 @@
 namespace frustumscreen {
 
 inline constexpr std::string_view artifact_file_name = "artifact.toml";
-/// Recordings that the file does not name: LANGUAGE/description.wav and the like in this folder of the folder.
+/// Folder of recordings that the file does not name, relative to the artifact's folder: LANGUAGE/description.wav and
+/// others.
 inline constexpr std::string_view recordings_folder_name = "recordings";
 
 struct ArtifactHotspot {
@@ -30,31 +31,30 @@ struct ArtifactHotspot {
     std::vector<PackLabel> labels;
 };
 
-/// What is left out has the value that the bake has without the file.
+/// The file's values; missing ones have the bake's defaults.
 struct ArtifactFile {
-    std::filesystem::path scan;    ///< with the folder in front
-    std::filesystem::path texture; ///< the same; empty: the scan's own
+    std::filesystem::path scan;    ///< path including the folder
+    std::filesystem::path texture; ///< path including the folder; empty: the scan's own
     std::string id;
-    std::string licence; ///< this and the next two: of the scan; empty: what its file says of itself
+    std::string licence; ///< this and the next two describe the scan; empty: as in the scan's own file
     std::string author;
     std::string source;
     int size = 512; ///< texels
     bool unlit = false;
     std::string prop = "frustum";
     std::string up;                 ///< empty: the format's own
-    std::optional<double> turn_deg; ///< nothing: the best
+    std::optional<double> turn_deg; ///< nothing: the best turn
     double scale = 1.0;
     double lift = 0.0;
-    std::vector<PackCaption> texts; ///< in the file's order; a title that is left out is the first one's
-    std::map<std::string, std::filesystem::path>
-        recordings; ///< of descriptions, by language; with the folder in front
+    std::vector<PackCaption> texts; ///< in the file's order; a missing title is the first text's
+    std::map<std::string, std::filesystem::path> recordings; ///< by language; paths including the folder
     std::vector<ArtifactHotspot> hotspots;
 };
 
-/// `file` is the name for messages; paths in the text are relative to its folder.
+/// `file` is the name in messages; paths in the text are relative to its folder.
 [[nodiscard]] Result<ArtifactFile> parse_artifact_file(std::string_view text,
                                                        const std::filesystem::path& file);
-/// Reads `artifact.toml` of the folder.
+/// Reads the `artifact.toml` of a folder.
 [[nodiscard]] Result<ArtifactFile> read_artifact_file(const std::filesystem::path& folder);
 
 } // namespace frustumscreen

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As it stands between quotes in TOML.
+/// The text as a quoted TOML string.
 std::string toml_string(std::string_view text) {
     std::string inside;
     for (const char c : text) {
@@ -27,7 +27,7 @@ std::string toml_string(std::string_view text) {
     return '"' + inside + '"';
 }
 
-/// A word of the title and a random number: nobody else's artifact has it, and a person can tell what it is.
+/// A word of the title and a random number: unique among all artifacts, and recognisable by a person.
 std::string new_id(std::string_view title) {
     std::string word;
     for (const char c : title.substr(0, 24)) {
@@ -45,7 +45,7 @@ bool is_same_folder(const fs::path& a, const fs::path& b) {
     return fs::equivalent(a.empty() ? fs::path(".") : a, b.empty() ? fs::path(".") : b, none);
 }
 
-/// Where each of the scan's files goes, relative to the folder.
+/// The scan's files and their destinations, relative to the folder.
 using Copies = std::vector<std::pair<fs::path, fs::path>>;
 
 Result<Copies> copies_of(const ScanFacts& scan) {
@@ -53,7 +53,7 @@ Result<Copies> copies_of(const ScanFacts& scan) {
     for (const fs::path& side : scan.side_files) {
         std::error_code none;
         if (!fs::is_regular_file(side, none)) {
-            continue; // the bake says what is missing
+            continue; // the bake reports missing files
         }
         const fs::path relative = side.lexically_relative(scan.file.parent_path());
         if (relative.empty() || relative.is_absolute() || *relative.begin() == "..") {
@@ -67,7 +67,7 @@ Result<Copies> copies_of(const ScanFacts& scan) {
     return copies;
 }
 
-/// What was begun is taken away again: a cut file would be taken for a scan by the next try.
+/// Removes a partial copy, because the next try would take a truncated file for a scan.
 void take_away(const fs::path& folder, const Copies& copies) {
     for (const auto& [from, to] : copies) {
         std::error_code none;
@@ -105,7 +105,7 @@ Result<void> copy_into(const fs::path& folder, const Copies& copies) {
         fs::create_directories((folder / to).parent_path(), failed);
         fs::copy_file(from, folder / to, failed);
         if (failed) {
-            take_away(folder, copies); // none was there before
+            take_away(folder, copies); // none of them existed before
             return not_copied(from, folder / to, failed);
         }
     }
@@ -179,7 +179,7 @@ title = {title}
 #labels = {{ en = "The handle", de = "Der Henkel" }}
 )";
 
-/// What the file says, else a line that begins with # as an example.
+/// The line with the file's value; without one, a commented line with an example.
 std::string told_or_example(std::string_view key, const std::string& told, std::string_view example) {
     return told.empty() ? fmt::format("#{} = {}", key, toml_string(example))
                         : fmt::format("{} = {}", key, toml_string(told));
@@ -187,7 +187,7 @@ std::string told_or_example(std::string_view key, const std::string& told, std::
 
 std::string words_of(glm::dvec3 v, double longest) {
     for (int axis = 0; axis < 3; ++axis) {
-        v[axis] = std::abs(v[axis]) < 1e-5 * longest ? 0.0 : v[axis]; // 4e-09 says nothing to a person
+        v[axis] = std::abs(v[axis]) < 1e-5 * longest ? 0.0 : v[axis]; // 4e-09 is meaningless to a person
     }
     return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x, v.y, v.z);
 }

@@ -22,7 +22,7 @@ std::string folded_file_name(std::string_view name) {
         owned(g_utf8_validate(name.data(), bytes, nullptr)
                   ? g_strndup(name.data(), name.size())
                   : g_convert(name.data(), bytes, "UTF-8", "WINDOWS-1252", nullptr, nullptr, nullptr));
-    if (!utf8) { // a byte that the code page does not have
+    if (!utf8) { // a byte that is undefined in the code page
         return std::string(name);
     }
     const GText folded = owned(g_utf8_casefold(utf8.get(), -1));

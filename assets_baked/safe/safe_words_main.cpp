@@ -22,8 +22,8 @@
 namespace frustumscreen {
 namespace {
 
-constexpr std::uintmax_t most_file_bytes = 1 << 20;
-constexpr std::int32_t one_line = glyph_limits::most_side;
+constexpr std::uintmax_t max_file_bytes = 1 << 20;
+constexpr std::int32_t one_line = glyph_limits::max_side;
 constexpr std::array<std::int32_t, 5> staff_widths_em{46, 36, 28, 20, 14};
 
 /// The characters that a reason may contain: Latin, and the punctuation of sentences.
@@ -42,7 +42,7 @@ struct Letter {
 };
 
 Result<std::vector<LanguageToBake>> read_words(const std::string& file) {
-    TRY(const Bytes bytes, read_file(file, most_file_bytes));
+    TRY(const Bytes bytes, read_file(file, max_file_bytes));
     std::vector<LanguageToBake> languages;
     try {
         const toml::table root = toml::parse(as_text(bytes));

@@ -69,14 +69,14 @@ std::string named_letter(char32_t code) {
 }
 
 Result<void> check_shaped_text(std::string_view text) {
-    if (text.size() > most_shaped_bytes) {
+    if (text.size() > max_shaped_bytes) {
         return bad_input("text.too_long", "the text has {} bytes; allowed are {}: shorten it", text.size(),
-                         most_shaped_bytes);
+                         max_shaped_bytes);
     }
     if (const auto breaks = std::count(text.begin(), text.end(), '\n');
-        breaks >= static_cast<std::ptrdiff_t>(most_written_lines)) {
+        breaks >= static_cast<std::ptrdiff_t>(max_written_lines)) {
         return bad_input("text.too_many_lines", "the text has {} lines; allowed are {}: shorten it",
-                         breaks + 1, most_written_lines);
+                         breaks + 1, max_written_lines);
     }
     std::size_t line = 1;
     std::size_t letter_number = 1;

@@ -16,8 +16,8 @@
 
 namespace frustumscreen {
 
-inline constexpr std::size_t most_shaped_bytes = 100000;
-inline constexpr std::size_t most_written_lines = 200;
+inline constexpr std::size_t max_shaped_bytes = 100000;
+inline constexpr std::size_t max_written_lines = 200;
 
 [[nodiscard]] Result<void> check_shaped_text(std::string_view text);
 

@@ -280,10 +280,10 @@ Result<GlyphSheet> GlyphAtlasBuilder::finish() {
             "text.too_many_letters",
             "the texts of one language need {} different letters; that is more than an atlas of {} "
             "texels holds: shorten them",
-            glyphs_.size(), most_atlas_texels);
+            glyphs_.size(), max_atlas_texels);
     };
     TRY(GlyphPainter painter, GlyphPainter::open(options_));
-    if (glyphs_.size() > most_boxes || texts_.size() > most_texts) {
+    if (glyphs_.size() > max_boxes || texts_.size() > max_texts) {
         return too_many();
     }
     std::vector<DrawnGlyph> drawn;
@@ -291,7 +291,7 @@ Result<GlyphSheet> GlyphAtlasBuilder::finish() {
     for (const auto& [face, glyph] : glyphs_) {
         TRY(DrawnGlyph one, painter.draw(face, glyph));
         texels += static_cast<std::int64_t>(one.distances.texels.size());
-        if (texels > most_atlas_texels / 2) {
+        if (texels > max_atlas_texels / 2) {
             return too_many();
         }
         drawn.push_back(std::move(one));

@@ -17,7 +17,7 @@ namespace frustumscreen {
 namespace {
 
 /// R 128 measures in blocks of 400 ms; a shorter sound is measured as if repeated.
-constexpr std::size_t least_measured_samples = speech_rate_hz;
+constexpr std::size_t min_measured_samples = speech_rate_hz;
 constexpr double block_s = 0.01;
 constexpr double silent_db = -45.0;   ///< relative to the loudest block: pauses and room noise
 constexpr double quietest_db = -70.0; ///< of the loudest block, relative to full scale: nothing was recorded
@@ -25,7 +25,7 @@ constexpr double before_s = 0.06;     ///< kept around speech: a word's first so
                                       ///< may fade
 constexpr double after_s = 0.15;
 constexpr double kilobits_a_second = 40.0;
-constexpr int most_tries = 12;
+constexpr int max_tries = 12;
 
 double db(double amplitude) {
     return 20.0 * std::log10(std::max(amplitude, 1e-12));
@@ -130,15 +130,14 @@ std::vector<float> scaled(std::span<const float> samples, double gain_db) {
 
 /// Scales to `speech_lufs` and lowers the peaks. A loud knock raises the measured loudness until it is
 /// lowered, so this takes several rounds.
-std::vector<float> levelled(std::span<const float> samples, double lufs, double most_db) {
-    constexpr int most_rounds = 8;
+std::vector<float> levelled(std::span<const float> samples, double lufs, double max_db) {
+    constexpr int max_rounds = 8;
     constexpr double near_db = 0.1;
     double gain_db = speech_lufs - lufs;
     for (int round = 1;; ++round) {
-        std::vector<float> limited =
-            limit_peaks(scaled(samples, gain_db), speech_rate_hz, amplitude(most_db));
+        std::vector<float> limited = limit_peaks(scaled(samples, gain_db), speech_rate_hz, amplitude(max_db));
         const double missing_db = speech_lufs - loudness_of(limited).lufs;
-        if (std::abs(missing_db) < near_db || round == most_rounds) {
+        if (std::abs(missing_db) < near_db || round == max_rounds) {
             return limited;
         }
         gain_db += missing_db;
@@ -165,7 +164,7 @@ Loudness loudness_of(std::span<const float> samples) {
     if (!meter || samples.empty()) {
         return loudness;
     }
-    for (std::size_t fed = 0; fed < std::max(samples.size(), least_measured_samples); fed += samples.size()) {
+    for (std::size_t fed = 0; fed < std::max(samples.size(), min_measured_samples); fed += samples.size()) {
         ebur128_add_frames_float(meter.get(), samples.data(), samples.size());
     }
     double peak = 0.0;
@@ -182,18 +181,18 @@ Result<std::optional<Speech>> level_speech(const Recording& recording) {
     if (!std::isfinite(before.lufs)) {
         return std::optional<Speech>();
     }
-    double most_db = most_true_peak_db;
-    for (int tries = 1; tries <= most_tries; ++tries) {
-        TRY(Speech speech, stored(levelled(samples, before.lufs, most_db)));
+    double max_db = max_true_peak_db;
+    for (int tries = 1; tries <= max_tries; ++tries) {
+        TRY(Speech speech, stored(levelled(samples, before.lufs, max_db)));
         // Opus does not preserve peaks exactly, and a sound exceeds its samples between them.
-        const double over_db = speech.loudness.true_peak_db - most_true_peak_db;
+        const double over_db = speech.loudness.true_peak_db - max_true_peak_db;
         if (over_db <= 0.0) {
             return std::optional<Speech>(std::move(speech));
         }
-        most_db -= over_db + 0.1 * tries;
+        max_db -= over_db + 0.1 * tries;
     }
     return fail(ErrorKind::Internal, "speech.peak", "the speech cannot be brought below {} dBTP",
-                most_true_peak_db);
+                max_true_peak_db);
 }
 
 } // namespace frustumscreen

@@ -20,7 +20,7 @@
 namespace frustumscreen {
 
 inline constexpr double speech_lufs = -23.0;
-inline constexpr double most_true_peak_db = -2.0;
+inline constexpr double max_true_peak_db = -2.0;
 inline constexpr int speech_rate_hz = 48000;
 
 struct Loudness {

@@ -10,7 +10,7 @@ namespace frustumscreen {
 namespace {
 
 /// For each value, the minimum of the values within `reach` elements.
-std::vector<float> least_around(std::span<const float> values, std::size_t reach) {
+std::vector<float> min_around(std::span<const float> values, std::size_t reach) {
     std::vector<float> least(values.size());
     std::deque<std::size_t> rising; // indices in the window, with increasing values
     std::size_t next = 0;
@@ -59,7 +59,7 @@ std::vector<float> limit_peaks(std::span<const float> samples, int rate_hz, floa
     const std::size_t reach = static_cast<std::size_t>(rate_hz) / 200;
     // Each gain averaged is a minimum that includes the peak's own, so the mean never exceeds the gain that
     // the peak needs.
-    const std::vector<float> gains = mean_around(least_around(limited, reach), reach);
+    const std::vector<float> gains = mean_around(min_around(limited, reach), reach);
     std::transform(samples.begin(), samples.end(), gains.begin(), limited.begin(),
                    [&](float sample, float gain) { return std::clamp(sample * gain, -most, most); });
     return limited;

@@ -101,7 +101,7 @@ std::vector<std::string> unused_recordings(const fs::path& folder, const Recordi
 }
 
 Result<Speech> read_speech(const std::filesystem::path& file) {
-    TRY(const Bytes bytes, read_file(file, most_recording_bytes));
+    TRY(const Bytes bytes, read_file(file, max_recording_bytes));
     const std::string name = printable(file.string(), 300);
     TRY(const Recording recording, at(name, read_recording(bytes, RecordingSource::File)));
     TRY(std::optional<Speech> speech, at(name, level_speech(recording)));

@@ -12,9 +12,9 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int least_rate_hz = 8000;
-constexpr int most_rate_hz = 96000;
-constexpr int most_channels = 2;
+constexpr int min_rate_hz = 8000;
+constexpr int max_rate_hz = 96000;
+constexpr int max_channels = 2;
 
 constexpr std::uint32_t riff = 0x46464952;
 constexpr std::uint32_t data_chunk = 0x61746164;
@@ -50,12 +50,12 @@ Result<void> check_kind(const SF_INFO& info) {
         return bad_input("recording.format",
                          "this is not a WAV, FLAC or Ogg file; convert it to one of these");
     }
-    if (info.samplerate < least_rate_hz || info.samplerate > most_rate_hz) {
+    if (info.samplerate < min_rate_hz || info.samplerate > max_rate_hz) {
         return bad_input("recording.rate",
                          "the recording has {} samples a second; allowed are {} to {}: convert it to 48000",
-                         info.samplerate, least_rate_hz, most_rate_hz);
+                         info.samplerate, min_rate_hz, max_rate_hz);
     }
-    if (info.channels < 1 || info.channels > most_channels) {
+    if (info.channels < 1 || info.channels > max_channels) {
         return bad_input("recording.channels",
                          "the recording has {} channels; allowed are 1 and 2: mix it down", info.channels);
     }
@@ -80,9 +80,9 @@ Result<void> append_mixed(std::span<const float> frames, int channels, std::vect
 } // namespace
 
 Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSource source) {
-    if (bytes.size() > most_recording_bytes) {
+    if (bytes.size() > max_recording_bytes) {
         return bad_input("recording.size", "the recording has {} bytes; allowed are {}", bytes.size(),
-                         most_recording_bytes);
+                         max_recording_bytes);
     }
     if (const std::uint64_t missing = missing_wav_bytes(bytes);
         source == RecordingSource::File && missing > 0) {
@@ -102,7 +102,7 @@ Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSour
     TRY_VOID(check_kind(info));
     Recording recording;
     recording.rate_hz = info.samplerate;
-    const auto most_frames =
+    const auto max_frames =
         static_cast<std::size_t>(longest_recording_s) * static_cast<std::size_t>(info.samplerate);
     constexpr sf_count_t block_frames = 4096;
     std::vector<float> block(static_cast<std::size_t>(block_frames) *
@@ -110,7 +110,7 @@ Result<Recording> read_recording(std::span<const std::byte> bytes, RecordingSour
     while (const sf_count_t count = sf_readf_float(file.get(), block.data(), block_frames)) {
         const auto values = static_cast<std::size_t>(count) * static_cast<std::size_t>(info.channels);
         TRY_VOID(append_mixed(std::span(block).first(values), info.channels, recording.samples));
-        if (recording.samples.size() > most_frames) {
+        if (recording.samples.size() > max_frames) {
             return bad_input("recording.too_long",
                              "the recording is longer than the allowed {} s; shorten it",
                              longest_recording_s);

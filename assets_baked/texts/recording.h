@@ -16,7 +16,7 @@
 namespace frustumscreen {
 
 inline constexpr int longest_recording_s = 180;
-inline constexpr std::size_t most_recording_bytes = std::size_t{128} << 20;
+inline constexpr std::size_t max_recording_bytes = std::size_t{128} << 20;
 
 struct Recording {
     int rate_hz = 0;

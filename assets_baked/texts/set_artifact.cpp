@@ -25,7 +25,7 @@ std::vector<KeyedText> texts_of(const PackCaption& caption, const ScanRights& ri
                                  {"text", caption.text},
                                  {std::string(attribution_key), attribution_of(caption, rights)}};
     const std::vector<std::string> portions = portions_of(caption.description);
-    for (std::size_t k = 0; k < portions.size() && portions.size() <= most_text_portions; ++k) {
+    for (std::size_t k = 0; k < portions.size() && portions.size() <= max_text_portions; ++k) {
         texts.push_back({portion_key(k), portions[k]});
     }
     for (std::size_t k = 0; k < labels.size(); ++k) {
@@ -54,7 +54,7 @@ void join_equal(std::vector<ShapedSetting>& settings) {
 }
 
 /// The smallest height over all widths; 0 without the text.
-double least_height(const GlyphRuns& runs, std::string_view key) {
+double min_height(const GlyphRuns& runs, std::string_view key) {
     const GlyphText* text = runs.find(key);
     if (text == nullptr || text->settings.empty()) {
         return 0.0;
@@ -85,11 +85,11 @@ public:
     }
     void check_length() {
         const std::size_t portions = portions_of(caption_.description).size();
-        if (portions > most_text_portions) {
+        if (portions > max_text_portions) {
             note(fmt::format("description: it is as long as {} captions and is not told; allowed are {}: "
                              "shorten it to about {} letters",
-                             portions, most_text_portions,
-                             letters_of(caption_.description) * most_text_portions / portions));
+                             portions, max_text_portions,
+                             letters_of(caption_.description) * max_text_portions / portions));
         }
     }
 
@@ -106,15 +106,16 @@ public:
 
 private:
     void check_height(const GlyphRuns& runs) {
-        const double text = least_height(runs, "text");
-        const double height = limits_.title_em * least_height(runs, "title") + text;
-        if (height > limits_.most_height && text > 0.0) {
-            const double share = std::max(0.1, (limits_.most_height - height + text) / text);
-            note(fmt::format("text: the caption, where it is widest, is {:.0f} times as high as its type "
-                             "size, and does not fit on a table beside the prop; allowed are {:.0f} times: "
-                             "shorten the text to about {} letters",
-                             height / em_units, static_cast<double>(limits_.most_height) / em_units,
-                             static_cast<int>(share * static_cast<double>(letters_of(caption_.text)))));
+        const double text = min_height(runs, "text");
+        const double height = limits_.title_em * min_height(runs, "title") + text;
+        if (height > limits_.max_height && text > 0.0) {
+            const double share = std::max(0.1, (limits_.max_height - height + text) / text);
+            note(fmt::format(
+                "text: the caption is {:.0f} times its type size high where it is widest, and fits "
+                "nowhere on a table beside the prop; allowed are {:.0f}: shorten the text to "
+                "about {} letters",
+                height / em_units, static_cast<double>(limits_.max_height) / em_units,
+                static_cast<int>(share * static_cast<double>(letters_of(caption_.text)))));
         }
     }
     static std::size_t letters_of(std::string_view text) {

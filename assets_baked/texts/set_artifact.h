@@ -27,7 +27,7 @@ struct CaptionLimits {
     std::vector<std::int32_t> text;
     std::vector<std::int32_t> title;
     double title_em = 1.0; ///< the title's type size relative to the text's
-    std::int32_t most_height = 0;
+    std::int32_t max_height = 0;
 };
 
 struct SetArtifact {

@@ -20,7 +20,7 @@ namespace {
 /// The size at which texts are shaped. Pango's units are 1/1024 of a pixel in 32 bits: the longest allowed
 /// word must not overflow them, and the rounding, 1/8192 em, is invisible in projection.
 constexpr int shaping_px = 8;
-constexpr std::size_t most_named_letters = 10;
+constexpr std::size_t max_named_letters = 10;
 
 struct Unref {
     void operator()(void* object) const { g_object_unref(object); }
@@ -129,15 +129,15 @@ ShapedSetting set_lines(PangoLayout* layout, std::int32_t limit, TextDirection d
 }
 
 Result<void> check_limits(const TextToShape& text) {
-    const bool allowed = !text.limits.empty() && text.limits.size() <= glyph_limits::most_settings &&
+    const bool allowed = !text.limits.empty() && text.limits.size() <= glyph_limits::max_settings &&
                          std::all_of(text.limits.begin(), text.limits.end(), [](std::int32_t limit) {
-                             return limit >= em_units && limit <= glyph_limits::most_side;
+                             return limit >= em_units && limit <= glyph_limits::max_side;
                          });
     return allowed ? Result<void>()
                    : bad_input("text.widths",
                                "the widths are {}; allowed are 1 to {} of 1 to {} times the type size",
-                               fmt::join(text.limits, ", "), glyph_limits::most_settings,
-                               glyph_limits::most_side / em_units);
+                               fmt::join(text.limits, ", "), glyph_limits::max_settings,
+                               glyph_limits::max_side / em_units);
 }
 
 /// A single word of this many letters takes Pango a second or two; the time grows with the square of its
@@ -145,22 +145,22 @@ Result<void> check_limits(const TextToShape& text) {
 Result<void> check_length(std::string_view text) {
     const auto letters = static_cast<std::size_t>(std::count_if(
         text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-    return letters <= most_shaped_letters
+    return letters <= max_shaped_letters
                ? Result<void>()
                : bad_input("text.letters", "the text has {} letters; allowed are {}: shorten it", letters,
-                           most_shaped_letters);
+                           max_shaped_letters);
 }
 
 Result<void> check_size(const ShapedSetting& setting) {
     using namespace glyph_limits;
-    if (setting.lines.size() > most_lines || setting.glyphs.size() > most_glyphs ||
-        setting.height > most_side || setting.width > most_side) {
+    if (setting.lines.size() > max_lines || setting.glyphs.size() > max_glyphs || setting.height > max_side ||
+        setting.width > max_side) {
         return bad_input(
             "text.setting",
             "the text takes {} lines and {} letters at a width of {} times the type size; allowed are {} "
             "lines, {} letters and a height of {} times the type size: shorten it",
-            setting.lines.size(), setting.glyphs.size(), setting.limit / em_units, most_lines, most_glyphs,
-            most_side / em_units);
+            setting.lines.size(), setting.glyphs.size(), setting.limit / em_units, max_lines, max_glyphs,
+            max_side / em_units);
     }
     return {};
 }
@@ -168,9 +168,9 @@ Result<void> check_size(const ShapedSetting& setting) {
 void note_missing(const std::set<char32_t>& missing, const std::string& language, ShapedText& shaped) {
     std::size_t named = 0;
     for (const char32_t code : missing) {
-        if (++named > most_named_letters) {
+        if (++named > max_named_letters) {
             shaped.notes.push_back(
-                fmt::format("{} more letters are in no typeface", missing.size() - most_named_letters));
+                fmt::format("{} more letters are in no typeface", missing.size() - max_named_letters));
             return;
         }
         shaped.notes.push_back(fmt::format(

@@ -21,7 +21,7 @@
 
 namespace frustumscreen {
 
-inline constexpr std::size_t most_shaped_letters = 5000;
+inline constexpr std::size_t max_shaped_letters = 5000;
 
 struct TextToShape {
     std::string text;

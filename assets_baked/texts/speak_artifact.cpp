@@ -43,11 +43,11 @@ Result<Spoken> speak(const PackCaption& caption, const SpeechSources& sources) {
 /// texts.
 std::optional<std::string> length_note(const PackCaption& caption, const std::filesystem::path& file,
                                        double seconds) {
-    constexpr double least_share = 0.4;
-    constexpr double most_share = 3.0;
+    constexpr double min_share = 0.4;
+    constexpr double max_share = 3.0;
     const double words_s = reading_time_s(caption.description);
     const double brief_s = 3.0; // tolerance for pauses
-    if (seconds >= least_share * words_s && seconds <= most_share * words_s + brief_s) {
+    if (seconds >= min_share * words_s && seconds <= max_share * words_s + brief_s) {
         return std::nullopt;
     }
     return fmt::format(

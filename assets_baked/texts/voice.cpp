@@ -25,8 +25,8 @@ std::string espeak_voice(const std::string& language) {
     return begins_with_subtag(language, "zh") ? "cmn-latn-pinyin" : language;
 }
 
-/// Of the scripts that espeak-ng has voices for, those from right to left are written in consonants; vowels
-/// are marks, which texts omit entirely or in part.
+/// True for scripts without vowels. Among the scripts of espeak-ng's voices these are the ones from right to left:
+/// vowels are marks there, which texts omit entirely or in part.
 bool lacks_vowels(std::string_view language) {
     return direction_of(language) == TextDirection::RightToLeft;
 }

@@ -20,9 +20,9 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::uintmax_t most_file_bytes = std::uintmax_t{1} << 20;
-constexpr std::size_t most_word_bytes = 1000;
-constexpr std::size_t most_named_keys = 5; ///< in one sentence
+constexpr std::uintmax_t max_file_bytes = std::uintmax_t{1} << 20;
+constexpr std::size_t max_word_bytes = 1000;
+constexpr std::size_t max_named_keys = 5; ///< in one sentence
 
 /// In the order of the files. `name` is the language's own name.
 constexpr auto keys = std::to_array<std::string_view>({
@@ -146,7 +146,7 @@ bool is_key(std::string_view name) {
 }
 
 std::string_view nearest_key(std::string_view found) {
-    const std::string_view part = found.substr(0, most_word_bytes);
+    const std::string_view part = found.substr(0, max_word_bytes);
     return *std::min_element(keys.begin(), keys.end(), [&](std::string_view a, std::string_view b) {
         return letters_apart(part, a) < letters_apart(part, b);
     });
@@ -183,12 +183,12 @@ private:
         const auto* text = node.as_string();
         if (text == nullptr) {
             refuse("words.no_text", node,
-                   fmt::format("{} is not a text; write it between quotation marks", shown));
-        } else if (text->get().empty() || text->get().size() > most_word_bytes) {
+                   fmt::format("{} is no text; write it between quotation marks", shown));
+        } else if (text->get().empty() || text->get().size() > max_word_bytes) {
             refuse("words.word_size", node,
                    fmt::format(
                        "{} has {} bytes; allowed are 1 to {}: leave the key out to use the built-in text",
-                       shown, text->get().size(), most_word_bytes));
+                       shown, text->get().size(), max_word_bytes));
         } else if (const Result<void> checked = check_shaped_text(text->get()); !checked) {
             refuse("words.word_text", node, fmt::format("{}: {}", shown, checked.error().message));
         } else {
@@ -223,7 +223,7 @@ Result<WrittenWords> words_of(const std::filesystem::path& folder, const std::st
     if (folder.empty() || !std::filesystem::exists(file, ignored)) {
         return words;
     }
-    TRY(const Bytes bytes, read_file(file, most_file_bytes));
+    TRY(const Bytes bytes, read_file(file, max_file_bytes));
     TRY(WrittenWords read, parse_words(as_text(bytes), printable(file.string(), 4096)));
     read.merge(words);
     return read;
@@ -242,7 +242,7 @@ CollectedWords collect(const std::string& language, const WrittenWords& own, con
         }
     }
     if (!missing.empty()) {
-        const std::size_t named = std::min(missing.size(), most_named_keys);
+        const std::size_t named = std::min(missing.size(), max_named_keys);
         const std::string more =
             missing.size() > named ? fmt::format(" and {} more", missing.size() - named) : "";
         collected.notes.push_back(fmt::format(
@@ -274,7 +274,7 @@ std::vector<std::string> builtin_word_languages() {
 Result<WrittenWords> parse_words(std::string_view toml, const std::string& file) {
     ReadState state{file, {}, {}, std::nullopt};
     WrittenWords words;
-    read_toml(state, toml, most_file_bytes, [&](const toml::table& root) {
+    read_toml(state, toml, max_file_bytes, [&](const toml::table& root) {
         WordsReader reader(file, words);
         reader.read(root, "");
         state.error = reader.error();

@@ -11,12 +11,12 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int most_of_one_name = 10'000;
+constexpr int max_of_one_name = 10'000;
 
 } // namespace
 
 Result<GrowingFile> GrowingFile::create(const std::filesystem::path& wanted) {
-    for (int number = 1; number <= most_of_one_name; ++number) {
+    for (int number = 1; number <= max_of_one_name; ++number) {
         const std::filesystem::path path =
             number == 1 ? wanted : std::filesystem::path(wanted.string() + "." + std::to_string(number));
         const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);

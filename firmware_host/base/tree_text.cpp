@@ -6,9 +6,9 @@
 
 namespace frustumscreen {
 
-FileResult<std::string> read_text(FileTree& tree, std::string_view path, std::size_t most_bytes) {
+FileResult<std::string> read_text(FileTree& tree, std::string_view path, std::size_t max_bytes) {
     TRY(const std::unique_ptr<const FileContent> file, tree.open(std::string(path)));
-    if (file->bytes() > most_bytes) {
+    if (file->bytes() > max_bytes) {
         return file_fault(EFBIG);
     }
     std::string text(file->bytes(), '\0');

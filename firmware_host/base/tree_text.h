@@ -11,9 +11,8 @@
 
 namespace frustumscreen {
 
-/// EFBIG: the file has more than `most_bytes`.
-[[nodiscard]] FileResult<std::string> read_text(FileTree& tree, std::string_view path,
-                                                std::size_t most_bytes);
+/// EFBIG: the file has more than `max_bytes`.
+[[nodiscard]] FileResult<std::string> read_text(FileTree& tree, std::string_view path, std::size_t max_bytes);
 /// Writes the file `next`, syncs it, and renames it to `path`. Only sync_folder puts the new name on the
 /// disk.
 [[nodiscard]] FileResult<void> replace_text(WritableTree& tree, std::string_view path, std::string_view next,

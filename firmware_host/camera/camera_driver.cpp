@@ -82,7 +82,7 @@ CameraState state_of_verdict(FrameVerdict verdict, const CameraSetUp& set_up) {
 
 } // namespace
 
-std::vector<FoundCamera> list_cameras(V4l2Devices& devices, const CameraWish& wish) {
+std::vector<FoundCamera> list_cameras(V4l2Devices& devices, const CameraRequest& wish) {
     std::vector<FoundCamera> found;
     for (const std::string& path : devices.list()) {
         const auto device = devices.open(path);
@@ -96,8 +96,8 @@ std::vector<FoundCamera> list_cameras(V4l2Devices& devices, const CameraWish& wi
     return found;
 }
 
-CameraDriver::CameraDriver(std::unique_ptr<V4l2Devices> devices, CameraWish wish, Clock clock, FrameUse use,
-                           FramePace share)
+CameraDriver::CameraDriver(std::unique_ptr<V4l2Devices> devices, CameraRequest wish, Clock clock,
+                           FrameUse use, CpuThrottle share)
     : devices_(std::move(devices)), wish_(std::move(wish)), clock_(std::move(clock)), use_(std::move(use)),
       pace_(std::move(share)) {}
 
@@ -201,7 +201,7 @@ CameraDriver::Step CameraDriver::step(CameraFrame& frame) {
         heard_ = now;
     }
     judge(now);
-    if (health_of(state_) == CameraHealth::Away && now - heard_ >= most_silence) {
+    if (health_of(state_) == CameraHealth::Away && now - heard_ >= max_silence) {
         return {false, lose(state_)};
     }
     return {fresh, Nanoseconds(0)};

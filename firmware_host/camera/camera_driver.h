@@ -2,7 +2,7 @@
 /// matching camera that can be set up; one that failed is tried last.
 ///
 /// Time     read from `clock`, because a wait takes time. A camera that returns is found within
-///          `between_searches` and streams after one set-up; it counts as well after FrameJudge::dwell of
+///          `between_searches` and streams after one set-up; it counts as well after FrameHealth::dwell of
 ///          good frames: together below 2 s.
 /// Share    frames are skipped, so that decoding, judging and using the others takes at most `share` of one
 ///          core (frame_pace.h).
@@ -11,7 +11,7 @@
 #pragma once
 
 #include "firmware_host/camera/camera.h"
-#include "firmware_host/camera/frame_judge.h"
+#include "firmware_host/camera/frame_health.h"
 #include "firmware_host/camera/v4l2_stream.h"
 
 #include <functional>
@@ -25,18 +25,18 @@ struct FoundCamera {
     std::vector<CameraMode> modes; ///< only those in a readable format
 };
 /// All cameras that can be opened.
-[[nodiscard]] std::vector<FoundCamera> list_cameras(V4l2Devices& devices, const CameraWish& wish);
+[[nodiscard]] std::vector<FoundCamera> list_cameras(V4l2Devices& devices, const CameraRequest& wish);
 
 class CameraDriver {
 public:
     static constexpr Nanoseconds between_searches = std::chrono::milliseconds(250);
     static constexpr Nanoseconds frame_timeout = std::chrono::milliseconds(50);
     /// A camera that is silent or sends broken frames for longer is set up again.
-    static constexpr Nanoseconds most_silence = std::chrono::seconds(3);
+    static constexpr Nanoseconds max_silence = std::chrono::seconds(3);
 
     using Clock = std::function<MonotonicTime()>;
-    CameraDriver(std::unique_ptr<V4l2Devices> devices, CameraWish wish, Clock clock, FrameUse use = {},
-                 FramePace share = FramePace(1.0));
+    CameraDriver(std::unique_ptr<V4l2Devices> devices, CameraRequest wish, Clock clock, FrameUse use = {},
+                 CpuThrottle share = CpuThrottle(1.0));
 
     struct Step {
         bool fresh = false; ///< a frame was taken
@@ -58,12 +58,12 @@ private:
     void judge(MonotonicTime now);
 
     std::unique_ptr<V4l2Devices> devices_;
-    CameraWish wish_;
+    CameraRequest wish_;
     Clock clock_;
     FrameUse use_; ///< may be empty
-    FramePace pace_;
+    CpuThrottle pace_;
     std::unique_ptr<V4l2Stream> stream_;
-    std::optional<FrameJudge> judge_; ///< of the open camera
+    std::optional<FrameHealth> judge_; ///< of the open camera
     std::optional<CameraSetUp> set_up_;
     std::string path_;                ///< of the open camera
     std::string failed_;              ///< the path that failed last

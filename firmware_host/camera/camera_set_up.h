@@ -26,7 +26,7 @@ struct CameraMode {
     [[nodiscard]] bool operator==(const CameraMode&) const = default;
 };
 
-struct CameraWish {
+struct CameraRequest {
     std::string device = "any"; ///< "any", a path, or the camera's name
     int width = 1280, height = 720;
     double rate_hz = 30.0;

@@ -24,9 +24,9 @@ public:
     /// Longest wait for a frame, its decoding, and the closing of a lost camera.
     static constexpr Nanoseconds longest_round = std::chrono::seconds(10);
 
-    /// `most_share`: limit of the thread's processor time, as a share of one core.
-    V4l2Camera(std::unique_ptr<V4l2Devices> devices, CameraWish wish, FrameUse use = {},
-               double most_share = 1.0);
+    /// `max_share`: limit of the thread's processor time, as a share of one core.
+    V4l2Camera(std::unique_ptr<V4l2Devices> devices, CameraRequest wish, FrameUse use = {},
+               double max_share = 1.0);
 
     [[nodiscard]] bool poll(CameraFrame& frame) override { return mailbox_.try_take(frame); }
     [[nodiscard]] CameraState state() const override { return state_; }

@@ -64,7 +64,7 @@ LockedControl lock(V4l2Device& device, const Recipe& recipe, std::optional<doubl
 
 } // namespace
 
-std::vector<LockedControl> lock_controls(V4l2Device& device, const CameraWish& wish) {
+std::vector<LockedControl> lock_controls(V4l2Device& device, const CameraRequest& wish) {
     const auto number = [](const auto& wished) {
         return wished ? std::optional<double>(*wished) : std::optional<double>();
     };

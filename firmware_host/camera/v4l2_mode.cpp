@@ -14,7 +14,7 @@ namespace frustumscreen {
 namespace {
 
 /// Larger than any real camera's lists; a device with false descriptors may claim many more.
-constexpr std::uint32_t most_formats = 64, most_sizes = 128, most_rates = 64;
+constexpr std::uint32_t max_formats = 64, max_sizes = 128, max_rates = 64;
 constexpr int longest_side = 8192;
 /// 29.97 Hz counts as 30 Hz.
 constexpr double near_enough = 0.99;
@@ -56,7 +56,7 @@ void list_rates(V4l2Device& device, std::uint32_t fourcc, CameraMode mode, doubl
     rate.pixel_format = fourcc;
     rate.width = static_cast<std::uint32_t>(mode.width);
     rate.height = static_cast<std::uint32_t>(mode.height);
-    for (; rate.index < most_rates && device.ask(VIDIOC_ENUM_FRAMEINTERVALS, rate) == 0; ++rate.index) {
+    for (; rate.index < max_rates && device.ask(VIDIOC_ENUM_FRAMEINTERVALS, rate) == 0; ++rate.index) {
         if (rate.type != V4L2_FRMIVAL_TYPE_DISCRETE) {
             const double slowest = hertz(rate.stepwise.max);
             mode.rate_hz = std::clamp(wished_hz, slowest, std::max(slowest, hertz(rate.stepwise.min)));
@@ -71,7 +71,7 @@ void list_rates(V4l2Device& device, std::uint32_t fourcc, CameraMode mode, doubl
     }
 }
 
-void list_sizes(V4l2Device& device, std::uint32_t fourcc, PixelFormat format, const CameraWish& wish,
+void list_sizes(V4l2Device& device, std::uint32_t fourcc, PixelFormat format, const CameraRequest& wish,
                 std::vector<CameraMode>& modes) {
     const auto add = [&](std::int64_t width, std::int64_t height) {
         if (width > 0 && height > 0 && width <= longest_side && height <= longest_side) {
@@ -81,7 +81,7 @@ void list_sizes(V4l2Device& device, std::uint32_t fourcc, PixelFormat format, co
     };
     v4l2_frmsizeenum size{};
     size.pixel_format = fourcc;
-    for (; size.index < most_sizes && device.ask(VIDIOC_ENUM_FRAMESIZES, size) == 0; ++size.index) {
+    for (; size.index < max_sizes && device.ask(VIDIOC_ENUM_FRAMESIZES, size) == 0; ++size.index) {
         if (size.type != V4L2_FRMSIZE_TYPE_DISCRETE) {
             const v4l2_frmsize_stepwise& range = size.stepwise;
             add(in_range(wish.width, range.min_width, range.max_width, range.step_width),
@@ -97,11 +97,11 @@ void list_sizes(V4l2Device& device, std::uint32_t fourcc, PixelFormat format, co
 
 } // namespace
 
-std::vector<CameraMode> list_modes(V4l2Device& device, const CameraWish& wish) {
+std::vector<CameraMode> list_modes(V4l2Device& device, const CameraRequest& wish) {
     std::vector<CameraMode> modes;
     v4l2_fmtdesc description{};
     description.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-    for (; description.index < most_formats && device.ask(VIDIOC_ENUM_FMT, description) == 0;
+    for (; description.index < max_formats && device.ask(VIDIOC_ENUM_FMT, description) == 0;
          ++description.index) {
         if (const std::optional<PixelFormat> format = format_of(description.pixelformat)) {
             list_sizes(device, description.pixelformat, *format, wish, modes);
@@ -110,7 +110,7 @@ std::vector<CameraMode> list_modes(V4l2Device& device, const CameraWish& wish) {
     return modes;
 }
 
-std::optional<CameraMode> choose_mode(std::span<const CameraMode> modes, const CameraWish& wish) {
+std::optional<CameraMode> choose_mode(std::span<const CameraMode> modes, const CameraRequest& wish) {
     const auto badness = [&wish](const CameraMode& mode) {
         const int off = std::abs(mode.width - wish.width) + std::abs(mode.height - wish.height);
         const double reached = std::fmin(mode.rate_hz / wish.rate_hz, 1.0);

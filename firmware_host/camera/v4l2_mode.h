@@ -26,12 +26,12 @@ struct SetMode {
 };
 
 /// All modes in a readable format; for a range, the value nearest to the wish.
-[[nodiscard]] std::vector<CameraMode> list_modes(V4l2Device& device, const CameraWish& wish);
+[[nodiscard]] std::vector<CameraMode> list_modes(V4l2Device& device, const CameraRequest& wish);
 
 /// Among the modes of the size nearest to the wish, the one that reaches the rate, or is fastest; then the
 /// format that is cheapest to decode. nullopt: there are no modes.
 [[nodiscard]] std::optional<CameraMode> choose_mode(std::span<const CameraMode> modes,
-                                                    const CameraWish& wish);
+                                                    const CameraRequest& wish);
 
 /// Returns the mode that the driver has accepted.
 [[nodiscard]] tl::expected<SetMode, CameraState> set_mode(V4l2Device& device, const CameraMode& mode);

@@ -73,7 +73,7 @@ V4l2Stream::~V4l2Stream() {
 }
 
 V4l2Stream::Taken V4l2Stream::take(Nanoseconds timeout, const std::function<MonotonicTime()>& now,
-                                   FramePace& pace, CameraFrame& frame, CameraCounts& counts) {
+                                   CpuThrottle& pace, CameraFrame& frame, CameraCounts& counts) {
     const int waited = device_->wait(timeout);
     if (waited == EAGAIN) {
         return Taken::Nothing;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "firmware_host/camera/camera.h"
-#include "firmware_host/camera/frame_pace.h"
+#include "firmware_host/camera/cpu_throttle.h"
 #include "firmware_host/camera/luma_reader.h"
 #include "firmware_host/camera/v4l2_mode.h"
 
@@ -28,8 +28,8 @@ public:
     enum class Taken : std::uint8_t { Frame, PassedOver, Nothing, Lost };
     /// Takes the latest of the waiting frames; adds to `counts`. `now` is called after the wait. For a Frame,
     /// `pace.begin` was called; a frame that `pace` skips is not decoded.
-    [[nodiscard]] Taken take(Nanoseconds timeout, const std::function<MonotonicTime()>& now, FramePace& pace,
-                             CameraFrame& frame, CameraCounts& counts);
+    [[nodiscard]] Taken take(Nanoseconds timeout, const std::function<MonotonicTime()>& now,
+                             CpuThrottle& pace, CameraFrame& frame, CameraCounts& counts);
 
 private:
     V4l2Stream(std::unique_ptr<V4l2Device> device, const FrameFormat& format)

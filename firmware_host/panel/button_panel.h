@@ -1,7 +1,7 @@
 /// A panel of real buttons. Its own thread waits for them, and searches for an unplugged chip until it is
 /// back.
 ///
-/// Threads  `poll`, `state`: one caller, never blocked by the device. At most `most_waiting` events wait; new
+/// Threads  `poll`, `state`: one caller, never blocked by the device. At most `max_waiting` events wait; new
 ///          ones overwrite the oldest.
 /// Time     events have the monotonic clock's time.
 #pragma once
@@ -21,7 +21,7 @@ namespace frustumscreen {
 
 class ButtonPanel final : public Panel {
 public:
-    static constexpr std::size_t most_waiting = 64;
+    static constexpr std::size_t max_waiting = 64;
     /// Longest opening, or reading of all levels: a USB bridge that does not answer costs 5 s per transfer,
     /// until the kernel gives up, and each line takes several transfers.
     static constexpr Nanoseconds longest_round = std::chrono::seconds(60);
@@ -50,7 +50,7 @@ private:
     OpenLines open_;
     std::size_t count_;
     ButtonTimes times_;
-    Mailbox<PanelEvent, most_waiting> mailbox_;
+    Mailbox<PanelEvent, max_waiting> mailbox_;
     Latest<DeviceState> said_;
     DeviceState state_{{DeviceHealth::Away, "panel.not_opened"},
                        Sentence("its buttons are not opened yet")}; ///< the latest that `poll` saw

@@ -17,13 +17,13 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t most_head_bytes = 400;
+constexpr std::size_t max_head_bytes = 400;
 
 /// Reads until the exhibit closes the connection; nullopt: a timeout, or too many bytes.
-std::optional<Bytes> read_all(int socket, std::size_t most_bytes, MonotonicTime until) {
+std::optional<Bytes> read_all(int socket, std::size_t max_bytes, MonotonicTime until) {
     Bytes bytes;
     std::array<std::byte, 65536> part{};
-    while (bytes.size() <= most_bytes) {
+    while (bytes.size() <= max_bytes) {
         const std::int64_t left_ms =
             std::chrono::ceil<std::chrono::milliseconds>(until - monotonic_now()).count();
         pollfd ready{socket, POLLIN, 0};
@@ -42,7 +42,7 @@ std::optional<Bytes> read_all(int socket, std::size_t most_bytes, MonotonicTime 
 /// `answer` is the complete answer. Errors: one sentence.
 Result<Bytes> content_of(Bytes answer) {
     const std::string_view text = as_text(answer);
-    const std::size_t end = text.substr(0, most_head_bytes).find('\n');
+    const std::size_t end = text.substr(0, max_head_bytes).find('\n');
     const std::string_view head = text.substr(0, end == std::string_view::npos ? 0 : end);
     if (head.starts_with("no ")) {
         return bad_input("staff.exhibit_says", "the exhibit says: " + printable(head.substr(3), 300));
@@ -77,7 +77,7 @@ std::string_view why_unreachable() {
 } // namespace
 
 Result<Bytes> ask_staff_socket(const std::filesystem::path& path, std::string_view question,
-                               std::size_t most_bytes, Nanoseconds patience) {
+                               std::size_t max_bytes, Nanoseconds patience) {
     const std::string place = printable(path.string(), 200);
     const std::optional<UnixAddress> address = UnixAddress::of(path);
     if (!address) {
@@ -94,7 +94,7 @@ Result<Bytes> ask_staff_socket(const std::filesystem::path& path, std::string_vi
     // If the exhibit has closed the connection already, its answer gives the reason.
     static_cast<void>(::send(socket.number(), line.data(), line.size(), MSG_NOSIGNAL));
     std::optional<Bytes> answer =
-        read_all(socket.number(), most_bytes + most_head_bytes, monotonic_now() + patience);
+        read_all(socket.number(), max_bytes + max_head_bytes, monotonic_now() + patience);
     if (!answer) {
         return bad_input("staff.no_answer",
                          place + ": the exhibit does not answer in time; it hangs, or others ask it too");

@@ -23,7 +23,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int most_waiting = 4;
+constexpr int max_waiting = 4;
 
 tl::unexpected<Error> cannot_listen(const std::filesystem::path& path, std::string_view reason) {
     return fail(ErrorKind::BadConfiguration, "staff.no_socket", "{}: the staff's socket cannot be made: {}",
@@ -90,7 +90,7 @@ Result<std::unique_ptr<StaffSocket>> StaffSocket::open(const std::filesystem::pa
     // No client can connect before listen(), and by then the mode is right.
     if (::bind(listening.number(), address->get(), address->size()) != 0 ||
         ::chmod(path.c_str(), 0660) != 0 || ::stat(path.c_str(), &file) != 0 ||
-        ::listen(listening.number(), most_waiting) != 0) {
+        ::listen(listening.number(), max_waiting) != 0) {
         return cannot_listen(path, std::strerror(errno));
     }
     Descriptor stopped(::eventfd(0, EFD_CLOEXEC));
@@ -162,12 +162,12 @@ void StaffSocket::serve(int client, const std::stop_token& stop) const {
 Result<std::string> StaffSocket::question_of(int client) const {
     const MonotonicTime until = monotonic_now() + question_within;
     std::string question;
-    while (question.size() < most_question_bytes) {
-        std::array<char, most_question_bytes> text{};
+    while (question.size() < max_question_bytes) {
+        std::array<char, max_question_bytes> text{};
         if (!wait_for(client, POLLIN, until)) {
             return bad_input("staff.no_question_came", "no question came within a second");
         }
-        const ssize_t got = ::recv(client, text.data(), most_question_bytes - question.size(), 0);
+        const ssize_t got = ::recv(client, text.data(), max_question_bytes - question.size(), 0);
         if (got <= 0) {
             return bad_input("staff.question_without_end", "the question has no end");
         }
@@ -177,7 +177,7 @@ Result<std::string> StaffSocket::question_of(int client) const {
             return question;
         }
     }
-    return bad_input("staff.question_too_long", "a question has at most {} bytes", most_question_bytes);
+    return bad_input("staff.question_too_long", "a question has at most {} bytes", max_question_bytes);
 }
 
 void StaffSocket::send(int client, std::span<const std::byte> bytes, MonotonicTime until) const {

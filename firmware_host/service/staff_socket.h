@@ -31,7 +31,7 @@ namespace frustumscreen {
 
 class StaffSocket {
 public:
-    static constexpr std::size_t most_question_bytes = 64;
+    static constexpr std::size_t max_question_bytes = 64;
     static constexpr Nanoseconds question_within = std::chrono::seconds(1);
     static constexpr Nanoseconds answer_taken_within = std::chrono::seconds(5);
     static constexpr Nanoseconds between_clients = std::chrono::milliseconds(50);
@@ -63,9 +63,9 @@ private:
 };
 
 /// Asks and waits. Errors: no listener, no permission, the exhibit's own sentence, no answer in time, more
-/// than `most_bytes`.
+/// than `max_bytes`.
 [[nodiscard]] Result<Bytes> ask_staff_socket(const std::filesystem::path& path, std::string_view question,
-                                             std::size_t most_bytes, Nanoseconds patience);
+                                             std::size_t max_bytes, Nanoseconds patience);
 
 /// The process at the other end, as the kernel reports it.
 struct SocketPeer {

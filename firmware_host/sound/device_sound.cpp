@@ -41,7 +41,7 @@ private:
 DeviceSound::DeviceSound(OpenPcm open)
     : open_(std::move(open)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-SoundReport DeviceSound::poll(MonotonicTime /*now*/, const SoundWish& wish) {
+SoundReport DeviceSound::poll(MonotonicTime /*now*/, const SoundRequest& wish) {
     if (wish != wished_ && wishes_.try_put(wish)) {
         wished_ = wish;
     }
@@ -127,7 +127,7 @@ void DeviceSound::go_on_silently() {
 }
 
 void DeviceSound::follow_wish() {
-    if (SoundWish wish; wishes_.take(wish)) {
+    if (SoundRequest wish; wishes_.take(wish)) {
         mixer_.follow(wish);
     }
 }

@@ -29,7 +29,7 @@ public:
 
     explicit DeviceSound(OpenPcm open);
 
-    SoundReport poll(MonotonicTime now, const SoundWish& wish) override;
+    SoundReport poll(MonotonicTime now, const SoundRequest& wish) override;
     [[nodiscard]] std::string name() const override { return "device"; }
     [[nodiscard]] std::string_view state() const override { return state_.sentence.view(); }
     [[nodiscard]] DeviceCondition condition() const override { return state_.condition; }
@@ -49,12 +49,12 @@ private:
 
     OpenPcm open_;
     // Shared between the threads:
-    Latest<SoundWish> wishes_;
+    Latest<SoundRequest> wishes_;
     Latest<SoundReport> reports_;
     Latest<DeviceState> said_;
     Heartbeat heartbeat_{monotonic_now() + longest_round};
     // Used by the caller:
-    SoundWish wished_; ///< the latest one handed over
+    SoundRequest wished_; ///< the latest one handed over
     SoundReport report_;
     DeviceState state_{{DeviceHealth::Away, "sound.not_opened"},
                        Sentence("its sound device is not opened yet")};

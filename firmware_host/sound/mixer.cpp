@@ -37,11 +37,11 @@ float Ramp::next(float goal) {
 
 float amplitude_of(double gain_db) {
     constexpr double silence_db = -60.0;
-    constexpr double most_db = 12.0;
+    constexpr double max_db = 12.0;
     if (!(gain_db > silence_db)) { // also true for NaN
         return 0.0F;
     }
-    return static_cast<float>(std::pow(10.0, std::min(gain_db, most_db) / 20.0));
+    return static_cast<float>(std::pow(10.0, std::min(gain_db, max_db) / 20.0));
 }
 
 float soft_limit(float x) {
@@ -51,7 +51,7 @@ float soft_limit(float x) {
     return size <= knee ? x : std::copysign(knee + room * std::tanh((size - knee) / room), x);
 }
 
-void Mixer::follow(const SoundWish& wish) {
+void Mixer::follow(const SoundRequest& wish) {
     if (wish.stops_ != wish_.stops_) {
         waiting_ = {};
         if (spoken_.prompt && fade_left_ == 0) {

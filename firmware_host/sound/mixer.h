@@ -1,4 +1,4 @@
-/// Makes samples of a SoundWish: one prompt after the other, at the requested volume.
+/// Makes samples of a SoundRequest: one prompt after the other, at the requested volume.
 ///
 /// Units    samples of 1/48,000 s, mono, 16-bit. The output does not depend on the block sizes.
 /// Clicks   every start, end and change is a smooth step x^2 (3 - 2 x), or a straight ramp of the volume:
@@ -37,7 +37,7 @@ public:
     static constexpr float linear_up_to = 0.8F;
 
     /// The wish from the next sample on.
-    void follow(const SoundWish& wish);
+    void follow(const SoundRequest& wish);
     void mix(std::span<std::int16_t> samples);
     /// `queued`: duration of the mixed samples that are not heard yet.
     [[nodiscard]] SoundReport report(Nanoseconds queued) const;
@@ -53,7 +53,7 @@ private:
     [[nodiscard]] bool may_leave_here();
 
     bool begun_ = false; ///< before the first sample the volume changes without a ramp
-    SoundWish wish_;     ///< without its prompt
+    SoundRequest wish_;  ///< without its prompt
     Numbered spoken_;
     Numbered waiting_;
     std::uint32_t position_ = 0;                 ///< next sample of `spoken_`

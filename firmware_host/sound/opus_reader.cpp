@@ -19,7 +19,7 @@ struct CloseFile {
 };
 using OpusFile = std::unique_ptr<OggOpusFile, CloseFile>;
 
-constexpr int most_channels = 2;
+constexpr int max_channels = 2;
 constexpr std::size_t longest_packet = 5760; ///< samples per channel: 120 ms, RFC 6716
 
 std::string_view reason(int error) {
@@ -80,7 +80,7 @@ Result<Prompt> read_opus(std::span<const std::byte> bytes, const OpusLimits& lim
         return refused(error);
     }
     const int channels = ::op_channel_count(file.get(), 0);
-    if (channels > most_channels) {
+    if (channels > max_channels) {
         return bad_input("opus.channels", "the recording has {} channels; store it with one or two",
                          channels);
     }
@@ -94,7 +94,7 @@ Result<Prompt> read_opus(std::span<const std::byte> bytes, const OpusLimits& lim
     }
     Prompt prompt;
     prompt.samples.reserve(static_cast<std::size_t>(claimed));
-    std::array<float, longest_packet * most_channels> packet{};
+    std::array<float, longest_packet * max_channels> packet{};
     for (;;) {
         const int read = ::op_read_float(file.get(), packet.data(), static_cast<int>(packet.size()), nullptr);
         if (read == 0) {

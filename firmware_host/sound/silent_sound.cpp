@@ -2,7 +2,7 @@
 
 namespace frustumscreen {
 
-SoundReport SilentSound::poll(MonotonicTime now, const SoundWish& wish) {
+SoundReport SilentSound::poll(MonotonicTime now, const SoundRequest& wish) {
     mix_in_blocks(mixer_, clock_.take_due(now), [](std::span<const std::int16_t>) {});
     mixer_.follow(wish);
     return mixer_.report(Nanoseconds(0));

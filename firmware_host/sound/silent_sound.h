@@ -13,7 +13,7 @@ class SilentSound final : public Sound {
 public:
     explicit SilentSound(MonotonicTime start) : clock_(start) {}
 
-    SoundReport poll(MonotonicTime now, const SoundWish& wish) override;
+    SoundReport poll(MonotonicTime now, const SoundRequest& wish) override;
     [[nodiscard]] std::string name() const override { return "silent"; }
 
 private:

@@ -32,7 +32,7 @@ class Sound {
 public:
     virtual ~Sound() = default;
     /// The wish takes effect at `now`; returns what is heard.
-    virtual SoundReport poll(MonotonicTime now, const SoundWish& wish) = 0;
+    virtual SoundReport poll(MonotonicTime now, const SoundRequest& wish) = 0;
     [[nodiscard]] virtual std::string name() const = 0;
     /// The device's state in one plain sentence, valid until the next `poll`; empty if there is nothing to
     /// report.

@@ -5,18 +5,18 @@
 
 namespace frustumscreen {
 
-std::uint64_t SoundWish::say(SharedPrompt prompt) {
+std::uint64_t SoundRequest::say(SharedPrompt prompt) {
     assert(prompt);
     prompt_ = std::move(prompt);
     return ++number_;
 }
 
-void SoundWish::leave() {
+void SoundRequest::leave() {
     prompt_.reset();
     ++leaves_;
 }
 
-void SoundWish::stop() {
+void SoundRequest::stop() {
     prompt_.reset();
     ++stops_;
 }

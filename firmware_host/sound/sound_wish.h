@@ -10,7 +10,7 @@
 
 namespace frustumscreen {
 
-class SoundWish {
+class SoundRequest {
 public:
     /// Speaks `prompt` after the current one has reached its next mark, at once without a current one.
     /// Replaces a waiting prompt. Returns its number; numbers ascend from 1.
@@ -23,7 +23,7 @@ public:
     void set_gain_db(double gain_db) { gain_db_ = gain_db; }
 
     /// True if nothing has changed since `other`.
-    [[nodiscard]] bool operator==(const SoundWish& other) const = default;
+    [[nodiscard]] bool operator==(const SoundRequest& other) const = default;
 
 private:
     friend class Mixer;

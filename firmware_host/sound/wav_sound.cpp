@@ -8,7 +8,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::uint64_t most_samples = samples_in(WavSound::longest);
+constexpr std::uint64_t max_samples = samples_in(WavSound::longest);
 
 void append_text(Bytes& bytes, std::string_view text) {
     const std::span<const std::byte> letters = as_bytes(text);
@@ -38,9 +38,9 @@ Bytes wav_header(std::size_t samples) {
 
 } // namespace
 
-SoundReport WavSound::poll(MonotonicTime now, const SoundWish& wish) {
+SoundReport WavSound::poll(MonotonicTime now, const SoundRequest& wish) {
     mix_in_blocks(mixer_, clock_.take_due(now), [this](std::span<const std::int16_t> block) {
-        const std::size_t fit = std::min<std::size_t>(block.size(), most_samples - samples_.size());
+        const std::size_t fit = std::min<std::size_t>(block.size(), max_samples - samples_.size());
         samples_.insert(samples_.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(fit));
     });
     mixer_.follow(wish);
@@ -50,8 +50,8 @@ SoundReport WavSound::poll(MonotonicTime now, const SoundWish& wish) {
 }
 
 std::string_view WavSound::state() const {
-    return samples_.size() < most_samples ? "its sound goes into a file"
-                                          : "its sound goes into a file, which is full after an hour";
+    return samples_.size() < max_samples ? "its sound goes into a file"
+                                         : "its sound goes into a file, which is full after an hour";
 }
 
 Result<void> WavSound::write(const std::filesystem::path& path) const {

@@ -20,7 +20,7 @@ public:
 
     explicit WavSound(MonotonicTime start) : clock_(start) {}
 
-    SoundReport poll(MonotonicTime now, const SoundWish& wish) override;
+    SoundReport poll(MonotonicTime now, const SoundRequest& wish) override;
     [[nodiscard]] std::string name() const override { return "wav"; }
     [[nodiscard]] std::string_view state() const override;
     /// Writes all samples up to the last `poll`.

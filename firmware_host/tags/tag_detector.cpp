@@ -46,7 +46,7 @@ TagDetector::TagDetector(const TagDetectorOptions& options)
     : library_(std::make_unique<Library>()), options_(options) {
     apriltag_detector_add_family_bits(library_->detector.get(), library_->family.get(), corrected_bits);
     library_->detector->quad_decimate = static_cast<float>(options.decimate);
-    library_->detector->qtp.min_white_black_diff = options.least_contrast;
+    library_->detector->qtp.min_white_black_diff = options.min_contrast;
     library_->detector->nthreads = 1;
 }
 
@@ -66,7 +66,7 @@ void TagDetector::find(std::span<const std::uint8_t> luma, int width, int height
     for (int k = 0; k < zarray_size(detections.get()); ++k) {
         apriltag_detection_t* detection = nullptr;
         zarray_get(detections.get(), k, static_cast<void*>(&detection));
-        if (static_cast<double>(detection->decision_margin) >= options_.least_margin) {
+        if (static_cast<double>(detection->decision_margin) >= options_.min_margin) {
             found.push_back(tag_of(*detection));
         }
     }

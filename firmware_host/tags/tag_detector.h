@@ -32,9 +32,9 @@ struct TagDetectorOptions {
     double decimate = 1.0;
     /// Smallest luma step of an edge. The noise of a flat surface causes many smaller ones, which take more
     /// time than all tags.
-    int least_contrast = 40;
+    int min_contrast = 40;
     /// Smallest accepted margin of a tag; chance finds have less.
-    double least_margin = 15.0;
+    double min_margin = 15.0;
 };
 
 class TagDetector {

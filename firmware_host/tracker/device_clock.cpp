@@ -12,7 +12,7 @@ constexpr double block_ns = 1e9;
 constexpr std::size_t fewest_blocks = 4;
 /// Quartz is within 1e-4. The limit is much wider, so a slope measured on a busy machine passes, but a clock
 /// of another rate does not.
-constexpr double most_drift = 0.02;
+constexpr double max_drift = 0.02;
 /// An arrival this much too early, or this much too late for `longest_late`, means that the device's clock
 /// jumped.
 constexpr double jump_ns = 0.5e9;
@@ -56,7 +56,7 @@ bool DeviceClock::jumped(const Point& point, MonotonicTime arrival) {
 void DeviceClock::take(const Point& point) {
     const auto number = static_cast<std::int64_t>(std::floor(point.device_ns / block_ns));
     if (block_ && number != block_number_) {
-        blocks_[block_count_ % most_blocks] = *block_;
+        blocks_[block_count_ % max_blocks] = *block_;
         ++block_count_;
         block_.reset();
         fit();
@@ -69,9 +69,9 @@ void DeviceClock::take(const Point& point) {
 }
 
 void DeviceClock::fit() {
-    const std::size_t count = std::min(block_count_, most_blocks);
+    const std::size_t count = std::min(block_count_, max_blocks);
     if (count >= fewest_blocks) {
-        std::array<double, most_blocks*(most_blocks - 1) / 2> slopes{};
+        std::array<double, max_blocks*(max_blocks - 1) / 2> slopes{};
         std::size_t pairs = 0;
         for (std::size_t a = 1; a < count; ++a) {
             for (std::size_t b = 0; b < a; ++b) {
@@ -81,7 +81,7 @@ void DeviceClock::fit() {
         }
         const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(pairs / 2);
         std::nth_element(slopes.begin(), middle, slopes.begin() + static_cast<std::ptrdiff_t>(pairs));
-        drift_ = std::clamp(*middle, -most_drift, most_drift);
+        drift_ = std::clamp(*middle, -max_drift, max_drift);
         wrong_rate_ = drift_ != *middle;
         // Points measured at a wrong rate must not outvote the next ones.
         block_count_ = wrong_rate_ ? 0 : block_count_;

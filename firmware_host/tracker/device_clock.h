@@ -32,15 +32,15 @@ public:
     [[nodiscard]] double drift() const { return drift_; }
     /// How often the device's clock jumped.
     [[nodiscard]] std::uint64_t restarts() const { return restarts_; }
-    [[nodiscard]] bool believed() const { return !wrong_rate_ && quick_restarts_ < most_quick_restarts; }
+    [[nodiscard]] bool believed() const { return !wrong_rate_ && quick_restarts_ < max_quick_restarts; }
 
 private:
     struct Point {
         double device_ns = 0.0; ///< since the first tick
         double late_ns = 0.0;   ///< arrival minus device time, both since the first tick
     };
-    static constexpr std::size_t most_blocks = 32;
-    static constexpr int most_quick_restarts = 3;
+    static constexpr std::size_t max_blocks = 32;
+    static constexpr int max_quick_restarts = 3;
 
     void begin(std::uint32_t tick, MonotonicTime arrival);
     void restart(std::uint32_t tick, MonotonicTime arrival);
@@ -58,10 +58,10 @@ private:
     std::int64_t ticks_ = 0; ///< since the first tick, without wrapping
     MonotonicTime first_arrival_;
     std::optional<MonotonicTime> late_since_;
-    std::optional<MonotonicTime> last_time_;  ///< last answer; none before the first tick
-    std::array<Point, most_blocks> blocks_{}; ///< earliest arrival of each second; a ring
-    std::size_t block_count_ = 0;             ///< blocks completed since the last restart
-    std::optional<Point> block_;              ///< earliest arrival of the current second
+    std::optional<MonotonicTime> last_time_; ///< last answer; none before the first tick
+    std::array<Point, max_blocks> blocks_{}; ///< earliest arrival of each second; a ring
+    std::size_t block_count_ = 0;            ///< blocks completed since the last restart
+    std::optional<Point> block_;             ///< earliest arrival of the current second
     std::int64_t block_number_ = 0;
     double drift_ = 0.0;
     double height_ns_ = 0.0;

@@ -1,4 +1,4 @@
-/// A frame of a tracker of any make: its poses at one instant. Codecs produce it; `FrameIntake` consumes it.
+/// A frame of a tracker of any make: its poses at one instant. Codecs produce it; `SequenceChecker` consumes it.
 ///
 /// Frame    tracker K, metres, quaternion w x y z.
 /// Threads  values.
@@ -23,11 +23,11 @@ struct SensorPose {
 };
 
 struct DeviceFrame {
-    static constexpr std::size_t most_sensors = 16;
+    static constexpr std::size_t max_sensors = 16;
 
     std::uint32_t counter = 0; ///< counts frames, wraps; reveals lost, repeated and late frames
     std::uint32_t tick = 0;    ///< the device's clock, wraps; in units of the device
-    std::array<SensorPose, most_sensors> sensors;
+    std::array<SensorPose, max_sensors> sensors;
     std::size_t count = 0;    ///< valid entries of `sensors`
     bool units_as_set = true; ///< false: not metres and quaternions; no pose of this frame is usable
     bool fault = false;       ///< the device's self-test failed; the poses may still be good

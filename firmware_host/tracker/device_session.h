@@ -4,7 +4,7 @@
 /// Threads  one caller; allocates nothing once `samples` has enough room.
 #pragma once
 
-#include "firmware_host/tracker/frame_intake.h"
+#include "firmware_host/tracker/sequence_checker.h"
 #include "firmware_host/tracker/usb_transport.h"
 
 #include <memory>
@@ -30,7 +30,7 @@ public:
     [[nodiscard]] virtual UsbTrackerState state(MonotonicTime now) const = 0;
     /// This device will not stream: close it and search again.
     [[nodiscard]] virtual bool failed() const = 0;
-    [[nodiscard]] virtual const FrameIntake& intake() const = 0;
+    [[nodiscard]] virtual const SequenceChecker& intake() const = 0;
 };
 
 /// The session for a device of this model.

@@ -43,7 +43,7 @@ HidTrackerMessage parse_pose(ByteReader reader) {
         component = reader.read<std::int16_t>() / quaternion_scale;
     }
     pose.rotation = glm::dquat(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
-    if (pose.sensor < 1 || pose.sensor > static_cast<int>(DeviceFrame::most_sensors) ||
+    if (pose.sensor < 1 || pose.sensor > static_cast<int>(DeviceFrame::max_sensors) ||
         (status & ~known_flags) != 0) {
         return DiscardReason::Content;
     }

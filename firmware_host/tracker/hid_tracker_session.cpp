@@ -7,7 +7,7 @@ namespace {
 constexpr double tick_ns = 1e3; ///< the time stamp counts microseconds
 constexpr int position_unit_um = 10;
 constexpr int fewest_hz = 30;
-constexpr int most_hz = 1000;
+constexpr int max_hz = 1000;
 /// A device that is silent for longer is reopened, unless it is slow by design.
 constexpr Nanoseconds longest_silence = std::chrono::seconds(1);
 
@@ -21,8 +21,8 @@ void HidTrackerSession::give_up(UsbTrackerState trouble) {
 }
 
 void HidTrackerSession::check(const HidTrackerInfo& info) {
-    if (info.version != hid_tracker_version || info.rate_hz < fewest_hz || info.rate_hz > most_hz ||
-        info.stations < 1 || info.stations > static_cast<int>(DeviceFrame::most_sensors)) {
+    if (info.version != hid_tracker_version || info.rate_hz < fewest_hz || info.rate_hz > max_hz ||
+        info.stations < 1 || info.stations > static_cast<int>(DeviceFrame::max_sensors)) {
         give_up(UsbTrackerState::SetUpRefused);
     } else if (info.position_unit_um != position_unit_um) {
         give_up(UsbTrackerState::WrongUnits);

@@ -18,7 +18,7 @@ public:
                  std::vector<PoseSample>& samples) override;
     [[nodiscard]] UsbTrackerState state(MonotonicTime now) const override;
     [[nodiscard]] bool failed() const override { return failed_; }
-    [[nodiscard]] const FrameIntake& intake() const override { return intake_; }
+    [[nodiscard]] const SequenceChecker& intake() const override { return intake_; }
 
 private:
     void check(const HidTrackerInfo& info);
@@ -30,7 +30,7 @@ private:
     bool failed_ = false;
     UsbTrackerState trouble_ = UsbTrackerState::SettingUp;
     bool booting_ = false; ///< the device's latest report says so
-    FrameIntake intake_;
+    SequenceChecker intake_;
 };
 
 } // namespace frustumscreen

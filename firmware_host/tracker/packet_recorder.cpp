@@ -18,7 +18,7 @@ constexpr std::size_t room_for_gap = 64; ///< for the packet that records a gap
 PacketRecorder::PacketRecorder(GrowingFile file, std::string_view about, MonotonicTime now)
     : file_(std::move(file)) {
     say();
-    waiting_.reserve(most_waiting_bytes);
+    waiting_.reserve(max_waiting_bytes);
     append_packet_header(waiting_);
     take(PacketKind::About, now, as_bytes(about));
     thread_ = std::jthread([this](const std::stop_token& stop) { write(stop); });
@@ -26,7 +26,7 @@ PacketRecorder::PacketRecorder(GrowingFile file, std::string_view about, Monoton
 
 bool PacketRecorder::has_room(std::size_t payload) const {
     return payload <= longest_packet &&
-           waiting_.size() + packet_size(payload) + room_for_gap <= most_waiting_bytes;
+           waiting_.size() + packet_size(payload) + room_for_gap <= max_waiting_bytes;
 }
 
 void PacketRecorder::take(PacketKind kind, MonotonicTime time, std::span<const std::byte> payload) {
@@ -59,7 +59,7 @@ void PacketRecorder::name_gap(MonotonicTime time) {
 void PacketRecorder::write(const std::stop_token& stop) {
     begin_device_thread("recorder");
     Bytes writing;
-    writing.reserve(most_waiting_bytes);
+    writing.reserve(max_waiting_bytes);
     MonotonicTime synced = monotonic_now();
     bool last = false;
     while (!last) {

@@ -4,7 +4,7 @@
 ///          thread writes the file and syncs it once a second. Everything else: any thread.
 /// Errors   none to the caller. A disk that is too slow causes gaps; the recording and `state` report them. A
 ///          full or lost disk ends the recording; `state` says so.
-/// Memory   twice `most_waiting_bytes`, allocated at the beginning.
+/// Memory   twice `max_waiting_bytes`, allocated at the beginning.
 #pragma once
 
 #include "firmware_host/base/growing_file.h"
@@ -20,7 +20,7 @@ namespace frustumscreen {
 class PacketRecorder final : public PacketTap {
 public:
     /// Holds minutes of any device.
-    static constexpr std::size_t most_waiting_bytes = std::size_t{4} << 20;
+    static constexpr std::size_t max_waiting_bytes = std::size_t{4} << 20;
 
     /// `about` names the recording program and the time.
     PacketRecorder(GrowingFile file, std::string_view about, MonotonicTime now);

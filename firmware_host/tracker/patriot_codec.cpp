@@ -21,7 +21,7 @@ bool may_be_header(std::span<const std::byte> stream) {
         return at(0) == static_cast<unsigned>(letters[0]) &&
                (stream.size() < 2 || at(1) == static_cast<unsigned>(letters[1]));
     });
-    return tag && (stream.size() < 3 || (at(2) >= 1 && at(2) <= DeviceFrame::most_sensors)) &&
+    return tag && (stream.size() < 3 || (at(2) >= 1 && at(2) <= DeviceFrame::max_sensors)) &&
            (stream.size() < 4 || at(3) == 'C' || at(3) == 'P') &&
            (stream.size() < 7 || at(6) == payload_bytes) && (stream.size() < 8 || at(7) == 0);
 }

@@ -25,7 +25,7 @@ public:
         return progress_.state(now, intake_);
     }
     [[nodiscard]] bool failed() const override { return progress_.failed(); }
-    [[nodiscard]] const FrameIntake& intake() const override { return intake_; }
+    [[nodiscard]] const SequenceChecker& intake() const override { return intake_; }
 
 private:
     enum class Need { Nothing, AnyText, Metric };
@@ -41,7 +41,7 @@ private:
     std::vector<Step> steps_;
     SetUpProgress progress_;
     StreamBuffer stream_;
-    FrameIntake intake_;
+    SequenceChecker intake_;
 };
 
 } // namespace frustumscreen

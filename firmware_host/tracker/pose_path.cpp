@@ -10,7 +10,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr Nanoseconds::rep most_periods = 1'000'000;
+constexpr Nanoseconds::rep max_periods = 1'000'000;
 
 double seconds_of(const PoseSample& sample) {
     return to_seconds(sample.time - MonotonicTime{});
@@ -66,11 +66,11 @@ Result<std::vector<PoseSample>> pose_path(std::span<const PoseSample> keys, Nano
     }
     const auto earlier = [](const PoseSample& a, const PoseSample& b) { return a.time < b.time; };
     const auto [first, last] = std::minmax_element(keys.begin(), keys.end(), earlier);
-    if ((last->time - first->time) / period > most_periods) {
+    if ((last->time - first->time) / period > max_periods) {
         return bad_input("poses.too_many",
                          "its poses span {:.0f} s, more than {} periods; give it fewer poses a second, or a "
                          "shorter path",
-                         to_seconds(last->time - first->time), most_periods);
+                         to_seconds(last->time - first->time), max_periods);
     }
     for (MonotonicTime time = first->time; time <= last->time; time += period) {
         for (const auto& [station, of_station] : stations) {

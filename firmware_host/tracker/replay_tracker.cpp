@@ -31,12 +31,12 @@ ReplayTracker::ReplayTracker(std::vector<PoseSample> samples, MonotonicTime star
 
 /// Skips whole rounds that became due at once between two polls.
 void ReplayTracker::pass_over_rounds(MonotonicTime now) {
-    constexpr auto most_at_once = static_cast<Nanoseconds::rep>(most_rounds_samples);
+    constexpr auto max_at_once = static_cast<Nanoseconds::rep>(max_rounds_samples);
     if (recording_.empty() || length_ <= Nanoseconds::zero()) {
         return;
     }
     const Nanoseconds::rep rounds = (now - (recording_.front().time + shift_)) / length_;
-    if (rounds > 1 && rounds > most_at_once / static_cast<Nanoseconds::rep>(recording_.size())) {
+    if (rounds > 1 && rounds > max_at_once / static_cast<Nanoseconds::rep>(recording_.size())) {
         shift_ += (rounds - 1) * length_;
         next_ = 0;
     }

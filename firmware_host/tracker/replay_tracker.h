@@ -1,7 +1,7 @@
 /// A tracker that replays poses, normally of a pose file, at their own speed or another.
 ///
 /// Time     the first sample comes at `start`; with `repeat` the recording begins again one step after its
-///          end. If a late poll makes more than `most_rounds_samples` samples of repeated rounds due, whole
+///          end. If a late poll makes more than `max_rounds_samples` samples of repeated rounds due, whole
 ///          rounds are skipped: a recording of a few microseconds would fill the memory.
 /// Threads  one caller.
 #pragma once
@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 class ReplayTracker final : public Tracker {
 public:
-    static constexpr std::size_t most_rounds_samples = 16384;
+    static constexpr std::size_t max_rounds_samples = 16384;
 
     /// Samples in any order; they are sorted by time.
     ReplayTracker(std::vector<PoseSample> samples, MonotonicTime start, bool repeat, double speed = 1.0);

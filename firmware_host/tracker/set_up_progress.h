@@ -20,7 +20,7 @@ public:
     [[nodiscard]] bool failed() const { return failed_; }
     [[nodiscard]] bool waits_for_answer() const { return sent_.has_value(); }
     /// The device should stream, but has been silent for too long.
-    [[nodiscard]] bool silent(MonotonicTime now, const FrameIntake& intake) const {
+    [[nodiscard]] bool silent(MonotonicTime now, const SequenceChecker& intake) const {
         return streaming() && now - std::max(intake.latest().value_or(awake_), awake_) > intake.patience();
     }
     [[nodiscard]] bool unanswered(MonotonicTime now) const {
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] UsbTrackerState trouble_without_answer() const {
         return trouble_ == UsbTrackerState::SettingUp ? UsbTrackerState::SetUpRefused : trouble_;
     }
-    [[nodiscard]] UsbTrackerState state(MonotonicTime now, const FrameIntake& intake) const {
+    [[nodiscard]] UsbTrackerState state(MonotonicTime now, const SequenceChecker& intake) const {
         const bool heard = streaming() && intake.latest() && *intake.latest() >= awake_;
         return heard ? intake.state(now) : trouble_;
     }

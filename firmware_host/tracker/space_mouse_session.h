@@ -34,7 +34,7 @@ public:
         return next_sample_ ? UsbTrackerState::Streaming : UsbTrackerState::SettingUp;
     }
     [[nodiscard]] bool failed() const override { return false; }
-    [[nodiscard]] const FrameIntake& intake() const override { return intake_; }
+    [[nodiscard]] const SequenceChecker& intake() const override { return intake_; }
 
 private:
     struct Motion {
@@ -52,7 +52,7 @@ private:
     Motion turn_;
     MonotonicTime at_{}; ///< the time of the pose
     std::optional<MonotonicTime> next_sample_;
-    FrameIntake intake_; ///< only counts refused reports
+    SequenceChecker intake_; ///< only counts refused reports
 };
 
 } // namespace frustumscreen

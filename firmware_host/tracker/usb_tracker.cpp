@@ -11,7 +11,7 @@ UsbTracker::UsbTracker(std::unique_ptr<UsbBus> bus, const UsbTrackerSetUp& set_u
 void UsbTracker::run(const std::stop_token& stop) {
     begin_device_thread("tracker");
     std::vector<PoseSample> samples;
-    samples.reserve(most_waiting);
+    samples.reserve(max_waiting);
     while (!stop.stop_requested()) {
         heartbeat_.promise(monotonic_now() + (driver_.is_open() ? longest_round : longest_search));
         samples.clear();

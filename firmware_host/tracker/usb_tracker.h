@@ -19,7 +19,7 @@ namespace frustumscreen {
 
 class UsbTracker final : public Tracker {
 public:
-    static constexpr std::size_t most_waiting = 256;
+    static constexpr std::size_t max_waiting = 256;
     /// Longest search and opening: two control transfers, which the kernel gives up after 5 s each.
     static constexpr Nanoseconds longest_search = std::chrono::seconds(10);
     /// One write and one read of an open device, with the driver's limits for both. Closing a dying device
@@ -46,7 +46,7 @@ private:
 
     bool table_frame_;
     UsbTrackerDriver driver_; ///< the device's thread only
-    Mailbox<PoseSample, most_waiting> mailbox_;
+    Mailbox<PoseSample, max_waiting> mailbox_;
     std::atomic<UsbTrackerState> state_{UsbTrackerState::NotConnected};
     TrackerCounts counts_; ///< with the lock held
     std::mutex counts_mutex_;

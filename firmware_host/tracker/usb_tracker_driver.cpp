@@ -63,7 +63,7 @@ Nanoseconds UsbTrackerDriver::lose(UsbTrackerState state) {
     report(state);
     tell(PacketKind::Closed, clock_());
     std::erase(failed_, place_);
-    if (failed_.size() == most_failed) {
+    if (failed_.size() == max_failed) {
         failed_.erase(failed_.begin());
     }
     failed_.push_back(place_);

@@ -35,7 +35,7 @@ public:
     [[nodiscard]] TrackerCounts counts() const;
 
 private:
-    static constexpr std::size_t most_failed = 4;
+    static constexpr std::size_t max_failed = 4;
 
     [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState> find();
     [[nodiscard]] Nanoseconds search();

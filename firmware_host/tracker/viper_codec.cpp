@@ -18,7 +18,7 @@ constexpr std::size_t sensor_bytes = 32;
 constexpr std::size_t command_head_bytes = 20;
 constexpr std::uint32_t standard_mode = 0; ///< the other mode has accelerations and shorter quaternions
 /// The longest known reply is a single pose of 16 sensors.
-constexpr std::size_t most_reply_payload = 1024;
+constexpr std::size_t max_reply_payload = 1024;
 
 std::uint32_t u32_at(std::span<const std::byte> bytes, std::size_t offset) {
     return ByteReader(bytes.subspan(offset)).read<std::uint32_t>();
@@ -100,7 +100,7 @@ ViperStep parse_viper(std::span<const std::byte> stream) {
     const bool poses = preamble == pose_preamble;
     const std::size_t size = u32_at(stream, 4);
     const std::size_t head = poses ? pose_head_bytes : command_head_bytes;
-    const std::size_t most = poses ? DeviceFrame::most_sensors * sensor_bytes : most_reply_payload;
+    const std::size_t most = poses ? DeviceFrame::max_sensors * sensor_bytes : max_reply_payload;
     if (size < head + crc_bytes || size > head + most + crc_bytes) {
         return refuse(stream, DiscardReason::Length);
     }
@@ -108,7 +108,7 @@ ViperStep parse_viper(std::span<const std::byte> stream) {
     // end.
     if (poses && stream.size() >= header_bytes + pose_head_bytes) {
         const std::size_t count = u32_at(stream, header_bytes + 12);
-        if (count > DeviceFrame::most_sensors || size != head + count * sensor_bytes + crc_bytes) {
+        if (count > DeviceFrame::max_sensors || size != head + count * sensor_bytes + crc_bytes) {
             return refuse(stream, DiscardReason::Length);
         }
     }
@@ -129,7 +129,7 @@ ViperStep parse_viper(std::span<const std::byte> stream) {
 ViperCommandBytes::ViperCommandBytes(ViperCommand command, ViperAction action,
                                      std::span<const std::byte> payload, std::uint32_t sensor,
                                      ViperFilterTarget target) {
-    assert(payload.size() <= most_payload);
+    assert(payload.size() <= max_payload);
     const auto put = [this](std::uint32_t word) {
         std::memcpy(bytes_.data() + size_, &word, sizeof(word));
         size_ += sizeof(word);

@@ -69,8 +69,8 @@ public:
     [[nodiscard]] std::span<const std::byte> bytes() const { return {bytes_.data(), size_}; }
 
 private:
-    static constexpr std::size_t most_payload = 32;
-    std::array<std::byte, 32 + most_payload> bytes_{};
+    static constexpr std::size_t max_payload = 32;
+    std::array<std::byte, 32 + max_payload> bytes_{};
     std::size_t size_ = 0;
 };
 

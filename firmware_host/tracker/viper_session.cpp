@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t rate_120_hz = 2;
 constexpr double rate_hz = 120.0;
-constexpr double least_agreement = 0.999; ///< cosine between the set and the confirmed hemisphere
+constexpr double min_agreement = 0.999; ///< cosine between the set and the confirmed hemisphere
 constexpr std::uint32_t no_filter = 0;
 
 template <typename T> std::span<const std::byte> bytes_of(const T& value) {
@@ -137,7 +137,7 @@ bool ViperSession::repeats_what_was_set(const ViperReply& reply) const {
             cosine += component * static_cast<double>(hemisphere_[k]);
             squared += component * component;
         }
-        return reader.ok() && cosine >= least_agreement * std::sqrt(squared) && squared > 0.0;
+        return reader.ok() && cosine >= min_agreement * std::sqrt(squared) && squared > 0.0;
     }
     default:
         return true;

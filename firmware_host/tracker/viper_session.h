@@ -21,7 +21,7 @@ public:
                  std::vector<PoseSample>& samples) override;
     [[nodiscard]] UsbTrackerState state(MonotonicTime now) const override;
     [[nodiscard]] bool failed() const override { return progress_.failed(); }
-    [[nodiscard]] const FrameIntake& intake() const override { return intake_; }
+    [[nodiscard]] const SequenceChecker& intake() const override { return intake_; }
 
 private:
     enum class Need {
@@ -54,7 +54,7 @@ private:
     bool doubtful_ = false;     ///< the device warned, or did not confirm a setting
     bool stream_stale_ = false; ///< the buffered bytes are useless; clear them with the next command
     StreamBuffer stream_;
-    FrameIntake intake_;
+    SequenceChecker intake_;
 };
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-// How an artifact is turned, held against the prop itself and against plain geometry.
+// The turn of an artifact, compared with the prop's own planes and with plain geometry.
 
 #include "app/geometry/prop_shape.h"
 #include "assets_baked/bake/best_turn.h"
@@ -15,7 +15,7 @@
 namespace frustumscreen {
 namespace {
 
-/// The largest size after a turn, by every vertex of the mesh and the prop's own planes.
+/// The largest size after a turn, from all vertices of the mesh and the prop's own planes.
 double size_after(const SourceMesh& mesh, double turn_deg, double lift = 0.0) {
     const auto frame = make_box_frame(mesh, {"z", turn_deg, lift});
     EXPECT_TRUE(frame);
@@ -31,7 +31,7 @@ SourceMesh box(const glm::dvec3& size, double turn_deg = 0.0) {
     return mesh;
 }
 
-/// A blade that stands upright: as thin as paper, so that it is largest across the prop's diagonal.
+/// An upright plate, so thin that it is largest across the prop's diagonal.
 TEST(BestTurn, AThinPlateStandsAcrossTheDiagonal) {
     const SourceMesh plate = box({4.0, 1e-4, 1.0});
     const double turn = best_turn_deg(plate, "z", 0.0, make_frustum({}));
@@ -78,7 +78,7 @@ TEST(BestTurn, ARoundArtifactAndACubeAreNotTurned) {
     EXPECT_EQ(best_turn_deg(box({1, 1, 1}), "z", 0.0, make_cube(0.16)), 0.0);
 }
 
-/// So high that its height alone decides the size.
+/// The boxes are so high that their height alone limits the size.
 TEST(BestTurn, TheBroadSideLooksAtTheVisitorAndAChestStandsStraight) {
     const PropShape prop = make_frustum({});
     EXPECT_EQ(best_turn_deg(box({1.0, 0.4, 12.0}), "z", 0.0, prop), 0.0);

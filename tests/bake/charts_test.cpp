@@ -44,7 +44,8 @@ TEST(Charts, EveryTriangleIsKeptAndEveryMapIsFreeOfFoldsAndNearlyTrueToScale) {
     }
 }
 
-/// Six charts, as a cube has sides, are the fewest that a sphere can have at these slopes; the places along their borders are there twice.
+/// Six charts, like the sides of a cube, are the fewest for a sphere at these slopes; vertices on their borders are
+/// split.
 TEST(Charts, FewPlacesAreSplit) {
     const TriangleMesh mesh = sphere_mesh();
     const ChartedMesh charted = chart(mesh, 1.0F / 256.0F);

@@ -7,7 +7,7 @@
 namespace frustumscreen {
 namespace {
 
-/// A mesh in its box, with z up as the file has it.
+/// A mesh in its box, with the file's z axis up.
 struct InBox {
     explicit InBox(SourceMesh made)
         : mesh(std::move(made)), frame(make_box_frame(mesh, {"z", 0.0, 0.0}).value()),
@@ -41,7 +41,7 @@ TEST(Hotspots, lie_on_the_surface_and_look_outward_whatever_the_winding) {
             for (const double off : {-0.8, 0.0, 0.8}) { // below and above the surface
                 const auto hotspot = ball.put(glm::dvec3(5, -3, 100) + (10.0 + off) * direction);
                 ASSERT_TRUE(hotspot) << hotspot.error().message;
-                const glm::dvec3 expected = glm::dvec3(0, 0, 0.5) + 0.5 * direction; // the box's own sphere
+                const glm::dvec3 expected = glm::dvec3(0, 0, 0.5) + 0.5 * direction; // sphere of the box
                 EXPECT_LT(glm::distance(hotspot->point, expected), 2e-3);
                 EXPECT_GT(glm::dot(hotspot->normal, direction), std::cos(0.03)) << inside_out << ' ' << off;
                 EXPECT_NEAR(glm::length(hotspot->normal), 1.0, 1e-9);
@@ -54,7 +54,7 @@ TEST(Hotspots, lie_on_the_surface_and_look_outward_whatever_the_winding) {
 TEST(Hotspots, too_far_from_the_surface_are_refused_with_the_nearest_point) {
     const InBox ball(sphere(false));
     EXPECT_TRUE(ball.put({15.9, -3.0, 100.0}));
-    const auto far = ball.put({16.2, -3.0, 100.0}); // 1.2 of 20
+    const auto far = ball.put({16.2, -3.0, 100.0}); // 1.2, at a size of 20
     ASSERT_FALSE(far);
     EXPECT_EQ(
         far.error().message,
@@ -67,7 +67,7 @@ TEST(Hotspots, too_far_from_the_surface_are_refused_with_the_nearest_point) {
 TEST(Hotspots, where_nobody_sees_the_surface_are_refused) {
     SourceMesh mesh = test::empty_mesh();
     test::add_box(mesh, {0, 0, 0}, {10, 10, 10});
-    test::add_box(mesh, {4, 4, 4}, {6, 6, 6}); // within the first
+    test::add_box(mesh, {4, 4, 4}, {6, 6, 6}); // inside the first box
     const InBox boxes(std::move(mesh));
     const auto hidden = boxes.put({5.0, 5.0, 6.0});
     ASSERT_FALSE(hidden);
@@ -82,7 +82,7 @@ TEST(Hotspots, a_noisy_surface_has_a_calm_normal) {
     SourceMesh mesh = test::empty_mesh();
     test::add_sphere(mesh, {0, 0, 0}, 10.0, 160);
     std::mt19937 random(7);
-    std::uniform_real_distribution<double> noise(-0.03, 0.03); // steep on triangles of 0.2
+    std::uniform_real_distribution<double> noise(-0.03, 0.03); // makes triangles 0.2 wide steep
     for (glm::dvec3& position : mesh.positions) {
         position += glm::dvec3(noise(random), noise(random), noise(random));
     }

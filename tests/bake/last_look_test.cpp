@@ -59,9 +59,9 @@ TEST(LastLook, PartsOfTheArtifactAreNoScraps) {
     EXPECT_EQ(find_scraps(near).triangles, 0U);
     SourceMesh pair;
     add_square(pair, 40, {0, 0, 0});
-    add_square(pair, 20, {9, 0, 0}); // far away, but a third of it all
+    add_square(pair, 20, {9, 0, 0}); // far away, but a fifth of all triangles
     EXPECT_EQ(find_scraps(pair).triangles, 0U);
-    SourceMesh soup; // every triangle is a part of its own
+    SourceMesh soup; // each square is a part of its own
     for (int k = 0; k < 2000; ++k) {
         add_square(soup, 1, {std::fmod(k * 0.618, 1.0), k / 2000.0, 0}, 0.001);
     }
@@ -82,10 +82,10 @@ TEST(LastLook, AnArtifactThatIsBlackIsTold) {
 
 TEST(LastLook, CoordinatesThatAreTooLargeForTheirSizeAreTold) {
     SourceMesh far;
-    add_square(far, 4, {4194304.0, 0, 0}, 2.0); // on steps of 0.5, those of 32 bits there
+    add_square(far, 4, {4194304.0, 0, 0}, 2.0); // the step of 32 bits is 0.5 there
     EXPECT_TRUE(guesses(far, "grid"));
     SourceMesh exact;
-    add_square(exact, 3, {4194304.0, 0, 0}); // thirds: written with 64 bits
+    add_square(exact, 3, {4194304.0, 0, 0}); // thirds, which need 64 bits
     EXPECT_FALSE(guesses(exact, "grid"));
     SourceMesh near;
     add_square(near, 4, {1.0, 0, 0});

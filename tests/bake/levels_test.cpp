@@ -36,8 +36,8 @@ LevelOutline level_of(std::uint64_t triangles, float mean_box, float p95_box) {
 TEST(Levels, TheFrontGoesFromTheCheapestToTheNearest) {
     const std::vector<LevelOutline> levels{
         level_of(40'000, 1e-4F, 3e-4F), level_of(10'000, 4e-4F, 9e-4F),
-        level_of(20'000, 5e-4F, 9e-4F), // dearer, and no nearer
-        level_of(30'000, 2e-4F, 2e-3F), // nearer in the mean, but it strays
+        level_of(20'000, 5e-4F, 9e-4F), // more costly, and not more exact
+        level_of(30'000, 2e-4F, 2e-3F), // a smaller mean error, but a larger 95th percentile
         level_of(2'000, 1e-3F, 3e-3F),
     };
     EXPECT_EQ(measured_front(levels), (std::vector<std::size_t>{4, 1, 0}));
@@ -46,7 +46,7 @@ TEST(Levels, TheFrontGoesFromTheCheapestToTheNearest) {
 TEST(Levels, OfThoseWithFewTrianglesOnlyTheNearestIsOnTheFront) {
     const std::vector<LevelOutline> levels{
         level_of(1'000, 5e-4F, 9e-4F),
-        level_of(10, 2e-3F, 5e-3F), // costs a frame as much as the first
+        level_of(10, 2e-3F, 5e-3F), // as costly for a frame as the first
         level_of(1'200, 5e-4F, 9e-4F),
         level_of(8'000, 1e-4F, 2e-4F),
     };
@@ -114,7 +114,7 @@ TEST(Levels, AConeCulledClusterFacesAwayFromTheEye) {
 
 TEST(Levels, ACubesPackHasTheUndersideAndAFrustumsHasNot) {
     SourceMesh mesh = test::empty_mesh();
-    test::add_sphere(mesh, {0, 0, 0.5}, 0.5, 44); // a row lies 0.4 mm above the bottom
+    test::add_sphere(mesh, {0, 0, 0.5}, 0.5, 44); // one row is 0.4 mm above the bottom
     for (glm::dvec3& position : mesh.positions) {
         position.z = std::max(position.z, 0.2); // a flat bottom
     }
@@ -132,9 +132,9 @@ TEST(Levels, ACubesPackHasTheUndersideAndAFrustumsHasNot) {
         }
         return area;
     };
-    constexpr double bottom = std::numbers::pi * (0.5 * 0.5 - 0.3 * 0.3); // but for a part of a row
+    constexpr double bottom = std::numbers::pi * (0.5 * 0.5 - 0.3 * 0.3); // except for part of a row
     EXPECT_NEAR(looking_down(baked_cube()), bottom, 0.1 * bottom);
-    EXPECT_LT(looking_down(baked_frustum()), 0.2 * bottom); // a rim of it
+    EXPECT_LT(looking_down(baked_frustum()), 0.2 * bottom); // only a rim of it
 }
 
 TEST(Levels, TheFrontFallsInErrorAsItGrowsInCost) {
@@ -170,7 +170,7 @@ TEST(Levels, OneTriangleRepeatedTrianglesAndSliversMakeASoundPack) {
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0.5, 1e-9, 0.5}};
     test::add_triangle(mesh, 0, 1, 2);
     test::add_triangle(mesh, 0, 1, 2); // repeated
-    test::add_triangle(mesh, 1, 0, 2); // the other way round
+    test::add_triangle(mesh, 1, 0, 2); // flipped
     test::add_triangle(mesh, 1, 1, 2); // degenerate
     test::add_triangle(mesh, 0, 1, 3); // a sliver on top
     BakeOptions options = quick();
@@ -184,7 +184,7 @@ TEST(Levels, OneTriangleRepeatedTrianglesAndSliversMakeASoundPack) {
 TEST(Levels, ATextureKeepsItsColours) {
     SourceMesh mesh = test::empty_mesh();
     test::add_sphere(mesh, {0, 0, 0.5}, 0.5, 32);
-    for (const glm::dvec3& p : mesh.positions) { // smooth vertex colours as a stand-in for a texture
+    for (const glm::dvec3& p : mesh.positions) { // smooth vertex colours replace a texture
         mesh.colours.emplace_back(0.5 + p.x, 0.5 + p.y, p.z, 1.0);
     }
     const Result<Pack> pack = bake(mesh, quick());

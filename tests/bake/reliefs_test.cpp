@@ -1,4 +1,4 @@
-// The reliefs that a pack gets beside its levels, against what is known of a sphere.
+// The reliefs of a pack, compared with a sphere's known geometry.
 #include "app/pack/block_part.h"
 #include "app/pack/pack_relief.h"
 #include "assets_baked/bake/bake.h"
@@ -53,7 +53,7 @@ TEST(Reliefs, OfASphereLieOnItAndSayByHowMuchTheyMissIt) {
                     outline.texels, worst, static_cast<double>(outline.error.mean_box),
                     static_cast<double>(outline.error.p95_box), static_cast<double>(outline.error.max_box),
                     static_cast<double>(outline.error.colour_rmse));
-        // The sphere's own triangles are off it by 1 - cos(pi / 64) of its radius.
+        // The sphere's own triangles deviate from it by 1 - cos(pi / 64) of its radius.
         EXPECT_LT(worst, 0.02);
         EXPECT_LT(outline.error.p95_box, 0.5F / static_cast<float>(outline.texels));
         EXPECT_LT(outline.error.max_box, 2.0F / static_cast<float>(outline.texels));
@@ -62,7 +62,8 @@ TEST(Reliefs, OfASphereLieOnItAndSayByHowMuchTheyMissIt) {
     EXPECT_LT(reliefs[1].error.mean_box, reliefs[0].error.mean_box);
 }
 
-/// Triangles that share no vertex and overlap their neighbours: no level has fewer of them, and the reliefs are what a slow machine draws.
+/// Triangles without shared vertices that overlap their neighbours cannot be simplified, so a slow machine draws the
+/// reliefs.
 TEST(Reliefs, OfATriangleSoupAreSmallWhereItsLevelsAreNot) {
     SourceMesh sphere = test::empty_mesh();
     test::add_sphere(sphere, {0, 0, 0.5}, 0.5, 86);
@@ -94,8 +95,8 @@ TEST(Reliefs, OfATriangleSoupAreSmallWhereItsLevelsAreNot) {
     EXPECT_TRUE(pack.relief.charts.empty()) << "no relief as a mesh";
 }
 
-/// A sheet without thickness, of which both sides are kept: its cells lie at the same place, and each shows to one side. A ray that passes the
-/// back of one meets the front of the other.
+/// A sheet of no thickness with both sides kept: both sides' cells are at one place, and each is visible from one side.
+/// A ray that passes the back of one hits the front of the other.
 TEST(Reliefs, OfASheetASideIsMetFromEitherSide) {
     SourceMesh sheet = test::empty_mesh();
     sheet.positions = {{-0.5, 0.0, 0.0}, {0.5, 0.0, 0.0}, {0.5, 0.0, 1.0}, {-0.5, 0.0, 1.0}};

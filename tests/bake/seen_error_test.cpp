@@ -1,4 +1,4 @@
-// What eyes see of a level, against geometry that is known.
+// Errors of a level as eyes see it, compared with known geometry.
 #include "assets_baked/bake/block_relief.h"
 #include "assets_baked/bake/level.h"
 #include "tests/bake/shapes.h"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double radius = 0.5;
 
-/// A pack of one level: the mesh.
+/// A pack with one level, the mesh.
 Pack pack_of(const SourceMesh& mesh) {
     Pack pack;
     pack.box_size = glm::dvec3(1.0);
@@ -36,7 +36,7 @@ struct Slab {
     glm::dvec3 low, high;
 };
 
-/// How far the ray goes to the nearest of the boxes; infinite: it meets none.
+/// Distance along the ray to the nearest box; infinite if it hits none.
 double distance_to(const std::vector<Slab>& boxes, const glm::dvec3& eye, const glm::dvec3& direction) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Slab& box : boxes) {
@@ -75,8 +75,9 @@ double exact_mean(const std::vector<Slab>& source, const std::vector<Slab>& leve
 
 } // namespace
 
-// A plate before a wall, both in the level smaller by a fortieth of what lies between two of the bake's rays: a handful of an eye's rays
-// meet the wall beside it. What each eye sees is still known, within what a grid of rays makes of edges that lie askew in it.
+// A plate before a wall. Both are smaller in the level by a fortieth of the distance between two of the bake's rays, so
+// that only a handful of an eye's rays hit the wall beside the plate. The error for each eye is still estimated, as
+// exactly as a grid of rays resolves oblique edges.
 TEST(SeenError, WhatEdgesHideIsNotLeftToChance) {
     constexpr double less = 3e-4;
     const Slab wall{{-0.5, 0.2, 0.0}, {0.5, 0.25, 1.0}};
@@ -94,7 +95,7 @@ TEST(SeenError, WhatEdgesHideIsNotLeftToChance) {
     int compared = 0;
     for (std::size_t k = 0; k < seen.eyes.size(); ++k) {
         if (seen.eyes[k].towards.y > -0.7) {
-            continue; // the plate is not before the wall
+            continue; // the plate does not hide the wall
         }
         const double exact = exact_mean({wall, plate}, {smaller(wall), smaller(plate)}, seen.eyes[k].towards);
         EXPECT_NEAR(static_cast<double>(seen.levels[0][k].mean_box), exact, 0.35 * exact) << k;
@@ -103,8 +104,8 @@ TEST(SeenError, WhatEdgesHideIsNotLeftToChance) {
     EXPECT_GE(compared, 5);
 }
 
-// A sphere that is smaller by d all around is off by d along the normal: by d / cos along the ray, of which the mean over a disc
-// of rays is 2 d (all but the rim, where the smaller one is missed).
+// A sphere that is smaller by d deviates by d along the normal, and by d / cos along a ray. The mean over a disc of
+// rays is 2 d, except for the rim, where rays miss the smaller sphere.
 TEST(SeenError, AlongTheRaysIsTwiceTheDistanceOfConvexSurfaces) {
     constexpr double smaller = 2e-3;
     const SourceMesh source_mesh = sphere(192);
@@ -114,17 +115,17 @@ TEST(SeenError, AlongTheRaysIsTwiceTheDistanceOfConvexSurfaces) {
     ASSERT_EQ(seen.levels[0].size(), seen.eyes.size());
     const SeenError mean = mean_of(seen.levels[0]);
     EXPECT_NEAR(static_cast<double>(mean.mean_box), 2.0 * smaller, 0.15 * smaller);
-    // A ray at the share s of the radius is off by d / sqrt(1 - s^2); 95 % of the disc have s^2 < 0.95.
+    // A ray at the share s of the radius deviates by d / sqrt(1 - s^2); s^2 < 0.95 holds for 95 % of the disc.
     EXPECT_NEAR(static_cast<double>(mean.p95_box), smaller / std::sqrt(0.05), 0.35 * smaller);
-    // The rim is a ring of that width, a share 2 d / r of the disc.
+    // The rim is a ring of width d, a share 2 d / r of the disc.
     EXPECT_NEAR(static_cast<double>(mean.silhouette_share), 2.0 * smaller / radius, 0.2 * smaller / radius);
     EXPECT_GT(static_cast<double>(mean.outline_shift_box),
-              0.6 * smaller); // steps of a grid's outline are longer than a circle
+              0.6 * smaller); // a grid's stepped outline is longer than a circle
     EXPECT_LT(static_cast<double>(mean.outline_shift_box), 1.2 * smaller);
     for (std::size_t k = 0; k < seen.eyes.size(); ++k) {
         EXPECT_NEAR(static_cast<double>(seen.levels[0][k].mean_box), 2.0 * smaller, 0.3 * smaller);
-        // Along one axis sqrt(1 + slope^2) = sqrt((1 - y^2) / (1 - x^2 - y^2)), pi / 2 in the mean over a disc; the rays of a grid
-        // leave out the steepest rim.
+        // Along one axis sqrt(1 + slope^2) = sqrt((1 - y^2) / (1 - x^2 - y^2)), with the mean pi / 2 over a disc; a
+        // grid's rays miss the steepest rim.
         EXPECT_LT(static_cast<double>(seen.eyes[k].steepness), 0.5 * std::numbers::pi);
         EXPECT_GT(static_cast<double>(seen.eyes[k].steepness), 1.35);
         double shares = 0.0;
@@ -134,13 +135,14 @@ TEST(SeenError, AlongTheRaysIsTwiceTheDistanceOfConvexSurfaces) {
             middle += patch.share * patch.place;
         }
         EXPECT_NEAR(shares, 1.0, 1e-6);
-        // The middle of a hemisphere over a disc lies 2/3 of the radius towards the eye, which is not at infinity.
+        // The centroid of a hemisphere over a disc is at 2/3 of the radius towards the eye, which is not at infinity.
         EXPECT_LT(glm::distance(middle, glm::dvec3(0, 0, radius) + 2.0 / 3.0 * radius * seen.eyes[k].towards),
                   0.05);
     }
 }
 
-// As above. A frustum's directions do not see the ball from below, so that an eye that looks from the side misses what is farthest off.
+// As for a level. A frustum's directions do not see the sphere from below, so an eye at the side misses the largest
+// errors.
 TEST(SeenError, OfAReliefIsAlongTheRaysToo) {
     constexpr double smaller = 4e-3;
     constexpr int rows = 96;

@@ -1,4 +1,4 @@
-// The picture for the table: its frame, its outline and its colours, against shapes whose silhouette is known.
+// The picture for the table: its frame, outline and colours, compared with shapes of known silhouette.
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/table_picture.h"
 #include "tests/bake/shapes.h"
@@ -56,7 +56,7 @@ TEST(TablePicture, has_no_dark_fringe) {
     const Image8& picture = of_red_sphere();
     const glm::u8vec4 middle = picture.at(picture.width / 2, picture.height / 2);
     int edge = 0;
-    for (const glm::u8vec4& texel : picture.texels) { // empty ones too: a filter mixes them in
+    for (const glm::u8vec4& texel : picture.texels) { // also the empty ones, because filters mix them in
         edge += texel.a > 0 && texel.a < 255 ? 1 : 0;
         ASSERT_LE(std::abs(texel.r - middle.r), 2);
         ASSERT_LE(std::abs(texel.g - middle.g), 2);

@@ -19,7 +19,7 @@ TEST(Visibility, TheBottomAndWhatIsInsideAreDropped) {
     test::add_box(mesh, {-0.5, -0.5, 0.0}, {0.5, 0.5, 1.0});
     test::add_sphere(mesh, {0, 0, 0.5}, 0.3, 12);
     const TriangleMesh seen = seen_of(mesh);
-    // Growing by shared vertices may keep the bottom's two triangles, never the sphere's.
+    // Growing over shared vertices may keep the bottom's two triangles, never the sphere's.
     EXPECT_LE(seen.triangle_count(), 12U);
     EXPECT_GE(seen.triangle_count(), 10U);
 }
@@ -37,7 +37,7 @@ TEST(Visibility, TheInsideOfACupIsSeenThroughItsMouth) {
     test::add_box(mesh, {-0.5, -0.5, 0.0}, {0.5, 0.5, 0.5});
     mesh.triangles.erase(mesh.triangles.begin() + 8, mesh.triangles.begin() + 10); // the top
     mesh.triangle_materials.resize(mesh.triangles.size());
-    // Four walls outside, four walls and the floor inside; the floor's underside may come by growing.
+    // Four walls outside, four walls and the floor inside; growing may add the floor's underside.
     EXPECT_GE(seen_of(mesh).triangle_count(), 18U);
     EXPECT_LE(seen_of(mesh).triangle_count(), 20U);
 }

@@ -1,4 +1,4 @@
-// Which objects a folder holds, which share of them a machine takes, and by what they are known again.
+// The objects in a folder, a machine's share of them, and the hash of an object's content.
 #include "app/programs/batch/collection.h"
 #include "app/programs/batch/content_hash.h"
 #include "tests/programs/program_folder.h"

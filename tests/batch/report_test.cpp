@@ -1,4 +1,4 @@
-// The report as programs and browsers read it: Python's csv and html.parser look at names that need every escape.
+// The report as programs and browsers read it: Python's csv and html.parser read names that need every escape.
 #include "app/programs/batch/batch_report.h"
 #include "tests/programs/program_folder.h"
 
@@ -7,7 +7,7 @@ namespace {
 
 class Report : public ProgramFolder {
 protected:
-    /// What the Python program prints.
+    /// The output of the Python program.
     std::string python(const std::string& program) const {
         EXPECT_TRUE(write_file(folder / "look.py", as_bytes(program)));
         EXPECT_EQ(std::system(fmt::format("cd '{}' && python3 look.py >out.txt", folder.string()).c_str()),

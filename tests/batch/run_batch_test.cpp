@@ -1,4 +1,4 @@
-// Many bakes, each a process of its own: a shell script in place of the program, so that it fails in every way there is.
+// Many bakes, each in a process of its own: a shell script stands for the program and fails in every possible way.
 #include "app/programs/batch/run_batch.h"
 #include "tests/programs/program_folder.h"
 
@@ -10,7 +10,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-/// Writes a pack as the program does, and what is wrong with the object named in its input.
+/// Writes a pack like the program; the name of the object in its input chooses the failure.
 constexpr const char* script = R"(
 for word; do case "$word" in --output=*) out=${word#--output=} ;; esac; done
 echo "$1" >>"$COUNT"
@@ -46,7 +46,7 @@ protected:
     std::vector<BatchRow> run_all() const {
         return run_batch(plan, [](const BatchRow&) {});
     }
-    /// How often the script was started.
+    /// Number of starts of the script.
     std::size_t bakes() const {
         const std::string all = text("count");
         return static_cast<std::size_t>(std::count(all.begin(), all.end(), '\n'));

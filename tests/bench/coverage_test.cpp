@@ -61,7 +61,7 @@ std::shared_ptr<SourceMesh> things() {
     return mesh;
 }
 
-void expect_covered(const std::shared_ptr<const SourceMesh>& mesh, double most_median) {
+void expect_covered(const std::shared_ptr<const SourceMesh>& mesh, double max_median) {
     BakeOptions options;
     options.size = 64;
     options.unlit = true;
@@ -78,8 +78,8 @@ void expect_covered(const std::shared_ptr<const SourceMesh>& mesh, double most_m
     double covered = 0.0;
     for (const NamedCoverage& row : rows) {
         EXPECT_EQ(row.coverage.poses, 4U) << row.level;
-        EXPECT_GT(row.coverage.ratio.median, least_of_estimate) << row.level;
-        EXPECT_LT(row.coverage.ratio.median, most_median) << row.level;
+        EXPECT_GT(row.coverage.ratio.median, min_of_estimate) << row.level;
+        EXPECT_LT(row.coverage.ratio.median, max_median) << row.level;
         poses += static_cast<double>(row.coverage.poses);
         covered += static_cast<double>(row.coverage.covered);
     }
@@ -89,7 +89,7 @@ void expect_covered(const std::shared_ptr<const SourceMesh>& mesh, double most_m
 }
 
 TEST(Coverage, HoldsForARing) {
-    expect_covered(ring(), most_of_estimate);
+    expect_covered(ring(), max_of_estimate);
 }
 
 /// Boxes have errors only at their edges: for the two finest levels the estimate is 1.6 and 1.7 times too

@@ -138,17 +138,17 @@ protected:
 
 TEST_F(ProjectedRing, StandsWhereTheVisitorsEyeExpectsIt) {
     const BenchPose pose = pose_at(0.02, 0.01, 0.3);
-    EXPECT_GE(right_percent(pose, pose), least_right_percent);
+    EXPECT_GE(right_percent(pose, pose), min_right_percent);
 }
 
 TEST_F(ProjectedRing, BesideItsPlaceIsCaught) {
     const BenchPose pose = pose_at(0.02, 0.01, 0.3);
     BenchPose shifted = pose;
     shifted.table_from_prop.translation.x += 0.005;
-    EXPECT_LT(right_percent(pose, shifted), least_right_percent);
+    EXPECT_LT(right_percent(pose, shifted), min_right_percent);
     shifted = pose;
     shifted.eye_m.x += 0.2;
-    EXPECT_LT(right_percent(pose, shifted), least_right_percent);
+    EXPECT_LT(right_percent(pose, shifted), min_right_percent);
 }
 
 } // namespace

@@ -81,7 +81,7 @@ struct BruteHit {
 
 /// Moeller & Trumbore 1997 over every triangle, in double.
 std::optional<BruteHit> brute_cast(const SourceMesh& mesh, const glm::dmat4& placed, glm::dvec3 o,
-                                   glm::dvec3 d, double& least_margin) {
+                                   glm::dvec3 d, double& min_margin) {
     std::optional<BruteHit> best;
     for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
         std::array<glm::dvec3, 3> p;
@@ -101,7 +101,7 @@ std::optional<BruteHit> brute_cast(const SourceMesh& mesh, const glm::dmat4& pla
         if (!(t > 0.0)) {
             continue;
         }
-        least_margin = std::fmin(least_margin, std::abs(inside));
+        min_margin = std::fmin(min_margin, std::abs(inside));
         if (inside < 0.0) {
             continue;
         }
@@ -117,7 +117,7 @@ std::optional<BruteHit> brute_cast(const SourceMesh& mesh, const glm::dmat4& pla
             colour *= texture_at(mesh.textures[static_cast<std::size_t>(material.texture)], uv.x, uv.y);
         }
         if (material.alpha_mask) {
-            least_margin = std::fmin(least_margin, std::abs(colour.a - material.alpha_cutoff));
+            min_margin = std::fmin(min_margin, std::abs(colour.a - material.alpha_cutoff));
             if (colour.a < material.alpha_cutoff) {
                 continue;
             }

@@ -1,5 +1,6 @@
-// The way of a technician through a calibration by a camera, with everything ray cast: what the procedure shows lies on the printed board, a camera with
-// noise, latency and rows that are read one after the other looks at it, libapriltag finds the tags, a tracker reports.
+// A technician's way through a calibration by a camera, fully ray cast: the procedure's picture falls on the
+// printed board; a camera with noise, latency and a rolling readout looks at it; libapriltag finds the tags;
+// a tracker reports.
 #include "app/calibration/procedure/auto_procedure.h"
 #include "app/programs/calibrate/calibration_way.h"
 #include "app/programs/calibrate/table_pictures.h"
@@ -55,10 +56,10 @@ AutoPlan plan_of(const SimulatedTable& table, const LiveSetup& setup) {
     return plan;
 }
 
-/// Table, camera, tracker, and a technician who does what the table says.
+/// Table, camera, tracker, and a technician who follows the instructions.
 class Live {
 public:
-    static constexpr std::size_t frames_late = 2; ///< until one is handed on
+    static constexpr std::size_t frames_late = 2; ///< from a frame to its delivery
 
     explicit Live(const LiveSetup& setup)
         : table(table_of(setup)), board(*board_for(prop)), procedure(board, plan_of(table, setup)),
@@ -66,7 +67,7 @@ public:
           scene(table, camera_, board, procedure.plan().stripes, {}, setup.seed), numbers(1000 + setup.seed),
           tick_(setup.tick), typesetter_(*Typesetter::open()) {}
 
-    /// One frame of the camera. `hand`: what else happens, before the procedure sees it.
+    /// Advances by one camera frame. `hand`: changes the input before the procedure sees it.
     void step(const std::function<void(AutoProcedure::Input&)>& hand = {}) {
         now += tick_;
         show();
@@ -96,9 +97,9 @@ public:
     void press_back() {
         step([](AutoProcedure::Input& input) { input.back = true; });
     }
-    /// The technician puts the board where it is wanted, within a hand's breadth, and turns it.
+    /// Puts the board where it is wanted, within a hand's breadth, and turns it.
     void obey(std::set<int> covered = {}) {
-        const RestWish wish = procedure.wish();
+        const RestRequest wish = procedure.wish();
         const bool leans = wish.posture == Posture::Leaning;
         const double lean = leans ? numbers.between(0.26, 0.5) : 0.0;
         const double block = wish.posture == Posture::Block ? procedure.plan().block_m : 0.0;
@@ -116,7 +117,7 @@ public:
         report_ = simulated_report(table, table_from_prop, {}, numbers);
         moved_ = now;
     }
-    /// Until the stage is another one, or for so long.
+    /// Advances until the stage changes, or for `seconds`.
     void go_on(double seconds = 60.0, const std::function<void(AutoProcedure::Input&)>& hand = {}) {
         const CalibrationStage stage = procedure.stage();
         for (const MonotonicTime end = now + std::chrono::milliseconds(std::llround(1e3 * seconds));
@@ -124,21 +125,21 @@ public:
             step(hand);
         }
     }
-    /// To the first place.
+    /// Goes on to the first place.
     void begin() {
         step();
         press_next();
         go_on();
         ASSERT_EQ(procedure.stage(), CalibrationStage::Place);
     }
-    /// All rests, each where it is wanted.
+    /// Takes all rests, each where it is wanted.
     void take_all() {
         for (int round = 0;
              procedure.stage() == CalibrationStage::Place && round < 3 * procedure.plan().rests; ++round) {
             obey();
-            go_on(6.0); // to the stripes
-            go_on();    // and back
-            if (procedure.word() != AutoWord::Taken) {
+            go_on(6.0); // until the stripes
+            go_on();    // until they end
+            if (procedure.word() != AutoPrompt::Taken) {
                 std::printf("rest %d: %s\n", static_cast<int>(procedure.taken()) + 1,
                             table_words(procedure).lines.back().c_str());
             }
@@ -165,7 +166,8 @@ public:
     MonotonicTime now{std::chrono::seconds(1)};
 
 private:
-    /// Such a frame may show another picture than the one that is lit. The procedure must not use it: it comes dark.
+    /// True if a frame may show an earlier picture than the lit one. The procedure must not use the frame, so
+    /// it is delivered dark.
     [[nodiscard]] bool is_too_early(MonotonicTime begin) const {
         return procedure.stage() == CalibrationStage::Capture && begin < lit_->since + *procedure.delay();
     }
@@ -204,7 +206,7 @@ private:
     double yaw_ = 0.0;
 };
 
-/// The picture's error after the whole way.
+/// The picture's error after the whole procedure.
 RegistrationError whole_way(const LiveSetup& setup) {
     Live live(setup);
     live.begin();
@@ -263,16 +265,16 @@ TEST(AutoProcedure, DoesAgainWhatWasDisturbed) {
     live.go_on(1.0,
                [](AutoProcedure::Input& input) { input.prop->translation.y += 0.004; }); // the prop is pushed
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
-    EXPECT_EQ(live.procedure.word(), AutoWord::Moved);
+    EXPECT_EQ(live.procedure.word(), AutoPrompt::Moved);
     live.go_on(6.0);
-    ASSERT_EQ(live.procedure.stage(), CalibrationStage::Capture); // by itself, as soon as it rests
+    ASSERT_EQ(live.procedure.stage(), CalibrationStage::Capture); // without a press, once it rests
 
     live.go_on(2.0);
     live.go_on(1.0, [](AutoProcedure::Input& input) { // the camera's cable is pulled
         input.camera = CameraState::NotConnected;
         input.frame = nullptr;
     });
-    EXPECT_EQ(live.procedure.word(), AutoWord::CameraFault);
+    EXPECT_EQ(live.procedure.word(), AutoPrompt::CameraFault);
     EXPECT_EQ(table_words(live.procedure).lines.back(),
               "No camera is connected; check its USB cable, and its name in the settings.");
     live.go_on(6.0);
@@ -283,11 +285,11 @@ TEST(AutoProcedure, DoesAgainWhatWasDisturbed) {
     live.go_on(1.0);
     live.scene.shade(live.now, {});
     live.go_on();
-    EXPECT_EQ(live.procedure.word(), AutoWord::Disturbed);
+    EXPECT_EQ(live.procedure.word(), AutoPrompt::Disturbed);
     EXPECT_EQ(live.procedure.taken(), 0U);
     live.go_on(6.0);
     live.go_on();
-    EXPECT_EQ(live.procedure.word(), AutoWord::Taken);
+    EXPECT_EQ(live.procedure.word(), AutoPrompt::Taken);
     EXPECT_EQ(live.procedure.taken(), 1U);
 }
 
@@ -305,7 +307,7 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
     live.go_on(6.0);
     live.go_on();
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
-    EXPECT_EQ(live.procedure.word(), AutoWord::FewTags);
+    EXPECT_EQ(live.procedure.word(), AutoPrompt::FewTags);
     const int hidden = live.board.tags[1].id;
     live.obey({hidden});
     live.go_on(6.0);
@@ -317,7 +319,7 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
         }
     }
 
-    // What the buttons do after a verdict.
+    // The buttons' effects after a verdict.
     const auto judge = [&](Verdict verdict, std::vector<std::size_t> repeat) {
         ASSERT_EQ(live.procedure.stage(), CalibrationStage::Solve);
         AutoCalibration judged;
@@ -331,17 +333,17 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(live.procedure.wanted(), 5U);
     live.press_next();
-    EXPECT_EQ(live.procedure.word(), AutoWord::TooFew);
+    EXPECT_EQ(live.procedure.word(), AutoPrompt::TooFew);
     EXPECT_EQ(table_words(live.procedure).lines.back(), "5 rests are needed at least.")
         << "no more than are wanted";
     live.press_back();
-    EXPECT_EQ(live.procedure.word(), AutoWord::Dropped);
+    EXPECT_EQ(live.procedure.word(), AutoPrompt::Dropped);
     EXPECT_EQ(live.procedure.taken(), 0U);
     live.press_back();
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Begin);
 }
 
-/// Without pictures, tracker and tags: how it begins.
+/// The beginning of a procedure, without pictures, tracker and tags.
 struct Beginning {
     explicit Beginning(bool crosses_follow) : procedure(*board_for(prop), plan(crosses_follow)) {}
     static AutoPlan plan(bool crosses_follow) {
@@ -358,7 +360,7 @@ struct Beginning {
             procedure.step(input);
         }
     }
-    /// The camera sends one picture again and again, whatever is shown.
+    /// The camera keeps sending one picture, whatever is shown.
     void see(CameraFrame frame, double seconds) {
         for (const MonotonicTime end = input.now + std::chrono::milliseconds(std::llround(1e3 * seconds));
              input.now < end;) {
@@ -403,17 +405,17 @@ TEST(AutoProcedure, GoesOnToTheCrossesWhereTheyFollow) {
 TEST(AutoProcedure, TellsOfACameraThatSeesNothingAndGoesOn) {
     for (const CameraState fault : {CameraState::NotConnected, CameraState::Dark, CameraState::InUse}) {
         Beginning table(true);
-        table.wait(1.5, fault); // cameras take as long to be set up
-        EXPECT_EQ(table.procedure.word(), AutoWord::None);
+        table.wait(1.5, fault); // cameras take as long to start
+        EXPECT_EQ(table.procedure.word(), AutoPrompt::None);
         table.wait(1.0, fault);
-        EXPECT_EQ(table.procedure.word(), AutoWord::CameraFault);
+        EXPECT_EQ(table.procedure.word(), AutoPrompt::CameraFault);
         EXPECT_EQ(table_words(table.procedure).key, "calibration.no_camera");
         std::string sentence(sentence_of(fault));
         sentence.erase(0, 1); // begins with a capital letter
         EXPECT_NE(table_words(table.procedure).lines[1].find(sentence), std::string::npos);
         table.press(next);
         EXPECT_EQ(table.procedure.stage(), CalibrationStage::Begin);
-        table.wait(0.1, CameraState::Running); // somebody mended it
+        table.wait(0.1, CameraState::Running); // the fault is repaired
         EXPECT_EQ(table_words(table.procedure).key, "calibration.by_camera");
         table.wait(2.5, fault);
         table.press(back);
@@ -444,11 +446,11 @@ TEST(AutoProcedure, GoesOnFromACameraThatDoesNotSeeTheLight) {
         well.wait(0.1, CameraState::Running);
         well.press(next);
         well.wait(0.5, CameraState::Dark); // while dark is shown
-        EXPECT_EQ(well.procedure.word(), AutoWord::None);
+        EXPECT_EQ(well.procedure.word(), AutoPrompt::None);
         well.press(back);
         EXPECT_EQ(well.procedure.stage(), CalibrationStage::Begin);
-        well.wait(1.0, CameraState::Dark); // it has yet to see the words' light
-        EXPECT_EQ(well.procedure.word(), AutoWord::None);
+        well.wait(1.0, CameraState::Dark); // it cannot see the words' light yet
+        EXPECT_EQ(well.procedure.word(), AutoPrompt::None);
     }
 }
 
@@ -460,12 +462,12 @@ TEST(AutoProcedure, GoesOnFromACameraThatLooksElsewhere) {
         const CameraFrame same{{}, 0, 8, 8, std::vector<std::uint8_t>(64, 90)};
         elsewhere.see(same, 30.0);
         ASSERT_EQ(elsewhere.procedure.stage(), CalibrationStage::Delay);
-        EXPECT_EQ(elsewhere.procedure.word(), AutoWord::NoLight);
+        EXPECT_EQ(elsewhere.procedure.word(), AutoPrompt::NoLight);
         EXPECT_EQ(table_words(elsewhere.procedure).key, "calibration.no_light");
-        elsewhere.press(next); // it is measured anew
-        EXPECT_EQ(elsewhere.procedure.word(), AutoWord::None);
+        elsewhere.press(next); // it measures again
+        EXPECT_EQ(elsewhere.procedure.word(), AutoPrompt::None);
         elsewhere.see(same, 30.0);
-        EXPECT_EQ(elsewhere.procedure.word(), AutoWord::NoLight);
+        EXPECT_EQ(elsewhere.procedure.word(), AutoPrompt::NoLight);
         elsewhere.press(back);
         EXPECT_EQ(elsewhere.procedure.stage(), follow ? CalibrationStage::GoesOn : CalibrationStage::Begin);
     }
@@ -473,10 +475,10 @@ TEST(AutoProcedure, GoesOnFromACameraThatLooksElsewhere) {
 
 TEST(AutoProcedure, EverythingThatIsSaidHasItsWord) {
     std::set<std::string> said;
-    for (int word = 0; word <= static_cast<int>(AutoWord::TooFew); ++word) {
+    for (int word = 0; word <= static_cast<int>(AutoPrompt::TooFew); ++word) {
         for (const Posture wished : {Posture::Flat, Posture::Block, Posture::Leaning}) {
             for (const bool may_go_on : {false, true}) {
-                said.insert(std::string(key_of(static_cast<AutoWord>(word), wished, may_go_on)));
+                said.insert(std::string(key_of(static_cast<AutoPrompt>(word), wished, may_go_on)));
             }
         }
     }

@@ -1,6 +1,6 @@
-"""frustumscreen-calibrate auto against arithmetic of its own and against SciPy's solver, on the same rests.
+"""Tests frustumscreen-calibrate auto against independent arithmetic and against SciPy's solver, on equal rests.
 
-SciPy solves for the error of every report of the tracker too, each with its own six unknowns, where the program has them in its covariances.
+SciPy also solves for the error of every tracker report, with six unknowns each; the program marginalises these errors in its covariances.
 
     auto_program.py BIN        BIN: the folder with the programs
 """
@@ -86,7 +86,7 @@ def calibrated(programs, rests, status=0):
 
 
 def by_scipy(rests, truth, pixel_noise):
-    """Projector, table, sensor and every rest's pose error at once, begun beside the truth."""
+    """Solves for projector, table, sensor and every rest's pose error at once, starting near the truth."""
     frame = truth.k_from_table.as_matrix()  # so that the table's normal is near z
     near_turn = truth.sensor_from_prop
 
@@ -184,7 +184,7 @@ def test_command_line(programs):
 
 
 def test_map(programs):
-    """A picture of the size that the page has, also beside JSON; none of rests that say nothing, whose reason is told."""
+    """--map draws a picture of the size that the page gives, also with JSON; none for refused rests, whose reason is printed."""
     picture = ("--picture", str(WIDTH), str(HEIGHT))
     text = HEADER + "".join(rest.rows() for rest in rests_of(Truth(), 1.0))
     with tempfile.TemporaryDirectory() as folder:

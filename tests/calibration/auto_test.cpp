@@ -1,4 +1,5 @@
-// What the automatic calibration is worth, from rests of points whose truth is known: exact without noise, within the limits with it.
+// Accuracy of the automatic calibration, from rests of points with known truth: exact without noise, within
+// the limits with noise.
 #include "app/calibration/calibrate_auto.h"
 #include "tests/calibration/wide_priors.h"
 #include "tests/simulators/table/simulated_rests.h"
@@ -27,7 +28,7 @@ TEST(Auto, WithoutNoiseTheTruthIsFound) {
         const SimulatedTable table = some_table(seed);
         SeededNumbers numbers(seed);
         AutoSetup setup = setup_for(table);
-        setup.priors = wide_priors(); // priors are not the truth
+        setup.priors = wide_priors(); // the priors' means are not the truth
         const AutoCalibration got =
             calibrate_auto(simulated_rests(table, sheet_with_prop(), {}, no_noise, numbers), setup);
         ASSERT_TRUE(got.found.table) << seed << ": " << got.found.reason;
@@ -45,8 +46,8 @@ struct Figures {
     double worst_p90_mm = 0.0;
     double prop_mean_mm = 0.0;
     double prop_worst_p90_mm = 0.0;
-    double judged = 0.0;      ///< share that is good or usable
-    double uncertainty = 0.0; ///< error over what the calibration expects of it, root mean square
+    double judged = 0.0;      ///< share of good or usable ones
+    double uncertainty = 0.0; ///< error over its expected value, root mean square
 };
 
 double ninth_tenth(std::vector<double> values) {
@@ -54,7 +55,7 @@ double ninth_tenth(std::vector<double> values) {
     return values[values.size() * 9 / 10];
 }
 
-/// `print`: how many times as large as it should be the sheet was printed.
+/// `print`: the printed sheet's size over its nominal size.
 Figures figures_of(const RestPlan& plan, const TagCorners& corners, const RestNoise& noise,
                    std::uint64_t seeds, double print = 1.0) {
     std::vector<double> worst;
@@ -67,7 +68,7 @@ Figures figures_of(const RestPlan& plan, const TagCorners& corners, const RestNo
         Rests rests = simulated_rests(table, corners, plan, noise, numbers);
         for (Rest& rest : rests) {
             for (PropPoint& point : rest.points) {
-                point.prop_m /= glm::dvec3(print, print, 1.0); // so large it should have been
+                point.prop_m /= glm::dvec3(print, print, 1.0); // its nominal size
             }
         }
         const AutoCalibration got = calibrate_auto(rests, setup_for(table));
@@ -102,15 +103,15 @@ Figures figures_of(const RestPlan& plan, const TagCorners& corners, const RestNo
     return figures;
 }
 
-// Noise of 0.3 mm and 0.15 degrees a rest; what is wanted stands in docs/calibration.md.
+// Noise of 0.3 mm and 0.15 degrees a rest; docs/calibration.md has the required limits.
 TEST(Auto, SixteenRestsLeaveAFifthOfAMillimetre) {
     const Figures figures = figures_of({16, 4}, sheet_with_prop(), usual_noise, 20);
     EXPECT_LE(figures.mean_mm, 0.3);
     EXPECT_LE(figures.worst_p90_mm,
-              0.95); // the second worst of twenty; .8 of a hundred is wanted, in the long test
+              0.95); // the second worst of twenty; the long test requires 0.8 of a hundred
     EXPECT_LE(figures.prop_mean_mm, 0.3);
     EXPECT_GE(figures.judged, 0.95);
-    // A mean distance over the zone against a root mean square: somewhat below 1.
+    // A mean distance over a root mean square is somewhat below 1.
     EXPECT_GT(figures.uncertainty, 0.6);
     EXPECT_LT(figures.uncertainty, 1.2);
 }
@@ -131,11 +132,11 @@ TEST(Auto, DISABLED_OverAHundredTables) {
     }
 }
 
-/// A fault, and what is to come of it: a reason for refusal, or a verdict that holds.
+/// A fault and the expected result: a reason for refusal, or a verdict that holds.
 struct Fault {
     const char* name;
     std::function<void(Rests&, const SimulatedTable&, SeededNumbers&)> make;
-    const char* refused_for; ///< a word of the reason; none: any verdict that holds
+    const char* refused_for; ///< words of the reason; null: any verdict that holds
 };
 
 template <typename Change> void each_point(Rests& rests, Change change) {

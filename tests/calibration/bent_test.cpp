@@ -1,4 +1,4 @@
-// Metal near the tracker: whatever it bends, no verdict promises what does not hold.
+// Metal near the tracker: no verdict may promise more than holds, however large the distortion.
 #include "tests/calibration/simulated_touches.h"
 #include "tests/simulators/table/bent_field.h"
 
@@ -37,7 +37,7 @@ TEST(BentField, NoVerdictPromisesWhatDoesNotHold) {
                 ++judged;
                 const auto reported = [&](const RigidTransform& pose) { return bent.metal.reported(pose); };
                 EXPECT_LE(registration_error(bent.table, *found.table, 0.12, reported).worst_m,
-                          found.verdict == Verdict::Good ? 5e-3 : 8e-3) // as faults_test.cpp has it
+                          found.verdict == Verdict::Good ? 5e-3 : 8e-3) // limits as in faults_test.cpp
                     << "bent by " << bend_m << ", seed " << seed;
             }
         }

@@ -1,4 +1,4 @@
-// The board of the automatic calibration, and the sheet that is printed of it.
+// The board of the automatic calibration, and its printed sheet.
 #include "app/calibration/board.h"
 #include "app/calibration/procedure/board_view.h"
 #include "app/drawing/board/board_sheet.h"
@@ -15,7 +15,7 @@ namespace {
 constexpr FrustumSize sizes[] = {
     {0.30, 0.08, 0.155}, {0.16, 0.09, 0.12}, {0.20, 0.20, 0.20}, {0.10, 0.05, 0.10}, {0.33, 0.06, 0.2}};
 
-/// The sheet as a printer lays it down: its black rectangles, some pixels a millimetre.
+/// The sheet as printed: its black rectangles, at some pixels per millimetre.
 struct Print {
     static constexpr int per_mm = 4;
     int width = 420 * per_mm;

@@ -1,4 +1,5 @@
-// Boards that are not as high as they are said to be: the tracker measures them, and the calibration is as good as with right ones.
+// Boards whose height differs from the given one: the tracker measures them, and the calibration is as good
+// as with correct heights.
 #include "tests/calibration/simulated_touches.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@ namespace {
 
 constexpr double said_m = 0.12;
 
-/// Touches on boards of `true_m`, of which the file says `said_m`.
+/// Touches on boards of height `true_m` that the file gives as `said_m`.
 Touches on_boards(const SimulatedTable& table, std::vector<Cross> crosses, double true_m,
                   SeededNumbers& numbers) {
     for (Cross& cross : crosses) {

@@ -1,4 +1,4 @@
-"""frustumscreen-calibrate against arithmetic of its own and against SciPy's solver, on the same touches.
+"""Tests frustumscreen-calibrate against independent arithmetic and against SciPy's solver, on equal touches.
 
     calibrate_program.py BIN        BIN: the folder with the programs
 """
@@ -27,7 +27,7 @@ PRIOR = {"aspect": 1e-2, "centre_u": 0.10, "centre_v": 0.40, "k1": 0.2, "k2": 0.
 
 
 class Truth:
-    """A projector 1.4 m above the table with lens shift, a tracker turned any way, a sensor aslant in the prop."""
+    """A projector 1.4 m above the table with lens shift, an arbitrarily rotated tracker, a tilted sensor in the prop."""
 
     def __init__(self):
         self.fx, self.fy, self.cx, self.cy, self.k1, self.k2 = 2800.0, 2803.0, 970.0, 1010.0, -0.04, 0.01
@@ -39,7 +39,7 @@ class Truth:
         self.offset = self.sensor_from_prop.apply([-0.012, 0.007, -SENSOR_HEIGHT])
 
     def lit(self, pixel, height):
-        """Where the light of a pixel is, by Newton's steps in two dimensions."""
+        """The place that a pixel lights, by Newton's method in two dimensions."""
         goal = np.array([(pixel[0] - self.cx) / self.fx, (pixel[1] - self.cy) / self.fy])
         x = goal.copy()
         for _ in range(100):
@@ -85,7 +85,7 @@ def calibrated(programs, rows, *options, status=0):
 
 
 def pixels_by(found, t, rotation):
-    """Pixels that a calibration lights for what the tracker reports."""
+    """The pixels that a calibration lights for the tracker's reports."""
     table_from_k = np.array(found["table_from_tracker"]).reshape(4, 4).T
     p = found["projector"]
     j_from_table = np.linalg.inv(np.array(p["table_from_projector"]).reshape(4, 4).T)
@@ -98,7 +98,7 @@ def pixels_by(found, t, rotation):
 
 
 def model_of(v):
-    """What SciPy moves: focal lengths, centre, lens, pose of J from K, offset, table's normal and offset."""
+    """SciPy's unknowns: focal lengths, centre, lens, pose of J from K, offset, table's normal and offset."""
     normal = np.array([v[15], v[16], 1.0])
     return {"f": np.exp(v[0:2]), "c": v[2:4], "k": v[4:6], "turn": Rotation.from_rotvec(v[6:9]), "shift": v[9:12],
             "offset": v[12:15], "normal": normal / np.linalg.norm(normal), "table": v[17]}
@@ -113,7 +113,7 @@ def seen(m, point, frame):
 
 
 def by_scipy(rows, truth):
-    """The same least squares, by SciPy with numerical derivatives, begun beside the truth."""
+    """The same least-squares problem by SciPy with numerical derivatives, starting near the truth."""
     rotation = Rotation.from_quat(rows[:, [4, 5, 6, 3]])
     t = rows[:, :3]
     frame = truth.k_from_table.as_matrix()  # so that the normal is near z
@@ -136,7 +136,7 @@ def by_scipy(rows, truth):
     def residuals(v, white):
         m = model_of(v)
         arm = rotation.apply(m["offset"])
-        off = seen(m, t + arm, frame) - goal * [1, 1, 1 + v[18]]  # the boards are higher than they are said to be
+        off = seen(m, t + arm, frame) - goal * [1, 1, 1 + v[18]]  # the boards' true height differs from the given one
         up = frame @ m["normal"]
         return np.concatenate([np.concatenate([w @ r for w, r in zip(white, off)]),
                                [(v[0] - v[1]) / PRIOR["aspect"],
@@ -164,7 +164,7 @@ def test_exact(programs):
     assert found["verdict"] == "good", found
     assert found["repeat"] == []
     off = pixels_by(found, rows[:, :3], Rotation.from_quat(rows[:, [4, 5, 6, 3]])) - rows[:, 7:9]
-    assert np.abs(off).max() < 0.05, off  # the priors pull a little
+    assert np.abs(off).max() < 0.05, off  # the priors add a small bias
     assert abs(found["projector"]["fx"] / truth.fx - 1) < 2e-3
     middle = np.array(found["projector"]["table_from_projector"]).reshape(4, 4).T
     assert abs(middle[2, 3] - truth.lens[2]) < 3e-3
@@ -218,7 +218,7 @@ def test_command_line(programs):
 
 
 def test_corners(programs):
-    """By a ruler that seems exact: the projector, what a millimetre does to its picture, and that as a picture of its own."""
+    """With a ruler that seems exact: the projector, the effect of 1 mm on its picture, and a map of that effect."""
     truth = Truth()
     truth.k1 = truth.k2 = 0.0
     rows = [(distance, name, *truth.lit(pixel, height)) for distance, height in ((1, 0.0), (2, 0.4))
@@ -252,7 +252,7 @@ def test_corners(programs):
 
 
 def test_corners_are_kept(programs):
-    """In the settings' frame: wherever the ruler's origin was, the light of the picture's middle is where the settings have it."""
+    """The kept projector is in the settings' frame: the picture's middle is lit where the settings say, wherever the ruler's origin was."""
     truth = Truth()
     truth.k1 = truth.k2 = 0.0
     rows = [(distance, name, *(truth.lit(pixel, height) + np.array([1.0, -2.0, 0.0])))

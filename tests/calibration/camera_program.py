@@ -1,4 +1,4 @@
-"""frustumscreen-calibrate auto on the table, without a camera that it could find: what it says, and how it ends; and the sheet of its board.
+"""Tests frustumscreen-calibrate auto on the table without a camera: its words and its end; and the printed tag sheet.
 
     camera_program.py BIN        BIN: the folder with the programs
 """
@@ -37,7 +37,7 @@ folder = "kept"
 sensor_height_m = 0.085
 """
 BACK, NEXT = 0, 1
-ALWAYS_BACK = {"presses": ((1.0, BACK),), "repeat_s": 1.5}  # until it ends, however slow the machine is
+ALWAYS_BACK = {"presses": ((1.0, BACK),), "repeat_s": 1.5}  # until it ends, also on a slow machine
 
 
 class Camera(unittest.TestCase):
@@ -73,13 +73,13 @@ class Camera(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assert_said_in_turn(done, "Staff: measure the table with the camera", "Back goes on to measuring it with crosses.",
                                  "Staff: measure the table anew", "Nothing was changed.", "it ended before a calibration was kept")
-        # Next does nothing with a camera that is not there.
+        # Next does nothing if there is no camera.
         done = self.run_program(*table, presses=((5.0, NEXT), (8.0, BACK), (11.0, BACK), (14.0, BACK)))
         self.assertEqual(done.returncode, 1)
         self.assert_said_in_turn(done, "Staff: measure the table with the camera", "The camera cannot be used now No camera is connected",
                                  "press Back to measure the table with crosses.", "Staff: measure the table anew", "Nothing was changed.")
         self.assertNotIn("The camera looks at the light", done.stderr)
-        # Begun at once, it is told there.
+        # If Next comes at once, the fault is reported there.
         done = self.run_program(*table, presses=((0.5, NEXT), (3.5, BACK), (6.5, BACK), (9.5, BACK)))
         self.assert_said_in_turn(done, "The camera looks at the light", "Back goes on to the crosses. No camera is connected",
                                  "Staff: measure the table anew", "Nothing was changed.")

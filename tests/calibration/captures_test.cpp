@@ -1,4 +1,5 @@
-// From a camera's captures to a calibration: ray cast, with noise, blur, gamma, ambient light and a lens that nobody knows.
+// From a camera's captures to a calibration: ray cast, with noise, blur, gamma, ambient light and an unknown
+// lens.
 #include "app/calibration/calibrate_auto.h"
 #include "app/calibration/tag_pixels.h"
 #include "tests/simulators/table/simulated_camera.h"
@@ -13,7 +14,8 @@
 namespace frustumscreen {
 namespace {
 
-/// The projector's pixels that a camera's one covers grow with the projector's resolution; so does the period.
+/// The number of projector pixels under one camera pixel grows with the projector's resolution, and so does
+/// the period.
 StripeSetup stripes_for(const SimulatedTable& table) {
     StripeSetup stripes;
     stripes.width = table.truth.pinhole.width;
@@ -22,10 +24,10 @@ StripeSetup stripes_for(const SimulatedTable& table) {
     return stripes;
 }
 
-/// Errors of what was decoded, in the projector's pixels.
+/// Errors of the decoded pixels, in the projector's pixels.
 struct DecodeErrors {
     std::vector<double> places; ///< of each decoded pixel of the camera
-    double lit = 0.0;           ///< how many the projector lights
+    double lit = 0.0;           ///< number of pixels that the projector lights
     double corner_square = 0.0; ///< sum over the tags' corners
     double corners = 0.0;
 
@@ -33,7 +35,7 @@ struct DecodeErrors {
         std::sort(places.begin(), places.end());
         return places[static_cast<std::size_t>(of * static_cast<double>(places.size() - 1))];
     }
-    /// Root mean square of a coordinate.
+    /// Root mean square error of a corner's coordinate.
     [[nodiscard]] double corner_px() const { return std::sqrt(0.5 * corner_square / corners); }
     void print(const char* what) {
         std::printf(
@@ -43,7 +45,7 @@ struct DecodeErrors {
     }
 };
 
-/// A rest as the camera tells it; what is wrong with that is added to `errors`.
+/// A rest as decoded from the camera's captures; adds its errors to `errors`.
 Rest captured(const SimulatedTable& table, const PlacedRest& placed, const CaptureFaults& faults,
               SeededNumbers& numbers, DecodeErrors& errors) {
     const StripeSetup stripes = stripes_for(table);
@@ -112,7 +114,7 @@ TEST(Captures, DISABLED_UnderEachFault) {
     }
 }
 
-/// The error of the picture after so many rests, captured; the mean over its zone and the worst place.
+/// The picture's error after this number of captured rests: the mean over its zone and the worst place.
 RegistrationError calibrated_error(std::uint64_t seed, int rests, DecodeErrors& errors) {
     const SimulatedTable table = some_table(seed);
     SeededNumbers numbers(5000 + seed);

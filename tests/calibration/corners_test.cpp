@@ -1,4 +1,4 @@
-// By hand with a ruler: exact without error, and what 5 mm cost beside touches.
+// Calibration by hand with a ruler: exact without error; with 5 mm of error, compared with touches.
 #include "app/calibration/corner_uncertainty.h"
 #include "tests/calibration/measured_corners.h"
 #include "tests/calibration/simulated_touches.h"
@@ -45,7 +45,7 @@ TEST(Corners, WhatSaysNothingIsRefused) {
     EXPECT_EQ(calibrate_corners(corners, p.width, p.height).verdict, Verdict::Refused);
 }
 
-// The registration of the tracker is left to the truth here: with a ruler, too, the picture by hand is many times worse.
+// The tracker's registration is the truth here. Even so, the picture by hand is many times worse.
 TEST(Corners, ByHandThePictureIsFiveTimesWorseThanByTouch) {
     ChosenCrosses crosses;
     double by_hand = 0.0;
@@ -78,7 +78,8 @@ TEST(Corners, ByHandThePictureIsFiveTimesWorseThanByTouch) {
     EXPECT_LE(refused, seeds / 10);
 }
 
-/// What is said of the picture is what the ruler does to it, for a lens that does not distort; one that does is worse.
+/// The reported uncertainty is the ruler's effect on the picture, for a lens without distortion; a lens that
+/// distorts is worse.
 TEST(Corners, TheirUncertaintyIsTheErrorThatTheRulerMakes) {
     double said = 0.0;
     double made = 0.0;
@@ -96,7 +97,7 @@ TEST(Corners, TheirUncertaintyIsTheErrorThatTheRulerMakes) {
             const Pinhole& p = table.truth.pinhole;
             const std::vector<MeasuredCorner> corners = measured_corners(table, 0.4, 0.005, numbers);
             const CornerCalibration found = calibrate_corners(corners, p.width, p.height);
-            if (!found.pinhole) { // by chance a corner looks wrong
+            if (!found.pinhole) { // a corner looks wrong by chance
                 ++refused;
                 continue;
             }
@@ -124,7 +125,8 @@ TEST(Corners, TheirUncertaintyIsTheErrorThatTheRulerMakes) {
                 1e3 * std::sqrt(distorted / places), 1e3 * ruler_m / tables);
     EXPECT_NEAR(std::sqrt(made / said), 1.0, 0.2);
     EXPECT_NEAR(ruler_m / tables, 0.005, 0.0005);
-    // One corner in a hundred looks wrong: 16 of 400 sets at most are expected, and once in a thousand times more than 28.
+    // One right corner in a hundred looks wrong. At most 16 of 400 sets are expected; more than 28 have a
+    // probability of 0.001.
     EXPECT_LE(refused, 28);
 }
 
@@ -136,7 +138,7 @@ TEST(Corners, ARulerThatSeemsExactIsHeldForAMillimetre) {
     const std::vector<MeasuredCorner> corners = measured_corners(table, 0.4, 0.0, numbers);
     const CornerUncertainty exact =
         uncertainty_of(calibrate_corners(corners, p.width, p.height), corners, 0.12);
-    EXPECT_EQ(exact.ruler_error_m, least_ruler_error_m);
+    EXPECT_EQ(exact.ruler_error_m, min_ruler_error_m);
     EXPECT_GT(exact.picture.mean_m, 0.2e-3);
     EXPECT_LT(exact.picture.worst_m, 3e-3);
 }

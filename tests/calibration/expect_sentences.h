@@ -1,4 +1,4 @@
-/// What is said on the table has its sentence among the exhibit's own words.
+/// Checks that every key spoken on the table has its sentence among the exhibit's own words.
 #pragma once
 
 #include "tests/folders.h"

@@ -1,4 +1,5 @@
-// What a person sees and hears while the eyes are measured: every sentence has its word, and no words lie on the cross or beside the picture.
+// The pictures and words while the eyes are measured: every key has its sentence, and no words cover the
+// cross or leave the picture.
 #include "app/programs/calibrate/table_pictures.h"
 #include "tests/calibration/expect_sentences.h"
 
@@ -20,7 +21,7 @@ SightScene shipped_scene(int width, int height) {
             {0.0, -0.55, 0.5}};
 }
 
-/// Somebody who does all that is asked; what is seen and said in between is looked at.
+/// A person who follows all instructions; `look` sees every step in between.
 class Person {
 public:
     using Look = std::function<void(const EyeProcedure&)>;
@@ -64,7 +65,7 @@ private:
     Look look_;
 };
 
-/// Of a sighting in the shipped scene: from the cross to the corner.
+/// Direction from the cross to the corner of a sighting in the shipped scene.
 glm::dvec3 line_of(const ReportedSight& sight) {
     const glm::dvec3 cross((sight.pixel.x - 320.0) / 800.0, (200.0 - sight.pixel.y) / 800.0, 0.0);
     return glm::normalize(sight.tip_m - cross);
@@ -85,7 +86,7 @@ TEST(EyePicture, EverythingThatIsSaidHasItsWord) {
     Person doubtful(scene, wished_place(scene), listen);
     doubtful.go_to_solve();
     doubtful.judge(Verdict::Repeat, {3});
-    // What goes wrong.
+    // The errors.
     Person person(scene, {{1.0, 0.0, 0.0, 0.0}, {0.1, -0.05, 0.05}}, listen);
     const auto wait = [&](Nanoseconds time) {
         for (const MonotonicTime end = person.now + time; person.now < end;) {
@@ -128,7 +129,7 @@ bool is_lit(const glm::u8vec4& colour) {
     return std::max({colour.r, colour.g, colour.b}) > 40;
 }
 
-/// Where the test itself expects light beside the words: on the cross's arms, and on the prop's top.
+/// The places where light is expected besides the words: the cross's arms, and the prop's top.
 bool is_of_cross(const EyeProcedure& procedure, const glm::dvec2& pixel, double px_per_m) {
     const glm::dvec2 from = glm::abs(pixel - procedure.cross().pixel);
     const double thick = 0.012 * px_per_m;
@@ -161,7 +162,7 @@ TEST(EyePicture, NothingCrossesTheWordsWhereverThePropStands) {
                     const glm::dvec2 pixel(u + 0.5, v + 0.5);
                     const bool in_box = glm::all(glm::greaterThan(pixel, box.low - 2.0)) &&
                                         glm::all(glm::lessThan(pixel, box.high + 2.0));
-                    // The prop's top, as it is lit from 1.5 m: 15.5 cm nearer.
+                    // The prop's top, lit from 1.5 m: 15.5 cm nearer.
                     const glm::dvec3 on_top((pixel.x - 0.5 * width) / px_per_m * 1.345 / 1.5,
                                             (0.5 * height - pixel.y) / px_per_m * 1.345 / 1.5, 0.155);
                     const glm::dvec3 in_prop = prop.inverse().point(on_top);

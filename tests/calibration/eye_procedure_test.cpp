@@ -1,4 +1,5 @@
-// A person with a sensor on the head at the table, played by the report: from the first word to the eyes, and what goes wrong on the way.
+// A person with a sensor on the head at the table, simulated report by report: from the first word to the
+// eyes, with the errors on the way.
 #include "app/programs/calibrate/table_pictures.h"
 #include "tests/calibration/person_at_table.h"
 
@@ -14,7 +15,7 @@ bool may_be_kept(Verdict verdict) {
     return verdict == Verdict::Good || verdict == Verdict::Usable;
 }
 
-/// Of so many people: how many end with an eye, and how far that is off.
+/// Results of several people: how many end with an eye, and its error.
 struct Outcome {
     int good = 0, kept = 0;
     double off_mm = 0.0; ///< root mean square
@@ -56,7 +57,7 @@ TEST(EyeProcedure, ThePosturesThatAreAskedForTellWhereTheEyesAre) {
 }
 
 TEST(EyeProcedure, APropThatIsTurnedInItsSensorOtherwiseThanKeptIsNoticedAtTenDegrees) {
-    Manner manner; // touches do not tell that turn; below, the dot of light beside the corner tells it
+    Manner manner; // touches leave that rotation open; the dot of light reveals less
     manner.kept_turn_rad = glm::radians(4.0);
     EXPECT_LT(outcome_of("prop turned by 4 degrees", 40, manner).off_mm, 15.0);
     manner.kept_turn_rad = glm::radians(10.0);
@@ -135,11 +136,11 @@ TEST(EyeProcedure, APropThatIsPushedIsTakenAnewAndNothingIsLost) {
     live.world.table_from_prop.rotation = about(0.1, {0, 0, 1}) * live.world.table_from_prop.rotation;
     live.wait(0.2);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Rest);
-    EXPECT_EQ(live.procedure.word(), EyeWord::PropMoved);
+    EXPECT_EQ(live.procedure.word(), EyePrompt::PropMoved);
     EXPECT_NE(table_words(live.procedure).lines.back().find("pushed"), std::string::npos);
     live.wait(1.2);
     ASSERT_EQ(live.procedure.stage(), CalibrationStage::Place);
-    EXPECT_EQ(live.procedure.word(), EyeWord::PropMoved) << "it is still to be read";
+    EXPECT_EQ(live.procedure.word(), EyePrompt::PropMoved) << "it is still to be read";
     EXPECT_EQ(live.procedure.at(), 4U);
     live.aim();
     live.next();
@@ -173,7 +174,7 @@ TEST(EyeProcedure, AWrongAimComesAgainByItself) {
     live.sight();
     live.judge();
     EXPECT_TRUE(may_be_kept(live.procedure.judged()->verdict)) << live.procedure.judged()->reason;
-    live.back(); // the farthest off again
+    live.back(); // repeats the one with the largest residual
     live.wait(0.1);
     const std::vector<double>& off = live.procedure.judged()->residuals_m;
     EXPECT_EQ(static_cast<std::ptrdiff_t>(live.procedure.at()),
@@ -187,9 +188,9 @@ TEST(EyeProcedure, AHeadThatIsAlwaysHeldAlikeIsToldAndRefused) {
     stiff.begin();
     stiff.sight();
     stiff.sight();
-    EXPECT_EQ(stiff.procedure.word(), EyeWord::SameHead);
+    EXPECT_EQ(stiff.procedure.word(), EyePrompt::SameHead);
     EXPECT_EQ(stiff.procedure.at(), 1U) << "it is not taken";
-    alike.turn = 0.13; // just enough from one to the next, and too little to tell anything
+    alike.turn = 0.13; // accepted as different, but too little to determine an eye
     alike.nod = 0.1;
     Live live(6, alike);
     live.begin();
@@ -211,13 +212,13 @@ TEST(EyeProcedure, WhatTheTrackerDoesNotSeeIsSaid) {
     nobody.begin();
     nobody.wait(1.0);
     EXPECT_EQ(nobody.procedure.stage(), CalibrationStage::Rest);
-    EXPECT_EQ(nobody.procedure.word(), EyeWord::PropNotSeen);
+    EXPECT_EQ(nobody.procedure.word(), EyePrompt::PropNotSeen);
     Live live(8);
     live.sees_head = false;
     live.begin();
     live.wait(1.0);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Rest);
-    EXPECT_EQ(live.procedure.word(), EyeWord::HeadNotSeen);
+    EXPECT_EQ(live.procedure.word(), EyePrompt::HeadNotSeen);
     live.sees_head = true;
     live.wait(0.1);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Shut) << "the prop has rested meanwhile";
@@ -228,7 +229,7 @@ TEST(EyeProcedure, WhatTheTrackerDoesNotSeeIsSaid) {
     live.sees_head = false; // its cable came off
     live.wait(2.2);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
-    EXPECT_EQ(live.procedure.word(), EyeWord::HeadNotSeen);
+    EXPECT_EQ(live.procedure.word(), EyePrompt::HeadNotSeen);
     EXPECT_EQ(live.procedure.at(), 1U);
     live.sees_head = true;
     live.sees_prop = false;
@@ -236,7 +237,7 @@ TEST(EyeProcedure, WhatTheTrackerDoesNotSeeIsSaid) {
     live.next();
     live.wait(0.1);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
-    EXPECT_EQ(live.procedure.word(), EyeWord::PropNotSeen);
+    EXPECT_EQ(live.procedure.word(), EyePrompt::PropNotSeen);
     live.sees_prop = true;
     live.sight();
     EXPECT_EQ(live.procedure.at(), 2U);
@@ -252,7 +253,7 @@ TEST(EyeProcedure, AHeadThatMovesBeginsItsSecondAnew) {
     live.table_from_sensor.translation.x += 0.02;
     live.wait(0.7);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::HoldStill);
-    EXPECT_EQ(live.procedure.word(), EyeWord::HeadMoved);
+    EXPECT_EQ(live.procedure.word(), EyePrompt::HeadMoved);
     live.back();
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Place);
     live.sight();
@@ -298,14 +299,14 @@ TEST(EyeProcedure, APlaceThatDoesNotDoIsSaid) {
     Live live(12);
     live.world.table_from_prop.translation.z = 0.03;
     live.begin();
-    EXPECT_EQ(live.procedure.word(), EyeWord::OffTable);
+    EXPECT_EQ(live.procedure.word(), EyePrompt::OffTable);
     live.world.table_from_prop.translation = {0.0, 0.3, 0.0}; // nothing lights the table behind it
     live.wait(1.5);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Rest);
-    EXPECT_EQ(live.procedure.word(), EyeWord::NoRoom);
+    EXPECT_EQ(live.procedure.word(), EyePrompt::NoRoom);
     live.world.table_from_prop.translation = {0.1, -0.05, 0.0};
     live.wait(0.1);
-    EXPECT_EQ(live.procedure.word(), EyeWord::PropMoves);
+    EXPECT_EQ(live.procedure.word(), EyePrompt::PropMoves);
     live.wait(1.2);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Shut);
     const EyeProcedure cannot(live.world.scene(), live.world.registration(), "no calibration is kept");

@@ -1,4 +1,4 @@
-"""frustumscreen-calibrate eye against SciPy's solver on the same sightings, what it keeps, and its bad inputs.
+"""Tests frustumscreen-calibrate eye against SciPy's solver on equal sightings, its kept result, and its bad inputs.
 
     eye_program.py BIN SOURCES        BIN: the folder with the programs; SOURCES: the project's
 """
@@ -22,7 +22,7 @@ LEFT, RIGHT = np.array([-0.01, 0.05, -0.07]), np.array([0.05, 0.045, -0.075])
 
 
 class Table:
-    """Projector and tracker as the settings have them."""
+    """The settings' projector and tracker."""
 
     def __init__(self, settings):
         p, t = settings["projector"], settings["tracker"]
@@ -42,7 +42,7 @@ class Table:
 
 
 def sightings(table, random, noise):
-    """Rows as in the file, the eye's name apart."""
+    """The file's rows, without the eye's name."""
     names, rows = [], []
     k_from_table = np.linalg.inv(table.from_k)
     for name, eye in (("left", LEFT), ("right", RIGHT)):
@@ -60,7 +60,7 @@ def sightings(table, random, noise):
 
 
 def by_scipy(table, names, rows):
-    """The whitening stands still at each round's distance, as it should: least squares of the lines' distances."""
+    """Least squares of the lines' distances, with the whitening fixed at each round's distance of the eye."""
     turn = Rotation.from_matrix(table.from_k[:3, :3]) * Rotation.from_quat(rows[:, [4, 5, 6, 3]])
     at = rows[:, :3] @ table.from_k[:3, :3].T + table.from_k[:3, 3]
     tip = rows[:, 9:12]
@@ -139,7 +139,7 @@ def test_wrong(program, table):
 
 
 def kept_form(settings):
-    """The settings' own table, as if it had been measured."""
+    """The settings' own table, in the form of a measured one."""
     p, t = settings["projector"], settings["tracker"]
     keys = ("width", "height", "fx", "fy", "cx", "cy", "k1", "k2", "table_from_projector")
     return ('version = 1\nmade = "today"\nmethod = "auto"\nplaces = 16\n[residual]\nmean_mm = 0.2\nworst_mm = 0.4\nmean_px = 0.1\n'
@@ -149,7 +149,7 @@ def kept_form(settings):
 
 
 def test_kept(program, table):
-    """The exhibit's settings have the eye afterwards, and all else as before; --undo takes it back."""
+    """After --keep the exhibit's settings have the eye, and nothing else changes; --undo reverts it."""
     before = program.settings()
     folder = program.config.parent / "calibration"
     folder.mkdir()

@@ -1,9 +1,9 @@
-"""frustumscreen-calibrate eye on the table, from its beginning to its end, without a person: a recording of two sensors, in which the head brings the
-prop's corners over the crosses that the program shows, and a script that presses Next.
+"""Tests frustumscreen-calibrate eye on the table from beginning to end, without a person: a recording of two sensors, in which the head brings
+the prop's corners over the shown crosses, and a script that presses Next.
 
     eye_table_program.py BIN        BIN: the folder with the programs
 
-The truth's arithmetic is true_table.py's and this file's own. The recording has no noise: afterwards the eyes are where they were to .2 mm.
+The truth's arithmetic is in true_table.py and in this file. The recording has no noise: the eyes are found within 0.2 mm.
 """
 
 import json
@@ -68,7 +68,7 @@ class Eyes(unittest.TestCase):
         return self.run_program("eye", "--config", self.config, *words)
 
     def record(self, until_s, prop, head):
-        """Both sensors as they are from the recording's end so far until then."""
+        """Records both sensors at rest, from the recording's current end to the given time."""
         done = (len(self.rows) - 1) // 2
         for k in range(done, int(50 * until_s)):
             for station, report in ((1, prop), (2, head)):
@@ -76,13 +76,13 @@ class Eyes(unittest.TestCase):
         (self.folder / "poses.csv").write_text("\n".join(self.rows) + "\n")
 
     def head(self, eye, in_sensor, nod, aside):
-        """What the tracker says of the sensor on a head that looks down at the table, with that eye there."""
+        """The tracker's report of the sensor on a head that looks down at the table, with the given eye at the given place."""
         rotation = times(turn((0, 0, 1), aside), turn((1, 0, 0), nod - 0.45))
         place = plus(eye, apply(rotation, in_sensor), -1.0)
         return (*self.truth.in_tracker(place), *quaternion(times(turn((0, 0, 1), self.truth.yaw), rotation)))
 
     def at_first(self):
-        """The sensor where visitors' eyes are: the crosses that are printed are for such a head."""
+        """The sensor of a head at the visitors' usual place, for which the printed crosses are planned."""
         return self.head(USUAL_EYE, (0.0, 0.0, 0.0), 0.0, 0.0)
 
     def sight(self, cross, in_sensor, posture):

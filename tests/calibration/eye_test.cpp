@@ -1,4 +1,5 @@
-// The eyes in the head's sensor: exact without noise, as uncertain as it is said with it, and no wrong sighting believed.
+// The eyes in the head's sensor: exact without noise, with the reported uncertainty with noise, and no wrong
+// sighting counts.
 #include "tests/calibration/simulated_sights.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double deep_m = 0.08;
 constexpr SightNoise none{0.0, 0.0, 0.0, 0.0, 0.0};
-constexpr int count = 6; // with each eye, as the table asks for
+constexpr int count = 6; // with each eye, as in the procedure
 
 SightNoise times(double factor) {
     const SightNoise usual;
@@ -24,7 +25,7 @@ bool is_believed(const EyeFit& fit) {
     return fit.verdict == Verdict::Good || fit.verdict == Verdict::Usable;
 }
 
-/// What a middle that is off puts on the picture, for eyes where the sightings had them: root mean square.
+/// Picture error of a wrong middle of the eyes, for the eyes' places in the sightings: root mean square.
 double off_on_picture_m(const EyeFit& fit, const SimulatedPerson& person, const EyeSights& sights) {
     double sum = 0.0;
     for (const EyeSight& sight : sights) {
@@ -50,7 +51,7 @@ TEST(Eyes, WithoutNoiseTheTruthIsFound) {
 
 struct Coverage {
     double mahalanobis2 = 0.0; ///< mean; three are expected
-    double beyond = 0.0;       ///< share of the sets beyond what one in a hundred is
+    double beyond = 0.0;       ///< share of the sets beyond the 99 % quantile
     double off_mm = 0.0;       ///< of the middle, root mean square
     double good = 0.0, believed = 0.0, found = 0.0;
 };
@@ -128,7 +129,7 @@ TEST(Eyes, WhatTellsNothingIsRefusedWithTheReason) {
     refused({}, "are needed");
     refused({well.begin(), well.begin() + 9}, "3 with the right");
     EyeSights one = well;
-    for (EyeSight& sight : one) { // one place of the head, one cross, trembling
+    for (EyeSight& sight : one) { // one pose of the head, one cross, with tremor
         sight = one[sight.eye == OpenEye::Left ? 0 : count];
         sight.table_from_sensor.translation += 1e-3 * numbers.normals();
     }
@@ -136,7 +137,7 @@ TEST(Eyes, WhatTellsNothingIsRefusedWithTheReason) {
     EyeSights same = some_sights(person, 2 * count, {}, {}, numbers);
     same.erase(same.begin() + 2 * count, same.end());
     for (std::size_t k = count; k < same.size(); ++k) {
-        same[k].eye = OpenEye::Right; // it was the left one again
+        same[k].eye = OpenEye::Right; // the left eye was open
     }
     refused(same, "mm apart");
     EyeSights near = well;
@@ -144,14 +145,14 @@ TEST(Eyes, WhatTellsNothingIsRefusedWithTheReason) {
     refused(near, "sighting 5");
 }
 
-/// What can go wrong, by number.
+/// Spoils sightings by one kind of error.
 void spoil(EyeSights& sights, const SimulatedPerson& person, int kind, SeededNumbers& numbers) {
     const std::size_t from = sights.size() / 3 + numbers.below(sights.size() / 3);
     const glm::dvec3 way = numbers.between(0.005, 0.05) * glm::normalize(numbers.normals());
     for (std::size_t k = 0; k < sights.size(); ++k) {
         EyeSight& sight = sights[k];
         switch (kind) {
-        case 0: // one at another cross
+        case 0: // one was made at another cross
             sight.cross_m += k == from ? glm::dvec3(way.x, way.y, 0.0) : glm::dvec3(0.0);
             break;
         case 1: // the head moved during two of them
@@ -161,22 +162,22 @@ void spoil(EyeSights& sights, const SimulatedPerson& person, int kind, SeededNum
             sight.table_from_sensor.translation +=
                 k >= from ? sight.table_from_sensor.rotation * way : glm::dvec3(0.0);
             break;
-        case 3: // the prop was pushed, and its pose is that of before
+        case 3: // the prop was pushed after its pose was taken
             sight.tip_m += k >= from ? glm::dvec3(way.x, way.y, 0.0) : glm::dvec3(0.0);
             break;
-        case 4: // one with the other eye
+        case 4: // one was made with the other eye
             sight.table_from_sensor.translation +=
                 k == from ? sight.table_from_sensor.rotation * (person.left_m - person.right_m)
                           : glm::dvec3(0.0);
             break;
-        case 5: // a third are anything
+        case 5: // a third of them are random
             sight.table_from_sensor.translation +=
                 k % 3 == 0 ? numbers.between(1.0, 4.0) * way : glm::dvec3(0.0);
             break;
-        case 6: // all with the same eye
+        case 6: // all claim the same eye
             sight.eye = OpenEye::Left;
             break;
-        case 7: // all crosses off by as much: the calibration is wrong
+        case 7: // all crosses are off equally: the calibration is wrong
             sight.cross_m += glm::dvec3(way.x, way.y, 0.0);
             break;
         default:
@@ -198,7 +199,7 @@ TEST(Eyes, NoneOfTwoHundredSetsWithFaultsIsBelievedWrongly) {
         if (is_believed(fit)) {
             ++believed;
             const double off_m = off_on_picture_m(fit, person, sights);
-            // That the whole calibration is wrong, by more than its noise, the eyes can only half tell.
+            // The eyes reveal a wrong calibration only in part, even beyond its noise.
             const double promised_m = 3.0 * fit.eyes->picture_m + fit.eyes->hidden_m;
             if (off_m > (kind == 7 ? 4e-3 : promised_m)) {
                 ++wrong;

@@ -1,4 +1,4 @@
-// Sets with faults: none gets a verdict that promises what does not hold.
+// Sets with faults: no verdict may promise more than holds.
 #include "tests/calibration/simulated_touches.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 namespace frustumscreen {
 namespace {
 
-/// The farthest that the worst place may lie off: three to four of the standard deviations that a verdict promises there, 1.4 and 2.5 mm
-/// (docs/calibration.md).
+/// Limits of the error at the worst place: three to four times the standard deviations that a verdict
+/// promises there, 1.4 and 2.5 mm (docs/calibration.md).
 constexpr double good_within_m = 5e-3;
 constexpr double usable_within_m = 8e-3;
 
@@ -20,7 +20,7 @@ struct FaultySet {
     const SimulatedTable& table;
     Touches touches;
     SeededNumbers& numbers;
-    std::vector<std::size_t> wrong; ///< single touches that are
+    std::vector<std::size_t> wrong; ///< indices of single wrong touches
 
     std::size_t pick() {
         while (true) {
@@ -31,10 +31,10 @@ struct FaultySet {
             }
         }
     }
-    /// The prop beside the cross.
-    void slip(std::size_t k, double least_m) {
+    /// Moves the prop beside its cross.
+    void slip(std::size_t k, double min_m) {
         const double angle = numbers.between(0.0, 6.283);
-        const double far = least_m * std::exp(numbers.between(0.0, std::log(0.08 / least_m)));
+        const double far = min_m * std::exp(numbers.between(0.0, std::log(0.08 / min_m)));
         touches[k].tracker_from_sensor.translation +=
             glm::conjugate(table.truth.table_from_tracker.rotation) *
             (far * glm::dvec3(std::cos(angle), std::sin(angle), 0.0));
@@ -48,7 +48,7 @@ struct FaultySet {
 
 struct Fault {
     std::string name;
-    bool single; ///< single touches are wrong, and may be named; else the set is
+    bool single; ///< single touches are wrong and may be named; otherwise the whole set is wrong
     std::function<void(FaultySet&)> make;
 };
 
@@ -124,9 +124,9 @@ std::vector<Fault> all_faults() {
 
 struct Count {
     int sets = 0;
-    int wrong = 0; ///< good or usable, and not so
-    int named = 0; ///< repeat with exactly the wrong touches
-    int among = 0; ///< repeat with these and others
+    int wrong = 0; ///< good or usable, but beyond the limit
+    int named = 0; ///< repeat, with exactly the wrong touches
+    int among = 0; ///< repeat, with these and others
     int refused = 0;
 };
 
@@ -172,7 +172,7 @@ void run_faults(std::uint64_t seeds) {
         EXPECT_EQ(count.wrong, 0) << fault.name;
         if (fault.single) {
             EXPECT_GE(count.among + 1 + count.sets / 10, count.sets)
-                << fault.name; // one of a few, a tenth of many
+                << fault.name; // one of few sets, a tenth of many
         }
     }
 }

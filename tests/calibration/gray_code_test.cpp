@@ -1,4 +1,4 @@
-// Striped pictures and what is read from them: exact where nothing spoils it, within tenths of a pixel where a camera does.
+// Striped pictures and their decoding: exact without disturbance, within tenths of a pixel with a camera's.
 #include "app/calibration/gray_code.h"
 #include "tests/simulators/table/simulated_table.h"
 
@@ -10,7 +10,7 @@
 namespace frustumscreen {
 namespace {
 
-/// Captures by a camera that sees each pixel of the projector as one of its own.
+/// Captures by a camera whose pixels coincide with the projector's.
 Captures as_captures(const StripeSetup& setup, const std::vector<std::vector<std::uint8_t>>& pictures) {
     return {setup.width, setup.height, {pictures.begin(), pictures.end()}};
 }
@@ -23,7 +23,7 @@ std::vector<std::vector<std::uint8_t>> shown(const StripeSetup& setup) {
     return pictures;
 }
 
-/// Less light, so that white is not clipped; and what else a function of a grey does.
+/// Applies a function to every grey, for example to dim white so that it is not clipped.
 template <typename Change>
 std::vector<std::vector<std::uint8_t>> changed(std::vector<std::vector<std::uint8_t>> pictures,
                                                Change change) {
@@ -35,7 +35,7 @@ std::vector<std::vector<std::uint8_t>> changed(std::vector<std::vector<std::uint
     return pictures;
 }
 
-/// The largest error over what is known, and how much is.
+/// The largest error of the known pixels, and their share.
 std::pair<double, double> error_and_share(const StripeSetup& setup, const PixelMap& map) {
     double worst = 0.0;
     double known = 0.0;

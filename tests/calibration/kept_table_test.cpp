@@ -1,4 +1,4 @@
-// What the exhibit keeps of a calibrated table: the picture stays where it is, seen from the settings' own frame.
+// The kept form of a calibrated table: the picture stays in place, seen from the settings' own frame.
 #include "app/programs/calibrate/kept_table.h"
 #include "tests/calibration/simulated_touches.h"
 
@@ -9,7 +9,7 @@
 namespace frustumscreen {
 namespace {
 
-/// A projector that the settings describe: its picture's top at the visitor's side, its middle beside the table's.
+/// A described projector: its picture's top at the visitor's side, its middle beside the table's.
 Settings described() {
     Settings settings;
     settings.projector.table_from_projector.rotation = glm::angleAxis(std::numbers::pi, glm::dvec3(0, 0, 1)) *
@@ -19,7 +19,7 @@ Settings described() {
     return settings;
 }
 
-/// The middle's light and u lie where the settings have them, and light and tracker turn together.
+/// The middle's light and u agree with the settings, and light and tracker turn together.
 TEST(KeptTable, LiesInTheFrameOfTheSettings) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         const CalibratedTable table = some_table(seed).truth;
@@ -33,7 +33,7 @@ TEST(KeptTable, LiesInTheFrameOfTheSettings) {
         const glm::dvec2 middle = 0.5 * glm::dvec2(kept.pinhole.width, kept.pinhole.height);
         EXPECT_LT(glm::distance(lit(middle), glm::dvec3(0.05, -0.1, 0.0)), 1e-9) << seed;
         const glm::dvec3 u = lit(middle + glm::dvec2(1, 0)) - lit(middle);
-        EXPECT_LT(u.x, 0.0) << seed; // the settings' projector is turned half round
+        EXPECT_LT(u.x, 0.0) << seed; // the settings' projector is turned by half a turn
         EXPECT_LT(std::abs(u.y), 1e-5 * std::abs(u.x)) << seed;
         const RigidTransform before = table.table_from_projector.inverse() * table.table_from_tracker;
         const RigidTransform after =
@@ -43,7 +43,7 @@ TEST(KeptTable, LiesInTheFrameOfTheSettings) {
     }
 }
 
-/// Sensors that sit askew, and one that hangs upside down; two props of eight lie on a side.
+/// Sensors that are tilted, and one that hangs upside down; two props of eight lie on a side.
 TEST(KeptTable, KnowsWhereThePropIsInItsSensor) {
     SeededNumbers numbers(9);
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
@@ -61,7 +61,7 @@ TEST(KeptTable, KnowsWhereThePropIsInItsSensor) {
             glm::distance(found.rotation * glm::dvec3(0, 0, 1), table.sensor_from_prop * glm::dvec3(0, 0, 1)),
             1e-9)
             << seed;
-        // And so the prop stands upright on the table wherever it was touched.
+        // So the prop stands upright on the table wherever it was touched.
         for (int k = 0; k < 6; ++k) {
             const RigidTransform prop = table.truth.table_from_tracker *
                                         touches[static_cast<std::size_t>(k)].tracker_from_sensor * found;

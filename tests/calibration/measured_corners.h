@@ -9,7 +9,7 @@
 
 namespace frustumscreen {
 
-/// The picture's corners on the table and on a board above it, by the truth's own ray, with a ruler's error.
+/// The picture's corners on the table and on a board above it, by the truth's own rays, with a ruler's error.
 inline std::vector<MeasuredCorner> measured_corners(const SimulatedTable& table, double board_m,
                                                     double ruler_m, SeededNumbers& numbers) {
     const Pinhole& p = table.truth.pinhole;

@@ -1,4 +1,4 @@
-// Mistakes that spoil all touches at once are named, found by undoing them one at a time.
+// Mistakes that affect all touches at once are found by undoing them one at a time, and named.
 #include "tests/calibration/simulated_touches.h"
 
 #include <gtest/gtest.h>

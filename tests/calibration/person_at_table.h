@@ -1,7 +1,8 @@
-/// A person with a sensor on the head at a kiosk of the shipped size, played by the report: the eye is put where the true corner covers the true cross.
+/// A person with a sensor on the head at a kiosk of the shipped size, simulated report by report: the true
+/// eye is put where the true corner covers the true cross.
 ///
-/// The geometry is its own: the procedure's crosses and corners are asked for, and nothing else of it.
-/// Frames   table T as it really is; what is kept of it is half a millimetre beside.
+/// The geometry is independent: only the crosses and corners come from the procedure.
+/// Frames   table T as it really is; the kept calibration is off by half a millimetre.
 #pragma once
 
 #include "app/calibration/procedure/eye_procedure.h"
@@ -19,9 +20,9 @@ inline glm::dquat about(double angle, const glm::dvec3& axis) {
     return glm::angleAxis(angle, axis);
 }
 
-/// A kiosk of the shipped size with its truth, and what a good calibration makes of it.
+/// A kiosk of the shipped size with its truth and a good calibration of it.
 struct World {
-    /// `turned`: by which the prop is turned in its sensor otherwise than it is kept.
+    /// `turned`: error of the kept rotation of the prop in its sensor.
     explicit World(std::uint64_t seed, double turned = 0.0)
         : numbers(seed), person(some_person(seed)), kept_turn_rad(turned) {
         truth.pinhole = {1920, 1200, 3600.0, 3605.0, 962.0, 640.0};
@@ -32,7 +33,7 @@ struct World {
         sensor_from_prop = {numbers.rotation(), 0.04 * numbers.normals()};
         table_from_prop = {about(numbers.between(-0.4, 0.4), {0, 0, 1}), {0.11, -0.04, 0.0}};
     }
-    /// As it is kept: half a millimetre beside the truth, and a lens that is not quite it.
+    /// The scene as kept: off by half a millimetre, with a slightly wrong lens.
     [[nodiscard]] SightScene scene() {
         SightScene scene{truth.pinhole,
                          truth.table_from_projector,
@@ -54,7 +55,7 @@ struct World {
         report.translation += 2e-4 * numbers.normals();
         return report;
     }
-    /// The prop's true corner that is nearest to where the procedure has it.
+    /// The true corner of the prop that is nearest to the procedure's.
     [[nodiscard]] glm::dvec3 corner_near(const glm::dvec3& place) const {
         glm::dvec3 nearest(1e9);
         for (const glm::dvec2 side :
@@ -64,7 +65,7 @@ struct World {
         }
         return nearest;
     }
-    /// Whether a point of the table's space lies in the prop: by its width at that height.
+    /// True if a point in the table's frame lies in the prop, by the prop's width at that height.
     [[nodiscard]] bool is_in_prop(const glm::dvec3& point) const {
         const glm::dvec3 p = table_from_prop.inverse().point(point);
         const double half = 0.5 * (base_m + (top_m - base_m) * p.z / height_m);
@@ -78,12 +79,12 @@ struct World {
     RigidTransform sensor_from_prop, table_from_prop;
 };
 
-/// How well somebody does what is asked.
+/// How well the person follows the instructions.
 struct Manner {
-    double turn = 0.4, nod = 0.3; ///< how far the head is turned, its chin lifted or lowered
+    double turn = 0.4, nod = 0.3; ///< turn of the head, and nod of the chin
     SightNoise noise;
-    double spread = 0.08;       ///< by chance, of each angle
-    double kept_turn_rad = 0.0; ///< of the prop in its sensor, as touches leave it
+    double spread = 0.08;       ///< random part of each angle
+    double kept_turn_rad = 0.0; ///< error of the prop's kept rotation
 };
 
 class Live {
@@ -109,13 +110,13 @@ public:
     }
     void next() { step(true, false); }
     void back() { step(false, true); }
-    /// To the first eye that is to be shut.
+    /// Goes on to the first eye to shut.
     void begin() {
         wait(0.2);
         next();
         wait(1.5);
     }
-    /// The true eye on the line from the true cross through the true corner; the head as it is asked for.
+    /// Puts the true eye on the line from the true cross through the true corner, with the requested posture.
     void aim() {
         const AskedSight& asked = procedure.asked();
         const SightCross& shown = procedure.cross();
@@ -134,7 +135,7 @@ public:
                                                                    : 0.0;
         const auto by_chance = [&] { return manner.spread * world.numbers.between(-1.0, 1.0); };
         const double ahead =
-            std::atan2(way.x, -way.y); // of the eye, from the cross: it looks back along that
+            std::atan2(way.x, -way.y); // direction from the cross to the eye, which looks back along it
         const glm::dquat table_from_head = about(ahead + left * manner.turn + by_chance(), {0, 0, 1}) *
                                            about(up * manner.nod - 0.45 + by_chance(), {1, 0, 0}) *
                                            about(by_chance(), {0, 1, 0});
@@ -148,7 +149,7 @@ public:
     [[nodiscard]] glm::dvec3 eye_of(OpenEye eye) const {
         return eye == OpenEye::Left ? world.person.left_m : world.person.right_m;
     }
-    /// One sighting, as it is asked for.
+    /// Makes one sighting as requested.
     void sight() {
         if (procedure.stage() == CalibrationStage::Shut) {
             open = procedure.asked().eye;
@@ -181,13 +182,13 @@ public:
     EyeProcedure procedure;
     MonotonicTime now = from_microseconds(1'000'000);
     bool sees_prop = true, sees_head = true;
-    OpenEye open = OpenEye::Left; ///< which one really is
+    OpenEye open = OpenEye::Left; ///< the eye that is really open
     glm::dvec3 cross_aside_m{0.0};
     glm::dvec3 eye_m{0.0};
     RigidTransform table_from_sensor{{1.0, 0.0, 0.0, 0.0}, {0.0, -0.6, 0.55}};
 
 private:
-    /// A head sways by a millimetre or two, and the tracker adds its noise.
+    /// The head sways by 1 or 2 mm, and the tracker adds its noise.
     [[nodiscard]] RigidTransform trembling() {
         const double t = to_seconds(now.time_since_epoch());
         RigidTransform head = table_from_sensor;

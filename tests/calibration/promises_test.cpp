@@ -1,5 +1,5 @@
-// What a verdict says of the picture is held against a thousand tables whose truth is known: 95 of 100 places within so many millimetres means 93
-// to 97. And a wrong touch, or a wrong corner, is not believed.
+// Tests verdicts on a thousand tables with known truth: a distance reported for 95 of 100 places must hold
+// for 93 to 97. A wrong touch, or a wrong corner, must be found.
 #include "app/calibration/calibrate_auto.h"
 #include "app/calibration/corner_uncertainty.h"
 #include "app/calibration/touch_up.h"
@@ -19,12 +19,12 @@ namespace {
 
 constexpr double top_m = 0.12;
 
-/// How often what is said holds, over tables.
+/// How often the reported distances hold, over tables.
 struct Kept {
     double tables = 0.0;
-    double usual = 0.0, most = 0.0, worst = 0.0; ///< shares: of the places, of the places, of the tables
-    double most_squares = 0.0;
-    double mean_mm = 0.0, worst_mm = 0.0, farthest_mm = 0.0; ///< the truth
+    double usual = 0.0, most = 0.0, worst = 0.0; ///< shares of the places, of the places, and of the tables
+    double max_squares = 0.0;
+    double mean_mm = 0.0, worst_mm = 0.0, farthest_mm = 0.0; ///< true errors
     double said_most_mm = 0.0, said_worst_mm = 0.0;
     int good = 0, usable = 0, repeat = 0, refused = 0;
 
@@ -42,7 +42,7 @@ struct Kept {
         double worst_of_table = 0.0;
         for (const double off : off_m) {
             within_usual += off <= said.usual_m ? 1.0 : 0.0;
-            within_most += off <= said.most_m ? 1.0 : 0.0;
+            within_most += off <= said.max_m ? 1.0 : 0.0;
             sum += off;
             worst_of_table = std::fmax(worst_of_table, off);
         }
@@ -50,18 +50,18 @@ struct Kept {
         tables += 1.0;
         usual += within_usual / places;
         most += within_most / places;
-        most_squares += within_most * within_most / (places * places);
+        max_squares += within_most * within_most / (places * places);
         worst += worst_of_table <= said.worst_m ? 1.0 : 0.0;
         mean_mm += 1e3 * sum / places;
         worst_mm += 1e3 * worst_of_table;
         farthest_mm = std::fmax(farthest_mm, 1e3 * worst_of_table);
-        said_most_mm += 1e3 * said.most_m;
+        said_most_mm += 1e3 * said.max_m;
         said_worst_mm += 1e3 * said.worst_m;
     }
-    [[nodiscard]] double most_share() const { return most / tables; }
-    /// Of most_share, one standard deviation.
-    [[nodiscard]] double most_error() const {
-        return std::sqrt(std::fmax(0.0, most_squares / tables - most_share() * most_share()) / tables);
+    [[nodiscard]] double max_share() const { return most / tables; }
+    /// Standard deviation of max_share.
+    [[nodiscard]] double max_error() const {
+        return std::sqrt(std::fmax(0.0, max_squares / tables - max_share() * max_share()) / tables);
     }
     void print(const char* what) const {
         std::printf("%s: %.0f tables, %d good, %d usable, %d repeat, %d refused; off by %.2f mm, worst place "
@@ -71,7 +71,7 @@ struct Kept {
                     "be: %.1f %% / %.1f %% (+- %.1f), worst places: %.1f %%\n",
                     what, tables, good, usable, repeat, refused, mean_mm / tables, worst_mm / tables,
                     farthest_mm, said_most_mm / tables, said_worst_mm / tables, 100.0 * usual / tables,
-                    100.0 * most_share(), 100.0 * most_error(), 100.0 * worst / tables);
+                    100.0 * max_share(), 100.0 * max_error(), 100.0 * worst / tables);
     }
 };
 
@@ -83,16 +83,17 @@ std::vector<double> lengths(std::span<const glm::dvec3> offsets) {
     return out;
 }
 
-/// 93 to 97 %, and what chance adds to a few tables.
+/// Expects 93 to 97 %, plus the chance variation of a few tables.
 void expect_kept(const Kept& kept) {
     constexpr double one_in_a_thousand = 3.09;
     ASSERT_GT(kept.tables, 0.0);
-    const double chance = kept.tables < 1000.0 ? one_in_a_thousand * kept.most_error() : 0.0;
-    EXPECT_GE(kept.most_share(), 0.93 - chance);
-    EXPECT_LE(kept.most_share(), 0.97 + chance);
+    const double chance = kept.tables < 1000.0 ? one_in_a_thousand * kept.max_error() : 0.0;
+    EXPECT_GE(kept.max_share(), 0.93 - chance);
+    EXPECT_LE(kept.max_share(), 0.97 + chance);
 }
 
-/// As a technician makes them: boards that are not quite as high as was said, and a sensor whose height a ruler tells.
+/// Touches as a technician makes them: boards whose height differs slightly from the given one, and a sensor
+/// height from a ruler.
 struct MadeTouches {
     Touches touches;
     TouchSetup setup;
@@ -184,7 +185,8 @@ TEST(Promises, OfTouchesOnTheShippedTableHold) {
     const Kept kept = touched(60, shipped_crosses(shipped_touches));
     kept.print("touches");
     expect_kept(kept);
-    // One right touch in a hundred is doubted: of 60 sets of 15 touches 9 are expected to be repeated, and once in a thousand times more than 17.
+    // One right touch in a hundred is doubted. Of 60 sets of 15 touches, 9 are expected to be repeated; more
+    // than 17 have a probability of 0.001.
     EXPECT_GE(kept.good + kept.usable, 60 - 17);
 }
 
@@ -206,7 +208,7 @@ TEST(Promises, DISABLED_TheFiguresOfTouches) {
     expect_kept(kept);
 }
 
-/// Other numbers of crosses, and crosses at which the prop hangs over the table.
+/// Other numbers of crosses, and crosses for a prop that may hang over the table's edge.
 TEST(Promises, DISABLED_TheFiguresOfOtherCrosses) {
     touched(100, shipped_crosses(shipped_touches)).print("the shipped crosses");
     touched(100, crosses_all_over(9)).print("9 crosses all over the picture");
@@ -229,17 +231,17 @@ TEST(Promises, DISABLED_TheFiguresOfCorners) {
     ruled(1000, true).print("corners, a lens that distorts");
 }
 
-/// Good, usable, and all that is not kept.
+/// 0 for good, 1 for usable, 2 for all others.
 int rank_of(const TouchCalibration& found) {
     return found.verdict == Verdict::Good ? 0 : found.verdict == Verdict::Usable ? 1 : 2;
 }
 
-/// Sets with one touch 3 mm aside along the table.
+/// Counts of sets with one touch moved by 3 mm along the table.
 struct Slips {
     int sets = 0;
     int named = 0;
     int worse = 0;        ///< not named, but the verdict is worse than without the slip
-    int false_alarms = 0; ///< not to be kept without a slip
+    int false_alarms = 0; ///< not good or usable without a slip
 };
 
 Slips slips_of(int sets) {
@@ -269,7 +271,7 @@ Slips slips_of(int sets) {
     return slips;
 }
 
-/// 95 of 100; of so few sets chance leaves 34 once in a thousand times.
+/// 95 of 100 are expected; of 40 sets, fewer than 34 have a probability of 0.001.
 TEST(Promises, ASlipOfThreeMillimetresIsSeen) {
     const Slips slips = slips_of(40);
     EXPECT_GE(slips.named + slips.worse, 34);
@@ -280,7 +282,8 @@ TEST(Promises, DISABLED_TheFiguresOfSlips) {
     EXPECT_GE(100 * (slips.named + slips.worse), 95 * slips.sets);
 }
 
-/// A projector that was bumped, put right by crosses on which the prop stands: seven, and two more where those do not check each other.
+/// A bumped projector is corrected by crosses on which the prop stands: seven, and two more if those do not
+/// check each other.
 TEST(Promises, ATouchUpOnTheShippedTablePutsThePictureRight) {
     int kept = 0;
     int kept_with_more = 0;
@@ -315,7 +318,7 @@ TEST(Promises, ATouchUpOnTheShippedTablePutsThePictureRight) {
     EXPECT_LT(sum_mm / tables, 1.0);
 }
 
-/// The shipped crosses: the prop stands on the table at each of them, on boards too, and they are told apart from those that hang over.
+/// At each shipped cross the prop stands on the table, also on boards; crosses with overhang are recognised.
 TEST(Promises, ThePropStandsOnTheShippedTableAtEachCross) {
     const glm::dvec2 reach_m = *shipped_cross_setup(shipped_touches).reach_m;
     const std::vector<Cross> crosses = shipped_crosses(shipped_touches);
@@ -332,10 +335,10 @@ TEST(Promises, ThePropStandsOnTheShippedTableAtEachCross) {
     EXPECT_LE(on_boards, 10);
     EXPECT_EQ(overhang_m(shipped_model(), crosses, reach_m), 0.0);
     EXPECT_NEAR(overhang_m(shipped_model(), crosses_all_over(9), reach_m), 0.131,
-                5e-3); // as a technician found
+                5e-3); // as measured by a technician
 }
 
-/// A table that leaves the prop no room has crosses all the same, and how far the prop hangs over is told.
+/// A table without room for the prop still has crosses, and the overhang is reported.
 TEST(Promises, ATableTooSmallForThePropIsToldByItsOverhang) {
     CrossSetup setup = shipped_cross_setup(9);
     setup.reach_m = reach_of({0.8, 0.28}, shipped_base_m);
@@ -343,7 +346,45 @@ TEST(Promises, ATableTooSmallForThePropIsToldByItsOverhang) {
     EXPECT_NEAR(overhang_m(shipped_model(), crosses, *setup.reach_m), 0.04 + 0.015, 5e-3);
 }
 
-/// One corner, at one of its distances, aside by 50 mm along the table: nine of ten are refused.
+/// A technician lays the prop on two more crosses whenever the verdict asks for it. Aiming counts by the pixel: 0.75 of these pixels
+/// are half a pixel of a picture of 1280 x 800, and 1.5 are half a pixel of 640 x 400, which is too coarse for some tables.
+TEST(Promises, MoreCrossesLeadToAVerdictThatCanBeKept) {
+    constexpr int max_touches = 30;
+    constexpr int tables = 40;
+    for (const double pixel : {0.75, 1.5}) {
+        const std::vector<Cross> crosses = choose_crosses(
+            shipped_model(), shipped_cross_setup(shipped_touches), max_touches - shipped_touches);
+        ASSERT_EQ(crosses.size(), static_cast<std::size_t>(max_touches));
+        int kept = 0, too_few_first = 0, touches_in_all = 0;
+        for (std::uint64_t seed = 1; seed <= tables; ++seed) {
+            const SimulatedTable table = shipped_table(seed);
+            TouchSetup setup = setup_for(table);
+            setup.noise.pixel = pixel;
+            setup.top_m = shipped_top_m;
+            SeededNumbers numbers(70000 + seed);
+            const Touches all = touches_of(table, crosses, setup.noise, numbers);
+            std::size_t count = shipped_touches;
+            TouchCalibration found = calibrate_touch(std::span(all).first(count), setup);
+            const auto asks_for_more = [&] {
+                return found.verdict == Verdict::Repeat && found.repeat.empty();
+            };
+            too_few_first += asks_for_more() ? 1 : 0;
+            for (; asks_for_more() && count + 2 <= all.size(); count += 2) {
+                found = calibrate_touch(std::span(all).first(count + 2), setup);
+            }
+            kept += asks_for_more() || found.verdict == Verdict::Refused ? 0 : 1;
+            touches_in_all += static_cast<int>(count);
+        }
+        std::printf("crosses aimed at within %.2f pixels: of %d tables %d lead to a verdict that names "
+                    "touches or can be kept, "
+                    "%.1f touches on average; %d asked for more after %d\n",
+                    pixel, tables, kept, static_cast<double>(touches_in_all) / tables, too_few_first,
+                    shipped_touches);
+        EXPECT_GE(kept, pixel < 1.0 ? tables : tables / 2);
+    }
+}
+
+/// One corner, at one of its distances, is moved by 50 mm along the table: nine of ten are refused.
 TEST(Promises, AWrongCornerIsRefusedAndNamed) {
     int refused = 0;
     int named = 0;

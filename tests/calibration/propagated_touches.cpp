@@ -9,8 +9,8 @@ namespace frustumscreen {
 namespace {
 
 constexpr int unknowns =
-    22; ///< three more than are determined: the table's frame may turn and slide in its plane
-constexpr int boards = 21; ///< the share by which the boards are higher than they are said to be
+    22; ///< three more than are determined: the table's frame may rotate and shift in its plane
+constexpr int boards = 21; ///< relative excess of the boards' true height
 using Unknowns = Eigen::Matrix<double, unknowns, 1>;
 using Squares = Eigen::Matrix<double, unknowns, unknowns>;
 constexpr double difference = 1e-6;
@@ -19,7 +19,7 @@ glm::dquat turn(double x, double y, double z) {
     return glm::normalize(glm::dquat(1.0, 0.5 * x, 0.5 * y, 0.5 * z));
 }
 
-/// The truth, changed by shares of the focal lengths and of the width, radians and metres.
+/// The truth, changed by shares of the focal lengths and of the picture's width, radians and metres.
 CalibratedTable changed_truth(const CalibratedTable& truth, const Unknowns& by) {
     CalibratedTable table = truth;
     Pinhole& p = table.pinhole;
@@ -37,7 +37,7 @@ CalibratedTable changed_truth(const CalibratedTable& truth, const Unknowns& by) 
     return table;
 }
 
-/// A touch's pixel and height as a table predicts them from what the tracker reported.
+/// The pixel and height of a touch that a table predicts from the tracker's report.
 Eigen::Vector3d predicted(const CalibratedTable& table, const RigidTransform& tracker_from_sensor) {
     const glm::dvec3 place = table.table_from_tracker.point(tracker_from_sensor.point(table.sensor_offset_m));
     const glm::dvec2 pixel = calibrated_pixel(table, place);
@@ -71,7 +71,8 @@ double height_of_sensor(const CalibratedTable& table, const std::vector<Touch>& 
     return sum / static_cast<double>(touches.size());
 }
 
-/// A row for each prior, over its standard deviation; `off`: how far the prior's value lies from the truth, likewise.
+/// A row for each prior, divided by its standard deviation; `off`: the prior's mean less the truth, divided
+/// likewise.
 struct PriorRows {
     Eigen::Matrix<double, 7, unknowns> rows = Eigen::Matrix<double, 7, unknowns>::Zero();
     Eigen::Matrix<double, 7, 1> off = Eigen::Matrix<double, 7, 1>::Zero();
@@ -91,10 +92,10 @@ PriorRows prior_rows(const SimulatedTable& table, const Priors& priors) {
     known.rows(4, 5) = 1.0 / priors.k2;
     known.off[4] = -p.lens.k2 / priors.k2;
     known.rows(5, boards) = 1.0 / priors.boards;
-    return known; // the last row is that of the sensor's height
+    return known; // the last row belongs to the sensor's height
 }
 
-/// Differences of the picture's offsets, a column for each unknown.
+/// Derivatives of the picture's offsets by differences, a column for each unknown.
 Eigen::MatrixXd picture_by_unknown(const SimulatedTable& table, double top_m) {
     const auto places = static_cast<Eigen::Index>(registration_offsets(table, table.truth, top_m).size());
     Eigen::MatrixXd rows(3 * places, unknowns);
@@ -133,7 +134,7 @@ PropagatedTouches propagated_touches(const SimulatedTable& table, const std::vec
                            priors.sensor_height_m;
     }
     const Squares loose =
-        1e-3 * Squares::Identity(); // for the table's frame alone, which no picture depends on
+        1e-3 * Squares::Identity(); // for the table's frame only, on which no picture depends
     const Squares information =
         by_unknown.transpose() * by_unknown + known.rows.transpose() * known.rows + loose;
     const Eigen::LLT<Squares> solver(information);

@@ -1,8 +1,10 @@
-/// The picture errors that the noise of touches makes in the best possible calibration, propagated to first order.
+/// The picture errors that the noise of touches causes in the best possible calibration, propagated to first
+/// order.
 ///
 /// Derivatives are differences of the simulated table's arithmetic; nothing of the fit is used.
 /// Units    metres
-/// Source   Kay, Fundamentals of Statistical Signal Processing: Estimation Theory, 1993: the Cramer-Rao bound with priors
+/// Source   Kay, Fundamentals of Statistical Signal Processing: Estimation Theory, 1993: the Cramer-Rao bound
+///          with priors
 #pragma once
 
 #include "app/calibration/priors.h"
@@ -15,8 +17,8 @@ namespace frustumscreen {
 
 struct PropagatedTouches {
     Eigen::MatrixXd
-        by_noise; ///< three rows for each place of registration_offsets; a column for each standard normal number
-    Eigen::VectorXd bias;                   ///< where the priors pull the picture to
+        by_noise; ///< three rows per place of registration_offsets, a column per standard normal number
+    Eigen::VectorXd bias;                   ///< shift of the picture by the priors
     std::vector<Eigen::Matrix3d> whitening; ///< of each touch's pixel and height
 };
 
@@ -25,18 +27,18 @@ struct PropagatedTouches {
                                                    const std::vector<Touch>& touches, const TouchNoise& noise,
                                                    const Priors& priors, double top_m);
 
-/// Where these touches, with their noise, put the picture: rows as of by_noise.
+/// The picture's offsets for these touches, with their noise: rows as in by_noise.
 [[nodiscard]] Eigen::VectorXd offsets_by(const PropagatedTouches& propagated, const SimulatedTable& table,
                                          const std::vector<Touch>& touches);
 
-/// Over the places, the expected mean of the squared error, and the variance of that mean.
+/// The expected mean of the squared error over the places, and the variance of that mean.
 struct SquareError {
     double mean_m2 = 0.0;
     double variance_m4 = 0.0;
 };
 [[nodiscard]] SquareError square_error(const PropagatedTouches& propagated);
 
-/// The error at the worst place in `draws` calibrations, in ascending order.
+/// The error at the worst place in each of `draws` calibrations, in ascending order.
 [[nodiscard]] std::vector<double> worst_places(const PropagatedTouches& propagated, int draws,
                                                SeededNumbers& numbers);
 

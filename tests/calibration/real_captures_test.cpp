@@ -1,5 +1,6 @@
-// What the decoder makes of pictures that another program's stripes were captured in: procam-calibration's layout, Gray code down to stripes of one
-// pixel, columns then rows, each bit and its inverse from the highest on, then white and black; no cosine.
+// Decodes captures of another program's stripes, in procam-calibration's layout: Gray code down to stripes of
+// one pixel, columns then rows, each bit and its inverse from the highest on, then white and black; no
+// cosine.
 //
 // The figures of docs/calibration.md, with a copy of github.com/kamino410/procam-calibration:
 //     export FRUSTUMSCREEN_CAPTURES=procam-calibration/sample_data
@@ -28,7 +29,7 @@ using Places = std::vector<Eigen::Vector2d>;
 /// A flat paper's corners in the camera's picture, clockwise from the top left one.
 using Paper = std::array<glm::dvec2, 4>;
 
-/// Stripes of one pixel are half a period; of the cosine three steps do.
+/// Stripes of one pixel are half a period, so the period is 2; the cosine has 3 steps.
 StripeSetup stripes_of(int width, int height) {
     return {width, height, 2, 3};
 }
@@ -36,7 +37,7 @@ StripeSetup stripes_of(int width, int height) {
 struct Captured {
     int width = 0;
     int height = 0;
-    std::vector<Grey> pictures; ///< as patterns_of has them, but for the cosines
+    std::vector<Grey> pictures; ///< in the order of patterns_of, without the cosines
 };
 
 std::filesystem::path picture_name(const std::filesystem::path& folder, std::size_t number) {
@@ -66,7 +67,7 @@ Captured read_captures(const StripeSetup& stripes, const std::filesystem::path& 
     return captured;
 }
 
-/// The cosines that would have been seen if each pixel showed the middle of the stripe that its code names.
+/// Adds the cosines as if each pixel showed the middle of its code's stripe.
 std::vector<Grey> with_cosines(const StripeSetup& stripes, const Captured& captured) {
     const Grey& white = captured.pictures[captured.pictures.size() - 2];
     const Grey& black = captured.pictures.back();
@@ -79,7 +80,7 @@ std::vector<Grey> with_cosines(const StripeSetup& stripes, const Captured& captu
             if (pattern.stripes == Stripes::InverseBit) {
                 codes.resize(all.back().size());
                 for (std::size_t k = 0; k < codes.size();
-                     ++k) { // a bit of Gray's code turns the ones below it round
+                     ++k) { // a bit of the Gray code inverts the ones below it
                     const bool bit = all[all.size() - 2][k] > all.back()[k];
                     codes[k] = 2 * codes[k] + ((codes[k] & 1) != (bit ? 1 : 0) ? 1 : 0);
                 }
@@ -94,7 +95,7 @@ std::vector<Grey> with_cosines(const StripeSetup& stripes, const Captured& captu
             cosine.push_back(static_cast<std::uint8_t>(std::lround(std::fmin(grey, 254.0))));
         }
         if (pattern.which == stripes.steps - 1) {
-            codes.clear(); // the rows begin anew
+            codes.clear(); // the rows begin again
         }
     }
     return all;
@@ -112,10 +113,10 @@ bool is_on(const Paper& paper, const glm::dvec2& place) {
 }
 
 struct Figures {
-    double believed = 0.0;  ///< of the paper's pixels that are lit by 12 grey levels or more
-    double on_paper = 0.0;  ///< of those, within three pixels of the paper's homography
-    double off_px = 0.0;    ///< root mean square of a coordinate of these
-    double blocks_px = 0.0; ///< the same of their means over 20 x 20 of the camera's pixels
+    double believed = 0.0;  ///< decoded share of the paper's pixels with a contrast of 12 grey levels or more
+    double on_paper = 0.0;  ///< share of those within three pixels of the paper's homography
+    double off_px = 0.0;    ///< root mean square of these, per coordinate
+    double blocks_px = 0.0; ///< the same for means over 20 x 20 camera pixels
 };
 
 double rms(const Places& offs) {
@@ -126,7 +127,7 @@ double rms(const Places& offs) {
     return std::sqrt(squares);
 }
 
-/// Fitted anew to what is nearer each time, so that what is not on the paper does not count.
+/// Fits a homography repeatedly to nearer points only, so that points off the paper do not count.
 std::vector<bool> near_homography(const Places& from, const Places& to, Places& offs) {
     std::vector<bool> near(from.size(), true);
     for (const double limit : {30.0, 10.0, 3.0, 3.0}) {
@@ -186,7 +187,7 @@ Figures figures_of(const StripeSetup& stripes, const std::filesystem::path& fold
     }
     Places means;
     for (const auto& [block, those] : blocks) {
-        if (those.size() >= 200) { // half of it
+        if (those.size() >= 200) { // at least half of the block
             Eigen::Vector2d& mean = means.emplace_back(Eigen::Vector2d::Zero());
             for (const Eigen::Vector2d& off : those) {
                 mean += off / static_cast<double>(those.size());
@@ -197,7 +198,8 @@ Figures figures_of(const StripeSetup& stripes, const std::filesystem::path& fold
             static_cast<double>(offs.size()) / static_cast<double>(from.size()), rms(offs), rms(means)};
 }
 
-/// The projector's pixel of a camera's place, on a slanted sheet; a box stands on it, whose top is lit by pixels aside.
+/// The projector pixel at a camera pixel that sees a slanted sheet; the top of a box on it is lit by shifted
+/// pixels.
 glm::dvec2 rendered_pixel(const glm::dvec2& place) {
     const double w = 1.0 + 4e-4 * place.x - 3e-4 * place.y;
     const glm::dvec2 pixel((0.45 * place.x + 0.05 * place.y + 4.0) / w,
@@ -206,7 +208,8 @@ glm::dvec2 rendered_pixel(const glm::dvec2& place) {
     return is_box ? pixel + glm::dvec2(5.0, 0.0) : pixel;
 }
 
-/// In the same files. Nothing is blurred: a pixel shows what its middle shows; on black print, two columns of each twenty, the light is a tenth.
+/// Writes rendered captures to files of the same layout, without blur: a camera pixel shows its centre's
+/// value. On black print, two columns of each twenty, the light is a tenth.
 void render_captures(const StripeSetup& stripes, const std::filesystem::path& folder, int width, int height) {
     std::filesystem::create_directories(folder);
     std::size_t number = 0;
@@ -240,7 +243,7 @@ TEST(RealCaptures, OfARenderedSheetAllButABoxLiesOnItRoundedToWholePixels) {
     std::filesystem::remove_all(folder);
 }
 
-/// Of each chess board what lies between its outermost inner corners, read by eye from graycode_40.png.
+/// The area of each chess board within its outermost inner corners, read by eye from graycode_40.png.
 TEST(RealCaptures, DISABLED_TheFiguresOfProcamCalibration) {
     const char* const folder = std::getenv("FRUSTUMSCREEN_CAPTURES");
     if (folder == nullptr) {

@@ -9,7 +9,7 @@
 namespace frustumscreen {
 namespace {
 
-/// A grid of crosses, so that sets can be made degenerate at will.
+/// A grid of crosses that tests can make degenerate.
 std::vector<Cross> grid(const SimulatedTable& table, double share_u, double share_v) {
     const Pinhole& p = table.truth.pinhole;
     std::vector<Cross> crosses;
@@ -38,7 +38,8 @@ void expect_refused(const TouchCalibration& found, const std::string& word) {
     EXPECT_NE(found.reason.find(word), std::string::npos) << found.reason;
 }
 
-/// One right touch in a hundred is to be repeated: of five grids, fewer than two are kept once in a thousand times.
+/// One right touch in a hundred must be repeated. Of five grids, fewer than two kept ones have a probability
+/// of 0.001.
 TEST(Refusals, AGridIsNone) {
     int kept = 0;
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -113,7 +114,7 @@ TEST(Refusals, WhatIsWrongWithAllTouchesIsTheReason) {
              });
          }},
         {"contradict each other",
-         [](Touches& touches, const SimulatedTable&) { // four of twelve, each by 5 cm in another direction
+         [](Touches& touches, const SimulatedTable&) { // four of twelve, each by 5 cm
              for (std::size_t k = 0; k < 4; ++k) {
                  const double angle = 1.7 * static_cast<double>(k);
                  touches[3 * k].tracker_from_sensor.translation +=

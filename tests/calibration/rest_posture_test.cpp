@@ -1,5 +1,5 @@
-// How the board stands, whether it rests, and where it is wanted next: by the tracker alone.
-#include "app/calibration/procedure/rest_wish.h"
+// The board's posture, its rest and its next place, from the tracker alone.
+#include "app/calibration/procedure/rest_request.h"
 #include "app/calibration/procedure/still_reports.h"
 #include "tests/simulators/table/simulated_rests.h"
 
@@ -10,13 +10,13 @@
 namespace frustumscreen {
 namespace {
 
-TEST(RestWish, ThreeFlatOnesFirstThenEveryFourthLeansAndABlockComesInForAHiddenTop) {
+TEST(RestRequest, ThreeFlatOnesFirstThenEveryFourthLeansAndABlockComesInForAHiddenTop) {
     const glm::dvec2 size(640.0, 400.0);
     for (const bool has_top : {true, false}) {
         std::vector<TakenRest> taken;
         std::vector<glm::dvec2> places;
         for (int k = 0; k < 16; ++k) {
-            const RestWish wish = next_wish(taken, size);
+            const RestRequest wish = next_wish(taken, size);
             EXPECT_EQ(wish.posture == Posture::Leaning, k % 4 == 3) << k;
             for (std::size_t j = 0; k < 11 && j < places.size(); ++j) {
                 EXPECT_GT(glm::distance(wish.pixel, places[j]), 50.0); // each place once
@@ -53,7 +53,7 @@ TEST(StillReports, LeaveAStrayReportOut) {
     EXPECT_EQ(still.mean().translation, elsewhere.translation);
 }
 
-/// Reports of a prop that stands turned by `yaw`, raised or leaning, to a tracker that hangs askew.
+/// The report of a prop turned by `yaw_rad`, raised or leaning, from a tilted tracker.
 RigidTransform standing(double yaw_rad, double raised_m, double lean_rad) {
     const SimulatedTable table = some_table(3);
     SeededNumbers numbers(static_cast<std::uint64_t>(1e3 * (yaw_rad + raised_m + lean_rad)));

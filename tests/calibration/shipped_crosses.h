@@ -1,4 +1,5 @@
-/// The crosses of the shipped set-up (config/kiosk.toml), and those that would be chosen if the prop might hang over the table's edge.
+/// The crosses of the shipped set-up (config/kiosk.toml), and the crosses for a prop that may hang over the
+/// table's edge.
 #pragma once
 
 #include "app/calibration/choose_crosses.h"

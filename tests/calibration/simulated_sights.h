@@ -1,4 +1,5 @@
-/// A person with a sensor on the head who sights over the prop, with noise. Its arithmetic shares nothing with the fit but the structs.
+/// A person with a sensor on the head who sights over the prop, with noise. It shares only structs with the
+/// fit; its arithmetic is independent.
 #pragma once
 
 #include "app/calibration/eye_fit.h"
@@ -16,7 +17,7 @@ struct SimulatedPerson {
     [[nodiscard]] glm::dvec3 middle_m() const { return 0.5 * (left_m + right_m); }
 };
 
-/// The sensor is somewhere on the forehead, and turned any way.
+/// A person whose sensor is anywhere on the forehead, at any rotation.
 inline SimulatedPerson some_person(std::uint64_t seed) {
     SeededNumbers numbers(seed);
     SimulatedPerson person;
@@ -30,12 +31,13 @@ inline SimulatedPerson some_person(std::uint64_t seed) {
     return person;
 }
 
-/// How far the head is turned to and fro between sightings.
+/// Ranges of the head's rotation between sightings.
 struct HeadTurns {
     double aside_rad = 0.5, nod_rad = 0.4, lean_rad = 0.2;
 };
 
-/// One sighting: at a place of the head by chance, over a prop's corner, to a cross behind it. `noise`: of the sighting itself.
+/// One sighting: a random pose of the head, over a prop's corner, to a cross behind it. `noise`: of the
+/// sighting itself.
 inline EyeSight some_sight(const SimulatedPerson& person, OpenEye open, const HeadTurns& turns,
                            const SightNoise& noise, SeededNumbers& numbers) {
     EyeSight sight;
@@ -59,7 +61,7 @@ inline EyeSight some_sight(const SimulatedPerson& person, OpenEye open, const He
     return sight;
 }
 
-/// `count` sightings with each eye; what all share is off too.
+/// `count` sightings with each eye, including the shared errors.
 inline EyeSights some_sights(const SimulatedPerson& person, int count, const HeadTurns& turns,
                              const SightNoise& noise, SeededNumbers& numbers) {
     EyeSights sights;

@@ -1,4 +1,4 @@
-/// Touches of simulated tables, as a technician makes them on the crosses that the room chooses.
+/// Touches of simulated tables, as a technician makes them on the chosen crosses.
 #pragma once
 
 #include "app/calibration/calibrate_touch.h"
@@ -10,7 +10,8 @@
 
 namespace frustumscreen {
 
-/// Crosses for pictures of one shape and of about one throw: what a data sheet says of the projector, and no more.
+/// Crosses for pictures of one shape and approximate throw, the only data of a projector that a data sheet
+/// gives.
 class ChosenCrosses {
 public:
     const std::vector<Cross>& of(const SimulatedTable& table, int count) {

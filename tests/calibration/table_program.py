@@ -1,7 +1,7 @@
-"""frustumscreen-calibrate table from its beginning to its end, without a person: a recording in which the prop is laid on each cross that the program
-shows, under a projector that hangs elsewhere than the settings say, and a script that presses Next.
+"""Tests frustumscreen-calibrate table from beginning to end, without a person: a recording in which the prop is laid on each shown cross, under a
+projector whose pose differs from the settings, and a script that presses Next.
 
-The truth's arithmetic is true_table.py's. The recording has no noise: afterwards each place lights within two pixels of where it should.
+The truth's arithmetic is in true_table.py. The recording has no noise: each place is then lit within two pixels of its true pixel.
 """
 
 import json
@@ -61,7 +61,7 @@ class Table(unittest.TestCase):
         return subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=120, check=False)
 
     def record(self, crosses, truth, head=None):
-        """The prop on one cross after the other; the tracker's frame is the table's, turned and shifted."""
+        """Records the prop on one cross after the other; the tracker's frame is the table's, rotated and shifted."""
         rows = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]
         end_s = EACH_S * len(crosses) + 12.0
         for k in range(int(50 * end_s)):
@@ -92,7 +92,7 @@ class Table(unittest.TestCase):
         done = self.run_program("table", "--config", self.config, "--headless", "--out", self.folder / "touches.csv")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(len((self.folder / "touches.csv").read_text().splitlines()), 16)
-        self.assertNotIn("where are the eyes", done.stderr)  # there is no head's sensor
+        self.assertNotIn("where are the eyes", done.stderr)  # no sensor on a head
         self.check_kept(0.4)
         self.check_listed()
 
@@ -119,7 +119,7 @@ class Table(unittest.TestCase):
         self.assertLess(worst, 2.0)
 
     def check_listed(self):
-        """And the settings are read with it, until it is undone."""
+        """The settings include the kept calibration until it is undone."""
         config = [PROGRAMS / "frustumscreen", "config", "--config", self.config, "--json"]
         used = json.loads(subprocess.run(config, capture_output=True, text=True, check=True).stdout)
         self.assertEqual(used["calibration"]["used"]["file"], "calibration-0001.toml")
@@ -157,7 +157,7 @@ class Table(unittest.TestCase):
         kept = self.folder / "kept"
         kept.mkdir()
         (kept / "calibration-0001.toml").write_text(truth.calibration(SENSOR_M))
-        (kept / "drift.json").write_text("{}")  # a camera said that something moved: it was the camera
+        (kept / "drift.json").write_text("{}")  # a camera reported drift, but only the camera moved
         same = self.touch_up(truth, crosses[:3], "--keep")
         self.assertEqual((same.returncode, [each.name for each in kept.iterdir()]), (0, ["calibration-0001.toml"]), same.stderr)
         self.assertIn("nothing moved", same.stdout)
@@ -174,7 +174,7 @@ class Table(unittest.TestCase):
         self.assertEqual((found["moved"], found["verdict"]), ("tracker", "good"))
         self.assertAlmostEqual(found["off_mm"], 15.5, delta=2.0)
         self.check_picture(tomllib.loads((kept / "calibration-0002.toml").read_text()), truth)
-        drawn = self.touch_up(truth, crosses, "--map", self.folder / "map.png")  # of what counts now: nothing moved any more
+        drawn = self.touch_up(truth, crosses, "--map", self.folder / "map.png")  # of the kept calibration: nothing moves
         self.assertEqual(drawn.returncode, 0, drawn.stderr)
         self.assertIn("nothing moved", drawn.stdout)
         self.assertEqual(struct.unpack(">II", (self.folder / "map.png").read_bytes()[16:24]), (1600, 900))
@@ -196,7 +196,7 @@ class Table(unittest.TestCase):
         self.write([BEGIN_S] + [EACH_S * k + PRESS_S for k in range(7)] + [touched_s + 2.0], touched_s + 8.0)
         done = self.run_program("table", "--config", self.config, "--headless", "--out", self.folder / "touches.csv")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("Staff: where are the eyes?", done.stderr)  # a head's sensor is seen, and nobody knows where the eyes are in it
+        self.assertIn("Staff: where are the eyes?", done.stderr)  # a sensor on a head is seen, and its eyes are unknown
         self.assertEqual(len((self.folder / "touches.csv").read_text().splitlines()), 8)
         self.assertIn("Staff: put the picture right", done.stderr)
         self.assertIn("Touch 7 of 7", done.stderr)
@@ -227,7 +227,7 @@ class Table(unittest.TestCase):
         self.assertRegex(left.stderr, "boards that make 120 mm")
         self.assertIn("it ended before a calibration was kept; the previous one is still used", left.stderr)
         self.assertFalse((self.folder / "kept").exists())
-        # What it must know before is told on the table, where Next does nothing.
+        # Missing requirements are shown on the table, and Next does nothing.
         text = self.config.read_text().replace(f"sensor_height_m = {SENSOR_M}", "")
         self.config.write_text(text.replace("script = [", "script = [{ at_s = 0.1, button = 1 }, "))
         left = self.run_program("table", "--config", self.config, "--headless")

@@ -1,4 +1,4 @@
-// What a technician sees and hears during a calibration by touch.
+// The pictures and words during a calibration by touch.
 #include "app/programs/calibrate/table_pictures.h"
 #include "tests/calibration/expect_sentences.h"
 
@@ -18,7 +18,7 @@ Pinhole projector() {
     return {width, height, 1.875 * width, 1.875 * width, 0.5 * width, 0.5 * height};
 }
 
-/// From the first cross to a verdict; `look` is called whenever something else is shown.
+/// Runs from the first cross to a verdict; calls `look` whenever the picture changes.
 void walk(TouchProcedure procedure, TouchJudgement judged, const auto& look) {
     MonotonicTime now{};
     look(procedure);
@@ -48,16 +48,16 @@ TEST(TouchPicture, EverythingThatIsSaidHasItsWord) {
     const std::vector<Cross> crosses{{{100, 100}, 0.0, 0.0}, {{500, 100}, 0.0, 0.0}, {{300, 300}, 0.08, 1.5}};
     for (const Verdict verdict : {Verdict::Good, Verdict::Usable, Verdict::Repeat, Verdict::Refused}) {
         walk(TouchProcedure(crosses), {verdict, {}, {}, {}, false}, listen);
-        walk(TouchProcedure(crosses, 2), {verdict, {}, {}, {}, false}, listen);
+        walk(TouchProcedure(TouchTask::TouchUp, crosses, 2), {verdict, {}, {}, {}, false}, listen);
     }
-    walk(TouchProcedure(crosses, 2), {Verdict::Good, {}, {}, {}, true}, listen);
+    walk(TouchProcedure(TouchTask::TouchUp, crosses, 2), {Verdict::Good, {}, {}, {}, true}, listen);
     EXPECT_EQ(said.size(), 16U);
     expect_sentences(said);
     EXPECT_EQ(table_words(TouchProcedure(crosses, "it cannot be done")).key, "")
         << "there is none for every reason";
 }
 
-/// Orange where the prop does not stand, which covers its own square and more as seen from above.
+/// Number of orange pixels outside the prop, which covers its own square and more as seen from above.
 std::size_t arrow_pixels(const Image8& picture, const Cross& cross, double prop_px) {
     std::size_t count = 0;
     for (int v = 0; v < picture.height; ++v) {

@@ -1,4 +1,5 @@
-// A technician at the table, played by the second: what is taken, what is not, and that nothing is lost on the way.
+// A technician at the table, simulated report by report: which touches are taken, which are not, and that
+// none is lost.
 #include "app/calibration/procedure/touch_procedure.h"
 #include "tests/calibration/simulated_touches.h"
 
@@ -14,11 +15,11 @@ const std::vector<TouchResidual> three_residuals{{1e-4, 0.1}, {5e-4, 0.5}, {2e-4
 
 class Procedure : public ::testing::Test {
 protected:
-    Procedure() : procedure(crosses()) { press(true); } // and it begins
+    Procedure() : procedure(crosses()) { press(true); } // begins the procedure
     static std::vector<Cross> crosses() {
         return {{{100, 100}, 0.0, 0.0}, {{900, 100}, 0.0, 1.5}, {{500, 600}, 0.05, 0.0}};
     }
-    /// The prop as it lies on the cross `k`.
+    /// The prop's pose on the cross `k`.
     static RigidTransform on(std::size_t k) {
         return {glm::angleAxis(0.5 * static_cast<double>(k), glm::dvec3(0, 0, 1)),
                 {0.1 * static_cast<double>(k), 0.05, 0.1}};
@@ -27,7 +28,7 @@ protected:
         now += tick;
         procedure.step({now, std::nullopt, next, !next});
     }
-    /// Reports for so long, each a little aside.
+    /// Reports a pose for `time`, each with noise.
     void rest(const RigidTransform& pose, Nanoseconds time, double noise_m = 2e-4) {
         for (const MonotonicTime end = now + time; now < end;) {
             now += tick;
@@ -53,13 +54,13 @@ TEST_F(Procedure, EachRestOfASecondBecomesATouchAtTheMeanOfItsReports) {
         rest(on(k), tick * 10);
         EXPECT_EQ(procedure.stage(), CalibrationStage::Place) << "nothing is taken before Next";
         touch(k);
-        EXPECT_EQ(procedure.word(), TouchWord::Taken);
+        EXPECT_EQ(procedure.word(), TouchPrompt::Taken);
     }
     ASSERT_EQ(procedure.stage(), CalibrationStage::Solve);
     const Touches touches = procedure.touches();
     ASSERT_EQ(touches.size(), 3U);
     for (std::size_t k = 0; k < 3; ++k) {
-        // Some 50 reports of .2 mm each: four standard deviations of their mean
+        // Some 50 reports with noise of 0.2 mm: four standard deviations of their mean.
         EXPECT_LT(glm::distance(touches[k].tracker_from_sensor.translation, on(k).translation),
                   4 * 2e-4 * std::sqrt(3.0 / 50.0));
         EXPECT_NEAR(std::abs(glm::dot(touches[k].tracker_from_sensor.rotation, on(k).rotation)), 1.0, 1e-12);
@@ -75,15 +76,15 @@ TEST_F(Procedure, APropThatMovesBeginsItsSecondAnew) {
     pushed.translation.x += 0.01;
     rest(pushed, TouchProcedure::rest / 2);
     EXPECT_EQ(procedure.stage(), CalibrationStage::HoldStill);
-    EXPECT_EQ(procedure.word(), TouchWord::Moved);
+    EXPECT_EQ(procedure.word(), TouchPrompt::Moved);
     rest(pushed, TouchProcedure::rest);
     EXPECT_EQ(procedure.at(), 1U);
-    press(true); // and a turn alone counts too
+    press(true); // a rotation alone counts too
     rest(on(1), TouchProcedure::rest / 2);
     RigidTransform turned = on(1);
     turned.rotation = glm::angleAxis(0.1, glm::dvec3(0, 0, 1)) * turned.rotation;
     rest(turned, tick * 2);
-    EXPECT_EQ(procedure.word(), TouchWord::Moved);
+    EXPECT_EQ(procedure.word(), TouchPrompt::Moved);
 }
 
 TEST_F(Procedure, WhatTheTrackerDoesNotSeeIsSaid) {
@@ -92,7 +93,7 @@ TEST_F(Procedure, WhatTheTrackerDoesNotSeeIsSaid) {
     now += TouchProcedure::patience + tick;
     procedure.step({now, std::nullopt, false, false});
     EXPECT_EQ(procedure.stage(), CalibrationStage::Place);
-    EXPECT_EQ(procedure.word(), TouchWord::NotSeen);
+    EXPECT_EQ(procedure.word(), TouchPrompt::NotSeen);
     touch(0);
     EXPECT_EQ(procedure.at(), 1U);
 }
@@ -113,7 +114,7 @@ TEST_F(Procedure, NextWithoutMovingThePropIsNoTouch) {
     touch(0);
     touch(0);
     EXPECT_EQ(procedure.at(), 1U);
-    EXPECT_EQ(procedure.word(), TouchWord::SamePlace);
+    EXPECT_EQ(procedure.word(), TouchPrompt::SamePlace);
     touch(1);
     EXPECT_EQ(procedure.at(), 2U);
 }
@@ -121,7 +122,7 @@ TEST_F(Procedure, NextWithoutMovingThePropIsNoTouch) {
 TEST_F(Procedure, BackDoesTheTouchBeforeAgain) {
     touch(0);
     press(true);
-    press(false); // out of the rest
+    press(false); // leaves the rest
     EXPECT_EQ(procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(procedure.at(), 1U);
     press(false);
@@ -143,7 +144,7 @@ TEST_F(Procedure, TheVerdictDecidesWhatComesNext) {
     EXPECT_EQ(procedure.at(), 2U);
     touch(2);
     judged(Verdict::Usable, {});
-    press(false); // the farthest off again
+    press(false); // repeats the one with the largest residual
     EXPECT_EQ(procedure.at(), 1U);
     touch(1);
     judged(Verdict::Good, {});
@@ -208,10 +209,10 @@ TEST_F(Procedure, WhereItCannotBeDoneNextDoesNothing) {
     EXPECT_EQ(cannot.stage(), CalibrationStage::Left);
 }
 
-/// By the first two of three crosses.
+/// A touch-up by the first two of three crosses.
 class TouchUpProcedure : public Procedure {
 protected:
-    TouchUpProcedure() { procedure = TouchProcedure(crosses(), 2); }
+    TouchUpProcedure() { procedure = TouchProcedure(TouchTask::TouchUp, crosses(), 2); }
     void touch_two() {
         press(true);
         touch(0);
@@ -227,7 +228,7 @@ TEST_F(TouchUpProcedure, BackFromItsBeginningLeadsToTheWholeCalibration) {
     now += TouchProcedure::to_go_on + tick;
     procedure.step({now, std::nullopt, false, false});
     EXPECT_EQ(procedure.stage(), CalibrationStage::GoesOn) << "it has ended";
-    procedure = TouchProcedure(crosses(), 2);
+    procedure = TouchProcedure(TouchTask::TouchUp, crosses(), 2);
     procedure.step({now, std::nullopt, false, false});
     now += TouchProcedure::to_begin + tick;
     procedure.step({now, std::nullopt, false, false});
@@ -254,6 +255,22 @@ TEST_F(TouchUpProcedure, TooFewTouchesBringMoreCrosses) {
     EXPECT_EQ(procedure.stage(), CalibrationStage::Done);
 }
 
+TEST_F(Procedure, TooFewTouchesBringTwoMoreCrossesAtATime) {
+    procedure = TouchProcedure(TouchTask::Anew, crosses(), 1);
+    press(true);
+    for (const std::size_t count : {1U, 3U}) {
+        EXPECT_EQ(procedure.count(), count);
+        while (procedure.stage() == CalibrationStage::Place) {
+            touch(procedure.at());
+        }
+        ASSERT_EQ(procedure.stage(), CalibrationStage::Solve);
+        procedure.judge(
+            {Verdict::Repeat, {}, {}, {three_residuals.begin(), three_residuals.begin() + 1}, false});
+        EXPECT_EQ(procedure.asks_for_more(), count == 1);
+        press(true);
+    }
+}
+
 TEST_F(TouchUpProcedure, AfterARefusalNextMeasuresAnewAndBackTouchesAgain) {
     touch_two();
     procedure.judge({});
@@ -267,7 +284,8 @@ TEST_F(TouchUpProcedure, AfterARefusalNextMeasuresAnewAndBackTouchesAgain) {
     EXPECT_EQ(procedure.stage(), CalibrationStage::GoesOn);
 }
 
-/// The whole of it on a simulated table: crosses chosen for the projector that the settings describe, touches on another one.
+/// The whole procedure on a simulated table: crosses chosen for the described projector, touches on another
+/// one.
 TEST(ProcedureOnATable, EndsWithACalibrationThatIsRight) {
     const SimulatedTable table = some_table(3);
     ChosenCrosses chosen;
@@ -283,7 +301,7 @@ TEST(ProcedureOnATable, EndsWithACalibrationThatIsRight) {
             now += tick;
             procedure.step({now, lies.tracker_from_sensor, false, false});
         }
-        ASSERT_NE(procedure.word(), TouchWord::SamePlace);
+        ASSERT_NE(procedure.word(), TouchPrompt::SamePlace);
     }
     const TouchCalibration judged = calibrate_touch(procedure.touches(), setup_for(table));
     ASSERT_TRUE(judged.table) << judged.reason;

@@ -1,4 +1,4 @@
-// What a calibration by touch is worth: exact without noise, within the limits with it.
+// Accuracy of a calibration by touch: exact without noise, within the limits with noise.
 #include "tests/calibration/propagated_touches.h"
 #include "tests/calibration/simulated_touches.h"
 #include "tests/calibration/wide_priors.h"
@@ -17,7 +17,7 @@ TEST(Touch, WithoutNoiseTheTruthIsFound) {
         const SimulatedTable table = some_table(seed);
         SeededNumbers numbers(seed);
         TouchSetup setup = setup_for(table);
-        setup.priors = wide_priors(); // priors are not the truth
+        setup.priors = wide_priors(); // the priors' means are not the truth
         const TouchCalibration found =
             calibrate_touch(touches_of(table, crosses.of(table, 15), no_noise, numbers), setup);
         ASSERT_TRUE(found.table) << seed << ": " << found.reason;
@@ -35,7 +35,7 @@ TEST(Touch, ItIsInTheTablesFrameOfTheConventions) {
     const TouchCalibration found =
         calibrate_touch(touches_of(table, crosses.of(table, 15), no_noise, numbers), setup_for(table));
     ASSERT_TRUE(found.table);
-    // The simulated truth has its own frame by other arithmetic; matrices agree number by number.
+    // The simulated truth has an independently computed frame; the matrices agree element by element.
     const glm::dmat4 tracker = found.table->table_from_tracker.matrix();
     const glm::dmat4 true_tracker = table.truth.table_from_tracker.matrix();
     for (int column = 0; column < 4; ++column) {
@@ -44,12 +44,12 @@ TEST(Touch, ItIsInTheTablesFrameOfTheConventions) {
     EXPECT_LT(glm::distance(found.table->sensor_offset_m, table.truth.sensor_offset_m), 2e-4);
 }
 
-/// With a twentieth of the noise, so that little of what it does is not linear in it.
+/// With a twentieth of the noise, so that its effects are nearly linear.
 TEST(Touch, TheFitIsTheBestOneToFirstOrder) {
     constexpr TouchNoise little{3e-4 / 20, 2.6e-3 / 20, 0.5 / 20, 1e-4 / 20};
     ChosenCrosses crosses;
     constexpr std::uint64_t tables = 12;
-    std::vector<double> beside; // of each table, over what is expected
+    std::vector<double> beside; // of each table, over the expected error
     for (std::uint64_t seed = 1; seed <= tables; ++seed) {
         const SimulatedTable table = some_table(seed);
         const std::vector<Cross>& chosen = crosses.of(table, seed % 2 == 0 ? 9 : 15);
@@ -62,7 +62,7 @@ TEST(Touch, TheFitIsTheBestOneToFirstOrder) {
         const TouchCalibration found = calibrate_touch(touches, setup);
         ASSERT_TRUE(found.table) << seed << ": " << found.reason;
         if (!found.repeat.empty()) {
-            continue; // by chance one looks wrong, and is left out of the fit
+            continue; // one looks wrong by chance, and is left out of the fit
         }
         const std::vector<glm::dvec3> offsets = registration_offsets(table, *found.table, 0.12);
         const Eigen::VectorXd expected = offsets_by(best, table, touches);
@@ -89,7 +89,7 @@ struct Figures {
     int judged = 0;                     ///< tables that are good or usable
 };
 
-/// With the noise of a technician: 0.3 mm, 0.15 degrees and half a pixel.
+/// Figures for a technician's noise: 0.3 mm, 0.15 degrees and half a pixel.
 Figures figures_of(int count) {
     ChosenCrosses crosses;
     Figures figures;
@@ -117,7 +117,7 @@ Figures figures_of(int count) {
     return figures;
 }
 
-/// What noise makes of the best possible fit of the same crosses on the same tables.
+/// Errors of the best possible fit of the same crosses on the same tables.
 struct Propagated {
     SquareError square;                            ///< mean over the tables
     std::vector<std::vector<double>> worst_places; ///< draws of each table, ascending
@@ -139,7 +139,7 @@ Propagated propagated_of(int count) {
     return propagated;
 }
 
-/// How many of the tables lie beyond a limit at their worst place: expected, and so many standard deviations more.
+/// Expected number of tables beyond a limit at their worst place, plus this number of standard deviations.
 double beyond(const Propagated& propagated, double limit_m, double deviations) {
     double mean = 0.0;
     double variance = 0.0;
@@ -153,7 +153,7 @@ double beyond(const Propagated& propagated, double limit_m, double deviations) {
     return mean + deviations * std::sqrt(variance);
 }
 
-/// What the worst place keeps to in 90 of 100 tables.
+/// Limit of the worst place in 90 of 100 tables.
 double worst_place_p90(const Propagated& propagated, double deviations) {
     double limit_m = 1e-3;
     while (beyond(propagated, limit_m, deviations) > 0.1 * table_count) {
@@ -172,7 +172,7 @@ void expect_no_more_than_the_noise_makes(int count) {
     }
     const double spread = one_in_a_thousand * std::sqrt(propagated.square.variance_m4);
     EXPECT_LE(square, propagated.square.mean_m2 + spread);
-    EXPECT_GE(square, propagated.square.mean_m2 - spread); // else what is propagated is not this noise
+    EXPECT_GE(square, propagated.square.mean_m2 - spread); // otherwise another noise was propagated
     const double p90_m = figures.worst_m[table_count * 9 / 10 - 1];
     std::printf(
         "%d touches: %.3f mm root mean square, of the noise %.3f; worst place in 90 of 100 %.3f, of the "
@@ -205,7 +205,7 @@ TEST(Touch, TheUncertaintyIsThatOfTheErrors) {
             std::pow(registration_error(table, *found.table, 0.12).mean_m / found.uncertainty.mean_m, 2.0) /
             seeds;
     }
-    // A mean distance over the zone against a root mean square: somewhat below 1.
+    // A mean distance over a root mean square is somewhat below 1.
     EXPECT_GT(std::sqrt(square), 0.6);
     EXPECT_LT(std::sqrt(square), 1.2);
 }

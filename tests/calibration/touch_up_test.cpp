@@ -1,4 +1,4 @@
-// A kept calibration touched up: what moved is found, and the picture comes back to its place.
+// A kept calibration is touched up: the move is found, and the picture is corrected.
 #include "app/calibration/touch_up.h"
 #include "tests/calibration/simulated_touches.h"
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double top_m = 0.12;
 
-/// Spread over the picture and over the blocks, the prop turned by a quarter from one to the next.
+/// Crosses spread over the picture and the blocks, the prop turned by a quarter turn from one to the next.
 std::vector<Cross> few_crosses(const SimulatedTable& table, std::size_t count) {
     const std::vector<Cross> shares{{{0.07, 0.08}, 0.0, 0.0},  {{0.93, 0.2}, 0.12, 0.0},
                                     {{0.5, 0.93}, 0.0, 0.0},   {{0.93, 0.93}, 0.0, 0.0},
@@ -28,7 +28,7 @@ std::vector<Cross> few_crosses(const SimulatedTable& table, std::size_t count) {
     return crosses;
 }
 
-/// A table, the calibration that was kept of it, and what it is after something was bumped.
+/// A table, its kept calibration, and the table after a bump.
 struct Bumped {
     SimulatedTable before, table;
     CalibratedTable kept;
@@ -43,7 +43,8 @@ SimulatedTable moved_by(SimulatedTable table, Moved what, const glm::dvec3& turn
     return table;
 }
 
-/// In any direction, as far as puts the picture so far off; a turn of 20 mrad goes with a shift of 20 mm.
+/// A move in any direction that displaces the picture by `off_m`; a rotation of 20 mrad comes with a shift of
+/// 20 mm.
 Bumped bumped(std::uint64_t seed, Moved what, double off_m, ChosenCrosses& crosses) {
     Bumped out;
     out.before = some_table(seed);
@@ -65,7 +66,7 @@ Bumped bumped(std::uint64_t seed, Moved what, double off_m, ChosenCrosses& cross
     return out;
 }
 
-/// How far the light of the pixel, at the height that was touched, lies from the touched place; millimetres.
+/// Distance of the pixel's light, at the touched height, from the touched place; millimetres.
 double beside_mm(const CalibratedTable& table, const Touch& touch) {
     const glm::dvec3 touched =
         table.table_from_tracker.point(touch.tracker_from_sensor.point(table.sensor_offset_m));
@@ -78,7 +79,7 @@ double beside_mm(const CalibratedTable& table, const Touch& touch) {
 struct Share {
     int named = 0, either = 0, misnamed = 0, nothing = 0, refused = 0, usable = 0, broken = 0;
     double before_mm = 0.0, after_mm = 0.0;
-    double said_mm = 0.0; ///< of those with a table
+    double said_mm = 0.0; ///< mean over results with a table
     std::vector<double> worst_mm;
 };
 
@@ -121,7 +122,7 @@ struct Faulty {
     int sets = 0, refused = 0, repeat = 0, judged = 0, broken = 0;
 };
 
-/// One touch slipped by 5 to 80 mm, or stood on another block than is said.
+/// One touch slipped by 5 to 80 mm, or was on another block than given.
 Faulty with_one_wrong(Moved what, std::size_t count, std::uint64_t seeds, ChosenCrosses& crosses) {
     Faulty out;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -174,7 +175,7 @@ TEST(TouchUp, EachResidualIsWhatTheOtherTouchesSayOfIt) {
             others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
             const TouchUp without = touch_up(one.kept, others, setup);
             if (without.moved != Moved::Tracker) {
-                continue; // what moved it is not sure of
+                continue; // the move is ambiguous
             }
             ++compared;
             const double said_mm = 1e3 * found.residuals[k].on_table_m;
@@ -190,14 +191,14 @@ TEST(TouchUp, ThePictureComesBackToItsPlace) {
     for (const Moved what : {Moved::Projector, Moved::Tracker}) {
         const Share share = share_of(what, 10e-3, 7, 8, crosses);
         EXPECT_LT(share.after_mm, 1.0);
-        EXPECT_NEAR(share.said_mm / share.after_mm, 1.0, 0.35); // the map is honest
+        EXPECT_NEAR(share.said_mm / share.after_mm, 1.0, 0.35); // the reported uncertainty is right
         EXPECT_GE(share.usable, 6);
         EXPECT_LE(share.misnamed, 1);
         EXPECT_EQ(share.broken, 0);
     }
 }
 
-/// It is refused, or more touches are asked for.
+/// One wrong touch is refused, or more touches are requested.
 TEST(TouchUp, OneWrongTouchIsNoPromise) {
     ChosenCrosses crosses;
     for (const std::size_t count : {3U, 5U}) {
@@ -211,7 +212,8 @@ TEST(TouchUp, WhereNothingMovedNothingIsChanged) {
     EXPECT_GE(share.nothing, 19);
 }
 
-/// The two that contradict each other by a wrong block or a glance of the tracker; a line; a corner; too few.
+/// Refusals: touches that contradict each other by a wrong block or a tracker glitch; touches in a line;
+/// touches in a corner; too few.
 TEST(TouchUp, WhatSaysNothingIsRefused) {
     ChosenCrosses crosses;
     const Bumped one = bumped(3, Moved::Projector, 10e-3, crosses);
@@ -239,7 +241,7 @@ TEST(TouchUp, WhatSaysNothingIsRefused) {
     EXPECT_NE(reason(touches_of(one.table, line, {}, numbers)).find("near"), std::string::npos);
 }
 
-/// As `table` chooses them for the kept projector: the first `few`, then `more`.
+/// Crosses as `table` chooses them for the kept projector: the first `few`, then `more`.
 std::vector<Cross> chosen_crosses(const CalibratedTable& kept, int few, int more) {
     TouchModel model;
     model.pinhole = kept.pinhole;
@@ -255,7 +257,8 @@ struct ByButtons {
     double before_mm = 0.0, after_mm = 0.0;
 };
 
-/// A projector that was bumped by 10 mm, touched up at the crosses that the table shows: seven, and two more where these do not do.
+/// A projector bumped by 10 mm, touched up at the crosses that the table shows: seven, and two more if seven
+/// are not enough.
 ByButtons by_buttons(int few, int more, std::uint64_t seeds, ChosenCrosses& crosses) {
     ByButtons out;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {

@@ -1,5 +1,5 @@
-"""A table as it really is, for tests: a projector that hangs lower, aside and leaning, with a lens shift and a lens that distorts, and a
-tracker that stands turned beside it. The arithmetic is this file's own.
+"""A table's truth for tests: a projector that hangs lower, aside and tilted, with lens shift and distortion, and a rotated tracker beside it.
+The arithmetic is independent of the programs.
 
 Frames   table, z = 0 on it, metres; tracker, its own; pixels, the centre of the top left one is (0.5, 0.5).
 """
@@ -36,7 +36,7 @@ def plus(a, b, share=1.0):
 
 
 def quaternion(m):
-    """Of a rotation by less than half a turn."""
+    """The quaternion of a rotation by less than half a turn."""
     w = 0.5 * math.sqrt(1 + m[0][0] + m[1][1] + m[2][2])
     return w, (m[2][1] - m[1][2]) / (4 * w), (m[0][2] - m[2][0]) / (4 * w), (m[1][0] - m[0][1]) / (4 * w)
 
@@ -53,7 +53,7 @@ class TrueTable:
         self._tracker = turn((0, 0, 1), yaw)
 
     def light(self, u, v, height):
-        """Where the light of a pixel is at this height."""
+        """The place that a pixel lights at this height."""
         real = ((u - self.cx) / self.f, (v - self.cy) / self.f)
         x, y = real
         for _ in range(50):
@@ -71,12 +71,12 @@ class TrueTable:
         return plus(apply(self._tracker, point), self.tracker_place)
 
     def report(self, place, yaw, sensor_m):
-        """What the tracker says of a sensor so far above this place: (x, y, z, qw, qx, qy, qz)."""
+        """The tracker's report of a sensor at a height above this place: (x, y, z, qw, qx, qy, qz)."""
         half = 0.5 * (yaw + self.yaw)
         return (*self.in_tracker(plus(place, (0.0, 0.0, sensor_m))), math.cos(half), 0.0, 0.0, math.sin(half))
 
     def calibration(self, sensor_m):
-        """The same as a calibration is kept, in the true table's own frame, as TOML."""
+        """The true table as a kept calibration in its own frame, TOML."""
         tracker = transposed(self._tracker)
         upright = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
         return (f'version = 1\nmade = "by hand"\nmethod = "touch"\nplaces = 9\n'
@@ -89,11 +89,11 @@ class TrueTable:
 
 
 def by_columns(rotation, place):
-    """16 numbers of a rigid transform, as settings have them."""
+    """The 16 numbers of a rigid transform, as in the settings."""
     columns = [(*column, 0.0) for column in transposed(rotation)] + [(*place, 1.0)]
     return [float(number) for column in columns for number in column]
 
 
 def moved(numbers, point):
-    """A point, by such a transform."""
+    """Applies the 16 numbers of a transform to a point."""
     return tuple(sum(numbers[4 * k + row] * (*point, 1.0)[k] for k in range(4)) for row in range(3))

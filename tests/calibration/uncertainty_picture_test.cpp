@@ -1,4 +1,4 @@
-// The picture of a calibration's uncertainty tells what was computed.
+// The picture of a calibration's uncertainty shows the computed values.
 #include "app/programs/calibrate/uncertainty_picture.h"
 #include "tests/calibration/simulated_touches.h"
 
@@ -9,8 +9,8 @@ namespace {
 
 constexpr double top_m = 0.12;
 
-/// A projector that looks straight down, so that its picture lies on the table as it is; uncertain by .1 mm at the left edge, and by
-/// 1 mm at the right one, half of it at the prop's top.
+/// A projector that looks straight down, so that its picture is undistorted on the table; the uncertainty
+/// rises from 0.1 mm at the left edge to 1 mm at the right one, and is half of it at the prop's top.
 TouchCalibration slope() {
     TouchCalibration calibration;
     calibration.verdict = Verdict::Usable;
@@ -29,7 +29,7 @@ TouchCalibration slope() {
     return calibration;
 }
 
-/// Which of the legend's colours is there; its steps are .15 mm where the worst place has 1 mm.
+/// Index of the legend's colour at a pixel; steps are 0.15 mm if the worst place has 1 mm.
 int legend_step(const Image8& picture, int x, int y) {
     for (int k = 0; k < 8; ++k) {
         if (picture.at(70 + 90 * k + 45, 796 + 15) == picture.at(x, y)) {
@@ -56,7 +56,7 @@ TEST(UncertaintyPicture, ItsColoursAreTheUncertaintysOfThatPlace) {
     EXPECT_EQ(legend_step(picture, 420 - 345, 400), -1) << "the light does not reach beside the picture";
 }
 
-/// Along the edge is paper.
+/// True if anything but paper is along the picture's edge.
 bool is_cut_off(const Image8& picture) {
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
@@ -85,7 +85,7 @@ TEST(UncertaintyPicture, ItsWordsAndCrossesStayWithin) {
     }
 }
 
-/// By hand: the picture's own corners are what was measured, those on the board at the prop's top.
+/// By hand: the measured places are the picture's own corners, and those on the board are at the prop's top.
 TEST(UncertaintyPicture, OfCornersItHasTheCornersCrosses) {
     const Result<Typesetter> typesetter = Typesetter::open();
     ASSERT_TRUE(typesetter);
@@ -100,7 +100,8 @@ TEST(UncertaintyPicture, OfCornersItHasTheCornersCrosses) {
     const auto map = map_of(found, uncertainty);
     const Image8 picture = uncertainty_picture(*map, places_of(corners, 1920, 1200), top_m, *typesetter);
     EXPECT_FALSE(is_cut_off(picture));
-    // The picture is 1.28 x .8 m on the table, and fills 96 % of a field's width of 700; its middles are at x = 420 and 1180, y = 440.
+    // The picture is 1.28 x 0.8 m on the table, and fills 96 % of a field's width of 700; the fields' middles
+    // are at x = 420 and 1180, y = 440.
     constexpr double half_px = 0.5 * 0.96 * 700.0;
     constexpr double nearer = (2.0 - top_m) / 2.0;
     const glm::u8vec4 ink(34, 40, 49, 255);

@@ -14,8 +14,8 @@ using std::chrono::seconds;
 
 /// A driver over fake cameras, on simulated time: the first camera's clock.
 struct Driven {
-    explicit Driven(CameraWish wish = {}, std::vector<FakeCamera*> more = {}, FrameUse use = {},
-                    FramePace share = FramePace(1.0))
+    explicit Driven(CameraRequest wish = {}, std::vector<FakeCamera*> more = {}, FrameUse use = {},
+                    CpuThrottle share = CpuThrottle(1.0))
         : driver(
               [&] {
                   make_usual(camera);
@@ -85,7 +85,7 @@ TEST(CameraDriver, PassesFramesOverSoThatItsThreadKeepsItsShare) {
             ++used;
             busy_s += 0.02;
         },
-        FramePace(0.25, [&busy_s] { return busy_s; }));
+        CpuThrottle(0.25, [&busy_s] { return busy_s; }));
     driven.run(seconds(2));
     decoded = driven.driver.counts().frames;
     EXPECT_NEAR(used, 25, 2);
@@ -103,7 +103,7 @@ TEST(CameraDriver, AFrameThatCostsALittleTooMuchTakesFewAway) {
     double busy_s = 0.0;
     Driven driven(
         {}, {}, [&busy_s](const CameraFrame&) { busy_s += 0.009; },
-        FramePace(0.25, [&busy_s] { return busy_s; }));
+        CpuThrottle(0.25, [&busy_s] { return busy_s; }));
     driven.run(seconds(10));
     EXPECT_NEAR(static_cast<double>(driven.driver.counts().frames), 0.25 / 0.009 * 10.0, 3.0);
 }
@@ -225,7 +225,7 @@ TEST(CameraDriver, ACameraIsChosenByItsNameOrPath) {
     make_usual(second);
     second.name = "Above the table";
     for (const char* device : {"Above the table", "/dev/video1"}) {
-        CameraWish wish;
+        CameraRequest wish;
         wish.device = device;
         Driven driven(wish, {&second});
         static_cast<void>(driven.run(milliseconds(100)));

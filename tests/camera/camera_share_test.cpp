@@ -145,7 +145,7 @@ public:
                    each),
           driver_(
               devices(table), {}, [this] { return *camera_.now; },
-              [this](const CameraFrame& frame) { use(frame); }, FramePace(share, busy)) {}
+              [this](const CameraFrame& frame) { use(frame); }, CpuThrottle(share, busy)) {}
 
     /// Ten seconds; the first four, in which the background is learnt and the visitor arrives, do not count.
     Spent run() {
@@ -217,10 +217,10 @@ TEST(CameraShare, WhatIsPassedOverTakesNeitherTheTagsNorTheVisitorAway) {
     const std::vector<Picture> table = table_pictures(10);
     const Room room = room_of(640, 360);
     Kiosk kiosk(
-        table, room, {true, true, true}, most_camera_share, [&busy_s] { return busy_s += 0.016; },
+        table, room, {true, true, true}, max_camera_share, [&busy_s] { return busy_s += 0.016; },
         [] { return 0.0; });
     const Spent spent = kiosk.run();
-    EXPECT_NEAR(spent.used_hz, most_camera_share / 0.016, 1.5);
+    EXPECT_NEAR(spent.used_hz, max_camera_share / 0.016, 1.5);
     EXPECT_EQ(spent.poses_hz, spent.used_hz);
     EXPECT_GT(spent.heads_hz, 0.9 * spent.used_hz);
 }
@@ -229,19 +229,19 @@ TEST(CameraShare, DISABLED_TheFigures) {
     const std::vector<Picture> table = table_pictures(30);
     const Room room = room_of(width, height);
     std::printf("a frame has %.0f kB\n", 1e-3 * static_cast<double>(table.front().size()));
-    for (const double most_share : {1.0, most_camera_share}) {
+    for (const double max_share : {1.0, max_camera_share}) {
         std::printf("| on, of one core at most %.2f | ms a frame | frames used a second | of one core | "
                     "poses a second | heads a "
                     "second |\n|---|---|---|---|---|---|\n",
-                    most_share);
-        const auto spent = [&](On on) { return Kiosk(table, room, on, most_share).run(); };
+                    max_share);
+        const auto spent = [&](On on) { return Kiosk(table, room, on, max_share).run(); };
         print("nothing: decoded and judged", spent({}));
         print("tags", spent({.tags = true}));
         print("visitor", spent({.visitor = true}));
         print("drift, during a look", spent({.drift = true}));
         const Spent all = spent({true, true, true});
         print("all three", all);
-        EXPECT_LT(all.share, most_share + 0.02);
+        EXPECT_LT(all.share, max_share + 0.02);
         EXPECT_GT(all.poses_hz, 5.0);
         EXPECT_GT(all.heads_hz, 5.0);
     }

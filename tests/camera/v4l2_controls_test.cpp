@@ -8,7 +8,7 @@ namespace frustumscreen {
 namespace {
 
 /// Exposure, gain, white balance.
-std::vector<LockedControl> locked(FakeCamera& camera, const CameraWish& wish) {
+std::vector<LockedControl> locked(FakeCamera& camera, const CameraRequest& wish) {
     const auto device = FakeDevices({&camera}).open("/dev/video0");
     return device ? lock_controls(**device, wish) : std::vector<LockedControl>();
 }
@@ -32,7 +32,7 @@ TEST(CameraControls, AutomaticsAreSwitchedOffAndTheCamerasOwnValuesKept) {
 TEST(CameraControls, WishesAreSetAndReadBack) {
     FakeCamera camera;
     make_usual(camera);
-    CameraWish wish;
+    CameraRequest wish;
     wish.exposure_ms = 8.0;
     wish.gain = 1000; // more than its maximum
     wish.white_balance_k = 5200;
@@ -51,7 +51,7 @@ TEST(CameraControls, ACameraThatStaysAutomaticIsToldFromOneWithoutTheControl) {
     camera.controls[V4L2_CID_EXPOSURE_AUTO].stubborn = true;
     camera.controls.erase(V4L2_CID_AUTO_WHITE_BALANCE);
     camera.controls.erase(V4L2_CID_WHITE_BALANCE_TEMPERATURE);
-    CameraWish wish;
+    CameraRequest wish;
     wish.exposure_ms = 8.0;
     wish.white_balance_k = 5200;
     const auto controls = locked(camera, wish);

@@ -23,8 +23,8 @@ void make_webcam(FakeCamera& camera) {
                       {V4L2_PIX_FMT_H264, {{1280, 720, {30}}}}};
 }
 
-CameraWish wish_of(int width, int height, double rate_hz) {
-    CameraWish wish;
+CameraRequest wish_of(int width, int height, double rate_hz) {
+    CameraRequest wish;
     wish.width = width;
     wish.height = height;
     wish.rate_hz = rate_hz;
@@ -44,7 +44,7 @@ TEST(CameraMode, TheSizeComesFirstThenTheRateThenTheFormatThatCostsLeast) {
     FakeCamera camera;
     make_webcam(camera);
     const auto device = device_of(camera);
-    const auto chosen = [&device](const CameraWish& wish) {
+    const auto chosen = [&device](const CameraRequest& wish) {
         return choose_mode(list_modes(*device, wish), wish).value_or(CameraMode{});
     };
     EXPECT_EQ(chosen(wish_of(1280, 720, 30)), (CameraMode{PixelFormat::Mjpeg, 1280, 720, 30}));
@@ -86,7 +86,7 @@ public:
 
 TEST(CameraMode, OfARangeItTakesWhatIsNextToTheWish) {
     RangeDevice device;
-    const auto modes = [&device](const CameraWish& wish) { return list_modes(device, wish); };
+    const auto modes = [&device](const CameraRequest& wish) { return list_modes(device, wish); };
     EXPECT_EQ(modes(wish_of(700, 500, 30)), (std::vector{CameraMode{PixelFormat::Grey, 688, 496, 30}}));
     EXPECT_EQ(modes(wish_of(4000, 10, 100)), (std::vector{CameraMode{PixelFormat::Grey, 1600, 32, 50}}));
     EXPECT_EQ(modes(wish_of(64, 64, 1)), (std::vector{CameraMode{PixelFormat::Grey, 64, 64, 5}}));

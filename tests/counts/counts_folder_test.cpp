@@ -59,7 +59,7 @@ TEST_F(FolderOfCounts, ReadingTellsWhatIsDamagedAndChangesNothing) {
 }
 
 TEST_F(FolderOfCounts, TheOldestOfMoreThan400DaysGo) {
-    for (std::size_t k = 0; k < most_days + 5; ++k) {
+    for (std::size_t k = 0; k < max_days + 5; ++k) {
         ASSERT_TRUE(keep_day(folder_, counted(some_day - std::chrono::days(2 * k), 1)));
     }
     ASSERT_TRUE(keep_day(folder_, counted(std::nullopt, 1)));
@@ -68,7 +68,7 @@ TEST_F(FolderOfCounts, TheOldestOfMoreThan400DaysGo) {
     drop_old_days(folder_);
     const Result<ReadCounts> read = read_counts(folder_);
     ASSERT_TRUE(read);
-    EXPECT_EQ(read->days.size(), most_days);
+    EXPECT_EQ(read->days.size(), max_days);
     EXPECT_EQ(read->days.back().day, some_day);
     EXPECT_EQ(read->undated.all().visits, 1U);
     EXPECT_FALSE(has("2001-01-01.json.bad"));

@@ -61,7 +61,7 @@ TEST(DayCounts, KeepsNoMoreNamesThanItReads) {
     for (int k = 0; k < 1000; ++k) {
         counts.add({seconds(1), true, true, true, Sentence(std::to_string(k)), Sentence("en")}, 5);
     }
-    EXPECT_LE(counts.artifacts.size(), most_counted_names + 1);
+    EXPECT_LE(counts.artifacts.size(), max_counted_names + 1);
     EXPECT_EQ(counts.artifacts.at(std::string(other_names)).ms, 800'000U);
     const Result<DayCounts> read = parse_day_counts(write_day_counts(counts));
     ASSERT_TRUE(read) << read.error().message;

@@ -103,7 +103,7 @@ public:
     bool scales = false;
     bool knows_fourcc = true; ///< false: ADDFB2 is refused
     bool monotonic = true;    ///< its events' times are monotonic
-    std::uint32_t most_khz = 300'000;
+    std::uint32_t max_khz = 300'000;
     std::set<std::string> fixed; ///< properties that no commit may change
     bool has_gbm = true;
     std::string renderer; ///< its GPU's name in OpenGL; empty: no GPU, the processor draws

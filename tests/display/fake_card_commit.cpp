@@ -88,7 +88,7 @@ int FakeCard::judge_crtc(const State& next, std::uint32_t crtc) const {
         }
     }
     const bool active = get(next, crtc, "ACTIVE") != 0;
-    const bool too_fast = mode && mode->clock > most_khz;
+    const bool too_fast = mode && mode->clock > max_khz;
     return (active && !mode) || mode.has_value() != (fed > 0) || fed > 1 || too_fast ? -EINVAL : 0;
 }
 

@@ -166,7 +166,7 @@ TEST_P(Device, DarkensAndLightsAgain) {
 TEST_P(Device, AModeThatIsTooFastIsRefusedAndAnotherIsTaken) {
     const FramebufferId large = framebuffer();
     const FramebufferId small = framebuffer(160, 120);
-    desk.card.most_khz = kernel_mode(160, 120, 60.0).clock;
+    desk.card.max_khz = kernel_mode(160, 120, 60.0).clock;
     EXPECT_EQ(light(large), KmsAnswer::Refused);
     EXPECT_EQ(shown(), 0U);
     EXPECT_EQ(light(small, 160, 120), KmsAnswer::Done);

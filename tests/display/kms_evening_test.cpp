@@ -146,11 +146,11 @@ TEST_P(KmsEvening, TheModeThatIsWishedForGoesBeforeThePreferredOne) {
 }
 
 TEST_P(KmsEvening, AModeThatTheCardRefusesIsFollowedByTheNext) {
-    desk.card.most_khz = kernel_mode(256, 192, 60.0).clock;
+    desk.card.max_khz = kernel_mode(256, 192, 60.0).clock;
     Evening evening(desk);
     evening.frames(3);
     EXPECT_EQ(evening.mode(), "256x192");
-    desk.card.most_khz = 1;
+    desk.card.max_khz = 1;
     desk.card.plug(desk.hdmi, {kernel_mode(320, 200, 60.0), kernel_mode(160, 120, 60.0)});
     evening.plugged();
     evening.frames(3);

@@ -64,7 +64,7 @@ TEST(DriftReference, StaysThatOfAProjectorWhateverElseIsKept) {
     Calibration calibration = some_calibration();
     DriftReference reference;
     reference.marks_m = marks_by(calibration);
-    ASSERT_EQ(reference.marks_m.size(), most_marks);
+    ASSERT_EQ(reference.marks_m.size(), max_marks);
     calibration.made = "2026-11-26 09:00 UTC"; // the eye was measured, and the tracker's source moved
     calibration.registration.eye_in_sensor_m = {0.01, 0.05, -0.07};
     calibration.registration.table_from_tracker.translation.x += 0.02;

@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 
 struct Table {
     MonotonicTime now = start;
-    Situation situation = sample::situation(start);
+    TrackedState tracked_state = sample::tracked_state(start);
     Exhibit exhibit;
     Presentation shown;
 
@@ -30,11 +30,12 @@ struct Table {
     void wait(milliseconds time, std::span<const Command> commands = {}) {
         for (milliseconds each{0}; each < time; each += milliseconds(16)) {
             now += milliseconds(16);
-            situation.time = now;
-            shown = exhibit.step(now, each.count() == 0 ? commands : std::span<const Command>{}, situation);
+            tracked_state.time = now;
+            shown =
+                exhibit.step(now, each.count() == 0 ? commands : std::span<const Command>{}, tracked_state);
         }
     }
-    void put(const glm::dvec2& at) { situation.table_from_prop.translation = glm::dvec3(at, 0.0); }
+    void put(const glm::dvec2& at) { tracked_state.table_from_prop.translation = glm::dvec3(at, 0.0); }
     [[nodiscard]] glm::dvec2 place_of(std::size_t artifact) const {
         for (const PlacedPicture& picture : shown.table->pictures()) {
             if (picture.artifact == artifact) {
@@ -97,8 +98,8 @@ TEST(ExhibitTable, AStaffsPatternAndALostPropChooseNothing) {
     Table lost(4);
     lost.wait(milliseconds(800));
     lost.put(lost.place_of(2));
-    lost.situation.prop_known = false;
-    lost.situation.prop_age = milliseconds(500);
+    lost.tracked_state.prop_known = false;
+    lost.tracked_state.prop_age = milliseconds(500);
     lost.wait(milliseconds(5000));
     EXPECT_EQ(lost.shown.artifact, 0U);
 }
@@ -107,7 +108,7 @@ TEST(ExhibitTable, TheCaptionLiesBesideThePictures) {
     Table table(10);
     for (int side = 0; side < 4; ++side) {
         const double azimuth = 1.5707963267948966 * (side - 1);
-        table.situation.eye_m = {0.6 * std::cos(azimuth), 0.6 * std::sin(azimuth), 0.5};
+        table.tracked_state.eye_m = {0.6 * std::cos(azimuth), 0.6 * std::sin(azimuth), 0.5};
         table.wait(milliseconds(1500));
         ASSERT_TRUE(table.shown.caption) << side;
         EXPECT_EQ(table.shown.caption->brightness, 1.0) << side;
@@ -131,7 +132,7 @@ TEST(ExhibitTable, AStepAllocatesNothing) {
     const long before = synthetic::allocations_so_far();
     table.put(goal);
     table.wait(milliseconds(3000));
-    table.situation.eye_m = {0.6, 0.0, 0.5};
+    table.tracked_state.eye_m = {0.6, 0.0, 0.5};
     table.put({0.0, 0.0});
     table.wait(milliseconds(2000));
     EXPECT_EQ(synthetic::allocations_so_far(), before);
@@ -140,7 +141,7 @@ TEST(ExhibitTable, AStepAllocatesNothing) {
 
 TEST(ExhibitTable, WithoutPicturesThereIsNoTable) {
     Exhibit exhibit = sample::exhibit(3, {"en"});
-    EXPECT_EQ(exhibit.step(start + milliseconds(16), {}, sample::situation(start)).table, nullptr);
+    EXPECT_EQ(exhibit.step(start + milliseconds(16), {}, sample::tracked_state(start)).table, nullptr);
 }
 
 } // namespace

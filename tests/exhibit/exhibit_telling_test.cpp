@@ -1,4 +1,4 @@
-// What is told of an artifact, as the exhibit's decisions: buttons, rest, advice, captions and lamps.
+// Narration as the exhibit's decisions: buttons, rest, advice, captions and lamps.
 #include "app/exhibit/guidance_setup.h"
 #include "tests/exhibit/exhibits.h"
 #include "tests/render/counted_new.h"
@@ -42,19 +42,19 @@ Catalogue catalogue() {
 constexpr std::uint32_t choose_lamp = 1U << 3U;
 constexpr std::uint32_t help_lamp = 1U << 4U;
 
-class TellingExhibit : public ::testing::Test {
+class NarrationExhibit : public ::testing::Test {
 protected:
     const Presentation& run(Nanoseconds length, std::vector<Command> commands = {}) {
         const MonotonicTime end = now_ + length;
         while (now_ < end) {
             now_ += milliseconds(20);
-            Situation situation = sample::situation(now_, lost_);
-            situation.head_known = head_;
-            situation.table_from_prop.translation.x = x_;
+            TrackedState tracked_state = sample::tracked_state(now_, lost_);
+            tracked_state.head_known = head_;
+            tracked_state.table_from_prop.translation.x = x_;
             const DescriptionIndex told = shown.tells.value_or(DescriptionIndex{});
-            shown = exhibit_.step(now_, commands, situation);
+            shown = exhibit_.step(now_, commands, tracked_state);
             commands.clear();
-            // A voice that speaks what is told, one portion in three seconds, and pauses there.
+            // A voice that speaks the description, three seconds a portion, with a pause after each.
             if (shown.tells && (!spoken_since_ || told != *shown.tells)) {
                 spoken_since_ = over_ ? spoken_since_ : now_;
             }
@@ -62,12 +62,12 @@ protected:
                 spoken_since_.reset();
                 over_ = false;
             }
-            Narration narration;
+            SpeechProgress narration;
             if (over_) {
-                narration.state = Narration::State::Over;
+                narration.state = SpeechProgress::State::Over;
             } else if (spoken_since_) {
                 const Nanoseconds heard = now_ - *spoken_since_;
-                narration = {Narration::State::Heard, static_cast<std::size_t>(heard / seconds(3))};
+                narration = {SpeechProgress::State::Heard, static_cast<std::size_t>(heard / seconds(3))};
                 over_ = heard >= seconds(9) || (shown.leaves && heard % seconds(3) < milliseconds(100));
                 spoken_since_ = over_ ? std::nullopt : spoken_since_;
             }
@@ -94,7 +94,7 @@ protected:
     int advised_ = 0;
 };
 
-TEST_F(TellingExhibit, ChooseTellsOneThingAfterTheOther) {
+TEST_F(NarrationExhibit, ChooseTellsOneThingAfterTheOther) {
     run(seconds(2));
     EXPECT_FALSE(describes());
     run(milliseconds(20), {Command::Choose});
@@ -119,7 +119,7 @@ TEST_F(TellingExhibit, ChooseTellsOneThingAfterTheOther) {
     EXPECT_FALSE(shown.tells_of);
 }
 
-TEST_F(TellingExhibit, ALanguageThatRunsToTheLeftBeginsAtTheRight) {
+TEST_F(NarrationExhibit, ALanguageThatRunsToTheLeftBeginsAtTheRight) {
     run(seconds(2), {Command::NextLanguage});
     run(seconds(1), {Command::Help});
     ASSERT_TRUE(describes());
@@ -130,7 +130,7 @@ TEST_F(TellingExhibit, ALanguageThatRunsToTheLeftBeginsAtTheRight) {
     EXPECT_LT(glm::distance(shown.caption->rectangle.corners()[2], begin), 1e-12);
 }
 
-TEST_F(TellingExhibit, RestTellsAndPlayDoesNot) {
+TEST_F(NarrationExhibit, RestTellsAndPlayDoesNot) {
     x_ = 0.01;
     run(seconds(1));
     for (int k = 0; k < 20; ++k) {
@@ -138,12 +138,12 @@ TEST_F(TellingExhibit, RestTellsAndPlayDoesNot) {
         run(seconds(1));
         EXPECT_FALSE(shown.tells);
     }
-    run(Telling::first_rest);
+    run(NarrationSequencer::first_rest);
     EXPECT_TRUE(shown.tells);
     EXPECT_EQ(shown.prepares, shown.tells);
 }
 
-TEST_F(TellingExhibit, AnotherArtifactEndsItAndTheLampsSayWhatThereIs) {
+TEST_F(NarrationExhibit, AnotherArtifactEndsItAndTheLampsSayWhatThereIs) {
     run(seconds(1), {Command::Help});
     EXPECT_TRUE(shown.tells);
     EXPECT_EQ(shown.lamps & (choose_lamp | help_lamp), choose_lamp | help_lamp);
@@ -155,7 +155,7 @@ TEST_F(TellingExhibit, AnotherArtifactEndsItAndTheLampsSayWhatThereIs) {
     EXPECT_EQ(shown.lamps & (choose_lamp | help_lamp), 0U);
 }
 
-TEST_F(TellingExhibit, ADescriptionGivesWayToAdviceAtItsPauseAndKeepsItsCaptionUntilThen) {
+TEST_F(NarrationExhibit, ADescriptionGivesWayToAdviceAtItsPauseAndKeepsItsCaptionUntilThen) {
     run(seconds(2), {Command::Choose});
     x_ = 0.3;
     bool left_in_words = false;
@@ -163,7 +163,7 @@ TEST_F(TellingExhibit, ADescriptionGivesWayToAdviceAtItsPauseAndKeepsItsCaptionU
         run(milliseconds(20));
         left_in_words = left_in_words || shown.leaves;
         if (shown.tells || shown.leaves) {
-            // The caption itself goes out of the prop's way at first.
+            // The caption itself fades while the prop covers it at first.
             EXPECT_TRUE(describes() || k < 40) << "a voice without its caption";
             EXPECT_FALSE(shown.advice);
         }
@@ -176,10 +176,10 @@ TEST_F(TellingExhibit, ADescriptionGivesWayToAdviceAtItsPauseAndKeepsItsCaptionU
     EXPECT_EQ(advised_, 1);
 }
 
-TEST_F(TellingExhibit, HelpGivesAdviceAtOnceWhereThereIsSome) {
+TEST_F(NarrationExhibit, HelpGivesAdviceAtOnceWhereThereIsSome) {
     run(seconds(2));
     x_ = 0.3;
-    run(milliseconds(100)); // sooner than any sign
+    run(milliseconds(100)); // too early for a sign
     EXPECT_FALSE(shown.sign);
     run(milliseconds(120), {Command::Help});
     EXPECT_TRUE(shown.sign);
@@ -191,19 +191,19 @@ TEST_F(TellingExhibit, HelpGivesAdviceAtOnceWhereThereIsSome) {
     EXPECT_EQ(advised_, 1) << "it is said once";
 }
 
-TEST_F(TellingExhibit, HelpEndsADescriptionWhereThereIsAdvice) {
+TEST_F(NarrationExhibit, HelpEndsADescriptionWhereThereIsAdvice) {
     run(seconds(2), {Command::Help});
     EXPECT_TRUE(shown.tells);
     x_ = 0.3;
     run(milliseconds(100));
     run(milliseconds(120), {Command::Help});
     EXPECT_FALSE(shown.tells || shown.leaves);
-    run(milliseconds(40)); // the advice has its words first
+    run(milliseconds(40)); // the advice shows its words first
     EXPECT_TRUE(shown.advice);
     EXPECT_EQ(advised_, 1);
 }
 
-TEST_F(TellingExhibit, ThePropTakenAwayAndTheHeadThatGoesEndItAtAPause) {
+TEST_F(NarrationExhibit, ThePropTakenAwayAndTheHeadThatGoesEndItAtAPause) {
     run(seconds(2), {Command::Choose});
     lost_ = now_;
     run(milliseconds(900));
@@ -221,7 +221,7 @@ TEST_F(TellingExhibit, ThePropTakenAwayAndTheHeadThatGoesEndItAtAPause) {
     EXPECT_FALSE(shown.tells);
 }
 
-TEST_F(TellingExhibit, NobodyIsToldAnythingAfterARest) {
+TEST_F(NarrationExhibit, NobodyIsToldAnythingAfterARest) {
     ExhibitPlace hasty = place();
     hasty.rest = seconds(10);
     with(catalogue(), hasty);
@@ -233,7 +233,7 @@ TEST_F(TellingExhibit, NobodyIsToldAnythingAfterARest) {
     EXPECT_EQ(shown.state, State::Attract);
 }
 
-TEST_F(TellingExhibit, WhatCannotBeReadIsNotHeardForLong) {
+TEST_F(NarrationExhibit, WhatCannotBeReadIsNotHeardForLong) {
     Catalogue catalogue_of_long_texts = catalogue();
     const std::vector<std::vector<glm::dvec2>> too_large(3, {{2.0, 1.0}});
     catalogue_of_long_texts[0].descriptions[0] = {too_large, largest_sizes(too_large), false};
@@ -245,14 +245,14 @@ TEST_F(TellingExhibit, WhatCannotBeReadIsNotHeardForLong) {
     EXPECT_TRUE(shown.caption) << "the short text is back";
 }
 
-TEST_F(TellingExhibit, TheStaffsPatternEndsIt) {
+TEST_F(NarrationExhibit, TheStaffsPatternEndsIt) {
     run(seconds(2), {Command::Choose});
     run(milliseconds(20), {Command::StaffMode});
     EXPECT_FALSE(shown.tells || shown.leaves);
 }
 
-/// Over the picture that the prop rests on, Choose takes that picture and tells nothing.
-TEST(TellingTable, ChooseTakesThePictureThatTheRingHasBegunOn) {
+/// While the prop rests on a picture, Choose takes that picture and tells nothing.
+TEST(NarrationTable, ChooseTakesThePictureThatTheRingHasBegunOn) {
     ExhibitPlace where = place();
     where.prop = make_frustum({0.10, 0.06, 0.05});
     where.guidance.reset();
@@ -261,12 +261,12 @@ TEST(TellingTable, ChooseTakesThePictureThatTheRingHasBegunOn) {
     three.push_back(three[0]);
     Exhibit exhibit(three, where, "en", sample::start);
     MonotonicTime now = sample::start;
-    Situation situation = sample::situation(now);
+    TrackedState tracked_state = sample::tracked_state(now);
     const auto run = [&](Nanoseconds length, std::vector<Command> commands = {}) {
         Presentation shown;
         for (const MonotonicTime end = now + length; now < end; commands.clear()) {
             now += milliseconds(20);
-            shown = exhibit.step(now, commands, situation);
+            shown = exhibit.step(now, commands, tracked_state);
         }
         return shown;
     };
@@ -276,7 +276,7 @@ TEST(TellingTable, ChooseTakesThePictureThatTheRingHasBegunOn) {
     const auto last = std::find_if(pictures.begin(), pictures.end(),
                                    [](const PlacedPicture& picture) { return picture.artifact == 2U; });
     ASSERT_NE(last, pictures.end());
-    situation.table_from_prop.translation = glm::dvec3(last->place.picture.centre_m, 0.0);
+    tracked_state.table_from_prop.translation = glm::dvec3(last->place.picture.centre_m, 0.0);
     shown = run(Dwell::settles + milliseconds(200));
     ASSERT_TRUE(shown.table->ring);
     EXPECT_NE(shown.lamps & choose_lamp, 0U);
@@ -289,7 +289,7 @@ TEST(TellingTable, ChooseTakesThePictureThatTheRingHasBegunOn) {
     EXPECT_TRUE(shown.tells) << "there is no ring any more";
 }
 
-TEST_F(TellingExhibit, AStepAllocatesNothing) {
+TEST_F(NarrationExhibit, AStepAllocatesNothing) {
     run(seconds(1));
     if (!synthetic::allocations_are_counted) {
         GTEST_SKIP() << "a sanitizer allocates by itself";
@@ -298,11 +298,11 @@ TEST_F(TellingExhibit, AStepAllocatesNothing) {
     const long before = synthetic::allocations_so_far();
     for (int k = 0; k < 6000; ++k) {
         now_ += milliseconds(20);
-        Situation situation = sample::situation(now_);
-        situation.table_from_prop.translation.x = k / 1000 % 2 == 0 ? 0.0 : 0.3;
+        TrackedState tracked_state = sample::tracked_state(now_);
+        tracked_state.table_from_prop.translation.x = k / 1000 % 2 == 0 ? 0.0 : 0.3;
         const std::array command{button_commands.at(random() % 5)};
-        shown = exhibit_.step(now_, std::span(command).first(random() % 150 == 0 ? 1 : 0), situation);
-        exhibit_.hear(shown.tells.has_value(), {Narration::State::Heard, random() % 3});
+        shown = exhibit_.step(now_, std::span(command).first(random() % 150 == 0 ? 1 : 0), tracked_state);
+        exhibit_.hear(shown.tells.has_value(), {SpeechProgress::State::Heard, random() % 3});
     }
     EXPECT_EQ(synthetic::allocations_so_far(), before);
 }

@@ -1,4 +1,4 @@
-// The exhibit's decisions, held against a table and against a model that only counts.
+// The exhibit's decisions, compared with a table and with a counting model.
 
 #include "tests/exhibit/exhibits.h"
 #include "tests/render/counted_new.h"
@@ -12,14 +12,14 @@
 namespace frustumscreen {
 namespace {
 
-using sample::situation;
 using sample::start;
+using sample::tracked_state;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr Nanoseconds rest = seconds(3); ///< all fades are over
 
-/// What one command does, by the state that it meets.
+/// The effect of one command, by the state in which it arrives.
 struct Row {
     bool staff;
     Command command;
@@ -38,13 +38,13 @@ constexpr std::array table{
 
 const std::vector<std::string> languages{"en", "de", "fr"};
 
-/// After as many frames as it takes until nothing fades: a caption appears from the frame on that places it.
+/// The presentation after all fades: a caption appears in the frame that places it.
 Presentation settled(Exhibit& exhibit, MonotonicTime now) {
     const MonotonicTime end = now + rest;
     for (; now < end; now += milliseconds(50)) {
-        static_cast<void>(exhibit.step(now, {}, situation(now)));
+        static_cast<void>(exhibit.step(now, {}, tracked_state(now)));
     }
-    return exhibit.step(end, {}, situation(end));
+    return exhibit.step(end, {}, tracked_state(end));
 }
 
 TEST(Exhibit, EachCommandDoesWhatTheTableSays) {
@@ -53,12 +53,12 @@ TEST(Exhibit, EachCommandDoesWhatTheTableSays) {
         MonotonicTime now = start;
         if (row.staff) {
             const std::array chord{Command::StaffMode};
-            EXPECT_TRUE(exhibit.step(now, chord, situation(now)).staff);
+            EXPECT_TRUE(exhibit.step(now, chord, tracked_state(now)).staff);
         }
         now += seconds(1);
-        EXPECT_EQ(exhibit.step(now, std::span(&row.command, 1), situation(now)).staff, row.staff_after);
+        EXPECT_EQ(exhibit.step(now, std::span(&row.command, 1), tracked_state(now)).staff, row.staff_after);
         if (row.staff_after) {
-            static_cast<void>(exhibit.step(now, std::array{Command::StaffMode}, situation(now)));
+            static_cast<void>(exhibit.step(now, std::array{Command::StaffMode}, tracked_state(now)));
         }
         const Presentation shown = settled(exhibit, now);
         EXPECT_EQ(shown.artifact, static_cast<std::size_t>(row.artifact_step + 4) % 4);
@@ -71,8 +71,8 @@ TEST(Exhibit, EachCommandDoesWhatTheTableSays) {
     }
 }
 
-/// Every press that counts, by button. A chord strikes out the latest of the first and of the last button, if
-/// that press reached the exhibit.
+/// Counts every press, by button. A chord removes the latest press of the first and of the last button, if that press
+/// reached the exhibit.
 class Ledger {
 public:
     explicit Ledger(std::size_t buttons) : buttons_(buttons) {}
@@ -119,7 +119,7 @@ TEST(Exhibit, EndsWhereAllThePressesLead) {
                 commands.push_back(button < buttons ? button_commands.at(button) : Command::StaffMode);
                 button < buttons ? ledger.press(button) : ledger.chord();
             }
-            ASSERT_EQ(exhibit.step(now, commands, situation(now)).staff, ledger.staff) << seed;
+            ASSERT_EQ(exhibit.step(now, commands, tracked_state(now)).staff, ledger.staff) << seed;
         }
         const Presentation shown = settled(exhibit, now);
         ASSERT_EQ(shown.artifact, ledger.artifact(artifacts)) << seed;
@@ -130,22 +130,22 @@ TEST(Exhibit, EndsWhereAllThePressesLead) {
 TEST(Exhibit, TheStaffsPictureEndsByItself) {
     Exhibit exhibit = sample::exhibit(2, languages);
     const std::array chord{Command::StaffMode};
-    const auto staff_at = [&](MonotonicTime now) { return exhibit.step(now, {}, situation(now)).staff; };
-    EXPECT_TRUE(exhibit.step(start, chord, situation(start)).staff);
+    const auto staff_at = [&](MonotonicTime now) { return exhibit.step(now, {}, tracked_state(now)).staff; };
+    EXPECT_TRUE(exhibit.step(start, chord, tracked_state(start)).staff);
     EXPECT_TRUE(staff_at(start + StaffTool::after_press - milliseconds(1)));
     EXPECT_FALSE(staff_at(start + StaffTool::after_press));
-    EXPECT_TRUE(exhibit.step(start + StaffTool::after_press, chord, situation(start)).staff);
+    EXPECT_TRUE(exhibit.step(start + StaffTool::after_press, chord, tracked_state(start)).staff);
     exhibit.end_staff_mode();
     EXPECT_FALSE(staff_at(start + StaffTool::after_press));
 }
 
-/// From the chord to the table's calibration, and what its presses leave.
+/// From the chord to the table's calibration, and the effect of its presses.
 TEST(Exhibit, TheStaffAskForACalibrationWhereThePlaceIsShown) {
     Exhibit exhibit = sample::exhibit(2, languages);
     MonotonicTime now = start;
     const auto step = [&](std::initializer_list<Command> commands) {
         now += milliseconds(400);
-        return exhibit.step(now, std::span(commands.begin(), commands.size()), situation(now));
+        return exhibit.step(now, std::span(commands.begin(), commands.size()), tracked_state(now));
     };
     const std::size_t artifact = exhibit.chosen();
     static_cast<void>(step({Command::PreviousArtifact, Command::NextLanguage}));
@@ -171,25 +171,25 @@ TEST(Exhibit, WithoutACalibrationTheStaffsPictureStays) {
     place.staff_stays = true;
     Exhibit exhibit({}, place, "en", start);
     const std::array chord{Command::StaffMode};
-    EXPECT_TRUE(exhibit.step(start, chord, situation(start)).staff_view.stays);
+    EXPECT_TRUE(exhibit.step(start, chord, tracked_state(start)).staff_view.stays);
     const MonotonicTime later = start + std::chrono::hours(20);
-    EXPECT_TRUE(exhibit.step(later, {}, situation(later)).staff);
-    EXPECT_FALSE(exhibit.step(later, chord, situation(later)).staff);
+    EXPECT_TRUE(exhibit.step(later, {}, tracked_state(later)).staff);
+    EXPECT_FALSE(exhibit.step(later, chord, tracked_state(later)).staff);
 }
 
 TEST(Exhibit, AVisitorsLongPressIsNoSecondPress) {
     Exhibit exhibit = sample::exhibit(4, languages);
-    static_cast<void>(exhibit.step(start, std::array{Command::NextArtifact}, situation(start)));
+    static_cast<void>(exhibit.step(start, std::array{Command::NextArtifact}, tracked_state(start)));
     const MonotonicTime pressed = *exhibit.used();
     const MonotonicTime later = start + seconds(2);
-    static_cast<void>(exhibit.step(later, std::array{Command::HoldOther}, situation(later)));
+    static_cast<void>(exhibit.step(later, std::array{Command::HoldOther}, tracked_state(later)));
     EXPECT_EQ(exhibit.chosen(), 1U);
     EXPECT_EQ(exhibit.used(), pressed);
 }
 
 TEST(Exhibit, TheLampsAreThoseOfTheButtonsThatDoSomething) {
     const auto lamps = [](std::size_t artifacts, const std::vector<std::string>& tags) {
-        return sample::exhibit(artifacts, tags).step(start, {}, situation(start)).lamps;
+        return sample::exhibit(artifacts, tags).step(start, {}, tracked_state(start)).lamps;
     };
     EXPECT_EQ(lamps(1, {"en"}), 0b000U);
     EXPECT_EQ(lamps(2, {"en"}), 0b011U);
@@ -200,13 +200,13 @@ TEST(Exhibit, TheLampsAreThoseOfTheButtonsThatDoSomething) {
 
 TEST(Exhibit, WithoutItsPropTheArtifactStandsAtAPlaceOfItsOwn) {
     Exhibit exhibit = sample::exhibit(2, languages);
-    Situation known = situation(start);
+    TrackedState known = tracked_state(start);
     known.table_from_prop.translation = {0.1, 0.05, 0.0};
     const Presentation with = exhibit.step(start, {}, known);
     EXPECT_FALSE(with.attracts);
     EXPECT_EQ(with.table_from_prop.translation, known.table_from_prop.translation);
     const MonotonicTime later = start + seconds(10);
-    const Presentation without = exhibit.step(later, {}, situation(later, start));
+    const Presentation without = exhibit.step(later, {}, tracked_state(later, start));
     EXPECT_TRUE(without.attracts);
     EXPECT_EQ(without.table_from_prop.translation, glm::dvec3(0.0));
     EXPECT_EQ(without.brightness, 1.0);
@@ -214,7 +214,7 @@ TEST(Exhibit, WithoutItsPropTheArtifactStandsAtAPlaceOfItsOwn) {
 
 TEST(Exhibit, NothingAndNoCaptionsAreNoTrouble) {
     Exhibit none = sample::exhibit(0, {});
-    EXPECT_EQ(none.step(start + rest, button_commands, situation(start)).brightness, 0.0);
+    EXPECT_EQ(none.step(start + rest, button_commands, tracked_state(start)).brightness, 0.0);
     Exhibit silent = sample::exhibit(2, {});
     const Presentation shown = settled(silent, start);
     EXPECT_FALSE(shown.caption);
@@ -226,14 +226,14 @@ TEST(Exhibit, AStepAllocatesNothing) {
     Exhibit exhibit = sample::exhibit(3, languages);
     std::mt19937 random(4);
     MonotonicTime now = start;
-    static_cast<void>(exhibit.step(now, {}, situation(now)));
+    static_cast<void>(exhibit.step(now, {}, tracked_state(now)));
     if (!synthetic::allocations_are_counted) {
         GTEST_SKIP() << "a sanitizer allocates by itself";
     }
     const long before = synthetic::allocations_so_far();
     for (int k = 0; k < 2000; ++k) {
         now += milliseconds(16);
-        Situation moved = situation(now);
+        TrackedState moved = tracked_state(now);
         moved.table_from_prop.translation.x = 0.3 * std::sin(0.01 * k);
         const std::array commands{button_commands.at(random() % 3), Command::HoldOther, Command::StaffMode};
         static_cast<void>(

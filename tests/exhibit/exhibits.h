@@ -1,4 +1,4 @@
-// Exhibits to decide for: artifacts with a caption in each of some languages, on a table of the usual size.
+// Exhibits for tests of decisions: artifacts with a caption in each of several languages, on a table of usual size.
 #pragma once
 
 #include "app/exhibit/exhibit.h"
@@ -26,13 +26,13 @@ inline Exhibit exhibit(std::size_t artifacts, const std::vector<std::string>& la
     return {Catalogue(artifacts, entry), where, "en", start};
 }
 
-/// The prop lies still, or nobody knows where since `lost`.
-inline Situation situation(MonotonicTime now, std::optional<MonotonicTime> lost = {}) {
-    Situation situation;
-    situation.eye_m = {0.0, -0.55, 0.5};
-    situation.prop_known = !lost;
-    situation.prop_age = lost ? now - *lost : Nanoseconds(0);
-    return situation;
+/// The situation with the prop at rest; its pose is unknown from `lost` on.
+inline TrackedState tracked_state(MonotonicTime now, std::optional<MonotonicTime> lost = {}) {
+    TrackedState tracked_state;
+    tracked_state.eye_m = {0.0, -0.55, 0.5};
+    tracked_state.prop_known = !lost;
+    tracked_state.prop_age = lost ? now - *lost : Nanoseconds(0);
+    return tracked_state;
 }
 
 } // namespace frustumscreen::sample

@@ -1,4 +1,4 @@
-// How often a picture flashes, from the definition alone.
+// Counts the flashes of a picture, from the definition alone.
 //
 // WCAG 2.2, success criterion 2.3.1 and 'general flash': a flash is a pair of opposing changes in relative
 // luminance, an increase and then a decrease or the other way round, of 10 % or more of the maximum each,
@@ -24,7 +24,7 @@ struct Luminance {
 /// Flashes in these samples. A change lasts as long as the luminance goes in one direction; less than 10 % in
 /// the other direction does not end it.
 inline int flashes_in(std::span<const Luminance> samples) {
-    constexpr double least_change = 0.10 - 1e-9;
+    constexpr double min_change = 0.10 - 1e-9;
     std::vector<double> turns; // luminances at which changes begin and end
     double low = samples.empty() ? 0.0 : samples.front().value;
     double high = low;
@@ -33,11 +33,11 @@ inline int flashes_in(std::span<const Luminance> samples) {
         const double value = sample.value;
         low = std::min(low, value);
         high = std::max(high, value);
-        if (direction <= 0 && value - low >= least_change) {
+        if (direction <= 0 && value - low >= min_change) {
             turns.push_back(low);
             direction = 1;
             high = value;
-        } else if (direction >= 0 && high - value >= least_change) {
+        } else if (direction >= 0 && high - value >= min_change) {
             turns.push_back(high);
             direction = -1;
             low = value;
@@ -59,7 +59,7 @@ inline int flashes_in(std::span<const Luminance> samples) {
 }
 
 /// The most within any one second. Samples in ascending time.
-inline int most_flashes_a_second(std::span<const Luminance> samples) {
+inline int max_flashes_per_second(std::span<const Luminance> samples) {
     int most = 0;
     std::size_t end = 0;
     for (std::size_t begin = 0; begin < samples.size(); ++begin) {

@@ -1,4 +1,4 @@
-// Whatever is pressed, the picture flashes no more than photosensitive people can bear.
+// The picture never flashes more than is safe for photosensitive people, whatever is pressed.
 
 #include "tests/exhibit/exhibits.h"
 #include "tests/exhibit/flash_counter.h"
@@ -36,29 +36,29 @@ TEST(FlashCounter, CountsPairsOfOpposingChanges) {
         });
     };
     for (int hz = 1; hz <= 9; ++hz) {
-        EXPECT_EQ(most_flashes_a_second(square(hz, 0.0, 1.0)), hz);
-        EXPECT_EQ(most_flashes_a_second(sine(hz, 0.0, 1.0)), hz);
-        EXPECT_EQ(most_flashes_a_second(sine(hz, 0.0, 0.11)), hz);
-        EXPECT_EQ(most_flashes_a_second(sine(hz, 0.0, 0.09)), 0) << "too small a change";
-        EXPECT_EQ(most_flashes_a_second(square(hz, 0.81, 1.0)), 0) << "the darker one is bright";
-        EXPECT_EQ(most_flashes_a_second(square(hz, 0.79, 0.9)), hz);
+        EXPECT_EQ(max_flashes_per_second(square(hz, 0.0, 1.0)), hz);
+        EXPECT_EQ(max_flashes_per_second(sine(hz, 0.0, 1.0)), hz);
+        EXPECT_EQ(max_flashes_per_second(sine(hz, 0.0, 0.11)), hz);
+        EXPECT_EQ(max_flashes_per_second(sine(hz, 0.0, 0.09)), 0) << "too small a change";
+        EXPECT_EQ(max_flashes_per_second(square(hz, 0.81, 1.0)), 0) << "the darker one is bright";
+        EXPECT_EQ(max_flashes_per_second(square(hz, 0.79, 0.9)), hz);
     }
-    EXPECT_EQ(most_flashes_a_second(wave([](double t) { return t / 3.0; })), 0) << "one change is no pair";
+    EXPECT_EQ(max_flashes_per_second(wave([](double t) { return t / 3.0; })), 0) << "one change is no pair";
     const auto trembling = wave([](double t) {
         return 0.5 + 0.5 * std::sin(2.0 * std::numbers::pi * t) + 0.04 * std::sin(100.0 * t);
     });
-    EXPECT_EQ(most_flashes_a_second(trembling), 1);
+    EXPECT_EQ(max_flashes_per_second(trembling), 1);
 }
 
-/// One artifact's pixel and one of its caption, in a picture that is white there, as a visitor sees it.
+/// A pixel of an artifact and a pixel of its caption, both white in the picture, as a visitor sees them.
 class Watched {
 public:
     explicit Watched(std::size_t artifacts) : exhibit_(sample::exhibit(artifacts, {"en", "de", "fr"})) {}
     explicit Watched(Exhibit exhibit) : exhibit_(std::move(exhibit)) {}
 
-    /// `lost`: since when nobody knows where the prop is.
+    /// `lost`: since when the prop's pose is unknown.
     void look(MonotonicTime now, std::span<const Command> commands, std::optional<MonotonicTime> lost = {}) {
-        const Presentation shown = exhibit_.step(now, commands, sample::situation(now, lost));
+        const Presentation shown = exhibit_.step(now, commands, sample::tracked_state(now, lost));
         artifact.push_back({now, shown.brightness});
         caption.push_back({now, shown.caption ? shown.caption->brightness : 0.0});
     }
@@ -70,7 +70,7 @@ private:
     Exhibit exhibit_;
 };
 
-/// A press; or the staff's chord and at once the next, which undoes presses and shows no pattern.
+/// A press; or the staff's chord, twice at once, which undoes presses and shows no pattern.
 void press(std::vector<Command>& commands, std::mt19937& random) {
     if (random() % 8 == 0) {
         commands.insert(commands.end(), 2, Command::StaffMode);
@@ -79,7 +79,7 @@ void press(std::vector<Command>& commands, std::mt19937& random) {
     }
 }
 
-/// At rest it flashes twice a second at most; the prop, lost and found, adds one.
+/// With the prop at rest there are at most two flashes a second; a prop that is lost and found adds one.
 TEST(Flashes, AreAtMostTwoASecondWhateverIsPressedAndThreeWhereThePropIsLostToo) {
     int most = 0;
     for (unsigned seed = 0; seed < 30; ++seed) {
@@ -103,7 +103,7 @@ TEST(Flashes, AreAtMostTwoASecondWhateverIsPressedAndThreeWhereThePropIsLostToo)
             watched.look(now, commands, lost);
         }
         for (const auto* samples : {&watched.artifact, &watched.caption}) {
-            const int found = most_flashes_a_second(*samples);
+            const int found = max_flashes_per_second(*samples);
             EXPECT_LE(found, loses_prop ? 3 : 2) << seed;
             most = std::max(most, found);
         }
@@ -112,7 +112,7 @@ TEST(Flashes, AreAtMostTwoASecondWhateverIsPressedAndThreeWhereThePropIsLostToo)
 }
 
 /// Three artifacts with a description and two hotspots each.
-Exhibit telling_exhibit() {
+Exhibit narration_exhibit() {
     const std::vector<std::vector<glm::dvec2>> sizes{{{0.2, 0.03}}, {{0.2, 0.06}}};
     CatalogueEntry entry{{"en", "de"}, {2, {{0.2, 0.05}}}};
     entry.tellables.assign(2, {{seconds(1), seconds(1)}, {seconds(1), seconds(1)}});
@@ -122,12 +122,12 @@ Exhibit telling_exhibit() {
     return {Catalogue(3, entry), place, "en", start};
 }
 
-/// The caption's text changes by fades of its own, which a change of artifact or language may interrupt.
+/// The caption's text has its own fades, which a change of artifact or language may interrupt.
 TEST(Flashes, AreAtMostThreeASecondWhereThereIsMuchToTell) {
     int most = 0;
     for (unsigned seed = 0; seed < 40; ++seed) {
         std::mt19937 random(seed);
-        Watched watched(telling_exhibit());
+        Watched watched(narration_exhibit());
         MonotonicTime next = start;
         const unsigned slowest_ms = 1U << (1 + seed % 11);
         for (MonotonicTime now = start; now < start + seconds(30); now += frame) {
@@ -138,15 +138,15 @@ TEST(Flashes, AreAtMostThreeASecondWhereThereIsMuchToTell) {
             }
             watched.look(now, commands);
         }
-        EXPECT_LE(most_flashes_a_second(watched.artifact), 2) << seed;
-        EXPECT_LE(most_flashes_a_second(watched.caption), 3) << seed;
-        most = std::max(most, most_flashes_a_second(watched.caption));
+        EXPECT_LE(max_flashes_per_second(watched.artifact), 2) << seed;
+        EXPECT_LE(max_flashes_per_second(watched.caption), 3) << seed;
+        most = std::max(most, max_flashes_per_second(watched.caption));
     }
     EXPECT_GE(most, 2) << "nothing was seen of the presses";
-    // Choose and another button in turn, each at a brightness of its own on the way up or down.
+    // Choose and another button in turn, each at various brightnesses while fading in or out.
     for (const Command other : {Command::NextArtifact, Command::NextLanguage, Command::Help}) {
         for (int k = 0; k < 400; k += 3) {
-            Watched watched(telling_exhibit());
+            Watched watched(narration_exhibit());
             double before = 0.0;
             bool chooses = true;
             bool presses = false;
@@ -161,12 +161,12 @@ TEST(Flashes, AreAtMostThreeASecondWhereThereIsMuchToTell) {
                                 : seen <= 2.0 - 0.1 * level && seen < before;
                 before = seen;
             }
-            ASSERT_LE(most_flashes_a_second(watched.caption), 3) << k;
+            ASSERT_LE(max_flashes_per_second(watched.caption), 3) << k;
         }
     }
 }
 
-/// Somebody who watches the picture and presses just when it hurts most: at any brightness on its way up.
+/// The worst case: presses at any brightness on its way up.
 TEST(Flashes, AreAtMostTwoASecondForWhoeverPressesAtTheWorstBrightness) {
     for (const Command command : button_commands) {
         for (int percent = 1; percent <= 100; percent += 3) {
@@ -180,8 +180,8 @@ TEST(Flashes, AreAtMostTwoASecondForWhoeverPressesAtTheWorstBrightness) {
                 presses = seen >= 0.01 * percent && seen >= before;
                 before = seen;
             }
-            EXPECT_LE(most_flashes_a_second(watched.artifact), 2) << percent;
-            EXPECT_LE(most_flashes_a_second(watched.caption), 2) << percent;
+            EXPECT_LE(max_flashes_per_second(watched.artifact), 2) << percent;
+            EXPECT_LE(max_flashes_per_second(watched.caption), 2) << percent;
         }
     }
 }

@@ -1,4 +1,4 @@
-// Guidance as visitors meet it: signs that never lie on the prop, then words, then speech; and silence.
+// Guidance for visitors: signs that never lie on the prop, then words, then speech; and silence.
 #include "app/bench/truth/seeded_situations.h"
 #include "app/exhibit/guidance_setup.h"
 #include "exhibits.h"
@@ -42,13 +42,13 @@ bool inside(std::span<const glm::dvec2> polygon, const glm::dvec2& p) {
     return true;
 }
 
-/// A point of a sign's picture, by its share of the width and the height.
+/// A point of a sign's picture, by its fractions of width and height.
 glm::dvec2 point_of(const PlacedSign& sign, double u, double v) {
     const auto& c = sign.corners_m;
     return glm::mix(glm::mix(c[0], c[1], u), glm::mix(c[3], c[2], u), v);
 }
 
-/// Whatever is advised, the sign's letters of light meet the table and not the prop: followed ray by ray.
+/// The sign's light meets the table and not the prop, for every advice: traced ray by ray.
 TEST(Signs, LieInThePictureAndNeverOnTheProp) {
     const ExhibitPlace place = guided_place();
     const FaceReader reader(*place.guidance);
@@ -57,9 +57,9 @@ TEST(Signs, LieInThePictureAndNeverOnTheProp) {
     int advised = 0;
     for (int k = 0; k < 1500; ++k) {
         Guidance guidance;
-        guidance.situation = seeded_situation(*place.guidance, seeded);
-        const std::optional<Advice> advice = advise(reader, guidance.situation);
-        const auto shadow = hidden_by_prop(place.prop, guidance.situation.table_from_prop, place.lens_m);
+        guidance.tracked_state = seeded_situation(*place.guidance, seeded);
+        const std::optional<Advice> advice = advise(reader, guidance.tracked_state);
+        const auto shadow = hidden_by_prop(place.prop, guidance.tracked_state.table_from_prop, place.lens_m);
         if (!advice || !shadow) {
             continue;
         }
@@ -72,7 +72,7 @@ TEST(Signs, LieInThePictureAndNeverOnTheProp) {
             continue;
         }
         ++shown[sign->sign];
-        const RigidTransform prop_from_table = guidance.situation.table_from_prop.inverse();
+        const RigidTransform prop_from_table = guidance.tracked_state.table_from_prop.inverse();
         const glm::dvec3 lens = prop_from_table.point(place.lens_m);
         for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0}) {
             for (const double v : {0.0, 0.5, 1.0}) {
@@ -91,14 +91,14 @@ TEST(Signs, LieInThePictureAndNeverOnTheProp) {
     for (const auto& [sign, count] : shown) {
         all += count;
     }
-    EXPECT_GT(all, advised * 9 / 10); // where the prop fills the picture there is no room
+    EXPECT_GT(all, advised * 9 / 10); // there is no room if the prop fills the picture
 }
 
 TEST(Signs, AnArrowPointsTheWay) {
     const ExhibitPlace place = guided_place();
     Guidance guidance;
     guidance.stage = GuidanceStage::Picture;
-    guidance.situation.eye_m = {0.0, -0.6, 0.5};
+    guidance.tracked_state.eye_m = {0.0, -0.6, 0.5};
     int pointed = 0;
     for (int k = 0; k < 16; ++k) {
         const double azimuth = k * std::numbers::pi / 8.0;
@@ -116,7 +116,7 @@ TEST(Signs, AnArrowPointsTheWay) {
     EXPECT_GE(pointed, 8);
 }
 
-/// A turn's head is at the end that it turns to: counter-clockwise about the prop, seen from above.
+/// A turn's arrowhead is at the end that it turns to: counter-clockwise about the prop, seen from above.
 TEST(Signs, AnArcTurnsTheWay) {
     ExhibitPlace place = guided_place();
     place.picture_m = {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
@@ -124,7 +124,7 @@ TEST(Signs, AnArcTurnsTheWay) {
         Guidance guidance;
         guidance.stage = GuidanceStage::Picture;
         guidance.move = {Action::Turn, {}, turn};
-        guidance.situation.eye_m = {0.0, -0.6, 0.5};
+        guidance.tracked_state.eye_m = {0.0, -0.6, 0.5};
         const auto shadow = hidden_by_prop(place.prop, {}, place.lens_m);
         const auto sign = place_sign(guidance, MonotonicTime(seconds(1)), *shadow, place.picture_m, 0);
         ASSERT_TRUE(sign);
@@ -150,10 +150,10 @@ protected:
         Presentation presentation;
         for (; time_ <= time; time_ += milliseconds(20)) {
             const MonotonicTime now = sample::start + time_;
-            Situation situation = sample::situation(now);
-            situation.head_known = true;
-            situation.table_from_prop.translation = {x, 0.0, 0.0};
-            presentation = exhibit_.step(now, {}, situation);
+            TrackedState tracked_state = sample::tracked_state(now);
+            tracked_state.head_known = true;
+            tracked_state.table_from_prop.translation = {x, 0.0, 0.0};
+            presentation = exhibit_.step(now, {}, tracked_state);
             said_ += presentation.says ? 1 : 0;
             silences_ += presentation.falls_silent ? 1 : 0;
         }
@@ -175,7 +175,7 @@ TEST_F(GuidedExhibit, ShowsASignThenWordsThenSpeaks) {
     ASSERT_TRUE(words.advice);
     EXPECT_EQ(words.advice->word, (WordIndex{1, 0})); // en, slide_left
     EXPECT_EQ(said_, 0);
-    // The artifact's caption gives way.
+    // The artifact's caption fades meanwhile.
     EXPECT_TRUE(!words.caption || words.caption->brightness < 0.01);
     at(seconds(7), 0.3);
     EXPECT_EQ(said_, 1);
@@ -211,22 +211,22 @@ TEST_F(GuidedExhibit, GuidesWithoutAllocating) {
     EXPECT_EQ(synthetic::allocations_so_far(), before);
 }
 
-/// A tracker's noise at rest is nobody.
+/// A tracker's noise at rest does not count as a visitor.
 TEST(PresenceTest, IsAMovementOrAPress) {
     Presence presence;
     Seeded seeded(4);
-    Situation situation = sample::situation(sample::start);
+    TrackedState tracked_state = sample::tracked_state(sample::start);
     for (int k = 0; k < 2000; ++k) {
-        situation.table_from_prop.translation =
+        tracked_state.table_from_prop.translation =
             1e-3 * glm::dvec3(seeded.between(-1, 1), seeded.between(-1, 1), seeded.between(-1, 1));
-        EXPECT_FALSE(presence.update(sample::start + milliseconds(20 * k), situation, false));
+        EXPECT_FALSE(presence.update(sample::start + milliseconds(20 * k), tracked_state, false));
     }
     const MonotonicTime pressed = sample::start + seconds(41);
-    EXPECT_TRUE(presence.update(pressed, situation, true));
-    EXPECT_TRUE(presence.update(pressed + Presence::stays - milliseconds(1), situation, false));
-    EXPECT_FALSE(presence.update(pressed + Presence::stays, situation, false));
-    situation.table_from_prop.translation.x = 0.02;
-    EXPECT_TRUE(presence.update(pressed + seconds(60), situation, false));
+    EXPECT_TRUE(presence.update(pressed, tracked_state, true));
+    EXPECT_TRUE(presence.update(pressed + Presence::stays - milliseconds(1), tracked_state, false));
+    EXPECT_FALSE(presence.update(pressed + Presence::stays, tracked_state, false));
+    tracked_state.table_from_prop.translation.x = 0.02;
+    EXPECT_TRUE(presence.update(pressed + seconds(60), tracked_state, false));
 }
 
 } // namespace

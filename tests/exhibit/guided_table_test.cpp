@@ -1,4 +1,4 @@
-// Guidance and the pictures on the table: what is being chosen is no mistake, and words lie beside pictures.
+// Guidance and the pictures on the table: choosing a picture needs no advice, and words lie beside pictures.
 
 #include "app/exhibit/guidance_setup.h"
 #include "app/settings/lit_zone.h"
@@ -23,7 +23,7 @@ struct Visit {
     ExhibitPlace place;
     std::optional<Exhibit> exhibit;
     MonotonicTime now = start;
-    Situation situation = sample::situation(start);
+    TrackedState tracked_state = sample::tracked_state(start);
     Presentation shown;
 
     explicit Visit(bool pictures, std::vector<glm::dvec3> hull = {}) {
@@ -45,22 +45,22 @@ struct Visit {
     }
     void step() {
         now += milliseconds(16);
-        situation.time = now;
-        shown = exhibit->step(now, {}, situation);
+        tracked_state.time = now;
+        shown = exhibit->step(now, {}, tracked_state);
     }
-    /// Slides there in half a second, or so many steps. Returns those with a sign.
+    /// Slides there in half a second, or in `steps` steps. Returns the number of steps with a sign.
     int slide_to(const glm::dvec2& goal, int steps = 30) {
-        const glm::dvec3 from = situation.table_from_prop.translation;
+        const glm::dvec3 from = tracked_state.table_from_prop.translation;
         int signs = 0;
         for (int k = 1; k <= steps; ++k) {
-            situation.table_from_prop.translation =
+            tracked_state.table_from_prop.translation =
                 glm::mix(from, glm::dvec3(goal, 0.0), static_cast<double>(k) / steps);
             step();
             signs += shown.sign || shown.advice || shown.says ? 1 : 0;
         }
         return signs;
     }
-    /// Steps of this time with a sign.
+    /// Number of steps in `time` with a sign.
     int signs_in(milliseconds time) {
         int signs = 0;
         for (milliseconds each{0}; each < time; each += milliseconds(16)) {
@@ -73,13 +73,13 @@ struct Visit {
     AdviceLanguage words{"en", {}};
 };
 
-/// The middle of a picture where a prop's face is seen and not lit.
+/// The middle of a picture where a face of the prop is seen but not lit.
 glm::dvec2 dark_picture(const Visit& visit) {
     for (const PlacedPicture& picture : visit.shown.table->pictures()) {
         const FaceReader reader(*visit.place.guidance);
         const glm::dvec2& at = picture.place.picture.centre_m;
         if (picture.artifact && picture.artifact != std::size_t{0} &&
-            !reader.valid({{glm::dquat(1, 0, 0, 0), glm::dvec3(at, 0.0)}, visit.situation.eye_m})) {
+            !reader.valid({{glm::dquat(1, 0, 0, 0), glm::dvec3(at, 0.0)}, visit.tracked_state.eye_m})) {
             return at;
         }
     }
@@ -105,7 +105,7 @@ TEST(GuidedTable, IsQuietWhileThePropIsOnAPictureAndGuidesAfterTheChoice) {
     EXPECT_GT(without.signs_in(milliseconds(1600)), 30);
 }
 
-/// Two and a half seconds to a picture, through places where a face is dark, and back.
+/// Two and a half seconds to a picture and back, through places where a face is dark.
 TEST(GuidedTable, IsQuietOnTheWayToAPictureAndBack) {
     for (const bool pictures : {true, false}) {
         Visit visit(true);
@@ -128,7 +128,7 @@ TEST(GuidedTable, GuidesWhoStopsOnTheWayAndWhoMovesThePropAboutInTheDark) {
     const glm::dvec2 dark(std::copysign(reach, goal.x), -0.24); // beside all pictures
     EXPECT_EQ(stops.slide_to(dark, 150), 0);
     EXPECT_GT(stops.signs_in(milliseconds(1500)), 30);
-    // Whoever follows it keeps it.
+    // A visitor who follows the advice keeps it.
     EXPECT_GT(stops.slide_to(glm::mix(dark, glm::dvec2(0.0), 0.15), 60), 50);
 
     Visit wanders(true);
@@ -140,14 +140,14 @@ TEST(GuidedTable, GuidesWhoStopsOnTheWayAndWhoMovesThePropAboutInTheDark) {
     EXPECT_GT(signs, 30);
 }
 
-/// However the sign lies over pictures, it is what is read.
+/// A sign stays readable wherever it lies over pictures.
 TEST(GuidedTable, PicturesUnderTheSignAreDim) {
     int over_pictures = 0;
     for (const glm::dvec3& eye : {glm::dvec3(0.0, -0.55, 0.5), glm::dvec3(0.75, 0.0, 0.5)}) {
         for (const double x : {-0.35, -0.3, -0.25, -0.2, -0.15, 0.15, 0.2, 0.25, 0.3, 0.35}) {
             for (const double y : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
                 Visit visit(true);
-                visit.situation.eye_m = eye;
+                visit.tracked_state.eye_m = eye;
                 visit.signs_in(milliseconds(800));
                 visit.slide_to({x, y}, 10);
                 visit.signs_in(milliseconds(1400));
@@ -192,25 +192,25 @@ TEST(GuidedTable, TheZonesFrameDoesNotCrossPictures) {
     }
 }
 
-/// A corner of the prop's foot lies in the dark, and nothing of the artifact is seen through it.
+/// A corner of the prop's base lies in the dark, and no part of the artifact is seen through it.
 TEST(GuidedTable, IsQuietWhileTheArtifactIsSeenWhole) {
     constexpr glm::dvec2 at(0.20, 0.05);
     for (const bool known : {true, false}) {
         Visit visit(false, known ? usual_artifact(make_prop(Settings().prop)) : std::vector<glm::dvec3>());
-        visit.situation.table_from_prop.rotation =
+        visit.tracked_state.table_from_prop.rotation =
             glm::angleAxis(0.25 * std::numbers::pi, glm::dvec3(0, 0, 1));
-        visit.situation.eye_m = visit.shipped.eye.default_m;
+        visit.tracked_state.eye_m = visit.shipped.eye.default_m;
         visit.signs_in(milliseconds(800));
         visit.slide_to(at);
         const FaceReader reader(*visit.place.guidance);
-        ASSERT_FALSE(reader.valid({visit.situation.table_from_prop, visit.situation.eye_m}));
+        ASSERT_FALSE(reader.valid({visit.tracked_state.table_from_prop, visit.tracked_state.eye_m}));
         const int signs = visit.signs_in(milliseconds(3000));
         EXPECT_EQ(signs > 60, !known);
         EXPECT_EQ(signs == 0, known);
     }
 }
 
-/// The frame is that of the artifact that is shown, where it has one.
+/// The frame is that of the shown artifact, if it has one.
 TEST(GuidedTable, TheFrameLiesAroundTheShownArtifactsZone) {
     Visit visit(false);
     CatalogueEntry own{{"en"}, {{{0.2, 0.05}}}, {}};

@@ -1,4 +1,4 @@
-// Labels of hotspots, through the exhibit: shown where a cast ray meets the point, and nowhere else.
+// Labels of hotspots, through the exhibit: shown exactly where a cast ray meets the point.
 
 #include "tests/exhibit/exhibits.h"
 #include "tests/render/counted_new.h"
@@ -16,7 +16,7 @@ namespace {
 using sample::start;
 using std::chrono::milliseconds;
 
-/// Two blocks beside each other, in the prop's frame: each hides the other's inner side from most eyes.
+/// Two adjacent blocks, in the prop's frame: each hides the other's inner side from most eyes.
 struct Blocks {
     std::vector<glm::vec3> points;
     std::vector<std::uint32_t> indices;
@@ -39,7 +39,7 @@ struct Blocks {
             }
         }
     }
-    /// By Cramer's rule, triangle by triangle.
+    /// True if the segment meets a triangle: Cramer's rule, triangle by triangle.
     [[nodiscard]] bool meets(const glm::dvec3& from, const glm::dvec3& to) const {
         for (std::size_t k = 0; k < indices.size(); k += 3) {
             const glm::dvec3 a(points[indices[k]]);
@@ -66,14 +66,14 @@ HotspotSet hotspots_of(const Blocks& blocks) {
     for (const auto& [point, normal] :
          {std::pair(glm::dvec3(-0.008, 0.0, 0.03), glm::dvec3(1, 0, 0)), // inner sides
           std::pair(glm::dvec3(0.008, 0.004, 0.02), glm::dvec3(-1, 0, 0)),
-          std::pair(glm::dvec3(-0.018, -0.015, 0.05), glm::dvec3(0, -1, 0)), // outer ones
+          std::pair(glm::dvec3(-0.018, -0.015, 0.05), glm::dvec3(0, -1, 0)), // outer sides
           std::pair(glm::dvec3(0.018, 0.0, 0.05), glm::dvec3(0, 0, 1))}) {
         set.hotspots.push_back({{point, normal}, {{0.04, 0.010}, {0.05, 0.010}}});
     }
     return set;
 }
 
-/// One hotspot more is told of than there are.
+/// The tellable lists one hotspot more than exist.
 Exhibit make_exhibit(const HotspotSet& set) {
     const Tellable tellable{{}, std::vector<Nanoseconds>(set.hotspots.size() + 1, std::chrono::seconds(1))};
     CatalogueEntry entry{{"en", "de"}, {2, {{0.1, 0.03}}}, {2, tellable}, {}, set};
@@ -85,16 +85,17 @@ Exhibit make_exhibit(const HotspotSet& set) {
 struct Shower {
     Exhibit exhibit;
     MonotonicTime now = start;
-    Situation situation = sample::situation(start);
+    TrackedState tracked_state = sample::tracked_state(start);
     Presentation shown = {};
 
     void wait(milliseconds time, std::span<const Command> commands = {}) {
         for (milliseconds each{0}; each < time; each += milliseconds(20)) {
             now += milliseconds(20);
-            shown = exhibit.step(now, each.count() == 0 ? commands : std::span<const Command>{}, situation);
+            shown =
+                exhibit.step(now, each.count() == 0 ? commands : std::span<const Command>{}, tracked_state);
         }
     }
-    /// Presses until this one is told of; nothing: until none is.
+    /// Presses until this hotspot is told; nothing: until none is.
     void point_out(std::optional<std::size_t> hotspot) {
         for (int press = 0; press < 100 && shown.tells_of != hotspot; ++press) {
             wait(milliseconds(20), std::array{Command::Choose});
@@ -103,7 +104,7 @@ struct Shower {
     }
 };
 
-/// Whether the face through which the eye looks at the point meets the lens's light.
+/// True if the face through which the eye looks at the point is lit by the lens.
 bool looks_through_a_lit_face(const PropShape& prop, const glm::dvec3& eye, const glm::dvec3& lens,
                               const glm::dvec3& point) {
     double entry = -1.0;
@@ -132,17 +133,17 @@ TEST(HotspotLabels, AreShownWhereARayFromTheEyeMeetsThePoint) {
     for (int k = 0; k < 300; ++k) {
         const std::size_t which = static_cast<std::size_t>(k) % set.hotspots.size();
         const double yaw = 3.14159 * u(random);
-        shower.situation.table_from_prop = {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)),
-                                            {0.15 * u(random), 0.05 * u(random), 0.0}};
+        shower.tracked_state.table_from_prop = {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)),
+                                                {0.15 * u(random), 0.05 * u(random), 0.0}};
         const double azimuth = 3.14159 * u(random);
         const double elevation = 0.7 + 0.5 * u(random);
-        shower.situation.eye_m =
+        shower.tracked_state.eye_m =
             0.8 * glm::dvec3(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
                              std::sin(elevation));
         shower.point_out(which);
         shower.wait(milliseconds(2000));
-        const RigidTransform prop_from_table = shower.situation.table_from_prop.inverse();
-        const glm::dvec3 eye = prop_from_table.point(shower.situation.eye_m);
+        const RigidTransform prop_from_table = shower.tracked_state.table_from_prop.inverse();
+        const glm::dvec3 eye = prop_from_table.point(shower.tracked_state.eye_m);
         const Hotspot& at = set.hotspots[which].at;
         const bool faces = glm::dot(eye - at.point_m, at.normal) > 0.0;
         const bool is_hidden = blocks.meets(eye, at.point_m + tolerance_m * at.normal);
@@ -157,7 +158,8 @@ TEST(HotspotLabels, AreShownWhereARayFromTheEyeMeetsThePoint) {
             const PresentedHotspot& shown = *shower.shown.hotspot;
             EXPECT_EQ(shown.hotspot, which);
             ASSERT_TRUE(shown.line);
-            const auto shadow = hidden_by_prop(place.prop, shower.situation.table_from_prop, {0.0, 0.0, 1.4});
+            const auto shadow =
+                hidden_by_prop(place.prop, shower.tracked_state.table_from_prop, {0.0, 0.0, 1.4});
             EXPECT_GT(clearance(shown.label.corners(), shadow->corners()), 0.0);
             ASSERT_TRUE(shower.shown.caption);
             EXPECT_GT(clearance(shown.label.corners(), shower.shown.caption->rectangle.corners()), 0.0);
@@ -169,7 +171,7 @@ TEST(HotspotLabels, AreShownWhereARayFromTheEyeMeetsThePoint) {
     EXPECT_GT(hidden, 20);
 }
 
-/// Not even for the time of a fade: in the very step in which the point turns away.
+/// The label goes dark without a fade, in the very step in which the point turns away.
 TEST(HotspotLabels, AreDarkAsSoonAsThePointIsTurnedAway) {
     const Blocks blocks;
     Shower shower{make_exhibit(hotspots_of(blocks))};
@@ -180,16 +182,17 @@ TEST(HotspotLabels, AreDarkAsSoonAsThePointIsTurnedAway) {
     double last = 1.0;
     int dark = 0;
     for (int degree = 0; degree <= 180; degree += 2) {
-        shower.situation.table_from_prop.rotation =
+        shower.tracked_state.table_from_prop.rotation =
             glm::angleAxis(glm::radians(1.0 * degree), glm::dvec3(0, 0, 1));
         shower.wait(milliseconds(20));
-        const glm::dvec3 eye = shower.situation.table_from_prop.inverse().point(shower.situation.eye_m);
+        const glm::dvec3 eye =
+            shower.tracked_state.table_from_prop.inverse().point(shower.tracked_state.eye_m);
         const double brightness = shower.shown.hotspot ? shower.shown.hotspot->brightness : 0.0;
         if (eye.y >= -0.015) {
             EXPECT_EQ(brightness, 0.0) << degree;
             ++dark;
         }
-        EXPECT_LT(last - brightness, 0.4) << degree; // softly
+        EXPECT_LT(last - brightness, 0.4) << degree; // gradual
         last = brightness;
     }
     EXPECT_GT(dark, 30);
@@ -210,7 +213,7 @@ TEST(HotspotLabels, FollowTheLanguageAndGoWhenTheyAreNotWanted) {
     EXPECT_EQ(shower.shown.hotspot->language, 1U);
     EXPECT_EQ(shower.shown.hotspot->label.size_m.x, 0.05);
     EXPECT_TRUE(shower.shown.settled);
-    shower.point_out(4); // there is none
+    shower.point_out(4); // does not exist
     shower.wait(milliseconds(500));
     EXPECT_FALSE(shower.shown.hotspot);
     shower.point_out(2);

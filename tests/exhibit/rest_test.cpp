@@ -1,4 +1,4 @@
-// What the exhibit does for nobody, and what it does when the tracker fails a visitor.
+// The exhibit without visitors, and when the tracker fails a visitor.
 
 #include "app/exhibit/guidance_setup.h"
 #include "tests/exhibit/exhibits.h"
@@ -42,28 +42,28 @@ protected:
         const CatalogueEntry entry{languages, {languages.size(), {{0.2, 0.05}, {0.1, 0.1}}}};
         return {Catalogue(artifacts, entry), place, "en", start};
     }
-    void SetUp() override { situation.eye_m = {0.0, -0.55, 0.5}; }
+    void SetUp() override { tracked_state.eye_m = {0.0, -0.55, 0.5}; }
 
-    /// Goes on for so long; `lost`: nobody knows where the prop is.
+    /// Runs for `time`; with `lost`, the prop's pose is unknown.
     void wait(Nanoseconds time, std::span<const Command> commands = {}) {
         const MonotonicTime end = now + time;
         for (std::span<const Command> pressed = commands; now < end; pressed = {}) {
             now += milliseconds(20);
-            situation.time = now;
-            situation.prop_age = lost ? now - *lost : Nanoseconds(0);
-            situation.prop_known = situation.prop_age <= seconds(1);
+            tracked_state.time = now;
+            tracked_state.prop_age = lost ? now - *lost : Nanoseconds(0);
+            tracked_state.prop_known = tracked_state.prop_age <= seconds(1);
             before = shown;
-            shown = exhibit.step(now, pressed, situation);
+            shown = exhibit.step(now, pressed, tracked_state);
             said += shown.says ? 1 : 0;
             EXPECT_TRUE(!shown.says || (shown.advice && shown.advice->word == *shown.says));
         }
     }
-    void slide(double x_m) { situation.table_from_prop.translation.x = x_m; }
+    void slide(double x_m) { tracked_state.table_from_prop.translation.x = x_m; }
     void lose() { lost = now; }
-    /// The key of the sentence on the table; empty: there is none.
+    /// The key of the sentence on the table; empty: none.
     [[nodiscard]] std::string text() const { return shown.advice ? keys.at(shown.advice->word.text) : ""; }
 
-    Situation situation;
+    TrackedState tracked_state;
     MonotonicTime now = start;
     std::optional<MonotonicTime> lost;
     Presentation before;
@@ -76,7 +76,7 @@ TEST_F(RestTest, NobodyIsThereAtFirst) {
     wait(seconds(1));
     EXPECT_EQ(shown.state, State::Attract);
     EXPECT_EQ(text(), "attract_line");
-    EXPECT_EQ(shown.advice->word.language, 1U); // the house's
+    EXPECT_EQ(shown.advice->word.language, 1U); // the house's language
     EXPECT_EQ(shown.advice->brightness, 1.0);
 }
 
@@ -101,7 +101,7 @@ TEST_F(RestTest, TheFirstTouchKeepsTheArtifactAndItsPlaceAndTheLineFades) {
         EXPECT_EQ(shown.state, State::View);
         EXPECT_EQ(shown.artifact, 2U);
         EXPECT_EQ(shown.brightness, 1.0);
-        EXPECT_EQ(shown.table_from_prop.translation, situation.table_from_prop.translation);
+        EXPECT_EQ(shown.table_from_prop.translation, tracked_state.table_from_prop.translation);
         const double next = shown.advice ? shown.advice->brightness : 0.0;
         EXPECT_LE(next, line);
         EXPECT_GE(next, line - 0.13); // 1.5 times 20 of 250 ms
@@ -130,7 +130,7 @@ TEST_F(RestTest, TheLanguageGoesBackToTheHouses) {
     EXPECT_EQ(shown.advice->word.language, 1U);
 }
 
-/// A tracker's noise at rest is nobody; a sentence that is spoken while the visitor goes is left.
+/// A tracker's noise at rest does not count as a visitor; a sentence being spoken ends when the visitor goes.
 TEST_F(RestTest, WhoeverGoesIsNotCalledBack) {
     wait(seconds(1));
     slide(0.3); // dark
@@ -165,7 +165,7 @@ TEST_F(RestTest, ALostPropIsAskedForInWordsThenAloudAndThenNoMore) {
     EXPECT_EQ(text(), "");
 }
 
-/// The artifact turns, and the words beside it lie still.
+/// The artifact turns, and the words beside it do not move.
 TEST_F(RestTest, WordsBesideAnArtifactThatTurnsLieStill) {
     wait(seconds(1));
     slide(0.02);
@@ -192,7 +192,7 @@ TEST_F(RestTest, WithoutThePropTheRestIsTheSame) {
     EXPECT_TRUE(shown.attracts);
     EXPECT_EQ(text(), "attract_line");
     wait(seconds(1),
-         std::array{Command::NextArtifact}); // nobody knows where the prop is, but somebody is there
+         std::array{Command::NextArtifact}); // the prop's pose is unknown, but a visitor is present
     EXPECT_EQ(shown.state, State::Degraded);
 }
 
@@ -210,7 +210,7 @@ TEST_F(RestTest, ATrackerThatDoesNotAnswerIsNotTheVisitorsFault) {
     slide(0.02);
     wait(milliseconds(100));
     lose();
-    situation.tracker = TrackerHealth::Away;
+    tracked_state.tracker = TrackerHealth::Away;
     wait(seconds(6));
     EXPECT_EQ(text(), "wait_tracker");
 }
@@ -218,29 +218,29 @@ TEST_F(RestTest, ATrackerThatDoesNotAnswerIsNotTheVisitorsFault) {
 TEST_F(RestTest, MetalIsSpokenOfWhereThePictureIsWhole) {
     wait(seconds(1));
     slide(0.02);
-    situation.tracker = TrackerHealth::MetalNear;
+    tracked_state.tracker = TrackerHealth::MetalNear;
     wait(seconds(3));
     EXPECT_EQ(shown.state, State::Guide);
     EXPECT_EQ(text(), "away_from_metal");
     EXPECT_FALSE(shown.sign);
     slide(0.3);
     wait(seconds(1));
-    EXPECT_TRUE(shown.sign); // a dark face goes first
+    EXPECT_TRUE(shown.sign); // a dark face has priority
 }
 
 TEST_F(RestTest, AHeadIsMissedOnlyByWhoeverPlaysOnWithoutIt) {
-    situation.head_known = true;
+    tracked_state.head_known = true;
     wait(seconds(1));
     slide(0.02);
     wait(seconds(1));
-    situation.head_known = false;
+    tracked_state.head_known = false;
     wait(seconds(10));
-    EXPECT_EQ(shown.state, State::View); // gone, or waiting
+    EXPECT_EQ(shown.state, State::View); // the visitor is gone, or waiting
     slide(0.04);
     wait(seconds(3));
     EXPECT_EQ(shown.state, State::Guide);
     EXPECT_EQ(text(), "show_your_head");
-    situation.head_known = true;
+    tracked_state.head_known = true;
     wait(seconds(1));
     EXPECT_EQ(shown.state, State::View);
 }
@@ -288,7 +288,7 @@ TEST_F(RestTest, WithoutAnythingToShowTheLanguageGoesBackToo) {
     EXPECT_EQ(text(), "fault.no_artifact");
     EXPECT_EQ(shown.advice->word.language, 0U);
     EXPECT_EQ(shown.brightness, 0.0);
-    EXPECT_FALSE(shown.caption || shown.stand_in);
+    EXPECT_FALSE(shown.caption || shown.placeholder);
     wait(seconds(30));
     EXPECT_EQ(shown.advice->word.language, 1U);
     exhibit.note(std::array{ArtifactState::LeftOut, ArtifactState::Ready, ArtifactState::LeftOut});

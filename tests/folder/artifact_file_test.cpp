@@ -1,4 +1,4 @@
-// What a curator writes into artifact.toml, and what is said of mistakes in it.
+// The contents of artifact.toml, and the messages about mistakes in it.
 #include "assets_baked/folder/artifact_file.h"
 #include "tests/base/told.h"
 

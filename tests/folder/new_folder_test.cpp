@@ -1,4 +1,4 @@
-// A folder to start from: what lies in it, and what is never replaced.
+// A new folder for a curator: its contents, and the files that it never replaces.
 #include "assets_baked/folder/artifact_file.h"
 #include "assets_baked/folder/new_folder.h"
 #include "firmware_host/base/file.h"
@@ -46,7 +46,7 @@ protected:
     ScanFacts scan;
 };
 
-/// The lines that a curator would take the # away from.
+/// Uncomments the example lines, as a curator would.
 std::string with_every_hint(std::string text) {
     for (std::size_t at = 0; (at = text.find("\n#", at)) != std::string::npos; ++at) {
         if (text.compare(at, 3, "\n# ") != 0 && text.compare(at, 3, "\n#\n") != 0) {

@@ -32,7 +32,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         require_inside(file->texture);
     }
     fuzz::require(file->id.empty() || is_artifact_id(file->id), "the id is one");
-    fuzz::require(file->scale >= pack_format::least_scale && file->scale <= pack_format::most_scale,
+    fuzz::require(file->scale >= pack_format::min_scale && file->scale <= pack_format::max_scale,
                   "the scale is one that a pack may have");
     for (const PackCaption& caption : file->texts) {
         fuzz::require(has_language_form(caption.language), "a language has its form", caption.language);
@@ -43,7 +43,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         require_clean(caption.text, TextShape::Lines);
         require_clean(caption.description, TextShape::Lines);
     }
-    fuzz::require(file->hotspots.size() <= pack_format::most_hotspots, "hotspots are few");
+    fuzz::require(file->hotspots.size() <= pack_format::max_hotspots, "hotspots are few");
     for (const ArtifactHotspot& hotspot : file->hotspots) {
         fuzz::require(fuzz::is_finite(hotspot.point_file) && !hotspot.labels.empty(),
                       "a hotspot has a place and a label");

@@ -11,10 +11,10 @@ namespace {
 
 /// Small type keeps each input fast.
 constexpr double em_px = 2.0;
-constexpr std::size_t most_drawn_glyphs = 64;
+constexpr std::size_t max_drawn_glyphs = 64;
 
 bool is_quick(const GlyphRuns& runs, const GlyphSetting& setting) {
-    const bool small = setting.glyphs.size() <= most_drawn_glyphs && setting.width <= 32 * em_units &&
+    const bool small = setting.glyphs.size() <= max_drawn_glyphs && setting.width <= 32 * em_units &&
                        setting.height <= 32 * em_units && runs.texels_per_em >= 8;
     return small && std::all_of(runs.boxes.begin(), runs.boxes.end(),
                                 [](const GlyphBox& box) { return box.width <= 64 && box.height <= 64; });

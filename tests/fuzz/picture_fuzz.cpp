@@ -7,7 +7,7 @@ using namespace frustumscreen;
 
 namespace {
 
-constexpr std::int64_t most_texels = 1 << 18; ///< keeps the fuzzer's memory small
+constexpr std::int64_t max_texels = 1 << 18; ///< keeps the fuzzer's memory small
 
 template <typename Texel> void check(const Result<Image<Texel>>& image) {
     if (!image) {
@@ -17,7 +17,7 @@ template <typename Texel> void check(const Result<Image<Texel>>& image) {
     fuzz::require(image->width > 0 && image->height > 0, "a picture has a size");
     fuzz::require(static_cast<std::int64_t>(image->texels.size()) ==
                           static_cast<std::int64_t>(image->width) * image->height &&
-                      static_cast<std::int64_t>(image->texels.size()) <= most_texels,
+                      static_cast<std::int64_t>(image->texels.size()) <= max_texels,
                   "a picture has its texels, no more than allowed");
     const Bytes png = encode_png(*image);
     Result<Image<Texel>> again;
@@ -41,9 +41,9 @@ template <typename Texel> void check(const Result<Image<Texel>>& image) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::span<const std::byte> bytes = fuzz::bytes_of(data, size);
-    check(decode_png8(bytes, most_texels));
-    check(decode_png16(bytes, most_texels));
-    check(decode_webp8(bytes, most_texels));
-    check(decode_image(bytes, most_texels));
+    check(decode_png8(bytes, max_texels));
+    check(decode_png16(bytes, max_texels));
+    check(decode_webp8(bytes, max_texels));
+    check(decode_image(bytes, max_texels));
     return 0;
 }

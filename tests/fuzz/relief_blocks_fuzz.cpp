@@ -11,7 +11,7 @@ using namespace frustumscreen;
 namespace {
 
 /// A small number keeps each input fast.
-constexpr std::size_t most_cast_blocks = 64;
+constexpr std::size_t max_cast_blocks = 64;
 
 /// From above, at an angle, close enough for the limits of a block to matter.
 CastView view_of_box() {
@@ -55,7 +55,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const Bytes written = pack_format::encode_blocks(*relief);
     fuzz::require(std::equal(written.begin(), written.end(), bytes.begin(), bytes.end()),
                   "what was read is written again byte for byte");
-    if (relief->blocks.size() <= most_cast_blocks) {
+    if (relief->blocks.size() <= max_cast_blocks) {
         require_cast(*relief);
     }
     return 0;

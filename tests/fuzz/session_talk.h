@@ -22,7 +22,7 @@ public:
 
     /// The session's latest command; empty if it sent none.
     [[nodiscard]] const Bytes& command() const { return command_; }
-    [[nodiscard]] bool over() const { return session_.failed() || wire_.size() > most_wire; }
+    [[nodiscard]] bool over() const { return session_.failed() || wire_.size() > max_wire; }
     /// All delivered bytes.
     [[nodiscard]] const Bytes& wire() const { return wire_; }
 
@@ -45,7 +45,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t most_wire = 8192;
+    static constexpr std::size_t max_wire = 8192;
 
     void ask() {
         const std::span<const std::byte> due = session_.due(now_);

@@ -30,7 +30,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     KnownExhibit known{document,
                        {document, parse_service_ends(text), text.size(), {}, 1000.0, {}, "system", {}, {}}};
     if (std::optional<Crash> crash = parse_crash(text)) {
-        known.surroundings.crashes.push_back(*std::move(crash));
+        known.environment.crashes.push_back(*std::move(crash));
     }
     fuzz::require(document.fields.is_null() != document.why.empty(), "something is known, or why not");
     fuzz::require(verdict_of(known).runs || !verdict_of(known).well, "what does not run is not well");

@@ -67,9 +67,9 @@ void require_pack(const std::string& path) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     DecodedTree tree(fuzz::text_of(data, size));
     ImportLimits limits;
-    limits.most_entries = 40;
-    limits.most_folders = 8;
-    limits.most_packs = 12;
+    limits.max_entries = 40;
+    limits.max_folders = 8;
+    limits.max_packs = 12;
     int asked = 0;
     const auto found = walk_stick(tree, limits, [&] { return ++asked > 60; });
     if (!found) {
@@ -77,7 +77,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         fuzz::require_one_line(found.error().reason);
         return 0;
     }
-    fuzz::require(found->packs.size() + found->refused.size() <= limits.most_packs + limits.most_folders,
+    fuzz::require(found->packs.size() + found->refused.size() <= limits.max_packs + limits.max_folders,
                   "it is not too much");
     fuzz::require(std::is_sorted(found->packs.begin(), found->packs.end()), "packs are in order");
     for (const std::string& path : found->packs) {

@@ -14,7 +14,7 @@
 namespace frustumscreen::fuzz {
 
 inline void require_sound(const DeviceFrame& frame) {
-    require(frame.count <= DeviceFrame::most_sensors, "a frame has no more sensors than it has room for");
+    require(frame.count <= DeviceFrame::max_sensors, "a frame has no more sensors than it has room for");
     for (std::size_t k = 0; k < frame.count; ++k) {
         const SensorPose& pose = frame.sensors[k];
         require(pose.sensor >= 1 && pose.sensor <= 128, "a sensor is numbered from 1");

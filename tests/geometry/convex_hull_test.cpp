@@ -61,13 +61,13 @@ TEST(ConvexHull, ManyCornersAreHeldByFewer) {
         for (int k = 0; k < 4000; ++k) {
             points.push_back(direction(random) * glm::dvec3(1.0, 0.8, thickness));
         }
-        for (const std::size_t most_corners : {std::size_t{40}, std::size_t{192}}) {
-            const std::vector<glm::dvec3> corners = enclosing_corners(points, most_corners);
-            EXPECT_LE(corners.size(), most_corners);
+        for (const std::size_t max_corners : {std::size_t{40}, std::size_t{192}}) {
+            const std::vector<glm::dvec3> corners = enclosing_corners(points, max_corners);
+            EXPECT_LE(corners.size(), max_corners);
             const auto [least, most] = farther_by(points, corners, random);
             EXPECT_GE(least, -1e-9) << thickness; // it holds them all
             // N corners on a ball lie 3.8 / sqrt(N) apart: its caps are higher than their triangles by 2.4 / N.
-            EXPECT_LE(most, 3.0 * 2.4 / static_cast<double>(most_corners)) << thickness;
+            EXPECT_LE(most, 3.0 * 2.4 / static_cast<double>(max_corners)) << thickness;
         }
     }
 }

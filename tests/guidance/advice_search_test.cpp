@@ -1,4 +1,4 @@
-// The search for an advice against an exhaustive one, which looks at every move and sequence of the lists and leaves nothing out.
+// The search for an advice, compared with an exhaustive one over every listed move and sequence.
 
 #include "app/guidance/advice_search.h"
 #include "app/guidance/steadiness.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// What is left to find: its cost, for each first move.
+/// The costs found by the exhaustive search, for each first move.
 struct Found {
     struct One {
         Move move;
@@ -39,21 +39,22 @@ struct Found {
     }
 };
 
-/// Six for an end that no small movement leaves whole.
-double cost_of_end(const FaceReader& reader, const GuidedSituation& end) {
+/// The cost of an end: six for an end that no small movement leaves whole.
+double cost_of_end(const FaceReader& reader, const GuidedState& end) {
     int looks = 0;
     return reader.valid(end) ? 6.0 * (1.0 - steadiness(reader, end, looks)) : never;
 }
 
-/// Single moves that help everybody: their effort, what their end costs, and three for those whom no way leads to a whole picture.
-Found single_moves(const FaceReader& reader, const GuidedSituation& situation,
+/// Single moves that always help: their effort, the cost of their end, and three if no execution leads to a whole
+/// picture.
+Found single_moves(const FaceReader& reader, const GuidedState& tracked_state,
                    const std::optional<GivenAdvice>& standing) {
     Found found;
-    for (const Candidate& each : candidates(reader.setup(), situation, MoveSet::Only).all()) {
-        const double end = cost_of_end(reader, after(each.move, reader.setup(), situation));
+    for (const Candidate& each : candidates(reader.setup(), tracked_state, MoveSet::Only).all()) {
+        const double end = cost_of_end(reader, after(each.move, reader.setup(), tracked_state));
         const bool is_standing = standing && alike(standing->move, each.move);
-        const bool replaces = standing && standing->holds(situation) && !is_standing;
-        const Help help = help_of(reader, situation, each.move, replaces ? 1.25 : 1.12);
+        const bool replaces = standing && standing->holds(tracked_state) && !is_standing;
+        const Help help = help_of(reader, tracked_state, each.move, replaces ? 1.25 : 1.12);
         if (help.always && end < never) {
             found.all.push_back(
                 {each.move, each.effort - (is_standing ? 2.0 : 0.0) + end + 3.0 * (1.0 - help.whole_share)});
@@ -62,20 +63,21 @@ Found single_moves(const FaceReader& reader, const GuidedSituation& situation,
     return found;
 }
 
-/// Sequences of moves that are done well.
-Found sequences(const FaceReader& reader, const GuidedSituation& situation, int length, MoveSet last) {
+/// Sequences of moves that are carried out well.
+Found sequences(const FaceReader& reader, const GuidedState& tracked_state, int length, MoveSet last) {
     const GuidanceSetup& setup = reader.setup();
     Found found;
-    for (const Candidate& first : candidates(setup, situation, length == 1 ? last : MoveSet::Inner).all()) {
+    for (const Candidate& first :
+         candidates(setup, tracked_state, length == 1 ? last : MoveSet::Inner).all()) {
         if (setup.in_hand && stands_elsewhere(first.move)) {
-            continue; // hardly met in the hand; two moves are easier
+            continue; // hard to carry out in the hand; two moves are easier
         }
-        const GuidedSituation next = after(first.move, setup, situation);
+        const GuidedState next = after(first.move, setup, tracked_state);
         double rest = length == 1 ? cost_of_end(reader, next) : never;
         if (length == 2) {
             for (const Candidate& second : candidates(setup, next, last).all()) {
-                const GuidedSituation end = after(second.move, setup, next);
-                if (second.effort < rest && reader.valid(end)) { // the end costs at least nothing
+                const GuidedState end = after(second.move, setup, next);
+                if (second.effort < rest && reader.valid(end)) { // the cost of the end is at least 0
                     rest = std::min(rest, second.effort + cost_of_end(reader, end));
                 }
             }
@@ -87,10 +89,10 @@ Found sequences(const FaceReader& reader, const GuidedSituation& situation, int 
     return found;
 }
 
-std::optional<Advice> searched(const FaceReader& reader, const GuidedSituation& situation,
+std::optional<Advice> searched(const FaceReader& reader, const GuidedState& tracked_state,
                                const std::optional<GivenAdvice>& standing = {}) {
     AdviceSearch search;
-    search.begin(reader, situation, standing);
+    search.begin(reader, tracked_state, standing);
     EXPECT_TRUE(search.advance(reader, AdviceSearch::unlimited));
     return search.found();
 }
@@ -106,13 +108,13 @@ TEST_P(SearchOf, TheEasiestSingleMoveOfAllIsFound) {
     int single = 0;
     const int situations = reader.setup().in_hand ? 25 : 60; // in the hand there are far more moves
     for (int k = 0; k < situations; ++k) {
-        const GuidedSituation situation = seeded_situation(reader.setup(), seeded);
-        const std::optional<Advice> advice = searched(reader, situation);
-        ASSERT_EQ(advice.has_value(), !reader.valid(situation));
+        const GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+        const std::optional<Advice> advice = searched(reader, tracked_state);
+        ASSERT_EQ(advice.has_value(), !reader.valid(tracked_state));
         if (!advice) {
             continue;
         }
-        const Found all = single_moves(reader, situation, {});
+        const Found all = single_moves(reader, tracked_state, {});
         EXPECT_EQ(advice->steps == 1 && advice->move.action != Action::Wait, all.least() < never) << k;
         if (advice->steps == 1 && all.least() < never) {
             ++single;
@@ -127,14 +129,14 @@ TEST_P(SearchOf, WhatStandsCountsForItselfAndMustBeClearlyBeaten) {
     int single = 0;
     const int situations = reader.setup().in_hand ? 20 : 40;
     for (int k = 0; k < situations; ++k) {
-        const GuidedSituation situation = seeded_situation(reader.setup(), seeded);
-        const std::optional<Advice> before = searched(reader, situation);
+        const GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+        const std::optional<Advice> before = searched(reader, tracked_state);
         if (!before || before->steps != 1) {
             continue;
         }
-        GuidedSituation nearby = situation; // the visitor has hardly begun to follow
+        GuidedState nearby = tracked_state; // the visitor has hardly begun to follow
         nearby.table_from_prop.translation += glm::dvec3(seeded.between(-0.004, 0.004), 0.0, 0.0);
-        const GivenAdvice standing{before->move, situation};
+        const GivenAdvice standing{before->move, tracked_state};
         const std::optional<Advice> now = searched(reader, nearby, standing);
         const Found all = single_moves(reader, nearby, standing);
         if (now && now->steps == 1 && all.least() < never) {
@@ -150,8 +152,8 @@ TEST_P(SearchOf, WhatStandsCountsForItselfAndMustBeClearlyBeaten) {
 TEST_P(SearchOf, TheEasiestOfTheShortestSequencesIsFound) {
     int several = 0;
     for (int k = 0; k < 4000 && several < 8; ++k) {
-        const GuidedSituation situation = seeded_situation(reader.setup(), seeded);
-        const std::optional<Advice> advice = searched(reader, situation);
+        const GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+        const std::optional<Advice> advice = searched(reader, tracked_state);
         if (!advice || advice->steps != 2) {
             continue;
         }
@@ -160,7 +162,7 @@ TEST_P(SearchOf, TheEasiestOfTheShortestSequencesIsFound) {
         for (const auto& [length, last] :
              {std::pair(1, MoveSet::Only), {1, MoveSet::Last}, {2, MoveSet::Inner}, {2, MoveSet::Last}}) {
             if (all.least() == never) {
-                all = sequences(reader, situation, length, last);
+                all = sequences(reader, tracked_state, length, last);
             }
         }
         ASSERT_LT(all.least(), never) << k;
@@ -172,12 +174,12 @@ TEST_P(SearchOf, TheEasiestOfTheShortestSequencesIsFound) {
 TEST_P(SearchOf, AVisitorWhoHasASequenceKeepsItsBeginning) {
     int several = 0;
     for (int k = 0; k < 400 && several < 4; ++k) {
-        const GuidedSituation situation = seeded_situation(reader.setup(), seeded);
-        const std::optional<Advice> advice = searched(reader, situation);
+        const GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+        const std::optional<Advice> advice = searched(reader, tracked_state);
         if (advice && advice->steps > 1) {
             ++several;
             const std::optional<Advice> again =
-                searched(reader, situation, GivenAdvice{advice->move, situation});
+                searched(reader, tracked_state, GivenAdvice{advice->move, tracked_state});
             ASSERT_TRUE(again);
             EXPECT_TRUE(alike(again->move, advice->move)) << k;
         }
@@ -185,32 +187,32 @@ TEST_P(SearchOf, AVisitorWhoHasASequenceKeepsItsBeginning) {
     EXPECT_GT(several, 0);
 }
 
-/// A prop that stands beside a projector which lights nothing: no move helps, and the visitor has to wait.
+/// A projector that lights nothing: no move helps, and the visitor has to wait.
 TEST_P(SearchOf, WhereNoSequenceHelpsTheVisitorWaits) {
     GuidanceSetup dark = GetParam()();
-    dark.projector.width = 1; // nothing is in its picture
+    dark.projector.width = 1; // its picture is empty
     dark.projector.height = 1;
     const FaceReader nothing_lit(dark);
-    GuidedSituation situation = seeded_situation(reader.setup(), seeded);
-    while (nothing_lit.read(situation).seen == 0) {
-        situation = seeded_situation(reader.setup(), seeded);
+    GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+    while (nothing_lit.read(tracked_state).seen == 0) {
+        tracked_state = seeded_situation(reader.setup(), seeded);
     }
-    const std::optional<Advice> advice = searched(nothing_lit, situation);
+    const std::optional<Advice> advice = searched(nothing_lit, tracked_state);
     ASSERT_TRUE(advice);
     EXPECT_EQ(advice->move.action, Action::Wait);
     EXPECT_EQ(advice->steps, 1);
 }
 
-/// Three and four moves: there is no sequence of two, even with the last move all over the table.
+/// Advice of three or four moves: no sequence of two exists, even with the last move all over the table.
 TEST_P(SearchOf, NoLongerSequenceIsAdvisedWhereAShorterOneIs) {
     int longer = 0;
     for (int k = 0; k < 400 && longer < 3; ++k) {
-        const GuidedSituation situation = seeded_situation(reader.setup(), seeded);
-        const std::optional<Advice> advice = searched(reader, situation);
+        const GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+        const std::optional<Advice> advice = searched(reader, tracked_state);
         if (advice && advice->steps > 2) {
             ++longer;
-            EXPECT_EQ(single_moves(reader, situation, {}).least(), never) << k;
-            EXPECT_EQ(sequences(reader, situation, 2, MoveSet::Last).least(), never) << k;
+            EXPECT_EQ(single_moves(reader, tracked_state, {}).least(), never) << k;
+            EXPECT_EQ(sequences(reader, tracked_state, 2, MoveSet::Last).least(), never) << k;
         }
     }
     RecordProperty("longer", longer);
@@ -221,15 +223,16 @@ TEST_P(SearchOf, IsTheSameInTheSmallestPiecesAndAfterABeginningThatWasGivenUp) {
     int sought = 0;
     for (int k = 0; k < 12; ++k) {
         search.begin(reader, seeded_situation(reader.setup(), seeded), {});
-        static_cast<void>(search.advance(reader, 500)); // given up
-        const GuidedSituation situation = seeded_situation(reader.setup(), seeded);
-        search.begin(reader, situation, {});
-        EXPECT_EQ(search.situation().table_from_prop.translation, situation.table_from_prop.translation);
+        static_cast<void>(search.advance(reader, 500)); // abandoned
+        const GuidedState tracked_state = seeded_situation(reader.setup(), seeded);
+        search.begin(reader, tracked_state, {});
+        EXPECT_EQ(search.tracked_state().table_from_prop.translation,
+                  tracked_state.table_from_prop.translation);
         EXPECT_FALSE(search.found());
         while (!search.advance(reader, 1)) {
             EXPECT_FALSE(search.found()) << "it is not over";
         }
-        const std::optional<Advice> whole = searched(reader, situation);
+        const std::optional<Advice> whole = searched(reader, tracked_state);
         ASSERT_EQ(search.found().has_value(), whole.has_value());
         if (whole) {
             ++sought;

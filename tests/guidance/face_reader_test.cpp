@@ -1,4 +1,4 @@
-// Faces seen and lit: against the definition, corner by corner in table coordinates, and against a ray cast.
+// Faces seen and lit, compared with the definition, corner by corner in table coordinates, and with a ray cast.
 #include "guided_props.h"
 
 #include <gtest/gtest.h>
@@ -10,11 +10,11 @@ namespace {
 
 constexpr double hair = 1e-9;
 
-/// The least sine of a point's elevation over a face, of all corners; table coordinates.
-double least_sine_over(const GuidedSituation& situation, const PropFace& face, const glm::dvec3& point) {
+/// The least sine of a point's elevation over a face, over all corners; table coordinates.
+double min_sine_over(const GuidedState& tracked_state, const PropFace& face, const glm::dvec3& point) {
     std::array<glm::dvec3, 4> corners{};
     std::transform(face.corners.begin(), face.corners.end(), corners.begin(),
-                   [&](const glm::dvec3& corner) { return situation.table_from_prop.point(corner); });
+                   [&](const glm::dvec3& corner) { return tracked_state.table_from_prop.point(corner); });
     const glm::dvec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[3] - corners[0]));
     double least = 1.0;
     for (const glm::dvec3& corner : corners) {
@@ -23,10 +23,10 @@ double least_sine_over(const GuidedSituation& situation, const PropFace& face, c
     return least;
 }
 
-bool in_picture(const GuidanceSetup& setup, const GuidedSituation& situation, const PropFace& face) {
+bool in_picture(const GuidanceSetup& setup, const GuidedState& tracked_state, const PropFace& face) {
     const RigidTransform projector_from_table = setup.table_from_projector.inverse();
     return std::all_of(face.corners.begin(), face.corners.end(), [&](const glm::dvec3& corner) {
-        const glm::dvec3 p = projector_from_table.point(situation.table_from_prop.point(corner));
+        const glm::dvec3 p = projector_from_table.point(tracked_state.table_from_prop.point(corner));
         const double u = setup.projector.fx * p.x / p.z + setup.projector.cx;
         const double v = setup.projector.fy * p.y / p.z + setup.projector.cy;
         return p.z > 0.0 && u >= 0.0 && v >= 0.0 && u <= setup.projector.width && v <= setup.projector.height;
@@ -43,32 +43,32 @@ TEST_P(FacesOf, AreSeenAndLitByTheDefinition) {
     int lit = 0;
     int dark = 0;
     for (int k = 0; k < 5000; ++k) {
-        const GuidedSituation situation = seeded_situation(setup, seeded);
-        const FaceSets sets = reader.read(situation);
-        EXPECT_EQ(sets.valid(), reader.valid(situation));
+        const GuidedState tracked_state = seeded_situation(setup, seeded);
+        const FaceSets sets = reader.read(tracked_state);
+        EXPECT_EQ(sets.valid(), reader.valid(tracked_state));
         for (std::size_t f = 0; f < setup.prop.faces.size(); ++f) {
             const PropFace& face = setup.prop.faces[f];
             const double eye =
-                least_sine_over(situation, face, situation.eye_m) - FaceReader::least_sine_of_sight;
-            const double lens = least_sine_over(situation, face, setup.table_from_projector.translation) -
-                                setup.least_sine_of_light;
+                min_sine_over(tracked_state, face, tracked_state.eye_m) - FaceReader::min_sine_of_sight;
+            const double lens = min_sine_over(tracked_state, face, setup.table_from_projector.translation) -
+                                setup.min_sine_of_light;
             if (std::abs(eye) < hair || std::abs(lens) < hair) {
                 continue;
             }
             EXPECT_EQ((sets.seen >> f & 1U) != 0, eye > 0.0);
-            const bool is_lit = lens > 0.0 && in_picture(setup, situation, face);
+            const bool is_lit = lens > 0.0 && in_picture(setup, tracked_state, face);
             EXPECT_EQ((sets.lit >> f & 1U) != 0, is_lit);
             ++(is_lit ? lit : dark);
         }
     }
-    EXPECT_GT(lit, 1000); // both happen
+    EXPECT_GT(lit, 1000); // both occur
     EXPECT_GT(dark, 1000);
 }
 
 /// Counts the pixels of a pinhole at the eye whose rays enter the prop through one of the faces.
-double traced_px(const GuidanceSetup& setup, const GuidedSituation& situation, std::uint32_t faces) {
-    const RigidTransform prop_from_table = situation.table_from_prop.inverse();
-    const glm::dvec3 eye = prop_from_table.point(situation.eye_m);
+double traced_px(const GuidanceSetup& setup, const GuidedState& tracked_state, std::uint32_t faces) {
+    const RigidTransform prop_from_table = tracked_state.table_from_prop.inverse();
+    const glm::dvec3 eye = prop_from_table.point(tracked_state.eye_m);
     const glm::dvec3 forward = glm::normalize(setup.prop.middle - eye);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, prop_from_table.direction({0.0, 0.0, 1.0})));
     const glm::dvec3 down = glm::cross(forward, right);
@@ -90,7 +90,7 @@ double traced_px(const GuidanceSetup& setup, const GuidedSituation& situation, s
 
 TEST_P(FacesOf, HaveTheAreaThatARayCastCounts) {
     GuidanceSetup setup = GetParam()();
-    // The ray cast knows the solid by its planes; those of the wedge were not moved with its corners.
+    // The ray cast uses the planes; the wedge's planes were not moved with its corners.
     setup.prop.bounds.resize(setup.prop.faces.size());
     for (std::size_t f = 0; f < setup.prop.faces.size(); ++f) {
         setup.prop.bounds[f] = setup.prop.faces[f].plane;
@@ -101,17 +101,17 @@ TEST_P(FacesOf, HaveTheAreaThatARayCastCounts) {
     const FaceReader reader(setup);
     Seeded seeded(5);
     for (int k = 0; k < 12; ++k) {
-        const GuidedSituation situation = seeded_situation(setup, seeded);
-        const std::uint32_t seen = reader.read(situation).seen;
-        const double traced = traced_px(setup, situation, seen);
-        const double area = reader.area_px(situation, seen);
-        // The raster of every fourth pixel is off by about its step along the outline.
+        const GuidedState tracked_state = seeded_situation(setup, seeded);
+        const std::uint32_t seen = reader.read(tracked_state).seen;
+        const double traced = traced_px(setup, tracked_state, seen);
+        const double area = reader.area_px(tracked_state, seen);
+        // A raster of every fourth pixel errs by about its step along the outline.
         EXPECT_NEAR(area, traced, 0.03 * area + 200.0);
-        const std::uint32_t largest = reader.largest_of(situation, seen);
+        const std::uint32_t largest = reader.largest_of(tracked_state, seen);
         for (std::size_t f = 0; f < setup.prop.faces.size(); ++f) {
             const std::uint32_t face = std::uint32_t{1} << f;
             EXPECT_TRUE((seen & face) == 0 ||
-                        reader.area_px(situation, face) <= reader.area_px(situation, largest));
+                        reader.area_px(tracked_state, face) <= reader.area_px(tracked_state, largest));
         }
     }
 }

@@ -1,4 +1,4 @@
-// When advice is given, and how: under a simulated clock.
+// When and in which form advice is given, with a simulated clock.
 #include "app/guidance/guide.h"
 #include "guided_props.h"
 
@@ -14,25 +14,25 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-GuidedSituation standing_at(double x, double y, double yaw = 0.0) {
-    GuidedSituation situation;
-    situation.eye_m = {0.0, -0.55, 0.5};
-    situation.table_from_prop = {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), {x, y, 0.0}};
-    return situation;
+GuidedState standing_at(double x, double y, double yaw = 0.0) {
+    GuidedState tracked_state;
+    tracked_state.eye_m = {0.0, -0.55, 0.5};
+    tracked_state.table_from_prop = {glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), {x, y, 0.0}};
+    return tracked_state;
 }
-const GuidedSituation good = standing_at(0.0, 0.0);
-const GuidedSituation right_of_the_beam = standing_at(0.3, 0.0);
+const GuidedState good = standing_at(0.0, 0.0);
+const GuidedState right_of_the_beam = standing_at(0.3, 0.0);
 
 class GuideTest : public ::testing::Test {
 protected:
-    const Guidance& at(Nanoseconds time, const GuidedSituation& situation, Sensing sensing = Sensing::Good,
+    const Guidance& at(Nanoseconds time, const GuidedState& tracked_state, Sensing sensing = Sensing::Good,
                        bool may_speak = true) {
         for (; time_ < time; time_ += milliseconds(20)) {
-            const Guidance& guidance = guide_.step(MonotonicTime(time_), situation, sensing, may_speak);
+            const Guidance& guidance = guide_.step(MonotonicTime(time_), tracked_state, sensing, may_speak);
             spoken_ += guidance.speak ? 1 : 0;
             stages_.insert(guidance.stage);
         }
-        return guide_.step(MonotonicTime(time), situation, sensing, may_speak);
+        return guide_.step(MonotonicTime(time), tracked_state, sensing, may_speak);
     }
     Guide guide_{frustum_setup()};
     Nanoseconds time_{0};
@@ -71,21 +71,21 @@ TEST_F(GuideTest, IsQuietSoonWhenTheVisitorHasManaged) {
     EXPECT_EQ(at(milliseconds(10250), good).stage, GuidanceStage::Quiet);
 }
 
-/// A tracker's error does not lift a prop, nor press it into the table.
+/// A tracker's error neither lifts a prop nor presses it into the table.
 TEST_F(GuideTest, APropThatStandsIsNotToldToStand) {
     for (const double height_m : {-0.006, 0.0, 0.006}) {
         for (const double lean_rad : {0.0, 0.04}) {
-            GuidedSituation situation = right_of_the_beam;
-            situation.table_from_prop.translation.z = height_m;
-            situation.table_from_prop.rotation = glm::angleAxis(lean_rad, glm::dvec3(1, 0, 0));
+            GuidedState tracked_state = right_of_the_beam;
+            tracked_state.table_from_prop.translation.z = height_m;
+            tracked_state.table_from_prop.rotation = glm::angleAxis(lean_rad, glm::dvec3(1, 0, 0));
             guide_.forget();
-            EXPECT_EQ(at(time_ + seconds(2), situation).move.action, Action::Slide)
+            EXPECT_EQ(at(time_ + seconds(2), tracked_state).move.action, Action::Slide)
                 << height_m << " " << lean_rad;
         }
     }
 }
 
-/// A prop that lies a little more in the dark than in the light, or the other way round, as a tracker sees it.
+/// A prop at the border of the light, slightly more in the dark or in the light, with a tracker's noise.
 TEST_F(GuideTest, DoesNotBlinkAtTheBorderOfTheLight) {
     double lit_m = 0.0;
     double dark_m = 0.3;
@@ -101,10 +101,10 @@ TEST_F(GuideTest, DoesNotBlinkAtTheBorderOfTheLight) {
         int changes = 0;
         int shown = 0;
         for (int frame = 0; frame < 3600; ++frame) {
-            const GuidedSituation situation = standing_at(lit_m + beyond_m + noise(random), noise(random));
+            const GuidedState tracked_state = standing_at(lit_m + beyond_m + noise(random), noise(random));
             const MonotonicTime now{frame * milliseconds(1000) / 60};
             const bool before = shows;
-            shows = guide.step(now, situation, Sensing::Good, true).stage != GuidanceStage::Quiet;
+            shows = guide.step(now, tracked_state, Sensing::Good, true).stage != GuidanceStage::Quiet;
             changes += shows != before ? 1 : 0;
             shown += shows ? 1 : 0;
         }
@@ -124,7 +124,7 @@ TEST_F(GuideTest, SpeaksAfterGrowingPauses) {
 TEST_F(GuideTest, DoesNotSpeakOverSomethingElse) {
     at(seconds(60), right_of_the_beam, Sensing::Good, false);
     EXPECT_EQ(spoken_, 0);
-    EXPECT_EQ(stages_.count(GuidanceStage::Text), 1U); // but it shows
+    EXPECT_EQ(stages_.count(GuidanceStage::Text), 1U); // but it is shown
 }
 
 TEST_F(GuideTest, WhoAsksGetsAllOfItAtOnceAndOnce) {
@@ -145,7 +145,7 @@ TEST_F(GuideTest, WhoAsksGetsAllOfItAtOnceAndOnce) {
 }
 
 TEST_F(GuideTest, WaitsWhileItIsFollowed) {
-    // 2 cm each second towards the beam: slow, but followed.
+    // 2 cm a second towards the beam: slow, but the advice is followed.
     for (int k = 0; k < 8; ++k) {
         at(milliseconds(1000 * k), standing_at(0.40 - 0.02 * k, 0.0));
     }
@@ -171,11 +171,11 @@ TEST_F(GuideTest, TellsTheNextVisitorAnew) {
     const int before = spoken_;
     guide_.forget();
     at(seconds(126), right_of_the_beam);
-    EXPECT_EQ(spoken_, before + 1); // and not after the long pause that the one before had come to
+    EXPECT_EQ(spoken_, before + 1); // without the long pause of the previous advice
 }
 
 TEST_F(GuideTest, StandsUpWhatShowsOnlyItsBottom) {
-    GuidedSituation upside_down = good;
+    GuidedState upside_down = good;
     upside_down.table_from_prop = {glm::angleAxis(3.1, glm::dvec3(1, 0, 0)), {0.0, 0.0, 0.155}};
     EXPECT_EQ(words_key(at(seconds(1), upside_down)), "stand_upright");
 }
@@ -186,7 +186,7 @@ TEST(AdviceWords, AreInTheVisitorsDirections) {
         const glm::dquat turn = glm::angleAxis(0.5 * std::numbers::pi * side, glm::dvec3(0, 0, 1));
         Guidance guidance;
         guidance.stage = GuidanceStage::Picture;
-        guidance.situation.eye_m = turn * glm::dvec3(0.0, -0.6, 0.5);
+        guidance.tracked_state.eye_m = turn * glm::dvec3(0.0, -0.6, 0.5);
         const auto key = [&](const glm::dvec3& way) {
             guidance.move = {Action::Slide, turn * way};
             return std::string(words_key(guidance));

@@ -1,5 +1,5 @@
-// Draws what the table shows during its calibration, by touch and by a camera, its touch-up, and while the eyes are measured, for the guide: the
-// beginning, a cross or the place of a rest, a verdict.
+// Draws, for the guide, the table during its calibration by touch and by camera, during a touch-up, and while the eyes
+// are measured: the beginning, a cross or the place of a rest, a verdict.
 //
 //   draw_calibration_pictures FOLDER [WORDS LANGUAGE]
 
@@ -20,13 +20,13 @@
 namespace frustumscreen {
 namespace {
 
-// The set-up that is shipped.
+// The shipped set-up.
 constexpr int width = 1920;
 constexpr int height = 1200;
 constexpr double above_m = 1.5;
 constexpr int touches = 15;
 constexpr double prop_px = 720.0;   ///< 30 cm under a projector of throw ratio 1.875
-constexpr double board_px = 1008.0; ///< 42 cm there
+constexpr double board_px = 1008.0; ///< 42 cm under that projector
 
 CrossSetup shipped_crosses(int count) {
     CrossSetup setup;
@@ -52,7 +52,7 @@ Result<void> draw(const Way& way, const Means& means, const std::filesystem::pat
                                                            .house = means.house ? &*means.house : nullptr})));
 }
 
-/// `words`: file and language, or nothing.
+/// `words`: a file and a language, or nothing.
 Result<Means> means_with(std::span<char*> words) {
     TRY(Typesetter typesetter, Typesetter::open());
     if (words.empty()) {
@@ -63,7 +63,7 @@ Result<Means> means_with(std::span<char*> words) {
     return Means{std::move(typesetter), std::move(house)};
 }
 
-/// The prop is laid on every cross, as a tracker would report it.
+/// Lays the prop on every cross, with the poses that a tracker would report.
 void touch_all(TouchProcedure& procedure) {
     MonotonicTime now{};
     while (procedure.stage() == CalibrationStage::Place) {
@@ -76,7 +76,7 @@ void touch_all(TouchProcedure& procedure) {
     }
 }
 
-/// Somebody bumped the projector.
+/// A touch-up after the projector was bumped.
 Result<void> draw_touch_up(const TouchModel& kept, const Means& means, const std::filesystem::path& folder) {
     TouchProcedure procedure(choose_touch_up_crosses(kept, shipped_crosses(7), 2), 7);
     TRY_VOID(draw(procedure, means, folder / "touch_up_begin.png"));
@@ -93,7 +93,7 @@ Result<void> draw_touch_up(const TouchModel& kept, const Means& means, const std
     return draw(procedure, means, folder / "touch_up_verdict.png");
 }
 
-/// Next is pressed, and the camera sees the light and the dark that are shown.
+/// Presses the button for the next step, and lets the camera see the light and the dark that are shown.
 void look_at_light(AutoProcedure& procedure) {
     CameraFrame frame{{}, 0, 16, 12, std::vector<std::uint8_t>(16 * 12)};
     AutoProcedure::Input input;
@@ -124,7 +124,7 @@ Result<void> draw_by_camera(const Means& means, const std::filesystem::path& fol
     return draw(procedure, means, folder / "camera_rest.png");
 }
 
-/// A person at the shipped table, from the first word to a verdict; the sightings are made up.
+/// A person at the shipped table, from the first words to a verdict; the sightings are invented.
 Result<void> draw_eyes(const Pinhole& pinhole, const Means& means, const std::filesystem::path& folder) {
     const SightScene scene{pinhole, ProjectorSettings().table_from_projector, make_frustum(shipped_frustum),
                            EyeSettings().default_m};
@@ -172,7 +172,7 @@ Result<void> draw_all(const std::filesystem::path& folder, std::span<char*> word
     procedure.step({MonotonicTime{}, std::nullopt, true, false});
     TRY_VOID(draw(procedure, means, folder / "calibrate_cross.png"));
     touch_all(procedure);
-    TouchCalibration judged; // as a table with the usual noise gets it
+    TouchCalibration judged; // a typical result for a table with the usual noise
     judged.verdict = Verdict::Usable;
     judged.uncertainty.shares = {0.7e-3, 1.8e-3, 4.4e-3};
     judged.reason = in_words(judged.uncertainty) + "; with more touches it would be good";

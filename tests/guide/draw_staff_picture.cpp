@@ -1,4 +1,5 @@
-// Draws the staff's picture of an exhibit that runs well, for the guide: the exhibit's own pages, with the status of an example.
+// Draws, for the guide, the staff's picture of an exhibit that runs well: the exhibit's own pages, with an example of a
+// status.
 //
 //   draw_staff_picture FOLDER      writes staff.png, staff_place.png, and staff_pages.png with the others
 
@@ -16,7 +17,7 @@
 namespace frustumscreen {
 namespace {
 
-/// As a kiosk's status file has it (docs/status.md).
+/// The contents of a kiosk's status file (docs/status.md).
 constexpr const char* status = R"({
  "versions": {"program": "0.1.0", "pack_format": 2, "system": "Debian GNU/Linux 12 (bookworm), Linux 6.1.0"},
  "health": "well", "state": "staff", "artifact": "Amphora", "language": "en", "shown_for_s": 7500,
@@ -35,12 +36,12 @@ constexpr const char* watchdog = R"({
              "done": "the tracker's USB port is switched off and on", "helped": true}]})";
 
 StaffFacts facts_of(const Settings& settings) {
-    Surroundings around;
+    Environment around;
     around.watchdog.fields = nlohmann::json::parse(watchdog);
     around.watchdog.age_s = 0.0;
     RunStatus run;
     static_cast<StatusReport&>(run) = read_status_report(nlohmann::json::parse(status));
-    run.surroundings = std::make_shared<const Surroundings>(around);
+    run.environment = std::make_shared<const Environment>(around);
     run.calibrates = true;
     constexpr std::time_t now = 1777651200; // a Friday at noon
     StaffFacts facts = staff_facts(run, settings, "Mesa Intel(R) UHD Graphics 630", State::View, now);
@@ -50,7 +51,7 @@ StaffFacts facts_of(const Settings& settings) {
     return facts;
 }
 
-/// The others beside each other, half as large.
+/// The other pages side by side, at half size.
 Image8 contact_sheet(const std::vector<Image8>& pages) {
     constexpr int gap = 10;
     const glm::ivec2 size(pages.front().width / 2, pages.front().height / 2);

@@ -1,5 +1,5 @@
-// The staff's guide names every sentence that the table, the safe picture and the staff's picture can show: read from where
-// the programs have them, so that a new one without its row fails here.
+// The staff's guide has a row for every sentence that the table, the safe picture and the staff's picture can show. The
+// sentences are read from the programs' sources, so that a new one without a row fails here.
 
 #include "tests/folders.h"
 #include "tests/guide/string_literals.h"
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 const fs::path root = frustumscreen::source_dir();
 
-/// Whose sentences reach the staff.
+/// Sources whose sentences reach the staff.
 constexpr const char* sources[] = {"app/counts/counts_folder.cpp",
                                    "app/counts/day_counts.cpp",
                                    "app/drift",
@@ -50,7 +50,7 @@ constexpr const char* sources[] = {"app/counts/counts_folder.cpp",
                                    "app/library/signed_text.cpp",
                                    "app/library/stick_settings.cpp"};
 
-/// What has sentences that none of the three pictures shows.
+/// A source with sentences that none of the three pictures shows, and the reason.
 struct LeftOut {
     const char* file;
     const char* why;
@@ -93,9 +93,9 @@ constexpr LeftOut left_out[] = {
     {"firmware_host/tracker/pose_path.cpp", "files, when they are made"},
 };
 
-/// Of other files, which have more.
+/// Sentences that are never shown, of sources that also have shown ones.
 constexpr const char* never_shown[] = {
-    "not wanted any more",      // ends a thread's work, and nobody reads it
+    "not wanted any more",      // ends a thread's work; not shown
     "no picture for the staff", // the journal
     "texts left out",           // the journal
 };
@@ -106,7 +106,7 @@ std::string text_of(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// One space wherever there is any; what a program fills in is "..." as on the page.
+/// Reduces white space to single spaces, and replaces the fields that a program fills in by "...", as on the page.
 std::string as_written(const std::string& text) {
     static const std::regex field(R"(\{[^{}]*\})");
     static const std::regex dots(R"(\.\.\.(\.\.\.)+)");
@@ -115,7 +115,7 @@ std::string as_written(const std::string& text) {
                               " ");
 }
 
-/// Without what joins it to the sentence before or after.
+/// Without the punctuation that joins it to its neighbours.
 std::string bare(std::string text) {
     const auto joins = [](char c) { return std::string_view(" .,;:").find(c) != std::string_view::npos; };
     text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), joins));
@@ -123,14 +123,14 @@ std::string bare(std::string text) {
     return text;
 }
 
-/// Three words make a sentence; less is a name, a key or a part of a file's format.
+/// True for three words or more; shorter texts are names, keys or parts of a file's format.
 bool is_sentence(const std::string& text) {
     static const std::regex word(R"([A-Za-z']{2,}[,;:.]? )");
     const auto words = std::distance(std::sregex_iterator(text.begin(), text.end(), word), {});
     return words >= 2 && text.find_first_of("<>\\#$") == std::string::npos;
 }
 
-/// What the page's tables name, in their first columns: a row may name several.
+/// The sentences in the first columns of the page's tables; a row may have several.
 std::vector<std::string> named_on_the_page() {
     static const std::regex first_cell(R"(^\| (.*?) \|.*)");
     static const std::regex several(R"( ?<br> ?)");
@@ -147,7 +147,7 @@ std::vector<std::string> named_on_the_page() {
     return named;
 }
 
-/// Programs join sentences of parts: a part is named where a row has it from one joint to another.
+/// Programs join sentences from parts: a part has a row if a row contains it between two joints.
 bool is_named(const std::string& sentence) {
     static const std::vector<std::string> named = named_on_the_page();
     const auto is_joint = [](const std::string& text, std::size_t at) {
@@ -182,7 +182,7 @@ std::vector<fs::path> files_of(const char* folder) {
     return files;
 }
 
-/// The values of a TOML file's texts, below the table [`only`]; all of them where it is empty.
+/// The texts of a TOML file below the table [`only`]; all of them if `only` is empty.
 std::vector<std::string> toml_texts(const fs::path& file, const std::string& only) {
     static const std::regex line_form(R"re(^\s*\w+\s*=\s*"(.*)"\s*$)re");
     static const std::regex table_form(R"(^\[(.*)\]$)");
@@ -212,7 +212,7 @@ TEST(Guide, LiteralsAreReadAsTheCompilerReadsThem) {
     EXPECT_FALSE(is_sentence("frame_ms"));
 }
 
-/// The sentences of a source file that may be shown.
+/// The sentences of a source file that may reach the staff.
 std::vector<std::string> sentences_of(const fs::path& file) {
     std::vector<std::string> sentences;
     for (const std::string& literal : string_literals(text_of(file))) {
@@ -249,7 +249,7 @@ TEST(Guide, NamesEverySentenceOfThePrograms) {
     EXPECT_TRUE(never_met.empty()) << *never_met.begin() << " is in no program";
 }
 
-/// A file whose sentences are all named needs not be left out, and is looked at from then on.
+/// A file whose sentences all have rows must not be in `left_out`, so that it is tested.
 TEST(Guide, LeavesOutNoFileInVain) {
     for (const LeftOut& each : left_out) {
         const std::vector<std::string> sentences = sentences_of(each.file);

@@ -52,7 +52,7 @@ private:
         return true;
     }
     bool pass_character() {
-        // A digit before it: 1'000'000.
+        // After a digit it separates thousands, as in 1'000'000.
         const bool is_one = source_[at_] == '\'' &&
                             (at_ == 0 || std::string_view("0123456789abcdefABCDEF").find(source_[at_ - 1]) ==
                                              std::string_view::npos);
@@ -78,7 +78,7 @@ private:
         ++at_;
         return true;
     }
-    /// \n is a space; \uXXXX becomes UTF-8 of two or three bytes; others stand for themselves.
+    /// \n becomes a space, \uXXXX becomes UTF-8 of two or three bytes; other escapes stand for themselves.
     void take_escape() {
         if (source_[at_] == 'u') {
             const int code = std::stoi(std::string(source_.substr(at_ + 1, 4)), nullptr, 16);
@@ -108,7 +108,7 @@ private:
 
     std::string_view source_;
     std::size_t at_ = 0;
-    std::string run_; ///< literals side by side, so far
+    std::string run_; ///< adjacent literals so far
     std::vector<std::string> literals_;
 };
 

@@ -1,9 +1,9 @@
-// The texts in C++ source: string literals, those side by side joined as the compiler joins them.
+// The string literals of a C++ source; adjacent ones are joined, as by the compiler.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-/// Without those of #include and #error, and without raw ones, which hold shaders and patterns.
+/// Leaves out those of #include and #error, and raw ones, which contain shaders and patterns.
 [[nodiscard]] std::vector<std::string> string_literals(std::string_view source);

@@ -1,10 +1,9 @@
-/// Laid before the exhibit in the emulated machine (LD_PRELOAD): makes a call into a library wait for as long
-/// as a file is there, as a broken driver would; where the file has a number in it, for so many milliseconds,
-/// once.
+/// Preloaded into the exhibit in the emulated machine (LD_PRELOAD): makes a call into a library wait as long as a file
+/// exists, as a broken driver would; if the file contains a number, for that many milliseconds, once.
 ///
 /// /run/hil/hang-gl    the next glClear, on the render thread
 /// /run/hil/hang-usb   the next bulk transfer, on the tracker's thread
-/// /run/hil/hang-connector   the next look at what is connected, on the connectors' thread
+/// /run/hil/hang-connector   the next query of the connectors, on their thread
 ///
 /// /run/hil/crash-driver     does not hang: each thread that llvmpipe starts ends the process with SIGSEGV
 #include <dlfcn.h>
@@ -30,7 +29,7 @@ void wait_while_there(const char* file) {
 }
 
 template <typename Function> Function* real(const char* name) {
-    return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name)); // what POSIX prescribes for dlsym
+    return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name)); // as POSIX prescribes for dlsym
 }
 
 } // namespace
@@ -43,7 +42,7 @@ void glClear(unsigned mask) {
     clear(mask);
 }
 
-/// Mesa names each of its threads as the thread begins.
+/// Mesa names each of its threads when the thread starts.
 int pthread_setname_np(pthread_t thread, const char* name) {
     static auto* const set_name = real<int(pthread_t, const char*)>("pthread_setname_np");
     const int result = set_name(thread, name);

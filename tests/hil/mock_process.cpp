@@ -54,7 +54,7 @@ std::optional<Descriptor> connect_to(const std::string& path) {
     return connection;
 }
 
-/// Of the HID tracker's reports, by their number (docs/hid_tracker.md): a stream does not say where one ends.
+/// Length of a HID tracker's report by its number (docs/hid_tracker.md), because a stream has no report boundaries.
 std::size_t report_bytes(std::byte number) {
     return number == std::byte{1} ? 34 : 10;
 }
@@ -91,7 +91,7 @@ public:
 
 private:
     Descriptor connection_;
-    bool reports_; ///< one whole report a read
+    bool reports_; ///< each read returns one whole report
 };
 
 class SocketBus final : public UsbBus {

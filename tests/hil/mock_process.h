@@ -1,5 +1,4 @@
-/// The mocked tracker as a process beside the test, its bytes at a Unix socket, and a bus that finds it
-/// there.
+/// The mocked tracker in a process beside the test, with its bytes at a Unix socket, and a bus that finds it there.
 ///
 /// Threads  one caller.
 /// Errors   an error of the process fails the test; without a socket no tracker is connected.

@@ -1,5 +1,5 @@
-/// The exhibit's tracker driver against the mocked trackers, as bytes over a socket: what it hands out was
-/// sent, each misbehaviour is named, and it recovers. Waits for what must come, not for times.
+/// The exhibit's tracker driver against the mocked trackers, as bytes over a socket: its samples were sent, each
+/// misbehaviour is named, and it recovers. Waits for events, not for times.
 
 #include "firmware_host/base/time.h"
 #include "firmware_host/tracker/pose_file.h"
@@ -32,7 +32,7 @@ const std::vector<Device> devices{
 constexpr int rows = 3600;
 constexpr double rows_per_metre = 8192.0;
 
-/// The pose of a row: another in every row and station.
+/// The pose of a row; each row and station has a different one.
 PoseSample row_pose(int row, int station) {
     PoseSample pose;
     pose.time = from_microseconds(row * 1'000'000LL / 240);
@@ -48,8 +48,8 @@ std::string read_file(const std::string& path) {
     return text.str();
 }
 
-/// The mock, playing rows, and the driver at it; every sample, taken to the table, is held against the row
-/// that it must be.
+/// The mock, which plays rows, and the driver connected to it; every sample, converted to the table's frame, is
+/// compared with its row.
 class Bench {
 public:
     explicit Bench(const Device& device, const std::vector<std::string>& more = {},
@@ -62,7 +62,7 @@ public:
         SCOPED_TRACE(command);
         EXPECT_NE(mock_.tell(command).find("\"ok\": true"), std::string::npos);
     }
-    /// Steps until it holds; false: it did not within two minutes.
+    /// Steps until `holds` returns true; returns false after two minutes.
     bool until(const std::function<bool()>& holds) {
         const MonotonicTime end = monotonic_now() + std::chrono::minutes(2);
         while (!holds()) {
@@ -76,7 +76,7 @@ public:
     bool until_state(UsbTrackerState state) {
         return until([&] { return driver_.state() == state; });
     }
-    /// Streams, and that is no leftover: new poses of both stations came.
+    /// Waits until the driver streams and new poses of both stations have come.
     bool until_streaming() {
         const std::map<int, int> before = good_;
         return until([&] {
@@ -88,7 +88,8 @@ public:
     [[nodiscard]] TrackerCounts counts() const { return driver_.counts(); }
     [[nodiscard]] const std::vector<PoseSample>& samples() const { return samples_; }
 
-    /// Each good sample was sent whole, as the mock wrote down. It goes on writing: a row that is only begun is left out.
+    /// Checks that the mock's log has each good sample as a whole row. The mock still writes, so an incomplete last row
+    /// is ignored.
     void check_against_log() const {
         std::string log = read_file(folder_.path("log"));
         log.resize(log.rfind('\n') + 1);
@@ -161,7 +162,7 @@ private:
     std::map<int, MonotonicTime> last_time_;
 };
 
-/// Each device has a thread and a bench of its own, since most of the time is waiting.
+/// Runs each device in a thread and a bench of its own, since most of the time is waiting.
 void with_each(const std::vector<Device>& which, const std::function<void(const Device&)>& test) {
     std::vector<std::jthread> threads;
     threads.reserve(which.size());
@@ -223,7 +224,7 @@ TEST(MockTracker, WhatIsTheMatterIsSaidAndPasses) {
             {"stall", UsbTrackerState::Silent},
             {"hang", UsbTrackerState::Silent},
             {"unplug", UsbTrackerState::NotConnected},
-            // A PATRIOT has no checksum: such a frame is taken for a broken one.
+            // A PATRIOT has no checksum, so this frame counts as a broken one.
             {"nan", says_that_it_boots ? UsbTrackerState::PosesUnusable : UsbTrackerState::Silent},
             {"sensor-missing", UsbTrackerState::SensorMissing},
             {"distortion 200", UsbTrackerState::MetalNear},
@@ -252,7 +253,7 @@ TEST(MockTracker, ADeviceThatRefusesItsSetUpIsTriedUntilItTakesIt) {
     });
 }
 
-/// A fault of one kind of device, and what is said of it.
+/// A fault of one kind of device, and the state that must be reported.
 struct Said {
     const Device& device;
     std::string fault;
@@ -311,7 +312,7 @@ TEST(MockTracker, StormsAreLivedThroughAndNoPoseIsInvented) {
     with_each(devices, [](const Device& device) {
         Bench bench(device);
         ASSERT_TRUE(bench.until_streaming());
-        bench.tell("replug 33 3s"); // a hundred times
+        bench.tell("replug 33 3s"); // about a hundred replugs
         EXPECT_TRUE(bench.until_state(UsbTrackerState::NotConnected));
         EXPECT_TRUE(bench.until_streaming());
         using Count = std::uint64_t TrackerCounts::*;
@@ -322,7 +323,7 @@ TEST(MockTracker, StormsAreLivedThroughAndNoPoseIsInvented) {
             const std::uint64_t before = bench.counts().*count;
             bench.tell(storm);
             EXPECT_TRUE(bench.until([&, &c = count] { return bench.counts().*c > before + 20; }));
-            EXPECT_TRUE(bench.until_streaming()); // meanwhile
+            EXPECT_TRUE(bench.until_streaming()); // in the meantime
             bench.tell(storm.substr(0, storm.find(' ')) + " off");
             EXPECT_TRUE(bench.until_streaming());
         }

@@ -14,7 +14,7 @@ namespace {
 struct Codec {
     const char* name;
     Bytes (*encode)(const Image8&);
-    Result<Image8> (*decode)(std::span<const std::byte>, std::int64_t most_pixels);
+    Result<Image8> (*decode)(std::span<const std::byte>, std::int64_t max_pixels);
     std::size_t tail; ///< bytes at the end that contain no part of the picture
     std::string (*chunks)(const Bytes&);
     const char* expected_chunks; ///< each chunk's name, repeated chunks once

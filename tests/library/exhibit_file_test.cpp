@@ -1,4 +1,4 @@
-// exhibit.toml: what it may say, and the sentence for each mistake.
+// exhibit.toml: its contents, and the message for each mistake.
 #include "app/library/exhibit_file.h"
 #include "tests/base/told.h"
 

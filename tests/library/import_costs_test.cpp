@@ -1,4 +1,4 @@
-// What a stick may cost: entries, time, work, copies in vain.
+// Limits on the cost of a stick: entries, time, work, copies in vain.
 #include "tests/library/stick_fixture.h"
 
 namespace frustumscreen {
@@ -9,9 +9,9 @@ using namespace testing_disk;
 class ImportCosts : public StickTest {};
 
 TEST_F(ImportCosts, CountsWhatAStickMayHold) {
-    request.limits.most_entries = 10;
-    request.limits.most_packs = 3;
-    request.limits.most_folders = 2;
+    request.limits.max_entries = 10;
+    request.limits.max_packs = 3;
+    request.limits.max_folders = 2;
     for (int k = 0; k < 4; ++k) {
         stick.put(fmt::format("{}.fspack", k), "x");
     }
@@ -33,14 +33,14 @@ TEST_F(ImportCosts, CountsWhatAStickMayHold) {
 TEST_F(ImportCosts, AStickThatAnswersSlowlyIsRefused) {
     stick.put("a.fspack", museum.pack("a", 1, 20000));
     stick.put("b.fspack", museum.pack("b", 1));
-    ImportSurroundings outside = quiet_surroundings();
+    ImportEnvironment outside = quiet_environment();
     MonotonicTime now{};
     outside.now = [&] { return now; };
     stick.before_operation = [&](int) { now += std::chrono::seconds(25); };
     const ImportReport look = import_stick(stick, kiosk, request, outside);
     EXPECT_EQ(look.stage, ImportStage::Failed);
     EXPECT_EQ(look.refusal, ImportRefusal::TooMuch);
-    // Only slow once it is copied; a pace of 4 MB in 30 s is asked for.
+    // The stick is slow only during the copy; the pace asks for 4 MB in 30 s.
     stick.before_operation = nullptr;
     outside.tell = [&](const ImportReport& report) {
         if (report.stage == ImportStage::Copying) {
@@ -50,7 +50,7 @@ TEST_F(ImportCosts, AStickThatAnswersSlowlyIsRefused) {
     const ImportReport copy = import_stick(stick, kiosk, request, outside);
     EXPECT_EQ(copy.refusal, ImportRefusal::TooMuch) << copy.reason;
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{});
-    // A disk that is as slow is not the stick's fault.
+    // An equally slow disk is not the stick's fault.
     stick.before_operation = nullptr;
     outside.tell = [](const ImportReport&) {};
     kiosk.before_operation = [&](int) { now += std::chrono::seconds(40); };
@@ -77,7 +77,7 @@ TEST_F(ImportCosts, DamagedCopiesOfOnePackAreTriedTwice) {
 }
 
 TEST_F(ImportCosts, ManyDamagedPacksDoNotKeepTheProcessor) {
-    ImportSurroundings outside = quiet_surroundings();
+    ImportEnvironment outside = quiet_environment();
     Nanoseconds work{0};
     outside.work = [&] { return work; };
     kiosk.before_operation = [&](int) { work += std::chrono::seconds(1); };
@@ -104,7 +104,7 @@ TEST_F(ImportCosts, ManyFilesThatAreNoPacksDoNotKeepTheProcessor) {
     for (int k = 0; k < 50; ++k) {
         stick.put(fmt::format("{:02}.fspack", k), "PK");
     }
-    ImportSurroundings outside = quiet_surroundings();
+    ImportEnvironment outside = quiet_environment();
     Nanoseconds work{0};
     outside.work = [&] { return work += std::chrono::milliseconds(100); };
     const ImportReport report = import_stick(stick, kiosk, request, outside);

@@ -1,4 +1,4 @@
-// Keys that sets bring: whom they need, when they end, and how they are taken back.
+// Keys that sets bring: their signers, their last days, and how they are taken back.
 #include "app/library/library_folder.h"
 #include "app/library/pack_signers.h"
 #include "app/library/trusted_keys.h"
@@ -17,14 +17,14 @@ protected:
                            public_key_line(key.public_key()),
                            until.empty() ? "" : fmt::format("until = \"{}\"\n", until));
     }
-    /// A stick with nothing but a set file that brings this.
+    /// Imports a stick that has only a set file with this text.
     ImportReport bring(const std::string& text, const SecretKey& signer, std::uint64_t serial) {
         VolatileDisk other;
         other.put("exhibit.toml", text);
         other.put("exhibit.toml.minisig", signer.sign(as_bytes(text), fmt::format("serial:{}", serial)));
         return import_quietly(other, kiosk, request);
     }
-    /// Whether a new pack that is signed with this key is taken now.
+    /// True if a new pack signed with this key is taken.
     bool is_believed(const SecretKey& key, std::uint64_t serial = 0) {
         const std::string id = fmt::format("p{}", ++packs_);
         VolatileDisk other;
@@ -145,7 +145,7 @@ TEST_F(ImportKeys, NoKeyVouchesForItself) {
     ASSERT_EQ(bring(key_text(third), next, 2).stage, ImportStage::Done);
     EXPECT_EQ(bring(key_text(next, "2099-12-31"), third, 3).refusal, ImportRefusal::WrongKey)
         << "nor in a ring";
-    // The settings alone say when their own keys end.
+    // Only the settings say when their own keys expire.
     request.keys[0].until = day("2030-12-31");
     request.today = day("2030-12-01");
     ASSERT_EQ(bring(key_text(museum.key, "2099-12-31"), museum.key, 4).stage, ImportStage::Done);
@@ -160,7 +160,7 @@ TEST_F(ImportKeys, AClockThatGoesBackRevivesNoKey) {
     request.today = day("1970-01-01");
     EXPECT_FALSE(is_believed(museum.key));
     EXPECT_EQ(read_set_file(kiosk)->latest_day, "2031-01-01");
-    // A clock that is far ahead for once ends no key for ever.
+    // A clock that is far ahead once expires no key for ever.
     request.keys[0].until = day("2050-12-31");
     request.today = day("2100-01-01");
     EXPECT_FALSE(is_believed(museum.key));

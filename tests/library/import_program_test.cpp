@@ -1,4 +1,4 @@
-// frustumscreen-import on real folders: what it says, what it leaves, and that it may be killed.
+// frustumscreen-import on real folders: its output, the files it leaves, and that it may be killed.
 #include "app/pack/signature/signature.h"
 #include "firmware_host/base/json.h"
 #include "tests/folders.h"
@@ -48,7 +48,7 @@ protected:
         }
         return titles;
     }
-    /// Every file that is listed is there with its hash.
+    /// Every listed file is there and has its hash.
     void expect_whole() const {
         const json set = listed();
         for (const json& pack : set["packs"]) {
@@ -57,7 +57,7 @@ protected:
             EXPECT_EQ(sha256_hex(*bytes), pack["sha256"].get<std::string>());
         }
     }
-    /// Names, sizes and times of all that lies on the stick.
+    /// Names, sizes and times of all entries of the stick.
     [[nodiscard]] std::string stick_state() const {
         std::string state;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "stick")) {
@@ -149,8 +149,7 @@ TEST_F(ImportProgram, ListsWhoSignedEachPackAndWhetherThatKeyStillCounts) {
     EXPECT_TRUE(without[0]["signed_by"]["counts"].is_null()) << "without the settings nobody knows";
 
     bring_key("until = \"2020-01-01\"\n", 2);
-    std::filesystem::remove(folder /
-                            "stick/cup.fspack"); // it would be refused now, and the whole stick with it
+    std::filesystem::remove(folder / "stick/cup.fspack"); // it would be refused, and with it the whole stick
     ASSERT_EQ(import(), 0) << text("err.txt");
     EXPECT_NE(
         text("out.txt").find("exhibit.toml: taken: packs of a key that is no longer trusted stay: cup;"),
@@ -171,7 +170,7 @@ TEST_F(ImportProgram, ListsWhoSignedEachPackAndWhetherThatKeyStillCounts) {
     EXPECT_TRUE(listed_line("cup").ends_with("its file cannot be read")) << text("out.txt");
 }
 
-/// As udev writes it: mke2fs -L and blkid have the same bytes (util-linux, encode.c).
+/// The name as udev writes it: mke2fs -L and blkid give the same bytes (util-linux, encode.c).
 TEST_F(ImportProgram, TakesTheLabelFromUdevsLinkWhateverItHolds) {
     const auto label_of = [&](const std::string& link) {
         std::filesystem::remove_all(folder / "labels");
@@ -237,7 +236,7 @@ TEST_F(ImportProgram, LeavesTheReportOfAStickThatWasReadAfterAll) {
     EXPECT_EQ(run(words + "stick8p1"), 0);
     EXPECT_EQ(run(words + "stick8p2"), 0);
     EXPECT_EQ(text("report.json"), read);
-    // The clock was set back by an hour: the wait is as long as it is asked for, and no longer.
+    // The clock was set back by an hour: the wait is still no longer than requested.
     std::filesystem::last_write_time(folder / "report.json",
                                      std::filesystem::file_time_type::clock::now() + std::chrono::hours(1));
     EXPECT_EQ(run(words + "stick9 --report-stands 0.1"), 1);
@@ -268,7 +267,7 @@ TEST_F(ImportProgram, WaitsForAnotherImportAndTwoSticksAreBothTaken) {
     std::filesystem::create_directories(folder / "library");
     const int lock = ::open((folder / "library").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     ASSERT_EQ(::flock(lock, LOCK_EX), 0);
-    // However long it waits, it does not begin.
+    // It does not begin while the lock is held, however long it waits.
     EXPECT_EQ(std::system(
                   fmt::format("cd '{}' && timeout 0.5 '{}'/frustumscreen-import --from stick --into library "
                               "--keys keys >out.txt 2>err.txt",
@@ -307,7 +306,7 @@ TEST_F(ImportProgram, NeedsLittleMemoryForALargePart) {
         }
         put("stick/large.fspack", Museum::signed_by(museum.key, zip.finish().value(), 1));
     }
-    // Of all that a process may write to, the libraries' own data among it.
+    // The limit covers all memory that a process may write to, including the libraries' own data.
     EXPECT_EQ(
         std::system(fmt::format("cd '{}' && ulimit -d 49152 && '{}'/frustumscreen-import --from stick --into "
                                 "library --keys keys >out.txt 2>err.txt",

@@ -67,7 +67,8 @@ TEST_F(ImportSet, APackThatIsRefusedOnTheWayTearsTheSet) {
     stick.put("closed/b.fspack", museum.pack("b", 1));
     museum.put_exhibit(stick, "order = [\"a\"]\n", 1);
     const auto closed = stick.copy();
-    closed->plan = {FaultPlan::never, 1, 2, EACCES, false}; // the list of the folder, after that of the root
+    closed->plan = {FaultPlan::never, 1, 2, EACCES,
+                    false}; // the listing of the folder, after that of the root
     const ImportReport report = import_quietly(*closed, kiosk, request);
     EXPECT_EQ(report.stage, ImportStage::Failed);
     EXPECT_EQ(report.refusal, ImportRefusal::Unreadable);
@@ -110,7 +111,7 @@ TEST_F(ImportSet, WhereNothingIsTakenNoLineSaysOtherwise) {
     stick.put("1.fspack", a);
     stick.put("2.fspack", a);
     stick.put("z.fspack",
-              with_another_part(museum.pack("z", 1, 3000))); // found only after the others were copied
+              with_another_part(museum.pack("z", 1, 3000))); // detected only after the others were copied
     museum.put_exhibit(stick, "order = [\"a\"]\n", 1);
     const ImportReport report = import();
     EXPECT_EQ(report.stage, ImportStage::Failed);

@@ -1,4 +1,5 @@
-// What becomes of a stick: taken, there already, refused, removed; and what is kept for the exhibit meanwhile.
+// The outcome of a stick: taken, already there, refused, removed; and the packs that are kept for the exhibit
+// meanwhile.
 #include "tests/library/stick_fixture.h"
 
 #include <cerrno>
@@ -21,7 +22,7 @@ TEST_F(ImportStick, TakesPacksFromTheRootAndOneFolderDown) {
     stick.put("lost+found/v.fspack", museum.pack("v", 1));
     stick.put("holiday.jpg", "a picture");
     std::vector<ImportStage> stages;
-    ImportSurroundings outside = quiet_surroundings();
+    ImportEnvironment outside = quiet_environment();
     outside.tell = [&](const ImportReport& report) {
         EXPECT_LE(report.done_bytes, report.total_bytes);
         if (stages.empty() || stages.back() != report.stage) {
@@ -82,7 +83,7 @@ TEST_F(ImportStick, APackWhoseInstalledFileIsDamagedIsCopiedAgain) {
         EXPECT_EQ(**kiosk.content(file), whole);
     }
     EXPECT_EQ(line_of(import(), "a.fspack").outcome, ImportOutcome::AlreadyThere);
-    // Where the stick's own copy is damaged too, the set stays as it is, and nothing says that it was mended.
+    // If the stick's copy is damaged too, the set stays as it is, and the report has no repair.
     kiosk.take_away(file);
     stick.take_away("again.fspack");
     stick.put("a.fspack", with_another_part(whole));
@@ -115,7 +116,7 @@ TEST_F(ImportStick, RefusesWhatWasAlteredOrIsNoPack) {
     stick.put("short.fspack", Bytes(bytes.begin(), bytes.end() - 1));
     stick.put("empty.fspack", Bytes());
     stick.put("text.fspack", "not a ZIP");
-    // Manifest and signature of these are right, so it is the copy's check that finds them.
+    // Their manifest and signature are valid, so the check of the copy must find the damage.
     stick.put("other_part.fspack", with_another_part(bytes));
     bytes[bytes.size() - 2000] ^= std::byte{1};
     stick.put("altered.fspack", bytes);
@@ -141,9 +142,9 @@ TEST_F(ImportStick, NeverTakesALowerSerialThanOnceTaken) {
     import();
     stick.put("a.fspack", museum.pack("a", 4));
     expect_refused("a.fspack", ImportRefusal::Older, "serial 5");
-    stick.put("a.fspack", museum.pack("a", 5, 100)); // another one
+    stick.put("a.fspack", museum.pack("a", 5, 100)); // other contents
     expect_refused("a.fspack", ImportRefusal::Older, "the same serial 5");
-    // Neither when it is no longer there.
+    // A pack that was removed cannot come back with an older serial either.
     stick.put("a.fspack", museum.pack("b", 1));
     museum.put_exhibit(stick, "remove = [\"a\"]\n", 1);
     const ImportReport removed = import();
@@ -203,11 +204,11 @@ TEST_F(ImportStick, KeepsTheLastGoodSetWhileANewOneIsOnTrial) {
     EXPECT_EQ(pack_files(), 2U);
     judge(kiosk, TrialState::Bad);
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 1"}) << "comes back";
-    put(2); // once more, by hand
+    put(2); // put in again by hand
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 2"});
-    judge(kiosk, TrialState::Trying, most_starts - 1);
+    judge(kiosk, TrialState::Trying, max_starts - 1);
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 2"});
-    judge(kiosk, TrialState::Trying, most_starts);
+    judge(kiosk, TrialState::Trying, max_starts);
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 1"}) << "the exhibit does not come up with it";
     put(3);
     judge(kiosk, TrialState::Trying, 1);
@@ -239,7 +240,7 @@ TEST_F(ImportStick, NeedsRoomForAllOfItAndAMargin) {
 TEST_F(ImportStick, AFileOrFolderThatIsClosedConcernsItAlone) {
     stick.put("a.fspack", museum.pack("a", 1));
     stick.put("closed.fspack", museum.pack("b", 1));
-    // Operations: the list of the root, opening a, then what reading it takes, then opening the other.
+    // Operations: the listing of the root, opening a, the reads of a, opening the other.
     VolatileDisk counted;
     counted.put("a.fspack", museum.pack("a", 1));
     import_quietly(counted, *std::make_unique<VolatileDisk>(), request);

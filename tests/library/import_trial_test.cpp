@@ -1,4 +1,5 @@
-// What the importer makes of the exhibit's verdict: which set is kept, to which one it goes back, and what may be cleared away.
+// The importer's use of the exhibit's verdict: which set is kept, which set to go back to, and which packs may be
+// removed.
 #include "tests/library/museum.h"
 
 namespace frustumscreen {
@@ -8,7 +9,7 @@ using namespace testing_disk;
 
 class ImportTrial : public ::testing::Test {
 protected:
-    ImportReport import(const ImportSurroundings& outside = quiet_surroundings()) {
+    ImportReport import(const ImportEnvironment& outside = quiet_environment()) {
         ImportReport report = import_stick(stick, kiosk, request, outside);
         EXPECT_EQ(inspector.fault_of(kiosk), "");
         return report;
@@ -33,7 +34,7 @@ TEST_F(ImportTrial, ASetThatIsFoundBadWhileAStickIsCopiedDoesNotComeBackWithIt) 
     put(2);
     stick.take_away("a.fspack");
     stick.put("b.fspack", museum.pack("b", 1));
-    ImportSurroundings outside = quiet_surroundings();
+    ImportEnvironment outside = quiet_environment();
     outside.tell = [&](const ImportReport& report) {
         if (report.stage == ImportStage::Copying) {
             judge(kiosk, TrialState::Bad);
@@ -51,7 +52,7 @@ TEST_F(ImportTrial, ASetThatIsFoundGoodWhileAStickIsCopiedIsTheOneToGoBackTo) {
     judge(kiosk, TrialState::Good);
     put(2);
     stick.put("a.fspack", museum.pack("a", 3));
-    ImportSurroundings outside = quiet_surroundings();
+    ImportEnvironment outside = quiet_environment();
     outside.tell = [&](const ImportReport& report) {
         if (report.stage == ImportStage::Copying) {
             judge(kiosk, TrialState::Good);
@@ -91,7 +92,7 @@ TEST_F(ImportTrial, LeavesTheFilesOfASetThatIsShownOnItsLastTrial) {
     judge(kiosk, TrialState::Good);
     put(2);
     const InstalledSet shown = installed(kiosk);
-    judge(kiosk, TrialState::Trying, most_starts);
+    judge(kiosk, TrialState::Trying, max_starts);
     put(3);
     EXPECT_TRUE(has_file(shown));
     judge(kiosk, TrialState::Bad);

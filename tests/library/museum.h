@@ -28,7 +28,7 @@ struct Museum {
         return {{"museum", key.public_key(), std::nullopt}};
     }
 
-    /// A small pack; `padding` more bytes in a part of its own.
+    /// A small pack, with `padding` bytes in a further part of its own.
     [[nodiscard]] static Bytes unsigned_pack(const std::string& id, const std::string& title,
                                              std::size_t padding = 0) {
         Pack pack = samples::pack();
@@ -62,7 +62,7 @@ struct Museum {
     }
 };
 
-/// One byte of the padding is another, and the container's checksum is right.
+/// The pack with one byte of the padding changed, and a valid checksum in the container.
 inline Bytes with_another_part(const Bytes& pack) {
     Result<pack_format::ZipReader> zip = pack_format::ZipReader::open(pack);
     pack_format::ZipWriter other;
@@ -84,13 +84,13 @@ inline ImportRequest request_of(const Museum& museum) {
     return request;
 }
 
-/// Time goes on by itself, slowly.
-inline ImportSurroundings quiet_surroundings() {
+/// The clock stands still.
+inline ImportEnvironment quiet_environment() {
     return {[] { return MonotonicTime(); }, [] { return Nanoseconds(0); }, [](const ImportReport&) {}};
 }
 
 inline ImportReport import_quietly(FileTree& stick, WritableTree& library, const ImportRequest& request) {
-    return import_stick(stick, library, request, quiet_surroundings());
+    return import_stick(stick, library, request, quiet_environment());
 }
 
 inline const ImportedPack& line_of(const ImportReport& report, const std::string& file) {
@@ -104,7 +104,7 @@ inline const ImportedPack& line_of(const ImportReport& report, const std::string
     return none;
 }
 
-/// Ids in the order of the set, or files where there are none.
+/// Id and serial of each pack in the set, in order; "-" if it has no id.
 inline std::vector<std::string> ids_of(const InstalledSet& set) {
     std::vector<std::string> ids;
     for (const InstalledPack& pack : set.packs) {
@@ -113,7 +113,8 @@ inline std::vector<std::string> ids_of(const InstalledSet& set) {
     return ids;
 }
 
-/// Why what set.txt names is not all there, byte by byte; empty if it is. Hashes are found once for each content.
+/// Checks that the files named by set.txt are all there, byte by byte; empty if they are. Computes each content's
+/// hash once.
 class Inspector {
 public:
     [[nodiscard]] std::string fault_of(VolatileDisk& disk) {

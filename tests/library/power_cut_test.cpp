@@ -1,4 +1,5 @@
-// A power cut, a stop, a fault or a pulled stick at every single operation of an import: the old set or the new one, whole.
+// A power cut, a stop, a fault or a pulled stick at every single operation of an import leaves the old set or the
+// new one, whole.
 #include "tests/library/museum.h"
 
 #include <cerrno>
@@ -9,10 +10,10 @@ namespace {
 
 using namespace testing_disk;
 
-constexpr int most_cuts = 512; ///< at one operation
+constexpr int max_cuts = 512; ///< tried at one operation
 
-/// An installed set of two packs that has been good, and the one before it, which is there to go back to; a stick with a newer
-/// pack, a new one and a set file.
+/// An installed set of two packs that was good, and its predecessor, to go back to. The stick has a newer pack, a
+/// new one and a set file.
 class PowerCut : public ::testing::Test {
 protected:
     void SetUp() override {
@@ -45,7 +46,7 @@ protected:
         const std::optional<Content> content = disk.content("set.txt");
         return content ? std::string(as_text(**content)) : std::string();
     }
-    /// The old set or the new one is there, whole; then the same stick makes the new one of it.
+    /// Checks that the old set or the new one is there, whole.
     void expect_old_or_new(VolatileDisk& disk, const std::string& where) {
         const std::string text = text_of(disk);
         EXPECT_TRUE(text == old_text || text == new_text) << where << ": " << text.substr(0, 200);
@@ -60,11 +61,11 @@ protected:
         EXPECT_EQ(inspector.fault_of(*again), "") << where;
         ++imports;
     }
-    /// All that there can be after a cut, or `most_cuts` of them.
+    /// Visits all states that a cut may leave, or `max_cuts` of them.
     void sample(const VolatileDisk& disk, int operation, const std::function<void(VolatileDisk&)>& visit) {
-        sampled += disk.cut_power(most_cuts, static_cast<unsigned>(operation), visit) == most_cuts ? 1 : 0;
+        sampled += disk.cut_power(max_cuts, static_cast<unsigned>(operation), visit) == max_cuts ? 1 : 0;
     }
-    /// The import is stopped before the operation; what it throws away is what the process knew.
+    /// The disk after an import that was stopped before the operation; the process's own state is lost.
     std::unique_ptr<VolatileDisk> stopped(const VolatileDisk& disk, int operation) {
         auto stopped_disk = disk.copy();
         stopped_disk->plan.stop_before = operation;
@@ -83,7 +84,7 @@ protected:
     std::string old_text, new_text;
     int operations = 0;
     int cuts = 0;
-    int sampled = 0; ///< operations before which more than `most_cuts` states are possible, or just so many
+    int sampled = 0; ///< operations with at least `max_cuts` possible states before them
     int imports = 0;
     Inspector inspector;
 };
@@ -95,7 +96,7 @@ TEST_F(PowerCut, AtEveryOperationLeavesTheOldSetOrTheNewOne) {
         sample(*disk, operation, [&](VolatileDisk& left) {
             const std::string where = fmt::format("cut before operation {}", operation);
             expect_old_or_new(left, where);
-            // What an import makes of it depends on little more than the set.
+            // The result of an import depends on little more than the set.
             if (seen.insert(text_of(left)).second) {
                 expect_new_after_import(left, where);
             }
@@ -105,7 +106,7 @@ TEST_F(PowerCut, AtEveryOperationLeavesTheOldSetOrTheNewOne) {
                 imports);
 }
 
-/// The names of all packs are synced at once: then the most may be there without the others.
+/// The names of all packs are synced at once, so that many of them may be there without the others.
 TEST_F(PowerCut, WithManyPacksOnTheStick) {
     for (const std::string id : {"d", "e", "f", "g"}) {
         stick.put("more/" + id + ".fspack", museum.pack(id, 1, 3000));
@@ -155,7 +156,7 @@ TEST_F(PowerCut, IntoAnEmptyFolderLeavesNothingOrTheSet) {
     std::printf("%d operations, %d sampled, %d cuts\n", after->operations, sampled, cuts);
 }
 
-/// The file that is mended is replaced by a rename over the damaged one.
+/// A rename replaces the damaged file.
 TEST_F(PowerCut, WhileADamagedFileIsMended) {
     VolatileDisk same;
     same.put("a.fspack", museum.pack("a", 2));
@@ -204,7 +205,7 @@ TEST_F(PowerCut, AndFaultsOfTheDiskAtEveryOperation) {
                               error == ENOSPC && !is_new ? ImportRefusal::NoRoom : ImportRefusal::Unwritable)
                         << where << report.reason;
                     EXPECT_TRUE(samples::is_one_line(report.reason)) << report.reason;
-                } else { // what could not be cleared away stays
+                } else { // files that could not be removed stay
                     EXPECT_EQ(text_of(*disk), new_text) << where;
                 }
                 disk->cut_power(64, static_cast<unsigned>(operation),
@@ -242,13 +243,13 @@ TEST_F(PowerCut, OrAStickThatIsPulledAtEveryOperation) {
     }
 }
 
-/// Any of these may be there when it is read again, at any time.
+/// Any of these contents may be returned by any read.
 TEST_F(PowerCut, OrAStickThatChangesBetweenTwoReads) {
     const Bytes right = **stick.content("a.fspack");
     Bytes altered = right;
     altered[altered.size() / 2] ^= std::byte{1};
     const Bytes stranger = Museum::signed_by(SecretKey::make(), Museum::unsigned_pack("a", "a 4", 5000), 4);
-    // As long as the right one, and older than what is installed.
+    // As long as the right one, and older than the installed one.
     const Bytes older = Museum::signed_by(museum.key, Museum::unsigned_pack("a", "a 3", 5000), 1);
     ASSERT_EQ(older.size(), right.size());
     const std::vector<Bytes> others{altered,

@@ -1,4 +1,4 @@
-// set.txt, the verdict, the report: what is written is read, and what was altered is not.
+// set.txt, the verdict, the report: written files are read back, and altered ones are refused.
 #include "app/library/import_report.h"
 #include "app/library/set_file.h"
 #include "app/library/stick_walk.h"
@@ -77,10 +77,10 @@ TEST(SetToShow, IsTheLastGoodOneOnlyWhereTheNewOneFailed) {
     };
     EXPECT_EQ(shown(std::nullopt), 7U);
     EXPECT_EQ(shown(SetVerdict{7, TrialState::Good, 1, ""}), 7U);
-    EXPECT_EQ(shown(SetVerdict{7, TrialState::Good, most_starts, ""}), 7U);
+    EXPECT_EQ(shown(SetVerdict{7, TrialState::Good, max_starts, ""}), 7U);
     EXPECT_EQ(shown(SetVerdict{7, TrialState::Bad, 1, "x"}), 6U);
-    EXPECT_EQ(shown(SetVerdict{7, TrialState::Trying, most_starts - 1, ""}), 7U);
-    EXPECT_EQ(shown(SetVerdict{7, TrialState::Trying, most_starts, ""}), 6U);
+    EXPECT_EQ(shown(SetVerdict{7, TrialState::Trying, max_starts - 1, ""}), 7U);
+    EXPECT_EQ(shown(SetVerdict{7, TrialState::Trying, max_starts, ""}), 6U);
     EXPECT_EQ(shown(SetVerdict{6, TrialState::Bad, 1, "of another set"}), 7U);
     EXPECT_EQ(set_to_show({a_set(7), std::nullopt}, SetVerdict{7, TrialState::Bad, 9, ""}).number, 7U);
 }

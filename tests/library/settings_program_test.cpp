@@ -1,4 +1,5 @@
-// frustumscreen-import --settings on real folders: which settings of a stick it takes, and that the kiosk's own survive the others.
+// frustumscreen-import --settings on real folders: which settings of a stick are taken, and that others leave the
+// kiosk's own intact.
 #include "tests/folders.h"
 #include "tests/library/museum.h"
 #include "tests/programs/program_folder.h"
@@ -38,7 +39,7 @@ protected:
         return "frustumscreen-import --from stick --into library --config settings/kiosk.toml --settings "
                "settings --report report/report.json";
     }
-    /// What became of the settings, by the report; the status is the stick's.
+    /// The outcome of the settings, from the report; the exit status is the stick's.
     [[nodiscard]] ImportedPack put_in() const {
         std::filesystem::remove(folder / "report/settings-taken");
         static_cast<void>(run(command()));
@@ -92,11 +93,26 @@ TEST_F(SettingsProgram, BelievesAnybodyUntilTheyNameAKeyThenTheKeyAlone) {
     expect_refused(ImportRefusal::Older, "20");
     fill(naming(key), key, 21);
     EXPECT_EQ(put_in().outcome, ImportOutcome::Taken);
-    // Settings without a key, signed, open the kiosk again.
+    // Signed settings without a key let any settings be taken again.
     fill(shipped, key, 22);
     EXPECT_EQ(put_in().outcome, ImportOutcome::Taken);
     fill(first, key, 0);
     EXPECT_EQ(put_in().outcome, ImportOutcome::Taken);
+}
+
+TEST_F(SettingsProgram, TwoBadSticksInARowLeadBackToSettingsThatWereProved) {
+    put("settings/kiosk.toml.proved", shipped);
+    const std::string bad = "[table]\nwidth_m = 0.5\n", worse = "[table]\nwidth_m = 0.4\n";
+    for (const std::string& settings : {bad, worse}) {
+        fill(settings, key, 0);
+        EXPECT_EQ(put_in().outcome, ImportOutcome::Taken);
+        EXPECT_EQ(text("settings/kiosk.toml"), settings);
+        EXPECT_EQ(text("settings/kiosk.toml.before"), shipped);
+    }
+    put("settings/kiosk.toml.proved", worse); // ten minutes later
+    fill(bad, key, 0);
+    EXPECT_EQ(put_in().outcome, ImportOutcome::Taken);
+    EXPECT_EQ(text("settings/kiosk.toml.before"), worse);
 }
 
 TEST_F(SettingsProgram, TheFirstSignatureKeepsOlderOnesOutToo) {
@@ -121,7 +137,7 @@ TEST_F(SettingsProgram, SaysWhichLineIsWrong) {
     expect_refused(ImportRefusal::NotAPack, "line 1");
     fill("[table]\nwidht_m = 0.7\n", key, 0);
     expect_refused(ImportRefusal::NotAPack, "line 2");
-    // What the reader itself says of the same file
+    // The reader's own message for the same file.
     const std::string reason = put_in().reason;
     EXPECT_EQ(run("frustumscreen-import --list --into library --config stick/kiosk.toml"), 1);
     EXPECT_NE(text("err.txt").find(reason.substr(reason.find(": ") + 2)), std::string::npos) << reason;
@@ -146,7 +162,7 @@ TEST_F(SettingsProgram, RefusesWhatIsNoSmallFile) {
     expect_refused(ImportRefusal::NotAPack, "not a regular file");
 }
 
-/// A stick that is pulled from the office computer too early holds such files.
+/// A stick that is pulled from the office computer too early has such files.
 TEST_F(SettingsProgram, RefusesAnEmptyFileAndOneThatIsCutOff) {
     const std::string whole = "[table]\nwidth_m = 0.7\n# the end of a comment\n";
     for (const std::string& empty : {std::string(), std::string("\r\n \n"), std::string(300, '\0')}) {
@@ -193,7 +209,7 @@ TEST_F(SettingsProgram, ThePacksOfTheSameStickAreSignedWithTheKeyThatItBrings) {
 
 TEST_F(SettingsProgram, NothingIsLostWhereTheyCannotBeWritten) {
     fill(naming(key), key, 7);
-    // The folder can only be read, for root too.
+    // The folder is read-only, for root too.
     static_cast<void>(std::system(
         fmt::format("cd '{}' && unshare --mount --map-root-user sh -c 'mount --bind settings settings && "
                     "mount -o remount,bind,ro settings && {}/{}' >out.txt 2>err.txt",
@@ -205,7 +221,7 @@ TEST_F(SettingsProgram, NothingIsLostWhereTheyCannotBeWritten) {
     EXPECT_NE(report->packs[0].reason.find("Read-only file system"), std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(folder / "report/settings-taken"));
     EXPECT_EQ(text("settings/kiosk.toml"), shipped);
-    // A folder is in the way of the first step, then of the last but one: the same stick is taken when it is gone.
+    // A folder blocks the first step, then the last but one; once it is gone, the same stick is taken.
     for (const char* in_the_way : {"settings/kiosk.toml.new", "settings/kiosk.toml.before"}) {
         std::filesystem::create_directories(folder / in_the_way / "inner");
         EXPECT_EQ(put_in().refusal, ImportRefusal::Unwritable) << in_the_way;

@@ -1,9 +1,10 @@
-// How long an import takes beside a plain copy and sync of the same bytes, from a stick that gives 30 MB/s: docs/sticks.md has figures.
+// Time of an import, compared with a plain copy and sync of the same bytes, from a stick of 30 MB/s; docs/sticks.md
+// has figures.
 //
 //   stick_time MB [PACKS]      in a new folder of the current one, which is removed afterwards
 //
-// The stick is a folder whose bytes come as from a device with the kernel's read-ahead: the device reads on by itself, but never
-// more than 128 KiB beyond what was asked for.
+// The stick is a folder whose bytes come as from a device with the kernel's read-ahead: the device reads on by
+// itself, but at most 128 KiB beyond the request.
 #include "app/library/import_stick.h"
 #include "firmware_host/base/disk_tree.h"
 #include "tests/library/museum.h"
@@ -25,12 +26,12 @@ using testing_disk::Museum;
 constexpr double bytes_per_s = 30e6;
 constexpr double read_ahead_bytes = 128.0 * 1024.0;
 
-/// When a device that reads on by itself has the next bytes.
+/// A device that reads ahead: computes when the next bytes are ready.
 class Device {
 public:
     void wait_for(std::size_t bytes) {
         const double now = to_seconds(monotonic_now().time_since_epoch());
-        // It was idle while it was further ahead than it may be.
+        // The device was idle once it was as far ahead as it may be.
         ready_s_ = std::max(ready_s_, now - read_ahead_bytes / bytes_per_s) +
                    static_cast<double>(bytes) / bytes_per_s;
         if (ready_s_ > now) {
@@ -77,7 +78,7 @@ private:
     Device device_;
 };
 
-/// As cp does, in pieces of 128 KiB; then sync.
+/// Copies like cp, in pieces of 128 KiB, then syncs.
 void copy_all(FileTree& from, WritableTree& to, int packs) {
     Bytes piece;
     for (int k = 0; k < packs; ++k) {
@@ -129,7 +130,7 @@ int measure(std::size_t megabytes, int packs) {
     const Times copied = times_of([&] { copy_all(slow, *copy, packs); });
     ImportRequest request = testing_disk::request_of(museum);
     request.limits.step_bytes = ImportLimits().step_bytes;
-    ImportSurroundings outside = testing_disk::quiet_surroundings();
+    ImportEnvironment outside = testing_disk::quiet_environment();
     outside.now = monotonic_now;
     ImportStage stage = ImportStage::Failed;
     const Times imported = times_of([&] { stage = import_stick(as_slow, *library, request, outside).stage; });

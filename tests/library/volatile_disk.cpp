@@ -37,7 +37,8 @@ Content joined(const Content& content, const Bytes& more) {
     return std::make_shared<const Bytes>(std::move(bytes));
 }
 
-/// What a file that was not synced may hold: nothing of it, all, its size alone, its beginning, its end alone.
+/// The possible contents of a file that was not synced: none of it, all, its size alone, its beginning, its end
+/// alone.
 std::vector<Content> contents_after_cut(const File& file) {
     if (file.pending.empty()) {
         return {file.on_disk};
@@ -213,7 +214,7 @@ FileResult<void> VolatileDisk::rename(const std::string& from, const std::string
     const auto old_place = place_of(from);
     const auto new_place = place_of(to);
     if (!node || !new_place || old_place->first != new_place->first) {
-        return file_fault(node ? EXDEV : ENOENT); // renames between folders are not needed here
+        return file_fault(node ? EXDEV : ENOENT); // the library never renames between folders
     }
     return change(old_place->first, {{old_place->second, std::nullopt}, {new_place->second, node}}, began);
 }
@@ -312,7 +313,7 @@ void VolatileDisk::sync_all() {
 }
 
 int VolatileDisk::cut_power(int most, unsigned seed, const std::function<void(VolatileDisk&)>& visit) const {
-    // A digit for each choice: whether a change of names is there, and which of its contents a file has.
+    // One digit for each choice: a change of names is there or not; which of its contents a file has.
     std::vector<std::vector<Content>> contents;
     std::vector<unsigned> choices;
     for (const Node& node : nodes_) {

@@ -1,10 +1,12 @@
-/// A disk that exists only in memory and forgets, at a power cut, what was not synced: the files of a POSIX system as they are
-/// promised, not as one file system happens to keep them.
+/// A disk that exists only in memory and loses, at a power cut, what was not synced. It gives the guarantees of
+/// POSIX, not those of one particular file system.
 ///
-/// Model    A file's bytes are on the disk after sync(). Before, any of its appends may be there, be zeros, or be missing. A name
-///          that was made, renamed or removed is on the disk after sync_folder() of its folder. Before, any of these operations
-///          may be there without the others; one rename is there as a whole or not at all.
-/// Faults   each operation, reading too, has a number, from 0 on; a plan lets some of them fail, or stops the process at one.
+/// Model    A file's bytes are on the disk after sync(). Before, any of its appends may be there, be zeros, or be
+///          missing. A name that was made, renamed or removed is on the disk after sync_folder() of its folder.
+///          Before, any of these operations may be there without the others; one rename is there as a whole or not
+///          at all.
+/// Faults   each operation, including reads, has a number, from 0 on; a plan makes some of them fail, or stops the
+///          process at one.
 #pragma once
 
 #include "firmware_host/base/file.h"
@@ -22,30 +24,30 @@
 
 namespace frustumscreen::testing_disk {
 
-/// The process is gone: nothing is done any more.
+/// The process was stopped: no further operation takes effect.
 struct Stopped : std::runtime_error {
     Stopped() : std::runtime_error("stopped") {}
 };
 
 struct FaultPlan {
     static constexpr int never = std::numeric_limits<int>::max();
-    int stop_before = never;        ///< this operation and all after it are not done
-    int fail_from = never;          ///< these fail ...
-    int fail_to = never;            ///< ... up to this one, not included
+    int stop_before = never;        ///< this operation and all later ones do not take effect
+    int fail_from = never;          ///< these operations fail ...
+    int fail_to = never;            ///< ... up to this one, exclusive
     int error = 0;                  ///< with this errno
-    bool done_all_the_same = false; ///< what fails has been done nevertheless
+    bool done_all_the_same = false; ///< a failed operation has taken effect nevertheless
 };
 
 using Content = std::shared_ptr<const Bytes>;
 
 struct Append {
-    Content bytes; ///< null: the file was emptied
+    Content bytes; ///< null: the file was truncated to nothing
 };
 struct File {
     Content now, on_disk;
     std::vector<Append> pending;
 };
-/// Names that one operation sets at once; no number: the name is removed.
+/// Names that one operation sets at once; without a number, the name is removed.
 using NameChange = std::vector<std::pair<std::string, std::optional<int>>>;
 struct Folder {
     std::map<std::string, int> now, on_disk; ///< numbers of nodes
@@ -59,7 +61,7 @@ struct Node {
 class VolatileDisk final : public WritableTree {
 public:
     VolatileDisk();
-    /// Everything that there is now, with no faults planned.
+    /// A copy of the present state, with no faults planned.
     [[nodiscard]] std::unique_ptr<VolatileDisk> copy() const;
 
     FileResult<void> list(const std::string& folder,
@@ -72,23 +74,23 @@ public:
     FileResult<void> sync_folder(const std::string& path) override;
     FileResult<std::uint64_t> free_bytes() override;
 
-    /// For a test: a file with these bytes, on the disk; its folder is made.
+    /// For a test: puts a file with these bytes on the disk, and makes its folder.
     void put(const std::string& path, const Bytes& bytes);
     void put(const std::string& path, std::string_view text);
     void take_away(const std::string& path);
     [[nodiscard]] std::optional<Content> content(const std::string& path) const;
-    /// All is on the disk.
+    /// Syncs everything.
     void sync_all();
 
-    /// What may be left after a power cut now, each as a new disk: all that there can be, if these are at most `most`; else the two
-    /// extremes and others by `seed`. Returns how many.
+    /// The states that a power cut at this moment may leave, each as a new disk: all of them if they are at most
+    /// `most`; else the two extremes and others by `seed`. Returns their number.
     int cut_power(int most, unsigned seed, const std::function<void(VolatileDisk&)>& visit) const;
 
     FaultPlan plan;
-    std::function<void(int operation)> before_operation; ///< for what changes meanwhile
+    std::function<void(int operation)> before_operation; ///< for changes during an import
     std::uint64_t free = std::uint64_t{1} << 40U;
     int operations = 0; ///< so far
-    /// Counts; 0, or the errno with which it fails. `done`: whether its effect is to happen.
+    /// Counts the operation. `error`: 0, or the errno with which it fails. `done`: it takes effect.
     struct Step {
         int error = 0;
         bool done = true;

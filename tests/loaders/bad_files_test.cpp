@@ -1,4 +1,4 @@
-/// Every file of the shared collection of bad models: its error, or that it is usable.
+/// Every file of the shared collection of bad models gives its expected error or is usable.
 #include "tests/loaders/loaders_testing.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 struct BadFile {
     const char* path;
-    const char* says; ///< a part of the error's line; nullptr: usable nevertheless
+    const char* says; ///< part of the error's line; nullptr: usable nevertheless
     std::size_t triangles = 0;
 };
 

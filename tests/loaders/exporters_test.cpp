@@ -1,4 +1,4 @@
-// Files as exporters really write them: each was reported as a wrong picture by people who use them.
+// Files as exporters write them; users reported a wrong picture for each.
 #include "app/image/image.h"
 #include "tests/loaders/loaders_testing.h"
 #include "tests/loaders/sample_pictures.h"
@@ -24,7 +24,7 @@ SourceMesh loaded(const Result<SourceMesh>& mesh) {
     return *mesh;
 }
 
-/// An OBJ beside a .mtl, and a picture wood.png of one texel.
+/// An OBJ with a .mtl, and a picture wood.png of one texel.
 SourceMesh obj_with(std::string_view mtl, const std::string& rest,
                     const std::string& first = "mtllib model.mtl\n") {
     const TemporaryFolder folder;

@@ -1,4 +1,4 @@
-// glTF as exporters really write it: light as colour, instances, hidden parts, transparency, extensions.
+// glTF as exporters write it: emission as colour, instances, hidden parts, transparency, extensions.
 #include "app/image/image.h"
 #include "tests/loaders/loaders_testing.h"
 #include "tests/loaders/sample_pictures.h"
@@ -12,8 +12,8 @@
 namespace frustumscreen::testing {
 namespace {
 
-/// A triangle with texture coordinates; rows of two instances: places (0, 0, 0) and (5, 0, 0), a quarter turn about z for the second,
-/// scales 1 and 2.
+/// A triangle with texture coordinates, and rows of two instances: places (0, 0, 0) and (5, 0, 0), a quarter turn about
+/// z for the second, scales 1 and 2.
 const std::string bytes =
     bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0,           1,           0, // 0: positions
                                 0, 0, 1, 0, 0, 1,                              // 36: uv
@@ -37,7 +37,7 @@ SourceMesh mesh_of(const std::string& text) {
     return *std::move(mesh);
 }
 
-/// One triangle of one material; picture 0 is `picture`.
+/// One triangle with one material; picture 0 is `picture`.
 SourceMesh with_material(std::string_view material,
                          const Image8& picture = Image8(1, 1, glm::u8vec4(10, 20, 30, 255)),
                          std::string_view more = "") {

@@ -46,7 +46,7 @@ struct Extent {
 };
 Extent extent_of(const SourceMesh& mesh);
 double area_of(const SourceMesh& mesh);
-/// Positive for a closed surface whose triangles run counter-clockwise seen from outside.
+/// The signed volume: positive for a closed surface whose triangles run counter-clockwise seen from outside.
 double volume_of(const SourceMesh& mesh);
 /// Checks the promises of load_mesh.
 void expect_sound(const SourceMesh& mesh);

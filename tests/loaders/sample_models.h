@@ -21,7 +21,7 @@ std::string draco_glb(int n, bool edge_breaker);
 /// fallback buffer without data.
 std::string meshopt_glb(int n);
 
-/// At least one of each format and of each compression; all of them load.
+/// At least one of each format and of each compression; all are valid.
 std::vector<SampleModel> sample_models();
 
 } // namespace frustumscreen::testing

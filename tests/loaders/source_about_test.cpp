@@ -1,4 +1,4 @@
-// What a file says of itself, and what of a glTF file is not shown.
+// A file's metadata, and the notes on parts of a glTF file that are not shown.
 #include "assets_baked/bake/loaders/source_about.h"
 #include "tests/loaders/loaders_testing.h"
 
@@ -58,7 +58,7 @@ TEST(SourceAbout, comes_with_every_format_that_can_say_it) {
     EXPECT_EQ(load_text("m.ply", ply)->about, (SourceAbout{"Jar", "Bo", "", ""}));
 }
 
-/// The notes of a triangle with this material and these members of the file.
+/// The notes on a triangle with this material and these members of the file.
 std::vector<std::string> lost_of(const std::string& material, const std::string& members = "",
                                  const std::string& primitive = "") {
     const std::string bytes = bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0});

@@ -1,4 +1,4 @@
-// Each ailment alone, and months of all of them: the shortest ladder, and never a step for nothing.
+// Each fault alone, and months of all of them: the shortest ladder, and never a step for nothing.
 #include "tests/simulators/museum/museum_report.h"
 
 #include <gtest/gtest.h>
@@ -8,10 +8,10 @@ namespace {
 
 constexpr MuseumTime noon = 12 * 3600;
 
-/// The steps against one ailment that comes at noon and that a person mends five hours later.
-std::vector<Step> steps_against(Ailment ailment, MuseumTime mended_after = 5 * 3600) {
-    const std::vector<Attack> attacks{{noon, ailment, noon + mended_after}};
-    const MuseumRun run = simulate(Policy::Ladder, attacks, 2, 1);
+/// The steps against one fault that comes at noon and that a person mends five hours later.
+std::vector<Step> steps_against(FaultKind fault, MuseumTime mended_after = 5 * 3600) {
+    const std::vector<FaultEvent> fault_events{{noon, fault, noon + mended_after}};
+    const MuseumRun run = simulate(Policy::Ladder, fault_events, 2, 1);
     std::vector<Step> steps;
     for (const TakenStep& taken : run.steps) {
         EXPECT_FALSE(taken.is_false_alarm);
@@ -23,34 +23,34 @@ std::vector<Step> steps_against(Ailment ailment, MuseumTime mended_after = 5 * 3
 using Steps = std::vector<Step>;
 
 TEST(Museum, WhatSystemdMendsNeedsNoStep) {
-    for (const Ailment ailment : {Ailment::Crash, Ailment::Hang, Ailment::KernelHang, Ailment::PowerCut}) {
-        EXPECT_EQ(steps_against(ailment), Steps{}) << kind_of(ailment).name;
+    for (const FaultKind fault :
+         {FaultKind::Crash, FaultKind::Hang, FaultKind::KernelHang, FaultKind::PowerCut}) {
+        EXPECT_EQ(steps_against(fault), Steps{}) << kind_of(fault).name;
     }
 }
 
 TEST(Museum, EachAilmentMeetsTheShortestLadder) {
-    EXPECT_EQ(steps_against(Ailment::Freeze), Steps{Step::RestartExhibit});
-    EXPECT_EQ(steps_against(Ailment::TrackerHung), Steps{Step::ResetDevice});
-    EXPECT_EQ(steps_against(Ailment::DeviceThread), Steps{Step::ResetDevice});
-    EXPECT_EQ(steps_against(Ailment::BadSet, 1800),
+    EXPECT_EQ(steps_against(FaultKind::Freeze), Steps{Step::RestartExhibit});
+    EXPECT_EQ(steps_against(FaultKind::TrackerHung), Steps{Step::ResetDevice});
+    EXPECT_EQ(steps_against(FaultKind::DeviceThread), Steps{Step::ResetDevice});
+    EXPECT_EQ(steps_against(FaultKind::BadSet, 1800),
               (Steps{Step::ResetDevice, Step::LastGoodSet, Step::Return, Step::LastGoodSet, Step::Return}));
-    for (const Ailment ailment : {Ailment::DriverCrash, Ailment::GpuWedged}) {
-        EXPECT_EQ(steps_against(ailment, 1800),
-                  (Steps{Step::ResetDevice, Step::LastGoodSet, Step::DrawPlainly, Step::Return,
-                         Step::DrawPlainly, Step::Return}))
-            << kind_of(ailment).name;
+    for (const FaultKind fault : {FaultKind::DriverCrash, FaultKind::GpuWedged}) {
+        EXPECT_EQ(steps_against(fault, 1800), (Steps{Step::ResetDevice, Step::LastGoodSet, Step::DrawPlainly,
+                                                     Step::Return, Step::DrawPlainly, Step::Return}))
+            << kind_of(fault).name;
     }
 }
 
 TEST(Museum, ADeadTrackerIsGivenUp) {
-    EXPECT_EQ(steps_against(Ailment::TrackerDead),
+    EXPECT_EQ(steps_against(FaultKind::TrackerDead),
               (Steps{Step::ResetDevice, Step::RestartExhibit, Step::Reboot}));
 }
 
 TEST(Museum, ABrokenMachineShowsWordsAndRestsBetweenReboots) {
-    const std::vector<Attack> attacks{{noon, Ailment::MachineBroken, noon + 3 * museum_day}};
-    const MuseumRun run = simulate(Policy::Ladder, attacks, 5, 1);
-    EXPECT_LE(run.most_reboots_in_day, reboots_a_day);
+    const std::vector<FaultEvent> fault_events{{noon, FaultKind::MachineBroken, noon + 3 * museum_day}};
+    const MuseumRun run = simulate(Policy::Ladder, fault_events, 5, 1);
+    EXPECT_LE(run.max_reboots_in_day, reboots_a_day);
     EXPECT_GE(count_of(run, Step::Reboot), 6U);
     EXPECT_GT(run.open.at(static_cast<std::size_t>(VisibleState::Words)),
               20 * run.open.at(static_cast<std::size_t>(VisibleState::Dark)));
@@ -59,13 +59,13 @@ TEST(Museum, ABrokenMachineShowsWordsAndRestsBetweenReboots) {
 
 TEST(Museum, MonthsOfEverything) {
     constexpr int days = 100;
-    const std::vector<Attack> attacks = seeded_attacks(7, days, 5.0);
-    ASSERT_GT(attacks.size(), 100U);
-    const MuseumRun ladder = simulate(Policy::Ladder, attacks, days, 7);
-    const MuseumRun alone = simulate(Policy::SystemdAlone, attacks, days, 7);
-    const MuseumRun reboots = simulate(Policy::RebootAtEveryTrouble, attacks, days, 7);
+    const std::vector<FaultEvent> fault_events = seeded_faults(7, days, 5.0);
+    ASSERT_GT(fault_events.size(), 100U);
+    const MuseumRun ladder = simulate(Policy::Ladder, fault_events, days, 7);
+    const MuseumRun alone = simulate(Policy::SystemdAlone, fault_events, days, 7);
+    const MuseumRun reboots = simulate(Policy::RebootAtEveryTrouble, fault_events, days, 7);
     EXPECT_EQ(false_alarms(ladder), 0U);
-    EXPECT_LE(ladder.most_reboots_in_day, reboots_a_day);
+    EXPECT_LE(ladder.max_reboots_in_day, reboots_a_day);
     const auto whole = static_cast<std::size_t>(VisibleState::Whole);
     const auto dark = static_cast<std::size_t>(VisibleState::Dark);
     EXPECT_GE(ladder.open.at(whole), reboots.open.at(whole));

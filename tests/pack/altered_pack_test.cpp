@@ -1,4 +1,4 @@
-// What a stick that was pulled too early, or a bit that fell over, makes of a pack.
+// Packs altered by a stick that was pulled too early, or by a flipped bit.
 #include "tests/pack/samples.h"
 
 using namespace frustumscreen;
@@ -35,7 +35,7 @@ TEST(AlteredPack, a_flipped_bit_is_refused_or_changes_nothing) {
         altered[where] ^= static_cast<std::byte>(1U << (random() % 8));
         const Result<VerifiedPack> pack = verify_pack(altered);
         if (pack) {
-            // Dates, attributes and the like in the container, which no reader uses.
+            // Dates, attributes and similar fields of the container, which the reader ignores.
             ASSERT_EQ(samples::bytes_of(**pack), bytes) << "byte " << where;
         } else {
             ++refused;

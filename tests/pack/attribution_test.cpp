@@ -1,4 +1,4 @@
-// What visitors read of whose an artifact and its scan are, and what a pack should say of it.
+// Visitors' attribution lines for an artifact and its scan, and the statements that a pack should have.
 #include "app/pack/attribution.h"
 #include "app/pack/pack_file.h"
 #include "firmware_host/base/json.h"
@@ -32,7 +32,7 @@ TEST(Attribution, HasALineForTheArtifactOneForItsOwnerAndOneForTheScan) {
 TEST(Attribution, SaysALicenceOnceAndAddressesByTheirHosts) {
     EXPECT_EQ(attribution_of(caption_of("", "", "", "Museum, CC-BY-4.0"), {"CC-BY-4.0", {}, {}}),
               "Museum, CC-BY-4.0");
-    // As Sketchfab writes them.
+    // The form in which Sketchfab writes them.
     EXPECT_EQ(
         attribution_of(caption_of("", "", "", ""), {"CC-BY-4.0 (http://creativecommons.org/licenses/by/4.0/)",
                                                     "Ankledot (https://sketchfab.com/Ankledot)",

@@ -1,4 +1,5 @@
-// A pack held against its manifest in little memory: it takes and refuses what reading all of it does, as far as it looks.
+// Checking a pack against its manifest in little memory gives the same results as reading all of it, within its
+// scope.
 #include "app/pack/binary_parts.h"
 #include "app/pack/check_parts.h"
 #include "tests/base/told.h"
@@ -98,7 +99,7 @@ TEST(CheckParts, refuses_pictures_that_are_too_large_or_none) {
     EXPECT_EQ(with_texture(encode_png(Image8(3, 3))), "");
     EXPECT_NE(with_texture(encode_png(Image8(16385, 1))).find("16385 x 1"), std::string::npos);
     EXPECT_NE(with_texture(samples::some_bytes("no picture")), "");
-    // A PNG that only says that it is large: its width stands in bytes 16 to 19, their checksum in 29 to 32.
+    // A PNG that only claims to be large: its width is in bytes 16 to 19, the checksum in bytes 29 to 32.
     Bytes png = encode_png(Image8(3, 3));
     png[16] = std::byte{0x7f};
     EXPECT_NE(with_texture(png), "");

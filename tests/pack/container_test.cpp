@@ -1,4 +1,4 @@
-// The container is an ordinary ZIP, and FORMAT.md's dump is a real one.
+// The container is an ordinary ZIP, and the dump in FORMAT.md is a real one.
 #include "app/pack/binary_parts.h"
 #include "tests/folders.h"
 #include "tests/pack/samples.h"

@@ -1,4 +1,4 @@
-// Glyph runs: the bytes of FORMAT.md, and what a reader refuses.
+// Glyph runs: the bytes of FORMAT.md, and refusals by the reader.
 #include "app/pack/glyph_runs.h"
 #include "firmware_host/base/byte_reader.h"
 #include "tests/base/told.h"
@@ -27,7 +27,7 @@ GlyphRuns one_text() {
     return runs;
 }
 
-/// The bytes of FORMAT.md's example, which a person typed.
+/// The bytes of FORMAT.md's example, typed by hand.
 Bytes example_bytes() {
     std::ifstream page(source_dir() + "/app/pack/FORMAT.md");
     std::stringstream text;

@@ -1,4 +1,4 @@
-// Manifests that somebody wrote, around parts whose hashes are right.
+// Hand-made manifests with parts whose hashes are valid.
 #include "tests/pack/samples.h"
 
 #include <functional>
@@ -9,7 +9,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 struct Hostile {
-    const char* word; ///< that the message must hold
+    const char* word; ///< must be in the message
     std::function<void(Json&)> change;
 };
 

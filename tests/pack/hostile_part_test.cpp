@@ -1,4 +1,4 @@
-// Parts that somebody wrote, with hashes that are right.
+// Hand-made parts with valid hashes.
 #include "tests/base/told.h"
 #include "tests/pack/samples.h"
 
@@ -38,7 +38,7 @@ constexpr std::size_t cluster = 52;
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 constexpr auto u16 = [](int value) { return static_cast<std::uint16_t>(value); };
 
-/// A bomb: the header claims a large picture, with the right checksum (PNG 1.2, 3.4 and 11.2.2).
+/// A decompression bomb: the header claims a large picture, with a valid checksum (PNG 1.2, 3.4 and 11.2.2).
 void claim_size(Bytes& png, std::uint32_t side) {
     for (std::size_t k = 0; k < 4; ++k) {
         png.at(16 + k) = png.at(20 + k) = static_cast<std::byte>(side >> (24 - 8 * k));
@@ -142,7 +142,7 @@ TEST(HostilePart, a_picture_is_a_png_or_webp_of_allowed_size) {
     expect_refused(
         {{"textures/0.png", "PNG", [](Bytes& b) { b.assign(100, std::byte{7}); }},
          {"textures/0.png", "PNG", [](Bytes& b) { b.resize(b.size() / 2); }},
-         {"textures/0.png", "WebP", // in a half
+         {"textures/0.png", "WebP", // of a truncated picture
           [](Bytes& b) {
               b = encode_webp(samples::texture(13, 7, 1, true));
               b.resize(b.size() / 2);
@@ -151,7 +151,7 @@ TEST(HostilePart, a_picture_is_a_png_or_webp_of_allowed_size) {
          {"relief/atlas.png", "relief/atlas.png",
           [](Bytes& b) { b = encode_png(samples::texture(13, 7, 1, true)); }},
          {"relief/atlas.png", "its texture is", [](Bytes& b) { b = encode_png(Image16(12, 7)); }},
-         // 30000 x 2 texels: few enough, but wider than drivers take.
+         // 30000 x 2 texels: few, but wider than drivers accept.
          {"textures/0.png", "30000 x 2", [](Bytes& b) { b = encode_png(Image8(30000, 2)); }},
          {"textures/0.png", "16000 x 16000", [](Bytes& b) { claim_size(b, 16000); }},
          {"relief/atlas.png", "16000 x 16000", [](Bytes& b) { claim_size(b, 16000); }}});

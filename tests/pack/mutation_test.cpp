@@ -1,4 +1,4 @@
-// Seeded mutants of a pack: each is refused in one line, or is a pack that a renderer can use unasked.
+// Seeded mutants of a pack: each is refused in one line, or is a pack that a renderer can use without checks.
 #include "tests/pack/samples.h"
 
 #include <set>
@@ -7,7 +7,7 @@ using namespace frustumscreen;
 
 namespace {
 
-/// One of the damages that fuzzers find most with.
+/// Applies one of the alterations by which fuzzers find most faults.
 void mutate(Bytes& bytes, std::mt19937& random) {
     if (bytes.empty()) {
         return;
@@ -39,7 +39,7 @@ void mutate(Bytes& bytes, std::mt19937& random) {
     }
 }
 
-/// What the renderer relies on, asked again and differently.
+/// Checks independently what the renderer relies on.
 void expect_usable(const Pack& pack) {
     ASSERT_FALSE(pack.levels.empty());
     ASSERT_LT(pack.default_level, pack.levels.size());

@@ -1,4 +1,4 @@
-// The section `hull`: what is written, read and refused.
+// The section `hull`: written, read and refused.
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_hull.h"
 #include "tests/base/told.h"

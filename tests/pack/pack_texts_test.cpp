@@ -1,4 +1,4 @@
-// The sections `texts` and `sounds`: what is written, read for one language alone, and refused.
+// The sections `texts` and `sounds`: written, read for one language alone, and refused.
 #include "app/pack/pack_sections.h"
 #include "app/pack/pack_texts.h"
 #include "tests/base/told.h"
@@ -15,7 +15,7 @@ namespace {
 class PackTexts : public testing::Test {
 protected:
     void write(const Pack& pack) { ASSERT_TRUE(write_file(file, samples::bytes_of(pack))); }
-    /// One byte of a part is changed, so that it does not match its hash.
+    /// Writes a pack with one byte of a part changed, so that the part does not match its hash.
     void write_with_damage(const std::string& damaged_part) {
         Bytes bytes = samples::bytes_of(samples::pack_with_words());
         samples::Entries entries = samples::take_apart(bytes);
@@ -42,7 +42,7 @@ void expect_fault(const char* words, const std::function<void(Pack&)>& change) {
     EXPECT_NE(message.find(words), std::string::npos) << words << ": " << message;
 }
 
-/// Changes the data of the section `index`: sounds first, then texts.
+/// Changes the data of section number `index`: sounds are first, then texts.
 std::function<void(Pack&)> data(std::size_t index, const std::function<void(Json&)>& change) {
     return [=](Pack& pack) {
         Json json = Json::parse(pack.sections.at(index).data);
@@ -103,7 +103,7 @@ TEST_F(PackTexts, and_sounds_are_not_in_every_pack) {
 }
 
 TEST_F(PackTexts, sounds_are_read_one_by_one) {
-    write_with_damage("texts/en/glyphs.bin"); // which nobody asks for
+    write_with_damage("texts/en/glyphs.bin"); // not read here
     const Result<Bytes> sound = load_sound(file, "en", "description");
     ASSERT_TRUE(sound) << sound.error().message;
     EXPECT_EQ(as_text(*sound), "OggS english");

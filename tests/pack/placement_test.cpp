@@ -6,7 +6,7 @@ using namespace frustumscreen;
 
 namespace {
 
-/// Box-frame points of a cloud that reaches just to the sides of its box.
+/// Box-frame points of a cloud that just reaches the sides of its box.
 struct Cloud {
     std::vector<glm::dvec3> points;
     glm::dvec3 size{1.0};
@@ -56,7 +56,7 @@ TEST(Placement, keeps_every_vertex_inside_and_touches_a_side) {
         for (const glm::dvec3& box_point : cloud.points) {
             const glm::dvec3 file_point = box_point * 2.0 + offset;
             const glm::dvec3 p(placement.prop_from_artifact * glm::dvec4(file_point, 1.0));
-            // The bottom is touched by construction; which of the other sides stops it is the question.
+            // The bottom is touched by construction; the test is about the other sides.
             EXPECT_GE(p.z, -1e-12);
             most = std::max(most, outside_by(prop, p + glm::dvec3(0.0, 0.0, 1e-15)));
         }

@@ -1,4 +1,4 @@
-// frustumscreen-pack from outside: what it prints and how it ends.
+// frustumscreen-pack from outside: its output and its exit status.
 #include "tests/folders.h"
 #include "tests/pack/samples.h"
 

@@ -1,4 +1,4 @@
-// The section relief_blocks: what was written is read, and what a reader refuses.
+// The section relief_blocks: written, read and refused.
 #include "app/pack/block_part.h"
 #include "app/pack/pack_relief.h"
 #include "tests/base/told.h"
@@ -15,7 +15,7 @@ using namespace frustumscreen;
 
 namespace {
 
-/// Offsets of FORMAT.md, for three blocks in two directions.
+/// Offsets from FORMAT.md, for three blocks in two directions.
 constexpr std::size_t blocks = 3;
 constexpr std::size_t first_grid = 24;
 constexpr std::size_t columns = first_grid + 2 * 32;
@@ -81,14 +81,14 @@ TEST(ReliefBlocks, the_bytes_lie_where_the_format_page_says) {
     EXPECT_EQ(read_at<std::uint16_t>(bytes, columns + 2), 1U) << "u0 is 8";
     EXPECT_EQ(read_at<float>(bytes, numbers + 4), 12.0F) << "w0 of the second block";
     EXPECT_EQ(read_at<std::uint64_t>(bytes, masks + 16), relief.blocks[2].mask);
-    // Corner (0, 0) has code 40, its right neighbour 12 more, that in the next row 7 more than the one above.
+    // Corner (0, 0) has code 40, its right neighbour 12 more, the one in the next row 7 more than the one above.
     EXPECT_EQ(read_at<std::uint8_t>(bytes, heights), 40U);
     EXPECT_EQ(read_at<std::uint8_t>(bytes, heights + 1), 12U);
     EXPECT_EQ(read_at<std::uint8_t>(bytes, heights + 9), 7U);
     EXPECT_EQ(read_at<std::uint8_t>(bytes, reds), 200U);
     EXPECT_EQ(read_at<std::uint8_t>(bytes, reds + 1), 255U) << "one less than on the left";
     EXPECT_EQ(read_at<std::uint64_t>(bytes, covers + 8), relief.covers[1]);
-    // The same by a program that knows the format page alone.
+    // The same bytes, from a program written from the format page alone.
     EXPECT_EQ(bytes, read_file(source_dir() + "/tests/fuzz/corpus/relief_blocks/hill").value());
 }
 
@@ -118,7 +118,7 @@ TEST(ReliefBlocks, a_damaged_part_is_refused) {
         {with(good, 16, std::numeric_limits<std::uint32_t>::max()), "blocks"},
         {Bytes(good.begin(), good.end() - 1), "need"},
         {with(good, first_grid, std::uint32_t{6}), "number 6"},
-        {with(good, first_grid, std::uint32_t{4}), "number 4"}, // twice
+        {with(good, first_grid, std::uint32_t{4}), "number 4"}, // a repeated direction
         {with(good, first_grid + 4, std::uint32_t{4}), "more than"},
         {with(good, first_grid + 4, std::uint32_t{0}), "together"},
         {with(good, first_grid + 8, 1e30), "[blocks.origin]"},
@@ -154,7 +154,7 @@ TEST(ReliefBlocks, a_pack_has_them_and_one_is_read_alone) {
     const Result<BlockRelief> finer = load_relief(file, reliefs[1]);
     ASSERT_TRUE(finer) << finer.error().message;
     expect_equal(*finer, samples::block_relief(64));
-    // What the manifest does not have is refused, and a part that is not chosen is not looked at.
+    // A relief that contradicts the manifest is refused; a part that is not chosen is not read.
     ReliefOutline other = reliefs[1];
     other.blocks = 4;
     EXPECT_FALSE(load_relief(file, other));

@@ -135,7 +135,7 @@ TEST(RoundTrip, a_texture_is_stored_as_webp_where_that_is_smaller) {
     expect_same(pack, **back);
 }
 
-/// The file is the same pack, written by the last program that wrote version 1.
+/// The file has the same pack, written by the last program of version 1.
 TEST(RoundTrip, a_pack_of_version_1_is_read) {
     const Result<Bytes> file = read_file(source_dir() + "/tests/pack/fixtures/version1.fspack");
     ASSERT_TRUE(file) << file.error().message;

@@ -137,7 +137,7 @@ inline Bytes some_bytes(std::string_view text) {
     return {bytes.begin(), bytes.end()};
 }
 
-/// With every section that the description has members for, one that no reader of today knows, and sounds.
+/// A pack with every section that the description has members for, an unknown section, and sounds.
 inline Pack full_pack() {
     Pack pack = samples::pack();
     pack.id = "museum-1234.a";
@@ -239,7 +239,7 @@ inline BlockRelief block_relief(int texels) {
     return relief;
 }
 
-/// Two reliefs beside the levels.
+/// A pack with two reliefs and its levels.
 inline Pack pack_with_reliefs() {
     Pack pack = samples::pack();
     put_reliefs(pack, std::vector<MeasuredRelief>{{block_relief(32), {0.01F, 0.02F, 0.03F, 4.5F}},
@@ -253,7 +253,7 @@ inline Bytes bytes_of(const Pack& pack) {
     return bytes ? *bytes : Bytes{};
 }
 
-/// A pack's entries, to be altered and put together again.
+/// A pack's entries, to be altered and reassembled.
 struct Entries {
     // A JSON document's own constructors may throw.
     Entries() noexcept(false) = default;
@@ -275,13 +275,13 @@ struct Entries {
     }
 };
 
-/// Throws if it is no pack: a fuzzer's bytes may claim any size.
+/// Throws if the bytes are no pack: a fuzzer's bytes may claim any size.
 inline Entries take_apart(const Bytes& bytes) {
-    constexpr std::uint64_t most_bytes = 1U << 28U;
+    constexpr std::uint64_t max_bytes = 1U << 28U;
     auto zip = pack_format::ZipReader::open(bytes);
     Entries entries;
     for (const pack_format::ZipEntry& entry : zip.value().entries()) {
-        if (entry.bytes > most_bytes) {
+        if (entry.bytes > max_bytes) {
             throw std::length_error(entry.name);
         }
         const Bytes part = zip->read(entry).value();
@@ -308,7 +308,7 @@ inline Bytes put_together(const Entries& entries) {
     return put_together(entries.manifest.dump(), entries.parts);
 }
 
-/// Makes the sizes and hashes in the manifest those of the parts.
+/// Sets the sizes and hashes in the manifest to those of the parts.
 inline void right_hashes(Entries& entries) {
     for (auto& record : entries.manifest["parts"]) {
         for (const auto& [name, bytes] : entries.parts) {
@@ -320,13 +320,13 @@ inline void right_hashes(Entries& entries) {
     }
 }
 
-/// The message with which the bytes are refused; empty if they are not.
+/// The message with which the bytes are refused; empty if they are accepted.
 inline std::string refusal_of(const Bytes& bytes) {
     const Result<VerifiedPack> pack = verify_pack(bytes);
     return pack ? std::string() : test::told(pack.error());
 }
 
-/// One line for a person: not empty, not broken, not endless, no control characters.
+/// One line for a person: not empty, one line, short, no control characters.
 inline bool is_one_line(const std::string& message) {
     return !message.empty() && message.size() < 400 && message.find('\n') == std::string::npos &&
            message.find('\x1b') == std::string::npos && message.find('\0') == std::string::npos;

@@ -1,4 +1,4 @@
-// Sections of a pack: read, passed over, altered, and read alone.
+// Sections of a pack: read, skipped, altered, and read alone.
 #include "app/pack/pack_contents.h"
 #include "app/pack/pack_sections.h"
 #include "tests/base/told.h"
@@ -31,7 +31,7 @@ std::string refusal_to_write(const std::function<void(Pack&)>& change) {
     return bytes ? std::string() : test::told(bytes.error());
 }
 
-/// The full sample in a file of its own, one byte of the part `name` changed if one is named.
+/// The full sample as a file; one byte of the part `altered_part` is changed if it is named.
 class PackFile : public testing::Test {
 protected:
     void write(const std::string& altered_part = {}) {
@@ -94,7 +94,7 @@ TEST(Sections, one_that_nobody_knows_is_passed_over_and_its_parts_are_checked) {
 TEST(Sections, a_reader_of_chosen_levels_reads_none_of_their_parts) {
     samples::Entries entries = samples::take_apart(samples::bytes_of(samples::full_pack()));
     for (const char* name : {"sounds/en/0.opus", "glyphs/runs.bin", "table_picture.png"}) {
-        entries.part(name)[0] ^= std::byte{1}; // its checksum is right, its hash is wrong
+        entries.part(name)[0] ^= std::byte{1}; // the container's checksum is valid, the hash is not
     }
     const Bytes bytes = samples::put_together(entries);
     const Result<VerifiedPack> read = verify_pack(bytes, [](const PackOutline& outline) {
@@ -122,7 +122,7 @@ TEST(Sections, that_are_defined_are_exact) {
     expect_refused("sections.table_picture.parts has 0; allowed is 1",
                    [](Json& m) { m["sections"]["table_picture"]["parts"] = Json::array(); });
     expect_refused("table_picture.png", [](Json& m) { m["sections"].erase("table_picture"); });
-    expect_refused("glyphs/runs.bin", [](Json& m) { // no picture
+    expect_refused("glyphs/runs.bin", [](Json& m) { // not a picture
         m["sections"]["table_picture"]["parts"] = {"glyphs/runs.bin"};
         m["sections"]["glyphs"]["parts"] = {"glyphs/atlas.png", "table_picture.png"};
     });

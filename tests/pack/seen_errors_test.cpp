@@ -1,4 +1,4 @@
-// The section `seen_errors`: what is written, read and refused.
+// The section `seen_errors`: written, read and refused.
 #include "app/pack/seen_errors.h"
 #include "tests/base/told.h"
 #include "tests/pack/samples.h"
@@ -53,7 +53,7 @@ TEST(SeenErrors, ComeBackUnchangedThroughAFile) {
     expect_same(*seen, some());
     const Json data = Json::parse((*back)->sections.at(0).data);
     EXPECT_EQ(data["eyes"][0]["places"][9], 0.25);            // x of patch 3
-    EXPECT_EQ(data["levels"][0]["eyes"][0]["mean_box"], 0.1); // in few digits
+    EXPECT_EQ(data["levels"][0]["eyes"][0]["mean_box"], 0.1); // few digits
 }
 
 TEST(SeenErrors, OfReliefsStandInASectionOfTheirOwn) {

@@ -1,4 +1,4 @@
-// A description's portions: all of it, in order, in sentences, and none longer than a caption.
+// A description's portions: complete, in order, of whole sentences, and none longer than a caption.
 #include "app/pack/text_portions.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ using namespace frustumscreen;
 
 namespace {
 
-/// Without white space.
+/// The text without white space.
 std::string letters_of(std::string text) {
     std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
     return text;
@@ -64,7 +64,7 @@ TEST(TextPortions, scripts_without_spaces_are_cut_behind_their_stops) {
     EXPECT_EQ(portions[2], sentence);
 }
 
-/// Whatever is cut, nothing is lost, and no portion is much longer than a caption.
+/// No text is lost by the cuts, and no portion is much longer than a caption.
 TEST(TextPortions, hold_all_of_the_text_in_any_script) {
     const std::vector<std::string> sentences{"One two three four five six seven. ",
                                              "Was ist das? ",

@@ -1,4 +1,4 @@
-// Texts that a pack may hold, and those that would harm what stands beside them.
+// Texts that a pack may have, and texts that would harm those beside them.
 #include "app/pack/pack_text.h"
 #include "tests/pack/samples.h"
 

@@ -10,7 +10,7 @@
 
 namespace frustumscreen::samples {
 
-/// Time and date, as MS-DOS packs them, of every header, in both places where an entry has one.
+/// Time and date, as MS-DOS packs them, of every header, in both places of each entry.
 inline std::vector<std::uint32_t> zip_dates(std::span<const std::byte> archive) {
     const auto number = [&](std::size_t at, std::size_t bytes) {
         std::uint32_t value = 0;
@@ -30,7 +30,7 @@ inline std::vector<std::uint32_t> zip_dates(std::span<const std::byte> archive) 
     return dates;
 }
 
-/// 1 January 1980, midnight: the earliest that there is.
+/// 1 January 1980, midnight: the earliest possible date.
 inline constexpr std::uint32_t earliest_zip_date = 0x00210000;
 
 } // namespace frustumscreen::samples

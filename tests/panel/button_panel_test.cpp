@@ -149,7 +149,7 @@ TEST(ButtonPanel, NobodyWhoPollsMakesItForgetTheNewest) {
     ButtonPanel panel(opener(chip), 3, times);
     std::vector<PanelEvent> events;
     ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "its buttons are there"; }));
-    for (std::size_t k = 0; k < ButtonPanel::most_waiting + 10; ++k) {
+    for (std::size_t k = 0; k < ButtonPanel::max_waiting + 10; ++k) {
         chip.down[0] = true;
         let_levels_count(chip);
         chip.down[0] = false;
@@ -159,7 +159,7 @@ TEST(ButtonPanel, NobodyWhoPollsMakesItForgetTheNewest) {
     let_levels_count(chip);
     events.clear();
     ASSERT_TRUE(panel.poll(monotonic_now(), events));
-    ASSERT_LE(events.size(), ButtonPanel::most_waiting);
+    ASSERT_LE(events.size(), ButtonPanel::max_waiting);
     ASSERT_FALSE(events.empty());
     EXPECT_EQ(events.back().button, 2);
 }

@@ -1,4 +1,4 @@
-// `frustumscreen-bake --batch`: a run that was killed goes on and ends with the packs of one that was not; so do shards.
+// `frustumscreen-bake --batch`: a killed run continues and ends with the packs of an uninterrupted one; shards do too.
 #include "tests/folders.h"
 #include "tests/programs/curator_folder.h"
 
@@ -38,7 +38,7 @@ TEST_F(BakeBatch, AKilledRunThatGoesOnAndSharesEndAsOneWholeRun) {
     EXPECT_NE(text("out.txt").find("4 objects: 3 baked, 1 failed"), std::string::npos) << text("out.txt");
     EXPECT_EQ(count("err.txt", "misspelt: objects/misspelt/artifact.toml:3: siez"), 1U) << text("err.txt");
 
-    // The second spoken object waits for ever, as long as `hold` is there.
+    // The second spoken object waits as long as `hold` exists.
     put("hold", "");
     put("voice.sh", "if [ -e hold ] && [ -e spoken_once ]; then echo $$ >held; sleep 1000; fi\n"
                     ": >spoken_once\ncat voice.wav\n");
@@ -62,14 +62,14 @@ TEST_F(BakeBatch, AKilledRunThatGoesOnAndSharesEndAsOneWholeRun) {
             << entry.path() << " was left behind";
     }
 
-    // Two shares in another folder are the same once more.
+    // Two shards in another folder give the same packs.
     EXPECT_EQ(batch("-o shards --shard 1/2 --json"), 0) << text("err.txt");
     EXPECT_NE(text("out.txt").find("\"baked\": 2"), std::string::npos) << text("out.txt");
     EXPECT_EQ(batch("-o shards --shard 2/2"), 1) << "the misspelt one is here";
     expect_same_packs("whole", "shards");
     EXPECT_EQ(batch("-o shards --report-only"), 1);
     EXPECT_NE(text("out.txt").find("4 objects: 3 unchanged, 1 failed"), std::string::npos) << text("out.txt");
-    // Python's own reader: the two shards' rows are those of the whole.
+    // Python's csv reader: the two shards' rows are those of the whole run.
     put("look.py",
         "import csv, glob\n"
         "def names(pattern): return sorted(r['object'] for f in glob.glob(pattern)\n"

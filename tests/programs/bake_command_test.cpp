@@ -1,4 +1,4 @@
-// What `frustumscreen-bake` writes, and what it never replaces.
+// The files that `frustumscreen-bake` writes, and those that it never replaces.
 
 #include "app/image/image.h"
 #include "app/pack/attribution.h"
@@ -43,7 +43,7 @@ protected:
     [[nodiscard]] int bake_to(const std::string& output, const std::string& more = "") const {
         return run(fmt::format("frustumscreen-bake scan.obj --size 32 -o '{}' {}", output, more));
     }
-    /// It ends with one line that holds `reason`, and every file of the folder is as it was.
+    /// Expects that the bake ends with one line that contains `reason`, and that every file of the folder is unchanged.
     void refused(const std::string& output, const std::string& reason, const std::string& more = "") const {
         constexpr std::array files = {"scan.obj", "scan.mtl", "skin.png", "shine.png", "notes.txt"};
         std::array<std::string, files.size()> before;
@@ -88,7 +88,7 @@ TEST_F(BakeCommand, TheReportForProgramsAgreesWithThePack) {
     EXPECT_EQ(report["turn_deg"], 30.0);
     EXPECT_EQ(report["levels"].size(), (*pack)->levels.size());
     EXPECT_EQ(report["lost"].size(), 0U);
-    // The tetrahedron's corners by hand: up is z, turned by 30 degrees, raised by a quarter of its height 1.
+    // The tetrahedron's corners, computed by hand: up is z, turned by 30 degrees, raised by a quarter of its height 1.
     const double c = std::sqrt(0.75);
     const double wide = c + 0.5;
     const double longest = std::max(wide, 1.25);
@@ -98,7 +98,7 @@ TEST_F(BakeCommand, TheReportForProgramsAgreesWithThePack) {
     const glm::dvec3 foot(placement.prop_from_artifact * glm::dvec4(0, 0, 0, 1));
     const glm::dvec3 tip(placement.prop_from_artifact * glm::dvec4(0, 0, 1, 1));
     EXPECT_NEAR(foot.z, 0.25 * (tip.z - foot.z), 1e-9);
-    EXPECT_NEAR(report["size_m"][2], tip.z - foot.z, 1e-4); // 16-bit places
+    EXPECT_NEAR(report["size_m"][2], tip.z - foot.z, 1e-4); // 16-bit positions
     ASSERT_EQ(bake_to("whole.fspack", "--up z --turn 30 --lift 0.25"), 0) << text("err.txt");
     const Result<VerifiedPack> whole = load_pack(folder / "whole.fspack");
     EXPECT_NEAR(place(**whole, make_frustum(shipped_frustum)).metres_per_box, 2.0 * placement.metres_per_box,
@@ -198,8 +198,8 @@ TEST_F(BakeCommand, AFoldersTextsAreSetAndItsDescriptionIsSpoken) {
     EXPECT_FALSE(load_sound(folder / "vase.fspack", "he", "description")->empty());
     EXPECT_EQ(run("frustumscreen-pack verify vase.fspack"), 0) << text("err.txt");
 
-    ASSERT_EQ(run("frustumscreen-bake vase -o vase.fspack"), 0) << text("err.txt"); // with the usual voice
-    EXPECT_NE(text("out.txt").find("silent  the description in 'he' is silent, but it is shown"),
+    ASSERT_EQ(run("frustumscreen-bake vase -o vase.fspack"), 0) << text("err.txt"); // with the default voice
+    EXPECT_NE(text("out.txt").find("silent  the description in 'he' is silent, and shown all the same"),
               std::string::npos)
         << text("out.txt");
     ASSERT_EQ(run("frustumscreen-pack explain vase.fspack"), 0);
@@ -290,7 +290,7 @@ TEST_F(BakeCommand, ReplacesAnotherFileOnlyByForce) {
 }
 
 TEST_F(BakeCommand, LooksAtTheOutputBeforeTheWork) {
-    put("scan.obj", "no model at all"); // what is wrong with the output is said first
+    put("scan.obj", "no model at all"); // errors of the output are reported before it is read
     fs::create_directory(folder / "folder");
     refused("nowhere/scan.fspack", "there is no folder nowhere; make it first");
     refused("folder", "not a regular file");
@@ -374,7 +374,7 @@ labels = { en = "Side" }
     EXPECT_EQ((*pack)->provenance.licence, "CC0-1.0");
     EXPECT_EQ((*pack)->relief_size, 48);
     ASSERT_EQ((*pack)->hotspots.size(), 2U);
-    // The tetrahedron fills its box, whose X is the file's and whose front, -Y, is the file's y = 0.
+    // The tetrahedron fills its box; the box's X is the file's, and its front, -Y, is at the file's y = 0.
     EXPECT_NEAR((*pack)->hotspots[0].point.x, -0.5, 1e-6);
     EXPECT_NEAR((*pack)->hotspots[0].normal.x, -1.0, 0.01);
     EXPECT_NEAR((*pack)->hotspots[1].point.y, -0.5, 1e-6);
@@ -427,7 +427,7 @@ TEST_F(BakeCommand, ThePictureForTheTableIsCutOut) {
     EXPECT_EQ(picture->at(picture->width / 2, picture->height / 2).a, 255);
 }
 
-/// A file system of one megabyte, where the test may make one.
+/// A file system of one megabyte; skipped if the test may not make one.
 TEST_F(BakeCommand, LooksForRoomBeforeTheWork) {
     fs::create_directory(folder / "small");
     const std::string program = fmt::format("'{}'/frustumscreen-bake", bin_dir());

@@ -1,4 +1,4 @@
-// What `frustumscreen-bake` says of a curator's folder: what is lost of it, and what is wrong in it.
+// The messages of `frustumscreen-bake` about a curator's folder: losses and errors.
 #include "app/pack/pack_file.h"
 #include "tests/base/told.h"
 #include "tests/programs/program_folder.h"
@@ -21,12 +21,12 @@ protected:
     void put(const std::string& file, const std::string& content) const {
         ASSERT_TRUE(write_file(folder / file, as_bytes(content)));
     }
-    /// The exit status of a bake with these lines in the artifact.toml.
+    /// Exit status of a bake with these lines in the artifact.toml.
     [[nodiscard]] int bake(const std::string& lines, const std::string& more = "") const {
         put("jug/artifact.toml", "scan = \"jug.obj\"\nsize = 16\n" + lines);
         return run("frustumscreen-bake jug -o jug.fspack " + (more.empty() ? "--speech none" : more));
     }
-    /// Whether `part` was said on standard error.
+    /// True if standard error contains `part`.
     [[nodiscard]] ::testing::AssertionResult said(const std::string& part) const {
         const std::string all = text("err.txt");
         return (all.find(part) != std::string::npos ? ::testing::AssertionSuccess()

@@ -1,4 +1,4 @@
-// `frustumscreen-bake --preview` and `--watch`: the page that a curator opens, in a browser without a network too.
+// `frustumscreen-bake --preview` and `--watch`: the curator's page, also opened in a browser without a network.
 #include "tests/base/told.h"
 #include "tests/folders.h"
 #include "tests/programs/curator_folder.h"
@@ -16,7 +16,7 @@ constexpr const char* texts = "licence = \"CC0-1.0\"\n"
                               "[[texts]]\nlanguage = \"ar\"\ntitle = \"جرة\"\n"
                               "[[hotspots]]\npoint = [0.0, 0.2, 0.2]\nlabels = { en = \"Side\" }\n";
 
-/// What Chromium makes of a page without a network: its <html> tag, on which the page's script says how it went.
+/// The <html> tag of a page in Chromium without a network; the page's script writes its result there.
 std::string root_in_chromium(const fs::path& folder, const std::string& page) {
     const bool cuts_off = std::system("unshare -n true 2>/dev/null") == 0;
     const std::string command = fmt::format(
@@ -50,7 +50,7 @@ protected:
 TEST_F(BakePreview, HasPicturesTextsSoundErrorsAndABrowserShowsThem) {
     ASSERT_EQ(run("frustumscreen-bake jug -o jug.fspack --preview jug.html --while-watched --speech none"), 0)
         << text("err.txt");
-    // The turn, the table's picture, two captions, a portion, whose it is in both languages, a label.
+    // The turn, the table's picture, two captions, a portion, the attribution in both languages, a label.
     EXPECT_EQ(
         check("--reloads --pictures 8 --sounds 1 --text 'Jug <b>& \"co\"' --text 'Of clay.' --text 'A jug.' "
               "--text 'جرة' --text Side --text CC0-1.0 --text 'mean mm' --text \"has no label in 'ar'\""),
@@ -80,7 +80,7 @@ TEST_F(BakePreview, NoFileOfSomebodyElseIsReplaced) {
 }
 
 TEST_F(BakePreview, WithoutOpenGlOneSentenceSaysSo) {
-    // A loader that is told of no driver finds none.
+    // A loader that is given no driver finds none.
     EXPECT_EQ(
         std::system(
             fmt::format("cd '{}' && __EGL_VENDOR_LIBRARY_FILENAMES=/nowhere.json '{}'/frustumscreen-bake jug "

@@ -1,4 +1,4 @@
-// What the bench's program ends with, seen from outside.
+// The results of the bench's program, seen from outside.
 
 #include "firmware_host/base/json.h"
 #include "tests/folders.h"

@@ -1,4 +1,4 @@
-// `frustumscreen camera` where there is no camera; with one, tests/hil/test_camera.py has it.
+// `frustumscreen camera` without a camera; tests/hil/test_camera.py tests it with one.
 
 #include "firmware_host/base/json.h"
 #include "tests/programs/program_folder.h"

@@ -1,4 +1,4 @@
-// `frustumscreen config` from outside: the page in words, the JSON, and what it says of missing files.
+// `frustumscreen config` from outside: the page in words, the JSON, and the messages about missing files.
 
 #include "firmware_host/base/json.h"
 #include "tests/programs/program_folder.h"
@@ -13,7 +13,7 @@ constexpr const char* steep_prop = "[prop]\nbase_m = 0.16\ntop_m = 0.09\nheight_
 
 class ConfigCommand : public ProgramFolder {
 protected:
-    /// The page for settings of this text.
+    /// The page for these settings.
     [[nodiscard]] std::string page(const std::string& settings) const {
         EXPECT_TRUE(write_file(folder / "kiosk.toml", as_bytes(settings)));
         EXPECT_EQ(run("frustumscreen config --config kiosk.toml --explain"), 0) << text("err.txt");
@@ -27,8 +27,8 @@ protected:
 };
 
 TEST_F(ConfigCommand, ExplainsAProjectorThatLooksStraightDown) {
-    // 1.2 m over 1920 pixels; the top is 0.12 m nearer. A side's centre is 0.0625 m off the axis and 0.06 m high, its
-    // normal is (0.96, 0.28): it gets h / d^3 with h = 1.14 * 0.28 - 0.0625 * 0.96.
+    // 1.2 m over 1920 pixels; the top is 0.12 m nearer. A side's centre is 0.0625 m off the axis and 0.06 m high, and
+    // its normal is (0.96, 0.28): its light is h / d^3 with h = 1.14 * 0.28 - 0.0625 * 0.96.
     const double side = (1.14 * 0.28 - 0.0625 * 0.96) / std::pow(std::hypot(0.0625, 1.14), 3);
     const double top = 1.0 / (1.08 * 1.08);
     expect_words(
@@ -45,7 +45,7 @@ TEST_F(ConfigCommand, ExplainsAProjectorThatLooksStraightDown) {
 }
 
 TEST_F(ConfigCommand, SaysHowEvenlyTheShippedTableIsLit) {
-    // At every yaw half a bottom's diagonal stays on the table, 0.25 - 0.15 sqrt(2) m, and nearly 0.4 - 0.15 sqrt(2).
+    // At every yaw half a base's diagonal stays on the table: 0.25 - 0.15 sqrt(2) m, and nearly 0.4 - 0.15 sqrt(2) m.
     expect_words(page(""),
                  {"1920 x 1200 pixels", "evenly lit within x -0.186 to 0.186 m, y -0.038 to 0.038 m",
                   "Faces are lit 1 : 0.36 at the worst turn"});
@@ -53,7 +53,8 @@ TEST_F(ConfigCommand, SaysHowEvenlyTheShippedTableIsLit) {
 
 TEST_F(ConfigCommand, SaysWhereCaptionsAreTooSmallOrTooDark) {
     const std::string straight_down = std::string(lens) + "position_m = [0, 0, 1.2]\n" + steep_prop;
-    // 24 pt are a third of an inch, and a pixel is 0.625 mm. Of white, the text has 0.8 * 0.3, and black is taken for 0.05.
+    // 24 pt are a third of an inch, and a pixel is 0.625 mm. The text has 0.8 * 0.3 of white, and black is assumed as
+    // 0.05.
     const std::string small_and_dark =
         page(straight_down + "[exhibit]\ncaption_height_m = 0.003\ncaption_brightness = 0.3\n");
     expect_words(small_and_dark,
@@ -69,7 +70,8 @@ TEST_F(ConfigCommand, SaysWhereCaptionsAreTooSmallOrTooDark) {
 }
 
 TEST_F(ConfigCommand, ExplainsAProjectorThatLooksFromTheFarSide) {
-    // On the axis, hypot(0.9, 1) m away, tilted by atan(0.9): a pixel is that / 1920 across, and longer along the table.
+    // The point on the axis is hypot(0.9, 1) m away, tilted by atan(0.9): a pixel is that / 1920 across, and longer
+    // along the table.
     const double across_mm = 1e3 * std::hypot(0.9, 1.0) / 1920.0;
     expect_words(page(std::string(lens) + "position_m = [0, 0.9, 1]\naim_m = [0, 0, 0]\n" + steep_prop),
                  {fmt::format("looks {:.1f} degrees away", 180.0 / M_PI * std::atan(0.9)),
@@ -81,8 +83,8 @@ TEST_F(ConfigCommand, ExplainsAProjectorThatLooksFromTheFarSide) {
 TEST_F(ConfigCommand, ExplainsACubeInTheHand) {
     const std::string said =
         page(std::string(lens) + "position_m = [0, 0, 1.2]\n[prop]\nkind = \"cube\"\nbase_m = 0.1\n");
-    // Turned in any way, its corners reach 0.0866 m from its middle, which is so high: the picture of 0.4 x 0.25 m to
-    // each side on the table is smaller there by 0.0866 / 1.2, and the ball takes more away.
+    // In any orientation, its corners are 0.0866 m from its middle, which is at that height. There the picture, which
+    // is 0.4 x 0.25 m to each side on the table, is smaller by 0.0866 / 1.2, and the ball reduces it further.
     expect_words(said, {"+X, -X, +Y, -Y, -Z: no light.", "At every turn while its middle is within x -0.2"});
     EXPECT_EQ(said.find("evenly"), std::string::npos);
 }
@@ -123,11 +125,11 @@ TEST_F(ConfigCommand, JudgesAGoodSetUpAsGood) {
 }
 
 TEST_F(ConfigCommand, JudgesLettersThatAreTooFewPixelsOrTooSmall) {
-    // 1.5 m over 100 / 0.8 x 1.5 pixels of focal length.
+    // 1.5 m divided by a focal length of 100 / 0.8 x 1.5 pixels.
     expect_words(
         page("[projector]\nwidth = 100\nheight = 100\nthrow_ratio = 1.875\n"),
         {"letters are 1 pixels high, too few to read: they need 18", "exhibit.caption_height_m = 0.144"});
-    // A capital is 0.714 of the type's height, seen 1.9 m away from 0.5 m above the table.
+    // A capital is 0.714 of the type's height, seen from 1.9 m away and 0.5 m above the table.
     const double arcmin = 60.0 * 180.0 / M_PI * 0.01 * 0.714 * 0.5 / (1.8 * 1.8 + 0.5 * 0.5);
     expect_words(page("[eye]\ndefault_m = [0, -1.8, 0.5]\n"),
                  {fmt::format("a capital is {:.0f} minutes of arc high, and needs 16", arcmin)});

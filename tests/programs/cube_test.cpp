@@ -1,4 +1,4 @@
-// A cube from a mesh to its pictures and its measured error, by the programs alone.
+// A cube from its mesh to its pictures and its measured error, made only by the programs.
 
 #include "app/pack/pack_file.h"
 #include "firmware_host/base/json.h"
@@ -14,7 +14,7 @@
 namespace frustumscreen {
 namespace {
 
-/// A six-sided die of unequal pyramids on a core: every side has something to show, the bottom too.
+/// A six-sided die of unequal pyramids on a core: every side is visible, the bottom too.
 class CubeProgram : public ProgramFolder {
 protected:
     void SetUp() override {
@@ -32,12 +32,12 @@ TEST_F(CubeProgram, ItsPackIsSoundAndMeasuredOnACube) {
     const nlohmann::json json = nlohmann::json::parse(text("out.txt"));
     EXPECT_EQ(json.at("prop").at("kind"), "cube");
     EXPECT_EQ(json.at("prop").at("height_m"), json.at("prop").at("base_m"));
-    // 2.1 high and 1.7 across at most: as high as the cube of 0.16 m.
+    // At most 2.1 high and 1.7 wide: as high as the cube of 0.16 m.
     EXPECT_NEAR(json.at("artifact_size_m")[2].get<double>(), 0.16, 1e-3);
 }
 
 TEST_F(CubeProgram, UpsideDownItIsDrawnFromBelow) {
-    // Rotated by half a turn about X, the middle above the table's centre, seen from straight above.
+    // Half a turn about X, with the middle above the table's centre, seen from straight above.
     ASSERT_TRUE(
         write_file(folder / "poses.csv", as_bytes("t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"
                                                   "0,1,0,0,0.15,0,1,0,0,1\n0,2,0,0,0.8,1,0,0,0,1\n")));
@@ -69,7 +69,7 @@ TEST_F(CubeProgram, UpsideDownItIsDrawnFromBelow) {
         }
     }
     EXPECT_GT(hits, 5000);
-    // The lower half of the star alone, whose waist is 1 / 2.1 of its height.
+    // Only the lower half of the star, whose waist is at 1 / 2.1 of its height.
     EXPECT_LT(highest, 0.1F / 2.1F + 5e-4F);
     EXPECT_GT(highest, 0.02F);
 }

@@ -21,7 +21,7 @@ protected:
         std::filesystem::create_directories((folder / file).parent_path());
         ASSERT_TRUE(write_file(folder / file, as_bytes(content)));
     }
-    /// A folder that bakes in a second.
+    /// Writes a folder that bakes in a second.
     void put_jug(const std::string& name, const std::string& more = "") const {
         put(name + "/jug.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 1 0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
         put(name + "/artifact.toml", "scan = \"jug.obj\"\nsize = 16\n" + more);
@@ -30,7 +30,7 @@ protected:
         std::filesystem::create_directories((folder / file).parent_path());
         ASSERT_TRUE(write_file(folder / file, testing::wav16(testing::sine(0.5, 0.3))));
     }
-    /// Looks again and again until it holds, or a minute is over.
+    /// Tests `holds` repeatedly until it is true; false after a minute.
     template <typename Holds> [[nodiscard]] static bool comes(const Holds& holds) {
         for (int look = 0; look < 1200; ++look) {
             if (holds()) {
@@ -40,7 +40,7 @@ protected:
         }
         return false;
     }
-    /// Starts a program of ours in the background, which writes into log.txt; its process.
+    /// Starts one of the programs in the background, with its output in log.txt; returns its process.
     [[nodiscard]] pid_t start(const std::string& command) const {
         const int status =
             std::system(fmt::format("cd '{}' && {{ '{}'/{} >log.txt 2>&1 & echo $! >pid.txt; }}",
@@ -48,7 +48,7 @@ protected:
                             .c_str());
         return status == 0 ? static_cast<pid_t>(std::stol(text("pid.txt"))) : 0;
     }
-    /// One that has ended and that nobody has asked about yet does not run.
+    /// True if the process runs; a zombie does not.
     [[nodiscard]] static bool runs(pid_t process) {
         std::ifstream file(fmt::format("/proc/{}/stat", process));
         const std::string stat(std::istreambuf_iterator<char>(file), {});

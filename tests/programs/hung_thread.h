@@ -1,4 +1,4 @@
-/// One thread of another process, found by its name and stopped for good, as a device that hangs stops it.
+/// Finds a thread of another process by name and stops it for good, as a hanging device does.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 
 namespace frustumscreen {
 
-/// Waits for the name: a thread names itself when it first runs.
+/// Waits for the name, because a thread names itself when it first runs.
 inline std::optional<pid_t> thread_named(pid_t process, const std::string& wanted) {
     using Clock = std::chrono::steady_clock;
     for (const auto end = Clock::now() + std::chrono::seconds(10); Clock::now() < end;) {
@@ -31,8 +31,8 @@ inline std::optional<pid_t> thread_named(pid_t process, const std::string& wante
     return std::nullopt;
 }
 
-/// Stops a child's thread; from here on it is traced, and the test must wait for its end before the child's.
-/// False: this machine does not allow tracing.
+/// Stops a child's thread, which is traced from then on: the test must wait for its end before the child's. False if
+/// this machine does not allow tracing.
 inline bool hang(pid_t thread) {
     int status = 0;
     return ::ptrace(PTRACE_SEIZE, thread, nullptr, nullptr) == 0 &&

@@ -1,4 +1,4 @@
-// A folder with a kiosk's settings, a small pack and a pose file, for tests of the program itself.
+// A folder with a kiosk's settings, a small pack and a pose file, for tests of the program.
 #pragma once
 
 #include "app/pack/pack_file.h"

@@ -1,6 +1,6 @@
-// The plan explained against the show observed: a minimal, an ordinary and a full scene, on packs made in
-// memory. Bytes and programs are asked of OpenGL; pictures are compared pixel for pixel with those of a show
-// that leaves nothing out.
+// The explained plan compared with the running show: a minimal, an ordinary and a full scene, on packs made in memory.
+// Bytes and programs are queried from OpenGL; pictures are compared pixel by pixel with those of a show that leaves
+// nothing out.
 
 #include "app/render/read_back.h"
 #include "app/scene/device_plan.h"
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Rings at four levels, each with a picture of its own.
+/// Rings at four levels, each with its own picture.
 Pack full_pack() {
     Pack pack = rings(12, 4);
     for (const auto& [around, across] : {std::pair(16U, 8U), std::pair(24U, 12U), std::pair(48U, 24U)}) {
@@ -75,72 +75,72 @@ protected:
     }
     void configure(std::string_view text) {
         settings = **parse_settings(std::string(stage) + std::string(text), "kiosk.toml");
-        settings.projector.refresh_hz = 1e-3; // no deadline: both shows draw what the tolerance asks for
+        settings.projector.refresh_hz = 1e-3; // no deadline: both shows draw the level for the tolerance
     }
-    std::unique_ptr<ArtifactShow> show(unsigned economies, const std::string& technique = "auto") {
+    std::unique_ptr<ArtifactShow> show(unsigned cull_kinds, const std::string& technique = "auto") {
         const DevicePlan devices = plan_devices(settings, false, false);
-        return ArtifactShow::create(settings, devices, {{file}, technique, default_samples, economies},
+        return ArtifactShow::create(settings, devices, {{file}, technique, default_samples, cull_kinds},
                                     {display->framebuffer(), 0})
             .value();
     }
-    Image8 picture(ArtifactShow& of, Exhibit& exhibit, MonotonicTime now, const Situation& situation) {
-        const Presentation presentation = exhibit.step(now, {}, situation);
+    Image8 picture(ArtifactShow& of, Exhibit& exhibit, MonotonicTime now, const TrackedState& tracked_state) {
+        const Presentation presentation = exhibit.step(now, {}, tracked_state);
         EXPECT_TRUE(
-            of.draw(now, presentation, situation.eye_m, {display->framebuffer(), 0}, Redraw::Everything)
+            of.draw(now, presentation, tracked_state.eye_m, {display->framebuffer(), 0}, Redraw::Everything)
                 .drawn);
         return read_colour(display->framebuffer(), 320, 200);
     }
     /// Seeded situations that the settings allow.
-    std::vector<Situation> situations(int count) {
+    std::vector<TrackedState> situations(int count) {
         std::mt19937 random(11);
         std::uniform_real_distribution<double> u(-1.0, 1.0);
-        std::vector<Situation> all;
+        std::vector<TrackedState> all;
         for (int k = 0; k < count; ++k) {
-            Situation situation;
-            situation.prop_known = true;
-            situation.eye_m = settings.eye.default_m;
+            TrackedState tracked_state;
+            tracked_state.prop_known = true;
+            tracked_state.eye_m = settings.eye.default_m;
             if (settings.tracker.kind != TrackerKind::None) {
                 const double yaw = 3.1416 * u(random);
-                situation.table_from_prop = {{std::cos(yaw / 2), 0.0, 0.0, std::sin(yaw / 2)},
-                                             {0.25 * u(random), 0.12 * u(random), 0.0}};
+                tracked_state.table_from_prop = {{std::cos(yaw / 2), 0.0, 0.0, std::sin(yaw / 2)},
+                                                 {0.25 * u(random), 0.12 * u(random), 0.0}};
             }
             if (settings.tracker.kind == TrackerKind::Replay) { // lifted and tilted, seen from below
-                situation.table_from_prop.rotation =
+                tracked_state.table_from_prop.rotation =
                     glm::normalize(glm::dquat(1.0, 0.4 * u(random), 0.4 * u(random), u(random)));
-                situation.table_from_prop.translation.z = 0.1 + 0.1 * u(random);
+                tracked_state.table_from_prop.translation.z = 0.1 + 0.1 * u(random);
             }
             if (settings.eye.tracked) {
                 const bool anywhere = settings.tracker.kind == TrackerKind::Replay;
                 const double elevation = glm::radians(anywhere ? 80.0 * u(random) : 52.5 + 37.5 * u(random));
                 const double azimuth = 3.1416 * u(random);
-                situation.eye_m =
-                    situation.table_from_prop.translation +
+                tracked_state.eye_m =
+                    tracked_state.table_from_prop.translation +
                     (1.2 + 0.8 * u(random)) * glm::dvec3(std::cos(elevation) * std::cos(azimuth),
                                                          std::cos(elevation) * std::sin(azimuth),
                                                          std::sin(elevation));
             }
-            all.push_back(situation);
+            all.push_back(tracked_state);
         }
         return all;
     }
-    /// Number of pictures, of those, that are not all black.
+    /// Compares `count` pictures of both shows; returns the number that are not entirely black.
     int expect_same_pictures(ArtifactShow& a, ArtifactShow& b, int count) {
         int lit = 0;
         const std::size_t programs = programs_that_exist();
         MonotonicTime now;
         Exhibit exhibit_of_a = make_exhibit(settings, a, now);
         Exhibit exhibit_of_b = make_exhibit(settings, b, now);
-        for (const Situation& situation : situations(count)) {
+        for (const TrackedState& tracked_state : situations(count)) {
             now += std::chrono::milliseconds(700);
-            const Image8 first = picture(a, exhibit_of_a, now, situation);
-            const Image8 second = picture(b, exhibit_of_b, now, situation);
+            const Image8 first = picture(a, exhibit_of_a, now, tracked_state);
+            const Image8 second = picture(b, exhibit_of_b, now, tracked_state);
             EXPECT_EQ(first.texels, second.texels);
             lit += std::any_of(first.texels.begin(), first.texels.end(),
                                [](const glm::u8vec4& t) { return t.r + t.g + t.b > 0; })
                        ? 1
                        : 0;
         }
-        EXPECT_EQ(programs_that_exist(), programs); // no frame makes one
+        EXPECT_EQ(programs_that_exist(), programs); // no frame creates a program
         return lit;
     }
     void expect_as_planned(const ArtifactShow& of, std::size_t programs) {
@@ -163,13 +163,13 @@ TEST_F(PlanAgainstShow, AMinimalScene) {
     int lit = 0;
     std::mt19937 random(5);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
-    for (int k = 0; k < 12; ++k) { // each viewer is a scene, and a plan, of its own
+    for (int k = 0; k < 12; ++k) { // each viewer is a scene and a plan of its own
         configure(minimal);
         settings.eye.default_m = {0.6 * u(random), -0.6 + 0.3 * u(random), 0.45 + 0.35 * u(random)};
-        const auto lean = show(AllEconomies, "level3");
-        expect_as_planned(*lean, 6); // outline, artifact, edges, three of the samples' room
+        const auto lean = show(AllCullKinds, "level3");
+        expect_as_planned(*lean, 6); // outline, artifact, edges, three for the sample headroom
         EXPECT_EQ(lean->levels(0).uses().size(), 1U);
-        EXPECT_GT(lean->levels(0).uses()[0].unseen_triangles, 1000U); // of 6912, one eye sees about half
+        EXPECT_GT(lean->levels(0).uses()[0].unseen_triangles, 1000U); // of 6912; one eye sees about half
         EXPECT_EQ(lean->use().captions, 0U);
         const auto everything = show(0, "level3");
         EXPECT_LT(lean->use().gpu_bytes, everything->use().gpu_bytes);
@@ -180,7 +180,7 @@ TEST_F(PlanAgainstShow, AMinimalScene) {
 
 TEST_F(PlanAgainstShow, AnOrdinaryScene) {
     configure(ordinary);
-    const auto lean = show(AllEconomies);
+    const auto lean = show(AllCullKinds);
     const ScenePlan& plan = lean->plan(0);
     EXPECT_FALSE(plan.left_out.empty());
     EXPECT_LT(plan.levels.size(), 4U);
@@ -197,23 +197,23 @@ TEST_F(PlanAgainstShow, AnOrdinaryScene) {
 TEST_F(PlanAgainstShow, EachEconomyByItself) {
     configure(ordinary);
     const auto everything = show(0);
-    for (unsigned economy = 1; economy < AllEconomies; economy <<= 1U) {
-        const auto one = show(economy);
-        EXPECT_EQ(one->use().planned_gpu_bytes, one->use().gpu_bytes) << economy;
-        EXPECT_EQ(one->use().planned_shaders, one->use().shaders) << economy;
+    for (unsigned cull_kind = 1; cull_kind < AllCullKinds; cull_kind <<= 1U) {
+        const auto one = show(cull_kind);
+        EXPECT_EQ(one->use().planned_gpu_bytes, one->use().gpu_bytes) << cull_kind;
+        EXPECT_EQ(one->use().planned_shaders, one->use().shaders) << cull_kind;
         expect_same_pictures(*one, *everything, 4);
     }
 }
 
 TEST_F(PlanAgainstShow, AFullScene) {
     configure(full);
-    const auto lean = show(AllEconomies);
+    const auto lean = show(AllCullKinds);
     EXPECT_EQ(lean->plan(0).levels, (std::vector<std::uint32_t>{3U, 2U, 1U, 0U}));
     EXPECT_EQ(lean->use().captions, 2U);
     for (const LevelUse& level : lean->levels(0).uses()) {
-        EXPECT_EQ(level.unseen_triangles, 0U); // nothing is proved of a recording
+        EXPECT_EQ(level.unseen_triangles, 0U); // nothing can be proved about a recording
     }
-    expect_as_planned(*lean, 8); // all but those without light compensation
+    expect_as_planned(*lean, 8); // every shader except those without light compensation
     const auto everything = show(0);
     EXPECT_EQ(everything->use().gpu_bytes, lean->use().gpu_bytes);
     EXPECT_EQ(everything->use().shaders.size(), 10U);
@@ -230,7 +230,7 @@ TEST_F(PlanAgainstShow, AFixedSceneOfFineTexelsLeavesOutTheirFinestMipLevels) {
     fine.samples = 1;
     ASSERT_TRUE(write_file(file, *write_pack(fine)));
     configure(minimal);
-    const auto lean = show(AllEconomies, "level1");
+    const auto lean = show(AllCullKinds, "level1");
     const LevelUse& level = lean->levels(0).uses()[0];
     EXPECT_GE(level.finest_mip, 2);
     EXPECT_EQ(level.texture, glm::ivec2(2048 >> level.finest_mip, 1536 >> level.finest_mip));

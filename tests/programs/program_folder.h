@@ -1,4 +1,4 @@
-// A new folder in which a test runs our programs as a person would.
+// A new folder in which a test runs the programs as a person would.
 #pragma once
 
 #include "firmware_host/base/file.h"
@@ -17,7 +17,7 @@ namespace frustumscreen {
 
 class ProgramFolder : public WithTemporaryFolder {
 protected:
-    /// `command` begins with a program's name; returns the exit status. Its output goes to out.txt and
+    /// Runs `command`, which begins with a program's name; returns the exit status. Its output goes to out.txt and
     /// err.txt.
     [[nodiscard]] int run(const std::string& command) const {
         const int status =
@@ -26,7 +26,7 @@ protected:
                             .c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
-    /// star.obj: eight unequal triangles.
+    /// Writes star.obj: eight unequal triangles.
     void write_star() const {
         ASSERT_TRUE(
             write_file(folder / "star.obj",

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A HID tracker for one second at 100 Hz, moving along x by 1 mm a sample.
+/// One second of a HID tracker at 100 Hz that moves along x by 1 mm a sample.
 Bytes recording() {
     Bytes file;
     append_packet_header(file);
@@ -54,7 +54,7 @@ protected:
         EXPECT_TRUE(parsed) << (parsed ? "" : parsed.error().message);
         return parsed ? *parsed : std::vector<PoseSample>();
     }
-    /// Records until it is told to stop, while the tracker's thread hangs; nothing: that cannot be done here.
+    /// Records while the tracker's thread hangs, until stopped; nothing if this machine does not allow that.
     [[nodiscard]] std::optional<int> stopped_while_the_device_hangs(std::vector<const char*> more) const {
         const std::string program = bin_dir() + "/frustumscreen";
         const pid_t process = ::fork();
@@ -73,7 +73,7 @@ protected:
         EXPECT_TRUE(tracker);
         const bool hangs = tracker && hang(*tracker);
         ::kill(process, hangs ? SIGTERM : SIGKILL);
-        // However slow the machine is, it ends; one that cannot be stopped is not waited for.
+        // It ends even on a slow machine; a process that cannot be stopped is not waited for.
         siginfo_t ended{};
         for (int look = 0; hangs && look < 3000 && ended.si_pid == 0; ++look) {
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -83,7 +83,7 @@ protected:
         ::kill(process, SIGKILL);
         int status = 0;
         if (hangs) {
-            ::waitpid(*tracker, nullptr, __WALL); // the tracer sees each thread's end first
+            ::waitpid(*tracker, nullptr, __WALL); // the tracer receives each thread's end first
         }
         ::waitpid(process, &status, 0);
         return hangs ? std::optional(WIFEXITED(status) ? WEXITSTATUS(status) : -1) : std::nullopt;
@@ -184,7 +184,7 @@ TEST_F(RecordCommand, ADeviceThatHangsDoesNotKeepItFromStoppingAndNothingIsLost)
     EXPECT_EQ(reader->left(), 0U);
     EXPECT_EQ(text("out.txt").find(fmt::format("raw: {} packets", packets)), 0U) << text("out.txt");
 
-    EXPECT_EQ(stopped_while_the_device_hangs({"-o", "none.csv"}), 1); // and says why
+    EXPECT_EQ(stopped_while_the_device_hangs({"-o", "none.csv"}), 1); // and prints the reason
     EXPECT_NE(text("err.txt").find("no pose came"), std::string::npos) << text("err.txt");
 }
 

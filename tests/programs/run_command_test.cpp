@@ -47,7 +47,7 @@ TEST_F(RunCommand, PlanSaysWhatIsInWhatIsOutAndWhatThatSaves) {
     EXPECT_EQ(in.at("tracker"), "replay");
     EXPECT_EQ(in.at("panel"), false);
     EXPECT_EQ(in.at("threads").size(), 1U);
-    ASSERT_FALSE(plan.at("left_out").empty()); // two shaders at least
+    ASSERT_FALSE(plan.at("left_out").empty()); // at least two shaders
     EXPECT_EQ(plan.at("left_out")[0].at("economy"), "shaders");
     ASSERT_FALSE(plan.at("economies").empty());
     for (const nlohmann::json& each : plan.at("economies")) {
@@ -73,7 +73,7 @@ TEST_F(RunCommand, AtRestPresentsOneProbeASecondAndDrawsNothing) {
     const nlohmann::json shorter = run("--seconds 5");
     const nlohmann::json longer = run("--seconds 15");
     EXPECT_EQ(longer.at("frames"), 300);
-    EXPECT_EQ(longer.at("drawn"), shorter.at("drawn")); // all in the first seconds: the caption fades in
+    EXPECT_EQ(longer.at("drawn"), shorter.at("drawn")); // only while the caption fades in
     EXPECT_EQ(longer.at("probes").get<int>() - shorter.at("probes").get<int>(), 10);
     EXPECT_EQ(longer.at("drawn").get<int>() + longer.at("unchanged").get<int>(), 300);
 }
@@ -86,12 +86,12 @@ TEST_F(RunCommand, ReportsWhatIsDrawnAtWhichCost) {
     EXPECT_EQ(status.at("technique"), "auto");
     EXPECT_EQ(status.at("level"), "level0");
     EXPECT_GE(status.at("samples"), 1);
-    // A level's mean error, seen along the eye's rays: twice as far for a convex body (error_estimate.h).
+    // A level's mean error along the eye's rays, which is twice the distance for a convex body (error_estimate.h).
     const double mm_per_box = 1e3 * place(rings(), make_prop(Settings().prop)).metres_per_box;
     const double mean_mm = status.at("estimated_error_mm");
     EXPECT_NEAR(mean_mm, 2e-3 * mm_per_box, 1e-3 * mm_per_box);
-    EXPECT_NEAR(status.at("p95_error_mm").get<double>() / mean_mm, 2.0, 0.5); // as the pack says of the level
-    // Frames come one after the other, and all of them within the run.
+    EXPECT_NEAR(status.at("p95_error_mm").get<double>() / mean_mm, 2.0, 0.5); // as in the pack for this level
+    // Frames come one after the other, all within the run.
     const nlohmann::json& frame_ms = status.at("frame_ms");
     const double median_ms = frame_ms.at("p50");
     EXPECT_GT(median_ms, 0.0);
@@ -100,7 +100,7 @@ TEST_F(RunCommand, ReportsWhatIsDrawnAtWhichCost) {
     EXPECT_LE(frame_ms.at("p99"), wall_ms);
     EXPECT_LE(median_ms * 0.5 * status.at("drawn").get<double>(), wall_ms);
     EXPECT_LE(status.at("missed_deadlines"), status.at("frames"));
-    EXPECT_EQ(status.at("level_switches"), 0); // there is one level
+    EXPECT_EQ(status.at("level_switches"), 0); // there is only one level
     EXPECT_EQ(status.at("ignored_times"), 0);
     const nlohmann::json file = nlohmann::json::parse(as_text(*read_file(folder / "status.json")));
     EXPECT_EQ(file.at("level"), "level0");
@@ -119,7 +119,7 @@ TEST_F(RunCommand, AShortRunLeavesItsLastPictureAndAFolderThatIsNotThereIsSaid) 
 TEST_F(RunCommand, SaysWhereNoDeviceIsAsked) {
     const nlohmann::json replayed = run("--seconds 1");
     EXPECT_EQ(replayed.at("tracker"), "poses come from a file; no tracker is asked");
-    EXPECT_EQ(replayed.at("panel"), ""); // there is none
+    EXPECT_EQ(replayed.at("panel"), ""); // there is no panel
     write_settings("simulated", "[[panel.script]]\nat_s = 1.0\nbutton = 2\n");
     const nlohmann::json simulated = run("--seconds 2 --soak 1");
     EXPECT_EQ(simulated.at("tracker"), "a simulated visitor moves the prop; no tracker is asked");

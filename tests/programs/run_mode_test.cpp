@@ -1,4 +1,4 @@
-// `frustumscreen run --mode-file`: what the watchdog wants to be shown, and with which settings.
+// `frustumscreen run --mode-file`: the watchdog's mode, and the settings for it.
 
 #include "firmware_host/base/json.h"
 #include "tests/folders.h"
@@ -78,7 +78,7 @@ TEST_F(RunMode, WrongSettingsEndTheProgramInTheNormalModeAlone) {
     EXPECT_NE(text("err.txt").find("kiosk.toml:2"), std::string::npos) << text("err.txt");
 
     write("mode", "built_in\n");
-    EXPECT_EQ(run(), 1); // there are no others
+    EXPECT_EQ(run(), 1); // there are no fallback settings
     write("shipped/kiosk.toml", "[projector]\nwidth = 640\nheight = 400\n[tracker]\nkind = \"none\"\n");
     std::string why = status().at("settings");
     EXPECT_EQ(why.find("the settings as shipped, shipped/kiosk.toml, are used in their place: "), 0U) << why;

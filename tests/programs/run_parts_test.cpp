@@ -1,4 +1,4 @@
-// What a run shows where it has nothing to show, what its end means, and what it leaves.
+// The parts of a run: the error screen, the meaning of its end, and its output.
 
 #include "app/programs/frustumscreen/run_end.h"
 #include "app/programs/frustumscreen/run_output.h"
@@ -56,9 +56,9 @@ TEST(RunEnd, ASetThatWasInstalledEndsTheExcuseWell) {
 }
 
 TEST(RunEnd, ALoopThatFailedSaysItsOwnError) {
-    for (const auto& excuse : {std::optional<Error>(), std::optional(no_pack)}) {
+    for (const auto& error_screen : {std::optional<Error>(), std::optional(no_pack)}) {
         for (const bool set_came : {false, true}) {
-            const RunEnd end = end_of_run(failed, excuse, set_came);
+            const RunEnd end = end_of_run(failed, error_screen, set_came);
             EXPECT_EQ(end.why, RunEnd::Why::Failed);
             EXPECT_EQ(end.error.value_or(no_pack).message, no_display.message);
         }
@@ -77,18 +77,18 @@ protected:
     }
     [[nodiscard]] Image8 picture_of(Show& show) const {
         const DrawResult drawn =
-            show.draw(MonotonicTime(seconds(1)), Situation{}, {display->framebuffer(), display->buffer_age()},
-                      Redraw::Everything);
+            show.draw(MonotonicTime(seconds(1)), TrackedState{},
+                      {display->framebuffer(), display->buffer_age()}, Redraw::Everything);
         EXPECT_TRUE(drawn.drawn);
         return read_colour(display->framebuffer(), width, height);
     }
-    [[nodiscard]] std::unique_ptr<Show> excuse_for(const std::string& message) {
+    [[nodiscard]] std::unique_ptr<Show> error_screen_for(const std::string& message) {
         ::testing::internal::CaptureStderr();
-        Result<std::unique_ptr<Show>> excuse =
-            make_excuse(settings, Journal("test"), {ErrorKind::BadInput, "test.excuse", message});
+        Result<std::unique_ptr<Show>> error_screen =
+            make_error_screen(settings, Journal("test"), {ErrorKind::BadInput, "test.excuse", message});
         said = ::testing::internal::GetCapturedStderr();
-        EXPECT_TRUE(excuse);
-        return excuse ? std::move(*excuse) : nullptr;
+        EXPECT_TRUE(error_screen);
+        return error_screen ? std::move(*error_screen) : nullptr;
     }
 
     static constexpr int width = 320, height = 200;
@@ -98,7 +98,7 @@ protected:
 };
 
 TEST_F(RunShow, AnExcuseSaysItsErrorInTheJournalAndOnTheTable) {
-    const std::unique_ptr<Show> cat = excuse_for("no cat");
+    const std::unique_ptr<Show> cat = error_screen_for("no cat");
     ASSERT_NE(cat, nullptr);
     EXPECT_NE(said.find("no cat"), std::string::npos) << said;
     EXPECT_EQ(cat->state().state, State::Fault) << "the watchdog is to see that it is no artifact";
@@ -106,7 +106,7 @@ TEST_F(RunShow, AnExcuseSaysItsErrorInTheJournalAndOnTheTable) {
     const Image8 of_cat = picture_of(*cat);
     EXPECT_TRUE(std::any_of(of_cat.texels.begin(), of_cat.texels.end(),
                             [](const glm::u8vec4& texel) { return texel.x > 0; }));
-    const std::unique_ptr<Show> dog = excuse_for("no dog");
+    const std::unique_ptr<Show> dog = error_screen_for("no dog");
     ASSERT_NE(dog, nullptr);
     EXPECT_NE(picture_of(*dog).texels, of_cat.texels) << "its words are in the picture";
 }
@@ -117,7 +117,7 @@ TEST_F(RunShow, TheAlignmentPatternNeedsNoPack) {
     const auto show = make_show(request, settings, DevicePlan{}, *display, MonotonicTime{});
     ASSERT_TRUE(show) << show.error().message;
     EXPECT_EQ((*show)->state().state, State::Staff);
-    EXPECT_NE(picture_of(**show).texels, picture_of(*excuse_for("no cat")).texels);
+    EXPECT_NE(picture_of(**show).texels, picture_of(*error_screen_for("no cat")).texels);
 }
 
 TEST_F(RunShow, WithoutAPackThatCanBeShownThereIsAnError) {
@@ -139,7 +139,7 @@ protected:
             still.picture = Image8(4, 3);
             std::fill(still.picture.texels.begin(), still.picture.texels.end(),
                       glm::u8vec4(10 * k, 20, 30, 255));
-            still.situation.table_from_prop.translation = {0.125 * k, 0.25, 0.5};
+            still.tracked_state.table_from_prop.translation = {0.125 * k, 0.25, 0.5};
             still.time = MonotonicTime(seconds(k));
             result.stills.push_back(still);
             result.rows.emplace_back();

@@ -1,4 +1,4 @@
-// Each way in which `frustumscreen run` ends before or after its loop, with its exit status and what it says.
+// Each way in which `frustumscreen run` ends before or after its loop, with its exit status and message.
 
 #include "tests/folders.h"
 #include "tests/programs/kiosk_folder.h"
@@ -14,7 +14,7 @@ namespace {
 
 class RunRefusals : public KioskFolder {
 protected:
-    /// `service`: a service manager is named, which listens to nothing.
+    /// `service`: a service manager is named, but does not listen.
     [[nodiscard]] int run(const std::string& options, bool service = false) {
         const std::string command =
             fmt::format("cd '{}' && {} '{}/frustumscreen' run {} >out.txt 2>err.txt", folder.string(),

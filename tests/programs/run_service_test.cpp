@@ -1,4 +1,4 @@
-// `frustumscreen run` as a service manager sees it: ready, fed, starved, stopped.
+// `frustumscreen run` as seen by a service manager: ready, fed, starved, stopped.
 
 #include "tests/folders.h"
 #include "tests/programs/hung_thread.h"
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using std::chrono::seconds;
 
-/// The exhibit under a service manager whose watchdog wants to be fed every three seconds.
+/// The exhibit under a service manager whose watchdog must be fed every three seconds.
 class RunService : public KioskFolder {
 protected:
     void TearDown() override {
@@ -64,7 +64,7 @@ protected:
             ::_exit(127);
         }
     }
-    /// Waits for a message that begins so, for as long as a slow machine may take.
+    /// Waits for a message that begins with `beginning`, long enough for a slow machine.
     bool hears(const std::string& beginning) {
         for (const auto give_up = Clock::now() + seconds(60); Clock::now() < give_up;) {
             if (const std::optional<std::string> message = socket.receive(200);
@@ -74,7 +74,7 @@ protected:
         }
         return false;
     }
-    /// Whether it is fed within so long, from now on.
+    /// True if the watchdog is fed within `length` from the call.
     bool fed_within(seconds length) {
         while (socket.receive()) {
         }
@@ -90,7 +90,7 @@ protected:
         return {std::istreambuf_iterator<char>(file), {}};
     }
     std::string errors() const { return text_of("err.txt"); }
-    /// Waits until a file in the folder has this in it.
+    /// Waits until a file in the folder contains the words.
     bool comes(const char* name, const std::string& words) const {
         for (const auto give_up = Clock::now() + seconds(60); Clock::now() < give_up;) {
             if (text_of(name).find(words) != std::string::npos) {
@@ -100,7 +100,7 @@ protected:
         }
         return false;
     }
-    /// Its exit status, waited for; -1 = a signal ended it.
+    /// Waits for the end and returns the exit status; -1: a signal ended it.
     int ending() {
         int status = 0;
         ::waitpid(std::exchange(process, 0), &status, 0);
@@ -108,7 +108,7 @@ protected:
     }
 
     NotifySocket socket;
-    std::optional<uid_t> user; ///< whom the exhibit runs as; nothing = as the test does
+    std::optional<uid_t> user; ///< user of the exhibit; nothing: that of the test
     pid_t process = 0;
 };
 
@@ -146,7 +146,7 @@ TEST_F(RunService, StarvesWhileTheWholeProcessIsStopped) {
     int status = 0;
     ::waitpid(process, &status, WUNTRACED);
     EXPECT_FALSE(fed_within(seconds(4)));
-    ::kill(process, SIGKILL); // as the service manager would
+    ::kill(process, SIGKILL); // as a service manager would
     EXPECT_EQ(ending(), -1);
 }
 
@@ -158,18 +158,18 @@ TEST_F(RunService, StarvesWhenADevicesThreadHangsAndStopsAllTheSame) {
     if (!hang(*tracker)) {
         GTEST_SKIP() << "this machine lets nobody trace";
     }
-    std::this_thread::sleep_for(seconds(11)); // its promise is broken by then
+    std::this_thread::sleep_for(seconds(11)); // by then the thread's promise is broken
     EXPECT_FALSE(fed_within(seconds(2)));
     EXPECT_NE(errors().find("watchdog: not fed: a device's thread hangs"), std::string::npos) << errors();
     ::kill(process, SIGTERM);
-    ::waitpid(*tracker, nullptr, __WALL); // the tracer sees each thread's end first
-    EXPECT_EQ(ending(), 0);               // though the thread could not be joined
+    ::waitpid(*tracker, nullptr, __WALL); // the tracer receives each thread's end first
+    EXPECT_EQ(ending(), 0);               // although the thread could not be joined
     EXPECT_NE(errors().find("a device did not stop in time"), std::string::npos) << errors();
 }
 
 TEST_F(RunService, WaitsForAGraphicsCardWhoseDriverComesLate) {
     start("[display]\nkind = \"kms\"\ncard = \"no-such-card\"\n", "replay", {});
-    for (int look = 0; look < 2; ++look) { // it goes on asking for time
+    for (int look = 0; look < 2; ++look) { // it keeps asking for more time
         ASSERT_TRUE(hears("EXTEND_TIMEOUT_USEC=")) << errors();
     }
     EXPECT_EQ(errors(), "frustumscreen: display: /dev/dri/no-such-card cannot be opened: No such file or "
@@ -194,7 +194,7 @@ TEST_F(RunService, WaitsForACardThatItsUserMayNotOpenYet) {
     }
     EXPECT_EQ(errors(), "frustumscreen: display: " + card.string() +
                             " cannot be opened: Permission denied; this user must be in the group video\n");
-    fs::permissions(card, fs::perms::all); // udev is done; that it is no card is another matter
+    fs::permissions(card, fs::perms::all); // udev has set the permissions; the file still is no card
     EXPECT_TRUE(comes("err.txt", "has no connectors")) << errors();
     ::kill(process, SIGTERM);
     EXPECT_EQ(ending(), -1);
@@ -252,7 +252,7 @@ TEST_F(RunService, TheStaffSeeThePictureThatIsProjectedAndWhatTheStatusSays) {
     const std::string ask = "status --status-file status.json --watchdog-file none --staff-socket staff.sock "
                             "--screenshot shot.png >said.txt";
     bool same = false;
-    for (int shot = 0; shot < 20 && !same; ++shot) { // the first ones may be of a fade
+    for (int shot = 0; shot < 20 && !same; ++shot) { // the first ones may show a fade
         ASSERT_EQ(run(ask), 0) << text_of("program.txt") << text_of("said.txt");
         same = std::find(stills.begin(), stills.end(), text_of("shot.png")) != stills.end();
     }
@@ -303,7 +303,7 @@ TEST_F(RunService, StopsInTheMiddleOfLoading) {
     ::kill(process, SIGTERM);
     int status = 0;
     ::waitpid(std::exchange(process, 0), &status, 0);
-    // Both are clean for a service manager; nothing is half done.
+    // Both are clean for a service manager, and nothing is half done.
     EXPECT_TRUE((WIFEXITED(status) && WEXITSTATUS(status) == 0) ||
                 (WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM));
 }

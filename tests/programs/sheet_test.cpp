@@ -16,7 +16,7 @@ namespace {
 
 class Sheet : public testing::Test {
 protected:
-    /// Four frames of the prop sliding to the right under a white picture.
+    /// Writes four frames of the prop sliding to the right under a white picture.
     void SetUp() override {
         folder = std::filesystem::temp_directory_path() / ("sheet_" + std::to_string(::getpid()));
         std::filesystem::create_directories(folder);
@@ -47,7 +47,7 @@ TEST_F(Sheet, FramesComeWithTheirPosesAndTheArtifactOfTheirTime) {
     ASSERT_TRUE(read) << read.error().message;
     ASSERT_EQ(read->frames.size(), 4U);
     EXPECT_EQ(read->frames[2].label, "Bowl, blue");
-    EXPECT_NEAR(read->frames[2].situation.table_from_prop.translation.x, 0.06, 1e-12);
+    EXPECT_NEAR(read->frames[2].tracked_state.table_from_prop.translation.x, 0.06, 1e-12);
     EXPECT_EQ(evenly(read->frames, 2).size(), 2U);
     EXPECT_EQ(evenly(read->frames, 9).size(), 4U);
 }
@@ -56,8 +56,8 @@ TEST_F(Sheet, FramesThatLookAlikeAreShownOnce) {
     const auto frame = [](double x_m, double turn_deg, const char* label) {
         SheetFrame one;
         one.label = label;
-        one.situation.table_from_prop.translation.x = x_m;
-        one.situation.table_from_prop.rotation =
+        one.tracked_state.table_from_prop.translation.x = x_m;
+        one.tracked_state.table_from_prop.rotation =
             glm::angleAxis(glm::radians(turn_deg), glm::dvec3(0.0, 0.0, 1.0));
         return one;
     };
@@ -65,10 +65,10 @@ TEST_F(Sheet, FramesThatLookAlikeAreShownOnce) {
         distinct({frame(0.0, 0.0, "Bowl"), frame(0.001, 1.0, "Bowl"), frame(0.0, 0.0, "Cup"),
                   frame(0.0, 20.0, "Bowl"), frame(0.1, 20.0, "Bowl"), frame(0.0, 359.0, "Bowl")});
     ASSERT_EQ(kept.size(), 4U);
-    EXPECT_EQ(kept[0].situation.table_from_prop.translation.x,
-              0.001); // the middle of those that follow each other
+    EXPECT_EQ(kept[0].tracked_state.table_from_prop.translation.x,
+              0.001); // the middle one of successive similar frames
     EXPECT_EQ(kept[1].label, "Cup");
-    EXPECT_EQ(kept[3].situation.table_from_prop.translation.x, 0.1);
+    EXPECT_EQ(kept[3].tracked_state.table_from_prop.translation.x, 0.1);
 }
 
 TEST_F(Sheet, WhatIsToldAtARestingPropHasARowOfItsOwn) {
@@ -129,7 +129,7 @@ TEST_F(Sheet, TheContactSheetHoldsEveryFrame) {
 }
 
 TEST_F(Sheet, TheWholeTableIsOnTheSheetWhereThatIsAsked) {
-    // A green mark in each corner of the projector's picture: words, and pictures to choose from, lie there.
+    // A green mark in each corner of the projector's picture, where words and pictures for the choice are shown.
     Image8 picture(320, 200, glm::u8vec4(0, 0, 0, 255));
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
@@ -154,7 +154,8 @@ TEST_F(Sheet, TheWholeTableIsOnTheSheetWhereThatIsAsked) {
         });
     };
     EXPECT_EQ(green(false), 0);
-    // Four squares of a sixteenth of the picture's width in the projector's tile of 832 pixels, and as many seen by the visitor.
+    // Four squares, each a sixteenth of the picture's width, in the projector's tile of 832 pixels, and as many in the
+    // visitor's.
     EXPECT_GT(green(true), 1.5 * 4 * 52 * 52);
 }
 
@@ -162,7 +163,7 @@ TEST_F(Sheet, ThePropFillsMostOfTheVisitorsPicture) {
     const Result<FrameFolder> read = read_frame_folder(folder, {}, "", (*settings)->eye.default_m);
     ASSERT_TRUE(read);
     for (const SheetFrame& frame : read->frames) {
-        const VisitorScene scene = visitor_scene(**settings, frame.situation, 320, 200);
+        const VisitorScene scene = visitor_scene(**settings, frame.tracked_state, 320, 200);
         const VisitorCamera camera = framed_camera(scene, {544, 340});
         double top = 1e9;
         double bottom = -1e9;
@@ -182,7 +183,7 @@ TEST_F(Sheet, TheRoomsPictureShowsProjectorAndTable) {
     const Result<FrameFolder> read = read_frame_folder(folder, {}, "", (*settings)->eye.default_m);
     const Result<Typesetter> typesetter = Typesetter::open();
     ASSERT_TRUE(read && typesetter);
-    const VisitorScene scene = visitor_scene(**settings, read->frames[1].situation, 320, 200);
+    const VisitorScene scene = visitor_scene(**settings, read->frames[1].tracked_state, 320, 200);
     const VisitorCamera camera = room_camera(scene, {760, 880});
     const RigidTransform camera_from_table = camera.table_from_camera.inverse();
     for (const glm::dvec3 point :
@@ -194,7 +195,7 @@ TEST_F(Sheet, TheRoomsPictureShowsProjectorAndTable) {
         EXPECT_LT(pixel->x, 760.0);
         EXPECT_LT(pixel->y, 880.0);
     }
-    // The artifact looks as to the visitor: the camera is on the line from the prop through the eye.
+    // The artifact looks as the visitor sees it, because the camera is on the line from the prop through the eye.
     const glm::dvec3 prop = scene.table_from_prop.point(scene.prop.middle);
     const glm::dvec3 to_eye = glm::normalize(scene.eye_m - prop);
     EXPECT_NEAR(glm::dot(to_eye, glm::normalize(camera.table_from_camera.translation - prop)), 1.0, 1e-12);

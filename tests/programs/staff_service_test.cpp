@@ -1,4 +1,4 @@
-// What the exhibit answers the staff, over the socket, from a picture that is presented on another thread.
+// The exhibit's answers to the staff over the socket, from a picture that another thread presents.
 
 #include "app/programs/frustumscreen/staff_service.h"
 #include "firmware_host/display/surfaceless_display.h"
@@ -31,14 +31,14 @@ protected:
         path = folder / "s";
         ::unsetenv("JOURNAL_STREAM");
     }
-    /// What the journal says goes to `said`.
+    /// Opens the socket; the journal's text goes to `said`.
     [[nodiscard]] std::unique_ptr<StaffSocket> opened(const fs::path& at) {
         ::testing::internal::CaptureStderr();
         std::unique_ptr<StaffSocket> socket = open_staff_socket(at, screenshot, Journal("test"));
         said = ::testing::internal::GetCapturedStderr();
         return socket;
     }
-    /// As the socket answers it; `most` bytes.
+    /// The socket's answer to a question.
     [[nodiscard]] Result<Bytes> asked(std::string_view question) const {
         return ask_staff_socket(path, question, std::size_t{1} << 20, seconds(60));
     }
@@ -86,7 +86,7 @@ TEST_F(StaffService, RefusesEveryOtherQuestionAndNamesTheRightOne) {
 }
 
 TEST_F(StaffService, SaysThatTheExhibitHandsOutNoPicture) {
-    const auto socket = opened(path); // nobody presents
+    const auto socket = opened(path); // no thread presents a picture
     ASSERT_NE(socket, nullptr);
     for (int k = 0; k < 2; ++k) {
         const Result<Bytes> answer = ask_for_screenshot(path);
@@ -115,7 +115,7 @@ TEST_F(StaffService, AnotherExhibitKeepsItsSocket) {
     ASSERT_NE(first, nullptr);
     EXPECT_EQ(opened(path), nullptr);
     EXPECT_NE(said.find("another exhibit listens there"), std::string::npos) << said;
-    EXPECT_FALSE(asked("who")); // answered, by the first
+    EXPECT_FALSE(asked("who")); // the first socket answers
     first.reset();
     EXPECT_NE(opened(path), nullptr) << said;
 }
@@ -126,7 +126,7 @@ TEST_F(StaffService, EndsWhileAQuestionWaitsAndLeavesNothing) {
     ASSERT_NE(socket, nullptr);
     std::future<Result<Bytes>> answer =
         std::async(std::launch::async, [this] { return ask_for_screenshot(path); });
-    std::this_thread::sleep_for(std::chrono::milliseconds(100)); // mostly it has been asked by then
+    std::this_thread::sleep_for(std::chrono::milliseconds(100)); // the request has usually arrived by then
     socket.reset();
     EXPECT_FALSE(answer.get());
     EXPECT_FALSE(fs::exists(path));

@@ -1,4 +1,4 @@
-// `frustumscreen run` tells of an artifact: its description is in sound.wav, and its text on the table meanwhile.
+// `frustumscreen run` narrates an artifact: its description is in sound.wav, and its text on the table at that time.
 
 #include "app/image/image.h"
 #include "app/pack/pack_texts.h"
@@ -20,7 +20,7 @@ namespace {
 constexpr int seconds_run = 10;
 constexpr double asked_at_s = 3.0;
 
-class TellingRun : public KioskFolder {
+class NarrationRun : public KioskFolder {
 protected:
     void SetUp() override {
         KioskFolder::SetUp();
@@ -32,7 +32,7 @@ protected:
         }
         ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes(poses)));
     }
-    /// `opus`: the description's recording; none: it is silent.
+    /// `opus`: recording of the description; none: it is silent.
     void put_pack(const std::string& description, const Bytes& opus) const {
         Result<VerifiedPack> loaded = load_pack(folder / "rings.fspack");
         ASSERT_TRUE(loaded) << loaded.error().message;
@@ -69,7 +69,7 @@ protected:
         std::memcpy(samples.data(), wav.data() + header, samples.size() * sizeof(std::int16_t));
         return samples;
     }
-    /// Light on the table: pixels brighter than half below the prop's middle, where the caption lies.
+    /// Number of pixels brighter than half below the prop's middle, where the caption lies.
     [[nodiscard]] long light_in(int still) const {
         const Result<Bytes> file = read_file(folder / fmt::format("pictures/frame_{:05}.png", still));
         const Result<Image8> picture = decode_png8(*file);
@@ -85,10 +85,10 @@ protected:
     Bytes opus_;
 };
 
-/// The lag at which `truth` is most like `heard`, and the correlation there.
+/// The lag at which `truth` correlates best with `heard`, and the correlation there.
 std::pair<std::size_t, double> best_match(const std::vector<std::int16_t>& heard,
                                           const std::vector<std::int16_t>& truth) {
-    constexpr std::size_t step = 7; // every seventh sample is enough to tell
+    constexpr std::size_t step = 7; // every seventh sample is enough
     std::pair<std::size_t, double> best{0, -1.0};
     for (std::size_t lag = 0; lag + truth.size() <= heard.size(); ++lag) {
         double both = 0.0;
@@ -109,14 +109,14 @@ const std::string long_text =
     "A description that is several times as long as the short text of its artifact. It "
     "says what there is to see of these rings, one after the other.";
 
-TEST_F(TellingRun, SpeaksTheDescriptionAndShowsItsTextMeanwhile) {
+TEST_F(NarrationRun, SpeaksTheDescriptionAndShowsItsTextMeanwhile) {
     put_pack(long_text, opus_);
     run();
     const std::vector<std::int16_t> truth = read_opus(opus_)->samples;
     const auto [lag, correlation] = best_match(heard(), truth);
     EXPECT_GT(correlation, 0.99);
     EXPECT_NEAR(static_cast<double>(lag) / sample_rate_hz, asked_at_s, 0.150);
-    // Stills are taken in the middle of each second, or soon after.
+    // Stills are taken in the middle of each second, or shortly afterwards.
     EXPECT_GT(light_in(2), 20) << "the short text";
     const long described = light_in(3);
     EXPECT_GT(described, 3 * light_in(2));
@@ -125,7 +125,7 @@ TEST_F(TellingRun, SpeaksTheDescriptionAndShowsItsTextMeanwhile) {
     EXPECT_NE(frames.find(",describe,en,description.0,"), std::string::npos);
 }
 
-TEST_F(TellingRun, ADamagedRecordingIsSaidOnceAndItsTextIsShown) {
+TEST_F(NarrationRun, ADamagedRecordingIsSaidOnceAndItsTextIsShown) {
     Bytes damaged = opus_;
     damaged.resize(60);
     put_pack(long_text, damaged);

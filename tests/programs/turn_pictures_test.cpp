@@ -1,12 +1,12 @@
-// The preview's turning view against plain geometry: a box with one red side, whose middle is a hotspot. Where the point's place
-// in the picture is known to look at the visitor, the projector must have lit red there, seen through the prop; else not.
+// The preview's turning view against plain geometry: a box with one red side, whose middle is a hotspot. Where the
+// hotspot is visible in the picture, the projector must have lit red there, seen through the prop; elsewhere not.
 #include "app/programs/preview/turn_pictures.h"
 #include "tests/programs/curator_folder.h"
 
 namespace frustumscreen {
 namespace {
 
-/// The red side looks to -Y, at the visitor.
+/// A box whose red side faces -Y, the visitor.
 constexpr const char* box =
     "mtllib box.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -1 -1 2\nv 1 -1 2\nv 1 1 2\nv -1 1 2\n"
     "usemtl red\nf 1 2 6 5\nusemtl blue\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\nf 1 4 3 2\n";
@@ -25,7 +25,7 @@ protected:
                                      "[[hotspots]]\npoint = [0.0, -1.0, 1.0]\nlabels = { en = \"Red\" }\n");
         return run("frustumscreen-bake box -o box.fspack");
     }
-    /// The place of the red side's middle has its colour just where it is seen.
+    /// Expects the red side's colour at its middle exactly in the pictures in which it is seen.
     void expect_red_where_seen() const {
         TurnOptions options;
         options.columns = 4;
@@ -48,7 +48,7 @@ protected:
             EXPECT_EQ(colour.r > 60 && colour.r > 2 * colour.b, mark.seen)
                 << k << ": " << int{colour.r} << ' ' << int{colour.g} << ' ' << int{colour.b};
         }
-        // Counter-clockwise seen from above, the front goes to the visitor's right.
+        // With a counter-clockwise turn seen from above, the front moves to the visitor's right.
         EXPECT_NEAR(turn->marks[0][0].x, 0.5, 0.01);
         EXPECT_GT(turn->marks[0][1].x, 0.52);
         EXPECT_LT(turn->marks[0][7].x, 0.48);

@@ -1,4 +1,4 @@
-// How long a run waits for its display, on a clock that moves only while it waits.
+// The wait of a run for its display, on a clock that advances only during the wait.
 
 #include "app/programs/frustumscreen/wait_for_display.h"
 #include "tests/service/notify_socket.h"
@@ -25,9 +25,9 @@ public:
     [[nodiscard]] std::string name() const override { return "none"; }
 };
 
-/// A machine whose display answers as the test says.
+/// A machine whose display responds as the test specifies.
 struct Machine {
-    /// Nothing: the display is there.
+    /// Nothing if the display is available.
     std::function<std::optional<Error>(Nanoseconds since_start)> trouble;
     MonotonicTime time = MonotonicTime(seconds(1000));
     int looks = 0, hotplugs = 0, waits = 0;
@@ -73,7 +73,7 @@ protected:
         ASSERT_TRUE(socket.bound());
         ::unsetenv("JOURNAL_STREAM");
         ::setenv("NOTIFY_SOCKET", socket.path().c_str(), 1);
-        machine.in_a_wait = [this] { hear(); }; // the socket holds a few messages only
+        machine.in_a_wait = [this] { hear(); }; // the socket holds only a few messages
     }
     void TearDown() override { ::unsetenv("NOTIFY_SOCKET"); }
     [[nodiscard]] Result<std::unique_ptr<Display>> waited() {
@@ -101,7 +101,7 @@ protected:
     StopSignals stop_signals;
     Machine machine;
     std::string said;
-    std::vector<std::string> heard; ///< by the service manager, while it waited
+    std::vector<std::string> heard; ///< messages to the service manager during the wait
 };
 
 TEST_F(WaitForDisplay, ADisplayThatIsThereIsTakenAtOnce) {
@@ -140,7 +140,7 @@ TEST_F(WaitForDisplay, TheServiceManagerHearsWhyAndIsAskedForTimeAtEachLook) {
         return since < seconds(3) ? std::optional(no_card) : std::nullopt;
     };
     ASSERT_TRUE(waited());
-    const std::string more_time = "EXTEND_TIMEOUT_USEC=10000000"; // of sd_notify(3)
+    const std::string more_time = "EXTEND_TIMEOUT_USEC=10000000"; // as sd_notify(3) has it
     EXPECT_EQ(heard,
               (std::vector<std::string>{"STATUS=" + no_card.message, more_time, more_time, more_time}));
 }

@@ -43,7 +43,7 @@ TEST(Lanes, TheLargestIsFoundInAnyLane) {
         for (const int largest : {-3, 0, 70'000}) {
             Ints values = Ints{} + largest - 1;
             values[lane] = largest;
-            EXPECT_EQ(most_of(values), largest) << lane;
+            EXPECT_EQ(max_of(values), largest) << lane;
         }
     }
 }

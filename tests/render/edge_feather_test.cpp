@@ -41,7 +41,7 @@ protected:
         return ends;
     }
     /// The largest change of a pixel near that edge while the edge moves across it in small steps.
-    int most_change(bool feathered) {
+    int max_change(bool feathered) {
         int most = 0;
         stage.table_from_prop.translation = {0.0, 0.0, 0.0};
         Image8 before = draw(feathered);
@@ -62,8 +62,8 @@ protected:
 };
 
 TEST_F(EdgeFeather, APixelChangesByDegreesWhenAnEdgeCrossesIt) {
-    const int sharp = most_change(false);
-    const int feathered = most_change(true);
+    const int sharp = max_change(false);
+    const int feathered = max_change(true);
     EXPECT_GT(sharp, 25) << "the gains of front and top differ, or nothing is proved";
     EXPECT_LT(feathered, sharp / 3);
 }

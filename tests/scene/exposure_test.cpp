@@ -55,7 +55,7 @@ TEST(Exposure, WhatIsCutOutDoesNotCount) {
 TEST(Exposure, LeavesAloneWhatItIsToldToOrCannotJudge) {
     EXPECT_EQ(Pair(0.5, 100, 50).exposure(0), 1.0);
     EXPECT_EQ(exposure_of({}, {1.0, 1.0, 1.0}, Image8(1, 1), 235), 1.0);
-    EXPECT_EQ(Pair(0.5, 0, 0).exposure(235), most_exposure) << "black stays black";
+    EXPECT_EQ(Pair(0.5, 0, 0).exposure(235), max_exposure) << "black stays black";
 }
 
 } // namespace

@@ -41,26 +41,27 @@ TEST(Tolerance, IsOfWhatTheWorstEyeSeesOnThisPropAndOfTheWorstPlace) {
 
 TEST(Ladder, BeginsWithTheCoarsestLevelThatIsGoodEnoughAndItsSamples) {
     const std::vector<LevelOutline> levels{level_of(1000), level_of(2000), level_of(8000), level_of(30000)};
-    const std::vector<Rung> rungs = ladder(levels, {false, true, true, true}, 4);
-    ASSERT_EQ(rungs.size(), 6U);
-    EXPECT_EQ(rungs[0].level, 1U);
-    EXPECT_EQ(rungs[0].samples, 4);
-    EXPECT_TRUE(rungs[0].enough);
-    EXPECT_EQ(rungs[2].samples, 1);
-    EXPECT_EQ(rungs[3].level, 0U);
-    EXPECT_EQ(rungs[5].samples, 1);
-    for (std::size_t k = 1; k < rungs.size(); ++k) {
-        EXPECT_FALSE(rungs[k].enough);
+    const std::vector<QualityLevel> quality_levels = ladder(levels, {false, true, true, true}, 4);
+    ASSERT_EQ(quality_levels.size(), 6U);
+    EXPECT_EQ(quality_levels[0].level, 1U);
+    EXPECT_EQ(quality_levels[0].samples, 4);
+    EXPECT_TRUE(quality_levels[0].enough);
+    EXPECT_EQ(quality_levels[2].samples, 1);
+    EXPECT_EQ(quality_levels[3].level, 0U);
+    EXPECT_EQ(quality_levels[5].samples, 1);
+    for (std::size_t k = 1; k < quality_levels.size(); ++k) {
+        EXPECT_FALSE(quality_levels[k].enough);
     }
 }
 
 TEST(Ladder, OfLevelsThatAreNotGoodEnoughBeginsWithTheFinest) {
     const std::vector<LevelOutline> levels{level_of(1000), level_of(1200), level_of(4000)};
-    const std::vector<Rung> rungs = ladder(levels, {false, false, false}, 1);
-    ASSERT_EQ(rungs.size(), 2U); // 1000 triangles do not justify a quality level of their own next to 1200
-    EXPECT_EQ(rungs[0].level, 2U);
-    EXPECT_FALSE(rungs[0].enough);
-    EXPECT_EQ(rungs[1].level, 1U);
+    const std::vector<QualityLevel> quality_levels = ladder(levels, {false, false, false}, 1);
+    ASSERT_EQ(quality_levels.size(),
+              2U); // 1000 triangles do not justify a quality level of their own next to 1200
+    EXPECT_EQ(quality_levels[0].level, 2U);
+    EXPECT_FALSE(quality_levels[0].enough);
+    EXPECT_EQ(quality_levels[1].level, 1U);
     EXPECT_EQ(ladder(levels, {false, false, false}, 0)[0].samples, 1);
 }
 
@@ -69,11 +70,12 @@ TEST(Ladder, HasAReliefWhereItsErrorPutsIt) {
     levels[0].error.p95_box = 4e-3F;
     levels[1].error.p95_box = 2e-3F;
     ReliefOutline relief{384, 5000, 2'000'000, {1e-4F, 5e-4F, 1e-3F, 0.0F}, "r"};
-    const std::vector<Rung> rungs = ladder(levels, {false, true}, 4, relief);
-    ASSERT_EQ(rungs.size(), 8U);
-    EXPECT_TRUE(rungs[0].relief && rungs[0].enough && rungs[0].level == 384 && rungs[0].samples == 4);
-    EXPECT_TRUE(rungs[1].relief && !rungs[1].enough && rungs[1].samples == 1);
-    EXPECT_TRUE(!rungs[2].relief && rungs[2].enough && rungs[2].level == 1);
+    const std::vector<QualityLevel> quality_levels = ladder(levels, {false, true}, 4, relief);
+    ASSERT_EQ(quality_levels.size(), 8U);
+    EXPECT_TRUE(quality_levels[0].relief && quality_levels[0].enough && quality_levels[0].level == 384 &&
+                quality_levels[0].samples == 4);
+    EXPECT_TRUE(quality_levels[1].relief && !quality_levels[1].enough && quality_levels[1].samples == 1);
+    EXPECT_TRUE(!quality_levels[2].relief && quality_levels[2].enough && quality_levels[2].level == 1);
     relief.error.p95_box = 2.2e-3F; // worse than the mesh level
     EXPECT_TRUE(ladder(levels, {false, true}, 4, relief)[3].relief);
     EXPECT_EQ(ladder(levels, {false, true}, 4).size(), 6U);
@@ -82,41 +84,42 @@ TEST(Ladder, HasAReliefWhereItsErrorPutsIt) {
 TEST(Ladder, HasAReliefInBothWaysWhereTheGpuMayDrawIt) {
     const std::vector<LevelOutline> levels{level_of(2000)};
     const ReliefOutline relief{384, 5000, 2'000'000, {}, "r"};
-    const std::vector<Rung> both = ladder(levels, {true}, 4, relief, true);
+    const std::vector<QualityLevel> both = ladder(levels, {true}, 4, relief, true);
     std::size_t on_gpu = 0;
-    for (const Rung& rung : both) {
-        on_gpu += rung.on_gpu ? 1U : 0U;
-        EXPECT_TRUE(rung.relief || !rung.on_gpu);
-        EXPECT_EQ(rung.enough, rung.samples == 4);
+    for (const QualityLevel& quality_level : both) {
+        on_gpu += quality_level.on_gpu ? 1U : 0U;
+        EXPECT_TRUE(quality_level.relief || !quality_level.on_gpu);
+        EXPECT_EQ(quality_level.enough, quality_level.samples == 4);
     }
     EXPECT_EQ(on_gpu, 2U);
     EXPECT_EQ(both.size(), ladder(levels, {true}, 4, relief).size() + 2);
-    const Rung cast{384, 4, true, true};
-    const Rung drawn{384, 4, true, true, true};
+    const QualityLevel cast{384, 4, true, true};
+    const QualityLevel drawn{384, 4, true, true, true};
     EXPECT_FALSE(cast.shows_as(drawn));
 }
 
 TEST(Governor, TakesTheWayOfAReliefThatIsQuickerAtItsErrors) {
-    const std::vector<Rung> rungs{{384, 4, true, true}, {384, 4, true, true, true}, {3, 4, true}};
+    const std::vector<QualityLevel> quality_levels{
+        {384, 4, true, true}, {384, 4, true, true, true}, {3, 4, true}};
     for (const std::size_t quickest : {0U, 1U, 2U}) {
-        std::vector<RungTime> times{
+        std::vector<QualityLevelTime> times{
             {4, {5000.0, 1e4}, 9.0, true}, {4, {5000.0, 1e4}, 9.0, true, true}, {4, {20000.0, 1e4}, 9.0}};
         times[quickest].ms = 3.0;
-        EXPECT_EQ(Governor(rungs, times, 16.0).index(), quickest);
+        EXPECT_EQ(Governor(quality_levels, times, 16.0).index(), quickest);
     }
 }
 
 TEST(Cost, OfReliefsAndMeshesIsApart) {
     // 1 ms and 1 us per triangle; 2 ms and 0.5 us per block; on the GPU 3 ms and 2 us per block.
-    const std::vector<RungTime> times{{1, {1000.0, 0.0}, 2.0},
-                                      {1, {3000.0, 0.0}, 4.0},
-                                      {1, {1000.0, 0.0}, 2.5, true},
-                                      {1, {9000.0, 0.0}, 6.5, true},
-                                      {1, {1000.0, 0.0}, 5.0, true, true},
-                                      {1, {9000.0, 0.0}, 21.0, true, true}};
+    const std::vector<QualityLevelTime> times{{1, {1000.0, 0.0}, 2.0},
+                                              {1, {3000.0, 0.0}, 4.0},
+                                              {1, {1000.0, 0.0}, 2.5, true},
+                                              {1, {9000.0, 0.0}, 6.5, true},
+                                              {1, {1000.0, 0.0}, 5.0, true, true},
+                                              {1, {9000.0, 0.0}, 21.0, true, true}};
     const FrameCost cost = cost_of(times);
-    for (const RungTime& rung : times) {
-        EXPECT_NEAR(cost.ms(rung), rung.ms, 0.02 * rung.ms);
+    for (const QualityLevelTime& quality_level : times) {
+        EXPECT_NEAR(cost.ms(quality_level), quality_level.ms, 0.02 * quality_level.ms);
     }
     EXPECT_EQ(cost_of({times[0], times[1]}).ms(times[2]), 0.0) << "no relief was measured";
 }
@@ -131,8 +134,8 @@ TEST(PixelOnProp, IsThatOfThePlaceNearestToTheProjector) {
 
 /// A GPU whose frames take fixed + per_triangle * triangles + per_sample * pixels * samples, in milliseconds.
 struct SimulatedGpu {
-    std::vector<Rung> rungs;
-    std::vector<RungTime> times;
+    std::vector<QualityLevel> quality_levels;
+    std::vector<QualityLevelTime> times;
     std::vector<double> lie; ///< true time of a level over its initial measurement
     std::mt19937 random{7};
     double noise = 0.1;
@@ -141,7 +144,7 @@ struct SimulatedGpu {
         const std::vector<double> triangles{40000.0, 10000.0};
         for (std::uint32_t level = 2; level-- > 0;) {
             for (const int samples : {4, 2, 1}) {
-                rungs.push_back({level, samples, level == 1 && samples == 4});
+                quality_levels.push_back({level, samples, level == 1 && samples == 4});
                 times.push_back({samples, {triangles[1 - level], 50000.0}, 0.0});
                 times.back().ms = true_ms(times.back().samples, times.back().work);
                 lie.push_back(1.0);
@@ -151,11 +154,11 @@ struct SimulatedGpu {
     static double true_ms(int samples, const FrameWork& work) {
         return 0.5 + 1e-4 * work.triangles + 2e-5 * work.pixels * samples; // 8.5, 6.5, 5.5; 5.5, 3.5, 2.5
     }
-    double frame_ms(std::size_t rung, double load) {
+    double frame_ms(std::size_t quality_level, double load) {
         std::lognormal_distribution<double> spread(0.0, noise);
-        return times[rung].ms * lie[rung] * load * spread(random);
+        return times[quality_level].ms * lie[quality_level] * load * spread(random);
     }
-    [[nodiscard]] Governor governor() const { return {rungs, times, deadline_ms}; }
+    [[nodiscard]] Governor governor() const { return {quality_levels, times, deadline_ms}; }
 
     struct Outcome {
         std::uint64_t switches = 0;
@@ -171,12 +174,12 @@ struct SimulatedGpu {
         double changed_s = -1e9;
         for (int k = 0; k < frames; ++k) {
             const double t = from_s + k / 60.0;
-            const std::size_t rung = governor.index();
-            const double ms = frame_ms(rung, load(t));
+            const std::size_t quality_level = governor.index();
+            const double ms = frame_ms(quality_level, load(t));
             outcome.late_share += ms > deadline_ms ? 1.0 : 0.0;
-            outcome.quality_share += rung == 0 ? 1.0 : 0.0;
-            governor.observe(at_seconds(t), times[rung].work, ms);
-            if (governor.index() != rung) {
+            outcome.quality_share += quality_level == 0 ? 1.0 : 0.0;
+            governor.observe(at_seconds(t), times[quality_level].work, ms);
+            if (governor.index() != quality_level) {
                 outcome.shortest_s = std::fmin(outcome.shortest_s, t - changed_s);
                 changed_s = t;
             }
@@ -199,7 +202,7 @@ TEST(Governor, KeepsTheBestRungWhereItFits) {
 
 TEST(Governor, OfSeveralGoodEnoughRungsTakesTheQuickest) {
     SimulatedGpu gpu;
-    gpu.rungs[3].enough = true; // the coarse level with all samples
+    gpu.quality_levels[3].enough = true; // the coarse level with all samples
     EXPECT_EQ(gpu.governor().index(), 3U);
 }
 
@@ -209,7 +212,7 @@ TEST(Governor, GivesUpSamplesBeforeTriangles) {
     // 8.5, 6.5, 5.5 ms times 2.1: 17.9 is late, 13.7 is above 70 % of 16.7, 11.55 fits: the fine mesh level,
     // 1 sample.
     EXPECT_EQ(gpu.play(governor, 0.0, 30.0, [](double) { return 2.1; }).last, 2U);
-    EXPECT_EQ(governor.rung().level, 1U);
+    EXPECT_EQ(governor.quality_level().level, 1U);
 }
 
 TEST(Governor, TakesTheQuickestWhereNothingFits) {
@@ -365,7 +368,7 @@ TEST(Governor, SurvivesAndCountsGarbageTimes) {
 
 TEST(Governor, SurvivesAStartWithoutTimes) {
     SimulatedGpu gpu;
-    for (RungTime& time : gpu.times) {
+    for (QualityLevelTime& time : gpu.times) {
         time = {0, {-1.0, std::nan("")}, std::nan("")};
     }
     Governor governor = gpu.governor();
@@ -384,7 +387,7 @@ TEST(Governor, SurvivesATimeThatStandsStillOrGoesBack) {
                          gpu.frame_ms(governor.index(), 1.0));
         ASSERT_TRUE(std::isfinite(governor.expected_ms()));
     }
-    EXPECT_LT(governor.index(), gpu.rungs.size());
+    EXPECT_LT(governor.index(), gpu.quality_levels.size());
 }
 
 TEST(Governor, EntersWithTheLoadThatAnotherArtifactMet) {
@@ -399,7 +402,7 @@ TEST(Governor, EntersWithTheLoadThatAnotherArtifactMet) {
 }
 
 TEST(FrameTimeModel, DoesNotDependOnHowAnIntervalIsCutIntoFrames) {
-    const std::vector<RungTime> start{{1, {1e4, 5e4}, 5.0}};
+    const std::vector<QualityLevelTime> start{{1, {1e4, 5e4}, 5.0}};
     std::vector<double> ends;
     for (const int frames : {1, 2, 10, 1000}) {
         FrameTimeModel model(start);
@@ -432,15 +435,17 @@ TEST(FrameTimeModel, ForetellsOtherRungsAtAnotherPose) {
     SimulatedGpu gpu;
     FrameTimeModel model(gpu.times);
     // The prop is nearer: more of the artifact and 1.8 times the pixels; only level 5 is ever drawn.
-    const auto nearer = [&](std::size_t rung) {
-        return FrameWork{1.3 * gpu.times[rung].work.triangles, 1.8 * gpu.times[rung].work.pixels};
+    const auto nearer = [&](std::size_t quality_level) {
+        return FrameWork{1.3 * gpu.times[quality_level].work.triangles,
+                         1.8 * gpu.times[quality_level].work.pixels};
     };
     for (int k = 0; k < 600; ++k) {
         model.observe(5, nearer(5), 1.2 * SimulatedGpu::true_ms(1, nearer(5)), at_seconds(k / 60.0));
     }
-    for (std::size_t rung = 0; rung < gpu.rungs.size(); ++rung) {
-        const double truth = 1.2 * SimulatedGpu::true_ms(gpu.rungs[rung].samples, nearer(rung));
-        EXPECT_NEAR(model.expected_ms(rung), truth, 0.02 * truth) << rung;
+    for (std::size_t quality_level = 0; quality_level < gpu.quality_levels.size(); ++quality_level) {
+        const double truth =
+            1.2 * SimulatedGpu::true_ms(gpu.quality_levels[quality_level].samples, nearer(quality_level));
+        EXPECT_NEAR(model.expected_ms(quality_level), truth, 0.02 * truth) << quality_level;
     }
 }
 

@@ -78,8 +78,8 @@ TEST(Light, TheWholeArtifactDimsWithAFaceThatTheEyeSeesInFull) {
     const PropFace& front = lit.prop.faces[3];
     const double reached = dimmest_corner(front, lit.projector());
     const glm::dvec3 square_before = front.middle() + 0.6 * front.plane.normal;
-    const auto reference = [&](double aim, double least_share) {
-        return reference_light(all_faces(lit.prop, square_before), lit.projector(), {aim, least_share});
+    const auto reference = [&](double aim, double min_share) {
+        return reference_light(all_faces(lit.prop, square_before), lit.projector(), {aim, min_share});
     };
     EXPECT_NEAR(reference(1.25 * reached, 0.1), reached, 1e-9) << "down to what the face can send back";
     EXPECT_NEAR(reference(10.0 * reached, 0.3), 3.0 * reached, 1e-9) << "but not below the share";
@@ -115,7 +115,7 @@ TEST(Light, AFaceFadesOutWhereTheLightGrazesIt) {
         const FaceLight light = face_light(front, projector_from_prop, 0.2);
         EXPECT_GE(light.most, before) << sine;
         EXPECT_LT(light.most - before, k > 0 ? 0.01 : 2.0) << sine;
-        EXPECT_EQ(light.most == 0.0F, sine <= least_sine_of_light) << sine;
+        EXPECT_EQ(light.most == 0.0F, sine <= min_sine_of_light) << sine;
         EXPECT_EQ(light.most == 1.0F, sine >= full_sine_of_light) << sine;
         before = light.most;
     }

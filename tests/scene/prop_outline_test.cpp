@@ -91,14 +91,14 @@ TEST(PropOutline, OfTwoNeedsHoldsBoth) {
 
 /// Headroom for eight samples in the whole picture would take 65.5 and 147.5 MB.
 TEST(PropOutline, KeepsTheMemoryOfSamplesToWhatThePropTakes) {
-    for (const auto& [file, most_mb] : {std::pair("near.toml", 18.0), std::pair("kiosk.toml", 35.0)}) {
+    for (const auto& [file, max_mb] : {std::pair("near.toml", 18.0), std::pair("kiosk.toml", 35.0)}) {
         const Settings settings = settings_of(file);
         const Pinhole& pinhole = settings.projector.pinhole;
         RenderNeeds needs{4, {}};
         needs.outline = largest_outline(settings, pinhole, visibility_of(settings));
         const double mb = 1e-6 * static_cast<double>(gpu_bytes(needs, pinhole.width, pinhole.height));
-        EXPECT_LE(mb, most_mb) << file;
-        EXPECT_GE(mb, 0.9 * most_mb) << file;
+        EXPECT_LE(mb, max_mb) << file;
+        EXPECT_GE(mb, 0.9 * max_mb) << file;
     }
 }
 

@@ -122,7 +122,7 @@ TEST(SceneLevel, OfARecordingOrWithoutEconomiesIsWhole) {
     settings.tracker.kind = TrackerKind::Replay;
     EXPECT_EQ(scene_level(pack, 0, plan_for(settings, pack)).mesh.indices, pack.levels[0].indices);
     ScenePlan plan = plan_for(Settings(), pack);
-    plan.economies = 0;
+    plan.cull_kinds = 0;
     EXPECT_EQ(scene_level(pack, 0, plan).mesh.indices, pack.levels[0].indices);
 }
 

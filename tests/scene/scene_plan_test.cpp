@@ -54,10 +54,10 @@ SceneRequest request(const Settings& settings) {
     return request;
 }
 
-bool leaves_out(const ScenePlan& plan, Economy economy, const std::string& what) {
+bool leaves_out(const ScenePlan& plan, CullKind cull_kind, const std::string& what) {
     return std::any_of(plan.left_out.begin(), plan.left_out.end(), [&](const LeftOut& each) {
         EXPECT_FALSE(each.why.empty());
-        return each.economy == economy && each.what.find(what) != std::string::npos;
+        return each.cull_kind == cull_kind && each.what.find(what) != std::string::npos;
     });
 }
 
@@ -115,7 +115,7 @@ TEST(ScenePlan, ReadsTheReliefOfATechniqueAlone) {
             << "level 2 is read for the exposure";
         ASSERT_EQ(plan.reliefs.size(), 1U);
         EXPECT_EQ(plan.reliefs.front().texels, texels);
-        EXPECT_EQ(name_of(plan.rungs.front()), fmt::format("relief{}", texels));
+        EXPECT_EQ(name_of(plan.quality_levels.front()), fmt::format("relief{}", texels));
         EXPECT_EQ(plan.needs.casts, 1U);
         EXPECT_EQ(plan.needs.samples, 1) << "its samples are taken where it is cast";
         for (const ShaderKey& key : plan.needs.draws) {
@@ -143,10 +143,11 @@ TEST(ScenePlan, AReliefThatTheGpuDrawsNeedsNoCastAndSamplesAsAMesh) {
     for (const std::string_view technique : {"relief-gpu", "relief192-gpu"}) {
         asked.technique = technique;
         const ScenePlan plan = plan_scene(settings, pack, asked).value();
-        ASSERT_EQ(plan.rungs.size(), 1U);
-        EXPECT_TRUE(plan.rungs.front().relief && plan.rungs.front().on_gpu);
-        EXPECT_TRUE(plan.rungs.front().level == 192 || technique == "relief-gpu");
-        EXPECT_EQ(name_of(plan.rungs.front()), fmt::format("relief{}-gpu", plan.reliefs.front().texels));
+        ASSERT_EQ(plan.quality_levels.size(), 1U);
+        EXPECT_TRUE(plan.quality_levels.front().relief && plan.quality_levels.front().on_gpu);
+        EXPECT_TRUE(plan.quality_levels.front().level == 192 || technique == "relief-gpu");
+        EXPECT_EQ(name_of(plan.quality_levels.front()),
+                  fmt::format("relief{}-gpu", plan.reliefs.front().texels));
         EXPECT_EQ(plan.needs.casts, 0U);
         EXPECT_TRUE(std::none_of(plan.needs.draws.begin(), plan.needs.draws.end(), [](const ShaderKey& key) {
             return key.pass == ShaderKey::Pass::Cast || (key.pass == ShaderKey::Pass::Surface && !key.blocks);
@@ -163,14 +164,14 @@ TEST(ScenePlan, AReliefThatTheGpuDrawsNeedsNoCastAndSamplesAsAMesh) {
     const auto ways_on_gpu = [&] {
         const ScenePlan plan = plan_scene(settings, pack, asked).value();
         EXPECT_EQ(plan.reliefs.size(), 1U) << "both ways read the same blocks";
-        return std::count_if(plan.rungs.begin(), plan.rungs.end(),
-                             [](const Rung& rung) { return rung.on_gpu; });
+        return std::count_if(plan.quality_levels.begin(), plan.quality_levels.end(),
+                             [](const QualityLevel& quality_level) { return quality_level.on_gpu; });
     };
     EXPECT_EQ(ways_on_gpu(), 0);
     const std::uint32_t blocks = reliefs_of(pack.description).value().back().blocks;
-    asked.most_blocks_on_gpu = blocks;
+    asked.max_blocks_on_gpu = blocks;
     EXPECT_GT(ways_on_gpu(), 0);
-    asked.most_blocks_on_gpu = blocks - 1;
+    asked.max_blocks_on_gpu = blocks - 1;
     EXPECT_EQ(ways_on_gpu(), 0) << "it has no room for it, and the other ways stay";
 }
 
@@ -217,13 +218,13 @@ TEST(ScenePlan, WithoutEconomiesHoldsEverythingAndDrawsTheSame) {
     const Settings settings = steep_table();
     SceneRequest asked = request(settings);
     const ScenePlan lean = plan_scene(settings, outline(), asked).value();
-    asked.economies = 0;
+    asked.cull_kinds = 0;
     const ScenePlan full = plan_scene(settings, outline(), asked).value();
     EXPECT_EQ(full.levels, (std::vector<std::uint32_t>{1U, 0U, 2U, 3U}));
-    ASSERT_EQ(full.rungs.size(), lean.rungs.size());
-    for (std::size_t k = 0; k < full.rungs.size(); ++k) {
-        EXPECT_EQ(full.rungs[k].level, lean.rungs[k].level);
-        EXPECT_EQ(full.rungs[k].samples, lean.rungs[k].samples);
+    ASSERT_EQ(full.quality_levels.size(), lean.quality_levels.size());
+    for (std::size_t k = 0; k < full.quality_levels.size(); ++k) {
+        EXPECT_EQ(full.quality_levels[k].level, lean.quality_levels[k].level);
+        EXPECT_EQ(full.quality_levels[k].samples, lean.quality_levels[k].samples);
     }
     EXPECT_EQ(shaders_of(full.needs).size(), 10U);
     EXPECT_EQ(full.faces, 31U);

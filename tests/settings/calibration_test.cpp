@@ -1,4 +1,4 @@
-// What is kept of calibrations: nothing of it is lost, whatever happens, and a bad one never leaves the table dark.
+// Kept calibrations: none is lost, whatever fails, and a bad one never leaves the table dark.
 #include "app/settings/kept_calibrations.h"
 #include "app/settings/missing_files.h"
 #include "firmware_host/base/disk_tree.h"
@@ -18,7 +18,7 @@ namespace {
 using testing_disk::Stopped;
 using testing_disk::VolatileDisk;
 
-/// A projector that stands otherwise than the shipped one; `places` tells them apart.
+/// A projector in another place than the shipped one; `places` identifies the calibration.
 Calibration calibration(int places) {
     Calibration c;
     c.made = "2026-11-25 10:12 UTC";
@@ -60,7 +60,7 @@ TEST(Calibration, IsReadAsItWasWritten) {
     EXPECT_EQ(read->pinhole.fx, written.pinhole.fx);
     EXPECT_EQ(read->pinhole.cy, written.pinhole.cy);
     constexpr double rounding =
-        8.0 * std::numeric_limits<double>::epsilon(); // of a matrix made of a rotation, and back
+        8.0 * std::numeric_limits<double>::epsilon(); // of the conversion to a matrix and back
     EXPECT_LT(distance(read->table_from_projector, written.table_from_projector), rounding);
     EXPECT_LT(distance(read->registration.table_from_tracker, written.registration.table_from_tracker),
               rounding);
@@ -69,7 +69,7 @@ TEST(Calibration, IsReadAsItWasWritten) {
     EXPECT_EQ(read->registration.eye_in_sensor_m, written.registration.eye_in_sensor_m);
 }
 
-/// A measured value has no default: with any one line less the file says which one.
+/// A measured value has no default: without any one line, the message names the missing key.
 TEST(Calibration, IsRefusedWithoutAnyOneOfItsLines) {
     const std::string text = calibration_text(calibration(9));
     int lines = 0;
@@ -92,7 +92,7 @@ TEST(Calibration, IsRefusedWithoutAnyOneOfItsLines) {
 
 class Kept : public ::testing::Test {
 protected:
-    /// The number of places of the newest whole calibration; 0: there is none.
+    /// `places` of the newest whole calibration; 0: there is none.
     static int newest(FileTree& tree) {
         const Result<std::vector<KeptCalibration>> kept = list_calibrations(tree);
         EXPECT_TRUE(kept);
@@ -132,13 +132,13 @@ TEST_F(Kept, TheNewestIsUndoneAndTheNextOneGetsANewNumber) {
     EXPECT_EQ(undo_calibration(disk)->number, 4);
     EXPECT_EQ(newest(disk), 3);
     EXPECT_TRUE(
-        disk.content("calibration-0004.undone")); // who undid the wrong one can still get it back by hand
+        disk.content("calibration-0004.undone")); // the file remains, so a wrong undo can be reverted by hand
     EXPECT_EQ(keep_calibration(disk, calibration(5))->number, 5);
     EXPECT_EQ(numbers(), (std::vector<int>{5, 3, 2}));
     EXPECT_FALSE(disk.content("calibration-0004.undone"));
 }
 
-/// Each operation is the last one, and then the power goes: what was acknowledged is never lost.
+/// A power cut at each operation: an acknowledged calibration is never lost.
 TEST_F(Kept, APowerCutLeavesTheOldOneOrTheNewOne) {
     for (int k = 1; k <= 4; ++k) {
         ASSERT_TRUE(keep_calibration(disk, calibration(k)));
@@ -176,7 +176,8 @@ TEST_F(Kept, APowerCutLeavesTheOldOneOrTheNewOne) {
     EXPECT_EQ(undoing, (std::set<int>{3, 4}));
 }
 
-/// From any operation on the disk is full: what is told as kept is there, and else what was there before.
+/// The disk is full from any operation on: a calibration reported as kept is there; otherwise the previous state
+/// is.
 TEST_F(Kept, AFullDiskKeepsWhatWasThereAndSaysSo) {
     ASSERT_TRUE(keep_calibration(disk, calibration(1)));
     int refused = 0;
@@ -237,7 +238,7 @@ TEST_F(Calibrated, ADamagedOneOrOneThatDoesNotFitGivesWayToTheOneBefore) {
     keep(calibration(1));
     write("kept/calibration-0002.toml", "version = 1\nmade = ");
     Calibration beside = calibration(3);
-    beside.table_from_projector.translation.x = 9.0; // its picture falls beside the table
+    beside.table_from_projector.translation.x = 9.0; // the picture misses the table
     write("kept/calibration-0003.toml", calibration_text(beside));
     const Settings settings = loaded();
     ASSERT_TRUE(settings.calibration.used);
@@ -251,7 +252,7 @@ TEST_F(Calibrated, ADamagedOneOrOneThatDoesNotFitGivesWayToTheOneBefore) {
         << lines[1];
 }
 
-/// A projector that the settings describe wrongly is mended by the measured one; without it the settings are refused as ever.
+/// A calibration corrects a projector that the settings describe wrongly; without it, the settings are refused.
 TEST_F(Calibrated, MendsAProjectorThatIsDescribedWrongly) {
     write("kiosk.toml", "[calibration]\nfolder = \"kept\"\n[projector]\nposition_m = [8.0, 0.0, 2.0]\n");
     EXPECT_FALSE(load_settings(folder / "kiosk.toml"));

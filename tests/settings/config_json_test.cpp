@@ -44,7 +44,7 @@ TEST(ConfigJson, HoldsTheFieldsThatOutsideChecksRelyOn) {
     EXPECT_GT(json.at("lit_zone").at("default_eye").at("polygon_m").size(), 300U);
 }
 
-/// name -> corners, each the sum of its signs.
+/// The faces by name.
 std::map<std::string, nlohmann::json> faces_of(const nlohmann::json& json) {
     std::map<std::string, nlohmann::json> faces;
     for (const nlohmann::json& face : json.at("prop").at("faces")) {

@@ -1,4 +1,4 @@
-// The exhibit's hours as the settings have them.
+// The opening hours in the settings.
 
 #include "app/settings/describe_settings.h"
 #include "app/settings/missing_files.h"

@@ -1,4 +1,4 @@
-// The museum's public keys in the settings, and what becomes of unsigned packs.
+// The museum's public keys in the settings, and the policy for unsigned packs.
 #include "app/settings/config_json.h"
 #include "firmware_host/base/json.h"
 #include "tests/settings/settings_text.h"
@@ -7,7 +7,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr std::string_view line =
-    "RWSie4mHjLdoDgFygpvWxkFKDOTJgi5VklPjkmLVcy4pfr8p961f7U5V"; // minisign 0.11 made it
+    "RWSie4mHjLdoDgFygpvWxkFKDOTJgi5VklPjkmLVcy4pfr8p961f7U5V"; // made by minisign 0.11
 
 std::string key_table(const std::string& rest) {
     return "[exhibit]\n[[exhibit.keys]]\n" + rest;

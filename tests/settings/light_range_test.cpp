@@ -10,7 +10,7 @@
 namespace frustumscreen {
 namespace {
 
-/// The prop's faces in the table's frame, the ordinary way.
+/// The prop's faces in the table's frame, computed by plain rotation.
 struct StandingFace {
     glm::dvec3 normal;
     std::vector<glm::dvec3> corners;

@@ -11,9 +11,8 @@
 namespace frustumscreen {
 namespace {
 
-/// All by hand: the prop's eight corners turned and moved, planes through three corners, the pinhole written
-/// out. Positive where the face is lit; the slack of the tightest condition: metres for planes, pixels for
-/// corners.
+/// Written out independently: the prop's eight corners turned and moved, planes through three corners, the pinhole.
+/// Positive if the face is lit; the slack of the tightest condition, in metres for planes and pixels for corners.
 struct Slack {
     double light = 1e9;
     double picture = 1e9;
@@ -53,7 +52,7 @@ Slack slack_of(const Settings& s, double x, double y, double yaw, const glm::dve
         if (glm::dot(normal, eye - corners[0]) <= 0) {
             continue;
         }
-        const double grazing = least_sine_of_light * glm::distance(lens, glm::dvec3(x, y, 0));
+        const double grazing = min_sine_of_light * glm::distance(lens, glm::dvec3(x, y, 0));
         slack.light = std::min(slack.light, glm::dot(normal, lens - corners[0]) - grazing);
         for (const glm::dvec3& c : corners) {
             const glm::dvec3 ray = c - lens;
@@ -72,7 +71,7 @@ bool on_table(const Settings& s, const glm::dvec2& place) {
            std::abs(place.y) + radius <= s.table.depth_m / 2;
 }
 
-/// The worst over many yaws.
+/// The smallest slack over many yaws.
 Slack worst_yaw(const Settings& s, const glm::dvec2& place, const glm::dvec3& eye, int yaws) {
     Slack worst;
     for (int k = 0; k < yaws; ++k) {
@@ -106,7 +105,7 @@ private:
     std::mt19937 engine_;
 };
 
-/// The projector somewhere above, tilted and shifted; the prop of any size.
+/// A projector somewhere above, tilted and shifted; a prop of any size.
 Settings random_settings(Draw& draw) {
     Settings s = steep_table();
     s.prop = {PropKind::Frustum, draw(0.1, 0.2), draw(0.03, 0.09), draw(0.06, 0.2)};
@@ -185,8 +184,8 @@ TEST(LitZone, ForTheDefaultEyeItHoldsTheZoneForAnyEyeAndEndsWhereAFaceIsDarkAtSo
                 zone.default_eye[(n + 1) % count] - zone.default_eye[(n + count - 1) % count];
             const glm::dvec2 beyond = corner + 1e-3 * glm::normalize(glm::dvec2(along.y, -along.x));
             if (on_table(s, beyond)) {
-                // The worst yaw may lie between two tried, a tenth of a degree apart; a face may just come into
-                // sight there.
+                // The worst yaw may lie between two tried ones, a tenth of a degree apart; a face may just come
+                // into sight there.
                 EXPECT_FALSE(worst_yaw(s, beyond, s.eye.default_m, 900).lit(3e-4, 1.0));
                 ++dark;
             }
@@ -218,7 +217,7 @@ TEST(LitZone, GoesDarkWhereTheLensPassesBehindAFacesPlane) {
     // 0.08 - 0.9 * 0.035 / 0.12 = -0.1825 m from the prop's middle (facts: 'beyond about 180 mm').
     Settings s = steep_table();
     s.projector.table_from_projector.translation.z = 0.9;
-    s.projector.pinhole.fx = s.projector.pinhole.fy = 500.0; // the picture is no limit here
+    s.projector.pinhole.fx = s.projector.pinhole.fy = 500.0; // the picture is no limit
     const glm::dvec3 eye(5.0, 0.0, 5.0);
     EXPECT_GT(slack_of(s, 0.14, 0.0, 0.0, eye).light, 0.0);
     EXPECT_TRUE(every_seen_face_is_lit(s, {glm::dquat(1, 0, 0, 0), {0.14, 0, 0}}, eye));

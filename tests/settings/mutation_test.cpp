@@ -1,4 +1,4 @@
-/// Seeded mutations of the shipped settings: taken, or refused in one line; never anything else.
+/// Seeded mutations of the shipped settings: each is accepted, or refused in one line.
 #include "tests/settings/settings_text.h"
 
 #include <array>

@@ -127,7 +127,7 @@ TEST(Settings, TheAimLandsInThePrincipalPointAndThePictureStandsUpright) {
 
 TEST(Settings, RollTurnsThePictureClockwiseAsTheProjectorSeesIt) {
     const Settings settings = parsed("[projector]\nroll_deg = 90\n");
-    // The picture's right edge now lies where its bottom was: at the visitor.
+    // The picture's right edge lies where its bottom was: at the visitor.
     EXPECT_GT(pixel_of(settings, {0, -0.1, 0}).x, 960.0 + 100.0);
     EXPECT_LT(pixel_of(settings, {0.1, 0, 0}).y, 600.0 - 100.0);
 }

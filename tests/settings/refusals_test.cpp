@@ -23,7 +23,7 @@ TEST(Refusals, NameFileLineKeyFoundAndAllowed) {
         {"set/kiosk.toml:2: render.error_tolerance_px is 0", "0.01 to 20 pixels", "[settings.number]"}));
 }
 
-/// Each text, and words that its refusal must hold.
+/// Each text, and words that its refusal must contain.
 using Expectations = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 void expect_refusals(const Expectations& expectations) {
@@ -106,7 +106,7 @@ TEST(Refusals, OfMatricesThatAreNotRigid) {
          {":2: projector.table_from_projector is written row by row; allowed is column by column"}},
         {"[tracker]\ntable_from_tracker = [0,-1,0,0.1, 1,0,0,0.2, 0,0,1,0, 0,0,0,1]",
          {":2: tracker.table_from_tracker is written row by row", "[settings.row_by_row]"}},
-        // Wrong in either order.
+        // Invalid in row order and in column order.
         {matrix("[1,0,0,0.5, 0,-1,0,0, 0,0,-1,1.2, 0,0,1,1]"), {"[settings.no_rigid_transform]"}},
         {matrix("[1,0,0]"), {"is a list of 3", "16 numbers, column by column"}},
         {"[tracker]\ntable_from_tracker = [0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,0]",
@@ -231,7 +231,7 @@ TEST(Refusals, OfLanguagesThatThereAreNot) {
     }
 }
 
-/// Debian's own list, where it is installed, has the same codes of two letters.
+/// Debian's own list, if it is installed, has the same two-letter codes.
 TEST(Refusals, OfNoLanguageOfIso639) {
     std::ifstream file("/usr/share/iso-codes/json/iso_639-3.json");
     const nlohmann::json codes = nlohmann::json::parse(file, nullptr, false);
@@ -251,7 +251,7 @@ TEST(Refusals, OfNoLanguageOfIso639) {
     }
 }
 
-/// Files that are named are looked for by `missing_files` alone: settings are right without them.
+/// Only `missing_files` looks for files: settings are valid without them.
 TEST(MissingFiles, AreSaidWithThePlaceThatNamesThem) {
     const auto settings = parse_settings("[tracker]\nkind = \"replay\"\nposes = \"visit.csv\"\n[exhibit]\n"
                                          "packs = [\n\"cat.fspack\", \"README.md\", \"docs\"]\n",

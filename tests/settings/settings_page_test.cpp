@@ -20,7 +20,7 @@ TEST(SettingsPage, IsTheOneInTheDocuments) {
         << "write it again: frustumscreen config --describe > docs/settings.md";
 }
 
-/// The shipped file shows a technician every key, in a comment if not by its default.
+/// The shipped file shows a technician every key, in a comment if not with its default.
 TEST(SettingsPage, HasNoKeyThatTheShippedFileDoesNotName) {
     const std::string page = settings_page();
     const std::string shipped = shipped_text();
@@ -33,7 +33,7 @@ TEST(SettingsPage, HasNoKeyThatTheShippedFileDoesNotName) {
     EXPECT_GT(keys, 45);
 }
 
-/// What the page says is allowed is what the reader allows, and no more.
+/// The reader allows exactly the ranges of the page.
 TEST(SettingsPage, HasTheRangesThatHold) {
     std::istringstream lines(settings_page());
     const std::regex table_form(R"(## \[(\w+)\])");
@@ -50,7 +50,7 @@ TEST(SettingsPage, HasTheRangesThatHold) {
             const double step = match[2].matched ? 1.0 : 1e-3;
             const std::string allowed =
                 (match[2].matched ? "the whole numbers " : "") + match[3].str() + " to " + match[4].str();
-            const auto refused = [&](double value) { // for this; other rules may refuse it too
+            const auto refused = [&](double value) { // for this reason; other rules may refuse it too
                 const std::string text =
                     match[2].matched ? fmt::format("{:.0f}", value) : fmt::format("{:.6f}", value);
                 const std::string message =
@@ -69,7 +69,7 @@ TEST(SettingsPage, HasTheRangesThatHold) {
     EXPECT_NE(refusal("[panel]\nscript = [{ button = 5 }]").find("whole numbers 0 to 4"), std::string::npos);
 }
 
-/// A key that is left out is what the page says.
+/// A missing key has the page's default.
 TEST(SettingsPage, HasTheDefaultsThatHold) {
     const std::string page = settings_page();
     EXPECT_NE(page.find("| `base_m` | `0.3` | 0.02 to 2 metres |"), std::string::npos);

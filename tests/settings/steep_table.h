@@ -1,4 +1,4 @@
-/// A set-up with figures that tests have by heart: a steep prop 1.2 m below a projector of 1280 x 800.
+/// A set-up with easily checked figures: a steep prop 1.2 m below a projector of 1280 x 800.
 #pragma once
 
 #include "app/settings/settings.h"

@@ -1,4 +1,4 @@
-// The zone in which an artifact is seen whole: against rays from eyes to places of the artifact.
+// The zone in which an artifact is seen whole, compared with rays from eyes to points of the artifact.
 #include "app/settings/lit_zone.h"
 #include "app/settings/whole_zone.h"
 
@@ -17,7 +17,7 @@ public:
     double between(double low, double high) {
         return low + (high - low) * std::uniform_real_distribution<double>()(engine_);
     }
-    /// More often near `low` than near `high`, where the outermost eyes are.
+    /// More often near `low`, where the outermost eyes are, than near `high`.
     double near(double low, double high) { return low + (high - low) * std::pow(between(0.0, 1.0), 3.0); }
 
 private:
@@ -36,7 +36,8 @@ Case shipped() {
     return shown;
 }
 
-/// A projector that hangs aside and looks aslant, a steeper prop, an artifact that is not round and stands aside.
+/// A projector off to one side that looks obliquely, a steeper prop, an artifact that is not round and off the
+/// axis.
 Case askew() {
     Case shown;
     Settings& s = shown.settings;
@@ -71,14 +72,14 @@ bool is_lit(const Settings& settings, const RigidTransform& table_from_prop, con
     const double v = pinhole.fy * p.y / p.z + pinhole.cy;
     const glm::dvec3 lens = table_from_prop.inverse().point(table_from_projector.translation);
     const bool turned = std::all_of(face.corners.begin(), face.corners.end(), [&](const glm::dvec3& corner) {
-        return face.plane.distance(lens) >= least_sine_of_light * glm::distance(lens, corner);
+        return face.plane.distance(lens) >= min_sine_of_light * glm::distance(lens, corner);
     });
     constexpr double rounding_px = 1e-6;
     return turned && p.z > 0.0 && u >= -rounding_px && v >= -rounding_px &&
            u <= pinhole.width + rounding_px && v <= pinhole.height + rounding_px;
 }
 
-/// Of rays from these eyes to places of the artifact, those that enter the prop where it is not lit.
+/// Number of rays from these eyes to points of the artifact that enter the prop at an unlit point.
 int lost_rays(const Case& shown, const EyesAround& eyes, const RigidTransform& table_from_prop, int rays,
               Seeded& seeded, int& traced) {
     const PropShape prop = make_prop(shown.settings.prop);
@@ -135,7 +136,8 @@ TEST_P(WholeZoneOf, LosesNothingOfTheArtifactAtTenThousandPlaces) {
     }
 }
 
-/// Whether both places are as near to one edge of the table as the prop's axis may be: half the reach of its foot's corners.
+/// True if both places are at the same edge of the table, as near as the prop's axis may be: half the reach of its
+/// foot's corners.
 bool ends_at_the_rim(const Settings& settings, const glm::dvec2& from, const glm::dvec2& to) {
     const double rim = 0.5 * std::numbers::sqrt2 * 0.5 * settings.prop.base_m;
     const auto is_at = [&](int axis, double size_m) {
@@ -145,7 +147,8 @@ bool ends_at_the_rim(const Settings& settings, const glm::dvec2& from, const glm
     return is_at(0, settings.table.width_m) || is_at(1, settings.table.depth_m);
 }
 
-/// Where the picture ends the zone, some eye loses something a little farther out: its places are not few.
+/// Where the picture limits the zone, an eye loses a part of the artifact a little farther out: the zone is not
+/// much too small.
 TEST_P(WholeZoneOf, IsNotMuchSmallerThanItMustBe) {
     const Case shown = GetParam()();
     Seeded seeded;

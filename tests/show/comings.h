@@ -1,4 +1,4 @@
-/// A show of packs in a folder, stepped as a run's loop does.
+/// A show of packs in a folder, stepped as in the run loop.
 #pragma once
 
 #include "app/render/read_back.h"
@@ -34,16 +34,16 @@ protected:
     }
     Presentation step(std::span<const Command> commands = {}) {
         now += std::chrono::milliseconds(20);
-        Situation situation;
-        situation.prop_known = true;
-        situation.eye_m = settings.eye.default_m;
+        TrackedState tracked_state;
+        tracked_state.prop_known = true;
+        tracked_state.eye_m = settings.eye.default_m;
         exhibit->note(show->artifacts());
-        Presentation presentation = exhibit->step(now, commands, situation);
-        static_cast<void>(
-            show->draw(now, presentation, situation.eye_m, {display->framebuffer(), 0}, Redraw::Everything));
+        Presentation presentation = exhibit->step(now, commands, tracked_state);
+        static_cast<void>(show->draw(now, presentation, tracked_state.eye_m, {display->framebuffer(), 0},
+                                     Redraw::Everything));
         return presentation;
     }
-    /// Steps until the artifact is there, or forever.
+    /// Steps until the artifact is ready; may loop forever.
     void await(std::size_t artifact) {
         while (show->artifacts()[artifact] == ArtifactState::Away) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -55,7 +55,7 @@ protected:
             step();
         }
     }
-    /// The brightest texel's blue, which says which artifact is shown; nothing if the picture is dark.
+    /// The blue of the brightest texel, which identifies the artifact; nothing if the picture is dark.
     std::optional<int> shown_blue() {
         const Image8 picture = read_colour(display->framebuffer(), 320, 200);
         std::optional<int> blue;

@@ -15,7 +15,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Answers each poll with these samples, and with an error every other time.
+/// Answers each poll with these samples, and every other poll with an error as well.
 class FalteringTracker final : public Tracker {
 public:
     [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override {
@@ -67,7 +67,7 @@ TEST(DeviceIntake, WithoutATrackerThePropStandsWhereItIs) {
     Inputs inputs;
     DeviceIntake intake(Settings{}, inputs);
     intake.poll(MonotonicTime{});
-    EXPECT_TRUE(intake.situation_at(MonotonicTime{}).prop_known);
+    EXPECT_TRUE(intake.tracked_state_at(MonotonicTime{}).prop_known);
 }
 
 class MissingPanel final : public Panel {
@@ -95,7 +95,7 @@ TEST(DeviceIntake, TellsWhichDevicesCannotBeUsed) {
     EXPECT_FALSE(status.devices.sound.ok) << "there is none";
 }
 
-/// Of every state: an id of its own, and away where the device's own health says that nothing comes from it.
+/// Each state has its own id, and counts as away if the device's own health says that it delivers nothing.
 template <typename State, typename Health>
 void expect_conditions(State last, std::string_view subject, Health away) {
     std::set<std::string_view> ids;
@@ -130,11 +130,11 @@ TEST(DeviceIntake, AnErrorIsCountedAndTheSamplesBeforeItAreTaken) {
         for (int k = 0; k < 60; ++k, now += milliseconds(16)) {
             intake.poll(now);
         }
-        const Situation situation = intake.situation_at(now);
-        EXPECT_NEAR(situation.table_from_prop.translation.x, 0.1, 1e-6);
-        EXPECT_EQ(situation.head_known, followed) << "a fixed viewer's head is not asked for";
+        const TrackedState tracked_state = intake.tracked_state_at(now);
+        EXPECT_NEAR(tracked_state.table_from_prop.translation.x, 0.1, 1e-6);
+        EXPECT_EQ(tracked_state.head_known, followed) << "a fixed viewer's head is not asked for";
         RunStatus status;
-        intake.tell(situation, status);
+        intake.tell(tracked_state, status);
         EXPECT_EQ(status.device_errors, 30U);
         EXPECT_EQ(status.prop_by, "tracker");
         EXPECT_EQ(status.eye_by, followed ? "sensor" : "settings");

@@ -1,4 +1,5 @@
-// What is done with a stick, as the importer's report says it: on the table in pixels, aloud in samples, in the journal and the status.
+// The import of a stick, from the importer's report: in the table's pixels, in audio samples, in the journal and the
+// status.
 #include "app/pack/pack_file.h"
 #include "app/render/read_back.h"
 #include "app/scene/device_plan.h"
@@ -77,7 +78,7 @@ protected:
                 with_words ? fmt::format("words = \"{}\"\n", (folder / "own.fswords").string()) : ""),
             "kiosk.toml");
         settings.panel.script = {{1.0, 0}, {2.0, 1}};
-        ArtifactShowOptions options{packs.files(), "level0", 1, AllEconomies}; // frame times choose no level
+        ArtifactShowOptions options{packs.files(), "level0", 1, AllCullKinds}; // no governor
         options.waits = true;
         now = MonotonicTime(seconds(100));
         auto artifacts = ArtifactShow::create(settings, plan_devices(settings, false, false), options,
@@ -86,31 +87,31 @@ protected:
         Exhibit exhibit = make_exhibit(settings, *artifacts, now);
         show = std::make_unique<LiveExhibit>(settings, std::move(artifacts), std::move(exhibit), "a driver",
                                              PromptReader::Answer::Always);
-        situation.prop_known = true;
-        situation.eye_m = settings.eye.default_m;
+        tracked_state.prop_known = true;
+        tracked_state.eye_m = settings.eye.default_m;
         wait(milliseconds(1500));
     }
     void wait(Nanoseconds time, std::span<const Command> commands = {}) {
         const MonotonicTime end = now + time;
         while (now < end) {
             now += milliseconds(20);
-            situation.table_from_prop.translation.x =
-                now.time_since_epoch() % seconds(1) < milliseconds(500) ? 0.0 : 0.004; // somebody is there
-            show->step(now, std::exchange(commands, {}), situation);
+            tracked_state.table_from_prop.translation.x =
+                now.time_since_epoch() % seconds(1) < milliseconds(500) ? 0.0 : 0.004; // a visitor is present
+            show->step(now, std::exchange(commands, {}), tracked_state);
             std::vector<std::int16_t> block(sample_rate_hz / 50);
             mixer.mix(block);
             mixer.follow(show->wish());
             heard.insert(heard.end(), block.begin(), block.end());
             show->hear(mixer.report(Nanoseconds(0)));
         }
-        situation.table_from_prop.translation.x = 0.0;
-        show->step(now, {}, situation);
+        tracked_state.table_from_prop.translation.x = 0.0;
+        show->step(now, {}, tracked_state);
     }
     Image8 picture() {
-        static_cast<void>(show->draw(now, situation, {display->framebuffer(), 0}, Redraw::Everything));
+        static_cast<void>(show->draw(now, tracked_state, {display->framebuffer(), 0}, Redraw::Everything));
         return read_colour(display->framebuffer(), width, height);
     }
-    /// Codes of the pixels that two pictures differ in, by place: 0 where they do not.
+    /// Codes of the pixels in which two pictures differ, by place: 0 where they are equal.
     static Image<std::uint8_t> difference(const Image8& without, const Image8& with) {
         Image<std::uint8_t> light(width, height);
         for (int y = 0; y < height; ++y) {
@@ -140,7 +141,7 @@ protected:
     Settings settings;
     std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(width, height).value();
     std::unique_ptr<LiveExhibit> show;
-    Situation situation;
+    TrackedState tracked_state;
     Mixer mixer;
     std::vector<std::int16_t> heard;
     MonotonicTime now;
@@ -151,8 +152,8 @@ TEST_F(Notice, WithoutAReportNothingIsDrawnAndNothingAllocated) {
     const long before = allocations_so_far();
     for (int k = 0; k < 100; ++k) {
         now += milliseconds(20);
-        show->step(now, {}, situation);
-        static_cast<void>(show->draw(now, situation, {display->framebuffer(), 1}, Redraw::Changes));
+        show->step(now, {}, tracked_state);
+        static_cast<void>(show->draw(now, tracked_state, {display->framebuffer(), 1}, Redraw::Changes));
     }
     if (allocations_are_counted) {
         EXPECT_EQ(allocations_so_far(), before);
@@ -170,7 +171,7 @@ TEST_F(Notice, TheRingFillsWithWhatIsCopied) {
         const double px_per_m =
             settings.projector.pinhole.fx / settings.projector.table_from_projector.translation.z;
         const int left = left_of(light);
-        const int ring_px = static_cast<int>(0.034 * px_per_m); // 16 mm to each side, then letters
+        const int ring_px = static_cast<int>(0.034 * px_per_m); // 16 mm on each side, then letters
         int full = 0;
         int empty = 0;
         for (int y = 0; y < height; ++y) {
@@ -239,7 +240,7 @@ TEST_F(Notice, APressBetweenTwoTextsEndsTheSecondAndDoesNothingElse) {
     ASSERT_EQ(lit(difference(without, picture())), 0)
         << "the first has gone, and the second is not there yet";
     wait(milliseconds(20), std::array{Command::NextArtifact});
-    wait(seconds(2)); // what of it was there already fades
+    wait(seconds(2)); // the earlier notice has begun to fade
     EXPECT_EQ(lit(difference(without, picture())), 0);
     EXPECT_EQ(show->state().artifact, shown);
 }
@@ -295,7 +296,7 @@ TEST_F(Notice, WhatWasOverLongBeforeTheExhibitBeganIsNotShown) {
 
 TEST_F(Notice, AnExhibitThatStartsAgainStillTellsWhatIsJustOver) {
     const Image8 without = picture();
-    for (const seconds age : {seconds(100), seconds(-100'000)}) { // the wall's clock may have been set
+    for (const seconds age : {seconds(100), seconds(-100'000)}) { // the wall clock may have been set
         put(report, done_with(3));
         fs::last_write_time(report, fs::file_time_type::clock::now() - age);
         start(true);
@@ -311,7 +312,7 @@ TEST_F(Notice, AReportThatCannotBeReadForAMomentIsReadAgain) {
     ASSERT_EQ(::stat(report.c_str(), &before), 0);
     wait(seconds(1));
     EXPECT_EQ(picture().texels, without.texels);
-    std::ofstream(report, std::ios::in | std::ios::binary) << json; // the same file of the same size
+    std::ofstream(report, std::ios::in | std::ios::binary) << json; // a file of the same size
     const std::array<timespec, 2> times{before.st_atim, before.st_mtim};
     ASSERT_EQ(::utimensat(AT_FDCWD, report.c_str(), times.data(), 0), 0);
     wait(seconds(6));
@@ -346,7 +347,7 @@ TEST(ImportWatch, AThreadReadsWhatIsRenamedIntoPlace) {
     EXPECT_EQ(drawn, 2) << "the words of a copy are drawn once, and that it stopped";
     EXPECT_FALSE(watch.latest({})->is_old);
     ASSERT_TRUE(wait_for(done_with(500)));
-    EXPECT_EQ(watch.latest({})->notice->text.lines.size(), most_notice_lines);
+    EXPECT_EQ(watch.latest({})->notice->text.lines.size(), max_notice_lines);
     fs::remove(file);
 }
 
@@ -374,7 +375,7 @@ TEST(ImportJournal, EachStageAndEachPackIsALine) {
     const std::size_t before = lines.size();
     for (std::size_t written = 1; written > 0; ++calls) {
         written = note(done);
-        EXPECT_LE(written, ImportJournal::most_lines + 1);
+        EXPECT_LE(written, ImportJournal::max_lines + 1);
     }
     EXPECT_EQ(lines.size() - before, 501U);
     EXPECT_EQ(std::set<std::string>(lines.begin(), lines.end()).size(), lines.size());

@@ -28,14 +28,14 @@ public:
     [[nodiscard]] std::string name() const override { return "none"; }
 };
 
-/// Is in State::Fault from `fault_from` to `fault_until`.
+/// Stays in State::Fault from `fault_from` to `fault_until`.
 class FaultyShow final : public Show {
 public:
     void step(MonotonicTime now, std::span<const Command> /*commands*/,
-              const Situation& /*on_table*/) override {
+              const TrackedState& /*on_table*/) override {
         now_ = now;
     }
-    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const Situation& /*on_table*/,
+    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const TrackedState& /*on_table*/,
                                   const RenderTarget& /*target*/, Redraw /*redraw*/) override {
         return {};
     }
@@ -50,7 +50,7 @@ private:
     MonotonicTime now_;
 };
 
-/// On a clock that steps by one frame.
+/// Runs on a clock that advances by one frame.
 Result<LoopResult> run_fast(Show& show, Inputs& inputs, Nanoseconds length, MonotonicTime start,
                             VisitBook* visits = nullptr) {
     LoopOptions options;
@@ -74,15 +74,15 @@ Result<LoopResult> run_with(Nanoseconds from, Nanoseconds until) {
     return run_fast(show, inputs, seconds(200), start);
 }
 
-/// Somebody uses it from the 10th second to the 30th; it rests from the 50th on.
+/// In use from the 10th second to the 30th; at rest from the 50th on.
 class UsedShow final : public Show {
 public:
     explicit UsedShow(MonotonicTime start) : start_(start) {}
     void step(MonotonicTime now, std::span<const Command> /*commands*/,
-              const Situation& /*on_table*/) override {
+              const TrackedState& /*on_table*/) override {
         now_ = now;
     }
-    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const Situation& /*on_table*/,
+    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const TrackedState& /*on_table*/,
                                   const RenderTarget& /*target*/, Redraw /*redraw*/) override {
         return {};
     }
@@ -102,7 +102,7 @@ private:
     MonotonicTime start_, now_;
 };
 
-/// Nobody is there until `comes`; notes the marks of light that it is told to show.
+/// No visitor until `comes`; records the drift marks.
 class QuietShow final : public Show {
 public:
     void set_mark(const std::optional<ShownMark>& mark) override {
@@ -110,10 +110,10 @@ public:
         while_used += mark && now_ > comes ? 1 : 0;
     }
     void step(MonotonicTime now, std::span<const Command> /*commands*/,
-              const Situation& /*on_table*/) override {
+              const TrackedState& /*on_table*/) override {
         now_ = now;
     }
-    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const Situation& /*on_table*/,
+    [[nodiscard]] DrawResult draw(MonotonicTime /*now*/, const TrackedState& /*on_table*/,
                                   const RenderTarget& /*target*/, Redraw /*redraw*/) override {
         return {};
     }
@@ -146,12 +146,12 @@ TEST(RunLoop, MarksOfLightAreShownWhileNobodyIsThere) {
     EXPECT_FALSE(run->status.drifted);
 }
 
-/// Has something new to draw in every third frame.
+/// Draws something new in every third frame.
 class TimedShow final : public Show {
 public:
     void step(MonotonicTime /*now*/, std::span<const Command> /*commands*/,
-              const Situation& /*on_table*/) override {}
-    [[nodiscard]] DrawResult draw(MonotonicTime now, const Situation& /*on_table*/,
+              const TrackedState& /*on_table*/) override {}
+    [[nodiscard]] DrawResult draw(MonotonicTime now, const TrackedState& /*on_table*/,
                                   const RenderTarget& /*target*/, Redraw /*redraw*/) override {
         DrawResult result;
         result.drawn = ++frames % 3 == 0;
@@ -163,13 +163,13 @@ public:
     }
     void record_time(MonotonicTime now, double ms) override {
         timed.push_back(now);
-        least_ms = std::min(least_ms, ms);
+        min_ms = std::min(min_ms, ms);
     }
     [[nodiscard]] ShowState state() const override { return {}; }
 
     int frames = 0;
     std::vector<MonotonicTime> drawn, timed;
-    double least_ms = 1.0;
+    double min_ms = 1.0;
 };
 
 TEST(RunLoop, TellsTheShowTheTimeOfEachFrameThatWasDrawn) {
@@ -180,7 +180,7 @@ TEST(RunLoop, TellsTheShowTheTimeOfEachFrameThatWasDrawn) {
     ASSERT_TRUE(run) << run.error().message;
     EXPECT_GT(show.drawn.size(), 30U);
     EXPECT_EQ(show.timed, show.drawn);
-    EXPECT_GT(show.least_ms, 0.0);
+    EXPECT_GT(show.min_ms, 0.0);
 }
 
 TEST(RunLoop, EndsWhereNothingCanBeShownForAMinute) {
@@ -195,7 +195,7 @@ TEST(RunLoop, GoesOnWhereSomethingComesBack) {
     EXPECT_NEAR(run->status.uptime_s.value_or(0.0), 200.0, 0.1);
 }
 
-/// The picture's time is simulated, the book's thread is not.
+/// The picture's time is simulated, that of the visit book's thread is not.
 TEST(RunLoop, CountsVisits) {
     std::string folder = (std::filesystem::temp_directory_path() / "visits.XXXXXX").string();
     ASSERT_NE(::mkdtemp(folder.data()), nullptr);

@@ -1,5 +1,4 @@
-// What lies on the table, as pixels: pictures where their places are, in their colours, nothing of them on the prop, and a ring
-// that fills.
+// The pictures on the table, as pixels: at their places, in their colours, not on the prop, and a ring that fills.
 
 #include "app/pack/pack_file.h"
 #include "app/render/read_back.h"
@@ -25,7 +24,7 @@ using std::chrono::milliseconds;
 constexpr int width = 960;
 constexpr int height = 600;
 
-/// Saturated, so that captions and titles are told apart from pictures.
+/// A saturated colour, so that captions and titles are distinct from pictures.
 glm::u8vec4 colour_of(std::size_t artifact) {
     const auto part = [&](std::size_t k) {
         return static_cast<std::uint8_t>(30 + (artifact * 67 + k * 101) % 190);
@@ -33,7 +32,7 @@ glm::u8vec4 colour_of(std::size_t artifact) {
     return {part(0), part(1), static_cast<std::uint8_t>(artifact % 2 == 0 ? 0 : 250), 255};
 }
 
-/// Rings with a picture of one colour: its left half covers its texels wholly, its right half only by half.
+/// Rings with a picture of one colour: the left half is opaque, the right half half transparent.
 Pack pack_of(std::size_t artifact, bool with_picture) {
     Pack pack = rings(12, 4);
     pack.levels[0].error = {1e-4F, 3e-4F, 1e-3F, 1.0F};
@@ -67,27 +66,28 @@ protected:
         settings = **parse_settings(
             fmt::format("[projector]\nwidth = {}\nheight = {}\n{}", width, height, more), "kiosk.toml");
         settings.panel.script = {{1.0, 2}};
-        ArtifactShowOptions options{packs, "auto", 1, AllEconomies};
+        ArtifactShowOptions options{packs, "auto", 1, AllCullKinds};
         options.waits = waits;
         show = ArtifactShow::create(settings, plan_devices(settings, false, false), options,
                                     {display->framebuffer(), 0})
                    .value();
         exhibit.emplace(make_exhibit(settings, *show, now));
-        situation.prop_known = true;
-        situation.eye_m = settings.eye.default_m;
+        tracked_state.prop_known = true;
+        tracked_state.eye_m = settings.eye.default_m;
     }
     void wait(milliseconds time, std::span<const Command> commands = {}) {
         for (milliseconds each{0}; each < time; each += milliseconds(20)) {
             now += milliseconds(20);
-            shown = exhibit->step(now, each.count() == 0 ? commands : std::span<const Command>{}, situation);
+            shown =
+                exhibit->step(now, each.count() == 0 ? commands : std::span<const Command>{}, tracked_state);
         }
     }
     Image8 picture(Redraw redraw = Redraw::Everything) {
-        static_cast<void>(show->draw(now, shown, situation.eye_m,
+        static_cast<void>(show->draw(now, shown, tracked_state.eye_m,
                                      {display->framebuffer(), redraw == Redraw::Changes ? 1 : 0}, redraw));
         return read_colour(display->framebuffer(), width, height);
     }
-    /// Straight below the lens: independent of the program's own projection.
+    /// The pixel of a table point for a lens that looks straight down, independent of the program's own projection.
     [[nodiscard]] glm::dvec2 pixel_of(const glm::dvec2& table_m) const {
         const Pinhole& p = settings.projector.pinhole;
         const glm::dvec3 lens = settings.projector.table_from_projector.translation;
@@ -101,7 +101,7 @@ protected:
     [[nodiscard]] static bool within(const TableRectangle& rectangle, const glm::dvec2& at, double margin_m) {
         return clearance(rectangle.corners(), std::span(&at, 1)) <= margin_m;
     }
-    /// The colour at a share of the place's picture, as the reader sees it: from its left, from its top.
+    /// The colour at a point of the place's picture, in fractions from its left and top as the reader sees it.
     [[nodiscard]] glm::u8vec4 seen_at(const Image8& image, const TablePlace& place, double u,
                                       double v) const {
         const std::array<glm::dvec2, 4> c = place.picture.corners();
@@ -131,7 +131,7 @@ protected:
         EXPECT_GE(lit, 2);
         expect_black_elsewhere(image);
     }
-    /// But for the prop: its shadow is compared with an exhibit without pictures.
+    /// Expects black except at the pictures and the prop, whose shadow is compared with an exhibit without pictures.
     void expect_black_elsewhere(const Image8& image) {
         const auto shadow = hidden_by_prop(make_prop(settings.prop), shown.table_from_prop,
                                            settings.projector.table_from_projector.translation);
@@ -160,12 +160,12 @@ protected:
         EXPECT_GT(outside, width * height / 4);
     }
 
-    bool waits = false; ///< for all that is loaded ahead
+    bool waits = false; ///< for everything that is loaded ahead
     Settings settings;
     std::unique_ptr<SurfacelessDisplay> display = SurfacelessDisplay::create(width, height).value();
     std::unique_ptr<ArtifactShow> show;
     std::optional<Exhibit> exhibit;
-    Situation situation;
+    TrackedState tracked_state;
     Presentation shown;
     MonotonicTime now{std::chrono::seconds(100)};
 };
@@ -175,7 +175,7 @@ TEST_F(OnTheTable, PicturesLieInTheirPlacesInTheirColours) {
         make(artifacts);
         for (const glm::dvec3& eye :
              {settings.eye.default_m, glm::dvec3(0.7, 0.0, 0.5), glm::dvec3(0.0, 0.6, 0.5)}) {
-            situation.eye_m = eye;
+            tracked_state.eye_m = eye;
             wait(milliseconds(1500));
             expect_pictures_in_their_places();
         }
@@ -214,9 +214,9 @@ TEST_F(OnTheTable, TheRingFillsWithWhatTheExhibitSays) {
     ASSERT_GE(shown.table->count, 2U);
     const PlacedPicture chosen = shown.table->pictures()[1];
     ASSERT_TRUE(chosen.artifact);
-    situation.table_from_prop.translation = glm::dvec3(chosen.place.picture.centre_m, 0.0);
+    tracked_state.table_from_prop.translation = glm::dvec3(chosen.place.picture.centre_m, 0.0);
     wait(milliseconds(400));
-    const auto shadow = hidden_by_prop(make_prop(settings.prop), situation.table_from_prop,
+    const auto shadow = hidden_by_prop(make_prop(settings.prop), tracked_state.table_from_prop,
                                        settings.projector.table_from_projector.translation);
     double last = 0.0;
     int pictures = 0;
@@ -236,7 +236,7 @@ TEST_F(OnTheTable, TheRingFillsWithWhatTheExhibitSays) {
                 }
             }
         }
-        if (shown.table->ring_full > 0.15) { // it has come up
+        if (shown.table->ring_full > 0.15) { // the ring has appeared
             EXPECT_NEAR(1.0 * white / (white + faint), shown.table->ring_full, 0.05);
             EXPECT_GT(white, last);
             last = white;
@@ -289,7 +289,7 @@ TEST_F(OnTheTable, APackWithoutAPictureHasASquare) {
 }
 
 TEST_F(OnTheTable, NoFrameAllocatesAndAPictureThatFadesIsDrawnAlone) {
-    waits = true; // the next artifact and the one before are loaded ahead; taking in another one allocates
+    waits = true; // the next and the previous artifact are loaded ahead; receiving another one allocates
     make(12);
     wait(milliseconds(1500));
     static_cast<void>(picture());
@@ -298,23 +298,24 @@ TEST_F(OnTheTable, NoFrameAllocatesAndAPictureThatFadesIsDrawnAlone) {
     const auto next = std::find_if(placed.begin(), placed.end(),
                                    [](const PlacedPicture& each) { return each.artifact == std::size_t{1}; });
     ASSERT_NE(next, placed.end());
-    const glm::dvec2 home(situation.table_from_prop.translation);
+    const glm::dvec2 home(tracked_state.table_from_prop.translation);
     const glm::dvec2 goal = next->place.picture.centre_m;
     const long before = synthetic::allocations_so_far();
     for (int k = 0; k <= 60; ++k) {
-        situation.table_from_prop.translation = glm::dvec3(glm::mix(home, goal, k / 60.0), 0.0);
+        tracked_state.table_from_prop.translation = glm::dvec3(glm::mix(home, goal, k / 60.0), 0.0);
         wait(milliseconds(20));
         static_cast<void>(
-            show->draw(now, shown, situation.eye_m, {display->framebuffer(), 1}, Redraw::Changes));
+            show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 1}, Redraw::Changes));
     }
     wait(milliseconds(600));
-    static_cast<void>(show->draw(now, shown, situation.eye_m, {display->framebuffer(), 1}, Redraw::Changes));
+    static_cast<void>(
+        show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 1}, Redraw::Changes));
     if (synthetic::allocations_are_counted) {
         EXPECT_EQ(synthetic::allocations_so_far(), before);
     }
     wait(milliseconds(100)); // the ring alone
     const DrawResult ring =
-        show->draw(now, shown, situation.eye_m, {display->framebuffer(), 1}, Redraw::Changes);
+        show->draw(now, shown, tracked_state.eye_m, {display->framebuffer(), 1}, Redraw::Changes);
     EXPECT_TRUE(ring.drawn);
     EXPECT_LT(ring.redrawn.width * ring.redrawn.height, width * height / 2);
     const Image8 partly = read_colour(display->framebuffer(), width, height);

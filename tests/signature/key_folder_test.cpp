@@ -55,10 +55,10 @@ TEST_F(KeyFolder, RefusesWhatItCannotRead) {
 }
 
 TEST_F(KeyFolder, HasNoMoreKeysThanTheSettings) {
-    for (std::size_t k = 0; k < most_trusted_keys; ++k) {
+    for (std::size_t k = 0; k < max_trusted_keys; ++k) {
         put(fmt::format("{:02}.pub", k), vectors::open_public);
     }
-    EXPECT_EQ(read_key_folder(folder_)->size(), most_trusted_keys);
+    EXPECT_EQ(read_key_folder(folder_)->size(), max_trusted_keys);
     put("more.pub", vectors::open_public);
     expect_refused("more than 32 public keys");
 }

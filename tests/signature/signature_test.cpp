@@ -1,5 +1,4 @@
-// Signatures by minisign, valid ones and ones altered in every possible way; and whose signatures are
-// trusted.
+// Signatures by minisign, valid ones and ones altered in every possible way; and which keys are trusted.
 #include "app/pack/signature/signature.h"
 #include "firmware_host/base/file.h"
 #include "tests/base/told.h"

@@ -206,7 +206,7 @@ private:
     std::mt19937 random_;
 };
 
-/// Whether all unpacked parts and the comment are those of one original, by name.
+/// True if all unpacked parts and the comment are those of one original, by name.
 bool is_one_of(const std::vector<Original>& originals, const std::string& comment, const Entries& parts,
                const PackDescription& description) {
     return std::any_of(originals.begin(), originals.end(), [&](const Original& original) {

@@ -121,11 +121,11 @@ TEST_F(SignedPacks, ThatAreNoPacksAreToldApart) {
 }
 
 TEST_F(SignedPacks, WithMoreThanIsAllowedAreRefusedUnread) {
-    const std::string large(pack_format::most_signature_bytes + 1, 'a');
+    const std::string large(pack_format::max_signature_bytes + 1, 'a');
     expect_no_pack(zip_of({{"manifest.json", "{}"}, {"signature", large}}),
                    "the signature has 65537 bytes, allowed are 65536");
     ZipWriter zip;
-    zip.add("manifest.json", Bytes(pack_format::most_manifest_bytes + 1), Packing::Deflated);
+    zip.add("manifest.json", Bytes(pack_format::max_manifest_bytes + 1), Packing::Deflated);
     expect_no_pack(zip.finish().value(), "manifest.json has 16777217 bytes");
 }
 

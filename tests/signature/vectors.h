@@ -16,7 +16,7 @@ inline constexpr std::string_view open_public = "untrusted comment: minisign pub
                                                 "RWSie4mHjLdoDgFygpvWxkFKDOTJgi5VklPjkmLVcy4pfr8p961f7U5V\n";
 inline constexpr std::string_view open_id = "E68B78C87897BA2";
 
-/// By the key above: of the hash, and of the bytes themselves.
+/// By the key above: one over the hash, and one over the bytes themselves.
 inline constexpr std::string_view of_the_hash =
     "untrusted comment: signature from minisign secret key\n"
     "RUSie4mHjLdoDsBEsuBz4xSrzzq7Mhox8wphCHDd+1CpA8j1qkiXcoERerfb94rTZAUUGgNYpVyceSEk1uvA8dLgB1wOK3y3DgY=\n"

@@ -58,7 +58,7 @@ pcm.mono_44100 {
     /// Plays the prompt and waits until it is over, at most twenty seconds.
     static bool say(const std::string& device, const SharedPrompt& prompt) {
         DeviceSound sound([device] { return open_alsa(device); });
-        SoundWish wish;
+        SoundRequest wish;
         const std::uint64_t number = wish.say(prompt);
         const auto give_up = std::chrono::steady_clock::now() + seconds(20);
         for (SoundReport report; report.over < number; report = sound.poll(monotonic_now(), wish)) {
@@ -102,7 +102,7 @@ TEST_F(AlsaDevice, ACardThatIsMonoAndOfAnotherRateIsConvertedFor) {
 }
 
 /// Polls until `done(report)` or for twenty seconds; asserts no duration.
-template <typename Done> bool until(Sound& sound, const SoundWish& wish, const Done& done) {
+template <typename Done> bool until(Sound& sound, const SoundRequest& wish, const Done& done) {
     const auto give_up = std::chrono::steady_clock::now() + seconds(20);
     while (!done(sound.poll(monotonic_now(), wish))) {
         if (std::chrono::steady_clock::now() > give_up) {
@@ -117,13 +117,13 @@ template <typename Done> bool until(Sound& sound, const SoundWish& wish, const D
 TEST_F(AlsaDevice, UnderrunsSuspensionsAndLossesAreSurvived) {
     FaultyCard& card = faulty_card();
     card.opened = 0;
-    const auto plays_on = [&card](Sound& sound, const SoundWish& wish) {
+    const auto plays_on = [&card](Sound& sound, const SoundRequest& wish) {
         return until(sound, wish, [&card, from = card.frames.load()](const SoundReport& report) {
             return report.audible && card.frames > from + 9600;
         });
     };
     DeviceSound sound([] { return open_alsa("faulty"); });
-    SoundWish wish;
+    SoundRequest wish;
     wish.say(level(120 * 48'000, 100));
     ASSERT_TRUE(plays_on(sound, wish));
     const std::uint64_t own = sound.poll(monotonic_now(), wish).underruns; // underruns caused by a busy

@@ -89,7 +89,7 @@ OpenPcm opener(FakeCard& card) {
 }
 
 /// Polls until `done(report)` or for twenty seconds; asserts no duration.
-template <typename Done> bool until(Sound& sound, const SoundWish& wish, const Done& done) {
+template <typename Done> bool until(Sound& sound, const SoundRequest& wish, const Done& done) {
     const auto give_up = std::chrono::steady_clock::now() + seconds(20);
     while (!done(sound.poll(monotonic_now(), wish))) {
         if (std::chrono::steady_clock::now() > give_up) {
@@ -105,7 +105,7 @@ TEST(DeviceSound, APromptComesOutWholeAndIsOverThen) {
     const SharedPrompt prompt = noise(15'000, 20'000, 31);
     {
         DeviceSound sound(opener(card));
-        SoundWish wish;
+        SoundRequest wish;
         const std::uint64_t number = wish.say(prompt);
         ASSERT_TRUE(
             until(sound, wish, [&](const SoundReport& r) { return r.audible && r.number == number; }));
@@ -124,7 +124,7 @@ TEST(DeviceSound, SpeechBeginsWithinTheQueueAndOneRound) {
     FakeCard card;
     card.plays = false;
     DeviceSound sound(opener(card));
-    SoundWish wish;
+    SoundRequest wish;
     // The queue is full, and nothing leaves it before the prompt is requested: the latest possible start.
     ASSERT_TRUE(until(sound, wish, [&](const SoundReport&) { return card.count() == capacity; }));
     wish.say(level(24'000, 20'000));
@@ -144,7 +144,7 @@ TEST(DeviceSound, CaptionsCarryOnWithoutADeviceAndSoundReturnsByItself) {
     FakeCard card;
     card.plugged = false;
     DeviceSound sound(opener(card));
-    SoundWish wish;
+    SoundRequest wish;
     const std::uint64_t number = wish.say(level(60 * 48'000, 5000));
     Nanoseconds heard{0};
     const auto goes_on = [&](bool audible) {
@@ -176,7 +176,7 @@ TEST(DeviceSound, CaptionsCarryOnWithoutADeviceAndSoundReturnsByItself) {
 TEST(DeviceSound, ADeviceThatStandsStillIsOpenedAgain) {
     FakeCard card;
     DeviceSound sound(opener(card));
-    const SoundWish wish;
+    const SoundRequest wish;
     ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.audible; }));
     card.plays = false;
     ASSERT_TRUE(until(sound, wish, [&](const SoundReport& report) { return report.losses > 0; }));
@@ -197,7 +197,7 @@ TEST(DeviceSound, ADeviceThatTakesLongToSayNoIsAskedSeldom) {
         std::this_thread::sleep_for(takes);
         return fail(ErrorKind::DeviceLost, "test.device", "not there");
     });
-    SoundWish wish;
+    SoundRequest wish;
     wish.say(level(60 * 48'000, 1));
     ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.heard > seconds(3); }));
     const int times = asked; // before the delay is known
@@ -208,7 +208,7 @@ TEST(DeviceSound, ADeviceThatTakesLongToSayNoIsAskedSeldom) {
 TEST(DeviceSound, UnderrunsOfAllDevicesAreCounted) {
     FakeCard card;
     DeviceSound sound(opener(card));
-    const SoundWish wish;
+    const SoundRequest wish;
     card.underruns = 3;
     ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.underruns == 3; }));
     card.plugged = false;
@@ -221,7 +221,7 @@ TEST(DeviceSound, UnderrunsOfAllDevicesAreCounted) {
 TEST(DeviceSound, ADeviceThatTakesEverythingIsHeldBackToTheClock) {
     FakeCard card; // plays its data immediately, without end
     DeviceSound sound(opener(card));
-    SoundWish wish;
+    SoundRequest wish;
     const MonotonicTime before = monotonic_now();
     wish.say(level(60 * 48'000, 1));
     ASSERT_TRUE(
@@ -246,7 +246,7 @@ TEST(DeviceSound, AFrameAllocatesNothingNorDoesItsThread) {
         GTEST_SKIP() << "the sanitizers bring their own allocations";
     }
     DeviceSound sound([]() -> Result<std::unique_ptr<PcmDevice>> { return std::make_unique<DeafPcm>(); });
-    SoundWish wish;
+    SoundRequest wish;
     ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.audible; }));
     const SharedPrompt prompts[] = {noise(4000, 9000, 34, {{1000, 1100}}), noise(9000, 9000, 35)};
     const long before = synthetic::allocations_so_far();
@@ -274,7 +274,7 @@ TEST(DeviceSound, WishesAndLossesInAnyOrderLeaveNoPromptStuck) {
                    ? fail(ErrorKind::DeviceLost, "test.device", "not now")
                    : open();
     });
-    SoundWish wish;
+    SoundRequest wish;
     std::mt19937 random(32);
     const SharedPrompt prompts[] = {noise(3000, 9000, 33, {{1000, 1100}}), level(700, 9), level(0, 0)};
     std::uint64_t number = 0;

@@ -19,7 +19,7 @@ double step_of_fade(double height, double length) {
 
 TEST(Mixer, APromptComesOutBitByBitButForTheFadesAtItsEnds) {
     Mixer mixer;
-    SoundWish wish;
+    SoundRequest wish;
     const SharedPrompt prompt = noise(2000, static_cast<int>(0.794 * 32768), 1);
     EXPECT_EQ(wish.say(prompt), 1U);
     mixer.follow(wish);
@@ -36,7 +36,7 @@ TEST(Mixer, APromptComesOutBitByBitButForTheFadesAtItsEnds) {
 TEST(Mixer, HowTheSamplesAreAskedForChangesNone) {
     const auto play = [](bool in_pieces) {
         Mixer mixer;
-        SoundWish wish;
+        SoundRequest wish;
         wish.set_gain_db(-3.0);
         wish.say(noise(20'000, 20'000, 3, {{5000, 6000}, {12'000, 12'000}}));
         mixer.follow(wish);
@@ -71,7 +71,7 @@ TEST(Mixer, APromptIsLeftWithinAMarkAndNowhereElse) {
             at = end + 1 + random() % 1000;
         }
         Mixer mixer;
-        SoundWish wish;
+        SoundRequest wish;
         wish.say(level(12'000, 10'000, marks));
         mixer.follow(wish);
         const std::size_t asked = random() % 12'000;
@@ -98,7 +98,7 @@ TEST(Mixer, APromptIsLeftWithinAMarkAndNowhereElse) {
 
 TEST(Mixer, WithoutAMarkItGoesOnToItsEnd) {
     Mixer mixer;
-    SoundWish wish;
+    SoundRequest wish;
     wish.say(level(5000, 9000));
     mixer.follow(wish);
     mixed(mixer, 100);
@@ -110,7 +110,7 @@ TEST(Mixer, WithoutAMarkItGoesOnToItsEnd) {
 
 TEST(Mixer, AStopFadesWithinMillisecondsAndTheNextPromptDoesNotWait) {
     Mixer mixer;
-    SoundWish wish;
+    SoundRequest wish;
     wish.say(level(second, 20'000));
     mixer.follow(wish);
     mixed(mixer, 5000);
@@ -128,7 +128,7 @@ TEST(Mixer, AStopFadesWithinMillisecondsAndTheNextPromptDoesNotWait) {
 
 TEST(Mixer, ANewPromptWaitsForTheMarkAndABreath) {
     Mixer mixer;
-    SoundWish wish;
+    SoundRequest wish;
     wish.say(level(second, 10'000, {{10'000, 10'100}}));
     mixer.follow(wish);
     mixed(mixer, 500);
@@ -145,7 +145,7 @@ TEST(Mixer, ANewPromptWaitsForTheMarkAndABreath) {
 
 TEST(Mixer, NumbersSayWhatIsOver) {
     Mixer mixer;
-    SoundWish wish;
+    SoundRequest wish;
     const auto report = [&] { return mixer.report(Nanoseconds(0)); };
     EXPECT_EQ(report().over, 0U);
     wish.say(level(1000, 1, {{400, 500}}));
@@ -184,7 +184,7 @@ TEST(Mixer, NumbersSayWhatIsOver) {
 
 TEST(Mixer, AnEmptyPromptIsOverAtOnce) {
     Mixer mixer;
-    SoundWish wish;
+    SoundRequest wish;
     wish.say(level(0, 0));
     mixer.follow(wish);
     EXPECT_EQ(first_heard(mixed(mixer, 100)), 100U);
@@ -193,7 +193,7 @@ TEST(Mixer, AnEmptyPromptIsOverAtOnce) {
 
 TEST(Mixer, TheVolumeMovesSmoothlyToWhatIsWished) {
     Mixer mixer;
-    SoundWish wish;
+    SoundRequest wish;
     wish.set_gain_db(-20.0);
     wish.say(level(10 * second, 10'000));
     mixer.follow(wish);
@@ -220,7 +220,7 @@ TEST(Mixer, GainsAreHeldWithinTheirLimits) {
 
 TEST(Mixer, NothingClips) {
     Mixer mixer;
-    SoundWish wish;
+    SoundRequest wish;
     wish.set_gain_db(12.0);
     wish.say(noise(second, 32'767, 8));
     mixer.follow(wish);

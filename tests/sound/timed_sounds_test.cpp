@@ -36,7 +36,7 @@ TEST(SampleClock, LosesNoSampleToRounding) {
 
 TEST(SilentSound, KeepsTimeAsIfItWasHeard) {
     SilentSound sound(start);
-    SoundWish wish;
+    SoundRequest wish;
     wish.say(level(48'000, 1000));
     EXPECT_EQ(sound.poll(start + seconds(1), wish).number, 0U); // starts now
     const SoundReport half = sound.poll(start + milliseconds(1500), wish);
@@ -53,7 +53,7 @@ TEST(SilentSound, KeepsTimeAsIfItWasHeard) {
 TEST(WavSound, HearsWhatTheSilentOneKeepsTimeOf) {
     SilentSound silent(start);
     WavSound wav(start);
-    SoundWish wish;
+    SoundRequest wish;
     std::mt19937 random(22);
     MonotonicTime now = start;
     for (int k = 0; k < 2000; ++k) {
@@ -85,7 +85,7 @@ TEST(WavSound, IsAWaveFileForOthers) {
     }
     const SharedPrompt prompt = noise(4800, 9000, 23);
     WavSound sound(start);
-    SoundWish wish;
+    SoundRequest wish;
     wish.say(prompt);
     (void)sound.poll(start + milliseconds(50), wish);
     (void)sound.poll(start + milliseconds(250), wish);

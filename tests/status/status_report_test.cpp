@@ -1,4 +1,4 @@
-// The description of the status: what is written is read again, and what is in docs/status.md.
+// The description of the status: written fields are read back, and docs/status.md has them.
 #include "app/status/describe_status.h"
 #include "app/status/prometheus_text.h"
 #include "app/status/status_fields.h"
@@ -19,7 +19,7 @@ namespace {
 
 using std::chrono::seconds;
 
-/// No field has its default.
+/// A report in which no field has its default.
 StatusReport full_report() {
     StatusReport report;
     report.written = {std::chrono::system_clock::from_time_t(1777651200), MonotonicTime(seconds(999)),
@@ -106,7 +106,7 @@ nlohmann::ordered_json parsed(const StatusReport& report) {
     return nlohmann::ordered_json::parse(status_json(report));
 }
 
-/// Every value that is no object, by the keys that lead to it.
+/// Collects every value that is not an object or a list, by the keys that lead to it.
 void collect(const nlohmann::ordered_json& json, const std::string& place,
              std::map<std::string, nlohmann::ordered_json>& values) {
     if (!json.is_structured()) {
@@ -174,7 +174,7 @@ TEST(StatusReport, WhatIsMissingIsNothingAndTheRestIsRead) {
         nlohmann::json less = whole;
         less.erase(key);
         less["of a later version"] = {{"a", 1}};
-        nlohmann::json other = whole; // another type is as good as missing
+        nlohmann::json other = whole; // another type counts as missing
         other[key] = value.is_number() ? nlohmann::json("no number") : nlohmann::json(5);
         const nlohmann::json read = nlohmann::json::parse(status_json(read_status_report(less)));
         EXPECT_EQ(nlohmann::json::parse(status_json(read_status_report(other))), read) << key;
@@ -215,7 +215,7 @@ TEST(StatusReport, TextsComeAsOnePrintableLine) {
     EXPECT_TRUE(nlohmann::json::accept(status_json(own)));
 }
 
-/// The exhibit's own lines are those that `frustumscreen status` makes of its file.
+/// The exhibit's own lines are those that `frustumscreen status` makes from its file.
 TEST(StatusReport, HasTheSameLinesFromItsFile) {
     const StatusReport report = full_report();
     const StatusReport read = read_status_report(nlohmann::json::parse(status_json(report)));
@@ -237,7 +237,7 @@ TEST(StatusPage, HasTheTableOfTheDescription) {
         << status_field_table();
 }
 
-/// What is inside of a field is told in that field's row.
+/// The row of a field describes its inner fields.
 TEST(StatusPage, NamesWhatIsInsideOfAField) {
     const std::string table = "\n" + status_field_table();
     std::size_t inside = 0;

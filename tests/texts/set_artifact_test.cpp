@@ -19,13 +19,13 @@ constexpr double usual_em_m = 0.010;
 CaptionLimits limits_for_captions() {
     CaptionLimits limits;
     for (const double width_m : caption_widths_m) {
-        for (const double em_m : {least_caption_em_m, usual_em_m}) {
+        for (const double em_m : {min_caption_em_m, usual_em_m}) {
             limits.text.push_back(static_cast<std::int32_t>(em_units * width_m / em_m));
             limits.title.push_back(static_cast<std::int32_t>(em_units * width_m / em_m / caption_title_em));
         }
     }
     limits.title_em = caption_title_em;
-    limits.most_height = 25 * em_units;
+    limits.max_height = 25 * em_units;
     return limits;
 }
 
@@ -85,7 +85,7 @@ TEST_F(SetArtifactTexts, captions_are_as_wide_as_the_kiosks_and_no_wider) {
         const SetArtifact made = set({{sample.language, sample.text, text}});
         ASSERT_EQ(made.languages.size(), 1U);
         const SetLanguage& language = made.languages.front();
-        for (const double em_m : {least_caption_em_m, usual_em_m}) {
+        for (const double em_m : {min_caption_em_m, usual_em_m}) {
             double last_height_m = 0.0;
             for (const double width_m : {0.30, 0.16}) { // words may be wider than 0.075 m
                 constexpr double texels_per_m = 2000.0;

@@ -1,7 +1,7 @@
 // The path through libusb and libudev to the kernel's files, which umockdev emulates: /sys and /dev/bus/usb.
 // Started by umockdev-wrapper. Tests only finding and opening, no transfers.
 
-#include "firmware_host/tracker/joined_bus.h"
+#include "firmware_host/tracker/composite_bus.h"
 #include "firmware_host/tracker/libusb_transport.h"
 #include "tests/tracker/fixture.h"
 
@@ -125,7 +125,7 @@ TEST(LibusbTransport, APlaceIsPassedOverOnEveryBus) {
     std::vector<std::unique_ptr<UsbBus>> buses;
     buses.push_back(make_libusb_bus());
     buses.push_back(make_libusb_bus());
-    JoinedBus bus(std::move(buses));
+    CompositeBus bus(std::move(buses));
     const auto place = [&bus](const std::vector<std::string>& but_not) {
         const auto found = bus.find(but_not);
         return found ? found->place : std::string(sentence_of(found.error()));

@@ -1,4 +1,4 @@
-#include "app/tracking/live_situation.h"
+#include "app/tracking/live_tracked_state.h"
 
 #include <gtest/gtest.h>
 
@@ -21,18 +21,18 @@ MonotonicTime at(int ms) {
 }
 
 TEST(SeenHead, IsTheEyeUntilASensorSaysMore) {
-    LiveSituation live(default_eye, lever_m);
+    LiveTrackedState live(default_eye, lever_m);
     EXPECT_EQ(live.at(at(0)).eye_m, default_eye);
     int ms = 1000;
     for (; ms < 2000; ms += 33) {
         EXPECT_TRUE(live.take_visitor(head(1, ms, left)));
         static_cast<void>(live.at(at(ms)));
     }
-    Situation situation = live.at(at(ms));
-    EXPECT_TRUE(situation.head_seen);
-    EXPECT_FALSE(situation.head_known);
-    EXPECT_LT(glm::distance(situation.eye_m, eye_of_head(left, {0.0, 0.0, lever_m})), 1e-3);
-    EXPECT_GT(situation.eye_sd_m, 0.02);
+    TrackedState tracked_state = live.at(at(ms));
+    EXPECT_TRUE(tracked_state.head_seen);
+    EXPECT_FALSE(tracked_state.head_known);
+    EXPECT_LT(glm::distance(tracked_state.eye_m, eye_of_head(left, {0.0, 0.0, lever_m})), 1e-3);
+    EXPECT_GT(tracked_state.eye_sd_m, 0.02);
     PoseSample sensor;
     sensor.station = head_station;
     sensor.position_m = right;
@@ -40,25 +40,25 @@ TEST(SeenHead, IsTheEyeUntilASensorSaysMore) {
         sensor.time = at(ms);
         EXPECT_TRUE(live.take(sensor));
         EXPECT_TRUE(live.take_visitor(head(1, ms, left)));
-        situation = live.at(at(ms));
+        tracked_state = live.at(at(ms));
     }
-    EXPECT_TRUE(situation.head_known);
-    EXPECT_FALSE(situation.head_seen);
-    EXPECT_LT(glm::distance(situation.eye_m, right), 1e-3);
+    EXPECT_TRUE(tracked_state.head_known);
+    EXPECT_FALSE(tracked_state.head_seen);
+    EXPECT_LT(glm::distance(tracked_state.eye_m, right), 1e-3);
 }
 
 /// The visitor has left: after a second the picture returns to the default eye, without a jump.
 TEST(SeenHead, WhoGoesLeavesTheDefaultEyeWithoutAJump) {
-    LiveSituation live(default_eye, lever_m);
+    LiveTrackedState live(default_eye, lever_m);
     glm::dvec3 before = default_eye;
     double farthest = 0.0;
     for (int ms = 1000; ms < 5000; ms += 16) {
         if (ms >= 1200 && ms < 2500) {
             EXPECT_TRUE(live.take_visitor(head(1, ms, left)));
         }
-        const Situation situation = live.at(at(ms));
-        farthest = std::max(farthest, glm::distance(situation.eye_m, before));
-        before = situation.eye_m;
+        const TrackedState tracked_state = live.at(at(ms));
+        farthest = std::max(farthest, glm::distance(tracked_state.eye_m, before));
+        before = tracked_state.eye_m;
     }
     EXPECT_FALSE(live.at(at(5000)).head_seen);
     EXPECT_LT(glm::distance(before, default_eye), 1e-3);
@@ -66,7 +66,7 @@ TEST(SeenHead, WhoGoesLeavesTheDefaultEyeWithoutAJump) {
 }
 
 TEST(SeenHead, ThePictureTurnsToWhoIsNearestToTheProp) {
-    LiveSituation live(default_eye, lever_m);
+    LiveTrackedState live(default_eye, lever_m);
     PoseSample prop;
     const auto step = [&](int ms, double x) {
         prop.time = at(ms);
@@ -95,32 +95,32 @@ TEST(SeenHead, ThePictureTurnsToWhoIsNearestToTheProp) {
     EXPECT_LT(glm::distance(eye, right), 0.12);
 }
 
-TEST(Holder, OneWhoHasGoneGivesWayAtOnce) {
-    Holder holder;
+TEST(ActiveVisitor, OneWhoHasGoneGivesWayAtOnce) {
+    ActiveVisitor active_visitor;
     const glm::dvec3 prop(0.0);
-    EXPECT_TRUE(holder.see(head(1, 1000, left), prop));
-    EXPECT_FALSE(holder.see(head(2, 1000, {0.7, -0.7, 0.5}), prop));
-    EXPECT_FALSE(holder.see(head(2, 1400, {0.7, -0.7, 0.5}), prop));
-    EXPECT_EQ(holder.person(), 1U);
-    EXPECT_TRUE(holder.see(head(2, 1600, {0.7, -0.7, 0.5}), prop));
-    EXPECT_EQ(holder.person(), 2U);
+    EXPECT_TRUE(active_visitor.see(head(1, 1000, left), prop));
+    EXPECT_FALSE(active_visitor.see(head(2, 1000, {0.7, -0.7, 0.5}), prop));
+    EXPECT_FALSE(active_visitor.see(head(2, 1400, {0.7, -0.7, 0.5}), prop));
+    EXPECT_EQ(active_visitor.person(), 1U);
+    EXPECT_TRUE(active_visitor.see(head(2, 1600, {0.7, -0.7, 0.5}), prop));
+    EXPECT_EQ(active_visitor.person(), 2U);
 }
 
-TEST(Holder, AShortStepNearerIsNoChange) {
-    Holder holder;
+TEST(ActiveVisitor, AShortStepNearerIsNoChange) {
+    ActiveVisitor active_visitor;
     const glm::dvec3 prop(0.0);
     int ms = 1000;
     for (; ms < 4000; ms += 33) {
-        static_cast<void>(holder.see(head(1, ms, {0.0, -0.6, 0.5}), prop));
+        static_cast<void>(active_visitor.see(head(1, ms, {0.0, -0.6, 0.5}), prop));
         const bool leans = ms % 1000 < 500;
-        static_cast<void>(holder.see(head(2, ms, {0.4, leans ? -0.1 : -0.8, 0.5}), prop));
-        EXPECT_EQ(holder.person(), 1U) << ms;
+        static_cast<void>(active_visitor.see(head(2, ms, {0.4, leans ? -0.1 : -0.8, 0.5}), prop));
+        EXPECT_EQ(active_visitor.person(), 1U) << ms;
     }
     for (; ms < 5000; ms += 33) {
-        static_cast<void>(holder.see(head(1, ms, {0.0, -0.6, 0.5}), prop));
-        static_cast<void>(holder.see(head(2, ms, {0.3, -0.1, 0.5}), prop));
+        static_cast<void>(active_visitor.see(head(1, ms, {0.0, -0.6, 0.5}), prop));
+        static_cast<void>(active_visitor.see(head(2, ms, {0.3, -0.1, 0.5}), prop));
     }
-    EXPECT_EQ(holder.person(), 2U);
+    EXPECT_EQ(active_visitor.person(), 2U);
 }
 
 } // namespace

@@ -82,7 +82,7 @@ TEST(SignalMeter, WhereNothingComesAnyMoreItSaysSoWithinASecond) {
 TEST(SignalMeter, AFasterTrackerFillsItAndNoMore) {
     SignalMeter meter;
     const TrackerSignal signal = meter.at(fill(meter, 2000.0, seconds(2), 0.1, 0.01));
-    EXPECT_EQ(signal.rate_hz, static_cast<double>(SignalMeter::most_samples));
+    EXPECT_EQ(signal.rate_hz, static_cast<double>(SignalMeter::max_samples));
 }
 
 } // namespace

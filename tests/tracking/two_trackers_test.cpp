@@ -1,6 +1,6 @@
 // The prop followed by two trackers at once, as in the exhibit: the visitor's picture while one is lost,
 // distorted by metal, and back.
-#include "app/tracking/live_situation.h"
+#include "app/tracking/live_tracked_state.h"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ RigidTransform slid(double t_s) {
 
 /// A 60 Hz tracker with 18 ms latency, 30 Hz tags with 45 ms, 60 Hz pictures that are lit 33 ms later.
 Told told(const Story& story, std::uint64_t seed = 1) {
-    LiveSituation live({0.0, -0.5, 0.5}, lever_m);
+    LiveTrackedState live({0.0, -0.5, 0.5}, lever_m);
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
     const auto noisy = [&](RigidTransform pose) {
@@ -81,28 +81,28 @@ Told told(const Story& story, std::uint64_t seed = 1) {
         ++pictures;
         const double lit_s = now + 0.033;
         live.tracker_is(story.metal_is_told(now) ? TrackerHealth::MetalNear : TrackerHealth::Well);
-        const Situation situation = live.at(time(lit_s));
-        if (told.leads.empty() ? situation.by_tags : told.leads.back().second != situation.by_tags) {
-            told.leads.emplace_back(now, situation.by_tags);
+        const TrackedState tracked_state = live.at(time(lit_s));
+        if (told.leads.empty() ? tracked_state.by_tags : told.leads.back().second != tracked_state.by_tags) {
+            told.leads.emplace_back(now, tracked_state.by_tags);
         }
         const RigidTransform truth = story.truth(lit_s);
-        told.last_off_mm = 1e3 * slip_m(step_between(truth, situation.table_from_prop), lever_m);
+        told.last_off_mm = 1e3 * slip_m(step_between(truth, tracked_state.table_from_prop), lever_m);
         if (before && now > 1.0) {
-            const PoseStep went = step_between(*before, situation.table_from_prop);
+            const PoseStep went = step_between(*before, tracked_state.table_from_prop);
             const PoseStep truly = step_between(story.truth(before_s), truth);
             const double step =
                 1e3 * slip_m({went.shift_m - truly.shift_m, went.turn_rad - truly.turn_rad}, lever_m);
             told.largest_step_mm = std::fmax(told.largest_step_mm, step);
             told.largest_off_mm = std::fmax(told.largest_off_mm, told.last_off_mm);
         }
-        before = situation.table_from_prop;
+        before = tracked_state.table_from_prop;
         before_s = lit_s;
     }
     return told;
 }
 
 /// 20 mm/s at 60 pictures per second are 0.33 mm; the filtered noise at rest is far below.
-constexpr double most_step_mm = 0.6;
+constexpr double max_step_mm = 0.6;
 
 TEST(TwoTrackers, AloneAndWellTheTrackerLeads) {
     for (const auto& truth : {at_rest, slid}) {
@@ -118,7 +118,7 @@ TEST(TwoTrackers, TagsTakeOverALostTrackerAndHandItBackWithoutAJump) {
     EXPECT_NEAR(rest.leads[0].first, 2.13, 0.05);
     EXPECT_TRUE(rest.leads[0].second);
     EXPECT_NEAR(rest.leads[1].first, 5.6, 0.15);
-    EXPECT_LT(rest.largest_step_mm, most_step_mm);
+    EXPECT_LT(rest.largest_step_mm, max_step_mm);
     EXPECT_LT(rest.largest_off_mm, 6.5); // their disagreement
     EXPECT_LT(rest.last_off_mm, 0.7);
 }
@@ -146,7 +146,7 @@ TEST(TwoTrackers, MetalThatComesNearHandsOverToTheTags) {
                                    .length_s = 14.0});
         ASSERT_EQ(told_of.leads.size(), 1U);
         EXPECT_NEAR(told_of.leads[0].first, told_s + 0.5, 0.1);
-        EXPECT_LT(told_of.largest_step_mm, most_step_mm);
+        EXPECT_LT(told_of.largest_step_mm, max_step_mm);
         EXPECT_LT(told_of.largest_off_mm, 5.0); // it grows to 6 and 12
         EXPECT_LT(told_of.last_off_mm, 0.7);
     }
@@ -167,7 +167,7 @@ TEST(TwoTrackers, CoveredTagsGiveTheLeadBack) {
                                .tags_seen = [](double t) { return t < 4.0; }});
     ASSERT_EQ(told_of.leads.size(), 2U);
     EXPECT_NEAR(told_of.leads[1].first, 4.25, 0.1);
-    EXPECT_LT(told_of.largest_step_mm, most_step_mm);
+    EXPECT_LT(told_of.largest_step_mm, max_step_mm);
 }
 
 /// Both are lost: the pose is held, then unknown; the tags find the prop elsewhere and the picture glides

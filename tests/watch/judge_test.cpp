@@ -23,7 +23,7 @@ struct Scene {
         outcome.exhibit = ExhibitSays{.age = Nanoseconds(0), .well = true, .pictures = 1, .artifacts = 2};
         return outcome;
     }
-    Seen look() {
+    Observation look() {
         now += seconds(1);
         if (counts && outcome.exhibit) {
             ++outcome.exhibit->pictures;
@@ -33,7 +33,7 @@ struct Scene {
     /// Seconds until the fault is detected; -1: not within `length`.
     int trouble_after(Cause cause, Nanoseconds length = minutes(5)) {
         for (int second = 1; seconds(second) <= length; ++second) {
-            const Seen seen = look();
+            const Observation seen = look();
             if (seen.trouble) {
                 EXPECT_EQ(word_of(*seen.trouble), word_of(cause));
                 return second;
@@ -43,7 +43,7 @@ struct Scene {
     }
     void well(Nanoseconds length) {
         for (int second = 0; seconds(second) < length; ++second) {
-            const Seen seen = look();
+            const Observation seen = look();
             ASSERT_FALSE(seen.trouble) << word_of(*seen.trouble);
             ASSERT_TRUE(seen.lit);
         }
@@ -72,7 +72,7 @@ TEST(Judge, WhatTheLastProcessSaidIsNoLifeOfTheNextOne) {
     scene.outcome.process = 322;
     for (int second = 2; second < 50; ++second) { // its start takes long, but within the patience
         scene.outcome.exhibit->age = seconds(second);
-        const Seen seen = scene.look();
+        const Observation seen = scene.look();
         ASSERT_FALSE(seen.lit);
         ASSERT_FALSE(seen.trouble) << word_of(*seen.trouble) << " after " << second << " s";
     }
@@ -182,7 +182,7 @@ TEST(Judge, LesserTroublesMustLast) {
     EXPECT_NEAR(scene.trouble_after(Cause::DeviceSilent), 16, 2);
     for (int second = 0; second < 100; ++second) { // a device that comes and goes is handled by its driver
         scene.outcome.exhibit->device_hangs = second % 10 != 0;
-        const Seen seen = scene.look();
+        const Observation seen = scene.look();
         EXPECT_FALSE(second > 0 && seen.trouble);
     }
 }

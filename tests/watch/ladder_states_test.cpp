@@ -18,14 +18,15 @@ using std::chrono::seconds;
 constexpr Awake now = hours(1000);
 
 struct Event {
-    Seen seen;
-    Means means;
+    Observation seen;
+    Capabilities capabilities;
 };
 
 std::vector<Event> all_events() {
     std::vector<Event> events;
-    for (unsigned means = 0; means < 8; ++means) {
-        const Means possible{(means & 1U) != 0, (means & 2U) != 0, (means & 4U) != 0};
+    for (unsigned capabilities = 0; capabilities < 8; ++capabilities) {
+        const Capabilities possible{(capabilities & 1U) != 0, (capabilities & 2U) != 0,
+                                    (capabilities & 4U) != 0};
         events.push_back({{std::nullopt, true}, possible});
         events.push_back({{std::nullopt, false}, possible});
         for (std::size_t k = 0; k < cause_count; ++k) {
@@ -84,8 +85,8 @@ bool is_given_up(const LadderMemory& memory, Cause cause) {
 }
 
 /// The rules, each written independently of the ladder's code. Returns the name of the broken rule, or null.
-const char* broken_rule(const LadderMemory& before, const Event& event, const std::optional<Act>& act,
-                        const LadderMemory& after) {
+const char* broken_rule(const LadderMemory& before, const Event& event,
+                        const std::optional<LadderAction>& act, const LadderMemory& after) {
     const Awake waited = now - before.latest_at;
     const Awake due = Ladder::settling(*before.latest) + Ladder::pause_after(before.climb);
     const bool is_troubled = event.seen.trouble && !is_given_up(before, *event.seen.trouble);
@@ -108,14 +109,14 @@ const char* broken_rule(const LadderMemory& before, const Event& event, const st
     }
     if (act->step == Step::Reboot) {
         const bool is_late = !before.reboots[0] || now - *before.reboots[0] >= minutes(10);
-        if (!event.means.reboot || before.reboots[5] || !is_late) {
+        if (!event.capabilities.reboot || before.reboots[5] || !is_late) {
             return "a reboot that is not allowed";
         }
     } else if (was_tried(before, act->step) && act->step != Step::SafePicture) {
         return "a step is tried twice";
     }
-    if ((act->step == Step::ResetDevice && !event.means.device) ||
-        (act->step == Step::LastGoodSet && !event.means.last_good_set)) {
+    if ((act->step == Step::ResetDevice && !event.capabilities.device) ||
+        (act->step == Step::LastGoodSet && !event.capabilities.last_good_set)) {
         return "a step that cannot be taken";
     }
     if (before.mode == Mode::Safe && (act->step == Step::RestartExhibit || act->step == Step::SafePicture)) {
@@ -140,7 +141,7 @@ TEST(LadderStates, EveryStateAndEveryEvent) {
     for_all_states([&](const LadderMemory& before) {
         for (const Event& event : events) {
             Ladder ladder(before, false);
-            const std::optional<Act> act = ladder.look(now, event.seen, event.means);
+            const std::optional<LadderAction> act = ladder.look(now, event.seen, event.capabilities);
             const char* const broken = broken_rule(before, event, act, ladder.memory());
             if (broken != nullptr && ++count < 10) {
                 ADD_FAILURE() << broken << ": mode " << word_of(before.mode) << " climb " << int{before.climb}

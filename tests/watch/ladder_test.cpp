@@ -29,13 +29,13 @@ struct Kiosk {
     LadderMemory memory;
     Ladder ladder{memory, true};
     Awake now{0};
-    Means means{true, true, true};
+    Capabilities capabilities{true, true, true};
 
-    std::vector<Taken> see(const Seen& seen, Awake length) {
+    std::vector<Taken> see(const Observation& seen, Awake length) {
         std::vector<Taken> taken;
         const Awake begin = now;
         for (const Awake end = now + length; now < end; now += seconds(1)) {
-            if (const std::optional<Act> act = ladder.look(now, seen, means)) {
+            if (const std::optional<LadderAction> act = ladder.look(now, seen, capabilities)) {
                 EXPECT_EQ(act->cause.has_value(), act->step != Step::Return);
                 taken.push_back({act->step, std::chrono::duration_cast<seconds>(now - begin).count()});
             }
@@ -74,8 +74,8 @@ TEST(Ladder, RebootsSixTimesADayAndStaysWithTheSafePicture) {
     std::vector<Awake> reboots;
     for (const Awake end = hours(72); kiosk.now < end; kiosk.now += seconds(1)) {
         const bool is_safe = kiosk.ladder.memory().mode == Mode::Safe;
-        const Seen seen = is_safe ? Seen{} : Seen{Cause::NoPicture, false};
-        const std::optional<Act> act = kiosk.ladder.look(kiosk.now, seen, kiosk.means);
+        const Observation seen = is_safe ? Observation{} : Observation{Cause::NoPicture, false};
+        const std::optional<LadderAction> act = kiosk.ladder.look(kiosk.now, seen, kiosk.capabilities);
         if (act && act->step == Step::Reboot) {
             reboots.push_back(kiosk.now);
             kiosk.ladder = Ladder(kiosk.ladder.memory(), true);
@@ -145,7 +145,7 @@ TEST(Ladder, ADeviceThatWasGivenUpDoesNotKeepTheExhibitInABadMode) {
 
 TEST(Ladder, LeavesOutWhatCannotBeDone) {
     Kiosk kiosk;
-    kiosk.means = {};
+    kiosk.capabilities = {};
     EXPECT_EQ(kiosk.bad(Cause::NoPicture, minutes(2)), (Steps{{Step::RestartExhibit, 0},
                                                               {Step::DrawPlainly, 20},
                                                               {Step::BuiltIn, 50},

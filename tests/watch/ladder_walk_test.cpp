@@ -24,7 +24,7 @@ struct Book {
     bool is_good = false;
     std::array<std::size_t, step_count> steps{};
 
-    void enter(Awake now, const Act& act, const Seen& seen, Mode mode_before) {
+    void enter(Awake now, const LadderAction& act, const Observation& seen, Mode mode_before) {
         ++steps.at(static_cast<std::size_t>(act.step));
         EXPECT_GE(now - latest, Ladder::settling(latest_step)) << "two steps at once";
         latest = now;
@@ -83,7 +83,7 @@ private:
     void look() {
         const Mode mode = ladder_.memory().mode;
         const bool is_safe = mode == Mode::Safe;
-        Seen seen{trouble_, lit_ || (trouble_ && !is_dark(*trouble_))};
+        Observation seen{trouble_, lit_ || (trouble_ && !is_dark(*trouble_))};
         if (is_safe != (trouble_ == Cause::SafePictureFails)) {
             seen.trouble.reset(); // a judge reports this only of the safe picture, and no other fault of it
         }
@@ -93,7 +93,7 @@ private:
         const bool is_good = seen.lit && (!seen.trouble || given_up);
         book_.good_since = is_good && book_.is_good ? book_.good_since : now_;
         book_.is_good = is_good;
-        if (const std::optional<Act> act = ladder_.look(now_, seen, means_)) {
+        if (const std::optional<LadderAction> act = ladder_.look(now_, seen, means_)) {
             book_.enter(now_, *act, seen, mode);
             book_.is_good = false;
             if (act->step == Step::Reboot) {
@@ -108,7 +108,7 @@ private:
     Book book_;
     std::optional<Cause> trouble_;
     bool lit_ = true;
-    Means means_{true, true, true};
+    Capabilities means_{true, true, true};
 };
 
 TEST(LadderWalk, TenMillionEvents) {

@@ -1,4 +1,4 @@
-// What the kernel's files say of the machine, against files of the test's own; of a disk, against std::filesystem.
+// The machine's state from kernel files, against files of the test's own; a disk's space, against std::filesystem.
 #include "app/watch/machine.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ protected:
 
 TEST_F(MachineOfFiles, IsAsHotAsItsHottestProcessorOrZone) {
     EXPECT_FALSE(hottest_c(root_));
-    write("sys/class/thermal/thermal_zone0/temp", "-274000\n"); // a sensor that is not there
+    write("sys/class/thermal/thermal_zone0/temp", "-274000\n"); // a missing sensor
     write("sys/class/thermal/cooling_device0/temp", "99000\n");
     write("sys/class/hwmon/hwmon0/name", "nvme\n");
     write("sys/class/hwmon/hwmon0/temp1_input", "84000\n");
@@ -54,7 +54,7 @@ TEST_F(MachineOfFiles, HasADisk) {
     const fs::space_info other = fs::space(root_);
     EXPECT_EQ(disk->size_bytes, other.capacity);
     EXPECT_NEAR(static_cast<double>(disk->free_bytes), static_cast<double>(other.available),
-                0.05 * static_cast<double>(other.capacity)) // others write meanwhile
+                0.05 * static_cast<double>(other.capacity)) // other programs write meanwhile
         << disk->free_bytes;
     EXPECT_TRUE(disk->writable);
     EXPECT_GT(disk->free_share(), 0.0);

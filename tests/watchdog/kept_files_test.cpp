@@ -102,9 +102,9 @@ TEST_F(KeptFiles, FaultsAreARingThatDoesNotGrow) {
             book.enter(fault("number " + std::to_string(60 * round + k)));
         }
         book.keep(now += minutes(1), false);
-        EXPECT_EQ(book.latest().size(), FaultBook::most_latest);
+        EXPECT_EQ(book.latest().size(), FaultBook::max_latest);
     }
-    EXPECT_EQ(fs::file_size(folder_ / "faults"), FaultBook::most_lines * FaultBook::line_bytes);
+    EXPECT_EQ(fs::file_size(folder_ / "faults"), FaultBook::max_lines * FaultBook::line_bytes);
     std::istringstream lines(content("faults"));
     std::set<int> numbers;
     for (std::string line; std::getline(lines, line);) {
@@ -113,9 +113,9 @@ TEST_F(KeptFiles, FaultsAreARingThatDoesNotGrow) {
         EXPECT_NE(line.find("no_picture -> restart_exhibit; number " + std::to_string(std::stoi(line) - 1)),
                   std::string::npos);
     }
-    EXPECT_EQ(numbers.size(), FaultBook::most_lines);
+    EXPECT_EQ(numbers.size(), FaultBook::max_lines);
     EXPECT_EQ(*numbers.rbegin(), 6000);
-    EXPECT_EQ(*numbers.begin(), 6000 - static_cast<int>(FaultBook::most_lines) + 1);
+    EXPECT_EQ(*numbers.begin(), 6000 - static_cast<int>(FaultBook::max_lines) + 1);
 }
 
 TEST_F(KeptFiles, FaultsAreWrittenAtMostOnceAMinute) {

@@ -13,9 +13,9 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t most_moves = 12;
-constexpr double most_p95_s = 6.0;
-constexpr double least_whole = 0.95;
+constexpr std::size_t max_moves = 12;
+constexpr double max_p95_s = 6.0;
+constexpr double min_whole = 0.95;
 
 double quantile(const std::vector<double>& ascending, double share) {
     if (ascending.empty()) {
@@ -29,43 +29,43 @@ AdviceProof prove(const GuidanceSetup& setup, const GuidanceOptions& options,
                   const std::function<void(double)>& progress) {
     AdviceProof proof;
     proof.situations = options.situations;
-    proof.mended_after.assign(most_moves, 0);
+    proof.mended_after.assign(max_moves, 0);
     Seeded seeded(options.seed);
     std::vector<double> times_ms;
     for (int k = 0; k < options.situations; ++k) {
         if (k % 256 == 0) {
             progress(static_cast<double>(k) / options.situations);
         }
-        GuidedSituation situation = seeded_situation(setup, seeded);
+        GuidedState tracked_state = seeded_situation(setup, seeded);
         Advisor advisor(setup);
         const FaceReader& reader = advisor.reader();
-        const auto whole = [&](const GuidedSituation& now) {
-            return reader.shows_whole(now, reader.read(now));
-        };
+        const auto whole = [&](const GuidedState& now) { return reader.shows_whole(now, reader.read(now)); };
         std::size_t moves = 0;
-        for (; !whole(situation) && moves < most_moves; ++moves) {
-            if (reader.whole(situation)) { // none of its faces is seen: what Guide advises then
-                situation = after({Action::Upright}, setup, situation);
+        for (; !whole(tracked_state) && moves < max_moves; ++moves) {
+            if (reader.whole(
+                    tracked_state)) { // no face of the artifact is seen: Guide advises standing it up
+                tracked_state = after({Action::Upright}, setup, tracked_state);
                 continue;
             }
             const MonotonicTime begun = monotonic_now();
-            const Advice advice = advisor.advise(situation).value_or(Advice{});
+            const Advice advice = advisor.advise(tracked_state).value_or(Advice{});
             times_ms.push_back(1e3 * to_seconds(monotonic_now() - begun));
             if (advice.move.action == Action::Wait) {
                 proof.without_advice += moves == 0 ? 1 : 0;
-                moves = most_moves;
+                moves = max_moves;
                 break;
             }
-            const GuidedSituation next =
-                after(advice.move, setup, situation, seeded_person(advice.move, setup, seeded));
+            const GuidedState next =
+                after(advice.move, setup, tracked_state, seeded_person(advice.move, setup, seeded));
             if (advice.steps == 1) {
                 ++proof.single;
-                const bool helped = reader.whole(next) || reader.lost_px(next) < reader.lost_px(situation);
+                const bool helped =
+                    reader.whole(next) || reader.lost_px(next) < reader.lost_px(tracked_state);
                 proof.failed += helped ? 0 : 1;
             }
-            situation = next;
+            tracked_state = next;
         }
-        if (!whole(situation)) {
+        if (!whole(tracked_state)) {
             ++proof.never;
         } else if (moves == 0) {
             ++proof.valid;
@@ -181,12 +181,12 @@ std::vector<LimitVerdict> judge(const GuidedProp& prop) {
         {prop.name + ": every advice of a single move helps, however it is carried out",
          fmt::format("{} of {} do not", prop.proof.failed, prop.proof.single), prop.proof.failed == 0},
         {prop.name + ": every situation is mended",
-         fmt::format("{} of {} are not within {} moves", prop.proof.never, prop.proof.situations, most_moves),
+         fmt::format("{} of {} are not within {} moves", prop.proof.never, prop.proof.situations, max_moves),
          prop.proof.never == 0},
-        {fmt::format("{}: 95 % of the losses mended within {:g} s", prop.name, most_p95_s),
-         fmt::format("{:.1f} s", p95_s), p95_s <= most_p95_s},
-        {fmt::format("{}: whole for {:g} % of the time", prop.name, 100.0 * least_whole),
-         fmt::format("{:.1f} %", 100.0 * ours.whole_share), ours.whole_share >= least_whole},
+        {fmt::format("{}: 95 % of the losses mended within {:g} s", prop.name, max_p95_s),
+         fmt::format("{:.1f} s", p95_s), p95_s <= max_p95_s},
+        {fmt::format("{}: whole for {:g} % of the time", prop.name, 100.0 * min_whole),
+         fmt::format("{:.1f} %", 100.0 * ours.whole_share), ours.whole_share >= min_whole},
         {prop.name + ": better than the paper's rule",
          fmt::format("95th percentile {:.1f} s against {:.1f} s, whole {:.1f} % against {:.1f} %", p95_s,
                      paper.quantile_s(0.95), 100.0 * ours.whole_share, 100.0 * paper.whole_share),

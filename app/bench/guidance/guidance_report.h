@@ -1,4 +1,4 @@
-/// frustumscreen-bench guidance: whether each advice helps, and whether advice helps people.
+/// frustumscreen-bench guidance: how often a single advice helps, and how much advice helps visitors.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -17,20 +17,20 @@ namespace frustumscreen {
 struct GuidanceOptions {
     int situations = 100000; ///< for each prop
     int visitors = 200;      ///< for each prop and adviser
-    double seconds = 60.0;   ///< of each visit
+    double seconds = 60.0;   ///< length of a visit
     std::uint64_t seed = 1;
 };
 
-/// Advice for seeded situations, followed by people who are sloppy.
+/// Results of advice for seeded situations, carried out with the inaccuracy of people.
 struct AdviceProof {
     int situations = 0;
-    int valid = 0;                 ///< already
+    int valid = 0;                 ///< valid from the start
     std::vector<int> mended_after; ///< [k]: whole after k + 1 moves
-    int never = 0;                 ///< not within as many moves as `mended_after` has
-    int without_advice = 0;        ///< of the situations: no sequence was found
-    long single = 0;               ///< advices of one move that were carried out
-    long failed = 0;               ///< of these: neither whole nor a smaller unlit area
-    double median_ms = 0.0;        ///< to find an advice
+    int never = 0;                 ///< not mended within that many moves
+    int without_advice = 0;        ///< situations without an advice: no sequence was found
+    long single = 0;               ///< advices of a single move that were carried out
+    long failed = 0;               ///< neither whole afterwards nor a smaller unlit area
+    double median_ms = 0.0;        ///< time to find an advice
     double p99_ms = 0.0;
 };
 
@@ -40,8 +40,8 @@ struct VisitsOf {
     double whole_share = 0.0;
     double advices_a_minute = 0.0;
     double losses_a_minute = 0.0;
-    std::array<double, dark_while_count> dark_share{}; ///< of the time, by `DarkWhile`
-    /// Seconds within which this share of the losses was mended.
+    std::array<double, dark_while_count> dark_share{}; ///< shares of the time, by `DarkWhile`
+    /// Seconds within which this share of the losses is mended.
     [[nodiscard]] double quantile_s(double share) const;
 };
 
@@ -51,14 +51,14 @@ struct GuidedProp {
     std::vector<VisitsOf> visits;
 };
 
-/// `progress`: the share that is done.
+/// `progress`: share of the work that is done.
 [[nodiscard]] GuidedProp measure_guidance(const std::string& name, const GuidanceSetup& setup,
                                           const GuidanceOptions& options,
                                           const std::function<void(double)>& progress);
 
 [[nodiscard]] std::string guidance_table(const GuidedProp& prop);
 [[nodiscard]] std::string guidance_csv(const std::vector<GuidedProp>& props);
-/// The targets: no advice that fails, 95 % of the losses mended within 6 s, the picture whole for 95 % of the time.
+/// Targets: no advice fails, 95 % of the losses are mended within 6 s, and the picture is whole for 95 % of the time.
 [[nodiscard]] std::vector<LimitVerdict> judge(const GuidedProp& prop);
 
 } // namespace frustumscreen

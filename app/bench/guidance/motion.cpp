@@ -16,25 +16,25 @@ constexpr double begins_and_ends_s = 0.2;
 
 } // namespace
 
-GuidedSituation Motion::now() const {
+GuidedState Motion::now() const {
     const double share = lasts_s > 0.0 ? std::min(1.0, gone_s / lasts_s) : 1.0;
     const double eased = share * share * (3.0 - 2.0 * share);
-    GuidedSituation situation;
-    situation.table_from_prop.rotation =
+    GuidedState tracked_state;
+    tracked_state.table_from_prop.rotation =
         glm::slerp(from.table_from_prop.rotation, to.table_from_prop.rotation, eased);
-    situation.table_from_prop.translation =
+    tracked_state.table_from_prop.translation =
         glm::mix(from.table_from_prop.translation, to.table_from_prop.translation, eased);
     const double azimuth = std::atan2(from.eye_m.y, from.eye_m.x);
     const double turn = std::remainder(std::atan2(to.eye_m.y, to.eye_m.x) - azimuth, 2.0 * std::numbers::pi);
     const double radius =
         glm::mix(glm::length(glm::dvec2(from.eye_m)), glm::length(glm::dvec2(to.eye_m)), eased);
     const double at = azimuth + eased * turn;
-    situation.eye_m = {radius * std::cos(at), radius * std::sin(at),
-                       glm::mix(from.eye_m.z, to.eye_m.z, eased)};
-    return situation;
+    tracked_state.eye_m = {radius * std::cos(at), radius * std::sin(at),
+                           glm::mix(from.eye_m.z, to.eye_m.z, eased)};
+    return tracked_state;
 }
 
-double time_for_s(const Move& move, const GuidedSituation& from, const GuidedSituation& to) {
+double time_for_s(const Move& move, const GuidedState& from, const GuidedState& to) {
     switch (move.action) {
     case Action::SetDown:
     case Action::Upright:

@@ -1,4 +1,4 @@
-/// A movement of a simulated visitor that is under way: from one situation to another in a time, begun and ended gently.
+/// A simulated visitor's movement from one situation to another within a given time, with a smooth start and end.
 ///
 /// Frames   table T, metres, seconds.
 /// Threads  pure; any.
@@ -9,16 +9,16 @@
 namespace frustumscreen {
 
 struct Motion {
-    GuidedSituation from;
-    GuidedSituation to;
+    GuidedState from;
+    GuidedState to;
     double lasts_s = 0.0;
     double gone_s = 0.0;
 
-    [[nodiscard]] GuidedSituation now() const;
+    [[nodiscard]] GuidedState now() const;
     [[nodiscard]] bool done() const { return gone_s >= lasts_s; }
 };
 
-/// How long people take for a move that leads from one situation to the other.
-[[nodiscard]] double time_for_s(const Move& move, const GuidedSituation& from, const GuidedSituation& to);
+/// Time that people take for a move between two situations.
+[[nodiscard]] double time_for_s(const Move& move, const GuidedState& from, const GuidedState& to);
 
 } // namespace frustumscreen

@@ -14,7 +14,7 @@ namespace {
 constexpr double usual_way_m = 0.10;
 constexpr double usual_turn_rad = std::numbers::pi / 6.0;
 
-/// The same action with the amount that a person takes who was told none.
+/// The action with the amount that a person takes if none is advised.
 Move without_amount(Move move) {
     if (move.action == Action::Turn) {
         move.turn_rad = move.turn_rad > 0.0 ? usual_turn_rad : -usual_turn_rad;
@@ -24,15 +24,16 @@ Move without_amount(Move move) {
     return move;
 }
 
-/// Turns the face that cannot be opened by one action towards the projector.
-Move towards_light(const FaceReader& reader, const GuidedSituation& situation, std::uint32_t face) {
+/// A turn that brings the face towards the projector, for a face that no single action opens.
+Move towards_light(const FaceReader& reader, const GuidedState& tracked_state, std::uint32_t face) {
     const GuidanceSetup& setup = reader.setup();
     Move move{Action::Turn};
     for (std::size_t k = 0; k < setup.prop.faces.size(); ++k) {
         if ((face >> k & 1U) != 0) {
-            const glm::dvec3 normal = situation.table_from_prop.direction(setup.prop.faces[k].plane.normal);
+            const glm::dvec3 normal =
+                tracked_state.table_from_prop.direction(setup.prop.faces[k].plane.normal);
             const glm::dvec3 way =
-                setup.table_from_projector.translation - situation.table_from_prop.translation;
+                setup.table_from_projector.translation - tracked_state.table_from_prop.translation;
             const bool left = normal.x * way.y - normal.y * way.x > 0.0;
             move.turn_rad = left ? usual_turn_rad : -usual_turn_rad;
         }
@@ -42,27 +43,27 @@ Move towards_light(const FaceReader& reader, const GuidedSituation& situation, s
 
 } // namespace
 
-std::optional<Move> paper_advice(const FaceReader& reader, const GuidedSituation& situation) {
-    const FaceSets now = reader.read(situation);
+std::optional<Move> paper_advice(const FaceReader& reader, const GuidedState& tracked_state) {
+    const FaceSets now = reader.read(tracked_state);
     if (now.valid()) {
         return std::nullopt;
     }
-    const std::uint32_t largest = reader.largest_of(situation, now.unlit());
+    const std::uint32_t largest = reader.largest_of(tracked_state, now.unlit());
     const std::uint32_t valid = now.seen & now.lit;
     std::optional<Move> best;
     double least = std::numeric_limits<double>::infinity();
-    for (const Candidate& candidate : candidates(reader.setup(), situation, MoveSet::Only).all()) {
+    for (const Candidate& candidate : candidates(reader.setup(), tracked_state, MoveSet::Only).all()) {
         if (candidate.move.action == Action::ComeRound || stands_elsewhere(candidate.move) ||
             candidate.effort >= least) {
             continue;
         }
-        const FaceSets next = reader.read(after(candidate.move, reader.setup(), situation));
+        const FaceSets next = reader.read(after(candidate.move, reader.setup(), tracked_state));
         if ((next.unlit() & (largest | valid)) == 0) {
             best = candidate.move;
             least = candidate.effort;
         }
     }
-    return without_amount(best ? *best : towards_light(reader, situation, largest));
+    return without_amount(best ? *best : towards_light(reader, tracked_state, largest));
 }
 
 } // namespace frustumscreen

@@ -1,8 +1,8 @@
-/// The advice of the paper: the one action that opens the unlit face with the largest area on the visitor's screen, with
-/// the faces that are valid kept.
+/// The advice of the paper: the single action that opens the unlit face with the largest area on the visitor's screen
+/// and keeps the valid faces.
 ///
-/// The paper has moving and rotating alone, and says no amounts. It gets more here: also setting down and standing
-/// upright, and of all actions that open the face the one that does so with the least effort.
+/// The paper only moves and rotates, and gives no amounts. This version may also set the prop down or upright, and
+/// takes, of all actions that open the face, the one with the least effort.
 ///
 /// Threads  pure; any.
 /// Source   Kim, Shin, Kim 2008, 'Guiding the user'.
@@ -14,7 +14,7 @@
 
 namespace frustumscreen {
 
-/// Nothing if the situation is valid. The amounts are those that people take who were told none: 10 cm, 30 degrees.
-[[nodiscard]] std::optional<Move> paper_advice(const FaceReader& reader, const GuidedSituation& situation);
+/// Nothing if the situation is valid. The amounts are those of people who are told none: 10 cm, 30 degrees.
+[[nodiscard]] std::optional<Move> paper_advice(const FaceReader& reader, const GuidedState& tracked_state);
 
 } // namespace frustumscreen

@@ -11,32 +11,32 @@ namespace frustumscreen {
 
 namespace {
 
-/// What it takes to mend the picture again, and once more.
+/// Time to mend the picture again after an unsteady pose loses it.
 constexpr double unsteady_s = 4.0;
 
 } // namespace
 
-std::optional<Move> perfect_advice(const FaceReader& reader, const GuidedSituation& situation) {
-    if (reader.whole(situation)) {
+std::optional<Move> perfect_advice(const FaceReader& reader, const GuidedState& tracked_state) {
+    if (reader.whole(tracked_state)) {
         return std::nullopt;
     }
     std::optional<Move> best;
-    double least_cost_s = std::numeric_limits<double>::infinity();
+    double min_cost_s = std::numeric_limits<double>::infinity();
     for (const MoveSet set : {MoveSet::Only, MoveSet::Last}) {
-        for (const Candidate& candidate : candidates(reader.setup(), situation, set).all()) {
-            const GuidedSituation next = after(candidate.move, reader.setup(), situation);
-            const double lasts_s = time_for_s(candidate.move, situation, next);
-            if (lasts_s < least_cost_s && reader.whole(next)) {
+        for (const Candidate& candidate : candidates(reader.setup(), tracked_state, set).all()) {
+            const GuidedState next = after(candidate.move, reader.setup(), tracked_state);
+            const double lasts_s = time_for_s(candidate.move, tracked_state, next);
+            if (lasts_s < min_cost_s && reader.whole(next)) {
                 int looks = 0;
                 const double cost_s = lasts_s + unsteady_s * (1.0 - steadiness(reader, next, looks));
-                if (cost_s < least_cost_s) {
+                if (cost_s < min_cost_s) {
                     best = candidate.move;
-                    least_cost_s = cost_s;
+                    min_cost_s = cost_s;
                 }
             }
         }
     }
-    return best ? best : advise(reader, situation).value_or(Advice{}).move;
+    return best ? best : advise(reader, tracked_state).value_or(Advice{}).move;
 }
 
 } // namespace frustumscreen

@@ -1,5 +1,6 @@
-/// The advice for a visitor who carries out exactly what is asked: the single move that ends valid and is quick and
-/// steady (steadiness.h), however narrow its way; else the first of the shortest sequence known. No visitor is like this; it shows what is left to win.
+/// The advice for a visitor who carries it out exactly: the single move that ends valid and is quick and steady
+/// (steadiness.h), however small its tolerance; otherwise the first of the shortest sequence known. No visitor is that
+/// exact; it is the upper bound for advice.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -11,6 +12,6 @@
 namespace frustumscreen {
 
 /// Nothing if the situation is valid.
-[[nodiscard]] std::optional<Move> perfect_advice(const FaceReader& reader, const GuidedSituation& situation);
+[[nodiscard]] std::optional<Move> perfect_advice(const FaceReader& reader, const GuidedState& tracked_state);
 
 } // namespace frustumscreen

@@ -16,11 +16,11 @@ double seconds_of(Nanoseconds time) {
 
 } // namespace
 
-void ShownSign::step(double now_s, const GuidedSituation& situation) {
+void ShownSign::step(double now_s, const GuidedState& tracked_state) {
     if (adviser_ == Adviser::Paper) {
-        step_paper(now_s, situation);
+        step_paper(now_s, tracked_state);
     } else if (adviser_ == Adviser::Exhibit) {
-        const Guidance& guidance = guide_.step(time_at(now_s), situation, Sensing::Good, false);
+        const Guidance& guidance = guide_.step(time_at(now_s), tracked_state, Sensing::Good, false);
         shown_.reset();
         if (guidance.stage != GuidanceStage::Quiet) {
             shown_ = SignOnTable{guidance.move, seconds_of(guidance.since.time_since_epoch())};
@@ -28,8 +28,8 @@ void ShownSign::step(double now_s, const GuidedSituation& situation) {
     }
 }
 
-void ShownSign::step_paper(double now_s, const GuidedSituation& situation) {
-    if (guide_.reader().whole(situation)) {
+void ShownSign::step_paper(double now_s, const GuidedState& tracked_state) {
+    if (guide_.reader().whole(tracked_state)) {
         shown_.reset();
         dark_since_s_.reset();
         return;
@@ -39,7 +39,7 @@ void ShownSign::step_paper(double now_s, const GuidedSituation& situation) {
         return;
     }
     next_look_s_ = now_s + seconds_of(Guide::looks_every);
-    const Move move = paper_advice(guide_.reader(), situation).value_or(Move{});
+    const Move move = paper_advice(guide_.reader(), tracked_state).value_or(Move{});
     const bool same = shown_ && alike(shown_->move, move);
     shown_ = SignOnTable{move, same ? shown_->since_s : now_s};
 }

@@ -1,6 +1,6 @@
-/// What lies on the table for a simulated visitor: the exhibit's own Guide, or the paper's rule in the same rhythm.
+/// The sign on the table for a simulated visitor: the exhibit's own Guide, or the paper's rule in the same rhythm.
 ///
-/// Time     simulated seconds that never go back; stepped as the exhibit is, 60 times a second.
+/// Time     simulated seconds, never decreasing; stepped like the exhibit, 60 times a second.
 /// Threads  values; one caller.
 /// Source   Kim, Shin, Kim 2008, 'Guiding the user'.
 #pragma once
@@ -11,24 +11,24 @@
 
 namespace frustumscreen {
 
-/// Perfect: nothing lies there, the visitor knows (perfect_advice.h).
+/// Perfect: no sign; the visitor knows the advice (perfect_advice.h).
 enum class Adviser : std::uint8_t { Exhibit, Paper, None, Perfect };
 
 struct SignOnTable {
-    Move move;            ///< Wait: nothing that is known helps
-    double since_s = 0.0; ///< when it appeared; another amount of the same move is the same sign
+    Move move;            ///< Wait: no known move helps
+    double since_s = 0.0; ///< start of its display; another amount of the move keeps the sign
 };
 
 class ShownSign {
 public:
     ShownSign(const GuidanceSetup& setup, Adviser adviser) : adviser_(adviser), guide_(setup) {}
 
-    void step(double now_s, const GuidedSituation& situation);
-    /// That of the latest step.
+    void step(double now_s, const GuidedState& tracked_state);
+    /// The sign after the latest step.
     [[nodiscard]] const std::optional<SignOnTable>& shown() const { return shown_; }
 
 private:
-    void step_paper(double now_s, const GuidedSituation& situation);
+    void step_paper(double now_s, const GuidedState& tracked_state);
 
     Adviser adviser_;
     Guide guide_;

@@ -14,10 +14,10 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double step_s = 1.0 / 60.0; // the exhibit's own
+constexpr double step_s = 1.0 / 60.0; // the exhibit's step
 constexpr double patience_s = std::chrono::duration<double>(Guide::patience).count();
 constexpr double sees_success_after_s = 0.5;
-constexpr double least_reaction_s = 0.3;
+constexpr double min_reaction_s = 0.3;
 constexpr double longest_reaction_s = 1.5;
 constexpr double misunderstands = 0.10;
 constexpr double overlooks = 0.15;
@@ -28,12 +28,12 @@ class Visitor {
 public:
     Visitor(const GuidanceSetup& setup, Adviser adviser, std::uint64_t seed)
         : setup_(setup), reader_(setup), sign_(setup, adviser), adviser_(adviser), plays_(seed),
-          reacts_(~seed), situation_(seeded_situation(setup, plays_)) {
+          reacts_(~seed), tracked_state_(seeded_situation(setup, plays_)) {
         constexpr double table_height_m = 0.8;
         const double azimuth = plays_.between(-std::numbers::pi, std::numbers::pi);
         const double away_m = plays_.between(0.5, 0.9);
-        situation_.eye_m = {away_m * std::cos(azimuth), away_m * std::sin(azimuth),
-                            std::max(0.2, plays_.between(0.9, 1.9) - table_height_m)};
+        tracked_state_.eye_m = {away_m * std::cos(azimuth), away_m * std::sin(azimuth),
+                                std::max(0.2, plays_.between(0.9, 1.9) - table_height_m)};
         next_play_s_ = 1.0;
     }
 
@@ -43,8 +43,8 @@ public:
         int whole = 0;
         int steps = 0;
         for (now_s_ = 0.0; now_s_ < seconds; now_s_ += step_s, ++steps) {
-            sign_.step(now_s_, situation_);
-            if (reader_.whole(situation_)) {
+            sign_.step(now_s_, tracked_state_);
+            if (reader_.whole(tracked_state_)) {
                 ++whole;
                 be_content(result);
             } else {
@@ -54,21 +54,21 @@ public:
             move_on();
         }
         if (lost_since_s_ && now_s_ - *lost_since_s_ > patience_s) {
-            result.mended_s.push_back(now_s_ - *lost_since_s_); // at least
+            result.mended_s.push_back(now_s_ - *lost_since_s_); // a lower bound, as the visit ends
         }
         result.whole_share = static_cast<double>(whole) / steps;
         return result;
     }
 
 private:
-    /// A movement that has a cause, and what can be seen to be wrong with it.
+    /// A movement, its reason, and the visitor's view of its success.
     struct Doing {
         Motion motion;
-        Move asked;           ///< Wait: by the visitor's own idea
-        bool mends = false;   ///< it is there to mend the picture
-        bool wrong = false;   ///< not what was asked
-        bool doubted = false; ///< the visitor has seen that it leads nowhere
-        double dark_px = 0.0; ///< when it began
+        Move asked;           ///< Wait: the visitor's own idea
+        bool mends = false;   ///< meant to mend the picture
+        bool wrong = false;   ///< not the advised move
+        bool doubted = false; ///< the visitor has seen that it does not help
+        double dark_px = 0.0; ///< unlit pixels at its start
     };
 
     [[nodiscard]] DarkWhile doing() const {
@@ -84,28 +84,28 @@ private:
     }
 
     void begin(const Move& move, const Execution& execution) {
-        const GuidedSituation to = after(move, setup_, situation_, execution);
-        before_ = situation_;
-        begin(to, time_for_s(move, situation_, to));
+        const GuidedState to = after(move, setup_, tracked_state_, execution);
+        before_ = tracked_state_;
+        begin(to, time_for_s(move, tracked_state_, to));
     }
 
-    void begin(const GuidedSituation& to, double lasts_s) {
+    void begin(const GuidedState& to, double lasts_s) {
         doing_ = Doing();
-        doing_->motion = {situation_, to, lasts_s};
-        doing_->dark_px = reader_.lost_px(situation_);
+        doing_->motion = {tracked_state_, to, lasts_s};
+        doing_->dark_px = reader_.lost_px(tracked_state_);
     }
 
     void move_on() {
         if (doing_) {
             doing_->motion.gone_s += step_s;
-            situation_ = doing_->motion.now();
+            tracked_state_ = doing_->motion.now();
             if (doing_->motion.done()) {
                 doing_.reset();
             }
         }
     }
 
-    /// The picture is whole: ends what was done to mend it, and plays after a while.
+    /// The picture is whole: ends a mending movement, and starts to play after a while.
     void be_content(VisitResult& result) {
         if (lost_since_s_) {
             if (now_s_ - *lost_since_s_ > patience_s) {
@@ -150,13 +150,13 @@ private:
         if (!lost_since_s_) {
             lost_since_s_ = now_s_;
             read_since_s_.reset();
-            // Whose hand follows a sign looks at it already.
+            // A visitor who is following a sign already looks at it.
             attends_ = doing_ && doing_->mends;
             acted_ = false;
             ++result.losses;
         }
         adviser_ == Adviser::None || adviser_ == Adviser::Perfect ? look_at_picture() : read_sign();
-        const bool plays = doing_ && !doing_->mends; // what lost the picture ends first
+        const bool plays = doing_ && !doing_->mends; // the movement that lost the picture ends first
         if (!acts_at_s_ || now_s_ < *acts_at_s_ || plays) {
             return;
         }
@@ -164,16 +164,16 @@ private:
         act(result);
     }
 
-    /// From now on the visitor has something to react to.
+    /// Starts the visitor's reaction time.
     void react() {
-        const double reaction_s = reacts_.between(least_reaction_s, longest_reaction_s);
+        const double reaction_s = reacts_.between(min_reaction_s, longest_reaction_s);
         const bool misses = !attends_ && adviser_ != Adviser::Perfect && reacts_.happens(overlooks);
         noticed_at_s_ = now_s_ + (misses ? overlooks_for_s : 0.0);
         acts_at_s_ = noticed_at_s_ + reaction_s;
         attends_ = true;
     }
 
-    /// Reacts to another sign, also with the hand still on its way; to the same one where the hand has stopped too soon.
+    /// Reacts to a new sign, even during a movement, and to the present one if the movement has ended without success.
     void read_sign() {
         const std::optional<SignOnTable>& sign = sign_.shown();
         if (!sign) {
@@ -193,7 +193,7 @@ private:
         }
     }
 
-    /// The same without a sign. Who has perfect advice knows the whole sequence after one reaction time.
+    /// As read_sign, without a sign. A visitor with perfect advice needs one reaction time for a whole sequence.
     void look_at_picture() {
         if (acts_at_s_) {
             return;
@@ -208,22 +208,22 @@ private:
         }
     }
 
-    /// Once for each movement that is not what was asked: its sign stays, or there is more in the dark.
+    /// True once for each movement that does not help: it leads away from the advice, or more becomes dark.
     [[nodiscard]] bool finds_wrong() {
         if (!doing_->mends || doing_->doubted) {
             return false;
         }
         const bool goes_away =
-            doing_->wrong && !GivenAdvice{doing_->asked, doing_->motion.from}.holds(situation_);
+            doing_->wrong && !GivenAdvice{doing_->asked, doing_->motion.from}.holds(tracked_state_);
         const bool darkens = doing_->asked.action == Action::Wait &&
-                             reader_.lost_px(situation_) > visibly_darker * doing_->dark_px;
+                             reader_.lost_px(tracked_state_) > visibly_darker * doing_->dark_px;
         doing_->doubted = goes_away || darkens;
         return doing_->doubted;
     }
 
     void act(VisitResult& result) {
         if (adviser_ == Adviser::Perfect) {
-            const std::optional<Move> move = perfect_advice(reader_, situation_);
+            const std::optional<Move> move = perfect_advice(reader_, tracked_state_);
             begin(move.value_or(Move{}), {});
             ++result.advices;
         } else if (sign_.shown() && sign_.shown()->move.action != Action::Wait) {
@@ -243,7 +243,7 @@ private:
         doing_->wrong = wrong;
     }
 
-    /// The opposite; what has none is taken for some way.
+    /// The opposite move; a slide in any direction if there is no opposite.
     [[nodiscard]] Move instead_of(Move move) {
         if (move.action == Action::Upright || move.action == Action::SetDown) {
             return some_way();
@@ -261,14 +261,14 @@ private:
         return move;
     }
 
-    /// Half of the time people undo what lost the picture; a prop that leans most would stand up.
+    /// Half of the time people undo the movement that lost the picture; a leaning prop is usually set upright.
     void try_something() {
-        const bool leans = tilt_rad(situation_.table_from_prop) > 0.2;
+        const bool leans = tilt_rad(tracked_state_.table_from_prop) > 0.2;
         if (leans && !setup_.in_hand && reacts_.happens(0.7)) {
             begin({Action::Upright}, {});
         } else if (before_ && reacts_.happens(0.5)) {
             constexpr double undone_in_s = 1.0;
-            begin(GuidedSituation{before_->table_from_prop, situation_.eye_m}, undone_in_s);
+            begin(GuidedState{before_->table_from_prop, tracked_state_.eye_m}, undone_in_s);
             before_.reset();
         } else {
             Move move = some_way();
@@ -284,18 +284,18 @@ private:
     FaceReader reader_;
     ShownSign sign_;
     Adviser adviser_;
-    Seeded plays_;  ///< the same play whatever is advised
+    Seeded plays_;  ///< equal for all advisers
     Seeded reacts_; ///< reaction times, misunderstandings, sloppiness
-    GuidedSituation situation_;
-    std::optional<GuidedSituation> before_; ///< the latest movement
+    GuidedState tracked_state_;
+    std::optional<GuidedState> before_; ///< before the latest movement
     std::optional<Doing> doing_;
     double now_s_ = 0.0;
     double next_play_s_ = 0.0;
     double whole_since_s_ = 0.0;
     std::optional<double> lost_since_s_;
-    bool attends_ = false;               ///< looks at the sign, or at the dark
-    bool acted_ = false;                 ///< or is about to, since the picture was lost
-    std::optional<double> read_since_s_; ///< the sign that was read, by when it appeared
+    bool attends_ = false;               ///< looks at the sign, or at the dark part
+    bool acted_ = false;                 ///< has reacted, or is about to, since the loss of the picture
+    std::optional<double> read_since_s_; ///< time at which the sign that was read had appeared
     double noticed_at_s_ = 0.0;
     std::optional<double> acts_at_s_;
 };

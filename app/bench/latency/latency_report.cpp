@@ -10,11 +10,11 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double least_gain = 0.4;
+constexpr double min_gain = 0.4;
 constexpr double judged_speed_m_s = 0.25;
-constexpr double most_rest_mm = 0.15;
+constexpr double max_rest_mm = 0.15;
 constexpr double overshoot_margin_mm = 0.5;
-constexpr double most_tremble_mm = 0.5;
+constexpr double max_tremble_mm = 0.5;
 constexpr double fastest_calm_m_s = 0.05; ///< fastest slide that must not tremble
 
 const ContestantResult& named(const TrackerResult& result, const std::string& name) {
@@ -52,20 +52,20 @@ std::vector<LimitVerdict> judge(const TrackerResult& result, const LatencyOption
         verdicts.push_back(
             {fmt::format("RMS slip at {:g} m/s at least {:g} % below the same filter's without "
                          "prediction",
-                         judged_speed_m_s, 100.0 * least_gain),
+                         judged_speed_m_s, 100.0 * min_gain),
              fmt::format("{:.2f} mm against {:.2f} mm, {:.0f} % below", with->rms, without->rms,
                          100.0 * gain),
-             gain >= least_gain});
+             gain >= min_gain});
     }
-    verdicts.push_back({fmt::format("rest jitter <= {:g} mm RMS", most_rest_mm),
+    verdicts.push_back({fmt::format("rest jitter <= {:g} mm RMS", max_rest_mm),
                         fmt::format("{:.3f} mm against the truth", shown.rest.rms),
-                        shown.rest.rms <= most_rest_mm});
+                        shown.rest.rms <= max_rest_mm});
     verdicts.push_back(
         {fmt::format(
              "trembles by <= {:g} mm RMS from picture to picture while it is slid at {:g} m/s at most",
-             most_tremble_mm, fastest_calm_m_s),
+             max_tremble_mm, fastest_calm_m_s),
          fmt::format("{:.2f} mm at the worst speed", worst_tremble_mm(shown)),
-         worst_tremble_mm(shown) <= most_tremble_mm});
+         worst_tremble_mm(shown) <= max_tremble_mm});
     const double total_s = 1e-3 * (result.tracker.latency_ms + options.setting.display_latency_ms);
     const double limit_mm = 1e3 * 0.5 * stop_braking_m_s2 * total_s * total_s + overshoot_margin_mm;
     verdicts.push_back({fmt::format("overshoot when stopping from {:g} m/s at {:g} m/s^2 <= {:.2f} mm",

@@ -23,9 +23,8 @@ void OneEuroFilter::take(const RigidTransform& measured, double dt_s) {
     const double rate_share = share_of_new(options_.derivative_cutoff_hz, dt_s);
     rate_.shift_m += rate_share * (change.shift_m / dt_s - rate_.shift_m);
     rate_.turn_rad += rate_share * (change.turn_rad / dt_s - rate_.turn_rad);
-    const double place_hz = options_.least_cutoff_hz + options_.place_beta_per_m * glm::length(rate_.shift_m);
-    const double turn_hz =
-        options_.least_cutoff_hz + options_.turn_beta_per_rad * glm::length(rate_.turn_rad);
+    const double place_hz = options_.min_cutoff_hz + options_.place_beta_per_m * glm::length(rate_.shift_m);
+    const double turn_hz = options_.min_cutoff_hz + options_.turn_beta_per_rad * glm::length(rate_.turn_rad);
     const PoseStep off = step_between(pose_, measured);
     pose_ = moved(pose_,
                   {share_of_new(place_hz, dt_s) * off.shift_m, share_of_new(turn_hz, dt_s) * off.turn_rad});

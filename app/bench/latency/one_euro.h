@@ -12,7 +12,7 @@
 namespace frustumscreen {
 
 struct OneEuroOptions {
-    double least_cutoff_hz = 1.0;
+    double min_cutoff_hz = 1.0;
     double place_beta_per_m = 200.0; ///< cut-off per m/s
     double turn_beta_per_rad = 20.0; ///< cut-off per rad/s
     double derivative_cutoff_hz = 8.0;

@@ -147,7 +147,7 @@ std::vector<CountChange> changes(std::span<const CountedPack> counted,
             continue;
         }
         const bool grown = std::any_of(quantities.begin(), quantities.end(), [&](const Quantity& quantity) {
-            return growth(now.counts.*quantity.of, before->counts.*quantity.of) > most_count_growth;
+            return growth(now.counts.*quantity.of, before->counts.*quantity.of) > max_count_growth;
         });
         found.push_back({now, before->counts, grown});
     }

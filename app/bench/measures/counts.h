@@ -43,12 +43,12 @@ struct CountedPack {
 [[nodiscard]] Result<std::vector<CountedPack>> read_counts(std::string_view text);
 
 /// Growth above this factor of the reference's count is a regression that must be explained.
-inline constexpr double most_count_growth = 1.05;
+inline constexpr double max_count_growth = 1.05;
 
 struct CountChange {
     CountedPack now;
     FrameCounts reference;
-    bool grown = false; ///< a count grew by more than `most_count_growth`
+    bool grown = false; ///< a count grew by more than `max_count_growth`
 };
 /// Only packs that the reference contains.
 [[nodiscard]] std::vector<CountChange> changes(std::span<const CountedPack> counted,

@@ -21,7 +21,7 @@ Coverage coverage_of(const TechniqueResult& technique) {
         const double ratio = error.geometric_mean_mm / estimate->mean_mm;
         const bool below = error.geometric_mean_mm < estimate->p95_mm;
         coverage.below_p95 += below ? 1 : 0;
-        coverage.covered += below && ratio >= least_of_estimate && ratio <= most_of_estimate ? 1 : 0;
+        coverage.covered += below && ratio >= min_of_estimate && ratio <= max_of_estimate ? 1 : 0;
         ratios.push_back(ratio);
     }
     coverage.poses = ratios.size();
@@ -110,8 +110,8 @@ LimitVerdict judge(std::span<const NamedCoverage> rows) {
     const double share = poses > 0 ? static_cast<double>(covered) / static_cast<double>(poses) : 0.0;
     return {
         fmt::format("the true mean is {:g} to {:g} x the estimate, below its p95, in >= {:g} % of the poses",
-                    least_of_estimate, most_of_estimate, 100.0 * least_covered),
-        fmt::format("{:.1f} % of {}", 100.0 * share, poses), share >= least_covered};
+                    min_of_estimate, max_of_estimate, 100.0 * min_covered),
+        fmt::format("{:.1f} % of {}", 100.0 * share, poses), share >= min_covered};
 }
 
 } // namespace frustumscreen

@@ -16,9 +16,9 @@
 
 namespace frustumscreen {
 
-inline constexpr double least_of_estimate = 0.7;
-inline constexpr double most_of_estimate = 1.4;
-inline constexpr double least_covered = 0.9; ///< share of the poses
+inline constexpr double min_of_estimate = 0.7;
+inline constexpr double max_of_estimate = 1.4;
+inline constexpr double min_covered = 0.9; ///< share of the poses
 
 struct Coverage {
     std::size_t poses = 0; ///< poses that show part of the artifact

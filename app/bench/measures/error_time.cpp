@@ -12,10 +12,10 @@ namespace frustumscreen {
 namespace {
 
 /// Fewer frame times give no steady median on a busy machine.
-constexpr int least_samples = 60;
+constexpr int min_samples = 60;
 
 int rounds_of(const ErrorTimeOptions& options) {
-    return std::max(options.timing_rounds, least_samples / options.poses);
+    return std::max(options.timing_rounds, min_samples / options.poses);
 }
 
 /// A picture of the pack's level in the pose with the greatest geometric error.

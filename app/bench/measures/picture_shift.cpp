@@ -37,9 +37,9 @@ std::optional<glm::dvec2> picture_shift(const Image8& truth, const Image8& drawn
         }
     }
     // If all edges run in one direction, the shift along them is undetermined.
-    constexpr double least_condition = 1e-3;
+    constexpr double min_condition = 1e-3;
     const double trace = normal[0][0] + normal[1][1];
-    if (!(glm::determinant(normal) > least_condition * trace * trace)) {
+    if (!(glm::determinant(normal) > min_condition * trace * trace)) {
         return std::nullopt;
     }
     return glm::inverse(normal) * right;

@@ -38,7 +38,7 @@ double percent_of(std::int64_t part, std::int64_t all) {
 
 glm::u8vec4 colour_of_difference(int codes) {
     const auto grey = static_cast<std::uint8_t>(24 + std::min(4 * codes, 231));
-    return codes > most_codes_off ? glm::u8vec4(255, 40, 30, 255) : glm::u8vec4(grey, grey, grey, 255);
+    return codes > max_codes_off ? glm::u8vec4(255, 40, 30, 255) : glm::u8vec4(grey, grey, grey, 255);
 }
 
 /// The visitor's rays in the prop's frame.
@@ -58,7 +58,7 @@ struct VisitorRays {
 
 /// Projector pixels per step of one pixel of the visitor's picture, at the place seen through `at`, in the
 /// direction with the fewest; infinite off the prop.
-double least_span(const VisitorScene& scene, const VisitorRays& rays, const glm::dvec2& at) {
+double min_span(const VisitorScene& scene, const VisitorRays& rays, const glm::dvec2& at) {
     PropHit hit;
     if (!intersect(scene.prop, rays.eye_m, rays.through(at.x, at.y), hit)) {
         return std::numeric_limits<double>::infinity();
@@ -80,12 +80,12 @@ double least_span(const VisitorScene& scene, const VisitorRays& rays, const glm:
 }
 
 /// Minimum over the prop's pixels on a grid of `step`; infinite if there are none.
-double least_span(const VisitorScene& scene, const VisitorCamera& camera, int step) {
+double min_span(const VisitorScene& scene, const VisitorCamera& camera, int step) {
     const VisitorRays rays(scene, camera);
     double least = std::numeric_limits<double>::infinity();
     for (int y = step / 2; y < camera.pinhole.height; y += step) {
         for (int x = step / 2; x < camera.pinhole.width; x += step) {
-            least = std::min(least, least_span(scene, rays, {x + 0.5, y + 0.5}));
+            least = std::min(least, min_span(scene, rays, {x + 0.5, y + 0.5}));
         }
     }
     return least;
@@ -98,7 +98,7 @@ public:
         : scene_(scene), camera_(no_finer_camera(scene)), one_ray_(cast_visitor(truth, scene, camera_, 1)),
           sixteen_rays_(cast_visitor(truth, scene, camera_, rays_per_side)) {
         row_.size_px = {camera_.pinhole.width, camera_.pinhole.height};
-        row_.least_span_px = least_span(scene, camera_, 1);
+        row_.min_span_px = min_span(scene, camera_, 1);
     }
 
     /// `for_one_ray` and `for_sixteen_rays` are the pictures for the two comparisons.
@@ -214,7 +214,7 @@ PixelAccuracy pixel_accuracy(const Image8& view, const VisitorTruth& truth) {
             if (truth.prop.at(x, y) == 0) {
                 continue;
             }
-            const bool right = codes_off(view.at(x, y), truth.colour.at(x, y)) <= most_codes_off;
+            const bool right = codes_off(view.at(x, y), truth.colour.at(x, y)) <= max_codes_off;
             const bool artifact = truth.hit.at(x, y) != 0;
             ++found.prop_pixels;
             found.prop_right += right ? 1 : 0;
@@ -236,7 +236,7 @@ VisitorCamera no_finer_camera(const VisitorScene& scene) {
         return visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, pixels(scene.projector.width),
                               pixels(scene.projector.height));
     };
-    const double span = least_span(scene, camera(1.0), grid_px);
+    const double span = min_span(scene, camera(1.0), grid_px);
     return camera(std::min(1.0, margin * span));
 }
 

@@ -71,7 +71,7 @@ struct ProjectionRow {
     glm::ivec2 size_px{0}; ///< size of the visitor's picture
     /// Projector pixels per step of one pixel of the visitor's picture: the minimum over the prop and all
     /// directions.
-    double least_span_px = 0.0;
+    double min_span_px = 0.0;
     PixelAccuracy one_ray;
     PixelAccuracy sixteen_rays;
 };
@@ -88,8 +88,8 @@ struct ProjectionResult {
                                                   const ProjectionOptions& options,
                                                   const StepProgress& progress);
 
-inline constexpr double least_right_percent = 97.0; ///< share of the prop's pixels, in every pose
-inline constexpr int most_codes_off = 16;
+inline constexpr double min_right_percent = 97.0; ///< share of the prop's pixels, in every pose
+inline constexpr int max_codes_off = 16;
 
 [[nodiscard]] std::vector<LimitVerdict> judge(const ProjectionResult& result);
 [[nodiscard]] std::string projection_csv(std::span<const ProjectionResult> results);

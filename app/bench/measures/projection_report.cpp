@@ -72,17 +72,17 @@ std::vector<LimitVerdict> judge(const ProjectionResult& result) {
             const Share& found = summary.*share;
             verdicts.push_back(
                 {fmt::format("{}: >= {:g} % of the prop's pixels within {} codes, {} a pixel",
-                             summary.technique, least_right_percent, most_codes_off, rays),
+                             summary.technique, min_right_percent, max_codes_off, rays),
                  fmt::format("worst pose {:.2f} %, mean {:.2f} %; the ray-cast picture {:.2f} %, {:.2f} %",
                              found.worst_percent, found.mean_percent,
                              (summaries.front().*share).worst_percent,
                              (summaries.front().*share).mean_percent),
-                 found.worst_percent >= least_right_percent});
+                 found.worst_percent >= min_right_percent});
         }
     }
-    double span = result.rows.empty() ? 0.0 : result.rows.front().least_span_px;
+    double span = result.rows.empty() ? 0.0 : result.rows.front().min_span_px;
     for (const ProjectionRow& row : result.rows) {
-        span = std::min(span, row.least_span_px);
+        span = std::min(span, row.min_span_px);
     }
     verdicts.push_back({"the visitor's pixels are no finer than the projector's on the prop",
                         fmt::format("the finest spans {:.2f} projector pixels", span), span >= 1.0});
@@ -99,7 +99,7 @@ std::string projection_csv(std::span<const ProjectionResult> results) {
         for (const ProjectionRow& row : result.rows) {
             csv += fmt::format("{},{},{},{},{},{},{:.4f},{},{:.4f},{},{:.4f},{:.4f},{:.4f}\n", result.name,
                                row.pose, pose_fields(result.poses[static_cast<std::size_t>(row.pose)]),
-                               row.technique, row.size_px.x, row.size_px.y, row.least_span_px,
+                               row.technique, row.size_px.x, row.size_px.y, row.min_span_px,
                                row.one_ray.prop_pixels, row.one_ray.prop_percent(),
                                row.one_ray.artifact_pixels, row.one_ray.artifact_percent(),
                                row.sixteen_rays.prop_percent(), row.sixteen_rays.artifact_percent());
@@ -112,7 +112,7 @@ std::string projection_table(const ProjectionResult& result) {
     std::string table =
         fmt::format("{} set-up, {} poses; % within {} codes, mean / worst pose\n{:<20}{:<20}{:<20}"
                     "{:<22}{}\n",
-                    result.name, result.poses.size(), most_codes_off, "projector's picture", "16 rays",
+                    result.name, result.poses.size(), max_codes_off, "projector's picture", "16 rays",
                     "1 ray", "artifact's, 16 rays", "worst pose");
     for (const Summary& summary : by_technique(result)) {
         const auto text = [](const Share& share) {

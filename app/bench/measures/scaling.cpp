@@ -138,8 +138,8 @@ std::string scaling_table(std::span<const ScalingRow> rows) {
         table += '\n';
     }
     return rows.size() > 1
-               ? table + growth_line("default level", &ScalingRow::default_level, most_growth, rows) +
-                     growth_line("finest relief", &ScalingRow::relief, most_relief_growth, rows)
+               ? table + growth_line("default level", &ScalingRow::default_level, max_growth, rows) +
+                     growth_line("finest relief", &ScalingRow::relief, max_relief_growth, rows)
                : table;
 }
 

@@ -42,8 +42,8 @@ struct ScalingRow {
 };
 
 /// Cost at the largest triangle count over that at the smallest.
-inline constexpr double most_growth = 1.25;        ///< the default level
-inline constexpr double most_relief_growth = 1.10; ///< the finest relief
+inline constexpr double max_growth = 1.25;        ///< the default level
+inline constexpr double max_relief_growth = 1.10; ///< the finest relief
 
 [[nodiscard]] Result<std::vector<ScalingRow>> scaling(const SetUp& set_up,
                                                       const std::vector<ScalingSource>& sources,

@@ -47,8 +47,8 @@ struct ShimmerResult {
                                             const std::shared_ptr<const SourceMesh>& mesh,
                                             const ShimmerOptions& options, const StepProgress& progress);
 
-inline constexpr double most_ratio = 1.0;
-inline constexpr double most_excess_percent = 0.1;
+inline constexpr double max_ratio = 1.0;
+inline constexpr double max_excess_percent = 0.1;
 
 [[nodiscard]] std::vector<LimitVerdict> judge(const ShimmerResult& result);
 [[nodiscard]] std::string shimmer_csv(std::span<const ShimmerResult> results);

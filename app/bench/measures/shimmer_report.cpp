@@ -110,10 +110,10 @@ std::vector<LimitVerdict> judge(const ShimmerResult& result) {
                             found.worst <= most});
     };
     for (const auto& [name, rows] : by_level(result)) {
-        add(name + ": shimmer / one ray's, RMS", spans(rows, of_rms), most_ratio, "");
-        add(name + ": shimmer / one ray's, 99.9 % of the pixels", spans(rows, of_q999), most_ratio, "");
+        add(name + ": shimmer / one ray's, RMS", spans(rows, of_rms), max_ratio, "");
+        add(name + ": shimmer / one ray's, 99.9 % of the pixels", spans(rows, of_q999), max_ratio, "");
         add(name + ": pixels that shimmer where the ray cast does not", spans(rows, of_excess),
-            most_excess_percent, " %");
+            max_excess_percent, " %");
     }
     const EdgeSparkle edges = all_edges(result);
     if (edges.sharp.changes() > 0) {

@@ -57,10 +57,10 @@ std::string level_name(const Pack& pack, std::uint32_t level) {
 }
 
 /// The first match, which is the best quality level of its kind.
-std::optional<Rung> rung_that(const std::vector<Rung>& rungs, bool casts) {
-    const auto found =
-        std::find_if(rungs.begin(), rungs.end(), [casts](const Rung& each) { return each.relief == casts; });
-    return found != rungs.end() ? std::optional(*found) : std::nullopt;
+std::optional<QualityLevel> quality_level_that(const std::vector<QualityLevel>& quality_levels, bool casts) {
+    const auto found = std::find_if(quality_levels.begin(), quality_levels.end(),
+                                    [casts](const QualityLevel& each) { return each.relief == casts; });
+    return found != quality_levels.end() ? std::optional(*found) : std::nullopt;
 }
 
 } // namespace
@@ -128,8 +128,9 @@ Result<void> TechniqueSet::add_auto(const Pack& pack, const PictureOptions& opti
     request.light = options.lit;
     request.samples = options.samples;
     TRY(const ScenePlan plan, plan_scene(stage_.settings, outline_of(pack), request));
-    const Result<void> added = add_auto_mesh(pack, rung_that(plan.rungs, false).value(), options);
-    const std::optional<Rung> relief = rung_that(plan.rungs, true);
+    const Result<void> added =
+        add_auto_mesh(pack, quality_level_that(plan.quality_levels, false).value(), options);
+    const std::optional<QualityLevel> relief = quality_level_that(plan.quality_levels, true);
     if (!added || !relief) {
         return added;
     }
@@ -139,16 +140,17 @@ Result<void> TechniqueSet::add_auto(const Pack& pack, const PictureOptions& opti
                             [&](std::uint32_t texels) { return texels == relief->level; });
 }
 
-Result<void> TechniqueSet::add_auto_mesh(const Pack& pack, const Rung& rung, PictureOptions options) {
-    TRY(std::string kept, keep_drawn(pack, rung.level));
-    options.samples = rung.samples;
-    TechniqueResult result = described(TechniqueKind::Auto, static_cast<int>(rung.level),
-                                       pack.levels[rung.level].indices.size() / 3);
-    result.samples = rung.samples;
+Result<void> TechniqueSet::add_auto_mesh(const Pack& pack, const QualityLevel& quality_level,
+                                         PictureOptions options) {
+    TRY(std::string kept, keep_drawn(pack, quality_level.level));
+    options.samples = quality_level.samples;
+    TechniqueResult result = described(TechniqueKind::Auto, static_cast<int>(quality_level.level),
+                                       pack.levels[quality_level.level].indices.size() / 3);
+    result.samples = quality_level.samples;
     result.drawn_as = std::move(kept);
-    result.bytes = bytes_of(pack.levels[rung.level], pack);
-    return add(make_pack_level(stage_, pack, rung.level, options,
-                               fmt::format("auto ({})", level_name(pack, rung.level))),
+    result.bytes = bytes_of(pack.levels[quality_level.level], pack);
+    return add(make_pack_level(stage_, pack, quality_level.level, options,
+                               fmt::format("auto ({})", level_name(pack, quality_level.level))),
                std::move(result));
 }
 
@@ -240,8 +242,8 @@ Result<void> TechniqueSet::add_pack_reliefs(const Pack& pack, TechniqueKind kind
         if (!wanted(outline.texels)) {
             continue;
         }
-        const std::string name =
-            name_of(Rung{outline.texels, pack.samples, false, true, kind == TechniqueKind::ReliefGpu});
+        const std::string name = name_of(
+            QualityLevel{outline.texels, pack.samples, false, true, kind == TechniqueKind::ReliefGpu});
         added = relief_of(pack, outline).and_then([&](BlockRelief relief) {
             return add_relief(pack, kind, std::move(relief), seen.reliefs[k], options,
                               kind == TechniqueKind::Auto ? fmt::format("auto ({})", name) : name);
@@ -256,15 +258,15 @@ Result<void> TechniqueSet::add_reliefs(const Pack& pack, const PictureOptions& o
 
 Result<void> TechniqueSet::add_finest_relief(const Pack& pack, const PictureOptions& options) {
     TRY(const std::vector<ReliefOutline> reliefs, reliefs_of(pack));
-    std::uint32_t most_texels = 0;
+    std::uint32_t max_texels = 0;
     for (const ReliefOutline& each : reliefs) {
-        most_texels = std::max(most_texels, each.texels);
+        max_texels = std::max(max_texels, each.texels);
     }
-    if (most_texels == 0) {
+    if (max_texels == 0) {
         return fail(ErrorKind::BadInput, "bench.no_relief", "the pack has no relief");
     }
     return add_pack_reliefs(pack, TechniqueKind::PackRelief, options,
-                            [most_texels](std::uint32_t texels) { return texels == most_texels; });
+                            [max_texels](std::uint32_t texels) { return texels == max_texels; });
 }
 
 Result<void> TechniqueSet::add_reliefs_on_gpu(const Pack& pack, const PictureOptions& options) {

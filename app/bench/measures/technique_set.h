@@ -120,7 +120,8 @@ public:
 private:
     TechniqueSet(std::unique_ptr<Display> display, Stage stage)
         : display_(std::move(display)), stage_(std::move(stage)) {}
-    [[nodiscard]] Result<void> add_auto_mesh(const Pack& pack, const Rung& rung, PictureOptions options);
+    [[nodiscard]] Result<void> add_auto_mesh(const Pack& pack, const QualityLevel& quality_level,
+                                             PictureOptions options);
     /// Adds the pack's reliefs whose texel count is `wanted`.
     [[nodiscard]] Result<void> add_pack_reliefs(const Pack& pack, TechniqueKind kind,
                                                 const PictureOptions& options,

@@ -8,7 +8,7 @@
 namespace frustumscreen {
 
 namespace {
-constexpr double least_share = 0.02; ///< share of a step below which its duration is unknown
+constexpr double min_share = 0.02; ///< share of a step below which its duration is unknown
 }
 
 TimeLeft::TimeLeft(std::vector<WorkStep> steps) : planned_(steps.size()) {
@@ -31,7 +31,7 @@ std::optional<double> TimeLeft::update(const std::string& name, double done, dou
         step.takes_s.reset();
     }
     const double passed_s = now_s - begun_s_;
-    if (done >= least_share) {
+    if (done >= min_share) {
         step.takes_s = passed_s / std::min(done, 1.0);
     }
     const bool planned = index < planned_;

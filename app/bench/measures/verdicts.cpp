@@ -97,9 +97,9 @@ std::vector<LimitVerdict> judge(const TechniqueResult& level, const Limits& limi
          fmt::format("worst pose {:.3f} px", worst.picture_shift_px),
          worst.picture_shift_px <= limits.outline_shift_px}};
     if (!level.drawn_as.empty()) {
-        verdicts.push_back({fmt::format("drawn within {:g} px of its place", most_drawn_shift_px),
+        verdicts.push_back({fmt::format("drawn within {:g} px of its place", max_drawn_shift_px),
                             fmt::format("worst pose {:.3f} px", worst.drawn_shift_px),
-                            worst.drawn_shift_px <= most_drawn_shift_px});
+                            worst.drawn_shift_px <= max_drawn_shift_px});
     }
     const std::vector<LimitVerdict> shown = judge_shown(level, limits);
     verdicts.insert(verdicts.end(), shown.begin(), shown.end());
@@ -135,8 +135,8 @@ const TechniqueResult* auto_drawn(const SetUpResult& result) {
     return drawn;
 }
 
-double least_two_pass_speed_up(std::uint64_t triangles) {
-    return triangles >= 4 * least_two_pass_triangles ? 25.0 : 8.0;
+double min_two_pass_speed_up(std::uint64_t triangles) {
+    return triangles >= 4 * min_two_pass_triangles ? 25.0 : 8.0;
 }
 
 std::vector<LimitVerdict> judge(const SetUpResult& result) {
@@ -163,8 +163,8 @@ std::vector<LimitVerdict> judge(const SetUpResult& result) {
         }
     }
     for (const TechniqueResult* two_pass : at_best_eye_images(result)) {
-        if (two_pass->kind == TechniqueKind::TwoPass && two_pass->triangles >= least_two_pass_triangles) {
-            const double least = least_two_pass_speed_up(two_pass->triangles);
+        if (two_pass->kind == TechniqueKind::TwoPass && two_pass->triangles >= min_two_pass_triangles) {
+            const double least = min_two_pass_speed_up(two_pass->triangles);
             const TechniqueResult* level = cheapest_as_good(result, *two_pass);
             const double speed_up = level != nullptr ? two_pass->times_floor / level->times_floor : 0.0;
             add(two_pass->name, {{fmt::format("a level as good is >= {:g} x faster", least),

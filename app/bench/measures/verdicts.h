@@ -23,7 +23,7 @@ struct Limits {
 };
 /// Shift of a shown level or relief against its own surface: below what a person can see, and far below half
 /// a pixel. Against the scan, it may be displaced as far as its outlines may.
-inline constexpr double most_drawn_shift_px = 0.05;
+inline constexpr double max_drawn_shift_px = 0.05;
 inline constexpr Limits default_level_limits{0.6, 0.3, 0.2, 14.0, 4.0};
 inline constexpr Limits finest_level_limits{0.15, 0.1, 0.05, 8.0, 0.0};
 /// Stricter limits: for the default level, and for some fine level of the pack.
@@ -35,8 +35,8 @@ inline constexpr Limits wished_cheap_limits{0.15, 0.1, 0.05, std::numeric_limits
 inline constexpr Limits wished_fine_limits{0.05, 0.05, 0.01, std::numeric_limits<double>::infinity(), 4.0};
 /// Required speed-up over the two-pass method at no larger errors, for a source of a million triangles and of
 /// four million; sources more than 5 % smaller are not judged.
-inline constexpr std::uint64_t least_two_pass_triangles = 950'000;
-[[nodiscard]] double least_two_pass_speed_up(std::uint64_t triangles);
+inline constexpr std::uint64_t min_two_pass_triangles = 950'000;
+[[nodiscard]] double min_two_pass_speed_up(std::uint64_t triangles);
 
 struct LimitVerdict {
     std::string what; ///< the limit, with its number

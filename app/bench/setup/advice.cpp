@@ -13,10 +13,10 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int face_samples = 40; ///< along a face's edges
-constexpr double margin = 1.001; ///< the picture reaches a little past the table
+constexpr int face_samples = 40; ///< samples along a face's edges
+constexpr double margin = 1.001; ///< the picture extends slightly beyond the table
 
-/// Upright, standing on z = 0, as large as fits into the prop.
+/// The largest upright box that stands on z = 0 and fits into the prop.
 Box largest_box(const PropShape& prop, double width_by_height) {
     const double half = 0.5 * width_by_height;
     std::vector<glm::dvec3> corners;
@@ -28,7 +28,7 @@ Box largest_box(const PropShape& prop, double width_by_height) {
     return {{-half * height, -half * height, 0.0}, {half * height, half * height, height}};
 }
 
-/// Does the line through two points meet the ellipsoid that fills the box?
+/// True if the line through two points meets the ellipsoid that fills the box.
 bool meets_ellipsoid(const Box& box, const glm::dvec3& from, const glm::dvec3& through) {
     const glm::dvec3 middle = 0.5 * (box.low + box.high);
     const glm::dvec3 half = 0.5 * (box.high - box.low);
@@ -38,7 +38,8 @@ bool meets_ellipsoid(const Box& box, const glm::dvec3& from, const glm::dvec3& t
     return along * along - glm::dot(d, d) * (glm::dot(o, o) - 1.0) > 0.0;
 }
 
-/// A small surface at S on a plane that the lens is h above takes fx fy h / Z^3 pixels a square metre.
+/// Projector pixels on the artifact. At height h of the lens above a plane, a surface at depth Z takes fx fy h / Z^3
+/// pixels a square metre.
 double pixels_on(const PropShape& prop, const ProjectorSettings& projector, const glm::dvec3& eye_m,
                  double yaw, const Box& artifact) {
     const RigidTransform table_from_prop{glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), glm::dvec3(0.0)};
@@ -71,8 +72,7 @@ double pixels_on(const PropShape& prop, const ProjectorSettings& projector, cons
     return pixels;
 }
 
-/// All that the picture must cover, table frame: the table's corners, and the prop's where it stands at an
-/// edge.
+/// The points that the picture must cover, table frame: the corners of the table, and those of the prop at its edges.
 std::vector<glm::dvec3> to_cover(const Settings& settings) {
     const glm::dvec2 table = 0.5 * glm::dvec2(settings.table.width_m, settings.table.depth_m);
     const glm::dvec2 reach = reach_on_table(settings.prop, settings.table);
@@ -92,13 +92,13 @@ bool covers(const Settings& settings) {
     const std::vector<glm::dvec3> points = to_cover(settings);
     return std::all_of(points.begin(), points.end(), [&](const glm::dvec3& point) {
         const auto pixel = pinhole.pixel(projector_from_table.point(point));
-        const double spare = 0.5 * (margin - 1.0) * pinhole.width; // rounding
+        const double spare = 0.5 * (margin - 1.0) * pinhole.width; // tolerance for rounding
         return pixel && pixel->x >= -spare && pixel->y >= -spare && pixel->x <= pinhole.width + spare &&
                pixel->y <= pinhole.height + spare;
     });
 }
 
-/// Zooms the lens, and shifts it if that is how it is mounted, so that the picture just covers the table.
+/// Zooms the lens, and shifts it for a shifted mount, so that the picture just covers the table.
 void fit_picture(Settings& settings, Mount mount, double wider) {
     Pinhole& pinhole = settings.projector.pinhole;
     glm::dvec2 low(1e9);
@@ -125,7 +125,7 @@ Settings with_projector(Settings settings, double height_m, double side_m, Mount
     return settings;
 }
 
-/// Lengths from `first` on in steps, rounded so that a carpenter can use them.
+/// Lengths from `first` to `last` in steps, rounded to values for a carpenter.
 std::vector<double> steps(double first, double last, double step) {
     std::vector<double> values;
     const int count = static_cast<int>(std::floor((last - first) / step + 1e-9));
@@ -135,7 +135,7 @@ std::vector<double> steps(double first, double last, double step) {
     return values;
 }
 
-/// Larger is better among choices that work: room to slide, times brightness as eyes see it, about the root of the light
+/// The value of a choice that works: room to slide, times perceived brightness, which is about the root of the light
 /// (Stevens 1957: exponents of 0.33 to 0.5).
 double worth(const SetUpFigures& figures) {
     return figures.reach_m.x * figures.reach_m.y * std::sqrt(figures.reference);
@@ -157,7 +157,7 @@ double height_of(const std::vector<glm::dvec3>& artifact) {
     return height;
 }
 
-/// Whether the artifacts in a prop are as large as is asked for.
+/// True if the artifacts in a prop have the required size.
 bool is_large_enough(const PropShape& prop, const SetUpFigures& now, const AdviceOptions& options) {
     if (options.asks_for_zone()) {
         return height_of(usual_artifact(prop)) >= options.artifact_m - 1e-9;
@@ -170,7 +170,7 @@ std::vector<PropSettings> props_to_try(const Settings& settings, const SetUpFigu
                                        const AdviceOptions& options) {
     const double table = std::min(settings.table.width_m, settings.table.depth_m);
     std::vector<PropSettings> props;
-    for (const double base_m : steps(0.1, 0.65 * table, 0.01)) { // a larger one could hardly be moved
+    for (const double base_m : steps(0.1, 0.65 * table, 0.01)) { // a larger prop could hardly be moved
         for (const double top_m : steps(0.03, 0.6 * base_m, 0.01)) {
             for (const double height_m : steps(0.06, base_m, 0.005)) {
                 PropSettings prop = settings.prop;
@@ -211,7 +211,7 @@ void find_zone(const Settings& settings, SetUpFigures& figures) {
     figures.zone_m = 2.0 * whole_zone(settings, all_eyes(settings.eye), artifact).rectangle.half_m;
 }
 
-/// The best prop for a projector; nothing if there is no prop to try. `props`: the smallest first.
+/// The best prop for a projector; nothing if there is no prop to try. `props` must be sorted, the smallest first.
 std::optional<SetUpChoice> best_prop(const Settings& projector, Mount mount, double wider,
                                      const std::vector<PropSettings>& props, const AdviceOptions& options,
                                      double pixels) {
@@ -281,7 +281,7 @@ std::vector<SetUpChoice> choices(const Settings& settings, const AdviceOptions& 
         const double side_m = sides[k % sides.size()];
         for (const Mount mount : {Mount::Tilted, Mount::Shifted}) {
             if (side_m == 0.0 && mount == Mount::Shifted) {
-                continue; // the same as tilted by nothing
+                continue; // equal to a tilt of zero
             }
             const Settings projector = with_projector(other, height_m, side_m, mount);
             for (const double wider : widths) {

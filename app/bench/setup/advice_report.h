@@ -1,4 +1,4 @@
-/// Advice on a set-up as text: for a person, as CSV for plots, and as settings to paste.
+/// Advice on a set-up: a table for a person, CSV for plots, and settings to paste.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -9,8 +9,8 @@
 
 namespace frustumscreen {
 
-/// One line for the settings as they are (`as_it_is`) and one for each choice; the best is marked. What a frame costs
-/// stands there if it was measured.
+/// One line for the present settings (`as_it_is`) and one for each choice; the best is marked. Includes the cost of a
+/// frame if it was measured.
 [[nodiscard]] std::string setup_table(const SetUpChoice& now, const std::vector<SetUpChoice>& choices,
                                       const AdviceOptions& options);
 [[nodiscard]] std::string setup_csv(const SetUpChoice& now, const std::vector<SetUpChoice>& choices);

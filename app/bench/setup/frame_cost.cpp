@@ -14,7 +14,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr int turns = 12;
-constexpr int rounds = 6; ///< fewer than 60 frame times have no steady median on a busy machine
+constexpr int rounds = 6; ///< with fewer than 60 frame times the median is unsteady on a busy machine
 
 std::vector<BenchPose> turned_in_the_middle(const glm::dvec3& eye_m) {
     std::vector<BenchPose> poses;
@@ -25,7 +25,7 @@ std::vector<BenchPose> turned_in_the_middle(const glm::dvec3& eye_m) {
     return poses;
 }
 
-/// One set-up's picture and what draws it. It stays where it was made: the technique refers to the stage.
+/// One set-up's picture and its renderer. Its address must not change, because the technique refers to the stage.
 struct Candidate {
     PictureFramebuffer picture;
     Stage stage;

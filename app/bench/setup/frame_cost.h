@@ -1,10 +1,10 @@
-/// What a frame costs in several set-ups: a pack's default level as the exhibit shows it, in even light.
+/// The cost of a frame in several set-ups: a pack's default level as the exhibit shows it, in even light.
 ///
-/// Poses    the prop at the table's middle, turned in twelve steps once around, seen by the default eye: a place that
-///          every set-up has, whatever its zone.
-/// Cost     all set-ups take turns in one run, so that whatever disturbs the machine disturbs them alike; frame times
+/// Poses    the prop at the table's middle, turned in twelve steps once around, seen by the default eye. Every set-up
+///          has this place, whatever its zone.
+/// Cost     all set-ups take turns in one run, so that a disturbance of the machine affects them equally; frame times
 ///          as timing.h.
-/// Threads  the one that calls; it has a context of its own meanwhile.
+/// Threads  the caller's, which holds a context of its own during the call.
 /// Errors   no OpenGL ES; a picture that the driver cannot hold.
 #pragma once
 
@@ -18,12 +18,12 @@
 namespace frustumscreen {
 
 struct SetUpCost {
-    double times_first = 1.0;     ///< the median frame time, over that of the first set-up
-    double cpu_times_first = 1.0; ///< the same of the processor's time, all threads
-    double samples = 0.0;         ///< cleared and averaged for a frame, in whole tiles; a mean over the poses
+    double times_first = 1.0;     ///< median frame time divided by that of the first set-up
+    double cpu_times_first = 1.0; ///< the same for the processor time of all threads
+    double samples = 0.0; ///< samples cleared and averaged for a frame, in whole tiles; mean over the poses
 };
 
-/// One for each set-up; the first has the ratio 1. All have the first one's eyes.
+/// Returns one for each set-up; the first has the ratio 1. All use the first one's eyes.
 [[nodiscard]] Result<std::vector<SetUpCost>> frame_costs(std::span<const Settings* const> set_ups,
                                                          const Pack& pack, const Progress& progress);
 

@@ -3,11 +3,11 @@
 
 #include "app/bench/stability/sweep.h"
 #include "app/bench/stability/themes.h"
-#include "app/tracking/live_situation.h"
+#include "app/tracking/live_tracked_state.h"
 #include "app/tracking/motion_filter.h"
 #include "app/tracking/pose_estimator.h"
 #include "app/tracking/pose_math.h"
-#include "firmware_host/tracker/frame_intake.h"
+#include "firmware_host/tracker/sequence_checker.h"
 
 #include <algorithm>
 #include <array>
@@ -196,7 +196,7 @@ struct Followed {
 /// Twenty seconds of a slide at 240 Hz, with noise; frames arrive up to a few milliseconds late.
 Followed follow(std::uint32_t first_counter, std::uint32_t first_tick) {
     constexpr int rate_hz = 240;
-    FrameIntake intake(1e9 / rate_hz);
+    SequenceChecker intake(1e9 / rate_hz);
     PoseEstimator estimator = exhibit_estimator();
     Noise noise;
     std::mt19937_64 random(5);

@@ -120,8 +120,8 @@ StabilityResult inside_the_artifact(const StabilityOptions&) {
         const SeenArtifact artifact = seen_artifact(stage, 4000, 0.8);
         figures.include(figures_of(stage, artifact, plan_of(stage, artifact)));
     }
-    constexpr double least_seen_sine = 0.125; // of triangles next to the eye
-    return {rows_of(figures, "", bound_px / least_seen_sine, gpu_bound_px / least_seen_sine)};
+    constexpr double min_seen_sine = 0.125; // of triangles next to the eye
+    return {rows_of(figures, "", bound_px / min_seen_sine, gpu_bound_px / min_seen_sine)};
 }
 
 /// With the eye at the projector, every point is drawn where the projector sees it, on any face.

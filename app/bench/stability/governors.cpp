@@ -19,21 +19,23 @@ constexpr double deadline_ms = 1000.0 / 60.0;
 
 /// A GPU whose frames take 0.5 ms, 1e-4 ms per triangle and 2e-5 ms per sample.
 struct Gpu {
-    std::vector<Rung> rungs;
-    std::vector<RungTime> times;
+    std::vector<QualityLevel> quality_levels;
+    std::vector<QualityLevelTime> times;
 
     Gpu() {
         for (const auto& [level, triangles] : {std::pair{1U, 4e4}, std::pair{0U, 1e4}}) {
             for (const int samples : {4, 2, 1}) {
-                rungs.push_back({level, samples, level == 1 && samples == 4});
+                quality_levels.push_back({level, samples, level == 1 && samples == 4});
                 times.push_back({samples, {triangles, 5e4}, 0.5 + 1e-4 * triangles + 2e-5 * 5e4 * samples});
             }
         }
     }
-    [[nodiscard]] Governor governor(double deadline = deadline_ms) const { return {rungs, times, deadline}; }
+    [[nodiscard]] Governor governor(double deadline = deadline_ms) const {
+        return {quality_levels, times, deadline};
+    }
     void frame(Governor& governor, MonotonicTime now, double load) const {
-        const RungTime& rung = times[governor.index()];
-        governor.observe(now, rung.work, rung.ms * load);
+        const QualityLevelTime& quality_level = times[governor.index()];
+        governor.observe(now, quality_level.work, quality_level.ms * load);
     }
 };
 
@@ -83,7 +85,7 @@ StabilityResult relief(const StabilityOptions&) {
 StabilityResult constant_loads(const StabilityOptions&) {
     const Gpu gpu;
     double wrong = 0.0;
-    double most_changes = 0.0;
+    double max_changes = 0.0;
     double late_changes = 0.0;
     for (const double load : sweep(0.1, 200.0, 24)) {
         for (const double step : {1e-3, 1.0 / 60.0, 0.1, 1.0, 10.0}) {
@@ -96,24 +98,28 @@ StabilityResult constant_loads(const StabilityOptions&) {
             late_changes += static_cast<double>(governor.switches() - early);
             constexpr double hair = 1e-6;
             const std::size_t last = governor.index();
-            const auto share = [&](std::size_t rung) { return gpu.times[rung].ms * load / deadline_ms; };
-            wrong += last + 1 < gpu.rungs.size() && share(last) > Governor::leave_share + hair ? 1.0 : 0.0;
+            const auto share = [&](std::size_t quality_level) {
+                return gpu.times[quality_level].ms * load / deadline_ms;
+            };
+            wrong += last + 1 < gpu.quality_levels.size() && share(last) > Governor::leave_share + hair ? 1.0
+                                                                                                        : 0.0;
             for (std::size_t finer = 0; finer < last; ++finer) {
                 wrong += share(finer) < Governor::enter_share - hair ? 1.0 : 0.0;
             }
-            most_changes = std::fmax(most_changes, static_cast<double>(governor.switches()));
+            max_changes = std::fmax(max_changes, static_cast<double>(governor.switches()));
         }
     }
-    return {{{"ends at a rung outside its hysteresis", 0.0, wrong},
-             {"changes, after 1000 frames of 20000", 0.0, late_changes},
-             {"changes in all, at one load", 2.0 * static_cast<double>(gpu.rungs.size()), most_changes}}};
+    return {
+        {{"ends at a rung outside its hysteresis", 0.0, wrong},
+         {"changes, after 1000 frames of 20000", 0.0, late_changes},
+         {"changes in all, at one load", 2.0 * static_cast<double>(gpu.quality_levels.size()), max_changes}}};
 }
 
 /// Loads that alternate with every period from a microsecond to a quarter of an hour.
 StabilityResult jumping_loads(const StabilityOptions&) {
     const Gpu gpu;
     double shortest_s = std::numeric_limits<double>::infinity();
-    double most_per_s = 0.0;
+    double max_per_s = 0.0;
     for (const double step : {1e-3, 1.0 / 60.0, 0.1, 1.0}) {
         for (const double period : sweep(1e-3, 1e3, 2)) {
             Governor governor = gpu.governor();
@@ -129,11 +135,11 @@ StabilityResult jumping_loads(const StabilityOptions&) {
                     before = governor.switches();
                 }
             }
-            most_per_s = std::fmax(most_per_s, static_cast<double>(before) / (20'000 * step));
+            max_per_s = std::fmax(max_per_s, static_cast<double>(before) / (20'000 * step));
         }
     }
     return {{{"short of a second between two changes, s", 1e-6, to_seconds(Governor::dwell) - shortest_s},
-             {"changes a second", 1.0, most_per_s}}};
+             {"changes a second", 1.0, max_per_s}}};
 }
 
 /// Initial times that are wrong by a factor of up to 8 either way, at a load where only the fastest level
@@ -144,25 +150,26 @@ StabilityResult wrong_starts(const StabilityOptions&) {
     const Gpu truth;
     std::mt19937 random(1);
     double worst_share = 0.0;
-    double most_changes = 0.0;
+    double max_changes = 0.0;
     for (int trial = 0; trial < 100; ++trial) {
         Gpu wrong;
-        for (RungTime& time : wrong.times) {
+        for (QualityLevelTime& time : wrong.times) {
             time.ms *= std::exp2(
                 6.0 * static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 3.0);
         }
         Governor governor = wrong.governor();
         double late = 0.0;
         for (int k = 0; k < frames; ++k) {
-            const RungTime& rung = truth.times[governor.index()];
-            late += rung.ms * load > deadline_ms ? 1.0 : 0.0;
-            governor.observe(MonotonicTime(k * step_of(1.0 / 60.0)), rung.work, rung.ms * load);
+            const QualityLevelTime& quality_level = truth.times[governor.index()];
+            late += quality_level.ms * load > deadline_ms ? 1.0 : 0.0;
+            governor.observe(MonotonicTime(k * step_of(1.0 / 60.0)), quality_level.work,
+                             quality_level.ms * load);
         }
         worst_share = std::fmax(worst_share, late / frames);
-        most_changes = std::fmax(most_changes, static_cast<double>(governor.switches()));
+        max_changes = std::fmax(max_changes, static_cast<double>(governor.switches()));
     }
     return {{{"share of late frames in 333 s, worst of 100 starts", 0.2, worst_share},
-             {"changes, the most", 40.0, most_changes}}};
+             {"changes, the most", 40.0, max_changes}}};
 }
 
 /// Time that stands still, goes back or leaps; frame times that are invalid.
@@ -202,7 +209,8 @@ StabilityResult deadlines(const StabilityOptions&) {
         for (int k = 0; k < 2000; ++k) {
             gpu.frame(governor, MonotonicTime(k * std::chrono::milliseconds(16)), 1.0);
         }
-        wrong += governor.index() == (deadline < 2.0 ? gpu.rungs.size() - 1 : 0) && governor.switches() == 0
+        wrong += governor.index() == (deadline < 2.0 ? gpu.quality_levels.size() - 1 : 0) &&
+                         governor.switches() == 0
                      ? 0
                      : 1;
     }

@@ -92,7 +92,7 @@ private:
 
 /// The largest change of a point's light in one step, relative to the exhibit's target, over points that stay
 /// seen and lit.
-double most_change(const Table& table, unsigned seed, const auto& step) {
+double max_change(const Table& table, unsigned seed, const auto& step) {
     std::mt19937 random(seed);
     double most = 0.0;
     for (int walk = 0; walk < walks; ++walk) {
@@ -118,10 +118,10 @@ StabilityResult walks_in(const std::string& name, const Settings& settings, doub
     const Table table(settings);
     const auto towards = [](auto& from, const auto& to) { from += step_m * glm::normalize(to - from); };
     const double head =
-        most_change(table, 1, [&](Pose& pose, const Pose& goal) { towards(pose.eye_m, goal.eye_m); });
+        max_change(table, 1, [&](Pose& pose, const Pose& goal) { towards(pose.eye_m, goal.eye_m); });
     const double slide =
-        most_change(table, 2, [&](Pose& pose, const Pose& goal) { towards(pose.place_m, goal.place_m); });
-    const double turn = most_change(
+        max_change(table, 2, [&](Pose& pose, const Pose& goal) { towards(pose.place_m, goal.place_m); });
+    const double turn = max_change(
         table, 3, [&](Pose& pose, const Pose&) { pose.yaw += step_deg * std::numbers::pi / 180.0; });
     return {{{name + ": light sent back, change a mm of the head", bound_a_mm, head * 1e-3 / step_m},
              {name + ": change a mm of the prop", bound_a_mm, slide * 1e-3 / step_m},

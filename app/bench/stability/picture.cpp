@@ -157,16 +157,16 @@ public:
         const exact::Real eye_sine = stage_.height(face_, eye) / exact::length(eye - centre);
         const exact::Real lens_sine = stage_.height(face_, lens) / exact::length(lens - middle);
         constexpr exact::Real hair = 1e-9L; // at the limit itself, lit and dark are both correct
-        if (eye_sine < least_sine - hair || lens_sine < least_sine - hair) {
+        if (eye_sine < min_sine - hair || lens_sine < min_sine - hair) {
             figures_.wrong_faces += planned_ != nullptr ? 1.0 : 0.0;
             return;
         }
-        if (eye_sine < least_sine + hair || lens_sine < least_sine + hair) {
+        if (eye_sine < min_sine + hair || lens_sine < min_sine + hair) {
             return;
         }
         sort_shown();
-        constexpr std::size_t most_triangles = 50'000; // a larger level is sampled
-        const std::size_t stride = 3 * (artifact_.level.indices.size() / (3 * most_triangles) + 1);
+        constexpr std::size_t max_triangles = 50'000; // a larger level is sampled
+        const std::size_t stride = 3 * (artifact_.level.indices.size() / (3 * max_triangles) + 1);
         for (std::size_t k = 0; k < artifact_.level.indices.size(); k += stride) {
             triangle(
                 {artifact_.level.indices[k], artifact_.level.indices[k + 1], artifact_.level.indices[k + 2]});
@@ -322,7 +322,7 @@ PictureFigures figures_of(const exact::Stage& stage, std::optional<std::size_t> 
 }
 
 std::vector<StabilityRow> rows_of(const PictureFigures& figures, const std::string& where, double bound_px,
-                                  double gpu_bound_px, double least_points) {
+                                  double gpu_bound_px, double min_points) {
     std::vector<StabilityRow> rows{
         {where + "missing, unlit, on a dark face, not finite", 0.0,
          figures.missing + figures.unlit + figures.wrong_faces + figures.not_finite}};
@@ -330,8 +330,8 @@ std::vector<StabilityRow> rows_of(const PictureFigures& figures, const std::stri
         rows.push_back({where + "64-bit, px", bound_px, figures.error_px});
         rows.push_back({where + "32-bit, px", gpu_bound_px, figures.gpu_error_px});
     }
-    if (figures.points < least_points) {
-        rows.push_back({where + "points compared, short of enough", 0.0, least_points - figures.points});
+    if (figures.points < min_points) {
+        rows.push_back({where + "points compared, short of enough", 0.0, min_points - figures.points});
     }
     return rows;
 }

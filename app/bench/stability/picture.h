@@ -57,9 +57,9 @@ inline constexpr double bound_px = 4.0 * 1280.0 * 0x1p-53;
 inline constexpr double gpu_bound_px = 4.0 * 1280.0 * 0x1p-24;
 
 /// Rows that require: nothing is missing, unlit, wrong or infinite; errors are within the bounds; at least
-/// `least_points` were compared.
+/// `min_points` were compared.
 [[nodiscard]] std::vector<StabilityRow> rows_of(const PictureFigures& figures, const std::string& where,
                                                 double bound_px, double gpu_bound_px,
-                                                double least_points = 100.0);
+                                                double min_points = 100.0);
 
 } // namespace frustumscreen

@@ -3,7 +3,7 @@
 #include "app/bench/stability/exact.h"
 #include "app/bench/stability/picture.h"
 #include "app/bench/stability/themes.h"
-#include "app/tracking/situation.h"
+#include "app/tracking/tracked_state.h"
 #include "firmware_host/tracker/pose_file.h"
 
 #include <fmt/format.h>
@@ -50,7 +50,7 @@ StabilityResult of_any_length(const StabilityOptions&) {
         const glm::dquat q = turned * std::pow(10.0, exponent);
         const auto unit = normalised(q);
         off = std::fmax(off, unit ? off_turn(*unit) : 1.0);
-        SituationTracker tracker(glm::dvec3(0.0));
+        TrackedStateTracker tracker(glm::dvec3(0.0));
         const bool taken = tracker.take(sample_of(q));
         off_tracked = std::fmax(off_tracked, taken ? off_turn(tracker.at({}).table_from_prop.rotation) : 1.0);
     }
@@ -68,7 +68,7 @@ StabilityResult of_none(const StabilityOptions&) {
 
 /// The tracker refuses such poses and keeps its state.
 StabilityResult into_the_tracker(const StabilityOptions&) {
-    SituationTracker tracker(glm::dvec3(0.0, -0.5, 0.5));
+    TrackedStateTracker tracker(glm::dvec3(0.0, -0.5, 0.5));
     double wrong = tracker.take(sample_of(turned)) ? 0.0 : 1.0;
     const RigidTransform before = tracker.at({}).table_from_prop;
     std::vector<PoseSample> bad;
@@ -87,7 +87,7 @@ StabilityResult into_the_tracker(const StabilityOptions&) {
         head.station = head_station;
         wrong += tracker.take(sample) || tracker.take(head) ? 1.0 : 0.0;
     }
-    const Situation after = tracker.at(from_microseconds(2000));
+    const TrackedState after = tracker.at(from_microseconds(2000));
     wrong += after.table_from_prop.rotation == before.rotation ? 0.0 : 1.0;
     wrong += after.table_from_prop.translation == before.translation ? 0.0 : 1.0;
     wrong += after.head_known ? 1.0 : 0.0;

@@ -73,10 +73,9 @@ exact::Real exact_gain(const exact::Stage& stage, const PropFace& face, const ex
     const exact::Real d = exact::length(lens - point);
     const exact::Real height = stage.height(face, lens);
     const exact::Real sine = height / exact::length(lens - exact::of(face.middle()));
-    const exact::Real lit =
-        std::clamp((sine - exact::Real(least_sine_of_light)) /
-                       (exact::Real(full_sine_of_light) - exact::Real(least_sine_of_light)),
-                   exact::Real(0), exact::Real(1));
+    const exact::Real lit = std::clamp((sine - exact::Real(min_sine_of_light)) /
+                                           (exact::Real(full_sine_of_light) - exact::Real(min_sine_of_light)),
+                                       exact::Real(0), exact::Real(1));
     return lit * lit * (3 - 2 * lit) * std::min(exact::Real(1), reference * d * d * d / height);
 }
 

@@ -16,12 +16,12 @@ namespace frustumscreen {
 namespace {
 
 /// Smallest sine at which faces of a standing and of a tilted prop are seen.
-constexpr double least_sine_upright = 0.1;
-constexpr double least_sine_tilted = 0.05;
+constexpr double min_sine_upright = 0.1;
+constexpr double min_sine_tilted = 0.05;
 
 std::vector<StabilityRow> rows_at(double sine, const PictureFigures& figures, const std::string& where,
-                                  double least_points = 100.0) {
-    return rows_of(figures, where, bound_px / sine, gpu_bound_px / sine, least_points);
+                                  double min_points = 100.0) {
+    return rows_of(figures, where, bound_px / sine, gpu_bound_px / sine, min_points);
 }
 
 void append(StabilityResult& result, std::vector<StabilityRow> rows) {
@@ -42,7 +42,7 @@ StabilityResult edges(const StabilityOptions&) {
                 figures.include(figures_of(stage));
             }
         }
-        append(result, rows_at(least_sine_upright, figures, where));
+        append(result, rows_at(min_sine_upright, figures, where));
     };
     add("at the edge: ", {{0.32, 0.0}, {-0.32, 0.0}, {0.0, 0.17}, {0.0, -0.17}, {0.31, 0.16}});
     add("straddling it: ", {{0.40, 0.0}, {-0.39, 0.02}, {0.02, 0.25}, {-0.05, -0.26}, {0.40, 0.25}});
@@ -73,7 +73,7 @@ StabilityResult lifted(const StabilityOptions&) {
         stage.eye_m = {0.0, -0.55, height_m + 0.5};
         stage.table_from_prop.translation = {0.0, 0.0, height_m};
         const SeenArtifact artifact = seen_artifact(stage, 40000);
-        append(result, rows_at(least_sine_upright, figures_of(stage, artifact, plan_of(stage, artifact)),
+        append(result, rows_at(min_sine_upright, figures_of(stage, artifact, plan_of(stage, artifact)),
                                fmt::format("{:g} m: ", height_m)));
     }
     PictureFigures figures;
@@ -85,7 +85,7 @@ StabilityResult lifted(const StabilityOptions&) {
         const SeenArtifact artifact = seen_artifact(stage);
         figures.include(figures_of(stage, artifact, plan_of(stage, artifact)));
     }
-    append(result, rows_at(least_sine_upright, figures, "about the lens: ", 0.0));
+    append(result, rows_at(min_sine_upright, figures, "about the lens: ", 0.0));
     return result;
 }
 
@@ -100,7 +100,7 @@ StabilityResult tilted(const StabilityOptions&) {
             figures.include(figures_of(stage));
         }
     }
-    return {rows_at(least_sine_tilted, figures, "", 10000.0)};
+    return {rows_at(min_sine_tilted, figures, "", 10000.0)};
 }
 
 /// Only a rigid matrix has a rigid transform.

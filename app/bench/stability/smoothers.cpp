@@ -95,8 +95,8 @@ MonotonicTime at_seconds(double seconds) {
 }
 
 constexpr FrameWork usual_work{1e4, 1e5};
-FrameTimeModel model_of(std::size_t rungs) {
-    return FrameTimeModel(std::vector<RungTime>(rungs, {1, usual_work, 10.0}));
+FrameTimeModel model_of(std::size_t quality_levels) {
+    return FrameTimeModel(std::vector<QualityLevelTime>(quality_levels, {1, usual_work, 10.0}));
 }
 
 /// The load doubles. log2 of the expected time over the old one is compared with 1 - exp(-t / time constant).
@@ -118,8 +118,8 @@ LoadResponse load_response(double dt) {
         response.back = std::fmax(response.back, std::fmax(before - now, now - 1.0));
         before = now;
     }
-    // A step counts with its duration, limited to most_dt_s.
-    const double counted = std::fmin(to_seconds(step), FrameTimeModel::most_dt_s);
+    // A step counts with its duration, limited to max_dt_s.
+    const double counted = std::fmin(to_seconds(step), FrameTimeModel::max_dt_s);
     response.off = std::abs(before - exact_share(counted * response.count, FrameTimeModel::time_constant_s));
     return response;
 }
@@ -210,8 +210,8 @@ StabilityResult garbage(const StabilityOptions&) {
         const FrameWork work{std::pow(10.0, exponent(random)), random() % 2 == 0 ? inf : 0.0};
         const bool taken = model.observe(random() % 3, work, ms, now);
         wrong += taken == (ms > 0.0 && ms <= FrameTimeModel::longest_ms) ? 0.0 : 1.0;
-        for (std::size_t rung = 0; rung < 3; ++rung) {
-            const double expected = model.expected_ms(rung);
+        for (std::size_t quality_level = 0; quality_level < 3; ++quality_level) {
+            const double expected = model.expected_ms(quality_level);
             // Work within a factor of 20, load and own factor within e^7 each.
             const double most = 10.0 * 20.0 * std::exp(14.0) * 1.0001;
             wrong += expected > 0.0 && expected <= most && expected >= 100.0 / most ? 0.0 : 1.0;

@@ -4,7 +4,7 @@
 #include "app/bench/stability/themes.h"
 #include "app/settings/settings.h"
 #include "app/tracking/pose_frames.h"
-#include "app/tracking/situation.h"
+#include "app/tracking/tracked_state.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/tracker/convert_recording.h"
 #include "firmware_host/tracker/replay_tracker.h"
@@ -54,7 +54,7 @@ PoseSample sample_at(MonotonicTime time, double x) {
 
 /// Compares with the plain rule: the latest of all samples so far, and among equal times the last one.
 StabilityResult situations(const StabilityOptions&) {
-    SituationTracker tracker(glm::dvec3(0.0));
+    TrackedStateTracker tracker(glm::dvec3(0.0));
     double wrong = 0.0;
     std::optional<PoseSample> latest;
     double x = 0.0;
@@ -64,7 +64,7 @@ StabilityResult situations(const StabilityOptions&) {
             wrong += 1.0;
         }
         latest = !latest || sample.time >= latest->time ? sample : latest;
-        const Situation now = tracker.at(latest->time + nanoseconds(7));
+        const TrackedState now = tracker.at(latest->time + nanoseconds(7));
         wrong += now.table_from_prop.translation.x == latest->position_m.x && now.prop_age == nanoseconds(7)
                      ? 0
                      : 1;
@@ -143,9 +143,9 @@ StabilityResult simulated(const StabilityOptions&) {
     }
     // Minimum jerk peaks at 15/8 of the mean speed (Flash and Hogan 1985). A movement takes at least 0.3 x 4
     // s; a parabola within the zone begins and ends at twice its mean rate at most, over the zone's diagonal.
-    const double most_m_s = 1.875 * 2.0 * 2.0 * glm::length(visitor.half_extent_m) / (0.3 * 4.0);
+    const double max_m_s = 1.875 * 2.0 * 2.0 * glm::length(visitor.half_extent_m) / (0.3 * 4.0);
     return {{{"samples other than with polls every 0.7 ms: 17 ms, 10 s", 0.0, other},
-             {"fastest movement of prop and head, m/s", most_m_s, fastest_m_s}}};
+             {"fastest movement of prop and head, m/s", max_m_s, fastest_m_s}}};
 }
 
 /// The result of a curator's file of poses does not depend on the order of its rows.
@@ -156,9 +156,9 @@ StabilityResult frames(const StabilityOptions&) {
         rows.push_back(sample_at(from_microseconds(std::int64_t{1000} * frame), frame));
         rows.back().station = k % 2 == 0 ? prop_station : head_station;
     }
-    const std::vector<Situation> sorted = pose_frames(rows, glm::dvec3(0.0));
+    const std::vector<TrackedState> sorted = pose_frames(rows, glm::dvec3(0.0));
     std::shuffle(rows.begin(), rows.end(), std::mt19937(6));
-    const std::vector<Situation> shuffled = pose_frames(rows, glm::dvec3(0.0));
+    const std::vector<TrackedState> shuffled = pose_frames(rows, glm::dvec3(0.0));
     double wrong = sorted.size() == 1000 && shuffled.size() == 1000 ? 0.0 : 1.0;
     for (std::size_t k = 0; wrong == 0.0 && k < sorted.size(); ++k) {
         wrong += sorted[k].time == shuffled[k].time && sorted[k].eye_m == shuffled[k].eye_m &&
@@ -216,7 +216,7 @@ StabilityResult recordings(const StabilityOptions& options) {
         wrong +=
             samples.size() + static_cast<std::size_t>(recording->dropped_rows) == times.size() ? 0.0 : 1.0;
         // Deliver each pair in the wrong order: the later sample of the pair counts.
-        SituationTracker tracker(glm::dvec3(0.0));
+        TrackedStateTracker tracker(glm::dvec3(0.0));
         for (std::size_t k = 0; k + 1 < samples.size(); k += 2) {
             wrong += tracker.take(samples[k + 1]) && tracker.take(samples[k]) ? 0.0 : 1.0;
             wrong += tracker.at(samples[k + 1].time).table_from_prop.translation == samples[k + 1].position_m

@@ -160,7 +160,7 @@ PeerMesh::upload(const SourceMesh& mesh, const glm::dmat4& prop_from_artifact, b
 
 std::vector<glm::vec3> PeerMesh::upload_vertices(const SourceMesh& mesh,
                                                  const glm::dmat4& prop_from_artifact) {
-    constexpr double most_code = 65535.0;
+    constexpr double max_code = 65535.0;
     std::vector<glm::dvec3> placed;
     placed.reserve(mesh.positions.size());
     box_ = {glm::dvec3(std::numeric_limits<double>::infinity()),
@@ -173,10 +173,10 @@ std::vector<glm::vec3> PeerMesh::upload_vertices(const SourceMesh& mesh,
     std::vector<std::array<std::uint16_t, 4>> codes; // 8 bytes, aligned
     std::vector<glm::vec3> positions;
     for (const glm::dvec3& position : placed) {
-        const glm::dvec3 code = glm::round((position - box_.low) / extent * most_code);
+        const glm::dvec3 code = glm::round((position - box_.low) / extent * max_code);
         codes.push_back({static_cast<std::uint16_t>(code.x), static_cast<std::uint16_t>(code.y),
                          static_cast<std::uint16_t>(code.z), 0});
-        positions.emplace_back(box_.low + code / most_code * extent);
+        positions.emplace_back(box_.low + code / max_code * extent);
     }
     const auto attribute = [this](GLuint index, GLint components, GLenum type, GLboolean over_one,
                                   std::size_t stride, std::span<const std::byte> bytes) {

@@ -87,11 +87,11 @@ bool in_zone(const Settings& settings, const PropShape& prop, const BenchPose& p
 
 Result<std::vector<BenchPose>> draw_poses(const Settings& settings, const PropShape& prop, int count,
                                           std::uint64_t seed) {
-    constexpr int most_tries_each = 10000;
+    constexpr int max_tries_each = 10000;
     Draw draw(seed);
     std::vector<BenchPose> poses;
     for (std::int64_t tries = 0; static_cast<int>(poses.size()) < count; ++tries) {
-        if (tries > static_cast<std::int64_t>(count) * most_tries_each) {
+        if (tries > static_cast<std::int64_t>(count) * max_tries_each) {
             return fail(
                 ErrorKind::BadConfiguration, "bench.no_lit_place",
                 "hardly any place on the table has the prop inside the picture and light on every face that "

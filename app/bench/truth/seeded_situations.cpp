@@ -15,19 +15,19 @@ Settings cube_in_hand() {
     return settings;
 }
 
-GuidedSituation seeded_situation(const GuidanceSetup& setup, Seeded& seeded) {
-    GuidedSituation situation;
+GuidedState seeded_situation(const GuidanceSetup& setup, Seeded& seeded) {
+    GuidedState tracked_state;
     const double azimuth = seeded.between(-std::numbers::pi, std::numbers::pi);
     const double away_m = seeded.between(0.35, 1.2);
-    situation.eye_m = {away_m * std::cos(azimuth), away_m * std::sin(azimuth), seeded.between(0.25, 0.9)};
-    RigidTransform& pose = situation.table_from_prop;
+    tracked_state.eye_m = {away_m * std::cos(azimuth), away_m * std::sin(azimuth), seeded.between(0.25, 0.9)};
+    RigidTransform& pose = tracked_state.table_from_prop;
     const glm::dvec2 reach = 1.1 * setup.half_table_m;
     pose.translation = {seeded.between(-reach.x, reach.x), seeded.between(-reach.y, reach.y), 0.0};
     if (setup.in_hand) {
         const glm::dquat any(seeded.normal(), seeded.normal(), seeded.normal(), seeded.normal());
         pose.rotation = glm::normalize(any);
         pose.translation.z = seeded.between(0.1, 0.3);
-        return situation;
+        return tracked_state;
     }
     pose.rotation = glm::angleAxis(seeded.between(-std::numbers::pi, std::numbers::pi), glm::dvec3(0, 0, 1));
     const double share = seeded.between(0.0, 1.0);
@@ -39,7 +39,7 @@ GuidedSituation seeded_situation(const GuidanceSetup& setup, Seeded& seeded) {
         pose.rotation = pose.rotation * glm::angleAxis(seeded.between(0.0, std::numbers::pi),
                                                        glm::dvec3(std::cos(axis), std::sin(axis), 0.0));
     }
-    return situation;
+    return tracked_state;
 }
 
 Execution seeded_person(const Move& move, const GuidanceSetup& setup, Seeded& seeded) {

@@ -31,7 +31,7 @@ private:
 
 /// A prop as left by a visitor: on the table, half of the time lifted, a quarter of the time leaning or
 /// lying; in the hand in any orientation.
-[[nodiscard]] GuidedSituation seeded_situation(const GuidanceSetup& setup, Seeded& seeded);
+[[nodiscard]] GuidedState seeded_situation(const GuidanceSetup& setup, Seeded& seeded);
 
 /// A person's execution of a move: direction within 20 degrees, amount within 40 per cent.
 [[nodiscard]] Execution seeded_person(const Move& move, const GuidanceSetup& setup, Seeded& seeded);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t more_rests = 4;
 
-/// A camera that is slow sends good frames; one that sees nothing but dark while dark is shown is well.
+/// A slow camera sends good frames; a dark frame is right while dark is shown.
 bool can_be_used(CameraState state, bool dark_is_shown) {
     return health_of(state) == CameraHealth::Well || state == CameraState::Slow ||
            (dark_is_shown && state == CameraState::Dark);
@@ -57,40 +57,40 @@ std::optional<MonotonicTime> AutoProcedure::lit(const Input& input) const {
     return input.lit && input.lit->number == number_ ? std::optional(input.lit->since) : std::nullopt;
 }
 
-/// A camera that is not there or sees nothing is told here, once it had the time to be set up: nothing begins with it.
+/// Once the camera had time to start, reports that it is missing or sees nothing: Next does not begin then.
 void AutoProcedure::begin(const Input& input) {
-    word_ = input.now - *camera_well_ > patience ? AutoWord::CameraFault : AutoWord::None;
+    word_ = input.now - *camera_well_ > patience ? AutoPrompt::CameraFault : AutoPrompt::None;
     if (input.back) {
         stage_ = problem_.empty() && plan_.crosses_follow ? Stage::GoesOn : Stage::Left;
-    } else if (input.next && problem_.empty() && word_ == AutoWord::None) {
+    } else if (input.next && problem_.empty() && word_ == AutoPrompt::None) {
         stage_ = Stage::Delay;
     }
 }
 
-/// Where the camera does not see the light, that is said, and it is measured again as soon as Next is pressed.
+/// If the camera does not see the light, says so and measures again on Next.
 void AutoProcedure::measure_delay(const Input& input) {
     if (input.back) {
-        go_to(word_ != AutoWord::None && plan_.crosses_follow ? Stage::GoesOn : Stage::Begin);
+        go_to(word_ != AutoPrompt::None && plan_.crosses_follow ? Stage::GoesOn : Stage::Begin);
         light_.reset();
         return;
     }
     if (!can_be_used(input.camera, true)) {
         light_.reset();
-        word_ = AutoWord::CameraFault;
+        word_ = AutoPrompt::CameraFault;
         return;
     }
     if (!light_) {
-        if (word_ == AutoWord::NoLight && !input.next) {
+        if (word_ == AutoPrompt::NoLight && !input.next) {
             return;
         }
-        word_ = AutoWord::None;
+        word_ = AutoPrompt::None;
         light_.emplace();
     }
     light_->step(lit(input), input.frame);
     if (light_->is_done()) {
         delay_ = light_->delay();
         light_.reset();
-        go_to(delay_ ? Stage::Place : Stage::Delay, delay_ ? AutoWord::None : AutoWord::NoLight);
+        go_to(delay_ ? Stage::Place : Stage::Delay, delay_ ? AutoPrompt::None : AutoPrompt::NoLight);
     }
 }
 
@@ -101,7 +101,7 @@ void AutoProcedure::place(const Input& input) {
     }
     if (input.next) {
         const bool is_enough = taken_.size() >= least();
-        go_to(is_enough ? Stage::Solve : stage_, is_enough ? AutoWord::None : AutoWord::TooFew);
+        go_to(is_enough ? Stage::Solve : stage_, is_enough ? AutoPrompt::None : AutoPrompt::TooFew);
         return;
     }
     if (!watch(input) || !is_at_rest(input)) {
@@ -122,30 +122,30 @@ void AutoProcedure::drop_last() {
         return;
     }
     taken_.pop_back();
-    done_with_.reset(); // it may be taken anew where it stands
+    done_with_.reset(); // it may be taken again where it stands
     still_.clear();
-    word_ = AutoWord::Dropped;
+    word_ = AutoPrompt::Dropped;
 }
 
-/// Whether camera and tracker see anything.
+/// True if camera and tracker both see something.
 bool AutoProcedure::watch(const Input& input) {
     seen_ = input.prop || !seen_ ? input.now : *seen_;
     if (!can_be_used(input.camera, false)) {
-        word_ = AutoWord::CameraFault;
+        word_ = AutoPrompt::CameraFault;
         return false;
     }
     if (input.now - *seen_ > patience) {
-        word_ = AutoWord::NotSeen;
+        word_ = AutoPrompt::NotSeen;
         still_.clear();
         return false;
     }
-    if (word_ == AutoWord::CameraFault || word_ == AutoWord::NotSeen) {
-        word_ = AutoWord::None;
+    if (word_ == AutoPrompt::CameraFault || word_ == AutoPrompt::NotSeen) {
+        word_ = AutoPrompt::None;
     }
     return true;
 }
 
-/// Somewhere else than before.
+/// True if the prop rests at a new place.
 bool AutoProcedure::is_at_rest(const Input& input) {
     if (input.prop && !still_.add(input.now, *input.prop)) {
         not_before_.reset();
@@ -156,33 +156,33 @@ bool AutoProcedure::is_at_rest(const Input& input) {
     return !done_with_ || !is_near(still_.mean(), *done_with_, same_place_m, same_place_rad);
 }
 
-/// Or why no rest can be taken there.
-tl::expected<Posture, AutoWord> AutoProcedure::posture_of(const RigidTransform& report) const {
+/// The posture, or the reason why no rest can be taken.
+tl::expected<Posture, AutoPrompt> AutoProcedure::posture_of(const RigidTransform& report) const {
     std::vector<RigidTransform> flat = flat_ones();
     if (flat.size() < first_flat) {
         for (const RigidTransform& other : flat) {
             if (rotation_angle(other.rotation, report.rotation) < turned_rad) {
-                return tl::unexpected(AutoWord::TurnIt);
+                return tl::unexpected(AutoPrompt::TurnIt);
             }
         }
         flat.push_back(report);
         if (flat.size() == first_flat && flat_posture(flat)->tilt_rad > flat_rad) {
-            return tl::unexpected(AutoWord::NotFlat);
+            return tl::unexpected(AutoPrompt::NotFlat);
         }
         return Posture::Flat;
     }
     const RestStance stance = stance_of(*flat_posture(flat), report);
     if (stance.tilt_rad > flat_rad) {
         return stance.tilt_rad < leaning_rad
-                   ? tl::expected<Posture, AutoWord>(tl::unexpected(AutoWord::LeansLittle))
+                   ? tl::expected<Posture, AutoPrompt>(tl::unexpected(AutoPrompt::LeansLittle))
                    : Posture::Leaning;
     }
     const double raised = std::abs(stance.raised_m); // the normal may point down
     if (raised <= height_m) {
         return Posture::Flat;
     }
-    return std::abs(raised - plan_.block_m) <= height_m ? tl::expected<Posture, AutoWord>(Posture::Block)
-                                                        : tl::unexpected(AutoWord::WrongHeight);
+    return std::abs(raised - plan_.block_m) <= height_m ? tl::expected<Posture, AutoPrompt>(Posture::Block)
+                                                        : tl::unexpected(AutoPrompt::WrongHeight);
 }
 
 std::vector<FoundTag> AutoProcedure::tags_in(const CameraFrame& frame) {
@@ -199,28 +199,28 @@ void AutoProcedure::begin_capture(MonotonicTime now) {
 void AutoProcedure::capture(const Input& input) {
     seen_ = input.prop ? input.now : *seen_;
     if (input.back) {
-        done_with_ = still_.mean(); // it is to be put elsewhere first
-        end_capture(input.now, AutoWord::None);
+        done_with_ = still_.mean(); // the prop must move first
+        end_capture(input.now, AutoPrompt::None);
     } else if (input.prop && !still_.add(input.now, *input.prop)) {
-        end_capture(input.now, AutoWord::Moved);
+        end_capture(input.now, AutoPrompt::Moved);
     } else if (input.now - *seen_ > patience) {
-        end_capture(input.now, AutoWord::NotSeen);
+        end_capture(input.now, AutoPrompt::NotSeen);
     } else if (!can_be_used(input.camera, true)) {
-        end_capture(input.now, AutoWord::CameraFault);
+        end_capture(input.now, AutoPrompt::CameraFault);
     } else if (!stripes_->step(input.now, lit(input), input.frame)) {
-        end_capture(input.now, AutoWord::NoFrames);
+        end_capture(input.now, AutoPrompt::NoFrames);
     } else if (stripes_->is_complete()) {
         look_at_captures(input.now);
     } else if (stripes_->has_before() && before_.empty()) {
         before_ = tags_in(stripes_->before());
         tags_ = static_cast<int>(before_.size());
-        if (tags_ < least_tags) {
-            end_capture(input.now, AutoWord::FewTags);
+        if (tags_ < min_tags) {
+            end_capture(input.now, AutoPrompt::FewTags);
         }
     }
 }
 
-void AutoProcedure::end_capture(MonotonicTime now, AutoWord word) {
+void AutoProcedure::end_capture(MonotonicTime now, AutoPrompt word) {
     stripes_.reset();
     not_before_ = now + pause;
     go_to(Stage::Place, word);
@@ -231,12 +231,12 @@ void AutoProcedure::look_at_captures(MonotonicTime now) {
         view_of(board_, plan_.stripes, stripes_->captures(), before_, tags_in(stripes_->after()));
     tags_ = view.tags;
     if (2 * view.moved > view.tags) {
-        end_capture(now, AutoWord::Moved);
+        end_capture(now, AutoPrompt::Moved);
     } else if (2 * (view.moved + view.disturbed) > view.tags) {
-        end_capture(now, AutoWord::Disturbed);
-    } else if (view.tags < least_tags) {
-        done_with_ = still_.mean(); // the same again would show the same
-        end_capture(now, view.clipped > 0 ? AutoWord::TooBright : AutoWord::FewTags);
+        end_capture(now, AutoPrompt::Disturbed);
+    } else if (view.tags < min_tags) {
+        done_with_ = still_.mean(); // repeating it would show the same
+        end_capture(now, view.clipped > 0 ? AutoPrompt::TooBright : AutoPrompt::FewTags);
     } else {
         take(now, view);
     }
@@ -245,7 +245,7 @@ void AutoProcedure::look_at_captures(MonotonicTime now) {
 void AutoProcedure::take(MonotonicTime now, const BoardView& view) {
     const RigidTransform report = still_.mean();
     const auto posture = posture_of(report);
-    if (!posture) { // on the verge of it
+    if (!posture) { // the mean changed during the capture, close to a limit
         end_capture(now, posture.error());
         return;
     }
@@ -256,7 +256,7 @@ void AutoProcedure::take(MonotonicTime now, const BoardView& view) {
     taken_.push_back({{++last_name_, report, view.points, block_m}, *posture, view.has_top});
     done_with_ = report;
     latest_press_ = now;
-    end_capture(now, AutoWord::Taken);
+    end_capture(now, AutoPrompt::Taken);
     if (taken_.size() >= wanted_) {
         stage_ = Stage::Solve;
     }
@@ -280,7 +280,8 @@ std::vector<RigidTransform> AutoProcedure::flat_ones() const {
     return flat;
 }
 
-/// Rests that do not fit are dropped, and as many taken anew; what is refused begins anew. Back keeps all, and goes on.
+/// Next drops rests that do not fit and asks for as many; after a refusal it begins again. Back keeps all
+/// rests and asks for more.
 void AutoProcedure::after_judgement(const Input& input) {
     const TouchCalibration& found = judged_->found;
     if (input.next && (found.verdict == Verdict::Good || found.verdict == Verdict::Usable)) {

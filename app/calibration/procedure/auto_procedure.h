@@ -1,12 +1,15 @@
-/// The way through a calibration by a camera, for one technician: what the projector shows, what is said, and which rests of the board come of it.
+/// Guides one technician through a calibration by a camera: what the projector shows, what is said, and which
+/// rests of the board are taken.
 ///
-/// Begin    What is the matter with the camera is told too. Back goes on to the crosses where they follow.
-/// Delay    The projector shows light and dark, and it is measured how long the camera takes to see it. From a camera that does not, Back goes
-///          on to the crosses too.
-/// Rests    It is said where the board is to stand next, and how. When the tracker's reports have come to rest somewhere else than before, the
-///          stripes are shown, without a press. What moved, or was shadowed, is done again by itself.
-/// Buttons  Between rests Back drops the last one, and Next ends early, from `enough` rests on. While stripes are shown Back ends them.
-/// End      Next keeps it, or does again what does not fit; Back goes on with more rests.
+/// Begin    Also reports what is wrong with the camera. Back goes on to the crosses if they follow.
+/// Delay    The projector alternates light and dark to measure the camera's delay. If the camera does not see
+///          the light, Back goes on to the crosses too.
+/// Rests    The technician is told where to put the board next, and how. Once the tracker's reports are at
+///          rest at a new place, the stripes are shown without a press. A rest that moved or was shadowed is
+///          repeated automatically.
+/// Buttons  Between rests Back drops the last one, and Next ends early, from `enough` rests on. While stripes
+///          are shown Back ends them.
+/// End      Next keeps the calibration, or repeats what does not fit; Back goes on with more rests.
 /// Frames   tracker K, as the device reports; pixels of the projector.
 /// Threads  one caller. A step may take some tenths of a second: it looks for tags and decodes.
 #pragma once
@@ -15,7 +18,7 @@
 #include "app/calibration/procedure/board_view.h"
 #include "app/calibration/procedure/capture_delay.h"
 #include "app/calibration/procedure/procedure.h"
-#include "app/calibration/procedure/rest_wish.h"
+#include "app/calibration/procedure/rest_request.h"
 #include "app/calibration/procedure/still_reports.h"
 #include "app/calibration/procedure/stripe_capture.h"
 
@@ -28,56 +31,55 @@
 
 namespace frustumscreen {
 
-/// What is said beside what is to be done.
-enum class AutoWord {
+/// The remark beside the instruction.
+enum class AutoPrompt {
     None,
     NoLight,     ///< the camera does not see the projector's light
-    CameraFault, ///< its state says what
-    NoFrames,    ///< it sends none, or others than before
+    CameraFault, ///< the camera's state names it
+    NoFrames,    ///< no frame, or frames of another size
     NotSeen,     ///< the tracker does not see the prop
-    FewTags,     ///< whole, in the light
+    FewTags,     ///< too few are whole and lit
     TurnIt,      ///< the first flat rests must be turned against each other
-    NotFlat,     ///< the first ones were not all flat
-    LeansLittle, ///< it stands neither flat nor leans enough
-    WrongHeight, ///< it stands flat, but neither on the table nor on the block
-    Moved,       ///< while the stripes were shown
+    NotFlat,     ///< the first rests were not all flat
+    LeansLittle, ///< the prop is neither flat nor leans enough
+    WrongHeight, ///< the prop is flat, but neither on the table nor on the block
+    Moved,       ///< the prop moved while the stripes were shown
     Disturbed,   ///< something passed through the light
     TooBright,
     Taken,
     Dropped, ///< the last rest
-    TooFew   ///< rests, to end here
+    TooFew   ///< too few rests to end here
 };
 
 struct AutoPlan {
     int rests = 16;
-    double board_m = 0.003; ///< how thick the board is
-    double block_m = 0.12;  ///< how high the block raises it, where one is needed
+    double board_m = 0.003; ///< the board's thickness
+    double block_m = 0.12;  ///< the block's height, if one is needed
     StripeSetup stripes;
     int frames = 2;              ///< of each striped picture
-    bool crosses_follow = false; ///< Back goes on to them, and not out
+    bool crosses_follow = false; ///< Back goes on to the crosses instead of leaving
 };
-/// A period of the stripes that suits the picture's width: a camera's pixel covers more of a finer picture.
+/// Stripes whose period suits the picture's width: a camera pixel covers more pixels of a finer picture.
 [[nodiscard]] StripeSetup stripes_for(int width, int height);
 
-class AutoProcedure : public Procedure<AutoWord, AutoCalibration> {
+class AutoProcedure : public Procedure<AutoPrompt, AutoCalibration> {
 public:
     static constexpr Nanoseconds rest = std::chrono::milliseconds(1500);
-    static constexpr Nanoseconds pause =
-        std::chrono::seconds(3);              ///< before stripes that were of no use come again
-    static constexpr std::size_t enough = 12; ///< rests
-    static constexpr int least_tags = 3;
+    static constexpr Nanoseconds pause = std::chrono::seconds(3); ///< before useless stripes are shown again
+    static constexpr std::size_t enough = 12;                     ///< rests
+    static constexpr int min_tags = 3;
     static constexpr double same_place_m = 0.02;
     static constexpr double same_place_rad = 0.15;
     static constexpr double turned_rad = 0.35;
     static constexpr double flat_rad = 0.035;
     static constexpr double leaning_rad = 0.14;
-    static constexpr double height_m = 8e-3; ///< from where the table or the block has it
+    static constexpr double height_m = 8e-3; ///< tolerance of the height on the table or block
 
     AutoProcedure(Board board, const AutoPlan& plan, std::string problem = {});
 
     void step(const Input& input);
 
-    /// What is shown: a pattern, or nothing: words. Whenever it becomes another, it has the next number.
+    /// The shown pattern; nothing: words. Each change of it increases `number`.
     [[nodiscard]] const std::optional<Pattern>& shown() const { return shown_; }
     [[nodiscard]] std::uint64_t number() const { return number_; }
 
@@ -86,13 +88,13 @@ public:
     [[nodiscard]] const Board& board() const { return board_; }
     [[nodiscard]] Rests rests() const;
     [[nodiscard]] std::size_t taken() const { return taken_.size(); }
-    /// How many are wanted in all.
+    /// Number of rests wanted in all.
     [[nodiscard]] std::size_t wanted() const { return wanted_; }
-    /// How many are needed for Next to end early.
+    /// Number of rests from which on Next ends early.
     [[nodiscard]] std::size_t least() const { return std::min(enough, wanted_); }
-    /// Of the latest look: whole and lit.
+    /// Number of tags that were whole and lit in the latest capture.
     [[nodiscard]] int tags() const { return tags_; }
-    [[nodiscard]] RestWish wish() const {
+    [[nodiscard]] RestRequest wish() const {
         return next_wish(taken_, {plan_.stripes.width, plan_.stripes.height});
     }
     [[nodiscard]] std::optional<Nanoseconds> delay() const { return delay_; }
@@ -106,11 +108,11 @@ private:
     void drop_last();
     [[nodiscard]] bool watch(const Input& input);
     [[nodiscard]] bool is_at_rest(const Input& input);
-    [[nodiscard]] tl::expected<Posture, AutoWord> posture_of(const RigidTransform& report) const;
+    [[nodiscard]] tl::expected<Posture, AutoPrompt> posture_of(const RigidTransform& report) const;
     [[nodiscard]] std::vector<FoundTag> tags_in(const CameraFrame& frame);
     void begin_capture(MonotonicTime now);
     void capture(const Input& input);
-    void end_capture(MonotonicTime now, AutoWord word);
+    void end_capture(MonotonicTime now, AutoPrompt word);
     void look_at_captures(MonotonicTime now);
     void take(MonotonicTime now, const BoardView& view);
     void after_judgement(const Input& input);
@@ -125,14 +127,14 @@ private:
     std::optional<Pattern> shown_;
     std::uint64_t number_ = 0;
     std::optional<MonotonicTime>
-        camera_well_; ///< at the beginning: so long it could be used, or nothing was to be seen yet
+        camera_well_; ///< latest time at which the camera was usable, or not yet needed
     std::optional<CaptureDelay> light_;
     std::optional<Nanoseconds> delay_;
     StillReports still_{3};
     std::optional<MonotonicTime> seen_;       ///< the tracker's latest report
-    std::optional<RigidTransform> done_with_; ///< the prop is to move on from there
-    std::optional<MonotonicTime> not_before_; ///< stripes were of no use there
-    std::vector<FoundTag> found_;             ///< all that the detector finds
+    std::optional<RigidTransform> done_with_; ///< the prop must leave this place before the next rest
+    std::optional<MonotonicTime> not_before_; ///< after useless stripes
+    std::vector<FoundTag> found_;             ///< all tags that the detector finds
     std::vector<FoundTag> before_;            ///< the board's tags in the first picture of the stripes
     int tags_ = 0;
     std::optional<StripeCapture> stripes_;

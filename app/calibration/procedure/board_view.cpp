@@ -12,16 +12,17 @@ namespace frustumscreen {
 namespace {
 
 constexpr double still_px = 0.6;
-/// Of white less black: a bit and its inverse miss their sum by so much, or a cosine's steps their wave.
-constexpr double most_of_pair = 0.35;
-constexpr double most_of_wave = 0.08;
-/// Share of a tag's lit pixels.
-constexpr double most_disturbed = 0.2;
-constexpr double most_clipped = 0.2;
-constexpr double least_contrast = 12.0;
+/// Largest deviations, as shares of white less black: of a bit plus its inverse from white plus black, and of
+/// a cosine's steps from their wave.
+constexpr double max_of_pair = 0.35;
+constexpr double max_of_wave = 0.08;
+/// Largest shares of a tag's lit pixels.
+constexpr double max_disturbed = 0.2;
+constexpr double max_clipped = 0.2;
+constexpr double min_contrast = 12.0;
 constexpr int white_code = 254;
 
-/// Looks at single pixels of the captures: are they lit, clipped, disturbed?
+/// Checks single pixels of the captures: lit, clipped or disturbed.
 class PixelChecks {
 public:
     PixelChecks(const StripeSetup& setup, const Captures& captures)
@@ -44,11 +45,11 @@ public:
         const double both = grey(patterns_.size() - 2, pixel) + grey(patterns_.size() - 1, pixel);
         for (std::size_t k = 0; k < patterns_.size(); ++k) {
             if (patterns_[k].stripes == Stripes::Bit) {
-                if (std::abs(grey(k, pixel) + grey(k + 1, pixel) - both) > most_of_pair * contrast_here) {
+                if (std::abs(grey(k, pixel) + grey(k + 1, pixel) - both) > max_of_pair * contrast_here) {
                     return true;
                 }
             } else if (patterns_[k].stripes == Stripes::Cosine && patterns_[k].which == 0 &&
-                       besides_wave(k, pixel) > most_of_wave * contrast_here) {
+                       besides_wave(k, pixel) > max_of_wave * contrast_here) {
                 return true;
             }
         }
@@ -59,7 +60,7 @@ private:
     [[nodiscard]] double grey(std::size_t picture, std::size_t pixel) const {
         return captures_.pictures[picture][pixel];
     }
-    /// Root mean square of what mean, first and second harmonic leave of the steps.
+    /// Root mean square of the steps less their mean and first two harmonics.
     [[nodiscard]] double besides_wave(std::size_t first, std::size_t pixel) const {
         double sum = 0.0;
         double squares = 0.0;
@@ -96,7 +97,7 @@ TagChecks checks_of(const PixelChecks& checks, const Captures& captures, const Q
     TagChecks found;
     double lit = 0.0;
     for_each_pixel(corners, captures.width, captures.height, [&](std::size_t pixel, const glm::dvec2&) {
-        if (std::abs(checks.contrast(pixel)) >= least_contrast) {
+        if (std::abs(checks.contrast(pixel)) >= min_contrast) {
             lit += 1.0;
             found.clipped += checks.is_clipped(pixel) ? 1.0 : 0.0;
             found.disturbed += checks.is_disturbed(pixel) ? 1.0 : 0.0;
@@ -160,17 +161,17 @@ BoardView view_of(const Board& board, const StripeSetup& setup, const Captures& 
         }
         const Quadrilateral corners = between(*first, *last);
         const TagChecks tag_checks = checks_of(checks, captures, corners);
-        if (tag_checks.clipped > most_clipped) {
+        if (tag_checks.clipped > max_clipped) {
             ++view.clipped;
             continue;
         }
-        if (tag_checks.disturbed > most_disturbed) {
+        if (tag_checks.disturbed > max_disturbed) {
             ++view.disturbed;
             continue;
         }
         const auto pixels = tag_pixels(map, corners);
         if (!pixels || !is_in_picture(*pixels, setup)) {
-            continue; // the light's edge goes through it
+            continue; // the edge of the light crosses it
         }
         const std::array<glm::dvec3, 4> places = tag.corners();
         for (std::size_t k = 0; k < places.size(); ++k) {

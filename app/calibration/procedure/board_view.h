@@ -1,7 +1,9 @@
-/// What the captures of one rest tell of the board: which of its tags are seen whole, lit and undisturbed, and the projector's pixels at their corners.
+/// The board as decoded from one rest's captures: the tags that are seen whole, lit and undisturbed, and the
+/// projector's pixels at their corners.
 ///
-/// Disturbed a bit and its inverse make white and black together, and a cosine's steps make a wave without harmonics above the second (a projector's
-///          gamma has hardly any): where something passed through the light, they do not.
+/// Disturbed If nothing passes through the light, a bit and its inverse add up to white plus black, and a
+///          cosine's steps make a wave without harmonics above the second, which a projector's gamma hardly
+///          has.
 /// Units    pixels of the projector and of the camera; metres in the prop's frame.
 /// Threads  pure; any.
 #pragma once
@@ -16,18 +18,18 @@
 namespace frustumscreen {
 
 struct BoardView {
-    std::vector<PropPoint> points; ///< four of each tag that counts
-    int tags = 0;                  ///< that count
-    bool has_top = false;          ///< that of the prop's top counts
-    int moved = 0;                 ///< between the white picture before the stripes and the one after them
-    int disturbed = 0;             ///< something passed over them meanwhile
-    int clipped = 0;               ///< too bright for the camera
+    std::vector<PropPoint> points; ///< four of each accepted tag
+    int tags = 0;                  ///< accepted tags
+    bool has_top = false;          ///< the tag of the prop's top is accepted
+    int moved = 0;     ///< tags that moved between the white pictures before and after the stripes
+    int disturbed = 0; ///< tags that something passed over meanwhile
+    int clipped = 0;   ///< tags too bright for the camera
 };
 
-/// The board's tags among those found; one that is found twice is none.
+/// The board's tags among those found, except tags that were found twice.
 [[nodiscard]] std::vector<FoundTag> tags_of(const Board& board, std::span<const FoundTag> found);
 
-/// Whether a corner of a tag that both have lies elsewhere; `farthest_px`: on the camera's picture.
+/// True if a corner moved by more than `farthest_px` in the camera's picture.
 [[nodiscard]] bool has_moved(const FoundTag& before, const FoundTag& after, double farthest_px);
 
 /// `before`, `after`: the board's tags in the white pictures before the stripes and after them.

@@ -7,14 +7,14 @@ namespace frustumscreen {
 
 namespace {
 
-/// Of a part's change, and in grey levels: noise and flicker leave so much.
+/// Tolerances as a share of a part's change and in grey levels, for noise and flicker.
 constexpr double near_share = 0.1;
 constexpr double near_levels = 4.0;
 
 } // namespace
 
 CaptureDelay::Parts CaptureDelay::parts_of(const CameraFrame& frame) {
-    constexpr int every = 3; // enough pixels of each part
+    constexpr int every = 3; // samples enough pixels of each part
     Parts sums{};
     Parts counts{};
     for (int y = 0; y < frame.height; y += every) {
@@ -63,7 +63,7 @@ void CaptureDelay::judge(MonotonicTime lit) {
         swing_ = std::fmax(swing_, std::abs(end[part] - before_[part]));
     }
     const auto last_other = std::find_if_not(looks_.rbegin(), looks_.rend(), has_settled);
-    delay_ = std::max(delay_, last_other.base()->time - lit); // the end itself has settled
+    delay_ = std::max(delay_, last_other.base()->time - lit); // dereferences: the last look has settled
 }
 
 } // namespace frustumscreen

@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// In turn; each differs from the one before.
+/// Used in turn; each differs from the one before.
 constexpr std::array postures{HeadPosture::ChinUp,      HeadPosture::TurnedLeft, HeadPosture::ChinDown,
                               HeadPosture::TurnedRight, HeadPosture::ChinUp,     HeadPosture::ChinDown,
                               HeadPosture::TurnedLeft,  HeadPosture::TurnedRight};
@@ -18,15 +18,15 @@ constexpr std::array postures{HeadPosture::ChinUp,      HeadPosture::TurnedLeft,
 
 EyeProcedure::EyeProcedure(SightScene scene, const Registration& registration, std::string problem)
     : Procedure(std::move(problem)), scene_(std::move(scene)), registration_(registration) {
-    const SightPlan wished = plan_sights(scene_, wished_place(scene_), scene_.usual_eye_m, least_crosses);
+    const SightPlan wished = plan_sights(scene_, wished_place(scene_), scene_.usual_eye_m, min_crosses);
     wished_words_ = wished.words;
-    if (problem_.empty() && wished.crosses.size() < least_crosses) {
+    if (problem_.empty() && wished.crosses.size() < min_crosses) {
         problem_ = "the picture is too small for crosses behind a prop of this size";
     }
     ask(0, of_each);
 }
 
-/// Sightings `from` to `to` of each eye.
+/// Requests sightings `from` to `to` of each eye.
 void EyeProcedure::ask(std::size_t from, std::size_t to) {
     for (const OpenEye eye : {OpenEye::Left, OpenEye::Right}) {
         for (std::size_t k = from; k < to; ++k) {
@@ -48,7 +48,7 @@ void EyeProcedure::step(const Input& input) {
     step_in_stage(*this, rows, input);
 }
 
-/// What is seen; and that the prop lies where its rest was taken, as long as sightings need it.
+/// Notes what the tracker sees. If the prop moves while sightings need its rest, takes the rest again.
 void EyeProcedure::watch(const Input& input) {
     if (input.head) {
         head_ = input.head;
@@ -61,35 +61,35 @@ void EyeProcedure::watch(const Input& input) {
     const bool stays = prop_still_.add(input.now, *input.prop);
     const bool is_needed = stage_ == Stage::Shut || stage_ == Stage::Place || stage_ == Stage::HoldStill;
     if (!stays && is_needed) {
-        begin_rest(input.now, EyeWord::PropMoved);
-    } else if (!stays && stage_ == Stage::Rest && word_ != EyeWord::PropMoved) {
-        word_ = EyeWord::PropMoves;
+        begin_rest(input.now, EyePrompt::PropMoved);
+    } else if (!stays && stage_ == Stage::Rest && word_ != EyePrompt::PropMoved) {
+        word_ = EyePrompt::PropMoves;
     }
 }
 
 void EyeProcedure::begin(const Input& input) {
-    word_ = EyeWord::None;
+    word_ = EyePrompt::None;
     knows_place_ = false;
     if (input.back) {
         stage_ = Stage::Left;
     } else if (input.next && problem_.empty()) {
         prop_still_.clear();
         open_.reset();
-        begin_rest(input.now, EyeWord::None);
+        begin_rest(input.now, EyePrompt::None);
     }
 }
 
-void EyeProcedure::begin_rest(MonotonicTime now, EyeWord word) {
+void EyeProcedure::begin_rest(MonotonicTime now, EyePrompt word) {
     prop_seen_ = head_seen_ = now;
-    knows_place_ = knows_place_ && word == EyeWord::PropMoved; // then it is not far
+    knows_place_ = knows_place_ && word == EyePrompt::PropMoved; // it is still near its old place
     go_to(Stage::Rest, word);
 }
 
-/// What the tracker does not see; None: it sees both.
-EyeWord EyeProcedure::missing(MonotonicTime now) const {
-    return now - prop_seen_ > patience   ? EyeWord::PropNotSeen
-           : now - head_seen_ > patience ? EyeWord::HeadNotSeen
-                                         : EyeWord::None;
+/// The sensor that the tracker does not see; None if it sees prop and head.
+EyePrompt EyeProcedure::missing(MonotonicTime now) const {
+    return now - prop_seen_ > patience   ? EyePrompt::PropNotSeen
+           : now - head_seen_ > patience ? EyePrompt::HeadNotSeen
+                                         : EyePrompt::None;
 }
 
 void EyeProcedure::take_rest(const Input& input) {
@@ -97,19 +97,19 @@ void EyeProcedure::take_rest(const Input& input) {
         go_to(Stage::Begin);
         return;
     }
-    if (const EyeWord lost = missing(input.now); lost != EyeWord::None) {
+    if (const EyePrompt lost = missing(input.now); lost != EyePrompt::None) {
         word_ = lost;
         return;
     }
-    if (word_ == EyeWord::PropNotSeen || word_ == EyeWord::HeadNotSeen) {
-        word_ = EyeWord::None;
+    if (word_ == EyePrompt::PropNotSeen || word_ == EyePrompt::HeadNotSeen) {
+        word_ = EyePrompt::None;
     }
-    if (prop_still_.count() >= least_reports && prop_still_.rest() >= rest && head_) {
+    if (prop_still_.count() >= min_reports && prop_still_.rest() >= rest && head_) {
         plan();
     }
 }
 
-/// Where the prop rests, and the crosses behind it for a head that is where it is now.
+/// Determines the prop's place and plans crosses behind it for the head's current place.
 void EyeProcedure::plan() {
     const RigidTransform table_from_prop =
         registration_.table_from_tracker * prop_still_.mean() * registration_.sensor_from_prop;
@@ -119,19 +119,19 @@ void EyeProcedure::plan() {
     }
     knows_place_ = false;
     if (!(std::abs(lowest) <= off_table_m)) {
-        word_ = EyeWord::OffTable;
+        word_ = EyePrompt::OffTable;
         return;
     }
     SightPlan next = plan_sights(scene_, table_from_prop,
-                                 registration_.table_from_tracker.point(head_->translation), most_of_each);
-    if (next.crosses.size() < least_crosses) {
-        word_ = EyeWord::NoRoom;
+                                 registration_.table_from_tracker.point(head_->translation), max_of_each);
+    if (next.crosses.size() < min_crosses) {
+        word_ = EyePrompt::NoRoom;
         return;
     }
     table_from_prop_ = table_from_prop;
     knows_place_ = true;
     plan_ = std::move(next);
-    word_ = word_ == EyeWord::PropMoved ? word_ : EyeWord::None; // it is still to be read
+    word_ = word_ == EyePrompt::PropMoved ? word_ : EyePrompt::None; // the remark stays to be read
     go_to_next_open();
 }
 
@@ -150,7 +150,7 @@ void EyeProcedure::go_to_next_open() {
 }
 
 void EyeProcedure::go_back() {
-    word_ = EyeWord::None;
+    word_ = EyePrompt::None;
     if (at_ == 0) {
         stage_ = Stage::Begin;
     } else {
@@ -183,16 +183,17 @@ void EyeProcedure::hold_still(const Input& input) {
         return;
     }
     if (input.head && !head_still_.add(input.now, *input.head)) {
-        word_ = EyeWord::HeadMoved;
+        word_ = EyePrompt::HeadMoved;
     }
-    if (const EyeWord lost = missing(input.now); lost != EyeWord::None) {
+    if (const EyePrompt lost = missing(input.now); lost != EyePrompt::None) {
         go_to(Stage::Place, lost);
-    } else if (head_still_.rest() >= rest && head_still_.count() >= least_reports) {
+    } else if (head_still_.rest() >= rest && head_still_.count() >= min_reports) {
         take();
     }
 }
 
-/// Next was pressed again at once, or the posture was not followed: the line of sight is nearly that of the sighting before.
+/// True if the line of sight is nearly that of the previous sighting: Next was pressed again at once, or the
+/// head kept its posture.
 bool EyeProcedure::is_held_as_before(const glm::dvec3& in_sensor) const {
     return at_ > 0 && sights_[at_ - 1] && asked_[at_ - 1].eye == asked().eye &&
            glm::distance(sights_[at_ - 1]->in_sensor, in_sensor) < turned_rad;
@@ -204,20 +205,20 @@ void EyeProcedure::take() {
     const glm::dvec3 in_sensor =
         glm::conjugate(table_from_sensor) * glm::normalize(cross().tip_m - cross().cross_m);
     if (is_held_as_before(in_sensor)) {
-        go_to(Stage::Place, EyeWord::SameHead);
+        go_to(Stage::Place, EyePrompt::SameHead);
         return;
     }
     sights_[at_] = Taken{{asked().eye, head, cross().pixel, cross().tip_m}, in_sensor};
-    word_ = EyeWord::Taken;
+    word_ = EyePrompt::Taken;
     go_to_next_open();
 }
 
 bool EyeProcedure::asks_for_more() const {
     return judged_ && judged_->verdict == Verdict::Repeat && judged_->repeat.empty() &&
-           asked_.size() < 2 * most_of_each;
+           asked_.size() < 2 * max_of_each;
 }
 
-/// What is refused is done anew; Back does one sighting again, whatever the verdict.
+/// Next repeats all sightings after a refusal; Back repeats one, whatever the verdict.
 void EyeProcedure::after_judgement(const Input& input) {
     const EyeFit& judged = *judged_;
     if (!input.next && !input.back) {
@@ -239,11 +240,11 @@ void EyeProcedure::after_judgement(const Input& input) {
     } else {
         do_worst_again();
     }
-    open_.reset(); // both eyes may be open since
-    begin_rest(input.now, EyeWord::None);
+    open_.reset(); // the person may have opened both eyes
+    begin_rest(input.now, EyePrompt::None);
 }
 
-/// The farthest off, or where nothing is known of them, the last.
+/// Repeats the sighting with the largest residual, or the last if no residual is known.
 void EyeProcedure::do_worst_again() {
     const std::vector<double>& residuals = judged_->residuals_m;
     const auto worst = std::max_element(residuals.begin(), residuals.end());

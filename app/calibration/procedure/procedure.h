@@ -1,7 +1,8 @@
 /// The skeleton of the ways through a calibration, by touch, by a camera and by eye, for one person with two buttons.
 ///
-/// Begin    The table tells what is needed, or why the calibration cannot be done. Next begins, Back leaves. After `to_begin` without a press the
-///          procedure ends by itself, so that the exhibit comes back when a person forgets the table or got here by chance.
+/// Begin    The table shows what is needed, or why the calibration cannot be done. Next begins, Back leaves.
+///          After `to_begin` without a press the procedure ends by itself, so that the exhibit returns if a
+///          person forgot the table or got here by chance.
 /// Way      A way is a table of stages and their step functions. In a stage without a row a step changes nothing.
 /// End      In stage Solve the caller computes the calibration and passes the verdict to `judge`. Each way defines what the buttons do then.
 /// Time     a parameter; the devices' own rates, whatever they are.
@@ -22,30 +23,30 @@
 namespace frustumscreen {
 
 enum class CalibrationStage {
-    Begin,     ///< nothing was done yet; Back from the first point leads here too
-    Delay,     ///< by a camera: how late it sees the light is measured
-    Rest,      ///< by eye: the prop's place is taken
-    Shut,      ///< by eye: one eye is to be shut
-    Place,     ///< prop or board is to be put where the next point is, or a corner brought over its cross
-    HoldStill, ///< the rest of prop or head is taken
+    Begin,     ///< the beginning; Back from the first point leads here too
+    Delay,     ///< by a camera: its delay is measured
+    Rest,      ///< by eye: the prop's rest is taken
+    Shut,      ///< by eye: the person shuts one eye
+    Place,     ///< prop or board is put at the next point, or a corner brought over its cross
+    HoldStill, ///< a rest of the prop, or stillness of the head, is taken
     Capture,   ///< by a camera: the stripes are shown
-    Solve,     ///< all points are there: call `judge`
-    Judged,    ///< the verdict is told
-    Done,      ///< it is to be kept; here and below it has ended
-    GoesOn,    ///< another way is wanted in its place
-    Left       ///< it ends without one
+    Solve,     ///< all points are taken: call `judge`
+    Judged,    ///< the verdict is shown
+    Done,      ///< the calibration is kept; from here on it has ended
+    GoesOn,    ///< another way follows in its place
+    Left       ///< it ends without a calibration
 };
 
 /// The input of one step: reports, presses and frames. Each way uses a part of it.
 struct CalibrationInput {
     MonotonicTime now{};
-    std::optional<RigidTransform> prop = std::nullopt; ///< a new report of its sensor; nothing new: none
+    std::optional<RigidTransform> prop = std::nullopt; ///< a new report of its sensor, if any
     bool next = false;                                 ///< a button was pressed
     bool back = false;
     std::optional<RigidTransform> head = std::nullopt; ///< as of the prop
-    const CameraFrame* frame = nullptr;                ///< a new one
+    const CameraFrame* frame = nullptr;                ///< a new frame
     CameraState camera = CameraState::Running;
-    /// Since when the picture with that number is lit.
+    /// The time since which the picture with that number is lit.
     struct Lit {
         std::uint64_t number = 0;
         MonotonicTime since{};
@@ -58,11 +59,11 @@ public:
     using Stage = CalibrationStage;
     using Input = CalibrationInput;
     static constexpr Nanoseconds patience =
-        std::chrono::seconds(2); ///< for the tracker's reports, and for a camera to be set up
-    static constexpr Nanoseconds to_begin = std::chrono::minutes(1); ///< without a press: it is left
+        std::chrono::seconds(2); ///< for the tracker's reports, and for a camera to start
+    static constexpr Nanoseconds to_begin = std::chrono::minutes(1); ///< without a press
     static constexpr Nanoseconds to_go_on = std::chrono::minutes(10);
 
-    /// In stage Solve: what came of the points.
+    /// Takes the result of the points, in stage Solve.
     void judge(Judgement judgement) {
         assert(stage_ == Stage::Solve);
         judged_ = std::move(judgement);
@@ -76,7 +77,7 @@ public:
     [[nodiscard]] const std::optional<Judgement>& judged() const { return judged_; }
 
 protected:
-    /// `problem`: half a sentence on why it cannot be done; empty: it can.
+    /// `problem`: a clause on why the calibration cannot be done; empty: it can.
     explicit Procedure(std::string problem) : problem_(std::move(problem)) {}
 
     template <typename Way> struct Row {
@@ -107,7 +108,7 @@ protected:
     Word word_ = Word::None;
     std::string problem_;
     std::optional<MonotonicTime>
-        latest_press_; ///< initially the first step; a way may set it when a person acts otherwise
+        latest_press_; ///< initially the first step; a way may set it on other actions
     std::optional<Judgement> judged_;
 };
 

@@ -9,7 +9,7 @@
 namespace frustumscreen {
 
 std::optional<FlatPosture> flat_posture(std::span<const RigidTransform> rests) {
-    constexpr double least_turn_rad = 0.17;
+    constexpr double min_turn_rad = 0.17;
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     double turn_rad = 0.0;
     for (const RigidTransform& a : rests) {
@@ -25,10 +25,10 @@ std::optional<FlatPosture> flat_posture(std::span<const RigidTransform> rests) {
             sum += off.transpose() * off;
         }
     }
-    if (turn_rad < least_turn_rad) {
+    if (turn_rad < min_turn_rad) {
         return std::nullopt;
     }
-    // What no turn between them moves: their common axis, in the sensor.
+    // The rests' common axis, in the sensor: no rotation between them moves it.
     const Eigen::Vector3d axis = axes_of(sum).vectors.col(0);
     FlatPosture flat;
     flat.in_sensor = {axis.x(), axis.y(), axis.z()};

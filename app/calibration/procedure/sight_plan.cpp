@@ -10,20 +10,20 @@ namespace frustumscreen {
 
 namespace {
 
-/// From the corner to the cross, along the table: nearer, the line is too steep for a person, and what shakes by a millimetre at the corner
-/// shakes by less at the eye where it is farther.
+/// Distances from the corner to the cross, along the table. Nearer crosses make the line too steep for a
+/// person. At farther ones a tremor of 1 mm at the corner moves the line less at the eye.
 constexpr std::array distances_m{0.12, 0.15, 0.18, 0.21, 0.24};
-constexpr double widest_rad = 0.7; ///< to both sides of the way from the head to the corner
-constexpr int steps = 4;           ///< of it, to each side
-/// A cross is another one from so far away.
+constexpr double widest_rad = 0.7; ///< to both sides of the direction from the head to the corner
+constexpr int steps = 4;           ///< on each side
+/// Least distance between two crosses.
 constexpr double apart_m = 0.035;
-/// A line of sight may end so much nearer to the prop and still be free of it.
+/// A line of sight starts this much nearer to the prop when it is tested.
 constexpr double free_m = 0.02;
-/// From picture's edge and from words.
+/// Margin to the picture's edge and to the words.
 constexpr double margin_share = 0.012; ///< of the picture's width
-/// A head is not believed to be nearer to the prop, along the table, or farther away, or lower, or higher.
+/// Limits of a plausible head: its distance from the prop along the table, and its height.
 constexpr double nearest_head_m = 0.15, farthest_head_m = 1.5, lowest_head_m = 0.1, highest_head_m = 1.2;
-/// For comparing costs, so that the last bits decide nothing.
+/// Tolerance for comparing costs, so that rounding decides nothing.
 constexpr double same_m = 1e-6;
 
 glm::dvec3 flat(const glm::dvec3& way) {
@@ -37,7 +37,8 @@ struct Planner {
     glm::dvec3 head_m;
     WordsBox words;
 
-    /// Whether the first of two points of the table's space lies outside of the prop, and nothing of that between them; the second may lie on it.
+    /// True if `from` lies outside the prop and the prop does not block the line to `to`, which may lie on
+    /// it.
     [[nodiscard]] bool is_free(const glm::dvec3& from, const glm::dvec3& to) const {
         constexpr double nearly = 0.98;
         const glm::dvec3 origin = prop_from_table.point(from);
@@ -74,7 +75,7 @@ struct Planner {
                is_free(sight.cross_m + free_m * towards, sight.tip_m) && is_free(eye, sight.tip_m);
     }
 
-    /// From the head to the line of sight.
+    /// Distance of the head from the line of sight.
     [[nodiscard]] double cost(const SightCross& sight) const {
         const glm::dvec3 along = glm::normalize(sight.tip_m - sight.cross_m);
         const glm::dvec3 way = head_m - sight.tip_m;
@@ -102,7 +103,7 @@ struct Planner {
         return good;
     }
 
-    /// Those that the light reaches.
+    /// The upper corners that are in the picture.
     [[nodiscard]] std::vector<glm::dvec3> upper_corners() const {
         std::vector<glm::dvec3> upper;
         double highest = 0.0;
@@ -151,7 +152,8 @@ WordsBox box_of_prop(const SightScene& scene, const RigidTransform& table_from_p
     return box;
 }
 
-/// To the left or right of the prop, or on the head's side of it, wherever most words fit; not behind it, where the crosses are.
+/// The largest room for words to the left or right of the prop, or on the head's side; not behind it, where
+/// the crosses are.
 WordsBox words_beside(const SightScene& scene, const RigidTransform& table_from_prop,
                       const glm::dvec3& head_m) {
     const double margin = 2.0 * margin_share * scene.pinhole.width;
@@ -175,7 +177,7 @@ WordsBox words_beside(const SightScene& scene, const RigidTransform& table_from_
         return glm::dot(a.direction, away) < glm::dot(b.direction, away);
     });
     const auto room = [&](const Side& side) {
-        constexpr double usual = 1.5; // of words: their width divided by their height
+        constexpr double usual = 1.5; // of words: width over height
         return &side == &*behind ? -1.0 : std::fmin(side.box.size().x, usual * side.box.size().y);
     };
     return std::max_element(sides.begin(), sides.end(),
@@ -189,7 +191,7 @@ std::optional<glm::dvec2> pixel_of(const SightScene& scene, const glm::dvec3& po
     return scene.pinhole.pixel(scene.table_from_projector.inverse().point(point_m));
 }
 
-/// To the right, so that words fit beside it, and to the front, so that crosses fit behind it.
+/// Right of the middle, so that words fit beside it, and to the front, so that crosses fit behind it.
 RigidTransform wished_place(const SightScene& scene) {
     constexpr glm::dvec2 share(0.63, 0.6);
     const glm::dvec2 size(scene.pinhole.width, scene.pinhole.height);

@@ -1,8 +1,10 @@
-/// Where the crosses of a person's sightings lie: behind an upper corner of the resting prop, as seen from where the head is.
+/// Plans the crosses of a person's sightings: behind an upper corner of the resting prop, as seen from the
+/// head.
 ///
-/// Chosen   of corners, directions and distances those whose cross lies in the picture and free of the words, lit past the prop, and whose line
-///          of sight leaves the corner free of the prop's body. Of them, one after the other, the one whose line passes nearest to the head,
-///          and away from the crosses before: so that it is aimed at without a step.
+/// Chosen   Candidates are combinations of corner, direction and distance whose cross lies in the picture, is
+///          free of the words and lit past the prop, and whose line of sight is not blocked by the prop's
+///          body. Crosses are chosen one after the other: the one whose line passes nearest to the head, at a
+///          distance from the crosses before, so that the person aims without a step.
 /// Frames   table T; prop P; pixels of the projector.
 /// Units    metres.
 /// Threads  pure; any.
@@ -20,16 +22,16 @@ namespace frustumscreen {
 /// From a cross's middle to the end of its arms, on the table.
 inline constexpr double cross_arm_m = 0.025;
 
-/// What stays as it is while the sightings are made.
+/// The scene, constant while the sightings are made.
 struct SightScene {
     Pinhole pinhole;
     RigidTransform table_from_projector;
     PropShape prop;
-    glm::dvec3 usual_eye_m{0.0}; ///< where visitors' eyes are while nobody knows better
+    glm::dvec3 usual_eye_m{0.0}; ///< default place of visitors' eyes
 };
-/// Of a point of the table's space; nothing: the projector does not light it.
+/// The pixel of a point in the table's frame; nothing if the projector does not light it.
 [[nodiscard]] std::optional<glm::dvec2> pixel_of(const SightScene& scene, const glm::dvec3& point_m);
-/// Where the prop leaves most room for words and crosses, upright: table_from_prop. A wish: anywhere near it will do.
+/// The place that leaves most room for words and crosses, upright: table_from_prop. Anywhere near it will do.
 [[nodiscard]] RigidTransform wished_place(const SightScene& scene);
 
 struct WordsBox {
@@ -40,14 +42,15 @@ struct WordsBox {
 struct SightCross {
     glm::dvec3 tip_m{0.0};   ///< the prop's corner
     glm::dvec3 cross_m{0.0}; ///< the cross's middle
-    glm::dvec2 pixel{0.0};   ///< that lights it
+    glm::dvec2 pixel{0.0};   ///< the pixel that lights it
 };
 
 struct SightPlan {
     WordsBox words; ///< beside the prop, where the person sees them
     std::vector<SightCross> crosses;
 };
-/// Fewer than `count` crosses where there is no room for more. `head_m`: about where the head is; one that is nowhere near the table is not believed.
+/// Plans `count` crosses, or fewer if there is no room for more. `head_m`: the approximate place of the head;
+/// ignored if it is nowhere near the table.
 [[nodiscard]] SightPlan plan_sights(const SightScene& scene, const RigidTransform& table_from_prop,
                                     const glm::dvec3& head_m, std::size_t count);
 

@@ -31,7 +31,7 @@ bool StillReports::add(MonotonicTime now, const RigidTransform& report) {
     return is_near_first;
 }
 
-/// Of poses that hardly differ: the sum of quaternions on one side is their mean to the second order.
+/// For similar poses, the sum of same-signed quaternions is their mean to second order.
 RigidTransform StillReports::mean() const {
     assert(count_ > 0);
     return {glm::normalize(turns_), places_ / static_cast<double>(count_)};

@@ -1,6 +1,7 @@
-/// The captures of one rest: each striped picture is shown until the camera has surely seen it, and its frames are averaged.
-///
-/// Order    a white picture, then those of gray_code.h, which end with another white one and a black one: what moved meanwhile shows between the two.
+/// Captures one rest: shows each striped picture until the camera has surely seen it, and averages its
+/// frames.
+/// Order    a white picture, then those of gray_code.h, which end with another white and a black one. A move
+///          in between shows as a difference of the two white pictures.
 /// Time     a parameter; frames have the time that the kernel gave them.
 /// Threads  pure; any.
 #pragma once
@@ -25,16 +26,17 @@ public:
 
     StripeCapture(const CaptureSetup& setup, MonotonicTime now);
 
-    /// What is to be shown.
+    /// The pattern to show.
     [[nodiscard]] Pattern pattern() const { return patterns_[std::min(at_, patterns_.size() - 1)]; }
-    /// `lit`: since when that is shown; nothing: it is not yet. False: no frame comes, or frames of another size.
+    /// `lit`: the time since which the pattern is lit; nothing: it is not lit yet. False if no frame comes,
+    /// or frames of another size.
     [[nodiscard]] bool step(MonotonicTime now, std::optional<MonotonicTime> lit, const CameraFrame* frame);
     [[nodiscard]] bool is_complete() const { return at_ == patterns_.size(); }
 
-    /// The first white one is there.
+    /// True once the first white picture is captured.
     [[nodiscard]] bool has_before() const { return at_ > 0; }
-    [[nodiscard]] CameraFrame before() const; ///< that one, without a time
-    /// Of a complete one.
+    [[nodiscard]] CameraFrame before() const; ///< the first white picture, without a time
+    /// The second white picture and the captures; both need a complete capture.
     [[nodiscard]] CameraFrame after() const;
     [[nodiscard]] Captures captures() const;
 
@@ -47,9 +49,9 @@ private:
     int width_ = 0;
     int height_ = 0;
     std::size_t at_ = 0;
-    std::vector<std::uint16_t> sum_; ///< of the frames of the picture that is shown
+    std::vector<std::uint16_t> sum_; ///< of the frames of the shown picture
     int summed_ = 0;
-    MonotonicTime heard_; ///< the last frame
+    MonotonicTime heard_; ///< time of the last frame
 };
 
 } // namespace frustumscreen

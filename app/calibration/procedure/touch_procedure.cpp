@@ -14,7 +14,7 @@ void TouchProcedure::step(const Input& input) {
 }
 
 void TouchProcedure::begin(const Input& input) {
-    word_ = TouchWord::None;
+    word_ = TouchPrompt::None;
     if (input.back) {
         stage_ = task_ == TouchTask::TouchUp ? Stage::GoesOn : Stage::Left;
     } else if (input.next && problem_.empty()) {
@@ -27,7 +27,7 @@ void TouchProcedure::lay(const Input& input) {
         stage_ = Stage::Begin;
     } else if (input.back) {
         touches_[--at_].reset();
-        word_ = TouchWord::None;
+        word_ = TouchPrompt::None;
     } else if (input.next) {
         still_.clear();
         rest_began_ = seen_ = input.now;
@@ -44,17 +44,17 @@ void TouchProcedure::hold_still(const Input& input) {
         seen_ = input.now;
         if (!still_.add(input.now, *input.prop)) {
             rest_began_ = input.now;
-            word_ = TouchWord::Moved;
+            word_ = TouchPrompt::Moved;
         }
     }
     if (input.now - seen_ > patience) {
-        go_to(Stage::Place, TouchWord::NotSeen);
-    } else if (input.now - rest_began_ >= rest && still_.count() >= least_reports) {
+        go_to(Stage::Place, TouchPrompt::NotSeen);
+    } else if (input.now - rest_began_ >= rest && still_.count() >= min_reports) {
         take();
     }
 }
 
-/// Next was pressed again before the prop was moved on. Two crosses of a plan may be alike.
+/// True if Next was pressed again before the prop moved on. Two crosses of a plan may be equal.
 bool TouchProcedure::lies_where_another_lay(const RigidTransform& pose) const {
     for (std::size_t k = 0; k < touches_.size(); ++k) {
         const Cross& other = crosses_[k];
@@ -71,11 +71,11 @@ bool TouchProcedure::lies_where_another_lay(const RigidTransform& pose) const {
 void TouchProcedure::take() {
     const RigidTransform pose = still_.mean();
     if (lies_where_another_lay(pose)) {
-        go_to(Stage::Place, TouchWord::SamePlace);
+        go_to(Stage::Place, TouchPrompt::SamePlace);
         return;
     }
     touches_[at_] = Touch{pose, crosses_[at_].pixel, crosses_[at_].block_m};
-    word_ = TouchWord::Taken;
+    word_ = TouchPrompt::Taken;
     go_to_next_open();
 }
 
@@ -91,7 +91,8 @@ bool TouchProcedure::asks_for_more() const {
            asked_ < crosses_.size();
 }
 
-/// Back does one touch again, whatever the verdict: the farthest off, or where none is known, the last.
+/// Back repeats one touch, whatever the verdict: the one with the largest residual, or the last if none is
+/// known.
 void TouchProcedure::after_judgement(const Input& input) {
     const TouchJudgement& judged = *judged_;
     const bool is_refused = judged.verdict == Verdict::Refused;
@@ -107,7 +108,7 @@ void TouchProcedure::after_judgement(const Input& input) {
     if (is_refused && (input.next || is_touch_up)) {
         std::fill(touches_.begin(), touches_.end(), std::nullopt);
     } else if (input.next && asks_for_more()) {
-        asked_ = crosses_.size();
+        asked_ = std::min(asked_ + more_at_once, crosses_.size());
     } else if (input.next && !judged.repeat.empty()) {
         for (const std::size_t row : judged.repeat) {
             touches_[row].reset();

@@ -1,11 +1,13 @@
-/// The way through a calibration by touch, or the touch-up of one, for one technician with two buttons: which cross the projector
-/// shows, what is said, and which of the tracker's reports become touches.
+/// Guides one technician with two buttons through a calibration by touch, or a touch-up: which cross the
+/// projector shows, what is said, and which of the tracker's reports become touches.
 ///
-/// Steps    The cross is shown; the prop is laid on it; Next; a second of rest is taken, and begins anew if the prop moves; the
-///          next cross.
-/// End      Next keeps it, Back does the touch again that lies farthest off; touches that are to be repeated come again by themselves.
-/// Touch-up Back from its beginning, and Next after a refusal, lead to the whole calibration; Back after a refusal does all touches
-///          again. Where the first touches are too few to check each other, more crosses come.
+/// Steps    The cross is shown; the prop is laid on it; Next is pressed; one second of rest is taken, and
+///          begins again if the prop moves; the next cross follows.
+/// End      Next keeps the result; Back repeats the touch with the largest residual; touches to repeat come
+///          again by themselves. If the touches are too few, to check each other or for the picture's
+///          uncertainty, two more crosses come at a time.
+/// Touch-up Back at the beginning, and Next after a refusal, lead to the whole calibration; Back after a
+///          refusal repeats all touches.
 /// Frames   tracker K, as the device reports.
 /// Threads  pure; any.
 #pragma once
@@ -23,56 +25,57 @@ namespace frustumscreen {
 
 enum class TouchTask {
     Anew,   ///< projector, tracker and sensor
-    TouchUp ///< of the kept calibration: what moved
+    TouchUp ///< only what moved since the kept calibration
 };
 
-/// What came of the touches, as far as the way through them depends on it.
+/// The result of the touches that the procedure depends on.
 struct TouchJudgement {
     Verdict verdict = Verdict::Refused;
-    std::vector<std::string> told;        ///< what was found, in a technician's words
+    std::vector<std::string> told;        ///< the result, in a technician's words
     std::vector<std::size_t> repeat;      ///< touches to do again, counted from 0
-    std::vector<TouchResidual> residuals; ///< of each touch; none: nothing is known of them
-    bool nothing_moved = false;           ///< of a touch-up: there is nothing to keep
+    std::vector<TouchResidual> residuals; ///< of each touch; empty if unknown
+    bool nothing_moved = false;           ///< a touch-up without anything to keep
 };
 
-/// What is said beside the cross.
-enum class TouchWord {
+/// The remark beside the cross.
+enum class TouchPrompt {
     None,
-    Moved,     ///< it was not at rest: the second begins anew
+    Moved,     ///< the prop moved: the second begins again
     NotSeen,   ///< the tracker does not see the prop
-    SamePlace, ///< the prop still lies where the touch before was
-    Taken      ///< well done
+    SamePlace, ///< the prop still lies where the previous touch was
+    Taken      ///< the touch is taken
 };
 
-class TouchProcedure : public Procedure<TouchWord, TouchJudgement> {
+class TouchProcedure : public Procedure<TouchPrompt, TouchJudgement> {
 public:
     static constexpr Nanoseconds rest = std::chrono::seconds(1);
     static constexpr double same_place_m = 5e-3;
     static constexpr double same_place_rad = 0.2;
-    static constexpr std::size_t least_reports = 5; ///< in the second of rest
+    static constexpr std::size_t min_reports = 5;  ///< in the second of rest
+    static constexpr std::size_t more_at_once = 2; ///< crosses that come where the touches are too few
 
     /// `crosses`: at least one, in the order in which they come.
     explicit TouchProcedure(std::vector<Cross> crosses, std::string problem = {})
         : Procedure(std::move(problem)), crosses_(std::move(crosses)), asked_(crosses_.size()),
           touches_(crosses_.size()) {}
-    /// A touch-up by the first `few` of the crosses; the others are for touches that are too few to check each other.
-    TouchProcedure(std::vector<Cross> crosses, std::size_t few)
-        : Procedure({}), task_(TouchTask::TouchUp), crosses_(std::move(crosses)), asked_(few),
+    /// By the first `asked` crosses; the others follow while the verdict asks for more touches.
+    TouchProcedure(TouchTask task, std::vector<Cross> crosses, std::size_t asked, std::string problem = {})
+        : Procedure(std::move(problem)), task_(task), crosses_(std::move(crosses)), asked_(asked),
           touches_(crosses_.size()) {}
 
     void step(const Input& input);
 
     [[nodiscard]] TouchTask task() const { return task_; }
-    /// Which cross is shown, counted from 0; in the stages Place and HoldStill.
+    /// Index of the shown cross, from 0; in the stages Place and HoldStill.
     [[nodiscard]] std::size_t at() const { return at_; }
     [[nodiscard]] const Cross& cross() const { return crosses_[at_]; }
     [[nodiscard]] const std::vector<Cross>& crosses() const { return crosses_; }
-    /// How many of them are to be touched.
+    /// Number of crosses to touch.
     [[nodiscard]] std::size_t count() const { return asked_; }
-    /// After the verdict: Next asks for more crosses.
+    /// True if Next asks for more crosses, after the verdict.
     [[nodiscard]] bool asks_for_more() const;
     [[nodiscard]] bool is_taken(std::size_t cross) const { return touches_[cross].has_value(); }
-    /// All of them, in stage Solve and after it.
+    /// All touches, in stage Solve and after it.
     [[nodiscard]] Touches touches() const;
 
 private:

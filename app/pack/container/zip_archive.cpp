@@ -40,7 +40,7 @@ constexpr uLong first_of_1980 = (1U << 21) | (1U << 16); ///< MS-DOS date, midni
 constexpr uLong encrypted_flag = 1;
 /// Deflate never packs tighter than 1032 to 1 (zlib's technical details); an archive that claims more is
 /// invalid.
-constexpr std::uint64_t most_deflate_ratio = 1032;
+constexpr std::uint64_t max_deflate_ratio = 1032;
 constexpr std::size_t end_record_bytes = 22;
 constexpr std::size_t through_step_bytes = 64U << 10U;
 
@@ -222,7 +222,7 @@ Result<void> check_entry(const ZipEntry& entry, const unz_file_info64& info) {
         return bad_input("zip.method", "{} is packed by ZIP method {}; allowed are stored and deflated",
                          entry.name, info.compression_method);
     }
-    const std::uint64_t most = stored ? entry.stored_bytes : entry.stored_bytes * most_deflate_ratio;
+    const std::uint64_t most = stored ? entry.stored_bytes : entry.stored_bytes * max_deflate_ratio;
     if (entry.bytes > most || (stored && entry.bytes != entry.stored_bytes)) {
         return bad_input("zip.claims",
                          "{} claims {} bytes, more than its {} packed bytes can hold; the pack is altered",
@@ -359,16 +359,16 @@ Result<void> ZipReader::read_directory() {
     int found = unzGoToFirstFile(zip_);
     for (; found == UNZ_OK; found = unzGoToNextFile(zip_)) {
         unz_file_info64 info{};
-        std::string name(most_name_bytes + 1, '\0');
+        std::string name(max_name_bytes + 1, '\0');
         unz64_file_pos position{};
         if (unzGetCurrentFileInfo64(zip_, &info, name.data(), name.size(), nullptr, 0, nullptr, 0) !=
                 UNZ_OK ||
             unzGetFilePos64(zip_, &position) != UNZ_OK) {
             break;
         }
-        if (info.size_filename > most_name_bytes) {
+        if (info.size_filename > max_name_bytes) {
             return bad_input("zip.name_length", "an entry's name has {} bytes, allowed are {}",
-                             info.size_filename, most_name_bytes);
+                             info.size_filename, max_name_bytes);
         }
         name.resize(info.size_filename);
         ZipEntry entry{printable(name), info.uncompressed_size, info.compressed_size,

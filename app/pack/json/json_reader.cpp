@@ -240,7 +240,7 @@ void JsonReader::finish() {
     }
 }
 
-Json parse_json(Refusal& refusal, std::string_view text, std::size_t most_depth) {
+Json parse_json(Refusal& refusal, std::string_view text, std::size_t max_depth) {
     std::vector<std::set<std::string>> open_objects;
     std::size_t values = 0;
     const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
@@ -249,16 +249,16 @@ Json parse_json(Refusal& refusal, std::string_view text, std::size_t most_depth)
         }
         const bool ends = event == Json::parse_event_t::object_end || event == Json::parse_event_t::array_end;
         values += ends ? 0 : 1;
-        if (values > most_manifest_values) {
+        if (values > max_manifest_values) {
             refusal.refuse("json.too_many_values", refusal.document,
-                           fmt::format("holds more than {} values; allowed are fewer", most_manifest_values));
+                           fmt::format("holds more than {} values; allowed are fewer", max_manifest_values));
             return false;
         }
         const bool begins =
             event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
-        if (begins && depth >= static_cast<int>(most_depth)) {
+        if (begins && depth >= static_cast<int>(max_depth)) {
             refusal.refuse("json.too_deep", refusal.document,
-                           fmt::format("has more than {} objects and lists inside each other", most_depth));
+                           fmt::format("has more than {} objects and lists inside each other", max_depth));
             return false;
         }
         if (event == Json::parse_event_t::object_start) {
@@ -270,10 +270,10 @@ Json parse_json(Refusal& refusal, std::string_view text, std::size_t most_depth)
             if (!names.insert(parsed.get<std::string>()).second) {
                 refusal.refuse("json.name_twice", printable(parsed.get<std::string>(), 40),
                                "occurs twice in one object");
-            } else if (names.size() > most_object_names) {
+            } else if (names.size() > max_object_names) {
                 refusal.refuse(
                     "json.too_many_names", refusal.document,
-                    fmt::format("has an object of more than {} names; allowed are fewer", most_object_names));
+                    fmt::format("has an object of more than {} names; allowed are fewer", max_object_names));
             }
         }
         return true;

@@ -122,6 +122,6 @@ private:
 /// Parses the document. It refuses text that is not JSON (with the position in bytes), a field that occurs
 /// twice, and objects and lists nested too deeply.
 [[nodiscard]] nlohmann::json parse_json(Refusal& refusal, std::string_view text,
-                                        std::size_t most_depth = most_manifest_depth);
+                                        std::size_t max_depth = max_manifest_depth);
 
 } // namespace frustumscreen::pack_format

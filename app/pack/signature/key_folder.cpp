@@ -10,7 +10,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::uintmax_t most_file_bytes = 4096;
+constexpr std::uintmax_t max_file_bytes = 4096;
 
 Result<std::vector<std::filesystem::path>> key_files(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
@@ -21,9 +21,9 @@ Result<std::vector<std::filesystem::path>> key_files(const std::filesystem::path
         if (!name.ends_with(".pub") || name.starts_with('.')) {
             continue;
         }
-        if (files.size() == most_trusted_keys) {
-            return bad_input("keys.too_many", "{}: it has more than {} public keys; remove some",
-                             folder.string(), most_trusted_keys);
+        if (files.size() == max_trusted_keys) {
+            return bad_input("keys.too_many", "{}: it has more than {} public keys; take some away",
+                             folder.string(), max_trusted_keys);
         }
         files.push_back(entry->path());
     }
@@ -38,7 +38,7 @@ Result<std::vector<std::filesystem::path>> key_files(const std::filesystem::path
 } // namespace
 
 Result<PublicKey> read_public_key(const std::filesystem::path& file) {
-    TRY(const Bytes bytes, read_file(file, most_file_bytes));
+    TRY(const Bytes bytes, read_file(file, max_file_bytes));
     return at(file.string(), parse_public_key(as_text(bytes)));
 }
 

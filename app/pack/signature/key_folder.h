@@ -1,7 +1,7 @@
 /// Public keys as files: every `*.pub` of a folder, in minisign's format.
 ///
 /// Threads  pure except for reading files; any.
-/// Errors   one sentence: no such folder, a file that is not a public key, more than `most_trusted_keys`.
+/// Errors   one sentence: no such folder, a file that is not a public key, more than `max_trusted_keys`.
 #pragma once
 
 #include "app/pack/signature/signature.h"

@@ -17,9 +17,9 @@ constexpr std::size_t salt_bytes = crypto_pwhash_scryptsalsa208sha256_SALTBYTES;
 constexpr std::size_t checksum_bytes = 32;
 constexpr std::size_t hidden_bytes = 8 + crypto_sign_SECRETKEYBYTES + checksum_bytes; ///< with a password
 constexpr std::size_t record_bytes = 2 + 2 + 2 + salt_bytes + 8 + 8 + hidden_bytes;
-constexpr std::size_t most_file_bytes = 4096;
+constexpr std::size_t max_file_bytes = 4096;
 /// Upper limit for a file: the cost that minisign itself uses.
-constexpr PasswordCost most_cost{};
+constexpr PasswordCost max_cost{};
 
 using Name = std::array<std::uint8_t, 2>;
 constexpr Name ed25519{'E', 'd'};
@@ -97,7 +97,7 @@ Result<void> read_record(std::string_view text, Record& record) {
             "key.not_secret_key",
             "this is not a minisign secret key; name the file NAME.key that frustumscreen-pack keygen wrote");
     };
-    if (text.size() > most_file_bytes) {
+    if (text.size() > max_file_bytes) {
         return refused();
     }
     const std::vector<std::string_view> lines = lines_of(text, 3);
@@ -120,13 +120,13 @@ Result<void> read_record(std::string_view text, Record& record) {
     if (algorithm != ed25519 || checksum != blake2b || (record.kdf != scrypt && record.kdf != no_password)) {
         return refused();
     }
-    if (record.kdf == scrypt && (record.cost.operations > most_cost.operations ||
-                                 record.cost.memory_bytes > most_cost.memory_bytes)) {
+    if (record.kdf == scrypt &&
+        (record.cost.operations > max_cost.operations || record.cost.memory_bytes > max_cost.memory_bytes)) {
         return bad_input("key.cost",
                          "the key's password asks for {} MB of memory and {} steps, allowed are {} MB "
                          "and {}; make a new key",
                          record.cost.memory_bytes / 1'000'000, record.cost.operations,
-                         most_cost.memory_bytes / 1'000'000, most_cost.operations);
+                         max_cost.memory_bytes / 1'000'000, max_cost.operations);
     }
     return {};
 }

@@ -22,8 +22,8 @@ using SignatureBytes = std::array<std::uint8_t, crypto_sign_BYTES>;
 
 constexpr AlgorithmName of_the_hash{'E', 'D'};
 constexpr AlgorithmName of_the_bytes{'E', 'd'};
-constexpr std::size_t most_comment_bytes = 8192; ///< of a trusted comment; minisign's own limit
-constexpr std::size_t most_public_key_bytes = 4096;
+constexpr std::size_t max_comment_bytes = 8192; ///< of a trusted comment; minisign's own limit
+constexpr std::size_t max_public_key_bytes = 4096;
 
 /// A signature file, parsed but not verified.
 struct ReadSignature {
@@ -35,7 +35,7 @@ struct ReadSignature {
     std::uint64_t serial = 0;
 };
 
-/// Of the control characters only tabs are allowed, which minisign puts between fields.
+/// True if the only control characters are tabs, which minisign puts between fields.
 bool is_comment(std::string_view text) {
     while (!text.empty()) {
         const std::size_t bytes = character_bytes(text);
@@ -81,9 +81,9 @@ Result<ReadSignature> read_signature(std::string_view text) {
     const auto damaged = [](std::string_view what) {
         return bad_input("signature.damaged", "its signature {}; sign it again", what);
     };
-    if (text.size() > pack_format::most_signature_bytes) {
+    if (text.size() > pack_format::max_signature_bytes) {
         return damaged(
-            fmt::format("has {} bytes, allowed are {}", text.size(), pack_format::most_signature_bytes));
+            fmt::format("has {} bytes, allowed are {}", text.size(), pack_format::max_signature_bytes));
     }
     const std::vector<std::string_view> lines = lines_of(text, 5);
     if (lines.size() != 4) {
@@ -107,8 +107,8 @@ Result<ReadSignature> read_signature(std::string_view text) {
     if (read.algorithm != of_the_hash && read.algorithm != of_the_bytes) {
         return damaged("has an algorithm that is not minisign's");
     }
-    if (read.trusted_comment.size() > most_comment_bytes || !is_comment(read.trusted_comment)) {
-        return damaged("has a trusted comment that is too long or holds bytes that are not text");
+    if (read.trusted_comment.size() > max_comment_bytes || !is_comment(read.trusted_comment)) {
+        return damaged("has a trusted comment that is too long or holds bytes that are no text");
     }
     const std::optional<std::uint64_t> serial = serial_in(read.trusted_comment);
     if (!serial) {
@@ -147,12 +147,12 @@ bool signs_comment(const ReadSignature& read, const PublicKey& key) {
 }
 
 std::string names_of(std::span<const TrustedKey> keys) {
-    constexpr std::size_t most_named = 4;
+    constexpr std::size_t max_named = 4;
     std::vector<std::string> names;
-    for (const TrustedKey& key : keys.first(std::min(keys.size(), most_named))) {
+    for (const TrustedKey& key : keys.first(std::min(keys.size(), max_named))) {
         names.push_back(printable(key.name, 40));
     }
-    return fmt::format("{}{}", fmt::join(names, ", "), keys.size() > most_named ? ", ..." : "");
+    return fmt::format("{}{}", fmt::join(names, ", "), keys.size() > max_named ? ", ..." : "");
 }
 
 tl::unexpected<SignatureRefusal> refused(SignatureFault fault, MessageId id, std::string message) {
@@ -189,7 +189,7 @@ Result<PublicKey> parse_public_key(std::string_view text) {
                          "this is not a minisign public key; use the file NAME.pub that frustumscreen-pack "
                          "keygen wrote, or its line of 56 letters, which begins with RW");
     };
-    if (text.size() > most_public_key_bytes) {
+    if (text.size() > max_public_key_bytes) {
         return refused();
     }
     const std::vector<std::string_view> lines = lines_of(text, 3);

@@ -42,7 +42,7 @@ struct PublicKey {
 [[nodiscard]] std::string text_of_key_id(std::span<const std::uint8_t, 8> id);
 
 /// Most keys that the settings or a folder may name.
-inline constexpr std::size_t most_trusted_keys = 32;
+inline constexpr std::size_t max_trusted_keys = 32;
 /// One of the museum's keys.
 struct TrustedKey {
     std::string name;

@@ -7,6 +7,7 @@
 #include "assets_baked/folder/artifact_file.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/printable.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -26,7 +27,7 @@ int report(const Error& error) {
     return 1;
 }
 
-/// In the language, or in English where there is no text in it.
+/// The caption in a language; in English if there is none in it.
 const PackCaption& caption_in(const std::vector<PackCaption>& captions, const std::string& language) {
     const auto found = std::find_if(captions.begin(), captions.end(),
                                     [&](const PackCaption& caption) { return caption.language == language; });
@@ -45,7 +46,7 @@ int list_artifacts(const std::string& language) {
     return 0;
 }
 
-/// The mesh, and with a folder its artifact.toml beside it.
+/// Writes the mesh and, if `folder` is given, its artifact.toml beside it.
 Result<void> write_artifact(const std::string& name, std::int64_t triangles,
                             const std::filesystem::path& output, const std::filesystem::path& folder) {
     TRY(const SourceMesh mesh, make_builtin(name, triangles));
@@ -74,7 +75,7 @@ int run(int argc, char** argv) {
 
     CommandLine app{"Writes a built-in artifact's mesh as a GLB file (millimetres, +Y up).",
                     "frustumscreen-artifact"};
-    app.set_version_flag("--version", "frustumscreen-artifact " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-artifact"));
     const CommandOption name_option = app.add_option("name", name, "Name of the artifact; --list shows them");
     app.add_option("--triangles", triangles, "Number of triangles, kept within 5 %").capture_default_str();
     const CommandOption output_option = app.add_option("-o,--output", output, "GLB file to write");

@@ -11,22 +11,22 @@ namespace frustumscreen {
 
 namespace {
 
-/// On a table of half a metre the prop and its shadow leave about this much beside them.
-constexpr double most_caption_height_m = 0.25;
+/// Height in metres that the prop and its shadow leave free on a table 0.5 m deep, about.
+constexpr double max_caption_height_m = 0.25;
 
 /// The kiosk's widths at the usual type size and at the smallest.
 CaptionLimits caption_limits() {
     CaptionLimits limits;
     const double usual_em_m = ExhibitSettings{}.caption_height_m;
     for (const double width_m : caption_widths_m) {
-        for (const double em_m : {least_caption_em_m, usual_em_m}) {
+        for (const double em_m : {min_caption_em_m, usual_em_m}) {
             const double units = em_units * width_m / em_m;
             limits.text.push_back(static_cast<std::int32_t>(std::floor(units)));
             limits.title.push_back(static_cast<std::int32_t>(std::floor(units / caption_title_em)));
         }
     }
     limits.title_em = caption_title_em;
-    limits.most_height = static_cast<std::int32_t>(em_units * most_caption_height_m / usual_em_m);
+    limits.max_height = static_cast<std::int32_t>(em_units * max_caption_height_m / usual_em_m);
     return limits;
 }
 

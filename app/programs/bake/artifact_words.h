@@ -1,6 +1,6 @@
-/// The texts of a request, set for the kiosk's captions and spoken; frustumscreen-bake puts them into the pack.
+/// Sets a request's texts for the kiosk's captions and speaks them; frustumscreen-bake puts both into the pack.
 ///
-/// Errors   speak_artifact.h.
+/// Errors   as speak_artifact.h.
 /// Threads  one caller.
 #pragma once
 
@@ -15,8 +15,8 @@ namespace frustumscreen {
 struct ArtifactWords {
     std::vector<SetLanguage> set;
     std::vector<SpokenLanguage> spoken;
-    std::vector<std::string> silent; ///< which descriptions nobody hears, and why, a sentence each
-    std::vector<std::string> lost;   ///< a sentence each
+    std::vector<std::string> silent; ///< descriptions without speech, and why, a sentence each
+    std::vector<std::string> lost;   ///< texts that cannot be shown or spoken, a sentence each
 };
 
 [[nodiscard]] Result<ArtifactWords> words_of(const BakeRequest& request);

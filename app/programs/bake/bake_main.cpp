@@ -12,6 +12,7 @@
 #include "assets_baked/bake/load_mesh.h"
 #include "assets_baked/folder/new_folder.h"
 #include "firmware_host/base/json.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +23,7 @@
 namespace frustumscreen {
 namespace {
 
-/// --new: a folder to start from.
+/// --new: makes a folder from a scan.
 Result<void> start(const BakeArguments& arguments) {
     TRY(const SourceMesh mesh, load_mesh(arguments.input, {arguments.texture}));
     ScanFacts scan{arguments.input,        mesh.side_files,    mesh.positions.front(),
@@ -38,7 +39,7 @@ Result<void> start(const BakeArguments& arguments) {
     return {};
 }
 
-/// Exit status.
+/// Prints the error and returns the exit status.
 int status_of(const Error& error) {
     complain("frustumscreen-bake", error);
     return error.kind == ErrorKind::BadConfiguration ? 2 : 1;
@@ -84,7 +85,7 @@ void add_options(CommandLine& app, BakeArguments& arguments) {
     app.add_option("--preview", arguments.preview,
                    "page to write beside the pack (*.html): how it looks, says, errs");
     app.add_flag("--json", arguments.json, "the report for programs");
-    app.add_flag("--while-watched", arguments.watched).hidden(); // for --watch
+    app.add_flag("--while-watched", arguments.watched).hidden(); // given by --watch
     app.add_option("--texture", arguments.texture,
                    "picture of the colours, where the file names one that is missing, or none");
     app.add_option("--title", arguments.title,
@@ -108,10 +109,11 @@ int run(int argc, char** argv) {
         "Bakes an artifact (glTF, OBJ, PLY, STL) into a pack for the FrustumScreen. Options stand above "
         "what a folder's artifact.toml says.",
         "frustumscreen-bake");
-    app.set_version_flag("--version", "frustumscreen-bake " FRUSTUMSCREEN_VERSION);
-    app.footer("frustumscreen-bake --watch FOLDER watches a folder and draws its page again whenever it "
-               "changes; --batch DIR bakes a collection; --words bakes the exhibit's own words. Add --help "
-               "to each of them to read more.");
+    app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
+    app.footer(
+        "frustumscreen-bake --watch FOLDER looks at a folder and draws its page again whenever it changes; "
+        "--batch DIR "
+        "bakes a collection; --words bakes the exhibit's own words. Each says more with --help behind it.");
     add_options(app, arguments);
     if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (arguments.input.empty()) {

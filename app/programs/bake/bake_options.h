@@ -1,4 +1,4 @@
-/// The options that say how an artifact is baked: one bake, a watched folder and a whole collection take the same.
+/// The options that control how an artifact is baked, shared by a single bake, --watch and --batch.
 ///
 /// Threads  any.
 #pragma once
@@ -13,7 +13,7 @@ namespace frustumscreen {
 
 void add_bake_options(CommandLine& app, BakeArguments& arguments);
 
-/// The same options as a command line; those that were left out are not there.
+/// The given options as command-line words; options that were not given are left out.
 [[nodiscard]] std::vector<std::string> bake_options_of(const BakeArguments& arguments);
 
 } // namespace frustumscreen

@@ -24,7 +24,7 @@ bool begins_as_page(const std::filesystem::path& file) {
     return begin == page_begin;
 }
 
-/// A third of the pictures, and smaller ones: for a page that is made again and again.
+/// A watched page has a third of the pictures, and smaller ones, because it is drawn again after each change.
 TurnOptions turn_options(bool watched) {
     return watched ? TurnOptions{6, 2, {400, 280}, 960} : TurnOptions{};
 }

@@ -1,6 +1,6 @@
-/// The page beside a pack: --preview.
+/// --preview: writes the page beside a pack.
 ///
-/// Errors   one sentence: a page that cannot be written, a file in its place that is no page, no OpenGL ES to draw with.
+/// Errors   one sentence: the page cannot be written, a file with its name is not a page, no OpenGL ES to draw with.
 /// Threads  one caller; it holds a GL context while it draws.
 #pragma once
 
@@ -9,10 +9,10 @@
 
 namespace frustumscreen {
 
-/// Before the work. Nothing is checked without a page to write.
+/// Checks, before the work, that the page can be drawn and written. Does nothing if no page is wanted.
 [[nodiscard]] Result<void> check_preview(const BakeRequest& request);
 
-/// From the pack that was written; the page's size in bytes, 0 without a page to write.
+/// Draws the page from the written pack. Returns the page's size in bytes; 0 if no page is wanted.
 [[nodiscard]] Result<std::uint64_t> write_preview(const BakeRequest& request, const BakeResult& result);
 
 } // namespace frustumscreen

@@ -4,6 +4,7 @@
 #include "app/pack/pack_texts.h"
 #include "assets_baked/bake/box_frame.h"
 #include "firmware_host/base/json.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/base/words_of_time.h"
 
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ double metres_per_box(const BakeResult& result) {
     return place(result.pack, result.prop.shape).metres_per_box;
 }
 
-/// Of the artifact itself, without the room below a raised one.
+/// Size of the artifact itself, without the empty space below a raised one.
 glm::dvec3 size_m(const BakeResult& result) {
     double lowest = result.pack.box_size.z;
     for (const glm::dvec3& extreme : result.pack.extremes) {
@@ -35,7 +36,7 @@ glm::dvec3 size_m(const BakeResult& result) {
     return (result.pack.box_size - glm::dvec3(0.0, 0.0, lowest)) * metres_per_box(result);
 }
 
-/// The file's axis that looks at the visitor without a turn.
+/// The file's axis that points at the visitor when no turn is applied.
 std::string front_of(const std::string& up) {
     const glm::dvec3 axis = glm::transpose(up_rotation(up).value_or(glm::dmat3(1.0))) * glm::dvec3(0, -1, 0);
     for (int k = 0; k < 3; ++k) {
@@ -50,7 +51,7 @@ std::string signed_axis(const std::string& up) {
     return up.starts_with('-') || up.starts_with('+') ? up : "+" + up;
 }
 
-/// What a reader of this level alone reads of the file.
+/// Stored bytes that a reader of this level alone reads from the file.
 std::uint64_t bytes_of(const BakeResult& result, std::size_t level) {
     const PackLevel& of = result.pack.levels[level];
     std::uint64_t bytes = 0;
@@ -106,7 +107,7 @@ std::string notes_text(const BakeResult& result, SourceNote::Kind kind, const ch
     return text;
 }
 
-/// The languages in which there are sounds.
+/// The languages that have sounds.
 std::vector<std::string> spoken_in(const Pack& pack) {
     std::vector<std::string> languages;
     for (const SpokenText& spoken : list_sounds(pack).value_or(std::vector<SpokenText>())) {
@@ -117,7 +118,7 @@ std::vector<std::string> spoken_in(const Pack& pack) {
     return languages;
 }
 
-/// Nothing where there is nothing to speak.
+/// Lines about the speech; empty if there are none.
 std::string speech_text(const BakeResult& result) {
     const std::vector<std::string> languages = spoken_in(result.pack);
     std::string text;
@@ -163,7 +164,7 @@ PreviewFacts preview_facts(const BakeResult& result) {
     facts.seconds = result.seconds;
     facts.size_m = size_m(result);
     facts.stands = standing_text(result);
-    facts.program = "frustumscreen-bake " FRUSTUMSCREEN_VERSION;
+    facts.program = name_and_version("frustumscreen-bake");
     const double mm = metres_per_box(result) * mm_per_m;
     for (std::size_t k = 0; k < result.pack.levels.size(); ++k) {
         const PackLevel& level = result.pack.levels[k];

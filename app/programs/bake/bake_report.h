@@ -1,6 +1,6 @@
-/// What the bake says at its end: for a person on one screen, for programs as JSON.
+/// The report at the end of a bake: one screen of text for a person, JSON for programs.
 ///
-/// Sizes and errors are those on the usual prop of the kind that was baked for.
+/// Sizes and errors are those on a prop of usual size, of the kind that the pack is baked for.
 /// Threads  pure; any.
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace frustumscreen {
 
-/// Everything that was decided and made.
+/// Everything that a bake decided and made.
 struct BakeResult {
     std::filesystem::path file;
     std::uint64_t file_bytes = 0;
@@ -27,25 +27,25 @@ struct BakeResult {
     std::vector<PackPart> parts;
     BakedProp prop;
     std::string up;        ///< as "y" or "-z"
-    bool up_given = false; ///< else it is the format's
+    bool up_given = false; ///< false: the format's
     double turn_deg = 0.0;
-    bool turn_given = false; ///< else it was chosen
+    bool turn_given = false; ///< false: chosen by the bake
     std::vector<SourceNote> notes;
-    std::vector<std::string> silent; ///< descriptions that nobody hears, and why
+    std::vector<std::string> silent; ///< descriptions without speech, and why
     ScanRights rights;
-    std::vector<std::string> missing; ///< what the curator should say, a sentence each
+    std::vector<std::string> missing; ///< facts that the curator should add, a sentence each
     double seconds = 0.0;
-    std::filesystem::path page; ///< of the preview; empty: none
+    std::filesystem::path page; ///< the preview page; empty: none
     std::uint64_t page_bytes = 0;
 };
 
-/// What a page says of it.
+/// The facts that the preview page shows.
 [[nodiscard]] PreviewFacts preview_facts(const BakeResult& result);
 /// Ends with a line break.
 [[nodiscard]] std::string report_text(const BakeResult& result);
 /// {file, bytes, title, seconds, prop, size_m, up, front, turn_deg, scale, levels: [{technique, triangles, bytes,
 /// mean_mm, p95_mm, max_mm, colour_rmse}], default_level, spoken: [languages], silent: [], lost: [],
-/// guessed: [], taken: [], missing: [], id, licence, author, source, page}; `page` only where there is one
+/// guessed: [], taken: [], missing: [], id, licence, author, source, page}; `page` only if there is one
 [[nodiscard]] nlohmann::ordered_json report_json(const BakeResult& result);
 
 } // namespace frustumscreen

@@ -15,7 +15,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Who names the artifact.toml means its folder.
+/// The path of an artifact.toml stands for its folder.
 BakeArguments with_folder(BakeArguments arguments) {
     std::error_code none;
     if (arguments.input.filename() == artifact_file_name &&
@@ -35,7 +35,7 @@ Result<ArtifactFile> file_of(const BakeArguments& arguments) {
     return file;
 }
 
-/// A text of the command line would be refused only after the work, when the pack is written.
+/// Checks a text of the command line before the work; writing the pack would refuse it only afterwards.
 Result<void> check_text(const std::string& option, std::string_view text, TextShape shape) {
     if (const auto fault = fault_of_text(text, shape)) {
         return fail(ErrorKind::BadConfiguration, "bake.text", "{} '{}': it {}", option, printable(text, 40),
@@ -71,7 +71,7 @@ BakeOptions options_of(const BakeArguments& arguments, const ArtifactFile& file)
     return options;
 }
 
-/// Languages of the folder's file that the command line leaves out.
+/// Languages of the folder's file that are not baked, because the command line names others.
 std::vector<std::string> left_out_of(const ArtifactFile& file, const std::vector<PackCaption>& captions) {
     std::vector<std::string> languages;
     for (const PackCaption& written : file.texts) {

@@ -1,6 +1,6 @@
-/// What is to be baked: the command line over the folder's artifact.toml over what is usual.
+/// The inputs of a bake: the command line overrides the folder's artifact.toml, which overrides the defaults.
 ///
-/// Errors   one line. `BadInput`: the folder's file; `BadConfiguration`: the command line, which is wrong use.
+/// Errors   one line. `BadInput`: the folder's file; `BadConfiguration`: the command line (wrong use).
 /// Threads  pure apart from reading the folder; any.
 #pragma once
 
@@ -17,16 +17,16 @@
 
 namespace frustumscreen {
 
-/// The command line as it was written; nothing where an option was left out.
+/// The command line as written; options that were not given are empty.
 struct BakeArguments {
     std::filesystem::path input; ///< a scan, or a folder
     std::filesystem::path output;
     std::filesystem::path preview;    ///< page to write; empty: none
-    bool watched = false;             ///< --watch asks for it: a coarse page, which loads itself again
+    bool watched = false;             ///< given by --watch: a coarse page that reloads itself
     std::filesystem::path new_folder; ///< --new: start a folder from the scan, bake nothing
     bool force = false;               ///< replace an output that is no pack
     bool clean = false;               ///< leave out scraps (last_look.h)
-    bool strict = false;              ///< what is lost is an error
+    bool strict = false;              ///< losses are errors
     bool json = false;
     bool unlit = false;
     bool no_relief = false;
@@ -48,21 +48,21 @@ struct BakeArguments {
 struct BakeRequest {
     std::filesystem::path scan;
     std::filesystem::path output;
-    std::filesystem::path preview;             ///< as above
-    bool watched = false;                      ///< as above
-    std::vector<std::filesystem::path> inputs; ///< what must not be replaced, as far as it is known now
+    std::filesystem::path preview;             ///< as BakeArguments
+    bool watched = false;                      ///< as BakeArguments
+    std::vector<std::filesystem::path> inputs; ///< files that must not be overwritten, as known so far
     bool force = false;
     bool clean = false;
     bool strict = false;
     std::filesystem::path texture;
     std::optional<double> turn_deg; ///< nothing: the best
     BakeOptions options;
-    std::string id;                    ///< empty: from the pack's name (default_id.h)
-    std::string usual_title;           ///< of what has no title of its own
-    ScanRights rights;                 ///< empty: what the scan's file says of itself
+    std::string id;                    ///< empty: from the pack's name (scan_about.h)
+    std::string usual_title;           ///< title of a caption that has none of its own
+    ScanRights rights;                 ///< empty: as the scan's file has them
     std::vector<PackCaption> captions; ///< at least one; a title may be empty
     SpeechSources speech;
-    std::vector<std::string> lost; ///< what the folder's file says and nobody will see, a sentence each
+    std::vector<std::string> lost; ///< contents of the folder's file that are not shown, a sentence each
 };
 
 [[nodiscard]] Result<BakeRequest> request_of(const BakeArguments& arguments);

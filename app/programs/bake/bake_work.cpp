@@ -43,7 +43,7 @@ Result<void> describe(Pack& pack, const BakeRequest& request) {
     return {};
 }
 
-/// Without colours an unlit mesh would be one flat area.
+/// True if the mesh has colours; without them an unlit mesh would be one flat area.
 bool has_colours(const SourceMesh& mesh) {
     const bool one_colour = std::all_of(mesh.materials.begin(), mesh.materials.end(), [&](const auto& each) {
         return each.base_colour == mesh.materials.front().base_colour;
@@ -51,7 +51,7 @@ bool has_colours(const SourceMesh& mesh) {
     return !mesh.textures.empty() || !mesh.colours.empty() || !one_colour;
 }
 
-/// With --strict what is lost is an error; otherwise it is said, and said again in the report.
+/// Reports losses on standard error; with --strict they are an error.
 Result<void> tell(const std::vector<SourceNote>& notes, const BakeRequest& request) {
     std::vector<std::string> lost;
     for (const SourceNote& note : notes) {
@@ -69,7 +69,7 @@ Result<void> tell(const std::vector<SourceNote>& notes, const BakeRequest& reque
     return {};
 }
 
-/// Reads the file; its notes say what is lost of it.
+/// Reads the scan; its notes list what is lost of it.
 Result<SourceMesh> load(const BakeRequest& request) {
     TRY(SourceMesh mesh, load_mesh(request.scan, {request.texture}));
     TRY_VOID(check_output_is_no_input(request.output, mesh.side_files));
@@ -99,7 +99,7 @@ Result<SourceMesh> load(const BakeRequest& request) {
     return mesh;
 }
 
-/// What takes seconds comes before what takes minutes, so that what is wrong with it is said at once.
+/// Sets and speaks the texts. Runs before the bake: it takes seconds, the bake minutes, so errors are reported early.
 Result<ArtifactWords> set_and_speak(const BakeRequest& request, const BakeOptions& options,
                                     std::vector<SourceNote>& notes) {
     options.progress("texts and speech", 0.0);
@@ -147,7 +147,7 @@ Result<BakeResult> bake_file(const BakeRequest& written, BakeOptions options) {
     return result;
 }
 
-/// Checks before the work that no scan and no unknown file is overwritten, and that the pack can be written.
+/// Checks, before the work, that the output replaces no scan and no unknown file, and that it can be written.
 Result<void> check_output(const BakeRequest& request) {
     TRY_VOID(check_output_is_no_input(request.output, request.inputs));
     TRY_VOID(check_output_place(request.output, room_for_pack(request.options.size)));

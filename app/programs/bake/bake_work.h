@@ -1,7 +1,7 @@
-/// One bake from the request to the pack on the disk.
+/// Runs one bake, from the request to the pack on the disk.
 ///
-/// Errors   one sentence; nothing is written then.
-/// Threads  one caller; uses all cores. Says on standard error what is lost, and how far it is.
+/// Errors   one sentence; then nothing is written.
+/// Threads  one caller; uses all cores. Writes losses and progress to standard error.
 #pragma once
 
 #include "app/programs/bake/bake_report.h"

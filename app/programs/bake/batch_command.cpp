@@ -12,6 +12,7 @@
 #include "firmware_host/base/output_file.h"
 #include "firmware_host/base/standard_error.h"
 #include "firmware_host/base/time.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/base/words_of_time.h"
 
 #include <fmt/format.h>
@@ -29,10 +30,10 @@ namespace {
 
 constexpr const char* program = "frustumscreen-bake";
 constexpr double bytes_per_mb = 1e6;
-/// With less, the libraries that a bake is made of cannot even say that they have too little.
-constexpr double least_memory_mb = 500.0;
+/// With less memory, the libraries of a bake fail before they can report it.
+constexpr double min_memory_mb = 500.0;
 constexpr std::uintmax_t room_for_reports = 1'000'000;
-constexpr std::size_t most_sentences = 20; ///< of failures on standard error; all are in the report
+constexpr std::size_t max_sentences = 20; ///< about failures on standard error; the report has all
 
 struct Arguments {
     std::filesystem::path folder;
@@ -47,7 +48,7 @@ struct Arguments {
     BakeArguments bake;
 };
 
-/// Makes the folder of the packs, and looks whether it can be written.
+/// Makes the folder for the packs and checks that it is writable.
 Result<void> check_output_folder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
@@ -59,10 +60,10 @@ Result<void> check_output_folder(const std::filesystem::path& folder) {
     return check_output_place(folder / "report.csv", room_for_reports);
 }
 
-/// Another build of the program may bake other packs.
+/// Identifies the build of the program, because another build may bake other packs.
 Result<std::string> program_key() {
     Result<std::string> hash = hash_of_file("/proc/self/exe");
-    return hash ? Result<std::string>("frustumscreen-bake " FRUSTUMSCREEN_VERSION " " + *hash) : hash;
+    return hash ? Result<std::string>(name_and_version("frustumscreen-bake") + " " + *hash) : hash;
 }
 
 Result<BatchPlan> plan_of(const Arguments& arguments, std::vector<BatchObject> objects) {
@@ -82,7 +83,7 @@ Result<BatchPlan> plan_of(const Arguments& arguments, std::vector<BatchObject> o
     return plan;
 }
 
-/// report.html and report.csv, or those of a shard.
+/// report.html and report.csv, or a shard's reports.
 std::filesystem::path report_file(const Arguments& arguments, const std::optional<Shard>& shard,
                                   std::string_view ending) {
     return arguments.output / (shard ? fmt::format("report.{}-of-{}.{}", shard->number, shard->of, ending)
@@ -99,14 +100,14 @@ Result<void> write_reports(const Arguments& arguments, const std::optional<Shard
                       as_bytes(report_page(rows, title, seconds, collection.passed_over)));
 }
 
-/// Failures are said as they come; all the rest stands in the report.
+/// Prints failures as they occur; the report has the rest.
 std::vector<BatchRow> run(const BatchPlan& plan) {
     ProgressLine progress("baking: ");
     std::size_t done = 0;
     std::size_t told = 0;
     return run_batch(plan, [&](const BatchRow& row) {
         progress.show(++done, plan.objects.size());
-        if (!row.sentence.empty() && told < most_sentences) {
+        if (!row.sentence.empty() && told < max_sentences) {
             progress.clear();
             ++told;
             say_line(program, fmt::format("{}: {}", row.object, row.sentence));
@@ -129,7 +130,7 @@ void print_end(const Arguments& arguments, const std::vector<BatchRow>& rows,
     fmt::print("{}\n", json.dump(2));
 }
 
-/// Whether all objects have a pack.
+/// True if every object has a pack.
 Result<bool> work(const Arguments& arguments) {
     const MonotonicTime start = monotonic_now();
     std::optional<Shard> shard;
@@ -158,11 +159,10 @@ ArgumentCheck is_memory_limit() {
         const char* const end = text.data() + text.size();
         const std::from_chars_result read = std::from_chars(text.data(), end, megabytes);
         const bool is_number = read.ec == std::errc{} && read.ptr == end;
-        const bool well =
-            is_number && (megabytes == 0.0 || (megabytes >= least_memory_mb && megabytes <= 1e8));
+        const bool well = is_number && (megabytes == 0.0 || (megabytes >= min_memory_mb && megabytes <= 1e8));
         return well ? std::string()
                     : fmt::format("'{}' is not allowed; allowed are {} megabytes and more, or 0 for no limit",
-                                  text, least_memory_mb);
+                                  text, min_memory_mb);
     };
     return {check, ""};
 }
@@ -181,7 +181,7 @@ void add_options(CommandLine& app, Arguments& arguments) {
         .within(1.0, 1e6)
         .capture_default_str();
     app.add_option("--memory-limit", arguments.memory_limit_mb,
-                   fmt::format("megabytes for one bake, {} or more; 0: no limit", least_memory_mb))
+                   fmt::format("megabytes for one bake, {} or more; 0: no limit", min_memory_mb))
         .check(is_memory_limit())
         .capture_default_str();
     app.add_flag("--previews", arguments.pages, "a page beside each pack, as --preview makes it");
@@ -199,7 +199,7 @@ int batch_command(int argc, char** argv) {
                     "left; what fails stops "
                     "nothing else. A run that was ended goes on where it was.",
                     program);
-    app.set_version_flag("--version", "frustumscreen-bake " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
     add_options(app, arguments);
     if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (arguments.folder.empty() || arguments.output.empty()) {

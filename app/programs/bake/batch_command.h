@@ -1,11 +1,11 @@
-/// frustumscreen-bake --batch: a folder of objects into a folder of packs, with a report.
+/// frustumscreen-bake --batch: bakes a folder of objects into a folder of packs and writes a report.
 ///
-/// Threads  the main one, and one for each bake at a time.
+/// Threads  the main one, and one for each bake in progress.
 #pragma once
 
 namespace frustumscreen {
 
-/// The exit status: 1 if one object failed.
+/// Returns the exit status: 1 if any object failed.
 [[nodiscard]] int batch_command(int argc, char** argv);
 
 } // namespace frustumscreen

@@ -1,6 +1,7 @@
-/// The captions that a person wrote on the bake's command line, over those of the folder.
+/// The captions of the bake's command line, which override those of the folder.
 ///
-/// Errors   one sentence, wrong use: no language, a language or caption twice, a caption in a language not named.
+/// Errors   one sentence, wrong use: no language, a language or caption twice, a caption in a language that is not
+///          named.
 /// Threads  pure; any.
 #pragma once
 
@@ -12,16 +13,16 @@
 
 namespace frustumscreen {
 
-/// What was written about the captions.
+/// The captions as given on the command line and in the folder.
 struct WrittenCaptions {
-    std::string title;                  ///< empty: each caption's own, or `usual_title`
+    std::string title;                  ///< empty: each caption's own title, or `usual_title`
     std::vector<std::string> languages; ///< empty: those of `from_file`
     std::vector<std::string> texts;     ///< LANGUAGE=TEXT
-    std::vector<PackCaption> from_file; ///< of the folder's artifact.toml
-    std::string usual_title;            ///< of a caption that has none otherwise
+    std::vector<PackCaption> from_file; ///< captions of the folder's artifact.toml
+    std::string usual_title;            ///< title of a caption that has none otherwise
 };
 
-/// One for each language, in the order written; English alone if none is written anywhere. A language without a text
+/// Returns one caption for each language, in the order given; English alone if none is given. A language without a text
 /// has the title alone.
 [[nodiscard]] Result<std::vector<PackCaption>> captions_of(const WrittenCaptions& written);
 

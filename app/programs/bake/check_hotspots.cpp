@@ -13,7 +13,7 @@ Result<void> check_hotspots(const SourceMesh& mesh, const BakeOptions& options) 
     const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
     const Result<BoxFrame> frame = make_box_frame(mesh, {up, options.turn_deg, options.lift});
     if (!frame) {
-        return {}; // the bake says what is wrong with the scan
+        return {}; // the bake reports the scan's error
     }
     const std::vector<glm::dvec3> points = in_box(mesh, *frame);
     const SourceScene scene(mesh, points);

@@ -1,4 +1,4 @@
-/// Looks at a scan's hotspots before the work on texts and levels.
+/// Checks a scan's hotspots before texts and levels are made.
 ///
 /// Errors   as assets_baked/bake/hotspots.h.
 /// Threads  one caller.
@@ -8,7 +8,7 @@
 
 namespace frustumscreen {
 
-/// With the options that the bake will have, so that what passes here passes there.
+/// Checks with the bake's options, so that hotspots which pass here pass the bake.
 [[nodiscard]] Result<void> check_hotspots(const SourceMesh& mesh, const BakeOptions& options);
 
 } // namespace frustumscreen

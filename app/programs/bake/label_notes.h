@@ -12,8 +12,8 @@
 
 namespace frustumscreen {
 
-/// A sentence for each label that is missing in a language of `captions`, and for each one in a language that has no texts.
-/// `left_out`: languages that nobody asked for.
+/// Returns a sentence for each label that is missing in a language of `captions`, and for each label in a language
+/// without texts. `left_out`: languages that were left out on purpose; their labels give no sentence.
 [[nodiscard]] std::vector<std::string> label_notes(std::span<const ArtifactHotspot> hotspots,
                                                    std::span<const PackCaption> captions,
                                                    std::span<const std::string> left_out);

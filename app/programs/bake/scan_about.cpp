@@ -15,7 +15,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// What the request leaves open is taken from the file; what both say differently is told.
+/// Fills fields that the request leaves empty from the scan's file; notes each field that the two give differently.
 class Completion {
 public:
     explicit Completion(std::vector<SourceNote>& notes) : notes_(notes) {}
@@ -51,7 +51,7 @@ private:
 void complete_titles(BakeRequest& request, const SourceAbout& about, Completion& completion) {
     const auto has_none = [](const PackCaption& caption) { return caption.title.empty(); };
     if (std::none_of(request.captions.begin(), request.captions.end(), has_none)) {
-        return; // a title of one's own is usual, and no contradiction
+        return; // a title that differs from the scan's is usual
     }
     std::string title;
     completion.fill("title", title, about.title);
@@ -70,10 +70,10 @@ bool is_plain(char c) {
 
 std::string default_id(const std::filesystem::path& pack_file) {
     constexpr std::size_t hash_digits = 8;
-    constexpr std::size_t most_kept = pack_format::most_id_bytes - hash_digits - 1;
+    constexpr std::size_t max_kept = pack_format::max_id_bytes - hash_digits - 1;
     const std::string name = pack_file.stem().string();
     std::string id;
-    bool is_exact = true; // else two names could have one id
+    bool is_exact = true; // false: two names could give one id
     for (const char c : name) {
         const char small = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
         const bool begins = !id.empty() || (small >= 'a' && small <= 'z') || (small >= '0' && small <= '9');
@@ -85,7 +85,7 @@ std::string default_id(const std::filesystem::path& pack_file) {
     if (is_exact && is_artifact_id(id)) {
         return id;
     }
-    id = id.substr(0, most_kept);
+    id = id.substr(0, max_kept);
     return (id.empty() ? "pack" : id) + "-" + sha256_hex(as_bytes(name)).substr(0, hash_digits);
 }
 

@@ -1,4 +1,4 @@
-/// What the pack says of the scan: the request over what the scan's file says of itself over what is usual.
+/// The pack's facts about the scan: the request overrides the scan's file, which overrides the defaults.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -11,12 +11,13 @@
 
 namespace frustumscreen {
 
-/// Of an artifact that nobody named: the pack's name in small letters, so that a pack replaces an older one of its name.
+/// The id of an artifact without one: the pack's name in lower case, so that a pack replaces an older one with its
+/// name.
 [[nodiscard]] std::string default_id(const std::filesystem::path& pack_file);
 
 struct CompletedRequest {
-    BakeRequest request;           ///< every caption has a title, and there is an id
-    std::vector<SourceNote> notes; ///< what was taken, and what of the file is lost
+    BakeRequest request;           ///< every caption has a title, and the id is set
+    std::vector<SourceNote> notes; ///< facts taken from the file, and losses
 };
 [[nodiscard]] CompletedRequest completed(BakeRequest request, const SourceAbout& about);
 

@@ -10,6 +10,7 @@
 #include "assets_baked/folder/artifact_file.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/run_program.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/service/stop_signals.h"
 
 #include <fmt/format.h>
@@ -28,8 +29,8 @@ namespace {
 
 constexpr const char* program = "frustumscreen-bake";
 constexpr Nanoseconds quiet = std::chrono::milliseconds(300);
-constexpr int coarse_size = 128; ///< texels; a scan at 512 takes several times as long
-constexpr int look_ms = 100;     ///< for a signal to stop
+constexpr int coarse_size = 128; ///< texels; 512 texels take several times as long
+constexpr int look_ms = 100;     ///< interval between checks for a stop signal
 
 struct Arguments {
     std::filesystem::path folder;
@@ -38,7 +39,7 @@ struct Arguments {
     BakeArguments bake;
 };
 
-/// Where the pack lies that the page is drawn from, unless somebody wants it.
+/// Temporary folder for the pack that the page is drawn from, if the pack is not kept.
 class PassingFolder {
 public:
     PassingFolder() {
@@ -60,7 +61,7 @@ private:
     std::filesystem::path path_;
 };
 
-/// vase/ has its page in vase.preview.html.
+/// The page of vase/ is vase.preview.html beside it.
 std::filesystem::path page_beside(const std::filesystem::path& folder) {
     std::error_code none;
     const std::filesystem::path whole =
@@ -117,7 +118,8 @@ private:
         return stopped_;
     }
 
-    /// What is wrong with the folder is said, and the page stays as it was; what is wrong with us ends the watching.
+    /// Bakes once. An error in the folder is printed and the page stays as it was; an error of the program ends the
+    /// watching.
     Result<void> bake() {
         const MonotonicTime start = monotonic_now();
         ProgramLimits limits;
@@ -139,7 +141,7 @@ private:
         return {};
     }
 
-    /// Nobody draws the page again from here on, so it need not look for it.
+    /// Stops the page from reloading itself, because it is not drawn again.
     void rest_page() const {
         const Result<Bytes> page = has_page_ ? read_file(arguments_.page) : Result<Bytes>(Bytes());
         if (page && !page->empty()) {
@@ -155,7 +157,7 @@ private:
     bool has_page_ = false;
 };
 
-/// What is written there would count as a change, and be written again.
+/// An output inside the watched folder would count as a change and start the next bake.
 Result<void> check_is_outside(const std::filesystem::path& written, const std::filesystem::path& folder) {
     std::error_code none;
     const std::filesystem::path way =
@@ -203,7 +205,7 @@ int watch_command(int argc, char** argv) {
                     "browser that has the page "
                     "open shows each new one by itself.",
                     program);
-    app.set_version_flag("--version", "frustumscreen-bake " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
     app.add_option("--watch", arguments.folder, "FOLDER with an artifact.toml").expected(0, 1);
     app.add_option("--preview", arguments.page,
                    "page to write (default: FOLDER.preview.html beside the folder)");

@@ -1,11 +1,11 @@
-/// frustumscreen-bake --watch: bakes a coarse preview of a folder again whenever a file in it has changed.
+/// frustumscreen-bake --watch: bakes a coarse preview of a folder again after each change of a file in it.
 ///
-/// Threads  the main one. Each bake is a process of its own, so that none can end the watching.
+/// Threads  the main one. Each bake is a process of its own, so that a crash of one does not end the watching.
 #pragma once
 
 namespace frustumscreen {
 
-/// Until SIGINT or SIGTERM; the exit status.
+/// Runs until SIGINT or SIGTERM; returns the exit status.
 [[nodiscard]] int watch_command(int argc, char** argv);
 
 } // namespace frustumscreen

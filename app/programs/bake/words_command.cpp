@@ -13,6 +13,7 @@
 #include "firmware_host/base/output_file.h"
 #include "firmware_host/base/printable.h"
 #include "firmware_host/base/standard_error.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -61,7 +62,7 @@ Result<void> check_folder(const std::filesystem::path& folder) {
     return {};
 }
 
-/// The languages that are named, in the usual case of their tags.
+/// The named languages, with the usual case of their tags.
 Result<std::vector<std::string>> named_languages(const std::vector<std::string>& written) {
     std::vector<std::string> languages;
     for (const std::string& each : written) {
@@ -109,7 +110,7 @@ Result<void> speak(BakedWords& baked, const Arguments& arguments) {
     return {};
 }
 
-/// Checks before the work that no other file than one of the same kind is replaced, and no input.
+/// Checks, before the work, that the output replaces no input and only a file of its kind.
 Result<void> check_output(const std::filesystem::path& output, bool is_of_kind, const char* kind,
                           bool force) {
     TRY_VOID(check_output_place(output));
@@ -157,7 +158,7 @@ Result<void> check_outputs_are_no_inputs(const Arguments& arguments, const Words
     return {};
 }
 
-/// Who names languages leaves the others out on purpose.
+/// Languages that are left out on purpose, because the command line names others.
 std::vector<std::string> left_out_of(const std::vector<std::string>& all,
                                      const std::vector<std::string>& baked) {
     std::vector<std::string> left_out;
@@ -167,7 +168,7 @@ std::vector<std::string> left_out_of(const std::vector<std::string>& all,
     return left_out;
 }
 
-/// The words in their files, with all that may be lost of the folder; checked against the outputs.
+/// Reads the words, with notes on what may be lost of the folder; checks that no output is an input.
 Result<std::vector<CollectedWords>> collect(const Arguments& arguments, std::vector<std::string>& notes) {
     const WordsFolder folder = list_words_folder(arguments.folder);
     TRY(const std::vector<std::string> named, named_languages(arguments.languages));
@@ -200,7 +201,7 @@ int words_command(int argc, char** argv) {
     Arguments arguments;
     CommandLine app("Bakes the exhibit's own words (advice, faults, invitations) into a file for the kiosk.",
                     program);
-    app.set_version_flag("--version", "frustumscreen-bake " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
     app.add_option("--words", arguments.folder, "folder with LANGUAGE.toml; without one the built-in words")
         .expected(0, 1);
     app.add_option("-o,--output", arguments.output, "file to write (*.fswords)").required();

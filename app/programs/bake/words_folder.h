@@ -1,4 +1,4 @@
-/// What a museum's folder of words has, beside what its files say.
+/// Lists the files in a museum's folder of words.
 ///
 /// Threads  reads the folder; any.
 #pragma once
@@ -13,9 +13,9 @@
 namespace frustumscreen {
 
 struct WordsFolder {
-    std::vector<std::string> languages;            ///< the built-in ones, then those that the folder adds
+    std::vector<std::string> languages;            ///< built-in languages, then those that the folder adds
     std::vector<std::filesystem::path> word_files; ///< LANGUAGE.toml
-    std::vector<std::string> notes; ///< files that are named after no language, a sentence each
+    std::vector<std::string> notes;                ///< files whose name is no language, a sentence each
 };
 
 /// `folder` may be empty: the built-in words alone.
@@ -23,9 +23,9 @@ struct WordsFolder {
 
 struct WordRecordings {
     std::vector<std::filesystem::path> taken;
-    std::vector<std::string> notes; ///< recordings that no word takes, a sentence each
+    std::vector<std::string> notes; ///< recordings that belong to no word, a sentence each
 };
-/// `left_out`: languages that nobody asked for.
+/// `left_out`: languages that were left out on purpose; their recordings give no note.
 [[nodiscard]] WordRecordings list_word_recordings(const std::filesystem::path& folder,
                                                   std::span<const CollectedWords> collected,
                                                   const std::vector<std::string>& left_out);

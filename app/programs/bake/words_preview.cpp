@@ -18,7 +18,7 @@ struct PlacedImage {
     int x = 0, y = 0;
 };
 
-/// White on black, as the projector shows it.
+/// Draws white on black, as the projector shows it.
 void draw(const PlacedImage& placed, Image8& sheet) {
     const Image<std::uint8_t>& from = placed.image.coverage;
     for (int y = 0; y < from.height; ++y) {
@@ -31,7 +31,7 @@ void draw(const PlacedImage& placed, Image8& sheet) {
     }
 }
 
-/// The languages' words in a column, at the narrower widths one below the other; returns the column's height.
+/// Lays out a language's words in a column, at settings that fit its width, and returns the column's height.
 int lay_out(const LanguageWords& words, int left, std::vector<PlacedImage>& placed) {
     int y = gap_px;
     for (const GlyphText& text : words.runs.texts) {

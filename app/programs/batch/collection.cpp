@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 5> scan_endings{".glb", ".gltf", ".obj", ".ply", ".stl"};
-constexpr std::size_t most_shards = 100'000;
+constexpr std::size_t max_shards = 100'000;
 
 bool is_scan(const fs::path& file) {
     std::string ending = file.extension().string();
@@ -44,7 +44,7 @@ void add(const fs::directory_entry& entry, Collection& collection) {
     }
 }
 
-/// Two packs with one name would replace each other.
+/// Refuses objects with equal names, because their packs would replace each other.
 void refuse_twins(std::vector<BatchObject>& objects) {
     for (std::size_t k = 1; k < objects.size(); ++k) {
         const BatchObject& first = objects[k - 1];
@@ -57,7 +57,7 @@ void refuse_twins(std::vector<BatchObject>& objects) {
     }
 }
 
-/// The page of such an object would have the name of the batch's own report.
+/// Refuses objects whose page would have the name of the batch's own report.
 void refuse_reports(std::vector<BatchObject>& objects) {
     for (BatchObject& object : objects) {
         if (object.name == "report" || object.name.starts_with("report.")) {
@@ -106,10 +106,10 @@ Result<Shard> parse_shard(std::string_view text) {
     const std::size_t slash = std::min(text.find('/'), text.size());
     const auto number = whole_number(text.substr(0, slash));
     const auto of = whole_number(text.substr(std::min(slash + 1, text.size())));
-    if (!number || !of || *number < 1 || *number > *of || *of > most_shards) {
+    if (!number || !of || *number < 1 || *number > *of || *of > max_shards) {
         return fail(ErrorKind::BadConfiguration, "batch.shard",
                     "--shard '{}': allowed are 1/N to N/N, such as 3/8 for the third of eight, N at most {}",
-                    printable(text, 40), most_shards);
+                    printable(text, 40), max_shards);
     }
     return Shard{*number, *of};
 }

@@ -28,11 +28,11 @@ struct NamedFile {
 Result<std::vector<NamedFile>> files_of(const fs::path& folder) {
     std::vector<NamedFile> files;
     std::error_code error;
-    constexpr int most_depth = 16; // a link may lead back to its own folder
+    constexpr int max_depth = 16; // a link may lead back to its own folder
     fs::recursive_directory_iterator entries(folder, fs::directory_options::follow_directory_symlink, error);
     for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
         std::error_code none;
-        if (entries->path().filename().string().starts_with('.') || entries.depth() >= most_depth) {
+        if (entries->path().filename().string().starts_with('.') || entries.depth() >= max_depth) {
             entries.disable_recursion_pending();
         } else if (entries->is_regular_file(none)) {
             files.push_back({entries->path().lexically_relative(folder).string(), entries->path()});

@@ -16,7 +16,7 @@ namespace frustumscreen {
 /// SHA-256 of the file's bytes: 64 hexadecimal digits, lower case.
 [[nodiscard]] Result<std::string> hash_of_file(const std::filesystem::path& file);
 
-/// For a single scan: of its bytes. For a folder: of the names and bytes of all its files, except hidden
+/// For a single scan: hash of its bytes. For a folder: hash of the names and bytes of all its files, except hidden
 /// ones.
 [[nodiscard]] Result<std::string> hash_of_object(const std::filesystem::path& input);
 

@@ -43,7 +43,7 @@ Result<std::string> key_of(const BatchPlan& plan, const BatchObject& object) {
     return hash_of_texts(texts);
 }
 
-/// Whether the stamp's pack exists, byte for byte.
+/// True if the stamp's pack exists, byte for byte.
 bool is_done(const std::optional<Stamp>& stamp, const std::string& key, const Outputs& outputs) {
     if (!stamp || stamp->key != key || stamp->pack_sha256.empty()) {
         return false;
@@ -136,11 +136,11 @@ BatchRow row_of(const BatchPlan& plan, const BatchObject& object) {
 std::vector<BatchRow> run_batch(const BatchPlan& plan, const std::function<void(const BatchRow&)>& tell) {
     std::vector<BatchRow> rows(plan.objects.size());
     std::atomic<std::size_t> next{0};
-    std::mutex telling;
+    std::mutex narration_sequencer;
     const auto work = [&] {
         for (std::size_t k = next++; k < rows.size(); k = next++) {
             rows[k] = row_of(plan, plan.objects[k]);
-            const std::scoped_lock lock(telling);
+            const std::scoped_lock lock(narration_sequencer);
             tell(rows[k]);
         }
     };

@@ -28,7 +28,7 @@ struct BatchPlan {
     bool pages = false;                    ///< also bake a preview next to each pack
     bool bakes = true;                     ///< false: only check the existing results
     std::size_t jobs = 1;
-    ProgramLimits limits; ///< of each bake
+    ProgramLimits limits; ///< for each bake
 };
 
 /// Returns a row for each object, in their order.

@@ -28,9 +28,9 @@ struct BatchRow {
     std::string sentence; ///< why it failed
     std::string title;
     std::size_t levels = 0;
-    std::uint64_t bytes = 0;                               ///< of the pack
-    double mean_mm = 0.0, p95_mm = 0.0, colour_rmse = 0.0; ///< of the level usually shown
-    std::size_t lost = 0, silent = 0;                      ///< sentences of the bake about losses
+    std::uint64_t bytes = 0;                               ///< size of the pack
+    double mean_mm = 0.0, p95_mm = 0.0, colour_rmse = 0.0; ///< errors of the default level
+    std::size_t lost = 0, silent = 0;                      ///< sentences about losses
     bool has_page = false;
 };
 

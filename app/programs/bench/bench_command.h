@@ -40,7 +40,7 @@ private:
 };
 
 struct BenchCommand {
-    CommandLine options; ///< of the subcommand; `parsed()` once it was chosen
+    CommandLine options; ///< the subcommand's; `parsed()` once it was chosen
     std::function<Result<void>(BenchProgress&)> run;
 };
 
@@ -110,13 +110,13 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
 
 /// Every level of a pack and its peers against a ray cast.
 [[nodiscard]] BenchCommand error_time_command(CommandLine& app);
-/// The exhibit's estimates of its picture error, against a ray cast.
+/// The exhibit's estimates of its picture error against a ray cast.
 [[nodiscard]] BenchCommand estimate_command(CommandLine& app);
-/// The prop's pose by its tags, in rendered scenes.
+/// The prop's pose from its tags, in rendered scenes.
 [[nodiscard]] BenchCommand tags_command(CommandLine& app);
-/// The visitor's eye by a camera, in rendered scenes.
+/// The visitor's eye position from a camera, in rendered scenes.
 [[nodiscard]] BenchCommand visitor_command(CommandLine& app);
-/// Cost against the source's size, built-in amphora.
+/// Cost against the source's size, for the built-in amphora.
 [[nodiscard]] BenchCommand scaling_command(CommandLine& app);
 /// The visitor's view against an ordinary ray cast.
 [[nodiscard]] BenchCommand projection_command(CommandLine& app);
@@ -128,11 +128,11 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
 [[nodiscard]] BenchCommand plot_command(CommandLine& app);
 /// The cost of a frame in numbers that do not depend on the machine.
 [[nodiscard]] BenchCommand counts_command(CommandLine& app);
-/// How far the picture slips on a moving prop, with and without prediction.
+/// Displacement of the picture on a moving prop, with and without prediction.
 [[nodiscard]] BenchCommand latency_command(CommandLine& app);
 /// Which prop and projector suit a table.
 [[nodiscard]] BenchCommand setup_command(CommandLine& app);
-/// Whether advice helps visitors.
+/// The benefit of advice for visitors.
 [[nodiscard]] BenchCommand guidance_command(CommandLine& app);
 /// The benefit of the recovery ladder over years of faults.
 [[nodiscard]] BenchCommand ladder_command(CommandLine& app);

@@ -51,7 +51,7 @@ Result<void> require_reference(std::span<const CountedPack> counted, std::span<c
                                std::span<const CountChange> against, const std::filesystem::path& file) {
     if (std::any_of(against.begin(), against.end(), [](const CountChange& one) { return one.grown; })) {
         return fail(ErrorKind::Internal, "bench.counts_grew", "a frame takes over {:.0f} % more than {} says",
-                    100.0 * (most_count_growth - 1.0), file.string());
+                    100.0 * (max_count_growth - 1.0), file.string());
     }
     if (const std::vector<std::string> lacking = without_reference(counted, reference); !lacking.empty()) {
         return bad_input("bench.counts_lacking",

@@ -17,7 +17,7 @@ struct Arguments {
     GuidanceOptions options;
 };
 
-/// Each prop twice: every seen face counts; what counts is an artifact in it.
+/// Each prop twice: without an artifact, where every visible face counts, and with one, where the artifact counts.
 using NamedSetups = std::vector<std::pair<std::string, GuidanceSetup>>;
 NamedSetups without_and_with_artifact(const std::string& name, const Settings& settings) {
     NamedSetups setups{{name, guidance_setup(settings)},

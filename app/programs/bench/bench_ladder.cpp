@@ -16,19 +16,21 @@ struct Arguments {
 };
 
 Result<void> run(const Arguments& arguments, BenchProgress& progress) {
-    const std::vector<Attack> attacks = seeded_attacks(arguments.seed, arguments.days, arguments.times);
+    const std::vector<FaultEvent> fault_events =
+        seeded_faults(arguments.seed, arguments.days, arguments.times);
     std::vector<MuseumRun> runs;
     for (const Policy policy : all_policies) {
         progress.show(std::string(name_of(policy)),
                       static_cast<double>(runs.size()) / static_cast<double>(all_policies.size()));
-        runs.push_back(simulate(policy, attacks, arguments.days, arguments.seed));
+        runs.push_back(simulate(policy, fault_events, arguments.days, arguments.seed));
     }
     progress.clear();
-    fmt::print("{} faults in {} days\n\n{}", attacks.size(), arguments.days, museum_table(runs, attacks));
+    fmt::print("{} faults in {} days\n\n{}", fault_events.size(), arguments.days,
+               museum_table(runs, fault_events));
     const Result<void> written =
         write_all(arguments.out, {{"ladder.csv", dark_times_csv(runs, arguments.days)},
                                   {"ladder_policies.csv", museum_csv(runs, arguments.days)},
-                                  {"ladder_ailments.csv", ailments_csv(runs, attacks)}});
+                                  {"ladder_ailments.csv", faults_csv(runs, fault_events)}});
     return written ? draw_all(arguments.out, {"ladder.csv"}) : written;
 }
 

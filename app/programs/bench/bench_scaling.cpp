@@ -34,7 +34,7 @@ Result<void> measure(const SetUp& set_up, const std::vector<ScalingSource>& sour
     std::fflush(stdout);
     files.emplace_back("scaling_" + set_up.name + ".csv", scaling_csv(rows));
     for (const ScalingSource& source : sources) {
-        if (arguments.no_peers || source.mesh->triangles.size() < least_two_pass_triangles) {
+        if (arguments.no_peers || source.mesh->triangles.size() < min_two_pass_triangles) {
             continue;
         }
         ErrorTimeOptions compared;

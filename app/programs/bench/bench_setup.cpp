@@ -13,18 +13,18 @@ namespace {
 struct Arguments {
     std::filesystem::path out;
     std::filesystem::path config;
-    std::filesystem::path pack; ///< whose frames are timed; empty: none
-    std::vector<int> picture;   ///< width, height; empty: that of the settings
-    std::vector<double> zone_m; ///< width, depth; empty: none is asked for
+    std::filesystem::path pack; ///< the pack whose frames are timed; empty: none
+    std::vector<int> picture;   ///< width, height; empty: the settings'
+    std::vector<double> zone_m; ///< width, depth; empty: not required
     AdviceOptions options;
 };
 
-constexpr std::size_t most_timed = 5;
+constexpr std::size_t max_timed = 5;
 
 /// Times a frame of the pack in the settings as they are and in the best choices.
 Result<void> measure_costs(const Pack& pack, SetUpChoice& now, std::vector<SetUpChoice>& found,
                            BenchProgress& progress) {
-    std::vector<SetUpChoice*> timed = best_working(found, most_timed);
+    std::vector<SetUpChoice*> timed = best_working(found, max_timed);
     timed.insert(timed.begin(), &now);
     std::vector<const Settings*> set_ups;
     for (const SetUpChoice* choice : timed) {

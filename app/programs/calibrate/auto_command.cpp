@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// As of touches, with rests by their own numbers, and what is known of rests alone.
+/// The JSON of a calibration by touch, with the rests' own numbers, and the members that only rests have.
 Json auto_json(const AutoCalibration& c, const Rests& rests) {
     Json json = touch_json(c.found);
     json["repeat"] = Json::array();

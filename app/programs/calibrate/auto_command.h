@@ -1,4 +1,4 @@
-/// frustumscreen-calibrate auto: from rests of the prop to projector and tracker.
+/// frustumscreen-calibrate auto: computes projector and tracker from rests of the prop.
 ///
 /// Threads  the main one.
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace frustumscreen {
 
-/// Sets `chosen` if this is the command; what it returns is the exit status.
+/// Sets `chosen` if this is the command; `chosen` returns the exit status.
 void add_auto_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen);
 
 } // namespace frustumscreen

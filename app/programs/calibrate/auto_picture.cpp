@@ -18,42 +18,42 @@ constexpr Colour place_colour{255, 255, 255};
 constexpr Colour taken_colour{0, 70, 0};
 
 /// `filled` replaces the names in braces. The words None and Taken have no key here: the next posture's key is used.
-constexpr std::array<WordMessage<AutoWord>, 15> auto_messages{{
-    {AutoWord::NoLight,
+constexpr std::array<WordMessage<AutoPrompt>, 15> auto_messages{{
+    {AutoPrompt::NoLight,
      {"calibration.no_light",
       "The camera does not see the projector's light. Turn it to the table, then press Next."}},
-    {AutoWord::CameraFault, {"calibration.camera_fault", "{camera}"}},
-    {AutoWord::NoFrames,
+    {AutoPrompt::CameraFault, {"calibration.camera_fault", "{camera}"}},
+    {AutoPrompt::NoFrames,
      {"calibration.camera_fault",
       "The camera has stopped sending. Look at its cable; the stripes come again by themselves."}},
-    {AutoWord::NotSeen,
+    {AutoPrompt::NotSeen,
      {"calibration.not_seen", "The tracker does not see the prop. Look at its cable and its sensor."}},
-    {AutoWord::FewTags,
+    {AutoPrompt::FewTags,
      {"calibration.few_tags",
       "The camera sees {tags} of {all_tags} tags whole in the light: {least_tags} are needed. Nothing may "
       "lie on them or stand before them; put the board more into the middle."}},
-    {AutoWord::TurnIt,
+    {AutoPrompt::TurnIt,
      {"calibration.turn_it", "Turn it too: the first three rests must look in different directions."}},
-    {AutoWord::NotFlat,
+    {AutoPrompt::NotFlat,
      {"calibration.not_flat",
       "The first three rests were not all flat. Press Back three times, and lay the board flat each time."}},
-    {AutoWord::LeansLittle,
+    {AutoPrompt::LeansLittle,
      {"calibration.leans_little",
       "It lies neither flat nor on the wedge. Lay it flat, or lean it by 15 to 30 degrees."}},
-    {AutoWord::WrongHeight,
+    {AutoPrompt::WrongHeight,
      {"calibration.wrong_height", "It lies neither on the table nor on {block_mm:.0f} mm of board."}},
-    {AutoWord::Moved,
+    {AutoPrompt::Moved,
      {"calibration.board_moved",
       "It moved, or the camera did. Leave both alone; the stripes come again by themselves."}},
-    {AutoWord::Disturbed,
+    {AutoPrompt::Disturbed,
      {"calibration.disturbed",
       "Something passed through the light. Step back; the stripes come again by themselves."}},
-    {AutoWord::TooBright,
+    {AutoPrompt::TooBright,
      {"calibration.too_bright", "The tags are too bright for the camera. Shorten camera.exposure_ms in the "
                                 "settings, or close its lens a little."}},
-    {AutoWord::Taken, {"", "Good: {tags} of {all_tags} tags."}},
-    {AutoWord::Dropped, {"calibration.dropped", "The last rest is dropped."}},
-    {AutoWord::TooFew, {"calibration.too_few", "{least_rests} rests are needed at least."}},
+    {AutoPrompt::Taken, {"", "Good: {tags} of {all_tags} tags."}},
+    {AutoPrompt::Dropped, {"calibration.dropped", "The last rest is dropped."}},
+    {AutoPrompt::TooFew, {"calibration.too_few", "{least_rests} rests are needed at least."}},
 }};
 constexpr std::array<WordMessage<Posture>, 3> posture_messages{{
     {Posture::Flat,
@@ -71,7 +71,7 @@ std::string filled(std::string_view english, const AutoProcedure& procedure) {
     using fmt::arg;
     return fmt::format(fmt::runtime(english), arg("camera", as_sentence(sentence_of(procedure.camera()))),
                        arg("tags", procedure.tags()), arg("all_tags", procedure.board().tags.size()),
-                       arg("least_tags", AutoProcedure::least_tags), arg("least_rests", procedure.least()),
+                       arg("least_tags", AutoProcedure::min_tags), arg("least_rests", procedure.least()),
                        arg("block_mm", 1e3 * procedure.plan().block_m));
 }
 
@@ -80,7 +80,7 @@ TableWords words_of_begin(const AutoProcedure& procedure) {
     if (!procedure.problem().empty()) {
         return why_not("The table cannot be measured", procedure.problem(), "Back returns to the exhibit.");
     }
-    if (procedure.word() == AutoWord::CameraFault) {
+    if (procedure.word() == AutoPrompt::CameraFault) {
         return {key_of(procedure.word(), {}, may_go_on),
                 {"The camera cannot be used now", as_sentence(sentence_of(procedure.camera())),
                  may_go_on ? "Put that right, or press Back to measure the table with crosses."
@@ -99,7 +99,7 @@ TableWords words_of_begin(const AutoProcedure& procedure) {
                  : "Next begins. Back returns to the exhibit; so does a minute without a press."}};
 }
 
-/// Before a pattern: the delay is to be measured, or a rest to be taken.
+/// Words before a pattern: the delay will be measured, or a rest taken.
 TableWords words_of_point(const AutoProcedure& procedure) {
     const Posture wished = procedure.wish().posture;
     const bool is_delay = procedure.stage() == Stage::Delay;
@@ -108,7 +108,7 @@ TableWords words_of_point(const AutoProcedure& procedure) {
     if (is_delay) {
         words = {"calibration.look_at_light",
                  {"The camera looks at the light",
-                  may_go_on && procedure.word() != AutoWord::None
+                  may_go_on && procedure.word() != AutoPrompt::None
                       ? "Light and dark follow each other. Back goes on to the crosses."
                       : "Light and dark follow each other. Back returns."}};
     } else {
@@ -116,11 +116,11 @@ TableWords words_of_point(const AutoProcedure& procedure) {
                  {fmt::format("Rest {} of {}", procedure.taken() + 1, procedure.wanted()),
                   filled(message_of(posture_messages, wished).english, procedure)}};
     }
-    if (!is_delay || procedure.word() != AutoWord::None) {
+    if (!is_delay || procedure.word() != AutoPrompt::None) {
         words.add(key_of(procedure.word(), wished, may_go_on),
                   filled(message_of(auto_messages, procedure.word()).english, procedure));
     }
-    // It goes on all the same.
+    // The procedure goes on with these faults.
     if (procedure.camera() == CameraState::Slow || procedure.camera() == CameraState::Unlocked) {
         words.add("", as_sentence(sentence_of(procedure.camera())));
     }
@@ -192,8 +192,8 @@ TableWords table_words(const AutoProcedure& procedure) {
     return words;
 }
 
-std::string_view key_of(AutoWord word, Posture wished, bool may_go_on) {
-    if (may_go_on && (word == AutoWord::CameraFault || word == AutoWord::NoFrames)) {
+std::string_view key_of(AutoPrompt word, Posture wished, bool may_go_on) {
+    if (may_go_on && (word == AutoPrompt::CameraFault || word == AutoPrompt::NoFrames)) {
         return "calibration.no_camera";
     }
     const std::string_view key = message_of(auto_messages, word).key;
@@ -210,11 +210,11 @@ Image8 table_picture(const AutoProcedure& procedure, const TableDrawing& with) {
     const bool has_place = procedure.stage() == Stage::Place;
     const glm::dvec2 place = procedure.wish().pixel;
     if (has_place) {
-        constexpr double about_the_prop = 0.27; // of the board, in whose middle it stands
+        constexpr double about_the_prop = 0.27; // of the board's width; the prop stands in its middle
         canvas.circle(place, about_the_prop * with.board_px, 4.0, place_colour);
         canvas.circle(place, unit, 3.0, place_colour);
     }
-    // The words stand in the half of the picture where the board is not.
+    // The words are in the half of the picture without the board.
     const bool below = !has_place || place.y < 0.45 * height;
     const TableWords words = table_words(procedure);
     const Image<std::uint8_t> coverage =
@@ -224,7 +224,8 @@ Image8 table_picture(const AutoProcedure& procedure, const TableDrawing& with) {
     const double top = !has_place ? 0.4 * height : below ? std::fmin(room, 0.68 * height) : 5.0 * unit;
     const glm::ivec2 corner{(width - coverage.width) / 2, static_cast<int>(std::fmax(top, unit))};
     const glm::dvec2 end = glm::dvec2(corner) + glm::dvec2(coverage.width, coverage.height);
-    canvas.fill(glm::dvec2(corner) - 0.5 * unit, end + 0.5 * unit, ground); // the ring leads behind the words
+    canvas.fill(glm::dvec2(corner) - 0.5 * unit, end + 0.5 * unit,
+                ground); // the ring passes behind
     canvas.coverage(coverage, corner, ink);
     draw_dots(canvas, {0.5 * width, below ? height - 3.0 * unit : 3.0 * unit}, unit,
               static_cast<int>(procedure.wanted()),

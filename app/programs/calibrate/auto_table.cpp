@@ -39,7 +39,7 @@ Result<WayEnd> measure_by_camera(const Settings& settings, const CalibrateReques
                  heard.frame = camera->poll(frame) ? &frame : nullptr;
                  heard.camera = camera->state();
                  way.step(heard);
-                 if (!way.shown()) { // what the stripes do to the camera is no fault of it
+                 if (!way.shown()) { // the camera's warnings come from the stripes
                      TableDevices::tell(sentence_of(heard.camera), "camera", camera_state);
                  }
              },

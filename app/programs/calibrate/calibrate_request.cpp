@@ -51,7 +51,7 @@ void check_request(const CalibrateRequest& request) {
 }
 
 Result<void> check_sensor_height(std::optional<double> height_m, std::optional<double> top_m) {
-    constexpr double most_above_m = 0.1; // a sensor on a holder
+    constexpr double max_above_m = 0.1; // for a sensor on a holder
     if (height_m && *height_m < 0.0) {
         return fail(ErrorKind::BadConfiguration, "calibrate.sensor_below_table",
                     "the sensor's height above the prop's bottom is {} m, which is below the table; measure "
@@ -59,7 +59,7 @@ Result<void> check_sensor_height(std::optional<double> height_m, std::optional<d
                     "the table to the sensor's middle",
                     *height_m);
     }
-    if (height_m && top_m && *height_m > *top_m + most_above_m) {
+    if (height_m && top_m && *height_m > *top_m + max_above_m) {
         return fail(ErrorKind::BadConfiguration, "calibrate.sensor_above_prop",
                     "the sensor's height above the prop's bottom is {} m, and the prop is {} m high; measure "
                     "it from the table "

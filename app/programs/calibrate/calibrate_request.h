@@ -1,4 +1,4 @@
-/// What the commands are asked: from which file, for which picture.
+/// The request of a command: its input file, its picture and its options.
 ///
 /// Threads  the main one.
 #pragma once
@@ -28,11 +28,11 @@ struct CalibrateRequest {
     std::vector<int> picture; ///< width, height
     std::optional<double> sensor_height_m;
     bool keep = false;
-    bool touch_up = false;     ///< of the kept calibration, in place of a new one
-    std::filesystem::path map; ///< where the uncertainty goes as a picture; empty: nowhere
+    bool touch_up = false;     ///< touches up the kept calibration instead of making a new one
+    std::filesystem::path map; ///< file for the picture of the uncertainty; empty: none
     bool undo = false;
-    bool anew = false; ///< on the table, also where a touch-up could be offered
-    // On the table; what is left out stands in the settings:
+    bool anew = false; ///< a whole calibration on the table, even if a touch-up is possible
+    // On the table; the settings supply what is absent:
     std::optional<int> touches;
     std::optional<double> block_m;
     std::optional<int> rests;
@@ -42,9 +42,9 @@ struct CalibrateRequest {
     bool json = false;
 };
 
-/// What is known before anything is measured.
+/// Data known before anything is measured.
 struct Described {
-    std::optional<Settings> settings; ///< none: --picture stands in their place
+    std::optional<Settings> settings; ///< none if --picture replaces them
     int width = 0;                    ///< of the picture
     int height = 0;
     double top_m = 0.12; ///< the prop's height
@@ -55,11 +55,12 @@ void add_map_option(CommandLine& command, CalibrateRequest& request);
 void add_keep_option(CommandLine& command, CalibrateRequest& request);
 /// --sensor-height, --keep and --map.
 void add_touch_options(CommandLine& command, CalibrateRequest& request);
-/// Throws a WrongUse at what does not go.
+/// Throws a WrongUse if options contradict each other.
 void check_request(const CalibrateRequest& request);
 [[nodiscard]] Result<Described> describe(const CalibrateRequest& request);
 [[nodiscard]] Described described_by(const Settings& settings);
-/// Refuses a sensor below the prop's bottom, or above its top by more than a hand's breadth. `top_m`: the prop's height, where it is known.
+/// Refuses a sensor below the prop's bottom, or above its top by more than a hand's breadth. `top_m`: the
+/// prop's height, if known.
 [[nodiscard]] Result<void> check_sensor_height(std::optional<double> height_m, std::optional<double> top_m);
 
 /// The points of --from; `parse` is one of point_files.h.
@@ -69,14 +70,14 @@ template <typename Points>
     TRY(const Bytes bytes, read_file(request.from));
     return parse(as_text(bytes), request.from.string());
 }
-/// Those of the table go to --out, if there are any; `text` is one of point_files.h.
+/// Writes the points measured on the table to --out, if there are any; `text` is one of point_files.h.
 template <typename Point>
 [[nodiscard]] Result<void> write_points(const CalibrateRequest& request, const std::vector<Point>& points,
                                         std::string (*text)(std::span<const Point>)) {
     return request.out.empty() || points.empty() ? Result<void>()
                                                  : write_file(request.out, as_bytes(text(points)));
 }
-/// A calibration's set-up as far as the request has it: TouchSetup, AutoSetup.
+/// A calibration's set-up, TouchSetup or AutoSetup, filled from the request.
 template <typename Setup>
 [[nodiscard]] Setup set_up_for(const Described& described, const CalibrateRequest& request) {
     Setup setup;
@@ -91,12 +92,12 @@ template <typename Setup>
 [[nodiscard]] nlohmann::ordered_json matrix_json(const RigidTransform& transform);
 [[nodiscard]] nlohmann::ordered_json projector_json(const Pinhole& pinhole,
                                                     const RigidTransform& table_from_projector);
-/// Where the projector is, one sentence.
+/// The projector's place, one sentence.
 [[nodiscard]] std::string projector_text(const RigidTransform& table_from_projector);
-/// 0 if it may be used; else 1, and the reason on standard error.
+/// 0 if the calibration may be used; otherwise 1, and the reason goes to standard error.
 [[nodiscard]] int status_of(Verdict verdict, const CalibrateRequest& request, const std::string& reason);
 
-/// Says the error, if it is one, and returns the exit status.
+/// Reports the error, if any, and returns the exit status.
 [[nodiscard]] int end_with(const Result<int>& status);
 
 } // namespace frustumscreen

@@ -1,5 +1,5 @@
-/// The ways through a calibration on the table, in the order in which the buttons offer them: Back from the beginning of one goes on to the next,
-/// from the last one out.
+/// The ways through a calibration on the table, in the order in which the buttons offer them: Back at the
+/// beginning of a way goes on to the next, and leaves from the last one.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -13,18 +13,19 @@
 namespace frustumscreen {
 
 enum class CalibrationWay {
-    TouchUp, ///< by crosses: what moved since the kept calibration
-    Camera,  ///< the whole, by a camera
-    Crosses  ///< the whole, by touch
+    TouchUp, ///< by crosses: only what moved since the kept calibration
+    Camera,  ///< a whole calibration by a camera
+    Crosses  ///< a whole calibration by touch
 };
 
-/// How one ended that did not end without a calibration.
+/// The end of a way that did not end without a calibration.
 enum class WayEnd {
     Kept,
-    GoesOn ///< the next way is wanted
+    GoesOn ///< to the next way
 };
 
-/// `touch_up`: a calibration is kept that it could correct; `camera`: one looks at the table, and the prop has a board for it.
+/// `touch_up`: a kept calibration exists that a touch-up could correct. `camera`: a camera looks at the
+/// table, and a tag sheet fits the prop.
 [[nodiscard]] inline std::vector<CalibrationWay> ways_through(bool touch_up, bool camera) {
     std::vector<CalibrationWay> ways;
     if (touch_up) {
@@ -37,7 +38,8 @@ enum class WayEnd {
     return ways;
 }
 
-/// An end without a calibration is an error; `problem`: why it could not be done, a half sentence, or empty.
+/// The way's end; an error if it ended without a calibration. `problem`: a clause on why it could not be
+/// done, or empty.
 [[nodiscard]] inline Result<WayEnd> ended_with(const std::optional<WayEnd>& end, const std::string& problem) {
     if (end) {
         return *end;

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The same shape as that of a calibration by touch, as far as it goes: there is no tracker in it.
+/// The JSON of a calibration by touch, without the tracker's members.
 Json corners_json(const CornerCalibration& c, const CornerUncertainty& uncertainty) {
     Json json{{"projector", nullptr},   {"table_from_tracker", nullptr}, {"sensor_offset_m", nullptr},
               {"residual_mm", nullptr}, {"residual_px", nullptr},        {"centre_m", nullptr},

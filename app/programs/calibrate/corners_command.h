@@ -1,4 +1,4 @@
-/// frustumscreen-calibrate corners: from the picture's measured corners to the projector.
+/// frustumscreen-calibrate corners: computes the projector from the picture's measured corners.
 ///
 /// Threads  the main one.
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace frustumscreen {
 
-/// Sets `chosen` if this is the command; what it returns is the exit status.
+/// Sets `chosen` if this is the command; `chosen` returns the exit status.
 void add_corners_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen);
 
 } // namespace frustumscreen

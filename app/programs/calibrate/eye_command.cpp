@@ -22,7 +22,7 @@ Json vector_json(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
-/// Every key is always there; what is not known is null.
+/// Every key is always present; unknown values are null.
 Json eye_json(const EyeFit& fit) {
     Json json{{"eye_in_sensor_m", nullptr}, {"deviation_mm", nullptr},
               {"left_m", nullptr},          {"right_m", nullptr},
@@ -66,11 +66,11 @@ std::string eye_text(const EyeFit& fit) {
     return text;
 }
 
-/// Of the prop where it is wished to stand, and of a head where visitors' are.
+/// The crosses for the prop at its wished place and a head at the visitors' usual place.
 Json crosses_json(const Settings& settings) {
     const SightScene scene = sight_scene(settings);
     const SightPlan plan =
-        plan_sights(scene, wished_place(scene), scene.usual_eye_m, EyeProcedure::most_of_each);
+        plan_sights(scene, wished_place(scene), scene.usual_eye_m, EyeProcedure::max_of_each);
     Json crosses = Json::array();
     for (const SightCross& cross : plan.crosses) {
         crosses.push_back(

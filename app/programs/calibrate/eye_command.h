@@ -1,4 +1,5 @@
-/// frustumscreen-calibrate eye: where the eyes are in the sensor on the head, from sightings over the prop.
+/// frustumscreen-calibrate eye: locates the eyes in the frame of the head's sensor, from sightings over the
+/// prop.
 ///
 /// Threads  the main one.
 #pragma once
@@ -10,7 +11,7 @@
 
 namespace frustumscreen {
 
-/// Sets `chosen` if this is the command; what it returns is the exit status.
+/// Sets `chosen` if this is the command; `chosen` returns the exit status.
 void add_eye_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen);
 
 } // namespace frustumscreen

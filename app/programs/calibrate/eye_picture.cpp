@@ -13,28 +13,28 @@ namespace {
 
 using Stage = CalibrationStage;
 
-constexpr std::array<WordMessage<EyeWord>, 9> eye_messages{{
-    {EyeWord::PropMoves,
+constexpr std::array<WordMessage<EyePrompt>, 9> eye_messages{{
+    {EyePrompt::PropMoves,
      {"calibration.eyes.block_moves", "The prop is not at rest yet. Take your hands away."}},
-    {EyeWord::PropMoved,
+    {EyePrompt::PropMoved,
      {"calibration.eyes.block_moved",
       "The prop was pushed. Let it lie; its place is taken anew, and this sighting comes again."}},
-    {EyeWord::PropNotSeen,
+    {EyePrompt::PropNotSeen,
      {"calibration.not_seen", "The tracker does not see the prop. Look at its cable and its sensor."}},
-    {EyeWord::HeadNotSeen,
+    {EyePrompt::HeadNotSeen,
      {"calibration.eyes.head_not_seen",
       "The tracker does not see the sensor on your head. Look at its cable, and come nearer."}},
-    {EyeWord::OffTable,
-     {"calibration.eyes.off_table", "The prop does not stand as the table was measured. Stand it upright; if "
-                                    "it is upright, put the picture right first (table --touch-up)."}},
-    {EyeWord::NoRoom,
+    {EyePrompt::OffTable,
+     {"calibration.eyes.off_table", "The prop does not stand on the table as that was calibrated. Stand it "
+                                    "upright; if it is, put the picture right first (table --touch-up)."}},
+    {EyePrompt::NoRoom,
      {"calibration.eyes.no_room", "There is no room for crosses behind the prop. Lay it on the square."}},
-    {EyeWord::HeadMoved,
+    {EyePrompt::HeadMoved,
      {"calibration.eyes.head_moved", "Your head moved. Keep it still; the second begins anew."}},
-    {EyeWord::SameHead,
+    {EyePrompt::SameHead,
      {"calibration.eyes.same_head",
       "Your head is held as before. Hold it as it is asked for, then press Next again."}},
-    {EyeWord::Taken, {"", "Good."}},
+    {EyePrompt::Taken, {"", "Good."}},
 }};
 constexpr std::array<WordMessage<HeadPosture>, 4> posture_messages{{
     {HeadPosture::ChinUp, {"calibration.eyes.chin_up", "chin up"}},
@@ -137,14 +137,14 @@ bool has_cross(Stage stage) {
     return stage == Stage::Place || stage == Stage::HoldStill;
 }
 
-/// Lines between points of the table's space.
+/// Draws lines between points in the table's frame.
 class SightDrawing {
 public:
     SightDrawing(const EyeProcedure& procedure, Canvas& canvas)
         : procedure_(procedure), scene_(procedure.scene()), canvas_(canvas),
           unit_(scene_.pinhole.width / 160.0) {}
 
-    /// Where the prop is to lie.
+    /// The square on which the prop should stand.
     void square() {
         const RigidTransform place = wished_place(scene_);
         std::array<glm::dvec2, 4> bottom{};
@@ -160,7 +160,7 @@ public:
         }
         canvas_.circle(procedure_.cross().pixel, 0.8 * unit_, 0.2 * unit_, colour);
     }
-    /// On the prop: the corner, and the way to it from the middle of what lies highest.
+    /// Marks the corner on the prop, and leads to it from the middle of the prop's top.
     void tip() {
         const glm::dvec3& tip = procedure_.cross().tip_m;
         const glm::dvec3 way = middle_of_top() - tip;
@@ -172,7 +172,7 @@ public:
         line(tip + length * inwards, head, width, TableColours::front);
         line(head, head + 0.008 * inwards + aside, width, TableColours::front);
         line(head, head + 0.008 * inwards - aside, width, TableColours::front);
-        const double radius = 0.003; // a circle whose line is as wide as its radius is long is a dot
+        const double radius = 0.003; // a circle of half of it, with a line as wide as it, is a dot
         const glm::dvec2 dot = pixel(tip + 0.0045 * inwards);
         const double radius_px = glm::distance(dot, pixel(tip + (0.0045 + radius) * inwards));
         canvas_.circle(dot, 0.5 * radius_px, radius_px, TableColours::white);
@@ -204,7 +204,8 @@ private:
     double unit_;
 };
 
-/// The house's sentence, and while the corner is brought over the cross also how the head is to be held; below them the English lines.
+/// The sentence in the house's language, also the head's posture while the corner is brought over the cross,
+/// above the English lines.
 Image<std::uint8_t> words_at(const EyeProcedure& procedure, const TableDrawing& with, double width,
                              double unit) {
     const TableWords said = table_words(procedure);
@@ -220,7 +221,7 @@ Image<std::uint8_t> words_at(const EyeProcedure& procedure, const TableDrawing& 
     return words;
 }
 
-/// As large as they fit into the box, at its lower end: the person stands there.
+/// Draws the words as large as they fit into the box, at its lower end, where the person stands.
 void draw_words(Canvas& canvas, const EyeProcedure& procedure, const TableDrawing& with) {
     const WordsBox& box = procedure.words();
     const double row = box.size().x / (4.0 * static_cast<double>(procedure.count() + 1));
@@ -235,7 +236,7 @@ void draw_words(Canvas& canvas, const EyeProcedure& procedure, const TableDrawin
         share *= smaller;
     } while ((words.height > height || words.width > box.size().x) && share > smallest);
     const glm::dvec2 corner(box.low.x, box.high.y - 5.0 * dot - words.height);
-    const bool is_well = procedure.word() == EyeWord::Taken || procedure.word() == EyeWord::None;
+    const bool is_well = procedure.word() == EyePrompt::Taken || procedure.word() == EyePrompt::None;
     canvas.coverage(words, glm::ivec2(glm::max(corner, glm::dvec2(0.0))),
                     is_well ? TableColours::white : TableColours::front);
     draw_dots(canvas, {0.5 * (box.low.x + box.high.x), box.high.y - 2.0 * dot}, dot,
@@ -265,7 +266,7 @@ Image8 table_picture(const EyeProcedure& procedure, const TableDrawing& with) {
     }
     if (has_cross(procedure.stage())) {
         const bool is_held = procedure.stage() == Stage::HoldStill;
-        const bool moved = procedure.word() == EyeWord::HeadMoved;
+        const bool moved = procedure.word() == EyePrompt::HeadMoved;
         drawing.cross(!is_held ? TableColours::white : moved ? TableColours::bad : TableColours::good);
         drawing.tip();
     }

@@ -12,7 +12,7 @@ SightScene sight_scene(const Settings& settings) {
             settings.eye.default_m};
 }
 
-/// An eye sees the artifact's middle through a face: half the prop's width behind it.
+/// Depth of the artifact's middle behind a face: half the prop's width.
 std::optional<EyeFit> fit_reported(std::span<const ReportedSight> sights, const Settings& settings) {
     const ProjectorSettings& projector = settings.projector;
     const std::optional<EyeSights> placed =
@@ -30,7 +30,7 @@ Result<std::optional<WayEnd>> measure_eyes(const Settings& settings, const Calib
         devices, settings,
         {.solve =
              [&](EyeProcedure& way) {
-                 way.judge(fit_reported(way.sights(), settings).value()); // its crosses are lit
+                 way.judge(fit_reported(way.sights(), settings).value()); // the plan's crosses are lit
              },
          .write = [&](const EyeProcedure& way) { return write_points(request, way.sights(), sights_text); },
          .keep = [&](const EyeProcedure& way) { return keep_eye(settings, way.judged()->eyes->middle_m); },

@@ -1,6 +1,7 @@
-/// The eyes' place in the head's sensor, measured on the table itself, with the projector, the tracker's sensors of prop and head, and two buttons.
+/// Measures the eyes' place in the head's sensor on the table itself, with the projector, the tracker's
+/// sensors of prop and head, and two buttons.
 ///
-/// Errors   settings without what it needs, a screen that fails, an end without an eye.
+/// Errors   the settings lack something that it needs, the screen fails, or it ends without an eye.
 /// Threads  the main one.
 #pragma once
 
@@ -17,14 +18,14 @@ namespace frustumscreen {
 
 [[nodiscard]] SightScene sight_scene(const Settings& settings);
 
-/// On the settings' table. Nothing: the light of a cross does not come down on it.
+/// The fit on the settings' table. Nothing if the light of a cross does not reach the table.
 [[nodiscard]] std::optional<EyeFit> fit_reported(std::span<const ReportedSight> sights,
                                                  const Settings& settings);
 
-/// From the first word on the table to the kept file; nothing: it ended without an eye.
+/// Runs the procedure and keeps its result; nothing if it ended without an eye.
 [[nodiscard]] Result<std::optional<WayEnd>>
 measure_eyes(const Settings& settings, const CalibrateRequest& request, TableDevices& devices);
-/// The same alone, where an end without an eye is an error.
+/// Runs the procedure alone; an end without an eye is an error.
 [[nodiscard]] Result<void> calibrate_eyes(const Settings& settings, const CalibrateRequest& request);
 
 } // namespace frustumscreen

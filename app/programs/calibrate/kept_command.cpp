@@ -58,7 +58,7 @@ Result<int> show_kept(const CalibrateRequest& request) {
     TRY(const CheckedSettings settings, load_settings(request.config));
     const std::filesystem::path& folder = settings->calibration.folder;
     std::error_code none;
-    if (!request.undo && !std::filesystem::exists(folder, none)) { // nothing was ever kept
+    if (!request.undo && !std::filesystem::exists(folder, none)) { // nothing has been kept
         fmt::print("{}", request.json ? "{\n  \"kept\": []\n}\n" : nothing_kept);
         return 0;
     }
@@ -79,7 +79,7 @@ Result<int> show_kept(const CalibrateRequest& request) {
     return 0;
 }
 
-/// Keeps what was found from so many places, with the date.
+/// Keeps a calibration from this number of places, with the date.
 Result<void> keep(const Settings& settings, const TouchCalibration& calibration, std::size_t places,
                   Calibration next) {
     next.places = static_cast<int>(places);
@@ -93,7 +93,7 @@ Result<void> keep(const Settings& settings, const TouchCalibration& calibration,
 
 Result<void> keep_next(const Settings& settings, Calibration next) {
     const std::filesystem::path& folder = settings.calibration.folder;
-    std::error_code failed; // open_tree says what is wrong with it
+    std::error_code failed; // open_tree reports the error
     std::filesystem::create_directories(folder, failed);
     TRY(const std::unique_ptr<WritableTree> tree, open_tree(folder));
     const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());

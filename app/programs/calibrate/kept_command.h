@@ -1,6 +1,6 @@
-/// What is kept of calibrations: kept, listed, undone.
+/// Keeps, lists and undoes kept calibrations.
 ///
-/// Errors   one line: which folder or file, what, what to do.
+/// Errors   one line: the folder or file, the problem, the remedy.
 /// Threads  the main one.
 #pragma once
 
@@ -18,20 +18,21 @@ namespace frustumscreen {
 
 void add_kept_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen);
 
-/// Keeps a calibration that is good or usable in the settings' folder, dated by this machine's clock, and says where.
+/// Keeps a good or usable calibration in the settings' folder, dated by this machine's clock, and reports
+/// where.
 [[nodiscard]] Result<void> keep_touch(const Settings& settings, const TouchCalibration& calibration,
                                       std::span<const Touch> touches);
-/// The projector alone: the tracker stays where it was.
+/// Keeps the projector only; the tracker keeps its place.
 [[nodiscard]] Result<void> keep_corners(const Settings& settings, const CornerCalibration& calibration,
                                         std::size_t corners);
 [[nodiscard]] Result<void> keep_auto(const Settings& settings, const AutoCalibration& calibration);
 
-/// Why the eye cannot be kept, as a half sentence: there is no calibration to keep it with. Empty: it can.
+/// A clause on why the eye cannot be kept: there is no calibration to keep it with. Empty if it can.
 [[nodiscard]] std::string why_no_eye(const Settings& settings);
-/// The kept calibration with this eye in it becomes the newest one; projector, tracker and sensor stay.
+/// Keeps a copy of the kept calibration with this eye; projector, tracker and sensor stay.
 [[nodiscard]] Result<void> keep_eye(const Settings& settings, const glm::dvec3& eye_in_sensor_m);
 
-/// Keeps this one; when it was made is set here.
+/// Keeps `next`, and sets its date.
 [[nodiscard]] Result<void> keep_next(const Settings& settings, Calibration next);
 
 } // namespace frustumscreen

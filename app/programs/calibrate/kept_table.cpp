@@ -19,7 +19,7 @@ const glm::dvec3 up(0.0, 0.0, 1.0);
 
 RigidTransform settings_from_measured(const ProjectorSettings& projector) {
     const glm::dvec2 middle = 0.5 * glm::dvec2(projector.pinhole.width, projector.pinhole.height);
-    const auto lit = [&](const glm::dvec2& pixel) { // settings whose light misses the table were refused
+    const auto lit = [&](const glm::dvec2& pixel) { // checked settings light the table
         return lights_table(projector.pinhole, projector.table_from_projector, pixel).value();
     };
     const glm::dvec2 origin = lit(middle);
@@ -37,7 +37,8 @@ RigidTransform sensor_from_prop(const CalibratedTable& table, std::span<const To
                            : glm::dvec3(0.0);
     }
     axis = glm::normalize(axis);
-    // A sensor that hangs upside down has no shortest turn: half a turn about its X axis comes first.
+    // A sensor that hangs upside down has no unique shortest rotation, so half a turn about its X axis comes
+    // first.
     const glm::dquat over(0.0, 1.0, 0.0, 0.0);
     const bool is_opposite = glm::dot(described.rotation * up, axis) < -0.99;
     const glm::dquat rotation = is_opposite ? described.rotation * over : described.rotation;
@@ -50,7 +51,7 @@ Calibration kept_table(const CalibratedTable& table, const RigidTransform& senso
     Calibration kept;
     kept.pinhole = table.pinhole;
     kept.table_from_projector = settings_table * table.table_from_projector;
-    kept.registration = settings.tracker.registration; // the eye in the head's sensor stays
+    kept.registration = settings.tracker.registration; // keeps the eye in the head's sensor
     kept.registration.table_from_tracker = settings_table * table.table_from_tracker;
     kept.registration.sensor_from_prop = sensor_from_prop;
     return kept;

@@ -1,10 +1,12 @@
-/// A calibrated table as the exhibit keeps it: in the frame of its settings, with the prop's place in its sensor.
+/// A calibrated table as the exhibit keeps it: in the frame of its settings, with the prop's place in its
+/// sensor.
 ///
-/// Frames   the calibration's table frame has its origin where the light of the picture's middle meets the table, +X along the
-///          picture's u. The exhibit's is turned and shifted so that the middle and u are where the settings have them: so that
-///          the front stays the front, however the projector hangs.
-/// Prop     of touches: it stands on its bottom's centre, the touched place, upright in most touches. How it is turned about its axis in its
-///          sensor, touches do not tell: that stays as the settings have it.
+/// Frames   The calibration's table frame has its origin where the light of the picture's middle falls on the
+///          table, and +X along the picture's u. The exhibit's frame is turned and shifted so that the middle
+///          and u agree with the settings. The front thus stays the front, however the projector hangs.
+/// Prop     For touches: the prop's bottom's centre is the touched place, and the prop is upright in most
+///          touches. Touches do not determine its rotation about its axis in its sensor; that stays as in the
+///          settings.
 /// Threads  pure; any.
 #pragma once
 
@@ -16,18 +18,18 @@
 
 namespace frustumscreen {
 
-/// The settings' projector must look down at the table; checked ones do.
+/// The settings' projector must look down at the table; checked settings do.
 [[nodiscard]] RigidTransform settings_from_measured(const ProjectorSettings& projector);
 
-/// The prop in its sensor: its bottom's centre at the touched place, its axis as it stood in most touches.
+/// The prop in its sensor: its bottom's centre at the touched place, its axis as in most touches.
 [[nodiscard]] RigidTransform sensor_from_prop(const CalibratedTable& table, std::span<const Touch> touches,
                                               const RigidTransform& described);
 
-/// Pinhole, poses and registration, where it is known how the prop lies in its sensor.
+/// Pinhole, poses and registration, for a known pose of the prop in its sensor.
 [[nodiscard]] Calibration kept_table(const CalibratedTable& table, const RigidTransform& sensor_from_prop,
                                      const Settings& settings);
 
-/// Pinhole, poses and registration; who made it and how well is left to the caller.
+/// Pinhole, poses and registration; the caller adds the origin and the quality.
 [[nodiscard]] Calibration kept_table(const CalibratedTable& table, std::span<const Touch> touches,
                                      const Settings& settings);
 

@@ -1,7 +1,10 @@
-/// A way through a calibration on the table: what it shows and says, what is heard, one after the other until it has ended; then it is kept.
+/// Runs a way through a calibration on the table: shows, speaks and listens until it ends, then keeps the
+/// result.
 ///
-/// Time     the devices'. Between two rounds it is waited; without a screen nobody looks on, and that time is passed over.
-/// Errors   the display stops; points cannot be written; a calibration cannot be kept, which the table tells too.
+/// Time     the devices'. It sleeps between two rounds; without a screen nobody watches, and that time is
+///          skipped.
+/// Errors   the display stops; points cannot be written; a calibration cannot be kept, which the table shows
+///          too.
 /// Threads  the main one, with the display's context current.
 #pragma once
 
@@ -17,20 +20,20 @@ namespace frustumscreen {
 
 template <typename Way> class ProcedureTable {
 public:
-    /// What one kind of way does in its own manner.
+    /// The functions that differ between kinds of ways.
     struct Manner {
-        std::function<void(Way&)> solve; ///< in stage Solve: judges it
-        /// With what is heard; by a camera with what that sees too.
+        std::function<void(Way&)> solve; ///< in stage Solve: computes the verdict
+        /// A step with the input; a camera adds its frames.
         std::function<void(Way&, CalibrationInput&)> step = [](Way& way, CalibrationInput& heard) {
             way.step(heard);
         };
-        std::function<Result<void>(const Way&)> write; ///< nothing that was measured is lost
+        std::function<Result<void>(const Way&)> write; ///< saves the points, also of an unfinished way
         std::function<Result<void>(const Way&)> keep;  ///< in stage Done
-        std::function<Way(std::string)> why_not;       ///< one that only tells a problem
+        std::function<Way(std::string)> why_not;       ///< a way that only shows a problem
         Nanoseconds between_rounds = std::chrono::milliseconds(20);
-        bool with_camera = false; ///< its frames come in the system's time, of which nothing is passed over
+        bool with_camera = false; ///< frames have the system's time, so no time is skipped
     };
-    /// `devices` outlive it.
+    /// `devices` must outlive it.
     ProcedureTable(TableDevices& devices, const Settings& settings, Manner manner)
         : devices_(devices), manner_(std::move(manner)) {
         const double focal_px = settings.projector.pinhole.fx;
@@ -39,7 +42,7 @@ public:
         board_px_ = Board::size_m.x * focal_px / above_m_;
     }
 
-    /// From the first word on the table to what is kept. Nothing: it ended without.
+    /// Runs the way to its end and keeps the result. Nothing if it ended without one.
     [[nodiscard]] Result<std::optional<WayEnd>> measure(Way& way) {
         const Result<bool> ended = run(way);
         TRY_VOID(manner_.write(way));
@@ -53,7 +56,7 @@ public:
         const bool is_done = way.stage() == CalibrationStage::Done;
         if (const Result<void> kept = is_done ? manner_.keep(way) : Result<void>(); !kept) {
             Way told = manner_.why_not(kept.error().message);
-            static_cast<void>(run(told)); // whoever stands at the table reads no standard error
+            static_cast<void>(run(told)); // a technician at the table does not read standard error
             return tl::unexpected(kept.error());
         }
         stay(way);
@@ -61,7 +64,7 @@ public:
     }
 
 private:
-    /// False: it was told to stop.
+    /// False if it was told to stop.
     [[nodiscard]] Result<bool> run(Way& way) {
         while (!devices_.told_to_stop()) {
             const MonotonicTime now = devices_.now();
@@ -79,7 +82,7 @@ private:
         }
         return false;
     }
-    /// Leaves the last words to be read.
+    /// Leaves the last words on the table for some time.
     void stay(const Way& way) {
         const MonotonicTime end = devices_.now() + TableDevices::last_words;
         while (!devices_.told_to_stop() && devices_.now() < end && show(way, devices_.now())) {
@@ -116,8 +119,8 @@ private:
 
     TableDevices& devices_;
     Manner manner_;
-    double above_m_, prop_px_, board_px_; ///< of the projector; on the table, about
-    TableWords words_;                    ///< that are shown
+    double above_m_, prop_px_, board_px_; ///< height of the projector; approximate widths on the table
+    TableWords words_;                    ///< the shown words
     std::optional<CalibrationInput::Lit> lit_;
 };
 

@@ -1,4 +1,4 @@
-/// frustumscreen-calibrate sheet: the board of tags as a sheet to print.
+/// frustumscreen-calibrate sheet: writes the tag sheet for printing.
 ///
 /// Threads  the main one.
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace frustumscreen {
 
-/// Of the settings' prop.
+/// The tag sheet for the settings' prop.
 [[nodiscard]] Result<Board> board_of(const Settings& settings);
 
 void add_sheet_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen);

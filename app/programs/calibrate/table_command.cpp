@@ -15,18 +15,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
+#include <span>
 
 namespace frustumscreen {
 
 namespace {
 
-/// Of a touch-up: seven take about two minutes and mostly check each other, as five do not; two more are asked for where they do not.
+/// Touches of a touch-up. Seven take about two minutes and usually check each other; five do not. Two more
+/// follow if seven do not.
 constexpr int few_crosses = 7;
-constexpr int more_crosses = 2;
+constexpr int more_after_few = 2;
+constexpr int max_crosses = 30;
 
-/// Where the middle of the prop's bottom may lie.
+/// Half the width and depth of the area for the middle of the prop's bottom.
 glm::dvec2 reach_in(const Settings& settings) {
     return reach_of(glm::dvec2(settings.table.width_m, settings.table.depth_m), settings.prop.base_m);
 }
@@ -40,7 +44,7 @@ CrossSetup cross_setup(const Settings& settings, const CalibrateRequest& request
     return setup;
 }
 
-/// The projector as the settings have it, and a tracker that stands in the table's frame.
+/// The projector of the settings, with a tracker in the table's frame.
 TouchModel described_table(const Settings& settings, double sensor_height_m) {
     TouchModel model;
     model.pinhole = settings.projector.pinhole;
@@ -49,23 +53,26 @@ TouchModel described_table(const Settings& settings, double sensor_height_m) {
     return model;
 }
 
-/// The projector as the settings describe it decides where the crosses lie: what a cross tells hardly depends on it.
+/// Crosses for a whole calibration. The settings' projector is accurate enough: a cross's information hardly
+/// depends on it.
 std::vector<Cross> crosses_for(const Settings& settings, const CalibrateRequest& request) {
     TouchModel rough = described_table(settings, request.sensor_height_m.value_or(0.0));
     rough.pinhole = rough.pinhole.ideal();
-    return choose_crosses(rough, cross_setup(settings, request));
+    const CrossSetup setup = cross_setup(settings, request);
+    return choose_crosses(rough, setup, std::max(max_crosses - setup.count, 0));
 }
 
-/// Those of a touch-up: the kept projector is known.
+/// Crosses for a touch-up, from the kept projector.
 std::vector<Cross> touch_up_crosses_for(const Settings& settings, const CalibrateRequest& request) {
     CrossSetup setup = cross_setup(settings, request);
     setup.count = few_crosses;
     return choose_touch_up_crosses(
         described_table(settings, -settings.tracker.registration.sensor_from_prop.translation.z), setup,
-        more_crosses);
+        more_after_few);
 }
 
-/// Of the sensor above the prop's bottom: as it is asked for, else as the settings have it, else as it was measured before.
+/// The sensor's height above the prop's bottom: from the request, else from the settings, else as measured
+/// before.
 std::optional<double> sensor_height(const Settings& settings, const CalibrateRequest& request) {
     if (request.sensor_height_m) {
         return request.sensor_height_m;
@@ -80,9 +87,7 @@ std::optional<double> sensor_height(const Settings& settings, const CalibrateReq
 constexpr const char* no_sensor_height = "the sensor's height above the prop's bottom is not known; measure "
                                          "it with a ruler and set calibration.sensor_height_m";
 
-/// `reach_m`, and how far prop or boards hang over the table's edge at the worst cross.
-nlohmann::ordered_json crosses_json(const Settings& settings, const std::vector<Cross>& crosses) {
-    const glm::dvec2 reach_m = reach_in(settings);
+nlohmann::ordered_json list_json(std::span<const Cross> crosses) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Cross& cross : crosses) {
         list.push_back({{"u_px", cross.pixel.x},
@@ -90,23 +95,34 @@ nlohmann::ordered_json crosses_json(const Settings& settings, const std::vector<
                         {"block_m", cross.block_m},
                         {"turn_deg", glm::degrees(cross.yaw_rad)}});
     }
-    return {{"crosses", list},
+    return list;
+}
+
+/// `first`: how many crosses come before a verdict may ask for more. `overhang_m`: how far prop or boards hang over the table's edge at
+/// the worst cross.
+nlohmann::ordered_json crosses_json(const Settings& settings, std::span<const Cross> crosses,
+                                    std::size_t first) {
+    const glm::dvec2 reach_m = reach_in(settings);
+    return {{"crosses", list_json(crosses.first(first))},
+            {"more_crosses", list_json(crosses.subspan(first))},
             {"boards_side_m", boards_side_m(settings.prop.base_m)},
             {"overhang_m", overhang_m(described_table(settings, 0.0), crosses, reach_m)}};
 }
 
-/// A table with a technician at it, and what is asked of both.
+/// A table with a technician, and the request for both.
 struct Session {
     TableDevices& devices;
     const Settings& settings;
     const CalibrateRequest& request;
-    TouchSetup setup; ///< with the sensor's height, where it is known
-    // Chosen before the devices are opened: that takes a second, in which nobody would feed the service manager's watchdog.
+    TouchSetup setup; ///< includes the sensor's height, if known
+    // Chosen before the devices are opened: choosing takes a second, in which the service manager's watchdog
+    // would not be fed.
     std::vector<Cross> crosses;
-    std::vector<Cross> touch_up_crosses; ///< none: there is nothing to touch up
+    std::size_t first_crosses = 0;       ///< crosses touched before a verdict asks for more
+    std::vector<Cross> touch_up_crosses; ///< empty if there is nothing to touch up
 };
 
-/// From the first word on the table to the kept file. `solve` judges what came of the touches, `keep` keeps it.
+/// Runs the way and keeps its result. `solve` judges the touches, `keep` keeps the calibration.
 Result<WayEnd> measure_by_touch(const Session& session, TouchProcedure way,
                                 const std::function<TouchJudgement(const Touches&)>& solve,
                                 const std::function<Result<void>(const Touches&)>& keep) {
@@ -126,7 +142,9 @@ Result<WayEnd> measure_by_touch(const Session& session, TouchProcedure way,
 Result<WayEnd> measure_by_crosses(const Session& session) {
     TouchCalibration found;
     return measure_by_touch(
-        session, TouchProcedure(session.crosses, session.setup.sensor_height_m ? "" : no_sensor_height),
+        session,
+        TouchProcedure(TouchTask::Anew, session.crosses, session.first_crosses,
+                       session.setup.sensor_height_m ? "" : no_sensor_height),
         [&](const Touches& touches) {
             found = calibrate_touch(touches, session.setup);
             return judgement_of(found);
@@ -134,11 +152,11 @@ Result<WayEnd> measure_by_crosses(const Session& session) {
         [&](const Touches& touches) { return keep_touch(session.settings, found, touches); });
 }
 
-/// A touch-up may end with the wish for the whole.
+/// A touch-up; it may end with a request for a whole calibration.
 Result<WayEnd> touch_up_on_table(const Session& session) {
     TouchUp found;
     return measure_by_touch(
-        session, TouchProcedure(session.touch_up_crosses, few_crosses),
+        session, TouchProcedure(TouchTask::TouchUp, session.touch_up_crosses, few_crosses),
         [&](const Touches& touches) {
             found = touch_up(kept_table_of(session.settings), touches, session.setup);
             return judgement_of(found);
@@ -146,7 +164,7 @@ Result<WayEnd> touch_up_on_table(const Session& session) {
         [&](const Touches&) { return keep_touch_up(session.settings, found); });
 }
 
-/// A board that cannot be made for the prop is no reason to touch nothing.
+/// The tag sheet, if there is a camera. If no sheet fits the prop, the other ways remain.
 std::optional<Board> board_for_camera(const Settings& settings) {
     if (settings.camera.kind == CameraKind::None) {
         return std::nullopt;
@@ -171,20 +189,21 @@ Result<WayEnd> take(CalibrationWay way, const Session& session, const std::optio
     return measure_by_crosses(session);
 }
 
-/// Once a calibration is kept, where the tracker reports a head's sensor and nobody has measured where the eyes are in it. Whoever goes
-/// without them keeps the calibration.
+/// Measures the eyes after a calibration is kept, if the tracker reports a head's sensor and the eyes in it
+/// are unknown. The calibration stays kept even if this ends without eyes.
 Result<int> measure_missing_eyes(const Session& session) {
-    TRY(const CheckedSettings settings, load_settings(session.request.config)); // with what was kept
+    TRY(const CheckedSettings settings,
+        load_settings(session.request.config)); // rereads what is kept
     const bool are_known = settings->tracker.registration.eye_in_sensor_m != glm::dvec3(0.0);
     if (are_known || !session.devices.has_seen_head()) {
         return 0;
     }
     CalibrateRequest request = session.request;
-    request.out.clear(); // it has the touches, or the rests
+    request.out.clear(); // --out already has the touches or the rests
     return measure_eyes(*settings, request, session.devices).map([](const auto&) { return 0; });
 }
 
-/// One way after the other, until one ends with a calibration or without.
+/// Offers one way after the other, until one ends with a calibration or without.
 Result<int> take_first_wanted(const Session& session) {
     const std::optional<Board> board = board_for_camera(session.settings);
     for (const CalibrationWay way : ways_through(!session.touch_up_crosses.empty(), board.has_value())) {
@@ -206,7 +225,8 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
     if (request.json) {
         const std::vector<Cross> crosses =
             touches_up ? touch_up_crosses_for(settings, request) : crosses_for(settings, request);
-        fmt::print("{}\n", crosses_json(settings, crosses).dump(2));
+        const int first = touches_up ? few_crosses : cross_setup(settings, request).count;
+        fmt::print("{}\n", crosses_json(settings, crosses, static_cast<std::size_t>(first)).dump(2));
         return 0;
     }
     const std::vector<Cross> crosses = crosses_for(settings, request);
@@ -221,6 +241,7 @@ Result<int> calibrate_table(const CalibrateRequest& request) {
                               .request = request,
                               .setup = set_up_for<TouchSetup>(described, known),
                               .crosses = crosses,
+                              .first_crosses = static_cast<std::size_t>(cross_setup(settings, request).count),
                               .touch_up_crosses = touch_up_crosses});
 }
 

@@ -1,4 +1,5 @@
-/// `frustumscreen-calibrate table`: on the table itself, with the projector, the tracker and two buttons.
+/// `frustumscreen-calibrate table`: calibrates on the table itself, with the projector, the tracker and two
+/// buttons.
 #pragma once
 
 #include "app/programs/calibrate/calibrate_request.h"

@@ -19,9 +19,9 @@ constexpr const char* program = "frustumscreen-calibrate";
 constexpr int back_button = 0;
 constexpr int next_button = 1;
 constexpr Nanoseconds between_feeds = std::chrono::seconds(1);
-constexpr int most_buffers = 4; // of a display: each gets the picture once
+constexpr int max_buffers = 4; // of a display: each buffer gets the picture once
 
-/// A calibration goes on without them, in English.
+/// The house's words. Without them a calibration goes on in English.
 std::optional<LanguageWords> house_words(const Settings& settings) {
     if (settings.exhibit.words.empty()) {
         return std::nullopt;
@@ -45,7 +45,7 @@ std::optional<TableVoice> voice_of(const Settings& settings, const std::optional
 
 Result<std::unique_ptr<TableDevices>> TableDevices::open(const CalibrateRequest& request, Settings settings,
                                                          std::string_view instead) {
-    settings.tracker.registration = {}; // the device's own reports
+    settings.tracker.registration = {}; // reports in the device's own frame
     settings.camera = {};
     const DevicePlan plan = plan_devices(settings, false, false);
     if (plan.tracker == TrackerKind::None || !plan.panel) {
@@ -71,7 +71,7 @@ CalibrationInput TableDevices::hear(MonotonicTime now) {
     CalibrationInput heard;
     heard.now = now;
     samples_.clear();
-    static_cast<void>(inputs_.tracker->poll(now, samples_)); // its state says what is wrong
+    static_cast<void>(inputs_.tracker->poll(now, samples_)); // its state names the fault
     for (const PoseSample& sample : samples_) {
         std::optional<RigidTransform>* const of = sample.station == prop_station   ? &heard.prop
                                                   : sample.station == head_station ? &heard.head
@@ -94,7 +94,7 @@ CalibrationInput TableDevices::hear(MonotonicTime now) {
 
 void TableDevices::show(Image8 picture) {
     picture_ = std::move(picture);
-    uploads_left_ = most_buffers;
+    uploads_left_ = max_buffers;
 }
 
 void TableDevices::say(const std::vector<std::string>& words, std::string_view key) {

@@ -1,6 +1,8 @@
-/// The table during a calibration: projector, tracker, two buttons and a voice.
+/// The devices of a table during a calibration: projector, tracker, two buttons and a voice.
 ///
-/// Errors   `open`: the settings have no tracker or no buttons, or a device or a typeface is not there; `present`: the display stops. What tracker and buttons say of themselves goes to standard error, as do the words on the table.
+/// Errors   `open`: the settings have no tracker or no buttons, or a device or a typeface is missing.
+///          `present`: the display stops. The state messages of tracker and buttons go to standard error, as
+///          do the words on the table.
 /// Threads  the main one, with the display's context current.
 #pragma once
 
@@ -27,38 +29,39 @@ namespace frustumscreen {
 
 class TableDevices {
 public:
-    static constexpr Nanoseconds last_words = std::chrono::seconds(3); ///< so long they are left to be read
+    static constexpr Nanoseconds last_words = std::chrono::seconds(3); ///< time for reading the last words
 
-    /// Of the settings, their camera excepted; the tracker reports in its own frame. `instead`: what else the technician may do where
-    /// they have no tracker or no buttons, the end of a sentence.
+    /// Opens the settings' devices except the camera; the tracker reports in its own frame. `instead`: the
+    /// end of a sentence, what else the technician may do if the settings have no tracker or no buttons.
     [[nodiscard]] static Result<std::unique_ptr<TableDevices>>
     open(const CalibrateRequest& request, Settings settings, std::string_view instead);
     TableDevices(const Settings& settings, bool headless, Inputs inputs, std::unique_ptr<Display> display,
                  Typesetter typesetter);
 
     [[nodiscard]] bool is_headless() const { return headless_; }
-    /// The system's time, and what was passed over of it.
+    /// The system's time plus the skipped time.
     [[nodiscard]] MonotonicTime now() const { return monotonic_now() + passed_over_; }
     void pass_over(Nanoseconds time) { passed_over_ += time; }
 
-    /// What came since the call before: the latest reports, and presses.
+    /// The input since the last call: the latest reports, and presses.
     [[nodiscard]] CalibrationInput hear(MonotonicTime now);
-    /// Whether the tracker has reported a head's sensor so far.
+    /// True once the tracker has reported a head's sensor.
     [[nodiscard]] bool has_seen_head() const { return has_seen_head_; }
-    /// Another picture is presented from now on.
+    /// Sets the picture that is presented from now on.
     void show(Image8 picture);
-    /// Words that are on it; `key`: of what is said aloud for them.
+    /// Logs the words of the picture and speaks them; `key`: of the spoken text.
     void say(const std::vector<std::string>& words, std::string_view key);
-    /// Says what a device says of itself, where that is something else than `told`.
+    /// Reports a device's state, if it differs from `told`.
     static void tell(std::string_view state, std::string_view device, Sentence& told);
-    /// Since when the picture is lit; the voice and the service manager's watchdog get their turn too.
+    /// Presents the picture and returns the time since which it is lit. Also runs the voice and the service
+    /// manager's watchdog.
     [[nodiscard]] Result<MonotonicTime> present(MonotonicTime now);
 
     [[nodiscard]] bool told_to_stop() const { return stop_.received(); }
     [[nodiscard]] int width() const { return display_->width(); }
     [[nodiscard]] int height() const { return display_->height(); }
     [[nodiscard]] const Typesetter& typesetter() const { return typesetter_; }
-    /// None: it is silent, and in English alone.
+    /// None: silent, and in English only.
     [[nodiscard]] const LanguageWords* house() const { return house_ ? &*house_ : nullptr; }
 
 private:

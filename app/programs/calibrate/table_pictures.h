@@ -1,14 +1,16 @@
-/// What the projector shows a technician during a calibration, and says: by touch or its touch-up the cross, how the prop is to lie on it; by a camera
-/// where the board is to stand next, while no stripes are shown; by eye where the prop is to lie, the cross behind it, which of its corners is to
-/// cover that; and what to do.
+/// The pictures and words for a technician during a calibration. By touch and in its touch-up: the cross, and
+/// how to lay the prop on it. By a camera: where to put the board next, while no stripes are shown. By eye:
+/// where to put the prop, the cross behind it, and the corner that should cover the cross. Always: what to do
+/// next.
 ///
-/// Light    by a camera the ground is grey and not black, so that it sees the tags meanwhile. By eye the corner is lit by a dot, and an arrow on the
-///          prop's top leads to it.
-/// Aim      the prop covers its cross: the arms reach out from under it, and a square shows where it stands. Marks in the middles of its bottom
-///          edges are laid on the arms.
+/// Light    By a camera the ground is grey instead of black, so that the camera sees the tags meanwhile. By
+///          eye a dot lights the corner, and an arrow on the prop's top leads to it.
+/// Aim      The prop covers its cross: the arms extend beyond it, and a square shows where it stands. The
+///          marks in the middles of its bottom edges are laid on the arms.
 /// Units    pixels of the projector's picture.
-/// Words    in English, as in the alignment pattern; above them one sentence in the house's language, where that is another one. By touch and by a
-///          camera where the prop hides none of them; by eye beside the prop, where no cross is, as large as they fit.
+/// Words    in English, as in the alignment pattern; above them one sentence in the house's language, if that
+///          is another one. By touch and by a camera they are where the prop hides none of them; by eye they
+///          are beside the prop, where no cross is, as large as they fit.
 /// Threads  as Canvas.
 #pragma once
 
@@ -24,27 +26,28 @@
 namespace frustumscreen {
 
 [[nodiscard]] TableWords table_words(const TouchProcedure& procedure);
-/// None while a pattern is shown.
+/// Empty while a pattern is shown.
 [[nodiscard]] TableWords table_words(const AutoProcedure& procedure);
 [[nodiscard]] TableWords table_words(const EyeProcedure& procedure);
-/// The key of a word alone: what is amiss, else how the board is to stand next. `may_go_on`: Back leads on to the crosses.
-[[nodiscard]] std::string_view key_of(AutoWord word, Posture wished, bool may_go_on);
-/// What came of a technician's touches, in words for the table and as the way through them needs it.
+/// The key of a word: what is wrong, else how to put the board next. `may_go_on`: Back leads on to the
+/// crosses.
+[[nodiscard]] std::string_view key_of(AutoPrompt word, Posture wished, bool may_go_on);
+/// The result of a technician's touches, in words for the table and as the procedure needs it.
 [[nodiscard]] TouchJudgement judgement_of(const TouchCalibration& calibration);
 [[nodiscard]] TouchJudgement judgement_of(const TouchUp& found);
 
-/// What a picture is drawn with. By eye it is as large as the scene's.
+/// Parameters of a picture. By eye its size must be the scene's.
 struct TableDrawing {
     int width = 0, height = 0;
-    double prop_px = 0.0; ///< about the width of the prop's bottom on the table
+    double prop_px = 0.0; ///< approximate width of the prop's bottom on the table
     double above_m =
-        0.0; ///< about how high the projector hangs: what lies on boards is wider by that; 0: not told
-    double board_px = 0.0; ///< about the width of the board
+        0.0; ///< approximate height of the projector, which widens what lies on boards; 0: ignored
+    double board_px = 0.0; ///< approximate width of the board
     const Typesetter& typesetter;
     const LanguageWords* house = nullptr; ///< the house's words
 };
 [[nodiscard]] Image8 table_picture(const TouchProcedure& procedure, const TableDrawing& with);
-/// A pattern, where one is shown.
+/// The pattern, if one is shown.
 [[nodiscard]] Image8 table_picture(const AutoProcedure& procedure, const TableDrawing& with);
 [[nodiscard]] Image8 table_picture(const EyeProcedure& procedure, const TableDrawing& with);
 

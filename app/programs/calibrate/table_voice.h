@@ -1,6 +1,6 @@
-/// Says aloud what the table shows, in the house's language.
+/// Speaks the words on the table, in the house's language.
 ///
-/// Threads  one caller. All is decoded at the beginning: some sixty short sentences.
+/// Threads  one caller. The constructor decodes all prompts: some sixty short sentences.
 /// Errors   what cannot be decoded is silent.
 #pragma once
 
@@ -19,14 +19,14 @@ class TableVoice {
 public:
     TableVoice(const LanguageWords& words, std::unique_ptr<Sound> sound, double gain_db);
 
-    /// What is still being said ends. A key without a recording is silent.
+    /// Interrupts the current prompt. A key without a recording is silent.
     void say(std::string_view key);
     void poll(MonotonicTime now) { static_cast<void>(sound_->poll(now, wish_)); }
 
 private:
     std::map<std::string, SharedPrompt, std::less<>> prompts_;
     std::unique_ptr<Sound> sound_;
-    SoundWish wish_;
+    SoundRequest wish_;
 };
 
 } // namespace frustumscreen

@@ -1,8 +1,9 @@
-/// Words on the table during a calibration, by touch, by a camera or by eye: what they are, how they are set, in English and in the house's
-/// language, and the dots that count what is done.
+/// Words on the table during a calibration, by touch, by a camera or by eye: their content and layout, in
+/// English and in the house's language, and the dots that count progress.
 ///
-/// Message  one row has both its key among the exhibit's own words, which are said aloud and written in the house's language, and what stands
-///          on the table in English: that is longer, and has figures. Rows of one key say one thing.
+/// Message  A row has a key of the exhibit's own words, which are spoken and written in the house's language,
+///          and the English text for the table, which is longer and has figures. Rows with one key mean the
+///          same.
 /// Units    pixels of the projector's picture; `unit`: a hundred and sixtieth of its width.
 /// Threads  as Canvas.
 #pragma once
@@ -23,7 +24,7 @@ namespace frustumscreen {
 struct Message {
     std::string_view key, english; ///< either may be empty
 };
-/// What is said for a procedure's word, or for how a thing is to be held.
+/// The message for a procedure's word, or for a posture.
 template <typename Word> struct WordMessage {
     Word word;
     Message message;
@@ -35,33 +36,34 @@ template <typename Messages, typename Word>
     return row == messages.end() ? Message() : row->message;
 }
 
-/// What is said at a time.
+/// The words on the table at one time.
 struct TableWords {
-    std::string_view key;           ///< empty: there is none for it
+    std::string_view key;           ///< empty: no key
     std::vector<std::string> lines; ///< in English; the first one is the largest
-    std::uint64_t of = 0; ///< which point or picture it belongs to: the same words of another one are others
+    std::uint64_t of = 0; ///< number of the point or picture: equal words of another one are different
     [[nodiscard]] bool operator==(const TableWords&) const = default;
-    /// One more line; its key counts from then on, if it has one.
+    /// Adds a line; its key replaces the key, unless empty.
     void add(std::string_view next_key, std::string_view line);
     void add(const Message& message) { add(message.key, message.english); }
 };
 [[nodiscard]] TableWords one_moment();
 [[nodiscard]] TableWords all_kept();
 [[nodiscard]] TableWords all_unchanged();
-/// Why it cannot be done has no key: there is none for every reason.
+/// The words on why a calibration cannot be done, without a key.
 [[nodiscard]] TableWords why_not(std::string_view title, std::string_view reason, std::string_view back);
 
-/// A reason is half a sentence, as programs say it behind a colon: this makes a whole one.
+/// Makes a sentence of a reason, which is a clause as programs print it after a colon.
 [[nodiscard]] std::string as_sentence(std::string_view reason);
 /// The first line is the largest.
 [[nodiscard]] std::vector<Paragraph> paragraphs_of(const std::vector<std::string>& lines, double unit);
 
-/// What words are broken for at the bake, type sizes: over the table's width, or beside the prop.
+/// Widths, in type sizes, for which the bake breaks lines: over the table's width, and beside the prop.
 inline constexpr double widest_em = 36.0, beside_em = 20.0;
-/// The word of that key, set in the house's language; empty where there is none, or where that is English, which the other words are in.
+/// The word of a key, set in the house's language; empty if there is none, or if that language is English,
+/// the language of the other words.
 [[nodiscard]] Image<std::uint8_t> house_sentence(const LanguageWords* house, std::string_view key,
                                                  double width_px, double width_em = widest_em);
-/// One picture of two, from their left edges.
+/// Stacks two pictures, aligned at their left edges.
 [[nodiscard]] Image<std::uint8_t> above(const Image<std::uint8_t>& upper, const Image<std::uint8_t>& lower,
                                         double between_px);
 
@@ -69,7 +71,7 @@ inline constexpr double widest_em = 36.0, beside_em = 20.0;
 struct TableColours {
     static constexpr Colour white{255, 255, 255};
     static constexpr Colour dim{150, 150, 150};
-    static constexpr Colour front{255, 184, 92}; ///< where the prop's front or corner is, and what is amiss
+    static constexpr Colour front{255, 184, 92}; ///< the prop's front or corner, and problems
     static constexpr Colour good{120, 240, 120};
     static constexpr Colour bad{255, 110, 90};
 };
@@ -77,7 +79,7 @@ struct TableColours {
 struct DotColours {
     Colour done, open;
 };
-/// A row of `count` dots about `middle`; those that are done are thick.
+/// Draws a row of `count` dots about `middle`; dots that are done are thick.
 void draw_dots(Canvas& canvas, const glm::dvec2& middle, double unit, int count,
                const std::function<bool(int)>& is_done, const DotColours& colours);
 

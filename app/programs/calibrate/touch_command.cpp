@@ -64,7 +64,7 @@ nlohmann::ordered_json mm_json(double mean_m, double worst_m) {
 
 nlohmann::ordered_json within_json(const PictureShares& shares) {
     return {{"places_68", 1e3 * shares.usual_m},
-            {"places_95", 1e3 * shares.most_m},
+            {"places_95", 1e3 * shares.max_m},
             {"worst_place_95", 1e3 * shares.worst_m}};
 }
 

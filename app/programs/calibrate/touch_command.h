@@ -1,4 +1,4 @@
-/// frustumscreen-calibrate touch: from touches to projector and tracker.
+/// frustumscreen-calibrate touch: computes projector and tracker from touches.
 ///
 /// Threads  the main one.
 #pragma once
@@ -12,14 +12,14 @@
 
 namespace frustumscreen {
 
-/// Every key is always there; what is not known is null.
+/// Every key is always present; unknown values are null.
 [[nodiscard]] nlohmann::ordered_json touch_json(const TouchCalibration& calibration);
-/// Millimetres; of each touch, numbered from 1.
+/// Mean and worst, in millimetres.
 [[nodiscard]] nlohmann::ordered_json mm_json(double mean_m, double worst_m);
-/// By how many of 100 places or calibrations, as text.
+/// The distances that hold at 68 and 95 % of the places, and at the worst place, in millimetres.
 [[nodiscard]] nlohmann::ordered_json within_json(const PictureShares& shares);
 [[nodiscard]] nlohmann::ordered_json rows_json(std::span<const TouchResidual> residuals);
-/// Sets `chosen` if this is the command; what it returns is the exit status.
+/// Sets `chosen` if this is the command; `chosen` returns the exit status.
 void add_touch_command(CommandLine& app, CalibrateRequest& request, std::function<int()>& chosen);
 
 } // namespace frustumscreen

@@ -15,15 +15,15 @@ namespace {
 
 using Stage = CalibrationStage;
 
-constexpr std::array<WordMessage<TouchWord>, 4> touch_messages{{
-    {TouchWord::Moved, {"calibration.moved", "The prop moved. Keep it still; the second begins anew."}},
-    {TouchWord::NotSeen,
+constexpr std::array<WordMessage<TouchPrompt>, 4> touch_messages{{
+    {TouchPrompt::Moved, {"calibration.moved", "The prop moved. Keep it still; the second begins anew."}},
+    {TouchPrompt::NotSeen,
      {"calibration.not_seen",
       "The tracker does not see the prop. Look at its cable and its sensor, then press Next again."}},
-    {TouchWord::SamePlace,
+    {TouchPrompt::SamePlace,
      {"calibration.same_place",
       "The prop still lies where it lay before. Lay it on this cross, then press Next."}},
-    {TouchWord::Taken, {"calibration.taken", "Good."}},
+    {TouchPrompt::Taken, {"calibration.taken", "Good."}},
 }};
 
 std::string height_of(const Cross& cross) {
@@ -31,7 +31,7 @@ std::string height_of(const Cross& cross) {
                                : std::string("on the table");
 }
 
-/// What a technician needs at hand: the heights that the crosses ask for, millimetres.
+/// The board heights that the crosses need, millimetres.
 std::set<int> block_heights_mm(const TouchProcedure& procedure) {
     std::set<int> heights_mm;
     for (const Cross& cross : procedure.crosses()) {
@@ -41,7 +41,7 @@ std::set<int> block_heights_mm(const TouchProcedure& procedure) {
     return heights_mm;
 }
 
-/// Some thirty seconds a touch.
+/// Half a minute per touch.
 std::size_t minutes_for(std::size_t touches) {
     return (touches + 1) / 2;
 }
@@ -85,7 +85,7 @@ TableWords words_of_cross(const TouchProcedure& procedure) {
                         height_of(cross)));
     }
     words.add(message_of(touch_messages, procedure.word()));
-    if (procedure.word() == TouchWord::Taken && procedure.at() > 0 &&
+    if (procedure.word() == TouchPrompt::Taken && procedure.at() > 0 &&
         cross.block_m > procedure.crosses()[procedure.at() - 1].block_m) {
         words.key = "calibration.on_boards";
     }
@@ -118,21 +118,21 @@ Message choice_of(const TouchProcedure& procedure) {
 
 Colour colour_of(const TouchProcedure& procedure) {
     if (procedure.stage() == Stage::HoldStill) {
-        return procedure.word() == TouchWord::Moved ? TableColours::bad : TableColours::good;
+        return procedure.word() == TouchPrompt::Moved ? TableColours::bad : TableColours::good;
     }
     return TableColours::white;
 }
 
-/// Directions of the picture: u to the right, v down; a turn is counter-clockwise as one looks at the table.
+/// Rotates a direction of the picture (u to the right, v down), counter-clockwise as seen from above.
 glm::dvec2 turned(const glm::dvec2& direction, double yaw_rad) {
     const double c = std::cos(yaw_rad);
     const double s = std::sin(yaw_rad);
     return {c * direction.x + s * direction.y, -s * direction.x + c * direction.y};
 }
 
-/// Its arms reach out from under the prop, square to its sides; the thick one leads to its front. A square shows where the prop stands. Where the
-/// front's arm leaves the picture, an arrow head on a side arm, beyond the prop, says the same: of two arms that are opposite each other at most one
-/// leaves it.
+/// Draws the cross. Its arms extend beyond the prop, perpendicular to its sides; the thick one leads to its
+/// front. A square shows where the prop stands. If the front's arm leaves the picture, an arrow head on a
+/// side arm, beyond the prop, points to the front: of two opposite arms at most one leaves the picture.
 void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, double prop_px) {
     const Cross& cross = procedure.cross();
     const Colour colour = colour_of(procedure);
@@ -159,7 +159,7 @@ void draw_cross(Canvas& canvas, const TouchProcedure& procedure, double unit, do
     canvas.circle(cross.pixel, 1.5 * unit, 1.0, colour);
 }
 
-/// The prop's width there: boards lie nearer to the projector.
+/// The prop's width at the cross's height: boards are nearer to the projector.
 double prop_px_at(const Cross& cross, const TableDrawing& with) {
     return with.above_m > cross.block_m ? with.prop_px * with.above_m / (with.above_m - cross.block_m)
                                         : with.prop_px;
@@ -243,7 +243,7 @@ Image8 table_picture(const TouchProcedure& procedure, const TableDrawing& with) 
     if (has_cross) {
         draw_cross(canvas, procedure, unit, prop_px_at(procedure.cross(), with));
     }
-    // The words stand in the half of the picture where the cross is not, so that the prop hides none of them.
+    // The words are in the half of the picture without the cross, so that the prop hides none of them.
     const bool below = !has_cross || procedure.cross().pixel.y < 0.5 * height;
     const TableWords words = table_words(procedure);
     const Image<std::uint8_t> coverage =
@@ -251,10 +251,10 @@ Image8 table_picture(const TouchProcedure& procedure, const TableDrawing& with) 
               with.typesetter.set(paragraphs_of(words.lines, unit), 0.6 * width), 2.5 * unit);
     const double top = below ? (has_cross ? 0.62 : 0.4) * height : 0.38 * height - coverage.height;
     canvas.coverage(coverage, {(width - coverage.width) / 2, static_cast<int>(std::max(top, unit))},
-                    procedure.word() == TouchWord::Taken || procedure.word() == TouchWord::None
+                    procedure.word() == TouchPrompt::Taken || procedure.word() == TouchPrompt::None
                         ? TableColours::white
                         : TableColours::front);
-    const double row = below ? height - 3.0 * unit : 3.0 * unit; // on the same side
+    const double row = below ? height - 3.0 * unit : 3.0 * unit; // on the words' side
     draw_dots(canvas, {0.5 * width, row}, unit, static_cast<int>(procedure.count()),
               [&](int k) { return procedure.is_taken(static_cast<std::size_t>(k)); },
               {TableColours::good, TableColours::dim});

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Every key is always there; what is not known is null.
+/// Every key is always present; unknown values are null.
 Json touch_up_json(const TouchUp& found) {
     Json json{{"moved", nullptr},          {"off_mm", nullptr},
               {"projector", nullptr},      {"table_from_tracker", nullptr},
@@ -36,8 +36,8 @@ Json touch_up_json(const TouchUp& found) {
     return json;
 }
 
-/// The table's frame, the prop in its sensor and the eye stay as they were kept. Its residuals are those of the touches that were used: to leave
-/// one out of so few says little.
+/// The next kept calibration: the table's frame, the prop in its sensor and the eye stay. Its residuals are
+/// those of the fit, because leave-one-out residuals of so few touches are uninformative.
 Calibration next_calibration(const Settings& settings, const TouchUp& found) {
     Calibration next;
     next.method = CalibrationMethod::Touch;
@@ -73,7 +73,7 @@ Result<void> keep_touch_up(const Settings& settings, const TouchUp& found) {
     if (found.moved != Moved::Nothing) {
         TRY_VOID(keep_next(settings, next_calibration(settings, found)));
     }
-    // A camera may have said that something moved. Where the projector did not, it was the camera: it learns anew.
+    // A camera may have reported drift. If the projector did not move, the camera did, so it learns again.
     std::error_code none;
     std::filesystem::remove(settings.calibration.folder / drift_file, none);
     return {};

@@ -1,6 +1,6 @@
-/// The touch-up of a kept calibration: from a file, as `touch --touch-up` does it, and what `table` needs for it.
+/// Touches up a kept calibration from a file, for `touch --touch-up`, and supplies what `table` needs for it.
 ///
-/// Errors   one line: which file or folder, what, what to do.
+/// Errors   one line: the file or folder, the problem, the remedy.
 /// Threads  the main one.
 #pragma once
 
@@ -9,14 +9,15 @@
 
 namespace frustumscreen {
 
-/// As the newest kept calibration has it, which stands in the settings.
+/// The newest kept calibration, from the settings.
 [[nodiscard]] CalibratedTable kept_table_of(const Settings& settings);
-/// That there is none.
+/// The error that no calibration is kept.
 [[nodiscard]] tl::unexpected<Error> none_kept(const Settings& settings);
-/// As another calibration. Where nothing moved nothing is kept. A camera that looks for drift learns anew.
+/// Keeps the touched-up table as a new calibration; nothing if nothing moved. A camera that looks for drift
+/// learns again.
 [[nodiscard]] Result<void> keep_touch_up(const Settings& settings, const TouchUp& found);
 
-/// The request has --config. Prints what moved, keeps it where that is asked for, and returns the exit status.
+/// Prints what moved, keeps it on request, and returns the exit status. The request has --config.
 [[nodiscard]] Result<int> touch_up_kept(const CalibrateRequest& request, const Described& described,
                                         const Touches& touches);
 

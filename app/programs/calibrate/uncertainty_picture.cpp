@@ -24,7 +24,7 @@ constexpr double field_top_px = 190.0;
 constexpr double between_px = size_px.x - 2.0 * margin_px - 2.0 * field_px.x;
 constexpr int bands = 8;
 
-/// From light to dark, even steps to the eye, readable in grey too (ColorBrewer's YlGnBu, 2013).
+/// From light to dark, in perceptually even steps, also readable in grey (ColorBrewer's YlGnBu, 2013).
 constexpr std::array<Colour, bands> band_colours{{{255, 255, 217},
                                                   {237, 248, 177},
                                                   {199, 233, 180},
@@ -34,7 +34,7 @@ constexpr std::array<Colour, bands> band_colours{{{255, 255, 217},
                                                   {34, 94, 168},
                                                   {12, 44, 132}}};
 
-/// A band's width in millimetres: one of few round numbers, so that the legend's are too.
+/// A band's width in millimetres: a round number, so that the legend's numbers are round too.
 double band_mm(double largest_mm) {
     for (const double width : {0.05, 0.1, 0.15, 0.2, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0}) {
         if (largest_mm <= bands * width) {
@@ -44,7 +44,7 @@ double band_mm(double largest_mm) {
     return largest_mm / bands;
 }
 
-/// One height of the zone, as the calibration has it: a grid over the projector's picture.
+/// One height of the zone: a grid over the projector's picture.
 class Level {
 public:
     Level(const UncertaintyMap& map, double height_m)
@@ -56,7 +56,7 @@ public:
         }
     }
 
-    /// Metres; nothing where the picture does not reach.
+    /// The uncertainty at a place, metres; nothing outside the picture.
     [[nodiscard]] std::optional<double> at(const glm::dvec2& place) const {
         const auto pixel = pinhole_.pixel(projector_.point({place, height_m_}));
         const glm::dvec2 size(pinhole_.width, pinhole_.height);
@@ -81,7 +81,7 @@ private:
     std::vector<double> values_;
 };
 
-/// Where a pixel's light meets that height above the table. A calibrated projector lights it with every pixel.
+/// The place that a pixel lights at a height above the table. All pixels of a calibrated projector reach it.
 glm::dvec2 light_of(const UncertaintyMap& map, const glm::dvec2& pixel, double height_m) {
     RigidTransform pose = map.table_from_projector;
     pose.translation.z -= height_m;
@@ -102,7 +102,7 @@ struct Field {
     }
 };
 
-/// The picture's corners on the table, in the largest scale at which they fit.
+/// The field with the picture's corners on the table at the largest scale that fits.
 Field fitted(const UncertaintyMap& map) {
     glm::dvec2 low(1e9);
     glm::dvec2 high(-1e9);
@@ -146,7 +146,7 @@ void draw_cross(Canvas& canvas, const Typesetter& typesetter, const glm::dvec2& 
     canvas.text(typesetter, word, at + glm::dvec2(14.0, 4.0), 15.0, ink);
 }
 
-/// The picture's edge, straight enough between its corners and the middles of its sides.
+/// Draws the picture's edge, as straight lines between its corners and the middles of its sides.
 void draw_edge(Canvas& canvas, const UncertaintyMap& map, const Field& field, double height_m) {
     std::vector<glm::dvec2> edge;
     for (const glm::dvec2& share :
@@ -284,7 +284,7 @@ Image8 uncertainty_picture(const UncertaintyMap& map, const MeasuredPlaces& meas
 Result<void> write_uncertainty(const std::filesystem::path& file, const std::optional<UncertaintyMap>& map,
                                const MeasuredPlaces& measured, double top_m) {
     if (!map) {
-        return {}; // nothing is known, and the reason is told
+        return {}; // the calibration was refused, and the reason is printed
     }
     TRY(const Typesetter typesetter, Typesetter::open());
     return write_file(file, encode_png(uncertainty_picture(*map, measured, top_m, typesetter)));

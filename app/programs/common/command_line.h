@@ -23,7 +23,7 @@ class Option;
 
 namespace frustumscreen {
 
-/// Checks the text of an argument, and returns what is wrong with it; empty if it is valid.
+/// Checks the text of an argument; returns a description of the error, empty if it is valid.
 struct ArgumentCheck {
     std::function<std::string(const std::string&)> wrong;
     std::string allowed; ///< a few words for --help; may be empty
@@ -78,7 +78,7 @@ public:
     void callback(std::function<void()> chosen);
 
     void set_version_flag(const std::string& name, const std::string& version);
-    void footer(const std::string& text); ///< of --help
+    void footer(const std::string& text); ///< for --help
 
     /// Reads the arguments. Returns the exit status if the program must end: 0 after --help and --version, 2
     /// for wrong use. `check` checks all options together, and throws a WrongUse if they are invalid.
@@ -95,10 +95,10 @@ private:
 struct WrongUse {
     std::string what;
 };
-/// The error for a missing `what`.
+/// The error for a missing argument or option; `what` names it.
 [[nodiscard]] WrongUse missing(const std::string& what);
 
-/// Whether `--name` or `--name=...` is present: selects the command if several have their own options.
+/// True if `--name` or `--name=...` is present; selects the command if several have options of their own.
 [[nodiscard]] bool names_option(int argc, const char* const* argv, std::string_view name);
 
 } // namespace frustumscreen

@@ -19,7 +19,7 @@ inline void complain(const char* program, const Error& error) {
     fmt::print(stderr, "{}: {} [{}]\n", program, error.message, error.id.view());
 }
 
-/// 0; or 1, and the error in one line on standard error.
+/// Returns 0; or prints the error in one line to standard error and returns 1.
 [[nodiscard]] inline int exit_status(const char* program, const Result<void>& result) {
     if (!result) {
         complain(program, result.error());

@@ -1,4 +1,4 @@
-/// One line of progress on a terminal, from two seconds on; silent in a pipe.
+/// One line of progress on a terminal, shown after two seconds; silent in a pipe.
 #pragma once
 
 #include <chrono>
@@ -16,13 +16,13 @@ public:
     ProgressLine& operator=(const ProgressLine&) = delete;
     void show(std::size_t done, std::size_t all);
     void say(std::string_view line);
-    /// The current step, the share (0..1) of the work that is done, and the remaining time at that speed.
+    /// Shows the current step, the share (0..1) of the work that is done, and the remaining time at that speed.
     void show_share(std::string_view step, double done);
     /// Clears the line, so the program can print.
     void clear();
 
 private:
-    /// Whether enough time has passed for another line.
+    /// True if enough time has passed for another line.
     [[nodiscard]] bool is_due() const;
 
     std::string what_;

@@ -5,6 +5,7 @@
 #include "app/settings/command.h"
 #include "app/settings/lit_zone.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/camera/v4l2_camera.h"
 #include "firmware_host/display/kms_display.h"
 #include "firmware_host/display/surfaceless_display.h"
@@ -13,8 +14,8 @@
 #include "firmware_host/panel/scripted_panel.h"
 #include "firmware_host/sound/device_sound.h"
 #include "firmware_host/sound/pcm_device.h"
+#include "firmware_host/tracker/composite_bus.h"
 #include "firmware_host/tracker/hidapi_transport.h"
-#include "firmware_host/tracker/joined_bus.h"
 #include "firmware_host/tracker/libusb_transport.h"
 #include "firmware_host/tracker/packet_replay.h"
 #include "firmware_host/tracker/pose_file.h"
@@ -63,7 +64,7 @@ std::unique_ptr<UsbBus> make_bus(TrackerKind kind) {
     std::vector<std::unique_ptr<UsbBus>> buses;
     buses.push_back(make_libusb_bus());
     buses.push_back(make_hid_bus(UsbTrackerModel::Hid));
-    return std::make_unique<JoinedBus>(std::move(buses));
+    return std::make_unique<CompositeBus>(std::move(buses));
 }
 
 Result<std::unique_ptr<Tracker>> make_tracker(const Settings& settings, MonotonicTime start, PacketTap* tap) {
@@ -200,7 +201,7 @@ Result<std::unique_ptr<PacketRecorder>> make_recorder(TrackerKind kind, const st
     }
     TRY(GrowingFile file, GrowingFile::create(path));
     const std::string about = fmt::format("FrustumScreen {}, recorded from {:%Y-%m-%d %H:%M:%S} UTC on",
-                                          FRUSTUMSCREEN_VERSION, fmt::gmtime(std::time(nullptr)));
+                                          project_version(), fmt::gmtime(std::time(nullptr)));
     return std::make_unique<PacketRecorder>(std::move(file), about, monotonic_now());
 }
 
@@ -211,8 +212,8 @@ std::unique_ptr<Sound> make_sound(const SoundSettings& settings) {
     return std::make_unique<DeviceSound>([device = settings.device] { return open_alsa(device); });
 }
 
-CameraWish camera_wish(const CameraSettings& settings) {
-    CameraWish wish{settings.device, settings.width, settings.height, settings.rate_hz, {}, {}, {}};
+CameraRequest camera_request(const CameraSettings& settings) {
+    CameraRequest wish{settings.device, settings.width, settings.height, settings.rate_hz, {}, {}, {}};
     if (settings.exposure_ms > 0.0) {
         wish.exposure_ms = settings.exposure_ms;
     }
@@ -227,14 +228,14 @@ CameraWish camera_wish(const CameraSettings& settings) {
 
 std::unique_ptr<Camera> make_camera(const CameraSettings& settings, std::vector<FrameUse> uses) {
     const rlimit none{0, 0};
-    static_cast<void>(::setrlimit(RLIMIT_CORE, &none));               // a dump would contain a frame
-    const double most_share = uses.empty() ? 1.0 : most_camera_share; // a calibration needs every frame
+    static_cast<void>(::setrlimit(RLIMIT_CORE, &none));             // a dump would contain a frame
+    const double max_share = uses.empty() ? 1.0 : max_camera_share; // a calibration needs every frame
     const auto use_all = [uses = std::move(uses)](const CameraFrame& frame) {
         for (const FrameUse& use : uses) {
             use(frame);
         }
     };
-    return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_wish(settings), use_all, most_share);
+    return std::make_unique<V4l2Camera>(kernel_v4l2_devices(), camera_request(settings), use_all, max_share);
 }
 
 Result<Inputs> make_inputs(const Settings& settings, const DevicePlan& plan,

@@ -34,10 +34,10 @@ namespace frustumscreen {
 /// nullptr: the settings switch sound off.
 [[nodiscard]] std::unique_ptr<Sound> make_sound(const SoundSettings& settings);
 
-[[nodiscard]] CameraWish camera_wish(const CameraSettings& settings);
+[[nodiscard]] CameraRequest camera_request(const CameraSettings& settings);
 /// Limit of the camera's thread while the exhibit runs, decoding included, as a share of one core; frames are
 /// skipped to stay within it.
-inline constexpr double most_camera_share = 0.25;
+inline constexpr double max_camera_share = 0.25;
 /// Starts the camera's thread, which passes each frame to all uses in turn, and stays within its share of a
 /// core if there are uses. The settings must have a camera. The process writes no core dumps from then on.
 [[nodiscard]] std::unique_ptr<Camera> make_camera(const CameraSettings& settings,

@@ -1,4 +1,4 @@
-/// frustumscreen: the exhibit, and what it shows without devices.
+/// frustumscreen: the exhibit and its tools; dispatches to the command named first.
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/frustumscreen/camera/camera_command.h"
 #include "app/programs/frustumscreen/config/config_command.h"
@@ -11,6 +11,7 @@
 #include "app/programs/frustumscreen/run_command.h"
 #include "app/programs/frustumscreen/states/states_command.h"
 #include "app/programs/frustumscreen/status/status_command.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -67,7 +68,7 @@ int dispatch(int argc, char** argv) {
     const std::string_view first = words.empty() ? "" : words[0];
     const Command* const command = command_named(first);
     if (first == "--version" || (command != nullptr && words.size() == 2 && words[1] == "--version")) {
-        fmt::print("frustumscreen {}\n", FRUSTUMSCREEN_VERSION);
+        fmt::print("frustumscreen {}\n", project_version());
         return 0;
     }
     if (command != nullptr) {

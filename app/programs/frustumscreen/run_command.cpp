@@ -18,6 +18,7 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/format_sentence.h"
 #include "firmware_host/base/local_time.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/service/crash_record.h"
 #include "firmware_host/sound/silent_sound.h"
 #include "firmware_host/sound/wav_sound.h"
@@ -34,7 +35,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// The longest time from the loop's end to the program's: it does not wait for a device's thread that hangs.
+/// Longest time from the loop's end to the program's; a device's thread that hangs is not waited for.
 constexpr Nanoseconds longest_stop = std::chrono::milliseconds(400);
 
 Nanoseconds nanoseconds(double seconds) {
@@ -46,10 +47,10 @@ void record_crashes_of(const RunPlaces& places) {
     const std::string system =
         image.there() ? fmt::format("{}, image {}", system_name(), image.version) : system_name();
     record_crashes({places.cache.empty() ? std::filesystem::path() : places.cache / "crashes",
-                    FRUSTUMSCREEN_VERSION, system});
+                    project_version(), system});
 }
 
-/// The settings and packs of the watchdog's mode, and the folders that the run writes to.
+/// Reads the settings and packs of the watchdog's mode, and makes the folders for the run's output.
 Result<RunMode> load(RunRequest& request, const Journal& journal) {
     TRY(RunMode mode, choose_run_mode(request.places, journal));
     if (!mode.packs.empty()) {
@@ -72,7 +73,7 @@ Result<RunMode> load(RunRequest& request, const Journal& journal) {
     return mode;
 }
 
-/// A service that cannot record says so, and the exhibit goes on without the recording.
+/// A service that cannot record reports it and runs without the recording.
 Result<Inputs> open_inputs(const RunRequest& request, const Settings& settings, const DevicePlan& devices,
                            bool is_service, std::optional<Nanoseconds> press_every, MonotonicTime start) {
     std::unique_ptr<PacketRecorder> recorder;
@@ -94,7 +95,7 @@ Result<Inputs> open_inputs(const RunRequest& request, const Settings& settings, 
     return inputs;
 }
 
-/// Without a screen there is no loudspeaker either: what would be heard is kept with the pictures.
+/// A headless run has no loudspeaker: its sound is kept with the pictures.
 std::unique_ptr<Sound> open_sound(const RunRequest& request, const Settings& settings, MonotonicTime start) {
     if (!request.headless || settings.sound.kind == SoundKind::None) {
         return make_sound(settings.sound);
@@ -105,12 +106,12 @@ std::unique_ptr<Sound> open_sound(const RunRequest& request, const Settings& set
     return std::make_unique<WavSound>(start);
 }
 
-/// What is open while a run lasts, closed from the last to the first.
+/// The open parts of a run, closed from the last to the first.
 struct OpenExhibit {
     std::unique_ptr<Display> display;
     DevicePlan devices;
     std::unique_ptr<Show> show;
-    std::optional<Error> excuse;         ///< why there is nothing to show, which is shown instead
+    std::optional<Error> error_screen;   ///< why there is nothing to show; shown instead
     std::unique_ptr<SetArrival> arrival; ///< none: no set of packs can end the excuse
     MonotonicTime start;
     Inputs inputs;
@@ -122,7 +123,7 @@ Result<OpenExhibit> open(const RunRequest& request, const Settings& settings, co
     TRY(exhibit.display, wait_for_display({[&] { return make_display(settings, request.headless); }},
                                           stop_signals, manager, journal));
     note_driver_for_crashes(exhibit.display->name());
-    // Simulated time starts at zero, real time when everything is loaded.
+    // Simulated time starts at zero, real time when loading is complete.
     const auto now = [&request] { return request.fast ? MonotonicTime{} : monotonic_now(); };
     exhibit.devices = plan_devices(settings, request.changes > 0, !request.status_file.empty());
     const std::filesystem::path& library = settings.exhibit.library;
@@ -132,8 +133,8 @@ Result<OpenExhibit> open(const RunRequest& request, const Settings& settings, co
         return make_show(request, settings, exhibit.devices, *exhibit.display, now());
     }();
     if (!show && manager.listens()) {
-        exhibit.excuse = show.error();
-        show = make_excuse(settings, journal, *exhibit.excuse);
+        exhibit.error_screen = show.error();
+        show = make_error_screen(settings, journal, *exhibit.error_screen);
         if (!library.empty()) {
             exhibit.arrival = std::make_unique<SetArrival>(library, set_before);
         }
@@ -153,7 +154,7 @@ Result<OpenExhibit> open(const RunRequest& request, const Settings& settings, co
     return exhibit;
 }
 
-/// A calibration needs a tracker whose reports it takes, and buttons.
+/// True if calibration by buttons is possible: it needs a tracker that reports poses, and buttons.
 bool may_calibrate(const RunRequest& request, const Settings& settings, const DevicePlan& devices) {
     return !request.calibrate_file.empty() && settings.calibration.by_buttons &&
            devices.tracker != TrackerKind::None && devices.panel;
@@ -173,8 +174,8 @@ LoopOptions loop_options(const RunRequest& request, const RunMode& mode, const O
     LoopOptions options;
     if (request.seconds > 0.0) {
         options.length = nanoseconds(request.seconds);
-    } else if (exhibit.excuse) {
-        options.length = excuse_length;
+    } else if (exhibit.error_screen) {
+        options.length = error_screen_length;
     }
     options.fast = request.fast;
     options.redraw = request.full_redraw ? Redraw::Everything : Redraw::Changes;
@@ -193,14 +194,14 @@ LoopOptions loop_options(const RunRequest& request, const RunMode& mode, const O
     return options;
 }
 
-/// Says the error before anything is closed: a thread that hangs may hold that up until the process ends.
+/// Prints the error before anything is closed, because a thread that hangs may delay closing until the process ends.
 int end_with(const Error& why) {
     const int status = exit_status("frustumscreen", tl::unexpected<Error>(why));
     end_within(longest_stop, status);
     return status;
 }
 
-/// The exit status, or an error that is still to be said. Everything is still open.
+/// Returns the exit status, or an error that is not yet printed. Everything is still open.
 Result<int> finish(const RunRequest& request, const RunEnd& end, const Result<LoopResult>& result,
                    const Sound* sound, const Journal& journal) {
     const bool until_told = request.seconds == 0.0;
@@ -225,7 +226,7 @@ Result<int> finish(const RunRequest& request, const RunEnd& end, const Result<Lo
     return 0;
 }
 
-/// None: nothing is counted. A run of simulated time has no day.
+/// Nothing if visits are not counted. A run in simulated time has no date.
 std::unique_ptr<VisitBook> open_visit_book(const RunRequest& request, const Settings& settings) {
     std::error_code missing;
     const std::filesystem::path& folder = settings.exhibit.counts;
@@ -234,7 +235,7 @@ std::unique_ptr<VisitBook> open_visit_book(const RunRequest& request, const Sett
     return counts ? std::make_unique<VisitBook>(folder, local_offset_at) : nullptr;
 }
 
-/// Runs the loop, and finishes while what it needs is still open: what hangs cannot hold up the end.
+/// Runs the loop and finishes while its devices are still open, so that a hanging one cannot delay the end.
 Result<int> loop_and_finish(const RunRequest& request, const RunMode& mode, OpenExhibit& exhibit,
                             const StopSignals& stop_signals, ServiceManager& manager,
                             const Journal& journal) {
@@ -258,11 +259,11 @@ Result<int> loop_and_finish(const RunRequest& request, const RunMode& mode, Open
     const Result<LoopResult> result = run_loop(settings, *exhibit.display, exhibit.inputs, *exhibit.show,
                                                options, status_file, watch, exhibit.start);
     manager.stopping();
-    const RunEnd end = end_of_run(result, exhibit.excuse, exhibit.arrival && exhibit.arrival->came());
+    const RunEnd end = end_of_run(result, exhibit.error_screen, exhibit.arrival && exhibit.arrival->came());
     return finish(request, end, result, exhibit.inputs.sound.get(), journal);
 }
 
-/// The exit status, or an error that is still to be said.
+/// Returns the exit status, or an error that is not yet printed.
 Result<int> run(RunRequest& request) {
     record_crashes_of(request.places);
     const StopSignals stop_signals;
@@ -270,7 +271,7 @@ Result<int> run(RunRequest& request) {
     ServiceManager manager;
     TRY(const RunMode mode, load(request, journal));
     const Settings& settings = *mode.used.settings;
-    static_cast<void>(use_time_zone(settings.hours.time_zone)); // before there is a second thread
+    static_cast<void>(use_time_zone(settings.hours.time_zone)); // before a second thread starts
     prepare_driver(request.places, mode.mode, journal);
     TRY(OpenExhibit exhibit, open(request, settings, stop_signals, manager, journal));
     return loop_and_finish(request, mode, exhibit, stop_signals, manager, journal);

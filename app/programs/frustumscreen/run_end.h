@@ -1,4 +1,4 @@
-/// Why the loop of a run came back, and what that means for the program.
+/// The reason for the end of a run's loop, and what follows from it for the program.
 ///
 /// Threads  any; pure.
 #pragma once
@@ -11,31 +11,32 @@
 
 namespace frustumscreen {
 
-/// A service shows for this long why it has nothing to show. Then it ends, is started again and looks for
-/// packs again; at once when a set of packs is installed meanwhile.
-inline constexpr Nanoseconds excuse_length = std::chrono::minutes(1);
+/// A service shows for this long why it has nothing to show. Then it ends, and systemd starts it again to look for
+/// packs; it ends at once when a set of packs is installed.
+inline constexpr Nanoseconds error_screen_length = std::chrono::minutes(1);
 
 struct RunEnd {
     enum class Why : std::uint8_t {
-        Done,         ///< it was told to stop, or its time is over
-        SetInstalled, ///< there is something to show now: the exhibit is started anew
+        Done,         ///< stopped, or its time is over
+        SetInstalled, ///< there is something to show: the exhibit restarts
         Failed
     };
     Why why = Why::Done;
-    std::optional<Error> error; ///< of a run that failed
+    std::optional<Error> error; ///< if the run failed
 };
 
-/// `excuse`: why there is nothing to show; none: there is. `set_came`: a set of packs was installed meanwhile.
-[[nodiscard]] inline RunEnd end_of_run(const Result<LoopResult>& result, const std::optional<Error>& excuse,
-                                       bool set_came) {
+/// `error_screen`: why there is nothing to show; none: there is. `set_came`: a set of packs was installed during the run.
+[[nodiscard]] inline RunEnd end_of_run(const Result<LoopResult>& result,
+                                       const std::optional<Error>& error_screen, bool set_came) {
     if (!result) {
         return {RunEnd::Why::Failed, result.error()};
     }
     if (set_came) {
         return {RunEnd::Why::SetInstalled, {}};
     }
-    if (excuse && result->status.uptime_s >= to_seconds(excuse_length)) { // nobody told it to stop
-        return {RunEnd::Why::Failed, excuse};
+    if (error_screen &&
+        result->status.uptime_s >= to_seconds(error_screen_length)) { // a stop signal comes earlier
+        return {RunEnd::Why::Failed, error_screen};
     }
     return {};
 }

@@ -14,7 +14,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::uintmax_t most_bytes = 64;
+constexpr std::uintmax_t max_bytes = 64;
 
 void tell_of_calibration(const CalibrationSettings& calibration, const Journal& journal) {
     for (const std::string& why : calibration.unused) {
@@ -38,7 +38,7 @@ Mode read_run_mode(const std::filesystem::path& file) {
     if (file.empty() || !std::filesystem::exists(file, failed)) {
         return Mode::Normal;
     }
-    const Result<Bytes> bytes = read_file(file, most_bytes);
+    const Result<Bytes> bytes = read_file(file, max_bytes);
     if (!bytes) {
         say_line("frustumscreen", fmt::format("{}; the mode is normal", bytes.error().message));
         return Mode::Normal;
@@ -51,7 +51,7 @@ Mode read_run_mode(const std::filesystem::path& file) {
                                               "plain and built_in; the mode is normal",
                                               file.string(), word));
     }
-    // A person who starts the exhibit while the safe picture is wanted wants to see it.
+    // A person who starts the exhibit while the safe picture is shown wants the exhibit.
     return mode && *mode != Mode::Safe ? *mode : Mode::Normal;
 }
 

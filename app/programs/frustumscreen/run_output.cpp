@@ -18,9 +18,9 @@ Result<void> write_pictures(const std::filesystem::path& folder, const LoopResul
     std::vector<PoseSample> poses;
     for (std::size_t k = 0; k < result.stills.size(); ++k) {
         const Still& still = result.stills[k];
-        const RigidTransform& pose = still.situation.table_from_prop;
+        const RigidTransform& pose = still.tracked_state.table_from_prop;
         poses.push_back({still.time, prop_station, pose.translation, pose.rotation, true});
-        poses.push_back({still.time, head_station, still.situation.eye_m, {1.0, 0.0, 0.0, 0.0}, true});
+        poses.push_back({still.time, head_station, still.tracked_state.eye_m, {1.0, 0.0, 0.0, 0.0}, true});
         const std::filesystem::path file = folder / fmt::format("frame_{:05}.png", k);
         TRY_VOID(write_file(file, encode_png(still.picture)));
     }

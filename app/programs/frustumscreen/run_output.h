@@ -1,7 +1,7 @@
-/// What a run leaves: pictures, poses, frames and sound in a folder, and a report on standard output.
+/// The output of a run: pictures, poses, frames and sound in a folder, and a report on standard output.
 ///
 /// Threads  the render thread, when the loop is over.
-/// Errors   a file cannot be written; those before it are there.
+/// Errors   a file cannot be written; the files before it are complete.
 #pragma once
 
 #include "app/programs/frustumscreen/run_request.h"
@@ -13,8 +13,8 @@
 
 namespace frustumscreen {
 
-/// frame_00000.png ..., poses.csv with their poses, frames.csv with every frame of the run; sound.wav where `sound` keeps what
-/// would be heard. Removes the visitor's cameras that an earlier call of render left there.
+/// Writes frame_00000.png ..., poses.csv with their poses, frames.csv with every frame of the run, and sound.wav if
+/// `sound` recorded it. Removes the visitor's cameras that an earlier call of render left there.
 [[nodiscard]] Result<void> write_output(const std::filesystem::path& folder, const LoopResult& result,
                                         const Sound* sound);
 

@@ -49,7 +49,7 @@ std::optional<int> read_run_arguments(int argc, const char* const* argv, RunRequ
                  "load also what this scene does not need, to compare; see frustumscreen plan");
     app.add_flag("--json", request.json, "report as JSON");
     const std::optional<int> end = app.end_of_arguments(argc, argv);
-    request.show.economies = everything ? 0U : AllEconomies;
+    request.show.cull_kinds = everything ? 0U : AllCullKinds;
     return end;
 }
 

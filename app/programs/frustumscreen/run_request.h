@@ -1,4 +1,4 @@
-/// What `frustumscreen run` is asked for: its options, read.
+/// The options of `frustumscreen run`.
 ///
 /// Threads  the main one.
 #pragma once
@@ -21,7 +21,7 @@ struct RunRequest {
     std::filesystem::path record;
     ArtifactShowOptions show;
     Trust trust = Trust::Newest; ///< in the installed sets
-    double seconds = 0.0;        ///< 0 = until told to stop
+    double seconds = 0.0;        ///< 0: until stopped
     int stills = 8;
     int changes = 0;
     bool headless = false;
@@ -31,7 +31,7 @@ struct RunRequest {
     bool json = false;
 };
 
-/// Arguments after 'run'. The exit status where the program ends there, as CommandLine.
+/// Reads the arguments after 'run'. Returns the exit status if the program ends there, as CommandLine.
 [[nodiscard]] std::optional<int> read_run_arguments(int argc, const char* const* argv, RunRequest& request);
 
 } // namespace frustumscreen

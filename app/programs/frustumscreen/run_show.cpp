@@ -26,7 +26,7 @@ Result<std::unique_ptr<Show>> make_show(const RunRequest& request, const Setting
         options.packs = settings.exhibit.packs;
         options.packs_key = settings.exhibit.packs_key;
     }
-    // Other sets come in real time alone: a run of simulated time is repeatable.
+    // Only a run in real time takes other sets, so that a run in simulated time is repeatable.
     const bool watches = from_library && !request.fast && library_is_there(settings);
     options.other_sets = watches;
     const auto create = [&](const ArtifactShowOptions& each) {
@@ -57,8 +57,8 @@ Result<std::unique_ptr<Show>> make_show(const RunRequest& request, const Setting
     return live;
 }
 
-Result<std::unique_ptr<Show>> make_excuse(const Settings& settings, const Journal& journal,
-                                          const Error& why) {
+Result<std::unique_ptr<Show>> make_error_screen(const Settings& settings, const Journal& journal,
+                                                const Error& why) {
     journal.note(LogPriority::Error, why.message, {{"DEVICE", "exhibit"}});
     Result<std::unique_ptr<PatternShow>> pattern = PatternShow::create(settings);
     if (!pattern) {

@@ -1,7 +1,7 @@
-/// What a run shows: the alignment pattern, the artifacts, or, where a service has nothing to show, why.
+/// The show of a run: the alignment pattern, the artifacts, or the error of a service that has nothing to show.
 ///
 /// Threads  the render thread, with the display's context current.
-/// Errors   no artifact can be shown; for the excuse, the pattern cannot be drawn either.
+/// Errors   no artifact can be shown; for the error screen, the pattern cannot be drawn either.
 #pragma once
 
 #include "app/programs/frustumscreen/run_request.h"
@@ -17,13 +17,14 @@
 
 namespace frustumscreen {
 
-/// `start`: when the run begins, by its own clock.
+/// `start`: the run's start, on its own clock.
 [[nodiscard]] Result<std::unique_ptr<Show>> make_show(const RunRequest& request, const Settings& settings,
                                                       const DevicePlan& devices, const Display& display,
                                                       MonotonicTime start);
 
-/// Shows the error on the table for the staff, since nobody reads a service's standard error. Where that fails, the same error.
-[[nodiscard]] Result<std::unique_ptr<Show>> make_excuse(const Settings& settings, const Journal& journal,
-                                                        const Error& why);
+/// Shows the error to the staff on the table, because a service's standard error is not read. Returns `why` if that
+/// fails.
+[[nodiscard]] Result<std::unique_ptr<Show>> make_error_screen(const Settings& settings,
+                                                              const Journal& journal, const Error& why);
 
 } // namespace frustumscreen

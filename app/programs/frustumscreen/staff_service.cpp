@@ -9,7 +9,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr std::string_view screenshot_question = "screenshot";
-constexpr std::size_t most_picture_bytes = 64U << 20;
+constexpr std::size_t max_picture_bytes = 64U << 20;
 constexpr Nanoseconds longest_wait = std::chrono::seconds(10);
 
 } // namespace
@@ -36,7 +36,7 @@ std::unique_ptr<StaffSocket> open_staff_socket(const std::filesystem::path& path
 }
 
 Result<Bytes> ask_for_screenshot(const std::filesystem::path& path) {
-    return ask_staff_socket(path, screenshot_question, most_picture_bytes, longest_wait);
+    return ask_staff_socket(path, screenshot_question, max_picture_bytes, longest_wait);
 }
 
 } // namespace frustumscreen

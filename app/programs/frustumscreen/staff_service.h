@@ -1,4 +1,4 @@
-/// What the exhibit answers the staff over its local socket, and how they ask: docs/status.md.
+/// The exhibit's answers to the staff over its local socket, and the requests for them: docs/status.md.
 ///
 /// Threads  the socket's own.
 #pragma once
@@ -15,11 +15,11 @@ namespace frustumscreen {
 
 inline constexpr std::string_view usual_staff_socket = "/run/frustumscreen-staff/exhibit.sock";
 
-/// `screenshot` outlives it. None: no path, or the socket cannot be made; the journal says why, and the exhibit goes on.
+/// `screenshot` must outlive it. Null if there is no path or the socket cannot be made; the journal says why.
 [[nodiscard]] std::unique_ptr<StaffSocket> open_staff_socket(const std::filesystem::path& path,
                                                              Screenshot& screenshot, const Journal& journal);
 
-/// PNG. Errors: as ask_staff_socket.
+/// Returns a PNG. Errors: as ask_staff_socket.
 [[nodiscard]] Result<Bytes> ask_for_screenshot(const std::filesystem::path& path);
 
 } // namespace frustumscreen

@@ -13,7 +13,7 @@ constexpr Nanoseconds between_looks_for_card = std::chrono::seconds(1);
 Result<std::unique_ptr<Display>> wait_for_display(const DisplaySearch& search,
                                                   const StopSignals& stop_signals, ServiceManager& manager,
                                                   const Journal& journal) {
-    std::unique_ptr<Hotplug> hotplug; // once there is something to wait for
+    std::unique_ptr<Hotplug> hotplug; // made when it has to wait
     Sentence noted;
     const MonotonicTime begin = search.now();
     while (true) {

@@ -1,8 +1,8 @@
-/// The display of a run: a service waits for a graphics card whose driver comes late, and for a while for a card that cannot be
-/// used yet; a person is told at once.
+/// Opens the display of a run. A service waits for a graphics card whose driver loads late, and for a limited time for
+/// a card that cannot be used yet; a run by a person fails at once.
 ///
 /// Threads  the main one.
-/// Errors   as make_display; for a service only after `longest_boot`, and never that there is no card.
+/// Errors   as make_display. A service fails only after `longest_boot`, and never because there is no card.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -21,7 +21,7 @@ namespace frustumscreen {
 /// While the machine boots, udev may not have given the card to the exhibit's user yet.
 inline constexpr Nanoseconds longest_boot = std::chrono::seconds(30);
 
-/// How a display is looked for.
+/// The ways to look for a display.
 struct DisplaySearch {
     std::function<Result<std::unique_ptr<Display>>()> make;
     std::function<std::unique_ptr<Hotplug>()> make_hotplug =
@@ -29,7 +29,7 @@ struct DisplaySearch {
     std::function<MonotonicTime()> now = monotonic_now;
 };
 
-/// While it waits, a stop signal ends the process at once: nothing is open yet.
+/// During the wait, a stop signal ends the process at once, because nothing is open yet.
 [[nodiscard]] Result<std::unique_ptr<Display>> wait_for_display(const DisplaySearch& search,
                                                                 const StopSignals& stop_signals,
                                                                 ServiceManager& manager,

@@ -33,7 +33,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Two sticks at once: the second waits.
+/// Locks a folder, so that an import from a second stick waits for the first.
 class FolderLock {
 public:
     [[nodiscard]] static Result<FolderLock> wait_for(const std::filesystem::path& folder) {
@@ -69,7 +69,7 @@ Nanoseconds processor_time() {
     return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
 }
 
-/// Another one for each stick, also after a start with the clock set back.
+/// An id that differs for each stick, even after a restart with the clock set back: time and process id.
 std::string import_id(const ImportArguments& arguments) {
     if (!arguments.id.empty()) {
         return printable(arguments.id);
@@ -102,7 +102,7 @@ Result<void> make_folder(const std::filesystem::path& folder) {
                  : Result<void>();
 }
 
-/// What set.txt says, and what an exhibit that is started now would show of it.
+/// The contents of set.txt, and the set that an exhibit started now would show.
 struct Installed {
     SetFile file;
     InstalledSet set;
@@ -121,21 +121,21 @@ Result<Installed> installed(const std::filesystem::path& folder) {
     return Installed{*file, set_to_show(file->choice, *verdict)};
 }
 
-/// Of what is installed; 0 where that is not known.
+/// Number of the installed set; 0 if it is not known.
 std::uint64_t set_number(const ImportArguments& arguments) {
     return installed(arguments.into).map([](const Installed& found) { return found.set.number; }).value_or(0);
 }
 
-/// None: there is none, or it is no report.
+/// Nothing if there is no report, or the file is none.
 std::optional<ImportReport> last_report(const ImportArguments& arguments) {
-    constexpr std::uintmax_t most_report_bytes = 8U << 20U;
-    const Result<Bytes> bytes = read_file(arguments.report, most_report_bytes);
+    constexpr std::uintmax_t max_report_bytes = 8U << 20U;
+    const Result<Bytes> bytes = read_file(arguments.report, max_report_bytes);
     Result<ImportReport> report =
         bytes ? parse_import_report(as_text(*bytes)) : tl::unexpected<Error>(bytes.error());
     return report ? std::optional(*std::move(report)) : std::nullopt;
 }
 
-/// Whoever put the stick before in reads on the table what became of it.
+/// Waits until the previous stick's report has stood long enough to be read on the table.
 void wait_for_readers(const ImportArguments& arguments, const std::string& id) {
     struct stat file {};
     if (arguments.report_stands_s <= 0 || ::stat(arguments.report.c_str(), &file) != 0) {
@@ -150,12 +150,12 @@ void wait_for_readers(const ImportArguments& arguments, const std::string& id) {
     std::this_thread::sleep_for(wait_before_first_word(last_report(arguments), id, age, stands));
 }
 
-/// The kiosk's settings, before they are asked whose packs to believe: the stick may bring other keys.
+/// Takes the stick's settings before the keys are read from them, because the stick may bring other keys.
 std::optional<ImportedPack> take_settings_of(FileTree& stick, WritableTree& library,
                                              const ImportArguments& arguments, std::chrono::sys_days clock) {
     const Result<std::unique_ptr<WritableTree>> folder = open_tree(arguments.settings);
     if (!folder) {
-        return std::nullopt; // this kiosk has none to be replaced
+        return std::nullopt; // this kiosk has no settings to replace
     }
     const tl::expected<SetFile, ImportFailure> set = read_set_file(library);
     std::optional<ImportedPack> told =
@@ -169,7 +169,7 @@ std::optional<ImportedPack> take_settings_of(FileTree& stick, WritableTree& libr
     return told;
 }
 
-/// Nothing of the stick was looked at, but its settings.
+/// Reports that nothing of the stick was read except its settings.
 ImportReport tell_failed(const ImportArguments& arguments, const std::string& id, ImportRefusal refusal,
                          const std::string& reason,
                          const std::optional<ImportedPack>& settings = std::nullopt) {
@@ -215,14 +215,14 @@ ImportReport import_from(const ImportArguments& arguments) {
                            request.settings);
     }
     ImportWatcher watcher(arguments.report, !arguments.json);
-    const ImportSurroundings outside{monotonic_now, processor_time, [&](const ImportReport& report) {
-                                         watcher.tell(report, monotonic_now());
-                                     }};
+    const ImportEnvironment outside{monotonic_now, processor_time, [&](const ImportReport& report) {
+                                        watcher.tell(report, monotonic_now());
+                                    }};
     return import_stick(**stick, **library, request, outside);
 }
 
 std::optional<ImportReport> tell_unmounted(const ImportArguments& arguments) {
-    // Where the folder cannot be locked, nothing is imported either.
+    // If the folder cannot be locked, no import runs either.
     const Result<FolderLock> lock = FolderLock::wait_for(arguments.into);
     const std::string id = import_id(arguments);
     if (!is_to_be_told_unmounted(last_report(arguments), id)) {
@@ -242,7 +242,7 @@ Result<void> tell_ended(const ImportArguments& arguments, std::string_view servi
 
 Result<std::string> list_installed(const ImportArguments& arguments) {
     TRY(const Installed found, installed(arguments.into));
-    ImportRequest request; // whose keys are empty where no settings were named
+    ImportRequest request; // its keys are empty if no settings are named
     TRY_VOID(read_trust(arguments, request));
     const InstalledSet* set = &found.set;
     const bool knows_settings = !arguments.config.empty() || !arguments.keys.empty();

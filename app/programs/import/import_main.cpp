@@ -4,6 +4,7 @@
 #include "app/programs/import/import_command.h"
 #include "app/programs/import/import_watcher.h"
 #include "app/programs/import/stick_label.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -23,7 +24,8 @@ std::string line_of(const ImportedPack& pack) {
                        pack.reason);
 }
 
-/// Every pack has a line, refused ones on standard error. The status is about the stick, not about each pack.
+/// Prints a line for each pack, refused ones on standard error. The exit status is about the stick, not about each
+/// pack.
 int say(const ImportReport& report, const ImportArguments& arguments) {
     for (const ImportedPack& pack : report.packs) {
         if (pack.outcome == ImportOutcome::Refused) {
@@ -64,7 +66,7 @@ int run(int argc, char** argv) {
     CommandLine app(
         "Takes packs from a stick into the set that the exhibit shows: signed, whole, or not at all.",
         "frustumscreen-import");
-    app.set_version_flag("--version", "frustumscreen-import " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-import"));
     ImportArguments arguments;
     std::string unsigned_packs = "refuse";
     bool to_list = false;

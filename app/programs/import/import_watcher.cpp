@@ -25,7 +25,7 @@ std::string line_of(const ImportReport& report) {
     switch (report.stage) {
     case ImportStage::Found:
         return "a stick is looked through";
-    case ImportStage::Copying: // each byte is copied, and checked
+    case ImportStage::Copying: // each byte is copied, then checked
         return fmt::format("{:.1f} MB are copied and checked",
                            static_cast<double>(report.total_bytes) / 2.0 / bytes_per_mb);
     case ImportStage::MayTakeOut:
@@ -63,11 +63,11 @@ void ImportWatcher::tell(const ImportReport& report, MonotonicTime now) {
     if (is_new_stage && lines_) {
         progress_.clear();
         fmt::print("{}\n", line_of(report));
-        std::fflush(stdout); // the journal is to hear it now
+        std::fflush(stdout); // the journal receives each line at once
     }
 }
 
-/// The import goes on without it: what is installed matters more than what is told.
+/// A report that cannot be written causes one message and does not stop the import.
 void ImportWatcher::write(const ImportReport& report) {
     if (file_.empty()) {
         return;

@@ -1,4 +1,4 @@
-/// Where an import is told: its report as a file, lines for the journal, a line of progress on a terminal.
+/// Reports an import's progress: a file, lines for the journal, and a progress line on a terminal.
 ///
 /// Threads  one caller.
 #pragma once
@@ -14,9 +14,9 @@ namespace frustumscreen {
 
 class ImportWatcher {
 public:
-    /// `file`: empty: none is written. `lines`: a line for each stage on standard output.
+    /// `file`: empty: no file. `lines`: a line for each stage on standard output.
     ImportWatcher(std::filesystem::path file, bool lines) : file_(std::move(file)), lines_(lines) {}
-    /// Every stage at once; copying a few times a second.
+    /// Reports a new stage at once, and copying a few times a second.
     void tell(const ImportReport& report, MonotonicTime now);
 
 private:
@@ -29,7 +29,7 @@ private:
     MonotonicTime written_{};
 };
 
-/// What became of a pack, in a word or two.
+/// The outcome of a pack in a word or two.
 [[nodiscard]] std::string_view words_of(ImportOutcome outcome);
 
 } // namespace frustumscreen

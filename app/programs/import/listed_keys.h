@@ -1,4 +1,4 @@
-/// The keys that the kiosk knows, as frustumscreen-import --list says them.
+/// The kiosk's known keys, as listed by frustumscreen-import --list.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -16,19 +16,19 @@ namespace frustumscreen {
 
 struct ListedKey {
     std::string name, id;
-    std::string until; ///< its last day; empty: it does not end
-    std::string from;  ///< id of the key that signed for it; empty: the settings name it
-    std::string since; ///< the day on which it came; empty: not known
+    std::string until; ///< last day of validity; empty: no end
+    std::string from;  ///< id of the key that signed it; empty: named by the settings
+    std::string since; ///< day on which it arrived; empty: not known
     bool counts = true;
 };
 
-/// Those of the settings, then all that sets brought.
+/// The settings' keys, then all keys that sets brought.
 [[nodiscard]] std::vector<ListedKey> list_keys(std::span<const TrustedKey> settings,
                                                std::span<const CarriedKey> carried);
 
-/// `knows_settings`: else nobody knows which keys count.
+/// `knows_settings`: false: it is not known which keys count.
 [[nodiscard]] nlohmann::ordered_json json_of(const ListedKey& key, bool knows_settings);
-/// A line.
+/// One line.
 [[nodiscard]] std::string text_of(const ListedKey& key, bool knows_settings);
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-/// Who signed the installed packs, as frustumscreen-import --list says it.
+/// The signers of the installed packs, as listed by frustumscreen-import --list.
 ///
 /// Threads  one caller; each pack's file is opened.
 #pragma once
@@ -17,10 +17,10 @@ namespace frustumscreen {
 
 struct ListedSigner {
     bool is_signed = false;
-    std::optional<std::string> id; ///< of the key; none: the pack is unsigned, or its file cannot be read
+    std::optional<std::string> id; ///< id of the key; none: the pack is unsigned, or its file cannot be read
     std::string name;              ///< empty: the kiosk does not know the key
-    std::string until;             ///< its last day; empty: it does not end
-    std::optional<bool> counts;    ///< none: nobody knows, as the settings are not known
+    std::string until;             ///< last day of the key; empty: no end
+    std::optional<bool> counts;    ///< none: not known, because the settings are not known
 };
 
 class SignerList {

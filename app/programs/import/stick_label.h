@@ -1,7 +1,7 @@
 /// The label of a stick's file system, as udev found it.
 ///
-/// udev makes a link whose name is `label=` and the label, in which bytes that are no UTF-8, and most marks, are written \xNN
-/// (ID_FS_LABEL_ENC). What comes of it is anybody's bytes: printable() before it is told.
+/// udev makes a link whose name is `label=` and the label, in which most punctuation and bytes that are not UTF-8 are
+/// written \xNN (ID_FS_LABEL_ENC). The result may be any bytes: pass it through printable() before it is shown.
 ///
 /// Threads  any.
 /// Errors   none: without such a link the stick has no label.
@@ -13,9 +13,9 @@
 
 namespace frustumscreen {
 
-/// \xNN into the byte; anything else stays what it is.
+/// Replaces each \xNN by its byte; other text is kept.
 [[nodiscard]] std::string unescaped_label(std::string_view escaped);
-/// Of the first link in the folder whose name begins so.
+/// The label in the name of the folder's first link that begins with `label=`.
 [[nodiscard]] std::string label_in(const std::filesystem::path& folder);
 
 } // namespace frustumscreen

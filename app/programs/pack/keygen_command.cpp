@@ -29,7 +29,7 @@ Result<void> check_free(const std::string& file) {
     return {};
 }
 
-/// A file that was not there before, in no other's reach from its first byte on.
+/// Writes a file that must not exist yet, with its final permissions from the first byte on.
 Result<void> write_new_file(const std::string& file, mode_t mode, std::string_view text) {
     const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     if (descriptor < 0) {
@@ -59,7 +59,7 @@ Result<void> write_keys(const std::string& name, std::optional<std::string_view>
     TRY_VOID(write_new_file(name + ".key", 0600, secret));
     if (Result<void> written = write_new_file(name + ".pub", 0644, write_public_key(key.public_key()));
         !written) {
-        ::unlink((name + ".key").c_str()); // half a pair is of no use
+        ::unlink((name + ".key").c_str()); // half a pair is useless
         return written;
     }
     fmt::print("{0}.key: the secret key{1}; keep it and a copy where nobody else comes\n"
@@ -75,7 +75,7 @@ Result<void> write_keys(const std::string& name, std::optional<std::string_view>
 } // namespace
 
 Result<void> make_keys(const std::string& name) {
-    for (const char* ending : {".key", ".pub"}) { // before the person types
+    for (const char* ending : {".key", ".pub"}) { // before the password is asked for
         TRY_VOID(check_free(name + ending));
     }
     TRY(const std::optional<Password> password, password_for_new_key());

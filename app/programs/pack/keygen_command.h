@@ -1,6 +1,6 @@
-/// frustumscreen-pack keygen: a pair of keys in minisign's format, the secret one with a password.
+/// frustumscreen-pack keygen: makes a pair of keys in minisign's format; a password encrypts the secret one.
 ///
-/// Errors   one sentence: a file is there already or cannot be written; no password.
+/// Errors   one sentence: a file exists already or cannot be written; no password is given.
 /// Threads  one caller.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace frustumscreen {
 
-/// Writes NAME.key (mode 0600) and NAME.pub, and says what they are for.
+/// Writes NAME.key (mode 0600) and NAME.pub, and prints their use.
 [[nodiscard]] Result<void> make_keys(const std::string& name);
 
 } // namespace frustumscreen

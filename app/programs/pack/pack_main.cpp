@@ -1,4 +1,4 @@
-/// frustumscreen-pack: verifies, lists, explains, draws and signs packs, and makes the keys for that.
+/// frustumscreen-pack: verifies, lists, explains, draws and signs packs, and makes the keys for signing.
 #include "app/pack/pack_sections.h"
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
@@ -10,6 +10,7 @@
 #include "app/settings/settings.h"
 #include "firmware_host/base/json.h"
 #include "firmware_host/base/output_file.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -37,7 +38,7 @@ void print_json(const nlohmann::ordered_json& json) {
     fmt::print("{}\n", json.dump(2));
 }
 
-/// The usual prop of the kind that the pack was baked for.
+/// A prop of usual size, of the kind that the pack was baked for.
 PropSettings usual_prop(const Pack& pack) {
     return pack.prop_kind == name_of(PropKind::Cube) ? cube_settings() : PropSettings{};
 }
@@ -105,8 +106,8 @@ int sign(SignRequest request) {
     return sign_files(request);
 }
 
-/// Numbers that a reader of JSON keeps exactly.
-constexpr std::uint64_t most_serial = (std::uint64_t{1} << 53U) - 1;
+/// The largest number that a reader of JSON keeps exactly.
+constexpr std::uint64_t max_serial = (std::uint64_t{1} << 53U) - 1;
 
 void add_looking_commands(CommandLine& app, Request& request) {
     CommandLine to_verify = app.add_subcommand("verify", "checks packs wholly; status 1 if one is not sound");
@@ -146,7 +147,7 @@ void add_signing_commands(CommandLine& app, Request& request) {
     to_sign
         .add_option("--serial", request.sign.serial,
                     "a higher one replaces a lower one on the kiosk; without it the seconds since 1970")
-        .within(std::uint64_t{1}, most_serial);
+        .within(std::uint64_t{1}, max_serial);
     to_sign.add_flag("--json", request.sign.json, "for programs");
 }
 
@@ -154,7 +155,7 @@ int run(int argc, char** argv) {
     CommandLine app(
         "Packs for FrustumScreen: are they sound, what do they hold, how do they look, who signed them?",
         "frustumscreen-pack");
-    app.set_version_flag("--version", "frustumscreen-pack " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-pack"));
     app.require_subcommand();
     Request request;
     add_looking_commands(app, request);

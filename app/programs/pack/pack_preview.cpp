@@ -19,10 +19,10 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr int drawn_px = 1280;               ///< of the square picture of the whole prop
-constexpr int side_px = 560;                 ///< of what is kept of it
+constexpr int drawn_px = 1280;               ///< square picture of the whole prop
+constexpr int side_px = 560;                 ///< the part that is kept
 constexpr int caption_px = 56;               ///< the strip below it
-constexpr glm::dvec3 eye_m(0.0, -0.6, 0.45); ///< settings take a projector from 30 degrees upwards
+constexpr glm::dvec3 eye_m(0.0, -0.6, 0.45); ///< settings require 30 degrees
 
 /// Settings of a table whose projector stands at the eye, with the prop's sphere filling the picture.
 Result<CheckedSettings> settings_for(const PropSettings& prop) {
@@ -45,7 +45,7 @@ Result<CheckedSettings> settings_for(const PropSettings& prop) {
     return parse_settings(text, "preview");
 }
 
-/// Turned so that each side in turn looks at the eye.
+/// Poses of the prop in which each side in turn faces the eye.
 std::array<RigidTransform, 4> turned_props() {
     std::array<RigidTransform, 4> props;
     for (std::size_t k = 0; k < props.size(); ++k) {
@@ -67,18 +67,18 @@ Result<OfflineSetup> setup_of(const PackOutline& outline) {
     return OfflineSetup{std::move(settings), std::move(options)};
 }
 
-/// The square about the picture's middle line that holds what is lit in any of the pictures, with a margin.
+/// The square, centred on the picture's vertical middle line, that contains all light of all pictures, with a margin.
 struct Frame {
     glm::dvec2 corner{0.0};
     double size = drawn_px;
 };
 
 Frame frame_of(const std::array<Image8, 4>& sides) {
-    constexpr int dark = 8; // a code up to which nobody sees light
+    constexpr int dark = 8; // codes up to this are not visible
     constexpr double margin = 1.1;
     int top = drawn_px;
     int bottom = -1;
-    int across = 0; // from the middle
+    int across = 0; // largest distance from the middle line
     for (const Image8& side : sides) {
         for (int y = 0; y < side.height; ++y) {
             for (int x = 0; x < side.width; ++x) {

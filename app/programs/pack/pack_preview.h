@@ -1,7 +1,7 @@
-/// A pack's artifact from four sides in one picture, as it stands in the usual prop of its kind.
+/// A pack's artifact from four sides in one picture, as it stands in a prop of usual size.
 ///
-/// The exhibit's own renderer draws it, at the finest level. The projector stands at the eye: so its picture is what
-/// the eye sees through the prop, and no face is unlit. All sides are drawn at one scale, as large as they fit.
+/// The exhibit's own renderer draws it, at the finest level. The projector stands at the eye, so its picture is the
+/// eye's view through the prop, and no visible face is unlit. All sides have one scale, as large as they fit.
 ///
 /// Errors   as load_pack; no OpenGL ES; no typeface.
 /// Threads  one: it holds a GL context while it draws.

@@ -32,7 +32,7 @@ std::string in_units(std::uint64_t bytes) {
                              : fmt::format("{:.1f} MB", value / 1e6);
 }
 
-/// What is said beside title and text, as far as anything is.
+/// The caption's further fields; empty ones are left out.
 std::vector<std::pair<std::string, std::string>> details_of(const PackCaption& caption) {
     std::vector<std::pair<std::string, std::string>> details{{"period", caption.period},
                                                              {"place", caption.place},
@@ -43,7 +43,7 @@ std::vector<std::pair<std::string, std::string>> details_of(const PackCaption& c
     return details;
 }
 
-/// The keys of the texts that are spoken in a language.
+/// Keys of the texts that are spoken in a language.
 std::vector<std::string> spoken_keys(const Pack& pack, const std::string& language) {
     std::vector<std::string> keys;
     for (SpokenText& spoken : list_sounds(pack).value_or(std::vector<SpokenText>())) {
@@ -75,7 +75,7 @@ Json levels_json(const Pack& pack, double mm) {
     return levels;
 }
 
-/// What is there to be cast beside the levels; a section that is not sound has none (`verify` says why).
+/// The pack's reliefs; empty if their section is damaged (`verify` reports the reason).
 std::vector<ReliefOutline> known_reliefs(const Pack& pack) {
     return reliefs_of(pack).value_or(std::vector<ReliefOutline>());
 }
@@ -133,7 +133,7 @@ Json hotspots_json(const Pack& pack) {
     return hotspots;
 }
 
-/// The sections that this program only passes on.
+/// Sections that this program copies without reading them.
 Json sections_json(const Pack& pack) {
     Json sections = Json::array();
     for (const PackSection& section : pack.sections) {
@@ -272,7 +272,7 @@ std::string hotspots_text(const Pack& pack, double mm) {
     return text;
 }
 
-/// What is heard in a caption's language; nothing where there is nothing to hear.
+/// Describes a caption's speech; empty if there is no text to speak.
 std::string speech_text(const Pack& pack, const PackCaption& caption) {
     const std::vector<std::string> keys = spoken_keys(pack, caption.language);
     if (!keys.empty()) {

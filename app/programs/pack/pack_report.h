@@ -1,4 +1,4 @@
-/// What frustumscreen-pack says about a pack, for programs (JSON) and for people.
+/// The reports of frustumscreen-pack about a pack, as JSON for programs and as text for people.
 ///
 /// Errors   as verify_pack, beginning with the file's name.
 /// Threads  one caller.
@@ -18,24 +18,25 @@
 
 namespace frustumscreen {
 
-/// A sound pack and what its container holds.
+/// A valid pack and its container's contents.
 struct OpenedPack {
     std::filesystem::path file;
     std::uint64_t file_bytes = 0;
     VerifiedPack pack;
     std::vector<PackPart> parts;
-    std::optional<SignatureClaim> claim; ///< of its signature, which nobody checked; none: it is unsigned
+    std::optional<SignatureClaim> claim; ///< its signature, not verified; none: unsigned
 };
 [[nodiscard]] Result<OpenedPack> open_pack(const std::filesystem::path& file);
 
-/// {file, bytes, signed, serial (of a signed one; not checked), id, title, languages, levels with errors in mm on this prop, default_level, parts}
+/// {file, bytes, signed, serial (if signed; not verified), id, title, languages, levels with errors in mm on this prop,
+/// default_level, parts}
 [[nodiscard]] nlohmann::ordered_json list_json(const OpenedPack& opened, const PropSettings& prop);
-/// list_json and {format_version, captions with their details and the keys of what is spoken, hotspots, table_picture, sections, provenance, prop_kind,
-/// unlit, relief_size, box_size, textures, relief, prop, metres_per_box, artifact_size_m, prop_from_artifact: 16
-/// numbers, column-major}.
+/// list_json and {format_version, captions with their details and the keys of their spoken texts, hotspots,
+/// table_picture, sections, provenance, prop_kind, unlit, relief_size, box_size, textures, relief, prop,
+/// metres_per_box, artifact_size_m, prop_from_artifact: 16 numbers, column-major}.
 [[nodiscard]] nlohmann::ordered_json explain_json(const OpenedPack& opened, const PropSettings& prop);
 
-/// The same for people; each ends with a line break.
+/// Both reports as text; each ends with a line break.
 [[nodiscard]] std::string list_text(const OpenedPack& opened, const PropSettings& prop);
 [[nodiscard]] std::string explain_text(const OpenedPack& opened, const PropSettings& prop);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t longest_password = 1024;
 
-/// What is typed is not shown for as long as this lives.
+/// Switches off the terminal's echo during its lifetime.
 class Unseen {
 public:
     Unseen() : changed_(::tcgetattr(STDIN_FILENO, &before_) == 0) {
@@ -36,10 +36,10 @@ private:
     bool changed_;
 };
 
-/// Byte by byte: a buffer of the library's would keep the password.
+/// Reads byte by byte, because a library's buffer would keep the password.
 Result<Password> read_line() {
     std::string line;
-    line.reserve(longest_password); // it must not leave copies behind where it grows
+    line.reserve(longest_password); // growing would leave copies behind
     for (;;) {
         char letter = '\0';
         const ssize_t got = ::read(STDIN_FILENO, &letter, 1);
@@ -76,10 +76,10 @@ Result<Password> ask_password(const std::string& question) {
     if (!is_at_terminal()) {
         return read_line();
     }
-    const Unseen unseen; // before the question: it drops what was typed already
+    const Unseen unseen; // before the question: it drops earlier input
     std::fprintf(stderr, "%s: ", question.c_str());
     Result<Password> password = read_line();
-    std::fputc('\n', stderr); // the person's own was not shown
+    std::fputc('\n', stderr); // the person's own line break was not echoed
     return password;
 }
 

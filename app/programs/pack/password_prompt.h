@@ -1,7 +1,7 @@
-/// A password from the person at the terminal, unseen; or the first line of standard input where that is no terminal.
+/// Reads a password at the terminal without echo; without a terminal, the first line of standard input.
 ///
 /// Threads  the main one.
-/// Errors   one sentence: no line comes, the two are not the same.
+/// Errors   one sentence: no line comes, or the two passwords differ.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -11,7 +11,7 @@
 
 namespace frustumscreen {
 
-/// Wiped when it goes.
+/// A password that is wiped when it is destroyed.
 class Password {
 public:
     explicit Password(std::string text) : text_(std::move(text)) {}
@@ -26,7 +26,7 @@ private:
 
 [[nodiscard]] bool is_at_terminal();
 [[nodiscard]] Result<Password> ask_password(const std::string& question);
-/// Twice, so that a slip does not lock the person out.
+/// Asks twice, so that a typing error does not lock the person out.
 [[nodiscard]] Result<Password> ask_new_password();
 
 } // namespace frustumscreen

@@ -28,10 +28,10 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::uintmax_t most_key_bytes = 4096;
+constexpr std::uintmax_t max_key_bytes = 4096;
 
 Result<SecretKey> read_secret_key(const std::filesystem::path& file) {
-    TRY(const Bytes bytes, read_file(file, most_key_bytes));
+    TRY(const Bytes bytes, read_file(file, max_key_bytes));
     TRY(const bool encrypted, at(file.string(), needs_password(as_text(bytes))));
     std::optional<Password> password;
     if (encrypted) {
@@ -42,7 +42,7 @@ Result<SecretKey> read_secret_key(const std::filesystem::path& file) {
               parse_secret_key(as_text(bytes), password ? std::optional(password->view()) : std::nullopt));
 }
 
-/// `before`: the signature that is replaced. One that is no signature says nothing.
+/// `before`: the signature that is replaced; ignored if it cannot be parsed.
 Result<std::uint64_t> serial_for(const SignRequest& request, const std::optional<std::string>& before) {
     if (request.serial) {
         return *request.serial;
@@ -56,31 +56,31 @@ Result<std::uint64_t> serial_for(const SignRequest& request, const std::optional
                              claim->serial, request.now_s);
         }
         if (claim && claim->serial == request.now_s) {
-            return request.now_s + 1; // it was signed within this second
+            return request.now_s + 1; // the replaced one was made within this second
         }
     }
     return request.now_s;
 }
 
-/// Tabs part the fields of a trusted comment, and no control character gets into it.
+/// Tabs separate the fields of a trusted comment; `printable` removes control characters from the file's name.
 std::string signature_of(const SecretKey& key, std::span<const std::byte> bytes, std::uint64_t serial,
                          const std::filesystem::path& file) {
     return key.sign(bytes,
                     fmt::format("serial:{}\tfile:{}\thashed", serial, printable(file.filename().string())));
 }
 
-/// What is signed of a pack, and what was signed before.
+/// The bytes of a pack to sign, and its present signature.
 struct Signable {
     Bytes manifest;
     std::optional<std::string> before;
-    std::vector<std::string> missing; ///< what it should say, a sentence each
+    std::vector<std::string> missing; ///< facts that the pack should have, a sentence each
 };
 struct Signed {
     std::uint64_t serial = 0;
     std::vector<std::string> missing;
 };
 
-/// Refuses packs that the kiosk would refuse in spite of the signature.
+/// Refuses packs that the kiosk would refuse despite a signature.
 Result<Signable> read_sound(OpenFile file) {
     TRY(auto zip, pack_format::ZipReader::open(std::move(file)));
     TRY(Bytes manifest, pack_format::read_manifest_bytes(zip));
@@ -94,8 +94,8 @@ Result<Signable> read_sound(OpenFile file) {
 }
 
 Result<Signed> sign_pack(const SignRequest& request, const SecretKey& key, const std::string& file) {
-    TRY(OpenFile checked, OpenFile::open(file, pack_format::most_pack_bytes));
-    TRY(OpenFile copied, OpenFile::open(file, pack_format::most_pack_bytes));
+    TRY(OpenFile checked, OpenFile::open(file, pack_format::max_pack_bytes));
+    TRY(OpenFile copied, OpenFile::open(file, pack_format::max_pack_bytes));
     TRY(const Signable pack, at(file, read_sound(std::move(checked))));
     TRY(const std::uint64_t serial, at(file, serial_for(request, pack.before)));
     return write_with_signature(std::move(copied), signature_of(key, pack.manifest, serial, file), file)
@@ -104,7 +104,7 @@ Result<Signed> sign_pack(const SignRequest& request, const SecretKey& key, const
         });
 }
 
-/// Messages of the set file's own parser begin with the name that it has on a stick.
+/// Replaces the name on the stick, with which messages of the set file's parser begin, by the file's name.
 Error named(const std::string& file, Error error) {
     if (error.message.starts_with(exhibit_file_name)) {
         error.message.replace(0, exhibit_file_name.size(), file);
@@ -112,7 +112,7 @@ Error named(const std::string& file, Error error) {
     return error;
 }
 
-/// A kiosk's settings are told by their name, which they must have on the stick; any other *.toml is a set file.
+/// Checks a kiosk's settings, known by the file name that the stick requires; any other *.toml must be a set file.
 Result<void> check_sound(std::string_view text, const std::string& file) {
     if (std::filesystem::path(file).filename() == settings_file_name) {
         return parse_settings(text, file).map([](const CheckedSettings&) {});
@@ -122,11 +122,11 @@ Result<void> check_sound(std::string_view text, const std::string& file) {
 }
 
 Result<Signed> sign_text(const SignRequest& request, const SecretKey& key, const std::string& file) {
-    static_assert(most_stick_settings_bytes == most_exhibit_file_bytes);
-    TRY(const Bytes text, read_file(file, most_exhibit_file_bytes));
+    static_assert(max_stick_settings_bytes == max_exhibit_file_bytes);
+    TRY(const Bytes text, read_file(file, max_exhibit_file_bytes));
     TRY_VOID(check_sound(as_text(text), file));
     const std::string beside = file + ".minisig";
-    const Result<Bytes> before = read_file(beside, pack_format::most_signature_bytes);
+    const Result<Bytes> before = read_file(beside, pack_format::max_signature_bytes);
     TRY(const std::uint64_t serial,
         at(file, serial_for(request, before ? std::optional<std::string>(as_text(*before)) : std::nullopt)));
     return write_file(beside, as_bytes(signature_of(key, text, serial, file))).map([&] {

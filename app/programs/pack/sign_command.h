@@ -1,6 +1,6 @@
-/// frustumscreen-pack sign: signatures into packs, and beside set files and a kiosk's settings.
+/// frustumscreen-pack sign: writes signatures into packs, and beside set files and a kiosk's settings.
 ///
-/// Errors   one sentence, beginning with the file's name. A file that fails stays as it was, and the others are signed.
+/// Errors   one sentence, beginning with the file's name. A file that fails stays unchanged; the others are signed.
 /// Threads  one caller.
 #pragma once
 
@@ -18,10 +18,10 @@ struct SignRequest {
     std::vector<std::string> files; ///< packs; set files (*.toml); a kiosk's settings (kiosk.toml)
     std::filesystem::path key;
     std::optional<std::uint64_t> serial; ///< none: `now_s`
-    std::uint64_t now_s = 0;             ///< since 1970
+    std::uint64_t now_s = 0;             ///< seconds since 1970
     bool json = false;
 };
-/// The program's exit status.
+/// Returns the program's exit status.
 [[nodiscard]] int sign_files(const SignRequest& request);
 
 } // namespace frustumscreen

@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A pack of which all is right that was asked for.
+/// A pack that passed all requested checks.
 struct SoundPack {
     VerifiedPack pack;
     std::optional<SignatureClaim> claim; ///< none: unsigned
@@ -38,7 +38,7 @@ Result<std::vector<TrustedKey>> read_keys(const std::vector<std::filesystem::pat
     return keys;
 }
 
-/// Nothing of a pack is parsed before its signature was right, where there are keys.
+/// With keys, verifies the signature before anything else of the pack is parsed.
 Result<std::pair<pack_format::PackReader, std::string>> open_checked(OpenFile file,
                                                                      std::span<const TrustedKey> keys) {
     if (keys.empty()) {
@@ -58,7 +58,7 @@ Result<SoundPack> check(const std::string& file, std::span<const TrustedKey> key
     if (std::error_code none; std::filesystem::is_directory(file, none)) {
         return bad_input("verify.folder", file + ": this is a folder; name the *.fspack files in it");
     }
-    TRY(OpenFile opened, OpenFile::open(file, pack_format::most_pack_bytes));
+    TRY(OpenFile opened, OpenFile::open(file, pack_format::max_pack_bytes));
     TRY(auto reader, at(file, open_checked(std::move(opened), keys)));
     TRY(std::optional<SignatureClaim> claim, at(file, claim_of(reader.first)));
     Result<VerifiedPack> pack = read_pack(reader.first);

@@ -1,6 +1,6 @@
-/// frustumscreen-pack verify: are packs sound, and who signed them?
+/// frustumscreen-pack verify: checks packs and their signatures.
 ///
-/// Errors   one sentence for each pack, beginning with its name; the others are checked all the same.
+/// Errors   one sentence for each pack, beginning with its name; the other packs are still checked.
 /// Threads  one caller.
 #pragma once
 
@@ -12,13 +12,13 @@ namespace frustumscreen {
 
 struct VerifyRequest {
     std::vector<std::string> packs;
-    std::vector<std::filesystem::path> keys; ///< public keys; none: signatures are told and not checked
+    std::vector<std::filesystem::path> keys; ///< public keys; none: signatures are shown, not verified
     bool json = false;
 };
-/// The program's exit status: 1 if a pack is not sound, or not signed with one of the keys where there are keys.
+/// Returns the exit status: 1 if a pack is damaged or, with keys, is not signed with one of them.
 ///
-/// As JSON, a list of {file, sound, signed, reason (of a refused one), checked, key (its name, of a checked one), key_id, serial,
-/// trusted_comment}. With keys, `signed` is true only of signatures that are right.
+/// The JSON is a list of {file, sound, signed, reason (if refused), checked, key (its name, if checked), key_id,
+/// serial, trusted_comment}. With keys, `signed` is true only for valid signatures.
 [[nodiscard]] int verify_packs(const VerifyRequest& request);
 
 } // namespace frustumscreen

@@ -1,4 +1,4 @@
-/// Pieces of a page in HTML that needs no other file.
+/// Pieces of a self-contained HTML page.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -19,10 +19,10 @@ namespace frustumscreen {
 /// A text with its line breaks, escaped.
 [[nodiscard]] std::string html_lines(std::string_view text);
 
-/// What a content security policy names an inline script or style by: `'sha256-...'`.
+/// The name of an inline script or style in a content security policy: `'sha256-...'`.
 [[nodiscard]] std::string policy_hash(std::string_view content);
 
-/// Bytes in the units that a person reads.
+/// A size in units for people.
 [[nodiscard]] std::string bytes_in_words(std::size_t bytes);
 
 } // namespace frustumscreen

@@ -25,7 +25,7 @@ std::string reload_script_part() {
     return fmt::format("<script>{}</script>\n", page_reload_script());
 }
 
-/// What the style has to know of the sheet of pictures.
+/// The page's style with the rules that depend on the sheet of pictures.
 std::string style_of(const TurnPictures& turn) {
     return fmt::format(
         "{}#turn {{ aspect-ratio: {} / {}; --columns: {}; --rows: {}; --row-s: {:g}s; --turn-s: {:g}s; }}\n"
@@ -79,12 +79,12 @@ std::string turn_of(const PackDescription& pack, const TurnPictures& turn) {
         data_address("image/webp", encode_lossy_webp(turn.sheet, turn_quality)), marks, turn.frames - 1);
 }
 
-/// A row of a list of facts; nothing if there is nothing to say.
+/// A row of a list of facts; empty if `words` is.
 std::string fact(std::string_view name, std::string_view words) {
     return words.empty() ? std::string() : fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, xml_text(words));
 }
 
-/// The small picture by which visitors choose; nothing if the pack has none.
+/// The small picture by which visitors choose; empty if the pack has none.
 std::string table_picture_of(const Image8& picture) {
     return picture.texels.empty()
                ? std::string()
@@ -142,9 +142,9 @@ std::string warnings(const PreviewFacts& facts) {
         items.empty() ? "" : "<ul>\n" + items + "</ul>");
 }
 
-/// A text as it lies on the table. In the figure's caption stands what it is.
+/// A text as it lies on the table, with `what` as the figure's caption.
 std::string figure(const ProjectedText& text, const std::string& what) {
-    // All on one scale: the widest caption is as wide as its column. A table's cell, which has a label, has no width of its own.
+    // All texts have one scale: the widest caption is as wide as its column. A cell of a table has no width of its own.
     constexpr double usual_column_px = 560.0;
     const double share = std::min(1.0, text.size.x / widest_text_px());
     const std::string width =

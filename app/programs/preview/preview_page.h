@@ -1,8 +1,7 @@
-/// A pack as one HTML page: how it looks, what it says, how exact it is, and what was lost on the way. It is for the curator who
-/// made the pack.
+/// A pack as one HTML page for its curator: the artifact's look, its texts, its errors, and the losses of the bake.
 ///
-/// The page needs nothing else: pictures, sounds, style and script are in it, and its content security policy forbids it to load
-/// anything. All texts of the pack are escaped. Without scripts the artifact turns by itself.
+/// The page is self-contained: pictures, sounds, style and script are in it, and its content security policy forbids it
+/// to load anything. All texts of the pack are escaped. Without scripts the artifact turns by itself.
 ///
 /// Threads  pure; any.
 /// Errors   none.
@@ -19,7 +18,7 @@
 
 namespace frustumscreen {
 
-/// One level of detail, on the usual prop.
+/// One level of detail, on a prop of usual size.
 struct PreviewLevel {
     std::uint64_t triangles = 0;
     std::uint64_t bytes = 0;
@@ -27,9 +26,9 @@ struct PreviewLevel {
     double colour_rmse = 0.0; ///< 8-bit codes
 };
 
-/// What the bake found, in words where it is for reading.
+/// The bake's findings; those for reading are in words.
 struct PreviewFacts {
-    std::string pack_name; ///< the file's, without folders
+    std::string pack_name; ///< file name without folders
     std::uint64_t pack_bytes = 0;
     double seconds = 0.0;
     glm::dvec3 size_m{0.0};
@@ -46,13 +45,13 @@ struct PreviewMedia {
     std::vector<ProjectedLanguage> languages;
 };
 
-/// A page that is still being worked on loads itself again every two seconds.
+/// A page of a bake that is being watched reloads itself every two seconds.
 enum class PageKind : std::uint8_t { Final, Reloading };
 
 [[nodiscard]] std::string preview_page(const PackDescription& pack, const PreviewFacts& facts,
                                        const PreviewMedia& media, PageKind kind = PageKind::Final);
 
-/// A reloading page as it is once nobody works on it any more.
+/// The page as it remains after the watching: it does not reload itself.
 [[nodiscard]] std::string without_reloading(std::string page);
 
 } // namespace frustumscreen

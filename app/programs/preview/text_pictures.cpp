@@ -17,7 +17,7 @@ namespace {
 constexpr auto never = [] { return false; };
 constexpr double usual_texels_per_m = 2400.0;
 
-/// A kiosk's own, unless its settings have another type size.
+/// The style of a kiosk without a type size in its settings.
 TextStyle usual_style() {
     return {ExhibitSettings{}.caption_height_m, usual_texels_per_m};
 }
@@ -36,7 +36,7 @@ ProjectedText projected(std::string text, const Image<std::uint8_t>& coverage) {
     return {std::move(text), encode_webp(picture), {picture.width, picture.height}};
 }
 
-/// In the language itself; empty where there is none.
+/// The label in the language itself; empty if there is none.
 std::string label_in(const PackHotspot& hotspot, const std::string& language) {
     const auto found = std::find_if(hotspot.labels.begin(), hotspot.labels.end(),
                                     [&](const PackLabel& label) { return label.language == language; });
@@ -49,8 +49,9 @@ Result<ProjectedLanguage> language_of(const TextSource& source, const ArtifactTe
     made.caption = source.pack.captions[source.captions[language]];
     const Result<TextPictures> captions =
         draw_texts(source, texts, TextPart::Caption, language, usual_style(), never);
-    TRY(const TextPictures telling,
-        captions ? draw_texts(source, texts, TextPart::Telling, language, usual_style(), never) : captions);
+    TRY(const TextPictures narration_sequencer,
+        captions ? draw_texts(source, texts, TextPart::NarrationSequencer, language, usual_style(), never)
+                 : captions);
     made.title = projected(made.caption.title, captions->front());
     const std::size_t portions = texts.entry.descriptions[language].sizes_m.size();
     const std::vector<std::string> told = portions_of(made.caption.description);
@@ -60,12 +61,12 @@ Result<ProjectedLanguage> language_of(const TextSource& source, const ArtifactTe
     for (std::size_t k = 0; k < portions; ++k) {
         const bool is_attribution = has_attribution && k + 1 == portions;
         made.portions.push_back(
-            projected(is_attribution ? attribution : told[k], telling[portion_picture(k, 0)]));
+            projected(is_attribution ? attribution : told[k], narration_sequencer[portion_picture(k, 0)]));
     }
     made.ends_with_attribution = has_attribution;
     for (std::size_t k = 0; k < source.pack.hotspots.size(); ++k) {
         made.labels.push_back(projected(label_in(source.pack.hotspots[k], made.caption.language),
-                                        telling[label_picture(texts.entry, language, k)]));
+                                        narration_sequencer[label_picture(texts.entry, language, k)]));
     }
     TRY(made.sound, load_sound(source.file, made.caption.language, "description"));
     return made;

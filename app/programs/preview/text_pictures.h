@@ -1,8 +1,8 @@
 /// An artifact's texts and sounds as the kiosk shows and plays them, for the preview's page.
 ///
-/// Pictures are of the widest caption, at the usual type size, white on black; lossless WebP.
+/// Pictures have the widest caption's width, the usual type size, white on black; lossless WebP.
 ///
-/// Errors   as load_set_texts; no typeface where one is needed. Messages begin with the file's name.
+/// Errors   as load_set_texts; no typeface for a text that needs one. Messages begin with the file's name.
 /// Threads  one caller.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace frustumscreen {
 
-/// A text and how it looks on the table.
+/// A text and its picture as on the table.
 struct ProjectedText {
     std::string text;
     Bytes picture;      ///< none: the bake could not set it
@@ -30,14 +30,14 @@ struct ProjectedLanguage {
     ProjectedText title;                 ///< the title over the short text, the attribution below
     std::vector<ProjectedText> portions; ///< of the description, then the attribution
     bool ends_with_attribution = false;
-    std::vector<ProjectedText> labels; ///< of the hotspots, in their order
+    std::vector<ProjectedText> labels; ///< the hotspots' labels, in their order
     Bytes sound;                       ///< the description, Ogg Opus; none: it is silent
 };
 
-/// That a caption's lines may have.
+/// Largest width of a caption's lines, pixels.
 [[nodiscard]] double widest_text_px();
 
-/// One for each caption of the pack.
+/// Returns one for each caption of the pack.
 [[nodiscard]] Result<std::vector<ProjectedLanguage>>
 projected_texts(const std::filesystem::path& pack_file, const PackDescription& pack, double metres_per_box);
 

@@ -15,10 +15,10 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double used_share = 0.94; ///< of the picture that the prop's outline may reach to
+constexpr double used_share = 0.94; ///< share of the picture that the prop's outline may fill
 constexpr int rays_per_side = 2;
 
-/// As shipped, with the prop at the table's centre.
+/// The shipped settings, with the prop at the table's centre.
 constexpr std::string_view frustum_table = "[tracker]\nkind = \"none\"\n";
 constexpr std::string_view cube_table =
     "[projector]\nposition_m = [0.0, -0.9, 1.2]\naim_m = [0.0, 0.0, 0.06]\nfx = 4200.0\n"
@@ -57,7 +57,7 @@ VisitorScene visitor_scene(const Settings& settings, const Pinhole& projector) {
             {settings.table.width_m, settings.table.depth_m}};
 }
 
-/// One camera for all pictures, in which the prop's outline is as large as it can be.
+/// One camera for all pictures; the prop's outline is as large as it fits.
 VisitorCamera camera_for(const VisitorScene& scene, const std::vector<RigidTransform>& props,
                          const glm::ivec2& size) {
     VisitorCamera camera = visitor_camera(scene.prop, RigidTransform(), scene.eye_m, size.x, size.y);

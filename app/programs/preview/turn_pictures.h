@@ -1,8 +1,8 @@
-/// The artifact as a visitor sees it who turns the prop once around: pictures for the preview's page.
+/// Pictures for the preview's page: the artifact as seen by a visitor who turns the prop once around.
 ///
-/// The exhibit's renderer draws the projector's picture at the finest level, and the simulated eye sees the prop under it. A
-/// frustum stands at the centre of the usual table under the usual projector. A cube's sides get no light from straight above
-/// while it stands; for it, the projector hangs above the visitor's head.
+/// The exhibit's renderer draws the projector's picture at the finest level, and the simulated eye sees the prop under
+/// it. A frustum stands at the centre of the usual table under the usual projector. A standing cube's sides get no
+/// light from straight above, so for a cube the projector hangs above the visitor's head.
 ///
 /// Frames   table T, metres; places in a picture as shares of its width and height, from the top left.
 /// Errors   as load_pack; no OpenGL ES.
@@ -21,7 +21,7 @@
 
 namespace frustumscreen {
 
-/// Where a hotspot's point is seen; `seen` is false while its surface looks away from the visitor.
+/// A hotspot's place in a picture; `seen` is false while its surface faces away from the visitor.
 struct MarkPlace {
     double x = 0.0, y = 0.0;
     bool seen = false;
@@ -29,17 +29,17 @@ struct MarkPlace {
 
 /// A whole turn, counter-clockwise seen from above, in equal steps from the front.
 struct TurnPictures {
-    int columns = 1, rows = 1; ///< of the sheet
+    int columns = 1, rows = 1; ///< in the sheet
     int frames = 1;
-    glm::ivec2 size{0};                        ///< of one picture
+    glm::ivec2 size{0};                        ///< size of one picture
     Image8 sheet;                              ///< row by row
     std::vector<std::vector<MarkPlace>> marks; ///< by hotspot, by frame
 };
 
 struct TurnOptions {
-    int columns = 6, rows = 6; ///< a step is 360 degrees by their product
+    int columns = 6, rows = 6; ///< one step is 360 degrees / (columns x rows)
     glm::ivec2 size{600, 420};
-    int projected_width = 0; ///< of the projector's picture; 0: its own
+    int projected_width = 0; ///< width of the projector's picture; 0: the projector's own
     std::function<void(std::string_view step, double done)> progress = [](std::string_view, double) {};
 };
 

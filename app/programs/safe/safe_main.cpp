@@ -6,6 +6,7 @@
 #include "app/programs/safe/show_safe_picture.h"
 #include "app/safe/draw_safe_page.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +17,7 @@
 namespace frustumscreen {
 namespace {
 
-constexpr int least_side = 320, most_side = 8192;
+constexpr int min_side = 320, max_side = 8192;
 
 struct Size {
     int width = 1920, height = 1080;
@@ -30,11 +31,11 @@ std::string read_size(const std::string& text, Size& size) {
         const std::from_chars_result height = std::from_chars(width.ptr + 1, end, size.height);
         good = height.ec == std::errc{} && height.ptr == end;
     }
-    good = good && std::min(size.width, size.height) >= least_side &&
-           std::max(size.width, size.height) <= most_side;
+    good = good && std::min(size.width, size.height) >= min_side &&
+           std::max(size.width, size.height) <= max_side;
     return good ? std::string()
-                : fmt::format("'{}' is not a size; allowed are {} to {} pixels a side, such as 1280x800",
-                              text, least_side, most_side);
+                : fmt::format("'{}' is no size; allowed are {} to {} pixels a side, such as 1280x800", text,
+                              min_side, max_side);
 }
 
 Result<void> write_picture(const std::string& file, const Size& size, const SafeArguments& arguments) {
@@ -55,7 +56,7 @@ int run(int argc, char** argv) {
         "needs a graphics "
         "card's driver and nothing else: no settings, no packs, no OpenGL.",
         "frustumscreen-safe");
-    app.set_version_flag("--version", "frustumscreen-safe " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-safe"));
     SafeArguments arguments;
     arguments.languages = safe_languages();
     std::string png;

@@ -29,7 +29,7 @@ Result<void> say_alive(const std::filesystem::path& file, std::uint64_t shown) {
 }
 
 /// Reports to the service manager, and changes also to the journal.
-class Teller {
+class Narrator {
 public:
     void tell(std::string_view sentence) {
         const Sentence told(sentence);
@@ -61,7 +61,7 @@ std::string read_reason(const std::filesystem::path& file) {
 }
 
 Result<void> show_safe_picture(const SafeArguments& arguments) {
-    Teller teller;
+    Narrator narrator;
     std::unique_ptr<SafeScreen> screen;
     std::uint64_t shown = 0;
     for (MonotonicTime next = monotonic_now();; next = std::max(next + between_pictures, monotonic_now())) {
@@ -70,7 +70,7 @@ Result<void> show_safe_picture(const SafeArguments& arguments) {
             Result<std::unique_ptr<SafeScreen>> opened =
                 SafeScreen::open(arguments.card, arguments.languages);
             if (!opened) {
-                teller.tell(opened.error().message); // a card may appear, and another program may end
+                narrator.tell(opened.error().message); // a card may appear, and another program may end
             } else {
                 screen = *std::move(opened);
             }
@@ -80,12 +80,12 @@ Result<void> show_safe_picture(const SafeArguments& arguments) {
             TRY(const bool on, screen->show({read_reason(arguments.reason),
                                              std::chrono::floor<std::chrono::minutes>(since_boot())}));
             const Result<void> said = on ? say_alive(arguments.alive, ++shown) : Result<void>();
-            teller.tell(said ? screen->state() : said.error().message); // the picture continues in any case
+            narrator.tell(said ? screen->state() : said.error().message); // the picture continues in any case
             fed = on || !screen->lit(); // the watchdog must notice a lit projector that takes no pictures
         }
-        teller.ready();
+        narrator.ready();
         if (fed) {
-            teller.feed_watchdog();
+            narrator.feed_watchdog();
         }
     }
 }

@@ -57,7 +57,7 @@ void place(Canvas& canvas, const Image8& image, const glm::ivec2& corner, const 
 
 Result<Image8> room_picture(const Settings& settings, const SheetFrame& frame, const Typesetter& typesetter) {
     TRY(const Image8 picture, read_picture(frame, settings.projector.pinhole));
-    const VisitorScene scene = visitor_scene(settings, frame.situation, picture.width, picture.height);
+    const VisitorScene scene = visitor_scene(settings, frame.tracked_state, picture.width, picture.height);
     VisitorScene in_room = scene;
     const VisitorCamera bystander = room_camera(scene, room_tile);
     in_room.eye_m = bystander.table_from_camera.translation;

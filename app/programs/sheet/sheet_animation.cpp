@@ -17,7 +17,7 @@ constexpr double used_share = 0.90; ///< limit of the prop's extent in the pictu
 /// On scales to 100 and 6. Maximum effort takes ten times as long and saves almost nothing.
 constexpr float lossless_effort = 30.0F;
 constexpr int lossless_method = 3;
-constexpr int least_frame_ms = 20; ///< browsers slow down shorter frames
+constexpr int min_frame_ms = 20; ///< browsers slow down shorter frames
 constexpr int longest_frame_ms = 500;
 
 /// One camera for each frame: at its eye; all look at one place with one focal length.
@@ -27,20 +27,21 @@ std::vector<VisitorCamera> cameras_for(const Settings& settings, const std::vect
     RigidTransform middle;
     for (const SheetFrame& frame : frames) {
         middle.translation +=
-            frame.situation.table_from_prop.translation / static_cast<double>(frames.size());
+            frame.tracked_state.table_from_prop.translation / static_cast<double>(frames.size());
     }
     std::vector<VisitorCamera> cameras;
     double reach = 0.0; // distance of the farthest corner from the centre, in half pictures
     double focal_px = 1e30;
     for (const SheetFrame& frame : frames) {
-        cameras.push_back(visitor_camera(prop, middle, frame.situation.eye_m, options.width, options.height));
+        cameras.push_back(
+            visitor_camera(prop, middle, frame.tracked_state.eye_m, options.width, options.height));
         focal_px = std::min(focal_px, cameras.back().pinhole.fx);
     }
     for (std::size_t k = 0; k < frames.size(); ++k) {
         Pinhole& pinhole = cameras[k].pinhole;
         pinhole.fx = pinhole.fy = focal_px;
         const RigidTransform camera_from_prop =
-            cameras[k].table_from_camera.inverse() * frames[k].situation.table_from_prop;
+            cameras[k].table_from_camera.inverse() * frames[k].tracked_state.table_from_prop;
         for (const PropFace& face : prop.faces) {
             for (const glm::dvec3& corner : face.corners) {
                 if (const auto pixel = pinhole.pixel(camera_from_prop.point(corner))) {
@@ -122,8 +123,8 @@ private:
 
 int duration_ms(const std::vector<SheetFrame>& frames, std::size_t from, std::size_t to) {
     const Nanoseconds apart =
-        frames[std::max(from, to)].situation.time - frames[std::min(from, to)].situation.time;
-    return std::clamp(static_cast<int>(std::lround(std::min(1e3 * to_seconds(apart), 1e6))), least_frame_ms,
+        frames[std::max(from, to)].tracked_state.time - frames[std::min(from, to)].tracked_state.time;
+    return std::clamp(static_cast<int>(std::lround(std::min(1e3 * to_seconds(apart), 1e6))), min_frame_ms,
                       longest_frame_ms);
 }
 
@@ -137,7 +138,7 @@ Result<Bytes> visitor_animation(const Settings& settings, const std::vector<Shee
     for (std::size_t k = 0; k < frames.size(); ++k) {
         TRY(const Image8 picture, read_picture(frames[k], settings.projector.pinhole));
         const VisitorScene scene =
-            visitor_scene(settings, frames[k].situation, picture.width, picture.height);
+            visitor_scene(settings, frames[k].tracked_state, picture.width, picture.height);
         views.push_back(visitor_view(scene, picture, cameras[k], {true, 2, false}));
         progress(k + 1, frames.size());
     }

@@ -11,7 +11,7 @@ namespace frustumscreen {
 namespace {
 
 constexpr double behind_the_visitor = 4.5; ///< times the eye's distance from the prop
-constexpr double seen_share = 0.92;        ///< of the picture, from the table's legs to the projector
+constexpr double seen_share = 0.92;        ///< of the picture, filled from the table's legs to the projector
 
 /// Turns and zooms until the points fill at most `share` of the picture and are centred.
 void frame(VisitorCamera& camera, std::span<const glm::dvec3> points, const glm::dvec2& share) {

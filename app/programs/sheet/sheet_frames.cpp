@@ -83,10 +83,10 @@ bool looks_like(const SheetFrame& a, const SheetFrame& b) {
     constexpr double near_m = 0.02;
     constexpr double near_eye_m = 0.05;
     constexpr double near_deg = 8.0;
-    const RigidTransform& pose_a = a.situation.table_from_prop;
-    const RigidTransform& pose_b = b.situation.table_from_prop;
+    const RigidTransform& pose_a = a.tracked_state.table_from_prop;
+    const RigidTransform& pose_b = b.tracked_state.table_from_prop;
     return a.label == b.label && glm::distance(pose_a.translation, pose_b.translation) < near_m &&
-           glm::distance(a.situation.eye_m, b.situation.eye_m) < near_eye_m &&
+           glm::distance(a.tracked_state.eye_m, b.tracked_state.eye_m) < near_eye_m &&
            glm::degrees(rotation_angle(pose_a.rotation, pose_b.rotation)) < near_deg;
 }
 
@@ -163,14 +163,14 @@ Result<FrameFolder> read_frame_folder(const std::filesystem::path& folder, const
     for (FrameRecord& record : result.records) {
         record.artifact = !label.empty() ? label : record.artifact.empty() ? folder_name : record.artifact;
     }
-    for (const Situation& situation : pose_frames(samples, default_eye_m)) {
+    for (const TrackedState& tracked_state : pose_frames(samples, default_eye_m)) {
         const std::filesystem::path file = folder / fmt::format("frame_{:05}.png", result.frames.size());
         if (!std::filesystem::exists(file)) {
             break;
         }
         const std::string otherwise = label.empty() ? folder_name : label;
         result.frames.push_back(
-            {file, situation, label_of(result.records, to_microseconds(situation.time), otherwise)});
+            {file, tracked_state, label_of(result.records, to_microseconds(tracked_state.time), otherwise)});
     }
     if (result.frames.empty()) {
         return bad_input("sheet.no_frames", folder.string() +
@@ -220,13 +220,13 @@ Result<Image8> read_picture(const SheetFrame& frame, const Pinhole& projector) {
     return picture;
 }
 
-VisitorScene visitor_scene(const Settings& settings, const Situation& situation, int picture_width,
+VisitorScene visitor_scene(const Settings& settings, const TrackedState& tracked_state, int picture_width,
                            int picture_height) {
     return {settings.projector.pinhole.scaled_to(picture_width, picture_height),
             settings.projector.table_from_projector,
             make_prop(settings.prop),
-            situation.table_from_prop,
-            situation.eye_m,
+            tracked_state.table_from_prop,
+            tracked_state.eye_m,
             {settings.table.width_m, settings.table.depth_m}};
 }
 

@@ -7,7 +7,7 @@
 
 #include "app/settings/settings.h"
 #include "app/simulation/visitor_view.h"
-#include "app/tracking/situation.h"
+#include "app/tracking/tracked_state.h"
 #include "firmware_host/base/result.h"
 
 #include <filesystem>
@@ -25,14 +25,14 @@ struct FrameRecord {
     std::optional<double> estimated_error_mm; ///< nullopt: the frame shows no artifact
     bool drawn = true;
     std::string artifact; ///< empty if the file has no such column
-    std::string state;    ///< of the exhibit; empty as above
+    std::string state;    ///< the exhibit's; empty as above
     std::string told;     ///< narration next to the short text or in its place; empty as above
     std::string language; ///< empty as above
 };
 
 struct SheetFrame {
     std::filesystem::path picture;
-    Situation situation;
+    TrackedState tracked_state;
     std::string label;
 };
 
@@ -62,7 +62,7 @@ struct FrameFolder {
 [[nodiscard]] Result<Image8> read_picture(const SheetFrame& frame, const Pinhole& projector);
 
 /// The visitor's surroundings, for a picture of any size of the configured projector.
-[[nodiscard]] VisitorScene visitor_scene(const Settings& settings, const Situation& situation,
+[[nodiscard]] VisitorScene visitor_scene(const Settings& settings, const TrackedState& tracked_state,
                                          int picture_width, int picture_height);
 
 } // namespace frustumscreen

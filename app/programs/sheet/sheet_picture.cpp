@@ -66,10 +66,10 @@ Crop crop_of(const std::vector<std::array<glm::dvec2, 4>>& outlines, const Image
     return {(low + high) / 2.0 - size / 2.0, size};
 }
 
-std::string where(const Situation& situation) {
-    const glm::dvec3& prop = situation.table_from_prop.translation;
-    const glm::dvec3 ahead = situation.table_from_prop.direction({1.0, 0.0, 0.0});
-    const glm::dvec3 sight = situation.eye_m - prop;
+std::string where(const TrackedState& tracked_state) {
+    const glm::dvec3& prop = tracked_state.table_from_prop.translation;
+    const glm::dvec3 ahead = tracked_state.table_from_prop.direction({1.0, 0.0, 0.0});
+    const glm::dvec3 sight = tracked_state.eye_m - prop;
     const double elevation = std::atan2(sight.z, std::hypot(sight.x, sight.y));
     // Rounds to whole numbers, because a small negative value would be written as -0.
     return fmt::format("prop at {:+}, {:+} cm, turned {}\u00b0; eye {} cm away, {}\u00b0 up",
@@ -81,7 +81,7 @@ std::string where(const Situation& situation) {
 void draw_frame(Canvas& canvas, const Settings& settings, const SheetFrame& frame, const Image8& picture,
                 bool whole, const glm::ivec2& corner, const Typesetter& typesetter) {
     const Tiles& tiles = whole ? whole_table : around_prop;
-    const VisitorScene scene = visitor_scene(settings, frame.situation, picture.width, picture.height);
+    const VisitorScene scene = visitor_scene(settings, frame.tracked_state, picture.width, picture.height);
     std::vector<std::array<glm::dvec2, 4>> outlines = face_outlines(scene);
     const Crop crop =
         crop_of(whole ? std::vector<std::array<glm::dvec2, 4>>() : outlines, picture, tiles.projector);
@@ -103,8 +103,8 @@ void draw_frame(Canvas& canvas, const Settings& settings, const SheetFrame& fram
 
     const double baseline = corner.y + tiles.projector.y + 8.0;
     canvas.text(typesetter, frame.label, {corner.x, baseline}, 17.0, bright, {}, true);
-    canvas.text(typesetter, where(frame.situation), {right.x + tiles.visitor.x, baseline + 2.0}, 14.0, quiet,
-                {1.0, 0.0});
+    canvas.text(typesetter, where(frame.tracked_state), {right.x + tiles.visitor.x, baseline + 2.0}, 14.0,
+                quiet, {1.0, 0.0});
 }
 
 } // namespace

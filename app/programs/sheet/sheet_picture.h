@@ -19,7 +19,7 @@ namespace frustumscreen {
 
 struct SheetOptions {
     std::string title = "FrustumScreen";
-    int columns = 0;          ///< of frames; 0 = one for up to three frames, otherwise two
+    int columns = 0;          ///< frames in a row; 0: one for up to three frames, otherwise two
     bool whole_table = false; ///< the whole projected picture instead of the part around the prop
 };
 

@@ -17,7 +17,7 @@
 
 namespace frustumscreen {
 
-/// Whether a file of this name is temporary, from an editor or a copy: `.x`, `x~`, `#x#`, `x.part123`, `4913`
+/// True if a file of this name is temporary, from an editor or a copy: `.x`, `x~`, `#x#`, `x.part123`, `4913`
 /// and the like.
 [[nodiscard]] bool is_passing_name(std::string_view name);
 
@@ -32,7 +32,7 @@ public:
 
     /// Readable if there are events.
     [[nodiscard]] int descriptor() const { return descriptor_; }
-    /// Takes all events; returns whether a relevant change was among them.
+    /// Takes all events; returns true if a relevant change was among them.
     [[nodiscard]] Result<bool> take();
 
 private:

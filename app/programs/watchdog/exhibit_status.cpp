@@ -30,7 +30,7 @@ public:
             status.says.pictures += value;
         } else if (is("monotonic_ns")) {
             status.written_at =
-                MonotonicTime(Nanoseconds(static_cast<Nanoseconds::rep>(std::min(value, most_ns))));
+                MonotonicTime(Nanoseconds(static_cast<Nanoseconds::rep>(std::min(value, max_ns))));
         }
         return true;
     }
@@ -62,7 +62,7 @@ public:
 
 private:
     static constexpr int deepest = 16;
-    static constexpr std::uint64_t most_ns = std::uint64_t{1} << 62U;
+    static constexpr std::uint64_t max_ns = std::uint64_t{1} << 62U;
     [[nodiscard]] bool is(std::string_view name) const { return depth_ == 1 && key_ == name; }
 
     std::string key_;

@@ -27,7 +27,7 @@ std::string line_of(std::uint64_t number, const Fault& fault) {
 std::uint64_t latest_in(int descriptor) {
     std::uint64_t latest = 0;
     std::array<char, FaultBook::line_bytes> line{};
-    for (std::uint64_t k = 0; k < FaultBook::most_lines; ++k) {
+    for (std::uint64_t k = 0; k < FaultBook::max_lines; ++k) {
         if (::pread(descriptor, line.data(), line.size(), static_cast<off_t>(k * line.size())) !=
             std::ssize(line)) {
             break;
@@ -35,7 +35,7 @@ std::uint64_t latest_in(int descriptor) {
         std::uint64_t number = 0;
         const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
         const bool is_in_place =
-            error == std::errc{} && *end == ' ' && number > 0 && (number - 1) % FaultBook::most_lines == k;
+            error == std::errc{} && *end == ' ' && number > 0 && (number - 1) % FaultBook::max_lines == k;
         latest = is_in_place ? std::max(latest, number) : latest;
     }
     return latest;
@@ -56,10 +56,10 @@ void FaultBook::enter(Fault fault) {
         latest_.back().helped = false;
     }
     latest_.push_back(std::move(fault));
-    if (waiting_.size() > most_waiting) {
+    if (waiting_.size() > max_waiting) {
         waiting_.pop_front();
     }
-    if (latest_.size() > most_latest) {
+    if (latest_.size() > max_latest) {
         latest_.pop_front();
     }
 }
@@ -78,7 +78,7 @@ void FaultBook::keep(MonotonicTime now, bool at_once) {
     written_at_ = now;
     std::uint64_t number = next_ - waiting_.size();
     for (const std::string& line : waiting_) {
-        const auto place = static_cast<off_t>((number++ - 1) % most_lines * line_bytes);
+        const auto place = static_cast<off_t>((number++ - 1) % max_lines * line_bytes);
         if (::pwrite(descriptor_.number(), line.data(), line.size(), place) != std::ssize(line)) {
             return;
         }

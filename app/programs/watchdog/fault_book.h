@@ -1,9 +1,9 @@
 /// The log of faults and actions: the latest in memory, for the status; all of them in a ring on the disk,
 /// for later analysis.
 ///
-/// File     `most_lines` lines of `line_bytes`, padded with blanks, written in turn; each begins with its
+/// File     `max_lines` lines of `line_bytes`, padded with blanks, written in turn; each begins with its
 ///          number, which identifies the latest one. `sort -n` makes it readable.
-/// Writes   at most one a minute; further lines wait, at most `most_waiting`; beyond that the oldest are
+/// Writes   at most one a minute; further lines wait, at most `max_waiting`; beyond that the oldest are
 ///          lost.
 /// Threads  one caller; a write waits for the disk.
 /// Errors   none: a line that cannot be written stays in the queue.
@@ -32,9 +32,9 @@ struct Fault {
 class FaultBook {
 public:
     static constexpr std::size_t line_bytes = 256;
-    static constexpr std::uint64_t most_lines = 4096; ///< 1 MiB in all
-    static constexpr std::size_t most_waiting = 64;
-    static constexpr std::size_t most_latest = 16;
+    static constexpr std::uint64_t max_lines = 4096; ///< 1 MiB in all
+    static constexpr std::size_t max_waiting = 64;
+    static constexpr std::size_t max_latest = 16;
     static constexpr Nanoseconds between_writes = std::chrono::minutes(1);
 
     explicit FaultBook(const std::filesystem::path& file);

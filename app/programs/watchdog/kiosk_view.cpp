@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t most_status_bytes = 1 << 20;
-constexpr std::streamsize most_ends_bytes = 1 << 16; ///< per look; the rest follows at the next look
+constexpr std::uintmax_t max_status_bytes = 1 << 20;
+constexpr std::streamsize max_ends_bytes = 1 << 16; ///< per look; the rest follows at the next look
 constexpr double longest_end_s = 10.0; ///< from a crash until systemd has recorded the end of the process
 constexpr double full_disk = 0.03;
 constexpr double worn_disk = 0.8;
@@ -103,7 +103,7 @@ std::optional<bool> projector(const fs::path& root) {
     return connected;
 }
 
-/// Whether a JSON file has an object under this key, at any depth. Reads from one quotation mark to the next,
+/// True if a JSON file has an object under this key, at any depth. Reads from one quotation mark to the next,
 /// because the file may be larger than this program's memory limit.
 bool has_object(const fs::path& file, std::string_view key) {
     std::ifstream stream(file, std::ios::binary);
@@ -128,7 +128,7 @@ KioskView::KioskView(KioskPlaces places, std::string boot_id)
     : places_(std::move(places)), boot_id_(std::move(boot_id)) {}
 
 std::optional<ExhibitSays> KioskView::exhibit(MonotonicTime now) const {
-    const Result<Bytes> text = read_file(places_.root / places_.status, most_status_bytes);
+    const Result<Bytes> text = read_file(places_.root / places_.status, max_status_bytes);
     const std::optional<ExhibitStatus> status =
         text ? read_exhibit_status(as_text(*text)) : std::optional<ExhibitStatus>{};
     if (!status || status->boot_id != boot_id_) {
@@ -145,7 +145,7 @@ void KioskView::count_ends() {
     ends_read_ = size < ends_read_ ? 0 : ends_read_; // a new file
     stream.seekg(static_cast<std::streamoff>(ends_read_));
     std::string line;
-    for (std::streamsize read = 0; read < most_ends_bytes && std::getline(stream, line) && !stream.eof();) {
+    for (std::streamsize read = 0; read < max_ends_bytes && std::getline(stream, line) && !stream.eof();) {
         read += std::ssize(line) + 1;
         ends_read_ += line.size() + 1;
         if (const std::optional<ServiceEnd> end = parse_service_end(line); end && is_failure(*end)) {
@@ -192,7 +192,7 @@ Outcome KioskView::look(MonotonicTime now, std::chrono::system_clock::time_point
     return outcome;
 }
 
-Means KioskView::means() {
+Capabilities KioskView::capabilities() {
     const fs::path set = places_.root / places_.last_good;
     std::error_code missing;
     const fs::file_time_type changed = fs::last_write_time(set, missing);

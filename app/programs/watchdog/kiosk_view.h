@@ -39,7 +39,7 @@ public:
 
     [[nodiscard]] Outcome look(MonotonicTime now, std::chrono::system_clock::time_point wall_clock);
     /// All capabilities, except whether a reboot can be recorded.
-    [[nodiscard]] Means means();
+    [[nodiscard]] Capabilities capabilities();
     /// The latest end of the exhibit's process: `watchdog killed KILL`; empty: there was none.
     [[nodiscard]] const std::string& last_end() const { return last_end_; }
     /// The latest end as a clause for the staff, with the place of a crash; empty: there was none.

@@ -11,6 +11,7 @@
 #include "firmware_host/base/file.h"
 #include "firmware_host/base/local_time.h"
 #include "firmware_host/base/this_boot.h"
+#include "firmware_host/base/version.h"
 #include "firmware_host/service/journal.h"
 #include "firmware_host/service/service_manager.h"
 #include "firmware_host/service/stop_signals.h"
@@ -30,7 +31,7 @@ struct Arguments {
     std::filesystem::path run_folder = "/run/frustumscreen-watchdog";
     std::filesystem::path state_folder = "/var/lib/frustumscreen-watchdog";
     double start_patience_s = 60.0;
-    double seconds = 0.0; ///< 0: until it is told to stop
+    double seconds = 0.0; ///< 0: until it is stopped
     KioskPlaces places;
 };
 
@@ -56,12 +57,12 @@ public:
 
     void look(MonotonicTime now) {
         const Outcome outcome = view_.look(now, std::chrono::system_clock::now());
-        const Seen seen = judge_.look(now, ladder_.memory().mode, outcome);
-        Means means = view_.means();
-        means.reboot = memory_.can_write_now(now);
+        const Observation seen = judge_.look(now, ladder_.memory().mode, outcome);
+        Capabilities capabilities = view_.capabilities();
+        capabilities.reboot = memory_.can_write_now(now);
         const Awake awake = std::max(memory_.remembered(since_boot()).awake, ladder_.memory().awake);
         const bool was_in_episode = ladder_.memory().cause.has_value();
-        const std::optional<Act> act = ladder_.look(awake, seen, means);
+        const std::optional<LadderAction> act = ladder_.look(awake, seen, capabilities);
         if (was_in_episode && !ladder_.memory().cause && seen.lit && !seen.trouble) {
             faults_.note_good();
         }
@@ -75,7 +76,7 @@ public:
     }
 
 private:
-    void take(const Act& act, MonotonicTime now) {
+    void take(const LadderAction& act, MonotonicTime now) {
         const std::string_view cause = sentence_of(act.cause);
         faults_.enter({utc_text(std::chrono::system_clock::now()),
                        ladder_.memory().awake,
@@ -100,7 +101,7 @@ private:
         judge_.step_taken(now);
     }
 
-    void report(MonotonicTime now, const Seen& seen, const Outcome& outcome) {
+    void report(MonotonicTime now, const Observation& seen, const Outcome& outcome) {
         const WatchdogReport report{now,
                                     utc_text(std::chrono::system_clock::now()),
                                     boot_id_,
@@ -166,7 +167,7 @@ int run(int argc, char** argv) {
     CommandLine app("Watches what comes of the exhibit, and climbs the recovery ladder. A kiosk's service "
                     "manager starts it.",
                     "frustumscreen-watchdog");
-    app.set_version_flag("--version", "frustumscreen-watchdog " FRUSTUMSCREEN_VERSION);
+    app.set_version_flag("--version", name_and_version("frustumscreen-watchdog"));
     Arguments arguments;
     app.add_option("--run-folder", arguments.run_folder, "folder for its status and its orders")
         .capture_default_str();

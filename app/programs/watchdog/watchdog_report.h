@@ -17,11 +17,11 @@ struct WatchdogReport {
     std::string at; ///< by the wall clock, UTC
     std::string boot_id;
     LadderMemory memory;
-    Seen seen;
+    Observation seen;
     Nanoseconds trouble_for{0}; ///< duration of the current fault, if any
     std::size_t reboots_within_day = 0;
-    std::uint32_t failures = 0; ///< of the exhibit's process since the boot
-    std::string last_end;       ///< its latest end; empty: there was none
+    std::uint32_t failures = 0; ///< failures of the exhibit's process since the boot
+    std::string last_end;       ///< latest end of the process; empty: there was none
     std::vector<std::string> notes;
 };
 

@@ -15,13 +15,13 @@ namespace frustumscreen {
 
 namespace {
 
-/// What the header says of the picture.
+/// The picture's properties from its header.
 struct Header {
     std::int64_t width = 0;
     std::int64_t height = 0;
     std::int64_t bits = 0;   ///< a texel
-    std::uint64_t begin = 0; ///< of the texels, bytes
-    bool packed = false;     ///< in runs
+    std::uint64_t begin = 0; ///< offset of the texels
+    bool packed = false;     ///< run-length encoded
 };
 
 struct PixelsFree {
@@ -34,7 +34,7 @@ tl::unexpected<Error> damaged(const char* kind, const char* why) {
                      why);
 }
 
-/// Both the old header of 12 bytes and the later ones of 40 and more.
+/// Reads the old header of 12 bytes and the later ones of 40 and more.
 std::optional<Header> bmp_header(ByteView bytes) {
     constexpr std::size_t shortest = 26;
     if (bytes.size() < shortest) {
@@ -54,7 +54,7 @@ std::optional<Header> bmp_header(ByteView bytes) {
     }
     header.width = load_little<std::int32_t>(bytes, 18);
     header.height =
-        std::abs(std::int64_t{load_little<std::int32_t>(bytes, 22)}); // below 0: the top row first
+        std::abs(std::int64_t{load_little<std::int32_t>(bytes, 22)}); // negative: the top row comes first
     header.bits = load_little<std::uint16_t>(bytes, 28);
     const auto packing = load_little<std::uint32_t>(bytes, 30);
     header.packed = packing != 0 && packing != 3; // 3: plain, with masks
@@ -75,7 +75,7 @@ Header tga_header(ByteView bytes) {
     return header;
 }
 
-/// Whether the runs of a packed TGA reach to its last texel.
+/// True if the runs of a packed TGA extend to its last texel.
 bool runs_reach_the_end(ByteView bytes, const Header& header) {
     const auto texel_bytes = static_cast<std::uint64_t>((header.bits + 7) / 8);
     std::uint64_t left = static_cast<std::uint64_t>(header.width * header.height);
@@ -92,7 +92,7 @@ bool runs_reach_the_end(ByteView bytes, const Header& header) {
     return position <= bytes.size();
 }
 
-/// The library's picture, of the size that was checked before.
+/// Decodes with the library into a picture whose size was checked before.
 Result<Image8> unpack(const char* kind, ByteView bytes, const Header& header, std::int64_t limit_texels) {
     TRY(Image8 picture, blank_image(header.width, header.height, limit_texels));
     if (bytes.size() > std::size_t{std::numeric_limits<int>::max()}) {
@@ -142,7 +142,7 @@ bool is_tga(ByteView bytes) {
         return false;
     }
     const auto palette = load_little<std::uint8_t>(bytes, 1);
-    const unsigned kind = load_little<std::uint8_t>(bytes, 2) & ~8U; // 8: packed in runs
+    const unsigned kind = load_little<std::uint8_t>(bytes, 2) & ~8U; // 8: run-length encoded
     const auto bits = load_little<std::uint8_t>(bytes, 16);
     return palette <= 1 && load_little<std::uint8_t>(bytes, 2) < 16 && kind >= 1 && kind <= 3 &&
            (kind == 1) == (palette == 1) &&

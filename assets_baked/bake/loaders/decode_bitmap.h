@@ -1,11 +1,11 @@
 /// BMP and TGA pictures.
 ///
-/// A TGA file has no mark at its beginning: `is_tga` says that its header could be one, and that no other kind of
-/// picture begins so.
+/// A TGA file has no mark at its beginning: `is_tga` returns true if its header is a possible one and begins like no
+/// other kind of picture.
 ///
 /// Errors   damaged or truncated, more than `limit_texels`.
 /// Threads  pure; any.
-/// Library  stb_image. It takes what is cut off for black and trusts the sizes, so both are checked here first.
+/// Library  stb_image. It reads missing data as black and trusts the sizes, so both are checked here first.
 #pragma once
 
 #include "app/image/image.h"

@@ -22,7 +22,7 @@ bool begins_with(ByteView bytes, std::string_view magic) {
     return as_text(bytes).starts_with(magic);
 }
 
-/// Keeps only the chunks that make texels: colour notes must be ignored, and text need not be unpacked.
+/// Keeps only the chunks that make texels: colour profiles must be ignored, and text need not be unpacked.
 Bytes essential_png_chunks(ByteView png) {
     constexpr std::array kept = {std::string_view("IHDR"), std::string_view("PLTE"), std::string_view("tRNS"),
                                  std::string_view("IDAT"), std::string_view("IEND")};
@@ -73,7 +73,7 @@ struct JpegCloser {
     void operator()(void* handle) const { tjDestroy(handle); }
 };
 
-/// Some cameras leave padding before the end marker; every other warning of libjpeg means damage.
+/// Some cameras leave padding before the end marker; every other warning of libjpeg indicates damage.
 bool is_harmless(std::string_view warning) {
     return warning.find("extraneous bytes before marker 0xd9") != std::string_view::npos;
 }
@@ -138,7 +138,7 @@ Result<Image8> decode_image(ByteView bytes, std::int64_t limit_texels) {
     if (is_bmp(bytes)) {
         return decode_bmp(bytes, limit_texels);
     }
-    if (is_tga(bytes)) { // last: it has no certain mark
+    if (is_tga(bytes)) { // last, because it has no reliable mark
         return decode_tga(bytes, limit_texels);
     }
     return bad_input("picture.unknown_format",

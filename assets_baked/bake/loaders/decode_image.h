@@ -15,8 +15,8 @@
 namespace frustumscreen {
 
 /// A 16k texture; 1 GiB as RGBA.
-inline constexpr std::int64_t most_texture_texels = std::int64_t{1} << 28;
+inline constexpr std::int64_t max_texture_texels = std::int64_t{1} << 28;
 
-[[nodiscard]] Result<Image8> decode_image(ByteView bytes, std::int64_t limit_texels = most_texture_texels);
+[[nodiscard]] Result<Image8> decode_image(ByteView bytes, std::int64_t limit_texels = max_texture_texels);
 
 } // namespace frustumscreen

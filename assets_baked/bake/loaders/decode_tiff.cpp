@@ -22,7 +22,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "libtiff packs red into the lowest byte");
 
-/// What libtiff reads from, as if it were a file.
+/// The bytes that libtiff reads as if they were a file.
 struct Memory {
     ByteView bytes;
     std::uint64_t position = 0;
@@ -55,7 +55,7 @@ toff_t seek(thandle_t handle, toff_t offset, int whence) {
     const std::uint64_t from = whence == SEEK_CUR   ? memory.position
                                : whence == SEEK_END ? memory.bytes.size()
                                                     : 0;
-    memory.position = from + offset; // unsigned: a step back wraps around as it should
+    memory.position = from + offset; // unsigned: a step back wraps around correctly
     return memory.position;
 }
 
@@ -105,7 +105,7 @@ Tiff open_tiff(Memory& memory, std::int64_t limit_texels) {
                                   size_of_memory, nullptr, nullptr, options.get()));
 }
 
-/// Tells libtiff that no alpha needs multiplying into the colours; returns whether the file has done it.
+/// Tells libtiff not to multiply alpha into the colours; returns true if the file already has.
 bool keep_alpha_apart(TIFF* tiff) {
     std::uint16_t count = 0;
     const std::uint16_t* kinds = nullptr;
@@ -155,7 +155,7 @@ Result<Image8> decode_tiff(ByteView bytes, std::int64_t limit_texels) {
     TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height);
     TRY(Image8 picture, blank_image(width, height, limit_texels));
     const bool multiplied = keep_alpha_apart(tiff.get());
-    std::array<char, 1024> reason{}; // the length that libtiff asks for
+    std::array<char, 1024> reason{}; // the length that libtiff requires
     if (TIFFRGBAImageOK(tiff.get(), reason.data()) != 1) {
         memory.error = printable(reason.data(), 200);
         return damaged();

@@ -1,7 +1,7 @@
 /// TIFF pictures: the first of the file, 1 to 16 bits a channel, grey, palette, RGB, with or without alpha, in
 /// any packing that libtiff knows.
 ///
-/// Colour   codes as they are; alpha that was multiplied into the colours is taken out again.
+/// Colour   codes as stored; alpha that was multiplied into the colours is divided out.
 /// Errors   damaged or truncated, floating point, more than `limit_texels`.
 /// Threads  pure; any.
 /// Library  libtiff, with its messages caught and each of its allocations bounded.

@@ -6,10 +6,10 @@ namespace frustumscreen {
 
 namespace {
 
-/// The best packing seen in practice is some 20 faces a byte (a flat, regular grid); a much higher count is
+/// The best packing seen in practice is about 20 faces a byte (a flat, regular grid); a much higher count is
 /// false.
-constexpr std::uint64_t most_faces_per_byte = 1024;
-constexpr int most_metadata_levels = 8;
+constexpr std::uint64_t max_faces_per_byte = 1024;
+constexpr int max_metadata_levels = 8;
 
 class Cursor {
 public:
@@ -50,9 +50,9 @@ private:
 };
 
 void skip_metadata(Cursor& cursor, int level, const std::string& place) {
-    if (level > most_metadata_levels) {
+    if (level > max_metadata_levels) {
         refuse_damage("{}: the Draco stream's metadata are nested deeper than {} levels", place,
-                      most_metadata_levels);
+                      max_metadata_levels);
     }
     for (std::uint64_t entries = cursor.take_variable(); entries > 0; --entries) {
         cursor.skip(cursor.take<std::uint8_t>());
@@ -107,7 +107,7 @@ DracoCounts check_draco_stream(ByteView stream, const std::string& place) {
         counts.faces = cursor.take_variable();
         counts.points = cursor.take_variable();
     }
-    const std::uint64_t most = stream.size() * most_faces_per_byte;
+    const std::uint64_t most = stream.size() * max_faces_per_byte;
     if (counts.faces > most || counts.points > most) {
         refuse_contradiction("{}: the Draco stream of {} bytes claims {} faces and {} vertices", place,
                              stream.size(), counts.faces, counts.points);

@@ -1,5 +1,5 @@
-/// The numbers at the front of a Draco stream, read before the library sees it: the library allocates what a
-/// stream claims, so the claims are first compared with the stream's size.
+/// The counts at the front of a Draco stream. The library allocates as many elements as a stream claims, so the counts
+/// are compared with the stream's size before it sees the stream.
 ///
 /// Errors   throws Refusal.
 /// Source   Draco 3D Graphics, Bitstream Specification 2.2, "Header", "Metadata", "Connectivity".

@@ -1,6 +1,5 @@
-/// One accessor, read element by element straight from its bytes: strides, normalised integers and sparse
-/// replacements as in glTF 2.0, 3.6.2. Only what is asked for is unpacked, so a small file cannot make large
-/// arrays.
+/// One accessor, read element by element from its bytes: strides, normalised integers and sparse replacements as in
+/// glTF 2.0, 3.6.2. Only requested elements are unpacked, so that a small file cannot make large arrays.
 ///
 /// Lifetime  points into GltfBuffers.
 /// Errors    throws Refusal: an element that is not finite, sparse indices out of order.
@@ -28,17 +27,17 @@ public:
     [[nodiscard]] std::size_t components() const { return components_; }
     [[nodiscard]] ComponentType type() const { return type_; }
     [[nodiscard]] bool normalised() const { return normalised_; }
-    /// Elements come from data; without data a file may claim any number of zeros.
+    /// True if the elements come from data; without data a file may claim any number of zeros.
     [[nodiscard]] bool has_data() const { return !bytes_.empty() || numbers_ != nullptr; }
     [[nodiscard]] const std::string& place() const { return place_; }
 
-    /// Treats integers as fractions even where the file forgets to say so (colours, weights).
+    /// Treats integers as fractions even if the file does not mark them so (colours, weights).
     void normalise();
 
     [[nodiscard]] double value(std::size_t element, std::size_t component) const;
     [[nodiscard]] glm::dvec2 vec2(std::size_t element) const;
     [[nodiscard]] glm::dvec3 vec3(std::size_t element) const;
-    /// For unsigned types.
+    /// The element as an integer; for unsigned types.
     [[nodiscard]] std::uint32_t whole(std::size_t element, std::size_t component = 0) const;
 
 private:

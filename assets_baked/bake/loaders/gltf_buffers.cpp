@@ -59,7 +59,7 @@ bool is_plausible(const GltfMeshopt& meshopt) {
     }
 }
 
-/// Checks what the decoder and the filters would assert.
+/// Checks the conditions that the decoder and the filters assert.
 void check_form(const GltfMeshopt& meshopt, const std::string& place) {
     const std::size_t stride = meshopt.byte_stride;
     const bool attributes = meshopt.mode == MeshoptMode::Attributes;

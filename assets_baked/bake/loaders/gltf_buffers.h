@@ -24,8 +24,8 @@ public:
     [[nodiscard]] ByteView view(std::size_t index);
     /// Elements that a sparse accessor replaces, ascending.
     [[nodiscard]] const std::vector<std::uint32_t>& sparse_elements(std::size_t accessor);
-    /// Call this before `bytes` packed bytes are unpacked. Every packed byte may be used once, so that no
-    /// file can make us unpack the same ones again and again.
+    /// Call this before `bytes` packed bytes are unpacked. The budget allows each packed byte once, so that a file
+    /// cannot have the same bytes unpacked again and again.
     void spend_packed(std::uint64_t bytes, const std::string& place);
 
 private:

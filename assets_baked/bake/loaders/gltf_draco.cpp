@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// What the loader uses; normals and tangents are left packed.
+/// True for the attributes that the loader uses; normals and tangents stay packed.
 bool is_needed(std::string_view name) {
     return name == "POSITION" || name == "COLOR_0" || name.starts_with("TEXCOORD_") ||
            name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");

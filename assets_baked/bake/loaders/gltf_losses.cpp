@@ -15,7 +15,7 @@ std::size_t count(const GltfModel& model, const std::set<std::size_t>& materials
         materials.begin(), materials.end(), [&](std::size_t each) { return model.materials[each].*has; }));
 }
 
-/// Of the file's meshes, the most that a part of one has: its parts move together.
+/// The largest number of morph targets of a mesh's primitives, which move together, summed over the meshes.
 std::size_t morph_targets(const GltfModel& model) {
     std::size_t all = 0;
     for (const GltfMesh& mesh : model.meshes) {

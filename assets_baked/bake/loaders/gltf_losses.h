@@ -1,5 +1,5 @@
-/// What a glTF file has and the exhibit does not show: maps of normals and of occlusion, light of its own, movement.
-///
+/// Contents of a glTF file that the exhibit does not show: normal maps, occlusion maps, emission, movement.
+/// Counts   materials of the drawn primitives; animations and morph targets of the whole file.
 /// Counts   materials of the parts that are drawn; animations and morph targets of the whole file.
 /// Threads  values; any.
 #pragma once

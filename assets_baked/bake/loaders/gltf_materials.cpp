@@ -27,7 +27,7 @@ std::uint32_t GltfMaterials::material(std::optional<std::size_t> index) {
 }
 
 void GltfMaterials::cut_or_fill(SourceMaterial& material, std::size_t index) {
-    constexpr double most_between = 0.1; // of the texels, at the edges of what is cut out
+    constexpr double most_between = 0.1; // share of the texels, at cut edges
     std::size_t clear = 0;
     std::size_t between = 0;
     const Image8* picture = material.texture < 0 ? nullptr : mesh_.texture(material.texture).image.get();

@@ -1,6 +1,6 @@
-/// A glTF file's materials and pictures in the mesh, made when a primitive first needs them.
+/// The materials and pictures of a glTF file, added to the mesh when a primitive first needs them.
 ///
-/// BLEND    a picture whose alpha is all or nothing is cut out as with MASK; any other is shown opaque, and told.
+/// BLEND    a picture with an alpha of only 0 and 1 is cut as with MASK; any other is shown opaque, with a note.
 /// Errors   throws Refusal.
 #pragma once
 
@@ -22,7 +22,7 @@ public:
                   MeshAssembly& mesh)
         : model_(model), buffers_(buffers), pictures_(pictures), notes_(notes), mesh_(mesh) {}
 
-    /// The mesh's number of the file's material; without an index glTF's default material.
+    /// The mesh's number for a material of the file; without an index, glTF's default material.
     std::uint32_t material(std::optional<std::size_t> index);
 
 private:

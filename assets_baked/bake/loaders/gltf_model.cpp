@@ -10,8 +10,8 @@ namespace frustumscreen {
 
 namespace {
 
-/// Extensions that are followed, and those that change neither shape nor base colour: a file that requires
-/// one of the latter is still shown correctly here.
+/// Supported extensions, and those that change neither shape nor base colour: a file that requires one of the latter is
+/// still shown correctly.
 constexpr std::array known_extensions = {
     std::string_view("KHR_draco_mesh_compression"),
     std::string_view("EXT_meshopt_compression"),

@@ -1,5 +1,5 @@
-/// A glTF 2.0 document as typed values: every member's type, range and reference is checked here, once, so
-/// that what follows may index freely. Bytes are not touched.
+/// A glTF 2.0 document as typed values. The type, range and reference of every member are checked once, here, so that
+/// later code may index without checks. Bytes are not read.
 ///
 /// Frames   node transforms are parent_from_node.
 /// Errors   throws Refusal naming the JSON place.
@@ -23,7 +23,7 @@ namespace frustumscreen {
 struct GltfBuffer {
     std::optional<std::string> uri; ///< none: the GLB's binary chunk
     std::uint64_t byte_length = 0;
-    bool fallback = false; ///< EXT_meshopt_compression: a place for decoded data, may have none
+    bool fallback = false; ///< EXT_meshopt_compression: a buffer for decoded data, which may have no bytes
 };
 
 enum class MeshoptMode { Attributes, Triangles, Indices };
@@ -106,9 +106,9 @@ struct GltfMaterial {
     float alpha_cutoff = 0.5F;
     bool blends = false; ///< alphaMode BLEND
     bool unlit = false;  ///< KHR_materials_unlit
-    /// Base colour and texture are the material's own light: it has no other colour.
+    /// Base colour and texture are the material's emission, because it has no other colour.
     bool emission_is_colour = false;
-    bool normal_map = false; ///< these three are not shown (gltf_losses.h)
+    bool normal_map = false; ///< these three maps are not shown (gltf_losses.h)
     bool occlusion_map = false;
     bool emits = false;
 };
@@ -133,7 +133,7 @@ struct GltfPrimitive {
 
 struct GltfMesh {
     std::vector<GltfPrimitive> primitives;
-    std::vector<double> weights; ///< of morph targets
+    std::vector<double> weights; ///< weights of the morph targets
 };
 
 struct GltfNode {
@@ -141,10 +141,10 @@ struct GltfNode {
     std::optional<std::size_t> mesh;
     std::optional<std::size_t> skin;
     glm::dmat4 parent_from_node{1.0};
-    std::vector<double> weights; ///< empty: the mesh's
+    std::vector<double> weights; ///< empty: those of the mesh
     GltfAttributes
         instances;       ///< TRANSLATION, ROTATION, SCALE of EXT_mesh_gpu_instancing; empty: the mesh once
-    bool visible = true; ///< KHR_node_visibility, of the node and all below it
+    bool visible = true; ///< KHR_node_visibility, for the node and its descendants
 };
 
 struct GltfSkin {
@@ -165,16 +165,16 @@ struct GltfModel {
     std::vector<GltfSkin> skins;
     std::size_t animations = 0;
     std::vector<std::string> variants;           ///< KHR_materials_variants: their names
-    std::vector<std::string> unknown_extensions; ///< in use, and may change what is shown
-    /// Roots of the default scene, else of scene 0; nothing if the file has no scenes.
+    std::vector<std::string> unknown_extensions; ///< used by the file, and possibly relevant for the picture
+    /// Roots of the default scene, otherwise of scene 0; nothing if the file has no scenes.
     std::optional<std::vector<std::size_t>> scene_roots;
 };
 
 [[nodiscard]] GltfModel gltf_model_from(const JsonPlace& document);
 
-/// The parts about colour (gltf_surface.cpp).
+/// Reads the parts about colour (gltf_surface.cpp).
 void read_surface(const JsonPlace& document, GltfModel& model);
-/// The parts about placement (gltf_nodes.cpp).
+/// Reads the parts about placement (gltf_nodes.cpp).
 void read_nodes(const JsonPlace& document, GltfModel& model);
 
 [[nodiscard]] std::size_t size_of(ComponentType type);

@@ -11,8 +11,8 @@ namespace {
 constexpr std::uint64_t mode_triangles = 4;
 constexpr std::uint64_t mode_strip = 5;
 constexpr std::uint64_t mode_fan = 6;
-/// A sparse accessor may replace values of an all-zero array; a genuine one is not larger than this.
-constexpr std::size_t most_positions_without_data = std::size_t{1} << 20U;
+/// Largest size of an array without data. A sparse accessor may replace some of its zeros; genuine ones are smaller.
+constexpr std::size_t max_positions_without_data = std::size_t{1} << 20U;
 
 bool is_small_integer(ComponentType type) {
     return type != ComponentType::F32 && type != ComponentType::U32;
@@ -35,7 +35,7 @@ void check_position(const GltfPrimitive& primitive, const GltfAttribute& positio
     expect(primitive, "POSITION", position, fits,
            quantised ? "three floats or small integers"
                      : "three floats (integers need KHR_mesh_quantization in extensionsUsed)");
-    if (!position.has_data() && position.count() > most_positions_without_data) {
+    if (!position.has_data() && position.count() > max_positions_without_data) {
         refuse_contradiction("{}.attributes.POSITION: {} declares {} positions without data", primitive.place,
                              position.place(), position.count());
     }

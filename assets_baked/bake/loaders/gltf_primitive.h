@@ -17,7 +17,7 @@
 
 namespace frustumscreen {
 
-/// Where one instance of a mesh goes.
+/// The placement of one instance of a mesh.
 struct GltfPlacement {
     glm::dmat4 scene_from_mesh{1.0};
     /// For a skin, one for each joint; then scene_from_mesh is not used (glTF 2.0, 3.7.3.3).
@@ -34,7 +34,7 @@ public:
         : model_(model), buffers_(buffers), mesh_(mesh), material_of_(std::move(material_of)) {}
 
     void draw(const GltfPrimitive& primitive, const GltfPlacement& placement);
-    /// The number from its accessors' counts, before any data are touched.
+    /// Number of triangles from the accessors' counts, before any data are read.
     [[nodiscard]] std::size_t declared_triangles(const GltfPrimitive& primitive) const;
 
 private:

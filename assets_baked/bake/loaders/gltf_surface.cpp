@@ -88,7 +88,7 @@ void read_colour(const JsonPlace& place, const char* factor_key, const char* tex
     }
 }
 
-/// The factor is black unless it is given, whatever the map.
+/// The emission; its factor is black by default, even with a map.
 glm::vec4 emission_of(const JsonPlace& place) {
     glm::vec4 light(0.0F, 0.0F, 0.0F, 1.0F);
     if (const auto factor = place.find("emissiveFactor")) {
@@ -104,7 +104,7 @@ bool is_black(const glm::vec4& colour) {
     return glm::vec3(colour) == glm::vec3(0.0F);
 }
 
-/// Exporters of shadeless materials write the colour as the material's own light, over a black surface or one without a picture.
+/// Exporters of shadeless materials write the colour as emission, over a black surface or one without a picture.
 void read_emission(const JsonPlace& place, const GltfModel& model, GltfMaterial& material) {
     const glm::vec4 emission = emission_of(place);
     const std::optional<JsonPlace> texture = place.find("emissiveTexture");
@@ -119,7 +119,7 @@ void read_emission(const JsonPlace& place, const GltfModel& model, GltfMaterial&
 
 GltfMaterial material_from(const JsonPlace& place, const GltfModel& model) {
     GltfMaterial material;
-    // The older workflow is still common in museums' downloads; its diffuse colour comes nearest to a base
+    // The older workflow is still common in museums' downloads; its diffuse colour is closest to a base
     // colour.
     if (const auto glossiness = extension_of(place, "KHR_materials_pbrSpecularGlossiness")) {
         read_colour(*glossiness, "diffuseFactor", "diffuseTexture", model, material);
@@ -140,8 +140,8 @@ GltfMaterial material_from(const JsonPlace& place, const GltfModel& model) {
 } // namespace
 
 glm::dvec2 GltfTextureUse::transformed(const glm::dvec2& uv) const {
-    // Scale, then turn counter-clockwise as seen with v downwards, then shift: the extension's text, its
-    // example and its test model say so; its GLSL code turns the other way.
+    // Scale, then turn counter-clockwise as seen with v downwards, then shift, as in the extension's text, example and
+    // test model; its GLSL code turns the other way.
     const double c = std::cos(rotation);
     const double s = std::sin(rotation);
     const glm::dvec2 scaled = uv * scale;

@@ -62,7 +62,7 @@ JsonPlace JsonPlace::operator[](std::size_t i) const {
 }
 
 std::uint64_t JsonPlace::whole(std::uint64_t least, std::uint64_t most) const {
-    // Some writers write 4.0 for 4.
+    // Some exporters write 4.0 for 4.
     const double value = value_->is_number() ? value_->get<double>() : -0.5;
     if (value != std::floor(value)) {
         refuse_type("a whole number");

@@ -1,8 +1,8 @@
-/// A JSON value together with its place, so that every refusal can say where: `accessors[3].bufferView: 7 is
-/// out of range, the file has 4`.
+/// A JSON value with its place, so that every refusal names the place: `accessors[3].bufferView: 7 is out of range, the
+/// file has 4`.
 ///
 /// Lifetime  a JsonPlace points into the document it came from.
-/// Errors    throws Refusal for a missing member, a wrong type, a number outside what is allowed.
+/// Errors    throws Refusal for a missing member, a wrong type, a number outside the allowed range.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -33,7 +33,7 @@ public:
     [[nodiscard]] JsonPlace operator[](std::size_t i) const;
 
     [[nodiscard]] std::uint64_t whole(std::uint64_t least = 0, std::uint64_t most = largest_whole) const;
-    /// A reference into an array of `size` things.
+    /// A reference into an array of `size` elements.
     [[nodiscard]] std::size_t index_into(std::size_t size) const;
     [[nodiscard]] double number() const;
     /// Exactly `count` numbers (any count if 0).

@@ -9,7 +9,7 @@
 
 namespace frustumscreen {
 
-/// `path` names the model in messages; files beside it are read as it names them.
+/// `path` names the model in messages; its side files are read from the disk.
 [[nodiscard]] Result<SourceMesh> load_mesh_bytes(ByteView file, const std::filesystem::path& path,
                                                  const LoadOptions& options = {});
 

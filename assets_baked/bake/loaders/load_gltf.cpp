@@ -29,7 +29,7 @@ constexpr std::size_t glb_chunk_header_size = 8;
 constexpr std::uint32_t glb_chunk_json = 0x4E4F534A;
 constexpr std::uint32_t glb_chunk_binary = 0x004E4942;
 
-/// GLB: a header, a JSON chunk, a binary chunk, perhaps others (glTF 2.0, 4).
+/// Splits a GLB: a header, a JSON chunk, a binary chunk, possibly others (glTF 2.0, 4).
 Container split_glb(ByteView file) {
     if (file.size() < glb_header_size + glb_chunk_header_size) {
         const bool has_version = file.size() >= 8;
@@ -87,7 +87,7 @@ nlohmann::json parse_json(std::string_view text) {
     }
 }
 
-/// Nodes that are nobody's child. A node with two parents is refused.
+/// Nodes without a parent. Refuses a node with two parents.
 std::vector<std::size_t> root_nodes(const GltfModel& model) {
     std::vector<std::optional<std::size_t>> parent(model.nodes.size());
     for (std::size_t i = 0; i < model.nodes.size(); ++i) {
@@ -111,8 +111,8 @@ std::vector<std::size_t> root_nodes(const GltfModel& model) {
 
 enum class Nodes { All, Visible };
 
-/// Every node below `roots`, parents first; without those that the file hides, and all below them, if visible ones are asked for. As each
-/// node has one parent, nodes that no root reaches form a cycle.
+/// Every node below `roots`, parents first; for visible nodes, without hidden ones and their descendants. Since each
+/// node has at most one parent, nodes that no root reaches form a cycle.
 std::vector<std::size_t> nodes_below(const GltfModel& model, const std::vector<std::size_t>& roots,
                                      Nodes nodes = Nodes::All) {
     std::vector<bool> seen(model.nodes.size(), false);
@@ -210,7 +210,7 @@ public:
     }
 
 private:
-    /// Meshes may be drawn by any number of nodes; too much is refused before memory is spent on it.
+    /// Any number of nodes may draw a mesh; refuses too many triangles before memory is allocated.
     void check_size(const std::vector<std::size_t>& drawn) const {
         std::vector<std::size_t> triangles;
         for (const GltfMesh& mesh : model_.meshes) {
@@ -224,13 +224,13 @@ private:
         for (const std::size_t node : drawn) {
             const std::size_t once = model_.nodes[node].mesh ? triangles[*model_.nodes[node].mesh] : 0;
             const std::size_t times = instances_of(model_.nodes[node]);
-            total += once > 0 && times > most_triangles / once ? most_triangles + 1 : once * times;
-            if (total > most_triangles) {
+            total += once > 0 && times > max_triangles / once ? max_triangles + 1 : once * times;
+            if (total > max_triangles) {
                 refuse("mesh.gltf_too_many_triangles",
                        "it has more than {} triangles; simplify it first, for instance in MeshLab (at "
                        "nodes[{}], parts that "
                        "are used again counted again)",
-                       most_triangles, node);
+                       max_triangles, node);
             }
         }
     }
@@ -239,7 +239,7 @@ private:
         return node.instances.empty() ? 1 : model_.accessors[node.instances.begin()->second].count;
     }
 
-    /// EXT_mesh_gpu_instancing: the mesh once for each row of the attributes.
+    /// EXT_mesh_gpu_instancing: draws the mesh once for each row of the attributes.
     void draw_instances(const GltfNode& node, const GltfMesh& mesh, const GltfPlacement& node_placement) {
         const auto attribute = [&](std::string_view name,
                                    std::size_t components) -> std::optional<GltfAttribute> {
@@ -324,9 +324,9 @@ private:
     GltfBuffers& buffers_;
     LoadNotes& notes_;
     bool has_points_ = false;
-    std::set<std::size_t> materials_; ///< of what is drawn
+    std::set<std::size_t> materials_; ///< materials of the drawn primitives
     MeshAssembly mesh_{'y'};
-    std::map<std::size_t, std::vector<glm::dmat4>> joints_; ///< of each skin
+    std::map<std::size_t, std::vector<glm::dmat4>> joints_; ///< transforms of each skin's joints
     GltfMaterials surfaces_;
     GltfPrimitives primitives_;
 };

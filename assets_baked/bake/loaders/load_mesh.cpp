@@ -39,8 +39,8 @@ std::string lower_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-/// The content decides first, because a file may have been renamed. STL and OBJ have no certain mark, so
-/// there the extension decides.
+/// The content decides first, because a file may have been renamed. STL and OBJ have no reliable mark, so for them the
+/// extension decides.
 Format format_of(ByteView file, const std::filesystem::path& path) {
     std::string_view head =
         as_text(file.subspan(0, std::min<std::size_t>(file.size(), std::size_t{64} * 1024)));
@@ -91,7 +91,7 @@ SourceMesh read(ByteView file, const std::filesystem::path& path, ModelFiles& fi
     }
 }
 
-/// Puts the curator's own picture on a model that names none.
+/// Applies the curator's own picture to a model that names none.
 void wear_curators_picture(SourceMesh& mesh, PictureStore& pictures) {
     if (!mesh.textures.empty()) {
         return;
@@ -114,7 +114,7 @@ SourceMesh load(ByteView file, const std::filesystem::path& path, const LoadOpti
     if (files.pictures.has_curators()) {
         wear_curators_picture(mesh, files.pictures);
         if (!files.pictures.used_curators()) {
-            (void)files.pictures.curators(); // a wrong name is an error all the same
+            (void)files.pictures.curators(); // a wrong name is still an error
             files.notes.guessed("its own pictures are all there; {} is not used", options.texture.string());
         }
     }
@@ -127,7 +127,7 @@ SourceMesh load(ByteView file, const std::filesystem::path& path, const LoadOpti
     return mesh;
 }
 
-/// Names from the file may hold anything, but an error is one printable line.
+/// Makes an error one printable line, because names from the file may contain any bytes.
 std::string one_line(std::string message) {
     constexpr std::size_t most = 500;
     for (char& c : message) {

@@ -1,4 +1,4 @@
-/// What the readers of one model lost or guessed, for the curator.
+/// Losses and guesses while a model is read, for the curator.
 ///
 /// Threads  values; any.
 #pragma once
@@ -26,7 +26,7 @@ public:
     [[nodiscard]] std::vector<SourceNote> take() { return std::move(notes_); }
 
 private:
-    /// The same is said once; a file that could fill pages is cut.
+    /// Keeps equal notes once, and at most 20 notes.
     void add(SourceNote note) {
         constexpr std::size_t most = 20;
         const bool is_known = std::any_of(notes_.begin(), notes_.end(),

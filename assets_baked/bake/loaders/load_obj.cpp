@@ -19,7 +19,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Keywords that change nothing of what is shown, and those of curves, which their `curv` and `surf` stand for.
+/// True for keywords without effect on the picture, and for those of curves, which `curv` and `surf` report.
 bool is_passed_over(std::string_view keyword) {
     static constexpr std::array keywords = {"",       "g",          "o",         "s",     "mg",    "vn",
                                             "vp",     "cstype",     "deg",       "bmat",  "step",  "parm",
@@ -64,7 +64,7 @@ private:
         }
     }
 
-    /// A backslash at the end joins a line with the next one.
+    /// The next line; a backslash at its end joins it with the following one.
     std::string_view next_line() {
         joined_.clear();
         while (true) {
@@ -142,7 +142,7 @@ private:
         }
     }
 
-    /// In the file 1 is the first and -1 the last so far; the result is below `size`.
+    /// The file counts from 1, or backwards from -1, the latest; the result is below `size`.
     std::uint32_t index_from(std::string_view word, std::size_t size, const char* what) {
         const std::optional<std::int64_t> number = whole_from(word);
         if (!number) {
@@ -223,13 +223,13 @@ private:
     MeshAssembly mesh_{'y'};
     ObjMaterials materials_;
     std::string material_;
-    std::size_t faces_without_area_ = 0;    ///< of fewer than three corners
-    std::size_t points_lines_surfaces_ = 0; ///< elements that are no faces
-    std::size_t corners_at_0_ = 0;          ///< whose texture coordinate has the number 0
+    std::size_t faces_without_area_ = 0;    ///< faces of fewer than three corners
+    std::size_t points_lines_surfaces_ = 0; ///< elements that are not faces
+    std::size_t corners_at_0_ = 0;          ///< corners whose texture coordinate has the number 0
     std::set<std::string> unknown_;         ///< keywords
     std::vector<glm::dvec3> positions_;
     std::vector<glm::dvec2> uvs_;
-    std::vector<glm::vec4> colours_; ///< codes of the first positions, as written; there may be fewer of them
+    std::vector<glm::vec4> colours_; ///< codes of the first positions, as written; may be fewer
     std::unordered_map<std::uint64_t, std::uint32_t> vertices_;
     std::vector<std::uint32_t> corners_;
     std::vector<glm::dvec3> points_;

@@ -1,12 +1,13 @@
 /// Wavefront OBJ with its .mtl: polygons of any size, negative indices, colours written after the
 /// coordinates, base colour (Kd) and its picture (map_Kd). Points, lines and free-form curves are left out.
 ///
-/// Frame    the file's; up is y. v is turned over: 0 at the picture's top row.
-/// Colour   of materials: obj_materials.h. Vertex colours are sRGB in 0..1, or in 0..255 where one of the file is above 1.
+/// Frame    the file's; up is y. v is flipped: 0 at the picture's top row.
+/// Colour   of materials: obj_materials.h. Vertex colours are sRGB in 0..1, or in 0..255 if one of the file's is above
+///          1.
 /// Errors   throws Refusal naming the line. Without its .mtl the model is white, which is noted; a missing
 ///          picture is refused.
-/// Library  geometry is read here: tinyobjloader takes an unreadable number for 0, cuts polygons at 255 corners, drops colours with callbacks, and does not say in which line
-///          it failed.
+/// Library  geometry is read here: tinyobjloader reads an invalid number as 0, cuts polygons at 255 corners, drops
+///          colours with callbacks, and does not name the line of an error.
 #pragma once
 
 #include "assets_baked/bake/loaders/bytes.h"

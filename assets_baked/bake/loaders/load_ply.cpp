@@ -17,7 +17,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// A colour's code in 0..1; floating-point numbers as they are written, which may be in 0..255.
+/// A colour's code in 0..1; a floating-point number as written, which may be in 0..255.
 double code_from(double value, PlyType type) {
     switch (type) {
     case PlyType::F32:
@@ -55,7 +55,7 @@ public:
         files_.about = header_.about;
         for (const PlyElement& element : header_.elements) {
             if (element.properties.empty()) {
-                continue; // it has no data, whatever its count
+                continue; // an element without data, whatever its count
             }
             if (element.name == "vertex") {
                 read_vertices(element);
@@ -186,7 +186,7 @@ private:
         }
     }
 
-    /// The list of a face's corners; the number of properties if there is none.
+    /// Index of the property with a face's corners; the number of properties if there is none.
     static std::size_t corner_list_of(const PlyElement& element) {
         const auto is_named = [](const PlyProperty& property) {
             std::string name = property.name;
@@ -245,10 +245,10 @@ private:
         }
     }
 
-    /// Polygons are kept until the vertices are known, because faces may come first.
+    /// Keeps polygons until the vertices are known, because faces may come first.
     void add_polygon(const std::vector<std::int64_t>& corners, std::uint64_t row) {
         for (const std::int64_t corner : corners) {
-            if (corner < 0 || corner >= static_cast<std::int64_t>(most_source_vertices)) {
+            if (corner < 0 || corner >= static_cast<std::int64_t>(max_source_vertices)) {
                 refuse_contradiction("face {}: vertex {} is out of range", row, corner);
             }
             corners_.push_back(static_cast<std::uint32_t>(corner));

@@ -2,11 +2,11 @@
 /// polygons cut into triangles, Stanford's triangle strips. Elements and properties with other names are
 /// skipped.
 ///
-/// Frame    the file's; up is y. Texture coordinates are turned over: 0 at the picture's top row.
+/// Frame    the file's; up is y. Texture coordinates are flipped: 0 at the picture's top row.
 /// Colour   red, green, blue (alpha): whole numbers are 8- or 16-bit sRGB codes, floats are sRGB in 0..1.
-///          Pictures are named by comments "TextureFile NAME". Texture coordinates stand at the vertices (s, t or
-///          u, v or texture_u, texture_v) or, as MeshLab has them, at the faces' corners (a list texcoord of two
-///          numbers a corner, with the picture's number as texnumber). A picture goes before the vertices' colours.
+///          Comments "TextureFile NAME" name the pictures. Texture coordinates are those of the vertices (s, t or
+///          u, v or texture_u, texture_v) or, as in MeshLab's files, of the faces' corners (a list texcoord of two
+///          numbers a corner, with the picture's number as texnumber). A picture has precedence over vertex colours.
 /// Errors   throws Refusal.
 #pragma once
 

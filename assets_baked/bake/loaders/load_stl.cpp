@@ -58,7 +58,7 @@ double coordinate(WordReader& words) {
     return *number;
 }
 
-/// Only `vertex`, `endloop` and `endsolid` carry anything; the words between them are skipped.
+/// Only `vertex`, `endloop` and `endsolid` matter; other words are skipped.
 SourceMesh load_ascii(std::string_view text) {
     WordReader words(text);
     (void)words.next();

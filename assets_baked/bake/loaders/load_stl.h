@@ -1,7 +1,7 @@
-/// STL, binary and ASCII. A binary file may begin with "solid" too: its length tells.
+/// STL, binary and ASCII. A binary file may also begin with "solid", so its length decides.
 ///
 /// Frame    the file's; up is z.
-/// Errors   throws Refusal: truncated, a facet without three vertices. Normals and colour bits are left out.
+/// Errors   throws Refusal: truncated, a facet without three vertices. Normals and colour bits are ignored.
 #pragma once
 
 #include "assets_baked/bake/loaders/bytes.h"
@@ -9,7 +9,7 @@
 
 namespace frustumscreen {
 
-/// Exactly 84 bytes, and 50 for each triangle that they declare.
+/// True if the length is 84 bytes plus 50 for each triangle that the header declares.
 [[nodiscard]] bool has_length_of_binary_stl(ByteView file);
 [[nodiscard]] SourceMesh load_stl(ByteView file, LoadNotes& notes);
 

@@ -9,7 +9,7 @@ namespace frustumscreen {
 
 namespace {
 
-/// Up to here 32 bits hold fractions of a texel at 16k; a larger UV, or one that is no number, carries no
+/// Up to this value 32 bits resolve fractions of a texel at 16k. A larger UV, or one that is not a number, has no
 /// picture.
 constexpr double largest_uv = 1e6;
 
@@ -30,10 +30,10 @@ std::uint32_t MeshAssembly::add_vertex(const glm::dvec3& position, const char* p
                           position.x, position.y, position.z);
         }
     }
-    if (mesh_.positions.size() >= most_source_vertices) {
+    if (mesh_.positions.size() >= max_source_vertices) {
         refuse("mesh.too_many_vertices",
                "it has more than {} vertices; simplify it first, for instance in MeshLab",
-               most_source_vertices);
+               max_source_vertices);
     }
     mesh_.positions.push_back(position);
     return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
@@ -65,7 +65,7 @@ void MeshAssembly::set_colour(const glm::vec4& linear) {
 
 void MeshAssembly::set_colour_code(const glm::vec4& code) {
     mesh_.colours.resize(mesh_.positions.size(),
-                         glm::vec4(std::numeric_limits<float>::infinity())); // as without a colour: white
+                         glm::vec4(std::numeric_limits<float>::infinity())); // a missing colour: white
     mesh_.colours.back() = code;
     for (int i = 0; i < 3; ++i) {
         if (std::isfinite(code[i])) {
@@ -99,9 +99,9 @@ int MeshAssembly::add_texture(SourceTexture texture) {
 }
 
 void MeshAssembly::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t material) {
-    if (mesh_.triangles.size() >= most_triangles) {
+    if (mesh_.triangles.size() >= max_triangles) {
         refuse("mesh.too_many_triangles",
-               "it has more than {} triangles; simplify it first, for instance in MeshLab", most_triangles);
+               "it has more than {} triangles; simplify it first, for instance in MeshLab", max_triangles);
     }
     mesh_.triangles.push_back({a, b, c});
     mesh_.triangle_materials.push_back(material);

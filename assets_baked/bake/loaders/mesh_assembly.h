@@ -1,4 +1,4 @@
-/// Puts a SourceMesh together and keeps its promises: finite, bounded, every index in range.
+/// Builds a SourceMesh that is finite and bounded, with every index in range.
 ///
 /// Errors   throws Refusal.
 #pragma once
@@ -10,10 +10,10 @@
 
 namespace frustumscreen {
 
-/// The limits of what a curator's computer can bake: 50 million triangles are 2 GiB of mesh. They also stop a
-/// small file that repeats its parts without end.
-inline constexpr std::size_t most_triangles = 50'000'000;
-inline constexpr std::size_t most_source_vertices = 100'000'000;
+/// Limits of what a curator's computer can bake: 50 million triangles are 2 GiB of mesh. They also stop a small file
+/// that repeats its parts endlessly.
+inline constexpr std::size_t max_triangles = 50'000'000;
+inline constexpr std::size_t max_source_vertices = 100'000'000;
 /// Beyond this, squares and products of coordinates leave the range of the arithmetic that follows.
 inline constexpr double largest_coordinate = 1e30;
 
@@ -25,18 +25,18 @@ public:
     std::uint32_t add_vertex(const glm::dvec3& position, const char* place, std::size_t number);
     /// A vertex like `vertex` in place and colour.
     std::uint32_t copy_vertex(std::uint32_t vertex);
-    /// For the last vertex added. The default is (0, 0) and white.
+    /// Sets the last added vertex's coordinates. Default: (0, 0), and white.
     void set_uv(const glm::dvec2& uv) { set_uv(last_vertex(), uv); }
     void set_uv(std::uint32_t vertex, const glm::dvec2& uv);
     void set_colour(const glm::vec4& linear);
-    /// An sRGB code as the file writes it, in 0..1 or 0..255. `codes_to_linear` makes all of them linear factors, and returns whether they
-    /// are in 0..255: some are above 1, and all are whole or some are above 2.
+    /// Sets an sRGB code as written in the file, in 0..1 or 0..255. `codes_to_linear` converts all of them to linear
+    /// factors and returns true if they are in 0..255: some are above 1, and all are whole or some are above 2.
     void set_colour_code(const glm::vec4& code);
     [[nodiscard]] bool codes_to_linear();
-    /// Leaves the vertices without colours, or texture coordinates, of their own.
+    /// Removes all vertices' colours, or texture coordinates.
     void drop_colours() { mesh_.colours.clear(); }
     void drop_uvs() { mesh_.uvs.clear(); }
-    /// What `set_uv` makes of numbers that carry no picture.
+    /// The coordinates that `set_uv` stores; one that addresses no picture becomes 0.
     [[nodiscard]] static glm::vec2 finite_uv(const glm::dvec2& uv);
 
     std::uint32_t add_material(const SourceMaterial& material);
@@ -47,7 +47,7 @@ public:
     void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t material);
 
     [[nodiscard]] const std::vector<glm::dvec3>& positions() const { return mesh_.positions; }
-    /// Refuses a mesh without triangles. `has_points`: whether the file has points that belong to none.
+    /// Refuses a mesh without triangles. `has_points`: the file has points that belong to no triangle.
     [[nodiscard]] SourceMesh finish(bool has_points = false);
 
 private:

@@ -1,4 +1,4 @@
-/// What lies around the bytes of one model: its side files and its pictures, and what is to be said of them.
+/// The surroundings of one model's bytes: side files, pictures, and notes.
 #pragma once
 
 #include "assets_baked/bake/load_mesh.h"

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-// As tinyobjloader writes them; it passes over those that it does not know.
+// In tinyobjloader's spelling; it ignores keywords that it does not know.
 constexpr std::array keywords = {
     "newmtl", "Ka",      "Kd",       "Ks",     "Kt",       "Tf",        "Ke",         "Ni",     "Ns",
     "Tr",     "d",       "illum",    "map_Ka", "map_Kd",   "map_Ks",    "map_Ke",     "map_Ns", "map_d",
@@ -27,7 +27,7 @@ char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
 }
 
-/// As the library writes it; empty: unknown.
+/// The keyword in the library's spelling; empty: unknown.
 std::string_view known_keyword(std::string_view keyword) {
     for (const std::string_view each : keywords) {
         if (std::equal(each.begin(), each.end(), keyword.begin(), keyword.end(),
@@ -38,7 +38,7 @@ std::string_view known_keyword(std::string_view keyword) {
     return {};
 }
 
-/// Three numbers of a colour; empty: something else, such as a spectral curve.
+/// The three numbers of a colour; empty for anything else, such as a spectral curve.
 std::vector<double> colour_from(std::string_view rest) {
     WordReader words(rest);
     std::vector<double> colour;
@@ -88,7 +88,7 @@ MtlText mtl_text_from(std::string_view file) {
             read.text += fmt::format("{} {}\n", known, rest);
         }
         if (known == "newmtl") {
-            read.text += "Kd 1 1 1\n"; // the library's own default is black, or 0.6 beside a picture
+            read.text += "Kd 1 1 1\n"; // the library's own default is black, or 0.6 with a picture
         }
     }
     return read;

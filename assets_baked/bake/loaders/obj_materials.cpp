@@ -34,7 +34,8 @@ bool is_black(const glm::vec4& colour) {
     return glm::vec3(colour) == glm::vec3(0.0F);
 }
 
-/// The existing files that a line `mtllib` names: all of it as one name, else the longest runs of its words that are names.
+/// The existing files that a line `mtllib` names: the whole line as one name, otherwise the longest runs of words that
+/// are names.
 std::vector<std::string> names_in(std::string_view line, const Sidecars& sidecars) {
     std::vector<std::string> words;
     WordReader reader(line);
@@ -105,7 +106,7 @@ void ObjMaterials::read_library(const std::string& name, const std::string& plac
 
 void ObjMaterials::note_missing_library(std::string_view name, const std::string& place) {
     missing_library_ = true;
-    if (!files_.pictures.has_curators()) { // whose picture stands for the colours
+    if (!files_.pictures.has_curators()) { // the curator's own picture stands for the colours
         files_.notes.lost(
             "the colours: it names \"{}\" for them, but there is no such file beside it; put it there ({})",
             printable(last_part(name)), place);
@@ -206,7 +207,7 @@ SourceMaterial ObjMaterials::made_from(const Material& material) {
     if (has_picture) {
         made.texture = texture(material, source.diffuse_texname, source.diffuse_texopt, "map_Kd");
         if (is_black(
-                made.base_colour)) { // a writer that leaves Kd black beside a picture means the picture alone
+                made.base_colour)) { // some exporters write a black Kd beside a picture and mean the picture alone
             made.base_colour = glm::vec4(1.0F);
         }
     }

@@ -1,10 +1,10 @@
-/// The materials of an OBJ file: its .mtl files read, and what of them this program shows.
+/// Reads the .mtl files of an OBJ file, and keeps the part of its materials that this program shows.
 ///
-/// Shown    Kd and map_Kd; where a material has no colour of its own, Ke and map_Ke. A material without Kd is white.
-/// Colour   Kd is taken as linear, as today's writers mean it.
-/// Names    of materials and files compare exactly first, then as file_name.h has it. Keywords may have any case.
-/// Library  tinyobjloader reads the .mtl, of which the keywords are written in its own case before.
-/// Errors   throws Refusal for a picture that is missing; all else is noted.
+/// Shown    Kd and map_Kd; for a material without a colour, Ke and map_Ke. A material without Kd is white.
+/// Colour   Kd is linear, as today's exporters mean it.
+/// Names    of materials and files are first compared exactly, then as in file_name.h. Keywords may have any case.
+/// Library  tinyobjloader reads the .mtl after mtl_text.h has rewritten its keywords.
+/// Errors   throws Refusal for a missing picture; everything else is noted.
 #pragma once
 
 #include "assets_baked/bake/loaders/mesh_assembly.h"
@@ -24,15 +24,16 @@ class ObjMaterials {
 public:
     ObjMaterials(ModelFiles& files, MeshAssembly& mesh) : files_(files), mesh_(mesh) {}
 
-    /// The rest of a line `mtllib`: one name, which may have blanks, or several.
+    /// Takes the rest of a line `mtllib`: one name, which may contain blanks, or several.
     void read_libraries(std::string_view names, const std::string& place);
-    /// The material that a face uses; empty: the face names none. An unknown one is white, or wears the curator's own picture.
+    /// The material that a face uses; empty: the face names none. An unknown one is white, or has the curator's own
+    /// picture.
     std::uint32_t number_of(const std::string& name);
 
 private:
     struct Material {
         tinyobj::material_t source;
-        std::filesystem::path folder; ///< of its .mtl, from the model's on
+        std::filesystem::path folder; ///< folder of its .mtl, relative to the model's
     };
 
     void read_library(const std::string& name, const std::string& place);
@@ -45,7 +46,7 @@ private:
     [[nodiscard]] SourceMaterial made_from(const Material& material);
     [[nodiscard]] int texture(const Material& material, const std::string& name,
                               const tinyobj::texture_option_t& options, std::string_view keyword);
-    /// The picture's name from the model's folder on: beside the model, else beside the .mtl.
+    /// The picture's name relative to the model's folder: a file beside the model, otherwise beside the .mtl.
     [[nodiscard]] std::string picture_name(const Material& material, const std::string& name) const;
 
     ModelFiles& files_;

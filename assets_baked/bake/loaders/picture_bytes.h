@@ -1,4 +1,4 @@
-/// What the decoders of pictures share.
+/// Shared parts of the picture decoders.
 ///
 /// Threads  pure; any.
 #pragma once

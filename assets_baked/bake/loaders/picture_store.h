@@ -1,4 +1,4 @@
-/// The pictures of one model: found, decoded, with one limit of texels for all of them.
+/// Finds and decodes the pictures of one model, with one limit of texels for all of them.
 ///
 /// Errors   throws Refusal.
 #pragma once
@@ -14,12 +14,12 @@ namespace frustumscreen {
 
 class PictureStore {
 public:
-    /// `texture` is the curator's own picture for where the model's is missing; empty: there is none.
+    /// `texture` is the curator's own picture, used if the model's is missing; empty: there is none.
     PictureStore(Sidecars& sidecars, std::filesystem::path texture)
         : sidecars_(sidecars), texture_(std::move(texture)) {}
 
     [[nodiscard]] std::shared_ptr<const Image8> decode(ByteView bytes, std::string_view place);
-    /// The picture in the file called `name`; the curator's own if that is missing.
+    /// The picture in the file `name`; the curator's own if that is missing.
     [[nodiscard]] std::shared_ptr<const Image8> named(std::string_view name, std::string_view place);
 
     [[nodiscard]] bool has_curators() const { return !texture_.empty(); }
@@ -31,7 +31,7 @@ private:
     Sidecars& sidecars_;
     std::filesystem::path texture_;
     std::shared_ptr<const Image8> curators_;
-    std::int64_t texels_left_ = most_texture_texels;
+    std::int64_t texels_left_ = max_texture_texels;
 };
 
 } // namespace frustumscreen

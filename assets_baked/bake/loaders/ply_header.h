@@ -1,4 +1,4 @@
-/// The header of a PLY file: what elements follow and how they are written.
+/// The header of a PLY file: which elements follow, and their format.
 ///
 /// Errors   throws Refusal naming the line.
 /// Source   G. Turk, The PLY Polygon File Format, 1994.
@@ -31,10 +31,10 @@ struct PlyElement {
 
 struct PlyHeader {
     bool is_text = false;
-    std::endian order = std::endian::little; ///< of binary data
+    std::endian order = std::endian::little; ///< for binary data
     std::vector<PlyElement> elements;
-    std::vector<std::string> pictures; ///< of the comments "TextureFile NAME", as MeshLab writes them
-    SourceAbout about;                 ///< of the other comments
+    std::vector<std::string> pictures; ///< named by comments "TextureFile NAME", as in MeshLab's files
+    SourceAbout about;                 ///< from the other comments
     std::size_t size = 0;              ///< bytes up to the data
 };
 

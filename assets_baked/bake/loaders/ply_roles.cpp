@@ -21,7 +21,7 @@ std::string lower(std::string_view name) {
     return folded;
 }
 
-/// The place of `name` among `names`.
+/// The index of `name` in `names`.
 template <std::size_t count>
 std::optional<std::size_t> place_in(const std::array<std::string_view, count>& names, std::string_view name) {
     const auto found = std::find(names.begin(), names.end(), name);
@@ -72,7 +72,7 @@ std::optional<Named> named(std::string_view name) {
     return colour_named(name);
 }
 
-/// Numbers that are no part of what is shown.
+/// True for numbers that are not part of the picture.
 bool is_measure(std::string_view name) {
     static constexpr std::array<std::string_view, 24> names = {
         "nx",      "ny",         "nz",        "normal_x", "normal_y",       "normal_z",

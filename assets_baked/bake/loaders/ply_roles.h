@@ -1,6 +1,6 @@
-/// What the properties of a PLY file's vertices stand for, by the names that programs write.
+/// The roles of the vertices' properties in a PLY file, by the names that programs write.
 ///
-/// Names    in any case. Where several properties have one role, the plainest name counts: `red` before `diffuse_red`.
+/// Names    in any case. If several properties have one role, the plainest name counts: `red` before `diffuse_red`.
 /// Threads  pure; any.
 #pragma once
 
@@ -14,16 +14,16 @@ namespace frustumscreen {
 enum class PlyRole { None, X, Y, Z, Red, Green, Blue, Alpha, U, V, PackedColour };
 
 struct PlyRoles {
-    std::vector<PlyRole> of;          ///< one each property
-    std::vector<std::string> unknown; ///< names that no program is known to write
+    std::vector<PlyRole> of;          ///< one for each property
+    std::vector<std::string> unknown; ///< names that no known program writes
     [[nodiscard]] bool has(PlyRole role) const;
     [[nodiscard]] bool has_colour() const;
 };
 
 [[nodiscard]] PlyRoles roles_of_vertices(const PlyElement& element);
-/// Red, green, blue or alpha, at a face too; else None.
+/// Red, green, blue or alpha, of faces too; otherwise None.
 [[nodiscard]] PlyRole colour_role_of(std::string_view name);
-/// Properties of faces that change nothing of what is shown, or that the reader knows.
+/// True for properties of faces without effect on the picture, and for those that the reader uses.
 [[nodiscard]] bool is_known_at_faces(std::string_view name);
 
 } // namespace frustumscreen

@@ -1,7 +1,7 @@
-/// Pictures of a PLY file and the texture coordinates at its faces' corners, as MeshLab writes both.
+/// Pictures of a PLY file and the texture coordinates at its faces' corners, in MeshLab's form.
 ///
-/// Shape    texture coordinates: one for each corner of all polygons in their order, or none at all.
-/// Errors   throws Refusal for a picture that is missing.
+/// Shape    texture coordinates: one for each corner of all polygons in their order, or none.
+/// Errors   throws Refusal for a missing picture.
 #pragma once
 
 #include "assets_baked/bake/loaders/mesh_assembly.h"
@@ -21,23 +21,23 @@ namespace frustumscreen {
 
 class PlySurface {
 public:
-    /// `pictures` as the header names them.
+    /// `pictures`: names as in the header.
     PlySurface(const std::vector<std::string>& pictures, ModelFiles& files, MeshAssembly& mesh)
         : pictures_(pictures), files_(files), mesh_(mesh) {}
 
     void at_vertices(bool coloured, bool textured);
 
-    // While the faces are read: their values, and then the range of their corners.
+    // While faces are read: their values, then the range of their corners.
     void face_value(std::string_view name, double value);
     void face_texcoord(double value) { texcoord_.push_back(value); }
     void end_face(std::size_t first_corner, std::size_t end_corner);
 
-    // When all is read:
-    /// Decides what shows, and notes what is lost.
+    // After all faces are read:
+    /// Chooses between pictures and colours, and notes losses.
     void begin();
     /// The material of the polygon whose corners begin at `first_corner`.
     [[nodiscard]] std::uint32_t material(std::size_t first_corner);
-    /// Gives the corners of that polygon their texture coordinates. A vertex that has others already is copied.
+    /// Sets the texture coordinates of that polygon's corners. A vertex that has different ones already is copied.
     void split(std::size_t first_corner, std::span<std::uint32_t> corners);
 
 private:
@@ -54,15 +54,15 @@ private:
     ModelFiles& files_;
     MeshAssembly& mesh_;
     bool coloured_ = false;
-    bool textured_ = false; ///< at the vertices
+    bool textured_ = false; ///< the vertices have texture coordinates
     bool colours_at_faces_ = false;
     std::size_t faces_without_uv_ = 0;
-    std::vector<double> texcoord_;            ///< of the face being read
-    int picture_ = 0;                         ///< of the face being read
-    std::vector<glm::vec2> uvs_;              ///< of the corners; empty if no face has any
-    std::map<std::size_t, int> picture_from_; ///< from this corner on; the first picture before
+    std::vector<double> texcoord_; ///< texture coordinates of the face being read
+    int picture_ = 0;              ///< picture of the face being read
+    std::vector<glm::vec2> uvs_;   ///< texture coordinates of the corners; empty if no face has any
+    std::map<std::size_t, int> picture_from_; ///< picture from this corner on; before, the first picture
     bool shows_pictures_ = false;
-    std::map<int, std::uint32_t> materials_; ///< of the pictures
+    std::map<int, std::uint32_t> materials_; ///< material of each picture
     std::vector<bool> taken_;                ///< vertices that have their texture coordinates
     std::unordered_map<CornerKey, std::uint32_t, CornerHash> vertices_;
 };

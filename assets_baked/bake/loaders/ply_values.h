@@ -1,4 +1,4 @@
-/// The values after a PLY file's header.
+/// Reads the values after a PLY file's header.
 ///
 /// Errors   throws Refusal naming the element and its row.
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace frustumscreen {
 
-/// Reads the values after the header one by one, text or binary.
+/// Reads them one by one, text or binary.
 class PlyValues {
 public:
     PlyValues(ByteView file, const PlyHeader& header)
@@ -28,7 +28,7 @@ public:
         position_ += size_of(type);
         return value;
     }
-    /// A length or an index.
+    /// The next value as a length or an index.
     std::int64_t next_whole(PlyType type, const PlyElement& element, std::uint64_t row) {
         const double value = next(type, element, row);
         if (!(std::abs(value) < 9e15) || value != std::floor(value)) {

@@ -30,7 +30,7 @@ bool is_convex(std::span<const glm::dvec3> corners, const glm::dvec3& normal) {
     return true;
 }
 
-/// The corners that are left, as a ring.
+/// Cuts ears off a polygon; the remaining corners form a ring.
 class EarCutter {
 public:
     EarCutter(std::span<const glm::dvec3> corners, const glm::dvec3& normal)
@@ -72,7 +72,7 @@ private:
         return turn(normal_, corners_[previous_[tip]], corners_[tip], corners_[next_[tip]]);
     }
 
-    /// Returns where to look next: every other corner on, so that no corner fans out.
+    /// Returns the next corner to test: the second one after the tip, so that no corner collects a fan of triangles.
     std::uint32_t cut_off(std::uint32_t tip) {
         const std::uint32_t before = previous_[tip];
         const std::uint32_t after = next_[tip];
@@ -93,7 +93,7 @@ private:
         if (turn(normal_, a, b, c) <= 0.0) {
             return false;
         }
-        // A corner at the place of one of the three is where the outline touches itself.
+        // A corner at the position of one of the three is a point where the outline touches itself.
         return std::none_of(reflex_.begin(), reflex_.end(), [&](std::uint32_t i) {
             const glm::dvec3& p = corners_[i];
             return p != a && p != b && p != c && turn(normal_, a, b, p) >= 0.0 &&
@@ -106,7 +106,7 @@ private:
     std::vector<std::uint32_t> next_;
     std::vector<std::uint32_t> previous_;
     std::vector<bool> is_reflex_;
-    std::vector<std::uint32_t> reflex_; ///< corners that are left and not convex
+    std::vector<std::uint32_t> reflex_; ///< remaining corners that are not convex
 };
 
 } // namespace

@@ -1,8 +1,9 @@
 /// Cuts a planar polygon into triangles.
 ///
-/// Shape    corners in order; the result's numbers count the polygon's own corners, orientation kept.
-/// Method   a fan where the polygon is convex; otherwise ears are cut off one after the other (Meisters,
-///          Polygons have ears, 1975), each tested against the reflex corners alone. Time grows with corners times reflex corners.
+/// Shape    corners in order; the result's indices refer to the polygon's own corners, orientation kept.
+/// Method   a fan if the polygon is convex; otherwise ears are cut off one after the other (Meisters,
+///          Polygons have ears, 1975), each tested against the reflex corners alone. Time is proportional to the number
+///          of corners times that of reflex corners.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,9 +1,9 @@
-/// How the readers of this room refuse a file: they throw one sentence, which load_mesh.cpp turns into an
+/// Refusals of a file by the readers of this module: they throw one sentence, which load_mesh.cpp turns into an
 /// Error. A reader makes hundreds of checks in nested places; a throw keeps each of them one line. No
-/// exception leaves the room.
+/// exception leaves the module.
 ///
-/// The sentence is for a curator: what is the matter and what to do. Where only the file's own makers can say
-/// more, the place and the numbers stand in brackets.
+/// The sentence is for a curator: the problem and the remedy. Details that only the file's makers understand,
+/// the place and the numbers, are in brackets.
 #pragma once
 
 #include "firmware_host/base/result.h"
@@ -19,27 +19,27 @@ struct Refusal {
     Error error;
 };
 
-/// Another's error as it is, from a place inside the file.
+/// Passes on an error from a place inside the file.
 [[noreturn]] inline void refuse(Error error) {
     throw Refusal{std::move(error)};
 }
 
-/// The whole sentence.
+/// Refuses with a complete sentence.
 template <typename... Arguments>
 [[noreturn]] void refuse(MessageId id, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
     throw Refusal{{ErrorKind::BadInput, id, fmt::format(format, std::forward<Arguments>(arguments)...)}};
 }
 
-// For the others the arguments are what stands in the brackets: the place inside the file and what was found.
+// The following take the text in the brackets: the place inside the file and the value found.
 
-/// Each part can be read, but they do not fit together.
+/// The parts are valid but contradict each other.
 template <typename... Arguments>
 [[noreturn]] void refuse_contradiction(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
     refuse("mesh.contradiction", "the file's own numbers contradict each other ({}): export it again",
            fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 
-/// A part is not what its format has there.
+/// A part violates its format.
 template <typename... Arguments>
 [[noreturn]] void refuse_damage(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
     refuse("mesh.damaged",

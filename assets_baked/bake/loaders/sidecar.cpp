@@ -38,7 +38,7 @@ bool is_file(const std::filesystem::path& path) {
     return std::filesystem::is_regular_file(path, ignored);
 }
 
-/// By its ending.
+/// True if the file's ending is that of a picture.
 bool is_picture_name(const std::string& name) {
     static constexpr std::array endings = {".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".bmp", ".tga"};
     const std::string ending = std::filesystem::path(name).extension().string();
@@ -54,7 +54,7 @@ int hexadecimal(char c) {
     return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
 }
 
-/// The first name in the folder, by the alphabet, that `fits`.
+/// The alphabetically first name in the folder that `fits`.
 template <typename Fits>
 std::optional<std::string> first_in(const std::filesystem::path& folder, const Fits& fits) {
     std::optional<std::string> first;
@@ -69,7 +69,7 @@ std::optional<std::string> first_in(const std::filesystem::path& folder, const F
     return first;
 }
 
-/// `name` inside `folder`, part by part; each part may be written as another computer writes it.
+/// Finds `name` inside `folder`, part by part, allowing for another computer's spelling of each part.
 std::optional<std::filesystem::path> find_in_any_spelling(std::filesystem::path folder,
                                                           const std::filesystem::path& name) {
     for (const std::filesystem::path& part : name.lexically_normal()) {

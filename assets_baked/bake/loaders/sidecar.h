@@ -1,9 +1,9 @@
 /// Files that a model names: .bin, pictures, .mtl. Only those in the model's own folder or below it are read.
 ///
-/// A name from another computer is understood: backslashes, other capital letters, another normal form, and a path that leads
-/// elsewhere (C:\scans\skin.png), of which only the last part counts.
+/// A name from another computer is accepted: backslashes, other capitalisation, another normal form, and a path that
+/// leads elsewhere (C:\scans\skin.png), of which only the last part counts.
 ///
-/// Errors   throws Refusal: an empty name, a file that is missing or unreadable.
+/// Errors   throws Refusal: an empty name, a missing or unreadable file.
 #pragma once
 
 #include "assets_baked/bake/loaders/load_notes.h"
@@ -21,27 +21,27 @@ namespace frustumscreen {
 
 class Sidecars {
 public:
-    /// `notes` hears of a file that was found under another name than the model's.
+    /// `notes` receives files that were found under a different name than the model's.
     Sidecars(std::filesystem::path folder, LoadNotes& notes) : folder_(std::move(folder)), notes_(notes) {}
 
     /// Bytes of the file called `name` (plain, not percent-encoded). Each file is read once, however often it
-    /// is named. `place` begins the message of a refusal.
+    /// is named. A refusal's message begins with `place`.
     [[nodiscard]] std::shared_ptr<const Bytes> read(std::string_view name, std::string_view place);
     [[nodiscard]] bool exists(std::string_view name) const { return find(name).has_value(); }
-    /// Whether the path itself leads to a file in the model's folder, not its last part alone.
+    /// True if the whole path, not only its last part, leads to a file in the model's folder.
     [[nodiscard]] bool exists_as_written(std::string_view name) const;
-    /// The folder of the file called `name`, from the model's folder on.
+    /// The folder of the file called `name`, relative to the model's folder.
     [[nodiscard]] std::filesystem::path folder_of(std::string_view name) const;
     /// A file beside the model that differs only in its ending from `name`: skin.jpg for skin.png.
     [[nodiscard]] std::optional<std::string> like(std::string_view name) const;
 
-    /// Notes a file that the model names but that is not read, such as a map of normals.
+    /// Registers a file that the model names but that is not read, such as a normal map.
     void mention(std::string_view name);
     /// Every file that was read or mentioned, by its path.
     [[nodiscard]] std::vector<std::filesystem::path> files() const;
 
 private:
-    /// Where the file is that the model means by `name`.
+    /// The path of the file that the model means by `name`.
     [[nodiscard]] std::optional<std::filesystem::path> find(std::string_view name) const;
     [[nodiscard]] std::optional<std::filesystem::path> find_as_written(std::string_view name) const;
 
@@ -50,12 +50,12 @@ private:
     std::map<std::filesystem::path, std::shared_ptr<const Bytes>> read_; ///< null: only mentioned
 };
 
-/// The last part of a path that is written for any system.
+/// The last part of a path of any system.
 [[nodiscard]] std::string_view last_part(std::string_view name);
 
-/// Turns %20 and the like into bytes (RFC 3986, 2.1).
+/// Decodes %20 and other escapes into bytes (RFC 3986, 2.1).
 [[nodiscard]] std::string percent_decoded(std::string_view uri, std::string_view place);
-/// The same; empty where a % is without two hexadecimal digits.
+/// As percent_decoded; empty if a % is not followed by two hexadecimal digits.
 [[nodiscard]] std::string percent_decoded_if_valid(std::string_view uri);
 
 } // namespace frustumscreen

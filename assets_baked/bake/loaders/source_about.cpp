@@ -11,13 +11,13 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t most_bytes = 1000; ///< as a pack's line
+constexpr std::size_t max_bytes = 1000; ///< limit of a pack's line
 
-/// On one line, without what a terminal or a page would take for a command.
+/// Joins the text to one line and removes control characters, which a terminal or page would interpret.
 std::string one_line(std::string_view text) {
-    std::size_t end = std::min(text.size(), most_bytes);
+    std::size_t end = std::min(text.size(), max_bytes);
     while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
-        --end; // no letter is cut
+        --end; // keeps the last character whole
     }
     std::string line;
     for (const char c : text.substr(0, end)) {
@@ -36,7 +36,7 @@ void take(std::string& value, std::string_view text) {
     }
 }
 
-/// A Creative Commons licence that a copyright notice names, as it is written there; empty: none.
+/// The Creative Commons licence in a copyright notice, as written there; empty: none.
 std::string licence_in(const std::string& notice) {
     static const std::regex known(R"(\bCC0(?:[- ]1\.0)?|\bCC[- ]BY(?:[- ](?:NC|SA|ND))*(?:[- ]\d\.\d)?)",
                                   std::regex::icase);
@@ -44,7 +44,7 @@ std::string licence_in(const std::string& notice) {
     return std::regex_search(notice, found, known) ? found.str() : std::string();
 }
 
-/// A copyright notice names who must be named, and often the licence.
+/// Takes the author, and often the licence, from a copyright notice.
 void take_notice(std::string_view notice, SourceAbout& about) {
     const std::string line = one_line(notice);
     take(about.author, line);

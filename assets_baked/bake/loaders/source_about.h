@@ -1,9 +1,9 @@
-/// What a model's file says of itself: title, author, licence, source.
+/// The metadata of a model's file: title, author, licence, source.
 ///
-/// glTF     `asset.extras` as Sketchfab's downloads have it (title, author, license, source), and `asset.copyright`.
-/// OBJ, PLY comments such as `# License: CC-BY-4.0`, also of the file of materials. The first one of a kind counts.
-/// Text     one line each, without control characters; as the file has it otherwise.
-/// Errors   none: what is no text is passed over.
+/// glTF     `asset.extras` as in Sketchfab's downloads (title, author, license, source), and `asset.copyright`.
+/// OBJ, PLY comments such as `# License: CC-BY-4.0`, also of the .mtl file. The first comment of each kind counts.
+/// Text     one line each, without control characters; otherwise as in the file.
+/// Errors   none: values that are not text are skipped.
 /// Threads  pure; any.
 #pragma once
 
@@ -16,9 +16,9 @@ namespace frustumscreen {
 
 [[nodiscard]] SourceAbout about_of_gltf(const nlohmann::json& document);
 
-/// `comment`: a line, without the sign that makes it one.
+/// `comment`: a line without its comment sign.
 void take_comment(std::string_view comment, SourceAbout& about);
-/// Of each line that begins with #.
+/// Takes each line that begins with #.
 void take_comments(std::string_view text, SourceAbout& about);
 
 } // namespace frustumscreen

@@ -38,7 +38,7 @@ std::optional<double> number_from(std::string_view word) {
         return std::nullopt;
     }
     if (error == std::errc::result_out_of_range) {
-        return std::strtod(std::string(word).c_str(), nullptr); // 0 or infinity, as IEEE has it
+        return std::strtod(std::string(word).c_str(), nullptr); // 0 or infinity, as in IEEE 754
     }
     return error == std::errc() ? std::optional(value) : std::nullopt;
 }

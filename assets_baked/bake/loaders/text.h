@@ -7,7 +7,7 @@
 
 namespace frustumscreen {
 
-/// Words separated by blanks and line ends; knows its line for messages.
+/// Reads words separated by blanks and line ends; keeps the line number for messages.
 class WordReader {
 public:
     explicit WordReader(std::string_view text) : text_(text) {}
@@ -24,7 +24,7 @@ private:
     std::size_t line_ = 1;
 };
 
-/// The whole word as a number; "nan" and "inf" are numbers here and refused where a finite one is needed.
+/// The whole word as a number. "nan" and "inf" are accepted here; callers that need a finite number refuse them.
 [[nodiscard]] std::optional<double> number_from(std::string_view word);
 [[nodiscard]] std::optional<std::int64_t> whole_from(std::string_view word);
 [[nodiscard]] bool is_blank(char c);

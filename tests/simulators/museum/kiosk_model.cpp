@@ -12,14 +12,14 @@ constexpr MuseumTime gives_up_after_s = 8; ///< from the start on, if the driver
 
 } // namespace
 
-bool KioskModel::has(Ailment ailment) const {
-    return std::any_of(attacks_.begin(), attacks_.end(),
-                       [&](const Attack& each) { return each.ailment == ailment; });
+bool KioskModel::has(FaultKind fault) const {
+    return std::any_of(fault_events_.begin(), fault_events_.end(),
+                       [&](const FaultEvent& each) { return each.fault == fault; });
 }
 
 void KioskModel::end_by(unsigned remedies) {
-    std::erase_if(attacks_,
-                  [&](const Attack& each) { return (kind_of(each.ailment).remedies & remedies) != 0; });
+    std::erase_if(fault_events_,
+                  [&](const FaultEvent& each) { return (kind_of(each.fault).remedies & remedies) != 0; });
 }
 
 void KioskModel::begin_process(MuseumTime now) {
@@ -50,23 +50,23 @@ void KioskModel::boot(MuseumTime now, MuseumTime after_s) {
     end_by(ByReboot | ByRestart);
 }
 
-void KioskModel::attack(const Attack& attack, MuseumTime now) {
-    attacks_.push_back(attack);
-    switch (attack.ailment) {
-    case Ailment::Crash:
+void KioskModel::fault_event(const FaultEvent& fault_event, MuseumTime now) {
+    fault_events_.push_back(fault_event);
+    switch (fault_event.fault) {
+    case FaultKind::Crash:
         end_process(now, true);
         break;
-    case Ailment::Hang:
+    case FaultKind::Hang:
         hangs_since_ = now;
         break;
-    case Ailment::KernelHang:
+    case FaultKind::KernelHang:
         boot(now, hardware_watchdog_s);
         break;
-    case Ailment::PowerCut:
+    case FaultKind::PowerCut:
         boot(now, 5);
         break;
-    case Ailment::GpuWedged:
-    case Ailment::MachineBroken:
+    case FaultKind::GpuWedged:
+    case FaultKind::MachineBroken:
         is_lit_ = false;
         break;
     default:
@@ -75,21 +75,21 @@ void KioskModel::attack(const Attack& attack, MuseumTime now) {
 }
 
 bool KioskModel::ends_soon_after_start() const {
-    return has(Ailment::BadSet) && mode_ == Mode::Normal;
+    return has(FaultKind::BadSet) && mode_ == Mode::Normal;
 }
 
 bool KioskModel::gives_no_picture() const {
-    return (has(Ailment::GpuWedged) && mode_ != Mode::Plain) || has(Ailment::MachineBroken);
+    return (has(FaultKind::GpuWedged) && mode_ != Mode::Plain) || has(FaultKind::MachineBroken);
 }
 
 /// Advances the exhibit's process by a second.
 void KioskModel::live(MuseumTime now) {
     const MuseumTime age = now - *began_;
-    memory_ += has(Ailment::Leak) ? 0.8 / static_cast<double>(leak_s) : 0.0;
-    if (has(Ailment::BadSettings) && mode_ != Mode::BuiltIn) {
+    memory_ += has(FaultKind::Leak) ? 0.8 / static_cast<double>(leak_s) : 0.0;
+    if (has(FaultKind::BadSettings) && mode_ != Mode::BuiltIn) {
         return end_process(now, true);
     }
-    if (has(Ailment::DriverCrash) && mode_ != Mode::Plain) {
+    if (has(FaultKind::DriverCrash) && mode_ != Mode::Plain) {
         return end_process(now, true);
     }
     if (memory_ >= 1.0) {
@@ -110,16 +110,16 @@ void KioskModel::live(MuseumTime now) {
     if (ends_soon_after_start() && age >= start_s + ends_after_s) {
         return end_process(now, true);
     }
-    if (has(Ailment::DeviceThread) && age >= start_s + hangs_after_s) {
+    if (has(FaultKind::DeviceThread) && age >= start_s + hangs_after_s) {
         hangs_since_ = now;
         return;
     }
     heard_ = now;
-    pictures_ += has(Ailment::Freeze) ? 0 : 1;
+    pictures_ += has(FaultKind::Freeze) ? 0 : 1;
 }
 
 std::optional<Outcome> KioskModel::pass(MuseumTime now) {
-    std::erase_if(attacks_, [&](const Attack& each) { return each.mended_at <= now; });
+    std::erase_if(fault_events_, [&](const FaultEvent& each) { return each.mended_at <= now; });
     if (is_booting(now)) {
         return std::nullopt;
     }
@@ -136,11 +136,12 @@ std::optional<Outcome> KioskModel::pass(MuseumTime now) {
     outcome.exhibit_memory = began_ ? memory_ : 0.0;
     outcome.safe_pictures = safe_pictures_;
     if (pictures_ > 0) {
-        outcome.exhibit = ExhibitSays{.age = std::chrono::seconds(now - heard_),
-                                      .well = true,
-                                      .pictures = pictures_,
-                                      .artifacts = 1,
-                                      .device_hangs = has(Ailment::TrackerHung) || has(Ailment::TrackerDead)};
+        outcome.exhibit =
+            ExhibitSays{.age = std::chrono::seconds(now - heard_),
+                        .well = true,
+                        .pictures = pictures_,
+                        .artifacts = 1,
+                        .device_hangs = has(FaultKind::TrackerHung) || has(FaultKind::TrackerDead)};
     }
     return outcome;
 }
@@ -164,10 +165,10 @@ VisibleState KioskModel::shown() const {
     if (mode_ == Mode::Safe) {
         return VisibleState::Words;
     }
-    if (!is_lit_ || hangs_since_ || has(Ailment::Freeze)) {
+    if (!is_lit_ || hangs_since_ || has(FaultKind::Freeze)) {
         return VisibleState::Dark;
     }
-    if (has(Ailment::TrackerHung) || has(Ailment::TrackerDead)) {
+    if (has(FaultKind::TrackerHung) || has(FaultKind::TrackerDead)) {
         return VisibleState::Untracked;
     }
     return mode_ == Mode::BuiltIn ? VisibleState::BuiltIn : VisibleState::Whole;

@@ -9,14 +9,14 @@
 
 #include "app/watch/outcome.h"
 #include "app/watch/step.h"
-#include "tests/simulators/museum/ailment.h"
+#include "tests/simulators/museum/fault_kinds.h"
 
 #include <optional>
 #include <vector>
 
 namespace frustumscreen {
 
-/// What the visitors see.
+/// The exhibit as the visitors see it.
 enum class VisibleState : std::uint8_t {
     Whole,     ///< the museum's own exhibit, working
     Untracked, ///< the museum's own exhibit, but it does not follow the prop
@@ -35,7 +35,7 @@ public:
     static constexpr MuseumTime hardware_watchdog_s = 20;
     static constexpr MuseumTime leak_s = 7200;
 
-    void attack(const Attack& attack, MuseumTime now);
+    void fault_event(const FaultEvent& fault_event, MuseumTime now);
     /// Advances by a second. `Outcome` is the visible state afterwards; nullopt while the machine boots.
     std::optional<Outcome> pass(MuseumTime now);
     void take(Step step, Mode mode, MuseumTime now);
@@ -44,8 +44,8 @@ public:
 
     [[nodiscard]] VisibleState shown() const;
     [[nodiscard]] bool is_booting(MuseumTime now) const { return now < boots_until_; }
-    [[nodiscard]] bool is_ill() const { return !attacks_.empty(); }
-    [[nodiscard]] bool has(Ailment ailment) const;
+    [[nodiscard]] bool is_ill() const { return !fault_events_.empty(); }
+    [[nodiscard]] bool has(FaultKind fault) const;
 
 private:
     void begin_process(MuseumTime now);
@@ -56,7 +56,7 @@ private:
     [[nodiscard]] bool ends_soon_after_start() const;
     [[nodiscard]] bool gives_no_picture() const;
 
-    std::vector<Attack> attacks_;
+    std::vector<FaultEvent> fault_events_;
     Mode mode_ = Mode::Normal;
     MuseumTime boots_until_ = 0;
     std::optional<MuseumTime> began_; ///< start of the exhibit's process

@@ -26,7 +26,7 @@ Awake awake(MuseumTime time) {
 class Load {
 public:
     explicit Load(std::uint64_t seed) : chance_(seed) {}
-    /// Whether the watchdog runs in this second.
+    /// True if the watchdog runs in this second.
     bool lets_look(MuseumTime now) {
         if (now >= next_ + load_s) {
             next_ = now + 1 +
@@ -55,14 +55,14 @@ public:
     }
     [[nodiscard]] Mode mode() const { return ladder_.memory().mode; }
 
-    std::optional<Act> look(MuseumTime now, const Outcome& outcome) {
+    std::optional<LadderAction> look(MuseumTime now, const Outcome& outcome) {
         if (policy_ == Policy::SystemdAlone) {
             return std::nullopt;
         }
-        const Seen seen = judge_.look(monotonic(now), mode(), outcome);
-        const std::optional<Act> act = policy_ == Policy::Ladder
-                                           ? ladder_.look(awake(now), seen, {true, true, true})
-                                           : reboot_at(now, seen);
+        const Observation seen = judge_.look(monotonic(now), mode(), outcome);
+        const std::optional<LadderAction> act = policy_ == Policy::Ladder
+                                                    ? ladder_.look(awake(now), seen, {true, true, true})
+                                                    : reboot_at(now, seen);
         if (act) {
             judge_.step_taken(monotonic(now));
         }
@@ -70,12 +70,12 @@ public:
     }
 
 private:
-    std::optional<Act> reboot_at(MuseumTime now, const Seen& seen) {
+    std::optional<LadderAction> reboot_at(MuseumTime now, const Observation& seen) {
         if (!seen.trouble || now - rebooted_ < between_reboots_s) {
             return std::nullopt;
         }
         rebooted_ = now;
-        return Act{Step::Reboot, seen.trouble};
+        return LadderAction{Step::Reboot, seen.trouble};
     }
 
     Policy policy_;
@@ -86,15 +86,15 @@ private:
 
 class Life {
 public:
-    Life(Policy policy, std::span<const Attack> attacks, std::uint64_t seed)
-        : attacks_(attacks), keeper_(policy), load_(seed) {
+    Life(Policy policy, std::span<const FaultEvent> fault_events, std::uint64_t seed)
+        : fault_events_(fault_events), keeper_(policy), load_(seed) {
         run_.policy = policy;
     }
 
     void pass(MuseumTime now) {
-        for (; next_ < attacks_.size() && attacks_[next_].at <= now; ++next_) {
-            kiosk_.attack(attacks_[next_], now);
-            latest_ailment_ = attacks_[next_].ailment;
+        for (; next_ < fault_events_.size() && fault_events_[next_].at <= now; ++next_) {
+            kiosk_.fault_event(fault_events_[next_], now);
+            latest_fault_ = fault_events_[next_].fault;
         }
         if (now % museum_day == opens_s || now % museum_day == second_round_s) {
             make_the_round(now);
@@ -115,8 +115,8 @@ public:
         for (std::size_t k = 0; k < reboots_.size(); ++k) {
             const auto within =
                 std::upper_bound(reboots_.begin(), reboots_.end(), reboots_[k] + museum_day - 1);
-            run_.most_reboots_in_day =
-                std::max(run_.most_reboots_in_day, static_cast<std::size_t>(within - reboots_.begin()) - k);
+            run_.max_reboots_in_day =
+                std::max(run_.max_reboots_in_day, static_cast<std::size_t>(within - reboots_.begin()) - k);
         }
         return std::move(run_);
     }
@@ -125,7 +125,7 @@ private:
     /// The staff's round: they power-cycle a kiosk that does not look well.
     void make_the_round(MuseumTime now) {
         if (kiosk_.shown() != VisibleState::Whole && kiosk_.shown() != VisibleState::BuiltIn) {
-            kiosk_.attack({now, Ailment::PowerCut, now}, now);
+            kiosk_.fault_event({now, FaultKind::PowerCut, now}, now);
         }
     }
 
@@ -142,7 +142,7 @@ private:
             outcome.exhibit->asleep = hour_s >= sleeps_s || hour_s < wakes_s;
             outcome.exhibit->age += load_.status_age();
         }
-        const std::optional<Act> act = keeper_.look(now, outcome);
+        const std::optional<LadderAction> act = keeper_.look(now, outcome);
         if (!act) {
             return;
         }
@@ -170,7 +170,7 @@ private:
         }
         if (!dark_since_) {
             dark_since_ = now;
-            dark_by_ = latest_ailment_;
+            dark_by_ = latest_fault_;
         }
         const MuseumTime dark_s = now - *dark_since_ + 1;
         if (dark_by_) {
@@ -183,14 +183,14 @@ private:
         }
     }
 
-    std::span<const Attack> attacks_;
+    std::span<const FaultEvent> fault_events_;
     std::size_t next_ = 0;
     KioskModel kiosk_;
     Keeper keeper_;
     Load load_;
     MuseumRun run_;
     bool was_booting_ = true;
-    std::optional<Ailment> latest_ailment_, dark_by_;
+    std::optional<FaultKind> latest_fault_, dark_by_;
     std::optional<MuseumTime> dark_since_, well_since_;
     std::vector<MuseumTime> reboots_;
 };
@@ -209,8 +209,8 @@ std::string_view name_of(Policy policy) {
     return "";
 }
 
-MuseumRun simulate(Policy policy, std::span<const Attack> attacks, int days, std::uint64_t seed) {
-    Life life(policy, attacks, seed);
+MuseumRun simulate(Policy policy, std::span<const FaultEvent> fault_events, int days, std::uint64_t seed) {
+    Life life(policy, fault_events, seed);
     for (MuseumTime now = 0; now < days * museum_day; ++now) {
         life.pass(now);
     }

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "app/watch/ladder.h"
-#include "tests/simulators/museum/ailment.h"
+#include "tests/simulators/museum/fault_kinds.h"
 #include "tests/simulators/museum/kiosk_model.h"
 
 #include <array>
@@ -31,7 +31,7 @@ inline constexpr MuseumTime sleeps_s = 20 * 3600, wakes_s = 8 * 3600;
 
 struct TakenStep {
     MuseumTime at = 0;
-    Act act;
+    LadderAction act;
     bool is_false_alarm = false;
 };
 struct MuseumRun {
@@ -39,13 +39,13 @@ struct MuseumRun {
     std::array<MuseumTime, visible_state_count> open{}; ///< seconds of opening hours
     MuseumTime longest_dark_s = 0;                      ///< by day or night, without interruption
     MuseumTime longest_dark_at = 0;
-    std::array<MuseumTime, ailment_count> longest{}; ///< longest dark period that began with this fault
-    std::vector<MuseumTime> dark_times;              ///< seconds of each dark period
+    std::array<MuseumTime, fault_kind_count> longest{}; ///< longest dark period that began with this fault
+    std::vector<MuseumTime> dark_times;                 ///< seconds of each dark period
     std::vector<TakenStep> steps;
-    std::size_t most_reboots_in_day = 0;
+    std::size_t max_reboots_in_day = 0;
 };
 
-[[nodiscard]] MuseumRun simulate(Policy policy, std::span<const Attack> attacks, int days,
+[[nodiscard]] MuseumRun simulate(Policy policy, std::span<const FaultEvent> fault_events, int days,
                                  std::uint64_t seed);
 
 } // namespace frustumscreen

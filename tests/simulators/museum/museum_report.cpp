@@ -17,10 +17,11 @@ double share(const MuseumRun& run, VisibleState shown) {
                : static_cast<double>(run.open.at(static_cast<std::size_t>(shown))) / static_cast<double>(all);
 }
 
-std::size_t count_of(std::span<const Attack> attacks, std::size_t ailment) {
-    return static_cast<std::size_t>(std::count_if(attacks.begin(), attacks.end(), [&](const Attack& attack) {
-        return attack.ailment == static_cast<Ailment>(ailment);
-    }));
+std::size_t count_of(std::span<const FaultEvent> fault_events, std::size_t fault) {
+    return static_cast<std::size_t>(
+        std::count_if(fault_events.begin(), fault_events.end(), [&](const FaultEvent& fault_event) {
+            return fault_event.fault == static_cast<FaultKind>(fault);
+        }));
 }
 
 /// Formats as 45 s, 12 min or 3.2 h, easy to compare.
@@ -43,7 +44,7 @@ std::size_t count_of(const MuseumRun& run, Step step) {
         run.steps.begin(), run.steps.end(), [&](const TakenStep& taken) { return taken.act.step == step; }));
 }
 
-std::string museum_table(std::span<const MuseumRun> runs, std::span<const Attack> attacks) {
+std::string museum_table(std::span<const MuseumRun> runs, std::span<const FaultEvent> fault_events) {
     std::string text = fmt::format("{:24} {:>9} {:>9} {:>9} {:>9} {:>9} {:>12} {:>6} {:>8} {:>6}\n",
                                    "in opening hours, %", "whole", "untracked", "built in", "words", "dark",
                                    "longest dark", "steps", "reboots", "false");
@@ -61,8 +62,8 @@ std::string museum_table(std::span<const MuseumRun> runs, std::span<const Attack
         fmt::format_to(out, " {:>24}", name_of(run.policy));
     }
     text += "\n";
-    for (std::size_t k = 0; k < ailment_count; ++k) {
-        fmt::format_to(out, "{:24} {:6}", kind_of(static_cast<Ailment>(k)).name, count_of(attacks, k));
+    for (std::size_t k = 0; k < fault_kind_count; ++k) {
+        fmt::format_to(out, "{:24} {:6}", kind_of(static_cast<FaultKind>(k)).name, count_of(fault_events, k));
         for (const MuseumRun& run : runs) {
             fmt::format_to(out, " {:>24}", length_of(run.longest.at(k)));
         }
@@ -79,7 +80,7 @@ std::string museum_csv(std::span<const MuseumRun> runs, int days) {
                        name_of(run.policy), days, share(run, VisibleState::Whole),
                        share(run, VisibleState::Untracked), share(run, VisibleState::BuiltIn),
                        share(run, VisibleState::Words), share(run, VisibleState::Dark), run.longest_dark_s,
-                       run.steps.size(), count_of(run, Step::Reboot), run.most_reboots_in_day,
+                       run.steps.size(), count_of(run, Step::Reboot), run.max_reboots_in_day,
                        false_alarms(run));
     }
     return csv;
@@ -101,12 +102,12 @@ std::string dark_times_csv(std::span<const MuseumRun> runs, int days) {
     return csv;
 }
 
-std::string ailments_csv(std::span<const MuseumRun> runs, std::span<const Attack> attacks) {
+std::string faults_csv(std::span<const MuseumRun> runs, std::span<const FaultEvent> fault_events) {
     std::string csv = "ailment,times,policy,longest_dark_s\n";
-    for (std::size_t k = 0; k < ailment_count; ++k) {
+    for (std::size_t k = 0; k < fault_kind_count; ++k) {
         for (const MuseumRun& run : runs) {
-            fmt::format_to(std::back_inserter(csv), "{},{},{},{}\n", kind_of(static_cast<Ailment>(k)).name,
-                           count_of(attacks, k), name_of(run.policy), run.longest.at(k));
+            fmt::format_to(std::back_inserter(csv), "{},{},{},{}\n", kind_of(static_cast<FaultKind>(k)).name,
+                           count_of(fault_events, k), name_of(run.policy), run.longest.at(k));
         }
     }
     return csv;

@@ -46,7 +46,7 @@ glm::dquat small_turn(const glm::dvec3& v) {
     return angle > 0.0 ? glm::angleAxis(angle, v / angle) : glm::dquat(1.0, 0.0, 0.0, 0.0);
 }
 
-/// A projector that looks down, and any tracker beside the table, the sensor somewhere in the prop.
+/// A projector that looks down, any tracker beside the table, the sensor anywhere in the prop.
 SimulatedTable table_under(const Pinhole& pinhole, const glm::dvec3& lens_m, const glm::dvec3& off_rad,
                            const glm::dvec2& sensor_heights_m, SeededNumbers& numbers) {
     SimulatedTable table;
@@ -54,7 +54,7 @@ SimulatedTable table_under(const Pinhole& pinhole, const glm::dvec3& lens_m, con
     truth.pinhole = pinhole;
     const glm::dquat down(0.0, 1.0, 0.0, 0.0);
     truth.table_from_projector = {glm::normalize(down * small_turn(off_rad)), lens_m};
-    // Then the table's frame is what the conventions say, whatever the aim.
+    // Applies the convention of the table's frame, whatever the aim.
     TouchModel model;
     model.pinhole = truth.pinhole;
     model.projector_from_tracker = truth.table_from_projector.inverse();
@@ -70,7 +70,7 @@ SimulatedTable table_under(const Pinhole& pinhole, const glm::dvec3& lens_m, con
     return table;
 }
 
-/// Up to a share at the picture's corner.
+/// Distortion up to `share` at the picture's corner.
 Lens some_lens(double share, int width, int height, double throw_ratio, SeededNumbers& numbers) {
     const double sides = static_cast<double>(height) / width;
     const double corner2 = (0.25 + 0.25 * sides * sides) / (throw_ratio * throw_ratio);

@@ -40,8 +40,9 @@ struct SimulatedTable {
 /// or a fixed offset, aimed roughly at the table, distortion up to a per cent at the corner.
 [[nodiscard]] SimulatedTable some_table(std::uint64_t seed);
 
-/// A table as shipped (config/kiosk.toml), built by hand: the projector a few centimetres and degrees beside where the settings have it, its
-/// zoom, lens shift and distortion of its own; any tracker, and the sensor somewhere in the prop.
+/// A table as shipped (config/kiosk.toml), assembled by hand: the projector a few centimetres and degrees off
+/// its settings, with its own zoom, lens shift and distortion; any tracker, and the sensor anywhere in the
+/// prop.
 [[nodiscard]] SimulatedTable shipped_table(std::uint64_t seed);
 
 /// The pixel that a calibration lights for a point of its table's space.

@@ -13,7 +13,7 @@ constexpr double white = 0.9; // paper and prop
 constexpr double black = 0.06;
 constexpr double table = 0.25;
 
-/// The projector's picture there, 0..1: soft shapes, and bars with hard edges like letters.
+/// The projector's picture at a place, 0..1: soft shapes, and bars with hard edges like letters.
 double shown(const glm::dvec3& table_m) {
     const double soft = 0.5 + 0.3 * std::sin(95.0 * table_m.x + 40.0 * table_m.y) +
                         0.3 * std::sin(-60.0 * table_m.x + 130.0 * table_m.y + 1.0);

@@ -1,6 +1,6 @@
 #include "tests/simulators/visitor/visitor_run.h"
 
-#include "app/tracking/live_situation.h"
+#include "app/tracking/live_tracked_state.h"
 #include "app/visitor/visitor_reader.h"
 
 #include <algorithm>
@@ -95,7 +95,7 @@ struct Room {
     Lights lights;
     RoomScene scene;
     VisitorReader reader;
-    LiveSituation live;
+    LiveTrackedState live;
 };
 
 WatchingCamera believed(const VisitorCase& of) {
@@ -118,7 +118,7 @@ Room room_of(const VisitorCase& of, bool comes, std::mt19937_64& random) {
             std::move(lights),
             RoomScene(of.camera, of.light, table_size_m, make_frustum(shipped_frustum), prop),
             VisitorReader({of.camera.pinhole, believed(of).table_from_camera(), zone}, thread_seconds),
-            LiveSituation(default_eye_m, 0.5 * shipped_frustum.height_m)};
+            LiveTrackedState(default_eye_m, 0.5 * shipped_frustum.height_m)};
 }
 
 MonotonicTime time_of(double t_s) {
@@ -157,11 +157,11 @@ void step(Room& room, double t_s, std::uint64_t seed) {
         static_cast<void>(room.live.take_visitor(head));
     }
     const double lit_s = t_s + lit_after_s;
-    const Situation situation = room.live.at(time_of(lit_s));
+    const TrackedState tracked_state = room.live.at(time_of(lit_s));
     moment.t_s = lit_s;
-    moment.seen = situation.head_seen;
-    moment.shown_eye_m = situation.eye_m;
-    moment.said_sd_m = situation.eye_sd_m;
+    moment.seen = tracked_state.head_seen;
+    moment.shown_eye_m = tracked_state.eye_m;
+    moment.said_sd_m = tracked_state.eye_sd_m;
     if (!room.people.empty() && room.people.front().comes) {
         const auto eye = room.people.front().eye(lit_s);
         moment.eye_m = eye.value_or(default_eye_m);

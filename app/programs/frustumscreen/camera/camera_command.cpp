@@ -25,7 +25,7 @@ namespace {
 constexpr Nanoseconds between_polls = std::chrono::milliseconds(5);
 constexpr double usual_s = 5.0;
 constexpr double longest_s = 86400.0;
-/// From the report to the program's end: a thread may hang in its device.
+/// Longest time from the report to the program's end, because a thread may hang in its device.
 constexpr Nanoseconds longest_stop = std::chrono::milliseconds(450);
 
 struct Request {
@@ -52,7 +52,7 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     return app.end_of_arguments(argc, argv);
 }
 
-/// Takes the camera's frames until the time is over or a stop is asked for; each new state goes to standard error.
+/// Takes the camera's frames until the time is over or a stop is requested; prints each new state to standard error.
 void look(Camera& camera, const Request& request, const StopSignals& stop, CameraReport& report) {
     ProgressLine progress("watched seconds");
     CameraFrame frame;
@@ -78,7 +78,7 @@ void look(Camera& camera, const Request& request, const StopSignals& stop, Camer
     report.rate_hz = camera.rate_hz();
 }
 
-/// The caller ends `camera`: its thread may hang in the device.
+/// `camera` is the caller's to close, because its thread may hang in the device.
 Result<int> run(const Request& request, std::unique_ptr<Camera>& camera) {
     const StopSignals stop;
     TRY(const CheckedSettings settings, load_settings(request.config));
@@ -88,7 +88,7 @@ Result<int> run(const Request& request, std::unique_ptr<Camera>& camera) {
     if (request.is_on) {
         return report.is_on ? 0 : 1;
     }
-    report.found = list_cameras(*kernel_v4l2_devices(), camera_wish(wished));
+    report.found = list_cameras(*kernel_v4l2_devices(), camera_request(wished));
     report.begun = monotonic_now();
     if (report.is_on) {
         camera = make_camera(wished);

@@ -134,7 +134,7 @@ std::string camera_json(const CameraReport& report) {
         }
         json["changes"] = changes;
     }
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; // a camera's name may be anything
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; // camera names may be any bytes
 }
 
 } // namespace frustumscreen

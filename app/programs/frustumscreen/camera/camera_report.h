@@ -1,4 +1,4 @@
-/// What `frustumscreen camera` found, in words and as JSON. It has numbers of frames and never a picture.
+/// The findings of `frustumscreen camera`, in words and as JSON. It has numbers about frames, never a picture.
 ///
 /// Threads  values.
 #pragma once
@@ -6,7 +6,7 @@
 #include "app/settings/settings.h"
 #include "firmware_host/camera/camera.h"
 #include "firmware_host/camera/camera_driver.h"
-#include "firmware_host/camera/frame_judge.h"
+#include "firmware_host/camera/frame_health.h"
 
 #include <optional>
 #include <string>
@@ -15,13 +15,13 @@
 namespace frustumscreen {
 
 struct CameraChange {
-    MonotonicTime at; ///< on the monotonic clock, as the kernel's log has it
+    MonotonicTime at; ///< monotonic clock, as in the kernel's log
     CameraState state = CameraState::NotConnected;
 };
 
 struct CameraReport {
     std::vector<FoundCamera> found;
-    bool is_on = false; ///< in the settings; all that follows is empty where it is not
+    bool is_on = false; ///< switched on in the settings; if not, all that follows is empty
     MonotonicTime begun;
     double seconds = 0.0;
     CameraState state = CameraState::NotConnected;
@@ -29,7 +29,7 @@ struct CameraReport {
     CameraCounts counts;
     double rate_hz = 0.0;
     std::optional<FrameLook> last_look;
-    std::vector<CameraChange> changes; ///< the first is the state at the beginning
+    std::vector<CameraChange> changes; ///< the first is the state at the start
 };
 
 [[nodiscard]] std::string camera_text(const CameraReport& report, const CameraSettings& wished);

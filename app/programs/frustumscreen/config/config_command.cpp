@@ -62,7 +62,7 @@ Result<void> print_config(const Request& request) {
         return {};
     }
     const std::string& zone = settings->hours.time_zone;
-    static_cast<void>(zone.empty() || use_time_zone(zone)); // that it is missing was said
+    static_cast<void>(zone.empty() || use_time_zone(zone)); // load_settings has reported a missing time zone
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     fmt::print("{}{}", setup_page(*settings), judgement_page(*settings, now));
     return {};

@@ -1,4 +1,5 @@
-/// `frustumscreen config`: the resolved, checked settings, what they mean on the table, or what settings there are.
+/// `frustumscreen config`: prints the resolved, checked settings, their meaning on the table, or a list of all
+/// settings.
 #pragma once
 
 namespace frustumscreen {

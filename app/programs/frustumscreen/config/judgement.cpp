@@ -23,33 +23,33 @@ namespace frustumscreen {
 
 namespace {
 
-/// Below so many pixels an em, small letters lose their shape.
-constexpr double least_em_px = 18.0;
+/// Pixels an em below which small letters lose their shape.
+constexpr double min_em_px = 18.0;
 /// ISO 9241-303: capitals need 16 minutes of arc to be read.
-constexpr double least_capital_arcmin = 16.0;
-constexpr double capital_em = 0.714; ///< of Noto Sans
-/// Where a caption finds room at fewer places, most visitors read none.
-constexpr double least_caption_share = 0.5;
-/// A hand that slides the prop to look at it goes 10 to 30 cm.
-constexpr glm::dvec2 least_zone_m(0.20, 0.10);
+constexpr double min_capital_arcmin = 16.0;
+constexpr double capital_em = 0.714; ///< height of Noto Sans's capitals
+/// Share of places with room for a caption below which most visitors read none.
+constexpr double min_caption_share = 0.5;
+/// Half the size of a zone to play in: a hand slides the prop 10 to 30 cm to look at it.
+constexpr glm::dvec2 min_zone_m(0.20, 0.10);
 
 struct Page {
-    std::string text;                ///< what is the case
-    std::vector<std::string> faults; ///< what to look into
+    std::string text;                ///< findings
+    std::vector<std::string> faults; ///< findings that need attention
 };
 
 double em_m(const Settings& settings) {
-    return std::max(settings.exhibit.caption_height_m, least_caption_em_m);
+    return std::max(settings.exhibit.caption_height_m, min_caption_em_m);
 }
 
-/// Letters flat on the table's middle, as the default eye sees them.
+/// Minutes of arc of a capital at an em of one metre, flat on the table's middle, seen from the default eye.
 double arcmin_per_em_m(const EyeSettings& eye) {
     const double distance = glm::length(eye.default_m);
     const double foreshortened = eye.default_m.z / distance;
     return 60.0 * glm::degrees(capital_em * foreshortened / distance);
 }
 
-/// To whole millimetres.
+/// Rounds up to whole millimetres.
 double rounded_up(double metres) {
     constexpr double rounding = 1e-9;
     return std::ceil(1e3 * metres - rounding) / 1e3;
@@ -66,21 +66,23 @@ void judge_letters(const Settings& settings, Page& page) {
     const double em = em_m(settings);
     const double px = em * px_per_m;
     const double arcmin = em * arcmin_per_em_m(settings.eye);
-    page.text += fmt::format("  Letters are set {:.3g} mm high, {:.0f} pixels. For eyes at eye.default_m a "
-                             "capital is {:.0f} minutes of arc high.\n",
-                             1e3 * em, px, arcmin);
-    if (px < least_em_px) {
+    page.text +=
+        fmt::format("  Letters are set {:.3g} mm high, {:.0f} pixels. Whose eyes are at eye.default_m sees a "
+                    "capital at {:.0f} minutes of arc.\n",
+                    1e3 * em, px, arcmin);
+    if (px < min_em_px) {
         page.faults.push_back(
             fmt::format("A caption's letters are {:.0f} pixels high, too few to read: they need {:g}. Hang "
                         "the projector nearer, "
                         "take one with more pixels, or set exhibit.caption_height_m = {:.3f}.",
-                        px, least_em_px, rounded_up(least_em_px / px_per_m)));
+                        px, min_em_px, rounded_up(min_em_px / px_per_m)));
     }
-    if (arcmin < least_capital_arcmin) {
+    if (arcmin < min_capital_arcmin) {
         page.faults.push_back(fmt::format(
-            "A caption is too small for eyes at eye.default_m: a capital is {:.0f} minutes of arc high, and "
-            "needs {:g} (ISO 9241-303). Set exhibit.caption_height_m = {:.3f}.",
-            arcmin, least_capital_arcmin, rounded_up(least_capital_arcmin / arcmin_per_em_m(settings.eye))));
+            "A caption is too small for eyes at eye.default_m: a capital is seen at {:.0f} "
+            "minutes of arc, and needs "
+            "{:g} (ISO 9241-303). Set exhibit.caption_height_m = {:.3f}.",
+            arcmin, min_capital_arcmin, rounded_up(min_capital_arcmin / arcmin_per_em_m(settings.eye))));
     }
 }
 
@@ -93,7 +95,7 @@ void judge_caption_room(const Settings& settings, const std::vector<NamedPack>& 
     const double share = caption_share(settings, packs, zone);
     page.text += fmt::format("  The caption of \"{}\" finds room at {:.0f} % of the places of the zone.\n",
                              packs.front().description.title, 100.0 * share);
-    if (share < least_caption_share) {
+    if (share < min_caption_share) {
         page.faults.push_back(fmt::format("A caption finds room at {:.0f} % of the places of the zone: "
                                           "elsewhere none is shown. Shorten the texts, set "
                                           "a smaller exhibit.caption_height_m, or leave the pictures on the "
@@ -107,10 +109,10 @@ std::string size_words(const Rectangle& zone) {
 }
 
 bool is_narrow(const Rectangle& zone) {
-    return 2.0 * zone.half_m.x < least_zone_m.x || 2.0 * zone.half_m.y < least_zone_m.y;
+    return 2.0 * zone.half_m.x < min_zone_m.x || 2.0 * zone.half_m.y < min_zone_m.y;
 }
 
-/// The lens zoomed wider, until the zone is wide enough to play in.
+/// Suggests the wider zoom of the lens at which the zone is wide enough to play in.
 std::string wider_picture(Settings settings, const std::vector<glm::dvec3>& hull) {
     const Pinhole& pinhole = settings.projector.pinhole;
     for (int step = 0; step < 12; ++step) {
@@ -127,7 +129,7 @@ std::string wider_picture(Settings settings, const std::vector<glm::dvec3>& hull
     return "Hang the projector higher, take a larger table or a smaller prop";
 }
 
-/// Returns the zone of the first artifact; without packs that of one as good as any.
+/// Returns the zone of the first artifact; without packs, that of a typical artifact.
 Rectangle judge_zone(const Settings& settings, const std::vector<NamedPack>& packs, Page& page) {
     std::optional<Rectangle> first;
     const auto judge = [&](const std::string& name, const std::vector<glm::dvec3>& hull) {
@@ -142,12 +144,12 @@ Rectangle judge_zone(const Settings& settings, const std::vector<NamedPack>& pac
             page.faults.push_back(
                 fmt::format("The zone is too narrow to play in: {} is seen whole within {}, and {:.0f} x "
                             "{:.0f} cm are needed. {}.",
-                            name, size_words(zone), 100.0 * least_zone_m.x, 100.0 * least_zone_m.y,
+                            name, size_words(zone), 100.0 * min_zone_m.x, 100.0 * min_zone_m.y,
                             wider_picture(settings, hull)));
         }
     };
     if (settings.prop.zone == PropZone::Hand) {
-        return whole_zone(settings, all_eyes(settings.eye), {}).rectangle; // the page has it
+        return whole_zone(settings, all_eyes(settings.eye), {}).rectangle; // setup_page prints it
     }
     for (const NamedPack& pack : packs) {
         judge("\"" + pack.description.title + "\"", pack.hull);

@@ -1,12 +1,12 @@
-/// What visitors get from these settings, judged: whether they can read, where captions find room, where the artifacts are seen
-/// whole, whether the exhibit speaks their languages, when it is open; and what to look into.
+/// Judges what visitors get from the settings: whether text is readable, where captions fit, where artifacts are seen
+/// whole, whether the exhibit speaks their languages, when it is open; and lists what to look into.
 ///
-/// Packs and words that the settings name are read. What cannot be read is not judged, and that is said.
+/// Reads the packs and words that the settings name. What cannot be read is reported and not judged.
 ///
 /// Units    metres on the table.
-/// Time     `now`: for the week that begins with it.
+/// Time     `now`: start of the week that is judged.
 /// Threads  pure but for files; any. Takes about a second.
-/// Errors   none: everything is a sentence.
+/// Errors   none: every problem is a sentence of the page.
 #pragma once
 
 #include "app/settings/settings.h"

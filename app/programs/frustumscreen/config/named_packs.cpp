@@ -56,7 +56,7 @@ double caption_share(const Settings& settings, const std::vector<NamedPack>& pac
     std::transform(packs.begin(), packs.end(), std::back_inserter(catalogue),
                    [](const NamedPack& pack) { return pack.entry; });
     ExhibitPlace place = exhibit_place(settings);
-    place.guidance.reset(); // advice would take the caption's place
+    place.guidance.reset(); // advice takes the caption's place
     constexpr int columns = 7;
     constexpr int rows = 5;
     constexpr std::array turns{0.0, 0.25 * std::numbers::pi};
@@ -65,19 +65,20 @@ double caption_share(const Settings& settings, const std::vector<NamedPack>& pac
         const glm::dvec2 at(2.0 * (k % columns) / (columns - 1) - 1.0,
                             2.0 * (k / columns) / (rows - 1) - 1.0);
         for (const double turn : turns) {
-            Situation situation;
-            situation.table_from_prop = {glm::angleAxis(turn, glm::dvec3(0.0, 0.0, 1.0)),
-                                         glm::dvec3(zone.centre_m + at * zone.half_m, 0.0)};
-            situation.eye_m = settings.eye.default_m;
-            situation.prop_known = situation.head_known = true;
-            // Long enough for all that fades in, and not for what is told.
+            TrackedState tracked_state;
+            tracked_state.table_from_prop = {glm::angleAxis(turn, glm::dvec3(0.0, 0.0, 1.0)),
+                                             glm::dvec3(zone.centre_m + at * zone.half_m, 0.0)};
+            tracked_state.eye_m = settings.eye.default_m;
+            tracked_state.prop_known = tracked_state.head_known = true;
+            // Long enough for all fades, and too short for a narration.
             constexpr int steps = 20;
             constexpr Nanoseconds step = std::chrono::milliseconds(100);
             Exhibit exhibit(catalogue, place, settings.exhibit.language, MonotonicTime());
             bool lies = false;
             for (int k_step = 0; k_step <= steps; ++k_step) {
                 constexpr double readable = 0.5;
-                const Presentation presented = exhibit.step(MonotonicTime() + k_step * step, {}, situation);
+                const Presentation presented =
+                    exhibit.step(MonotonicTime() + k_step * step, {}, tracked_state);
                 lies = presented.caption && presented.caption->brightness > readable;
             }
             shown += lies ? 1 : 0;

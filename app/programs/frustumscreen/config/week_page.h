@@ -1,6 +1,6 @@
-/// The next seven days' hours, as the settings have them.
+/// The opening hours of the next seven days.
 ///
-/// Time     `now`, and the local time then.
+/// Time     `now`, in local time.
 /// Threads  pure; any.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace frustumscreen {
 
-/// One line for each day, and one for what comes next.
+/// One line for each day, and one for the next opening or closing.
 [[nodiscard]] std::string week_page(const HoursSettings& hours, std::chrono::sys_seconds now,
                                     const OffsetAt& offset_at);
 

@@ -1,4 +1,4 @@
-/// `frustumscreen counts`: how often, when and for how long the exhibit is used, as text, as a table, and as a picture.
+/// `frustumscreen counts`: how often, when and for how long the exhibit is used, as text, a table or a picture.
 #pragma once
 
 namespace frustumscreen {

@@ -1,4 +1,4 @@
-/// frustumscreen drawing: technical drawings of the table and the prop, from the settings.
+/// `frustumscreen drawing`: draws the table and the prop to scale, from the settings.
 #pragma once
 
 namespace frustumscreen {

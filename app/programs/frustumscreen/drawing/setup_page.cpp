@@ -20,13 +20,13 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr double mm = 1e3;             ///< millimetres in a metre
-constexpr double least_contrast = 7.0; ///< WCAG 2.2, 1.4.6
-/// The projector's dark level and the room's light on the table, as a share of its white; WCAG reckons with as much. No setting
-/// says what they are.
+constexpr double mm = 1e3;           ///< millimetres in a metre
+constexpr double min_contrast = 7.0; ///< WCAG 2.2, 1.4.6
+/// The projector's dark level plus the room's light on the table, as a share of its white; WCAG assumes this much. No
+/// setting has it.
 constexpr double assumed_black = 0.05;
 
-/// Where the ray through a pixel meets a plane of the table's frame; nothing if it goes away from it.
+/// Intersection of a pixel's ray with a plane of the table's frame; nothing if the ray goes away from the plane.
 std::optional<glm::dvec3> meets(const ProjectorSettings& projector, const glm::dvec2& pixel,
                                 const Plane& plane) {
     const RigidTransform& pose = projector.table_from_projector;
@@ -41,7 +41,7 @@ std::string place_words(const glm::dvec2& place) {
     return fmt::format("x {:.3f}, y {:.3f} m", rounded(place.x), rounded(place.y));
 }
 
-/// The two sides of a projector's pixel where it lights `point` of `plane`, the shorter first; metres.
+/// The two sides, in metres, of a projector's pixel at `point` of `plane`, the shorter first.
 std::optional<glm::dvec2> pixel_size(const ProjectorSettings& projector, const glm::dvec3& point,
                                      const Plane& plane) {
     const std::optional<glm::dvec2> pixel =
@@ -69,7 +69,7 @@ std::string sides_in_mm(const glm::dvec2& sides) {
                                       : fmt::format("{:.3g} x {:.3g} mm", mm * sides.x, mm * sides.y);
 }
 
-/// The prop upright at a place of the table: its faces in the table's frame, and the light that they get.
+/// The prop upright at a place of the table: its faces in the table's frame, and the light that each receives.
 class StandingProp {
 public:
     StandingProp(const Settings& settings, const glm::dvec2& place, double yaw)
@@ -84,11 +84,11 @@ public:
         const glm::dvec3 normal = table_from_prop_.direction(face.plane.normal);
         return {normal, glm::dot(normal, centre(face))};
     }
-    /// At the face's centre; 0 where it faces away from the lens.
+    /// Light at the face's centre; 0 if it faces away from the lens.
     [[nodiscard]] double light(const PropFace& face) const {
         return std::max(0.0, received_light(plane(face), centre(face), lens_));
     }
-    /// The light of the dimmest side over that of the brightest face.
+    /// Light of the dimmest side divided by that of the brightest face.
     [[nodiscard]] double evenness() const {
         double dimmest = std::numeric_limits<double>::infinity();
         double brightest = 0.0;
@@ -109,7 +109,7 @@ private:
     RigidTransform table_from_prop_;
 };
 
-/// Over the rectangle of places, at every yaw.
+/// The range of light over a rectangle of places and all yaws.
 LightRange light_over(const Settings& settings, const Rectangle& places) {
     return light_range(make_prop(settings.prop),
                        settings.projector.table_from_projector.translation - glm::dvec3(places.centre_m, 0.0),
@@ -131,25 +131,25 @@ std::string describe_projector(const Settings& settings) {
 }
 
 double caption_em_m(const Settings& settings) {
-    return std::max(settings.exhibit.caption_height_m, least_caption_em_m);
+    return std::max(settings.exhibit.caption_height_m, min_caption_em_m);
 }
 
-/// What a reader would miss; nothing where size and contrast are as they should be.
+/// Describes captions that are hard to read; empty if size and contrast are sufficient.
 std::string describe_captions(const Settings& settings) {
     const ExhibitSettings& exhibit = settings.exhibit;
     if (!exhibit.captions) {
         return "";
     }
     std::string text;
-    if (exhibit.caption_height_m < least_caption_em_m) {
+    if (exhibit.caption_height_m < min_caption_em_m) {
         text += fmt::format(
             "  exhibit.caption_height_m, {:.3g} mm, is less than 24 pt: captions are set at 24 pt, "
             "{:.3g} mm.\n",
-            mm * exhibit.caption_height_m, mm * least_caption_em_m);
+            mm * exhibit.caption_height_m, mm * min_caption_em_m);
     }
     const double contrast =
         (caption_text_brightness * exhibit.caption_brightness + assumed_black) / assumed_black;
-    if (contrast < least_contrast) {
+    if (contrast < min_contrast) {
         text += fmt::format(
             "  exhibit.caption_brightness, {:g}: a caption's text has a contrast of {:.1f}:1 "
             "with the table, and needs "
@@ -157,7 +157,7 @@ std::string describe_captions(const Settings& settings) {
             "its white; measure "
             "these.\n",
             exhibit.caption_brightness, contrast,
-            (least_contrast - 1.0) * assumed_black / caption_text_brightness, 100.0 * assumed_black);
+            (min_contrast - 1.0) * assumed_black / caption_text_brightness, 100.0 * assumed_black);
     }
     return text;
 }
@@ -189,7 +189,7 @@ std::string describe_picture(const Settings& settings) {
     return text + describe_captions(settings);
 }
 
-/// "+X, -X: ...": one line for all faces that are alike.
+/// "+X, -X: ...": one line for each group of equal faces.
 std::string describe_faces(const Settings& settings, const StandingProp& prop) {
     double brightest = 0.0;
     for (const PropFace& face : prop.faces()) {
@@ -232,8 +232,8 @@ std::string words_of(const Rectangle& inside) {
     return fmt::format("x {:.3f} to {:.3f} m, y {:.3f} to {:.3f} m", low.x, high.x, low.y, high.y);
 }
 
-/// The part of `zone`, about its middle, where every place of the prop can send back the light that the exhibit aims at;
-/// nothing if that fails in the middle.
+/// The part of `zone`, about its middle, in which every place of the prop can reflect the light that the exhibit aims
+/// at; nothing if the middle fails.
 std::optional<Rectangle> evenly_lit(const Settings& settings, const Rectangle& zone) {
     constexpr double rounding = 1e-3;
     const double aim = (1.0 - rounding) * even_light(settings);
@@ -251,7 +251,7 @@ std::optional<Rectangle> evenly_lit(const Settings& settings, const Rectangle& z
     return part(even(1.0) ? 1.0 : inside);
 }
 
-/// In the hand no turn is special, and no face is always lit.
+/// A prop in the hand has no preferred turn and no face that is always lit.
 std::string describe_hand_zone(const LitZone& zone) {
     return zone.any_eye.empty()
                ? std::string("Where the prop lies in the picture\n"
@@ -288,7 +288,7 @@ std::string describe_zone(const Settings& settings, const LitZone& zone) {
                                                 : describe_table_zone(settings, zone);
 }
 
-/// How far apart two planes square to the axis are, between which everything lies that is lit.
+/// Distance between two planes square to the optical axis that enclose everything that is lit.
 std::string describe_focus(const Settings& settings, const Rectangle& zone) {
     const RigidTransform projector_from_table = settings.projector.table_from_projector.inverse();
     double nearest = std::numeric_limits<double>::infinity();

@@ -1,5 +1,5 @@
-/// What the settings mean on the table, in words, for whoever stands on the ladder: the picture, what a pixel is there,
-/// where the prop stays lit, how much light its faces get, and what an error of mounting or tracking costs.
+/// The settings' meaning on the table, in words for the person who mounts the projector: the picture, a pixel's size,
+/// where the prop stays lit, how much light its faces receive, and what an error of mounting or tracking costs.
 ///
 /// Units    millimetres, metres, degrees and pixels, each written out; table coordinates.
 /// Threads  pure; any.

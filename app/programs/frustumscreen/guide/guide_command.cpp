@@ -33,13 +33,13 @@ struct Request {
     bool json = false;
 };
 
-/// Everything that is said of one pose.
+/// The findings for one pose.
 struct Guided {
     std::int64_t t_us = 0;
     FaceSets faces;
     double unlit_px = 0.0;
     bool knows_artifact = false;
-    bool whole = false; ///< where the artifact is known
+    bool whole = false; ///< if the artifact is known
     std::optional<Advice> advice;
 };
 
@@ -84,7 +84,7 @@ std::string json_line(const Guided& guided, const PropShape& prop) {
     return line.dump();
 }
 
-/// In words, seen from the table's front edge.
+/// The move in words, seen from the table's front edge.
 std::string words_of(const Move& move) {
     switch (move.action) {
     case Action::Slide:
@@ -126,7 +126,7 @@ std::string text_words(const Guided& guided, const PropShape& prop) {
                                     : line;
 }
 
-/// The artifact in the settings' prop: the corners of its hull.
+/// Corners of the artifact's hull, placed in the settings' prop.
 Result<std::vector<glm::dvec3>> read_hull(const std::filesystem::path& pack, const PropShape& prop) {
     const auto only_default = [](const PackOutline& outline) {
         return Result<std::vector<std::uint32_t>>(std::vector{outline.description.default_level});
@@ -135,10 +135,10 @@ Result<std::vector<glm::dvec3>> read_hull(const std::filesystem::path& pack, con
     return hull_in(*read, prop);
 }
 
-/// Advice that stands is kept while it helps, from pose to pose, as in the exhibit.
+/// As in the exhibit, advice is kept from pose to pose while it helps.
 Result<void> guide(const Request& request) {
     TRY(const CheckedSettings settings, load_settings(request.config));
-    TRY(const std::vector<Situation> frames, load_pose_frames(request.poses, settings->eye.default_m));
+    TRY(const std::vector<TrackedState> frames, load_pose_frames(request.poses, settings->eye.default_m));
     GuidanceSetup setup = guidance_setup(*settings);
     if (!request.pack.empty()) {
         TRY(setup.hull, read_hull(request.pack, setup.prop));
@@ -146,11 +146,12 @@ Result<void> guide(const Request& request) {
     Advisor advisor(setup);
     const FaceReader& reader = advisor.reader();
     const PropShape& prop = setup.prop;
-    std::string said; ///< a line where it changes
-    for (const Situation& frame : frames) {
-        const GuidedSituation situation{frame.table_from_prop, frame.eye_m};
-        const Guided guided{to_microseconds(frame.time), reader.read(situation),  reader.unlit_px(situation),
-                            !setup.hull.empty(),         reader.whole(situation), advisor.advise(situation)};
+    std::string said; ///< the last line; a line is printed when the text changes
+    for (const TrackedState& frame : frames) {
+        const GuidedState tracked_state{frame.table_from_prop, frame.eye_m};
+        const Guided guided{to_microseconds(frame.time),    reader.read(tracked_state),
+                            reader.unlit_px(tracked_state), !setup.hull.empty(),
+                            reader.whole(tracked_state),    advisor.advise(tracked_state)};
         if (request.json) {
             fmt::print("{}\n", json_line(guided, prop));
         } else if (std::string words = text_words(guided, prop); words != said) {

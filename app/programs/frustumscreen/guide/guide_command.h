@@ -1,4 +1,4 @@
-/// `frustumscreen guide`: what the visitor of each pose in a file sees, what of it is lit, and the advice.
+/// `frustumscreen guide`: for each pose of a file, what the visitor sees, which of it is lit, and the advice.
 #pragma once
 
 namespace frustumscreen {

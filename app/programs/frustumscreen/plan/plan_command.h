@@ -1,5 +1,5 @@
-/// `frustumscreen plan`: what the exhibit needs of a pack and of the machine, what it leaves out and why, and
-/// what that saves, measured on this machine.
+/// `frustumscreen plan`: what the exhibit needs of a pack and of the machine, what it leaves out and why, and what that
+/// saves, measured on this machine.
 #pragma once
 
 namespace frustumscreen {

@@ -4,7 +4,7 @@
 #include "app/programs/devices/wiring.h"
 #include "app/render/gl_memory.h"
 #include "app/render/read_back.h"
-#include "app/tracking/situation.h"
+#include "app/tracking/tracked_state.h"
 #include "firmware_host/base/quantile.h"
 
 #include <malloc.h>
@@ -16,9 +16,9 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t most_poses = 12;
-constexpr int loads = 5;  ///< of each scene
-constexpr int rounds = 9; ///< of all poses and scenes; the first warms up
+constexpr std::size_t max_poses = 12;
+constexpr int loads = 5;  ///< for each scene
+constexpr int rounds = 9; ///< over all poses and scenes; the first warms up
 
 using Clock = std::chrono::steady_clock;
 
@@ -26,25 +26,25 @@ double microseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
 }
 
-/// Bytes that the program holds, as the allocator counts them.
+/// Bytes that the program has from the allocator.
 std::int64_t allocated_bytes() {
     const struct mallinfo2 info = ::mallinfo2();
     return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
 }
 
-/// The situations that the plan's devices give, half a second apart.
-Result<std::vector<Situation>> situations(const Settings& settings, const DevicePlan& devices) {
+/// Situations from the plan's devices, half a second apart.
+Result<std::vector<TrackedState>> situations(const Settings& settings, const DevicePlan& devices) {
     const MonotonicTime start;
     TRY(Inputs inputs, make_inputs(settings, devices, std::nullopt, start));
-    SituationTracker tracker(settings.eye.default_m);
+    TrackedStateTracker tracker(settings.eye.default_m);
     if (!inputs.tracker) {
-        Situation standing = tracker.at(start);
+        TrackedState standing = tracker.at(start);
         standing.prop_known = true;
-        return std::vector<Situation>{standing};
+        return std::vector<TrackedState>{standing};
     }
-    std::vector<Situation> all;
+    std::vector<TrackedState> all;
     std::vector<PoseSample> samples;
-    for (std::size_t k = 0; k < most_poses; ++k) {
+    for (std::size_t k = 0; k < max_poses; ++k) {
         const MonotonicTime now = start + std::chrono::milliseconds(500 * (k + 1));
         samples.clear();
         TRY_VOID(inputs.tracker->poll(now, samples));
@@ -62,7 +62,7 @@ struct Scene {
     std::unique_ptr<ArtifactShow> show;
     Exhibit exhibit;
     SceneCost cost;
-    std::vector<double> us; ///< of each frame drawn
+    std::vector<double> us; ///< for each drawn frame
 };
 
 SceneCost saving(const Scene& with, const Scene& without) {
@@ -81,16 +81,16 @@ public:
               Display& display)
         : settings_(settings), devices_(devices), options_(std::move(options)), display_(display) {}
 
-    /// Loads the scene several times, alone each time, and frees it; then loads it to keep it.
-    [[nodiscard]] Result<Scene> load(unsigned economies) {
+    /// Loads and frees the scene several times, with no other loaded; then loads it to keep it.
+    [[nodiscard]] Result<Scene> load(unsigned cull_kinds) {
         std::vector<double> load_ms;
         std::vector<double> ram_bytes;
         for (int k = 0; k < loads; ++k) {
-            TRY(const Scene scene, load_once(economies));
+            TRY(const Scene scene, load_once(cull_kinds));
             load_ms.push_back(scene.cost.load_ms);
             ram_bytes.push_back(static_cast<double>(scene.cost.ram_bytes));
         }
-        Result<Scene> stays = load_once(economies);
+        Result<Scene> stays = load_once(cull_kinds);
         if (stays) {
             stays->cost.load_ms = quantile(load_ms, 0.5);
             stays->cost.ram_bytes = static_cast<std::int64_t>(quantile(ram_bytes, 0.5));
@@ -98,8 +98,8 @@ public:
         return stays;
     }
 
-    [[nodiscard]] Result<Scene> load_once(unsigned economies) {
-        options_.economies = economies;
+    [[nodiscard]] Result<Scene> load_once(unsigned cull_kinds) {
+        options_.cull_kinds = cull_kinds;
         const std::int64_t before = allocated_bytes();
         const Clock::time_point start = Clock::now();
         TRY(std::unique_ptr<ArtifactShow> show,
@@ -112,9 +112,9 @@ public:
         return scene;
     }
 
-    /// Draws all scenes at each pose, one after the other, each round in another order.
+    /// Draws all scenes at each pose in turn; each round uses another order.
     [[nodiscard]] Result<std::size_t> draw(std::vector<Scene>& scenes) {
-        TRY(const std::vector<Situation> poses, situations(settings_, devices_));
+        TRY(const std::vector<TrackedState> poses, situations(settings_, devices_));
         ProgressLine progress("measuring");
         MonotonicTime now;
         std::size_t drawn = 0;
@@ -124,9 +124,9 @@ public:
             for (std::size_t k = 0; k < scenes.size(); ++k) {
                 Scene& scene = scenes[(k + frame) % scenes.size()];
                 const Clock::time_point start = Clock::now();
-                const Situation& situation = poses[frame % poses.size()];
-                const DrawResult result = scene.show->draw(now, scene.exhibit.step(now, {}, situation),
-                                                           situation.eye_m, target(), Redraw::Everything);
+                const TrackedState& tracked_state = poses[frame % poses.size()];
+                const DrawResult result = scene.show->draw(now, scene.exhibit.step(now, {}, tracked_state),
+                                                           tracked_state.eye_m, target(), Redraw::Everything);
                 wait_until_drawn();
                 if (result.drawn && frame >= frames_each / rounds) {
                     scene.us.push_back(microseconds_since(start));
@@ -155,26 +155,26 @@ private:
 Result<PlanMeasurement> measure_plan(const Settings& settings, const DevicePlan& devices,
                                      const std::filesystem::path& pack, const std::string& technique,
                                      Display& display) {
-    Settings unhurried = settings; // no deadline: every scene draws the level that the tolerance asks for
+    Settings unhurried = settings; // no deadline: every scene draws the level for the tolerance
     unhurried.projector.refresh_hz = 1e-3;
-    Measuring measuring(unhurried, devices, {{pack}, technique, default_samples, AllEconomies}, display);
-    // The first scene also pays for what the driver does only once.
+    Measuring measuring(unhurried, devices, {{pack}, technique, default_samples, AllCullKinds}, display);
+    // The first scene also pays the driver's one-time costs.
     TRY_VOID(without_value(measuring.load_once(0)));
-    TRY(Scene planned, measuring.load(AllEconomies));
+    TRY(Scene planned, measuring.load(AllCullKinds));
     unsigned used = 0;
     for (const LeftOut& each : planned.show->plan(0).left_out) {
-        used |= each.economy;
+        used |= each.cull_kind;
     }
     std::vector<Scene> scenes;
     scenes.push_back(std::move(planned));
     std::vector<unsigned> without{0};
-    for (unsigned economy = 1; economy < AllEconomies; economy <<= 1U) {
-        if ((used & economy) != 0) {
-            without.push_back(AllEconomies & ~economy);
+    for (unsigned cull_kind = 1; cull_kind < AllCullKinds; cull_kind <<= 1U) {
+        if ((used & cull_kind) != 0) {
+            without.push_back(AllCullKinds & ~cull_kind);
         }
     }
-    for (const unsigned economies : without) {
-        TRY(Scene scene, measuring.load(economies));
+    for (const unsigned cull_kinds : without) {
+        TRY(Scene scene, measuring.load(cull_kinds));
         scenes.push_back(std::move(scene));
     }
     TRY(const std::size_t poses, measuring.draw(scenes));
@@ -184,8 +184,8 @@ Result<PlanMeasurement> measure_plan(const Settings& settings, const DevicePlan&
     result.everything = scenes[1].cost;
     result.saved = saving(scenes[1], scenes[0]);
     for (std::size_t k = 1; k < without.size(); ++k) {
-        result.economies.push_back(
-            {static_cast<Economy>(AllEconomies & ~without[k]), saving(scenes[k + 1], scenes[0])});
+        result.cull_kinds.push_back(
+            {static_cast<CullKind>(AllCullKinds & ~without[k]), saving(scenes[k + 1], scenes[0])});
     }
     result.renderer = renderer_name();
     result.show = std::move(scenes[0].show);

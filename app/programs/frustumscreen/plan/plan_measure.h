@@ -1,9 +1,9 @@
-/// Measures what leaving things out saves. The same scene is loaded as planned, with everything, and once for
-/// each economy with that economy alone switched off; then all of them draw the same poses in turn.
+/// Measures what each cull kind saves. The same scene is loaded as planned, with everything, and once for each cull
+/// kind with that kind alone switched off; then all of them draw the same poses in turn.
 ///
-/// Units    GPU bytes as the driver says; RAM bytes that the program holds from the allocator once it has
-///          loaded (a software GPU keeps its memory there too, so these bytes are then counted in both);
-///          milliseconds of loading; microseconds of drawing, until the picture is done.
+/// Units    GPU bytes as reported by the driver; RAM bytes that the program has from the allocator after loading (a
+///          software GPU keeps its memory there too, so its bytes are counted in both); milliseconds of loading;
+///          microseconds of drawing, until the picture is complete.
 /// Threads  the render thread, with the display's context current.
 /// Errors   as ArtifactShow.
 #pragma once
@@ -25,19 +25,19 @@ struct SceneCost {
     std::int64_t gpu_bytes = 0;
     std::int64_t ram_bytes = 0;
     double load_ms = 0.0;
-    double frame_us = 0.0;  ///< median; of a saving, the median of differences at the same pose
-    double spread_us = 0.0; ///< of a saving: half the distance between the quartiles of the differences
+    double frame_us = 0.0;  ///< median; for a saving, the median of differences at the same pose
+    double spread_us = 0.0; ///< for a saving: half the distance between the quartiles of the differences
 };
 
-struct EconomySaving {
-    Economy economy = UnusedLevels;
+struct CullSaving {
+    CullKind cull_kind = UnusedLevels;
     SceneCost saved;
 };
 
 struct PlanMeasurement {
     std::unique_ptr<ArtifactShow> show; ///< as planned
     SceneCost everything, planned, saved;
-    std::vector<EconomySaving> economies; ///< those that leave something out
+    std::vector<CullSaving> cull_kinds; ///< those that leave something out
     std::size_t poses = 0;
     std::string renderer; ///< the driver's name for the GPU
 };

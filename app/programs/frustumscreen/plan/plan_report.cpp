@@ -99,9 +99,9 @@ std::string left_out_text(const PlanReport& report) {
     std::string text = "It leaves out\n";
     const auto out = std::back_inserter(text);
     const std::vector<LeftOut>& left_out = report.measured.show->plan(0).left_out;
-    for (const EconomySaving& each : report.measured.economies) {
+    for (const CullSaving& each : report.measured.cull_kinds) {
         for (const LeftOut& item : left_out) {
-            if (item.economy == each.economy) {
+            if (item.cull_kind == each.cull_kind) {
                 fmt::format_to(out, "  {}: {}.\n", item.what, item.why);
             }
         }
@@ -144,15 +144,15 @@ Json needs_json(const PlanReport& report) {
                           {"planned_gpu_bytes", level.planned_gpu_bytes},
                           {"gpu_bytes", level.gpu_bytes}});
     }
-    Json rungs = Json::array();
-    for (const Rung& rung : plan.rungs) {
-        rungs.push_back({{"technique", name_of(rung)},
-                         {"level", rung.level},
-                         {"samples", rung.samples},
-                         {"enough", rung.enough}});
+    Json quality_levels = Json::array();
+    for (const QualityLevel& quality_level : plan.quality_levels) {
+        quality_levels.push_back({{"technique", name_of(quality_level)},
+                                  {"level", quality_level.level},
+                                  {"samples", quality_level.samples},
+                                  {"enough", quality_level.enough}});
     }
     return {{"levels", levels},
-            {"rungs", rungs},
+            {"rungs", quality_levels},
             {"faces", faces_of(plan)},
             {"captions", plan.captions},
             {"samples", use.samples},
@@ -194,12 +194,12 @@ std::string plan_json(const PlanReport& report) {
     Json left_out = Json::array();
     for (const LeftOut& item : measured.show->plan(0).left_out) {
         left_out.push_back(
-            {{"economy", std::string(name_of(item.economy))}, {"what", item.what}, {"why", item.why}});
+            {{"economy", std::string(name_of(item.cull_kind))}, {"what", item.what}, {"why", item.why}});
     }
-    Json economies = Json::array();
-    for (const EconomySaving& each : measured.economies) {
-        economies.push_back(
-            {{"economy", std::string(name_of(each.economy))}, {"saves", saving_json(each.saved)}});
+    Json cull_kinds = Json::array();
+    for (const CullSaving& each : measured.cull_kinds) {
+        cull_kinds.push_back(
+            {{"economy", std::string(name_of(each.cull_kind))}, {"saves", saving_json(each.saved)}});
     }
     const Json json = {{"config", report.config},
                        {"pack", report.pack},
@@ -207,7 +207,7 @@ std::string plan_json(const PlanReport& report) {
                        {"in", needs_json(report)},
                        {"left_out", left_out},
                        {"left_out_devices", report.devices.left_out},
-                       {"economies", economies},
+                       {"economies", cull_kinds},
                        {"measured",
                         {{"renderer", measured.renderer},
                          {"poses", measured.poses},

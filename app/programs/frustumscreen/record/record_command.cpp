@@ -30,7 +30,7 @@ namespace {
 
 constexpr Nanoseconds between_polls = std::chrono::milliseconds(2);
 constexpr double longest_s = 86400.0;
-/// The longest time from the recording's end to the program's: a thread may hang in its device.
+/// Longest time from the recording's end to the program's, because a thread may hang in its device.
 constexpr Nanoseconds longest_stop = std::chrono::milliseconds(450);
 
 struct Request {
@@ -55,8 +55,7 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     return app.end_of_arguments(argc, argv);
 }
 
-/// Polls until the time is over or a stop is asked for; writes each new state of the tracker to standard
-/// error.
+/// Polls until the time is over or a stop is requested; prints each new state of the tracker to standard error.
 class Recording {
 public:
     Recording(Tracker& tracker, MonotonicTime start) : tracker_(tracker), start_(start) {}
@@ -81,7 +80,7 @@ public:
 private:
     void poll(MonotonicTime now, bool keep) {
         const std::size_t before = poses_.size();
-        static_cast<void>(tracker_.poll(now, poses_)); // the tracker's state says what is wrong
+        static_cast<void>(tracker_.poll(now, poses_)); // the tracker's state tells the error
         if (!keep) {
             poses_.resize(before);
         }
@@ -97,7 +96,7 @@ private:
     Sentence state_;
 };
 
-/// Times count from the beginning; sensors that are not one of our stations are left out.
+/// Times are relative to the start; sensors that belong to no station are left out.
 std::vector<PoseSample> for_pose_file(const std::vector<PoseSample>& poses, MonotonicTime start) {
     std::vector<PoseSample> kept;
     for (PoseSample pose : poses) {
@@ -142,7 +141,7 @@ Result<void> end_raw_recording(PacketRecorder& recorder, std::string_view tracke
     return {};
 }
 
-/// The caller ends `inputs`: one of their threads may hang in its device.
+/// `inputs` are the caller's to close, because one of their threads may hang in its device.
 Result<void> record(const Request& request, Inputs& inputs) {
     const StopSignals stop;
     TRY(const CheckedSettings settings, load_settings(request.config));
@@ -161,7 +160,7 @@ Result<void> record(const Request& request, Inputs& inputs) {
     TRY(inputs, make_inputs(*settings, devices, std::nullopt, start, std::move(recorder)));
     Recording recording(*inputs.tracker, start);
     recording.run(request, stop, !request.raw);
-    const StopSignals::AtOnce at_once(stop); // a disk may hang: from here a stop ends the program
+    const StopSignals::AtOnce at_once(stop); // a disk may hang: from here a stop signal ends the program
     return request.raw ? end_raw_recording(*inputs.recorder, recording.state())
                        : write_pose_recording(request, inputs, recording, start);
 }
@@ -177,9 +176,9 @@ int record_command(int argc, char** argv) {
     const int status = exit_status("frustumscreen", record(request, inputs));
     std::fflush(stdout);
     if (status != 0) {
-        std::quick_exit(status); // a device that hangs must not turn the failure into a success
+        std::quick_exit(status); // a hanging device must not delay the failure
     }
-    end_within(longest_stop); // all is in the file; only the device is left to close
+    end_within(longest_stop); // the file is complete; only the device is left to close
     return status;
 }
 

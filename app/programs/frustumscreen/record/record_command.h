@@ -1,9 +1,9 @@
-/// `frustumscreen record`: what the tracker sends into a pose file, or its packets into a recording.
+/// `frustumscreen record`: records the tracker's poses into a pose file, or its packets into a recording.
 #pragma once
 
 namespace frustumscreen {
 
-/// The process's exit status.
+/// Returns the process's exit status.
 [[nodiscard]] int record_command(int argc, char** argv);
 
 } // namespace frustumscreen

@@ -5,8 +5,8 @@
 
 namespace frustumscreen {
 
-Result<std::vector<Situation>> load_pose_frames(const std::filesystem::path& file,
-                                                const glm::dvec3& default_eye_m) {
+Result<std::vector<TrackedState>> load_pose_frames(const std::filesystem::path& file,
+                                                   const glm::dvec3& default_eye_m) {
     TRY(const Bytes bytes, read_file(file));
     TRY(const std::vector<PoseSample> samples, parse_poses(as_text(bytes), file.string()));
     return pose_frames(samples, default_eye_m);

@@ -1,6 +1,6 @@
-/// The frames of a pose file that a person names on a command line.
+/// The frames of a pose file that is named on the command line.
 ///
-/// Errors   the file is missing or is no pose file.
+/// Errors   the file is missing or is not a pose file.
 /// Threads  any.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace frustumscreen {
 
-[[nodiscard]] Result<std::vector<Situation>> load_pose_frames(const std::filesystem::path& file,
-                                                              const glm::dvec3& default_eye_m);
+[[nodiscard]] Result<std::vector<TrackedState>> load_pose_frames(const std::filesystem::path& file,
+                                                                 const glm::dvec3& default_eye_m);
 
 } // namespace frustumscreen

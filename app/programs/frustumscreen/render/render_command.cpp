@@ -31,7 +31,7 @@ struct Request {
     std::filesystem::path poses;
     std::filesystem::path out;
     std::string view = "projector";
-    int width = 0; ///< of the pictures that are written; 0 = as the view has it
+    int width = 0; ///< width of the written pictures; 0: the view's
     int height = 0;
     bool no_light = false;
     OfflineOptions options;
@@ -70,10 +70,10 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     return end;
 }
 
-/// Poses in millimetres, or in a tracker's frame, give dark pictures.
-void say_off_the_table(const std::vector<Situation>& frames, const TableSettings& table) {
+/// Warns about places off the table: poses in millimetres, or in a tracker's frame, give dark pictures.
+void say_off_the_table(const std::vector<TrackedState>& frames, const TableSettings& table) {
     const glm::dvec2 half_m = 0.5 * glm::dvec2(table.width_m, table.depth_m);
-    const auto off = std::count_if(frames.begin(), frames.end(), [&](const Situation& frame) {
+    const auto off = std::count_if(frames.begin(), frames.end(), [&](const TrackedState& frame) {
         const glm::dvec2 place_m(frame.table_from_prop.translation);
         return glm::any(glm::greaterThan(glm::abs(place_m), half_m));
     });
@@ -84,29 +84,26 @@ void say_off_the_table(const std::vector<Situation>& frames, const TableSettings
     }
 }
 
-/// Everything that is needed to make one picture.
+/// Inputs of one picture.
 struct Studio {
     const Request& request;
     const Settings& settings;
     OfflineRenderer& renderer;
 };
 
-VisitorScene visitor_scene(const Studio& studio, const Situation& situation) {
-    return {studio.renderer.projector(),
-            studio.settings.projector.table_from_projector,
-            studio.renderer.prop(),
-            situation.table_from_prop,
-            situation.eye_m,
-            {studio.settings.table.width_m, studio.settings.table.depth_m}};
+VisitorScene visitor_scene(const Studio& studio, const TrackedState& tracked_state) {
+    return {studio.renderer.projector(), studio.settings.projector.table_from_projector,
+            studio.renderer.prop(),      tracked_state.table_from_prop,
+            tracked_state.eye_m,         {studio.settings.table.width_m, studio.settings.table.depth_m}};
 }
 
-/// Writes one frame's files; returns its line of frames.csv.
-Result<std::string> make_frame(const Studio& studio, std::size_t frame, const Situation& situation,
+/// Writes one frame's files and returns its line of frames.csv.
+Result<std::string> make_frame(const Studio& studio, std::size_t frame, const TrackedState& tracked_state,
                                std::vector<VisitorFrame>& visitor_frames) {
-    OfflinePicture picture = studio.renderer.draw(situation.table_from_prop, situation.eye_m);
-    const std::int64_t t_us = to_microseconds(situation.time);
+    OfflinePicture picture = studio.renderer.draw(tracked_state.table_from_prop, tracked_state.eye_m);
+    const std::int64_t t_us = to_microseconds(tracked_state.time);
     if (studio.request.view == "visitor") {
-        const VisitorScene scene = visitor_scene(studio, situation);
+        const VisitorScene scene = visitor_scene(studio, tracked_state);
         const Request& request = studio.request;
         const VisitorCamera camera =
             visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m,
@@ -114,7 +111,7 @@ Result<std::string> make_frame(const Studio& studio, std::size_t frame, const Si
                            request.height > 0 ? request.height : std::max(1, scene.projector.height / 2));
         picture.colour = visitor_view(scene, picture.colour, camera,
                                       studio.request.no_light ? exact_check() : VisitorViewOptions{});
-        visitor_frames.push_back({static_cast<int>(frame), t_us, situation.eye_m, camera});
+        visitor_frames.push_back({static_cast<int>(frame), t_us, tracked_state.eye_m, camera});
     }
     const std::filesystem::path stem = studio.request.out / fmt::format("frame_{:05}", frame);
     TRY_VOID(write_file(stem.string() + ".png", encode_png(picture.colour)));
@@ -128,10 +125,10 @@ Result<std::string> make_frame(const Studio& studio, std::size_t frame, const Si
 
 Result<void> render(const Request& request) {
     TRY(const CheckedSettings settings, load_settings(request.config));
-    TRY(const std::vector<Situation> frames, load_pose_frames(request.poses, settings->eye.default_m));
+    TRY(const std::vector<TrackedState> frames, load_pose_frames(request.poses, settings->eye.default_m));
     say_off_the_table(frames, settings->table);
     OfflineSetup setup{settings, request.options};
-    for (const Situation& frame : frames) {
+    for (const TrackedState& frame : frames) {
         setup.options.views.push_back({frame.table_from_prop, frame.eye_m});
     }
     TRY(const OfflineScene scene,
@@ -155,7 +152,7 @@ Result<void> render(const Request& request) {
         csv += line;
         progress.show(frame + 1, frames.size());
     }
-    std::filesystem::remove(request.out / visitor_cameras_name, failed); // of an earlier call
+    std::filesystem::remove(request.out / visitor_cameras_name, failed); // left by an earlier call
     if (!visitor_frames.empty()) {
         TRY_VOID(
             write_file(request.out / visitor_cameras_name, as_bytes(visitor_cameras_json(visitor_frames))));

@@ -1,4 +1,4 @@
-/// frustumscreen states: the exhibit's states, as a page or as a graph.
+/// `frustumscreen states`: prints the exhibit's states, as a page or as a graph.
 #pragma once
 
 namespace frustumscreen {

@@ -1,0 +1,376 @@
+#include "app/residency/artifact_cache.h"
+
+#include "app/exhibit/languages.h"
+#include "firmware_host/base/standard_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <thread>
+#include <utility>
+
+namespace frustumscreen {
+
+namespace {
+
+/// Mean size of an artifact's level textures.
+std::uint64_t texture_bytes_of(const PreparedArtifact& artifact) {
+    std::uint64_t bytes = 0;
+    for (const LevelData& level : artifact.data) {
+        for (const Image8& mip : level.mips) {
+            bytes += mip.texels.size() * sizeof(glm::u8vec4);
+        }
+    }
+    return bytes / std::max<std::size_t>(artifact.data.size(), 1);
+}
+
+} // namespace
+
+ArtifactCache::ArtifactCache(ArtifactCacheSetUp set_up, PreparedArtifact first)
+    : set_up_(std::move(set_up)), states_(set_up_.artifacts.size(), ArtifactState::Away),
+      left_out_(std::make_shared<const std::vector<PackLeftOut>>(set_up_.left_out)) {
+    const std::uint64_t texture_bytes = texture_bytes_of(first);
+    for (std::size_t artifact = 0; artifact < size(); ++artifact) {
+        const KnownArtifact& of = known(artifact);
+        first_items_.push_back(items_.size());
+        items_.push_back({artifact, std::nullopt, 0});
+        records_.push_back({expected_bytes(of, texture_bytes)});
+        for (std::size_t language = 0; language < of.texts.entry.languages.size(); ++language) {
+            for (const TextPart part : {TextPart::Caption, TextPart::NarrationSequencer}) {
+                items_.push_back({artifact, part, language});
+                records_.push_back({text_bytes(of.texts.entry, part, language, set_up_.style)});
+            }
+        }
+    }
+    loaded_.resize(items_.size());
+    receive(0, std::move(first));
+}
+
+Result<void> ArtifactCache::upload_first(GpuStore& store) {
+    Queue seen_first;
+    seen_first.add(levels_item(0));
+    add_text(seen_first, 0, TextPart::Caption, set_up_.language);
+    for (const std::size_t item : seen_first.items()) {
+        if (item != 0) {
+            Result<ArtifactReader::Prepared> texts = prepare(item, [] { return false; });
+            if (!texts) {
+                say_left_out(item, texts.error().message);
+            }
+            receive(item, std::move(texts));
+        }
+        while (arrives(item)) {
+            if (Result<void> done = upload(store, item, std::numeric_limits<std::uint64_t>::max()); !done) {
+                release(store, 0);
+                return done;
+            }
+        }
+    }
+    return {};
+}
+
+ArtifactCache::~ArtifactCache() = default;
+
+std::size_t ArtifactCache::text_item(std::size_t artifact, TextPart part, std::size_t language) const {
+    return first_items_[artifact] + 1 + text_parts * language + static_cast<std::size_t>(part);
+}
+
+void ArtifactCache::add_text(Queue& queue, std::size_t artifact, TextPart part,
+                             std::string_view language) const {
+    const std::vector<std::string>& languages = known(artifact).texts.entry.languages;
+    if (languages.empty()) {
+        return;
+    }
+    const std::size_t item = text_item(artifact, part, caption_for(language, languages));
+    if (records_[item].bytes > 0) {
+        queue.add(item);
+    }
+}
+
+/// The artifacts shown and waited for. Captions come first, because they are small and are shown before their
+/// artifact.
+ArtifactCache::Queue ArtifactCache::needed(const CacheRequest& wish) const {
+    Queue needed;
+    needed.add(levels_item(wish.shown));
+    add_text(needed, wish.shown, TextPart::Caption, wish.shown_language);
+    if (!wish.wanted.empty()) {
+        add_text(needed, wish.wanted.front(), TextPart::Caption, wish.language);
+        needed.add(levels_item(wish.wanted.front()));
+    }
+    add_text(needed, wish.shown, TextPart::NarrationSequencer, wish.shown_language);
+    if (!wish.wanted.empty()) {
+        add_text(needed, wish.wanted.front(), TextPart::NarrationSequencer, wish.language);
+    }
+    return needed;
+}
+
+/// The chosen artifact's captions in the other languages come last; they let the language button respond at
+/// once.
+ArtifactCache::Queue ArtifactCache::wanted(const CacheRequest& wish) const {
+    Queue wanted;
+    for (std::size_t k = 1; k < wish.wanted.size(); ++k) {
+        wanted.add(levels_item(wish.wanted[k]));
+        add_text(wanted, wish.wanted[k], TextPart::Caption, wish.language);
+    }
+    if (!wish.wanted.empty()) {
+        for (const std::string& language : known(wish.wanted.front()).texts.entry.languages) {
+            add_text(wanted, wish.wanted.front(), TextPart::Caption, language);
+        }
+    }
+    return wanted;
+}
+
+Result<ArtifactReader::Prepared> ArtifactCache::prepare(std::size_t item,
+                                                        const ArtifactReader::GivenUp& given_up) const {
+    const Item& of = items_[item];
+    if (of.part) {
+        return prepare_texts(known(of.artifact), *of.part, of.language, set_up_.style, given_up);
+    }
+    return prepare_artifact(known(of.artifact), set_up_.technique, set_up_.deadline_ms, given_up);
+}
+
+void ArtifactCache::start(const FrameCost& cost, const PropShape& prop, const PlanView& view,
+                          const glm::dvec3& eye_m) {
+    if (std::none_of(records_.begin(), records_.end(),
+                     [](const ResidentItem& item) { return !item.loaded && item.bytes > 0; })) {
+        return;
+    }
+    reader_ = std::make_unique<ArtifactReader>(
+        [this, cost, prop, view, eye_m](std::size_t item, const ArtifactReader::GivenUp& given_up) {
+            Result<ArtifactReader::Prepared> prepared = prepare(item, given_up);
+            if (!prepared && !given_up()) {
+                say_left_out(item, prepared.error().message);
+            }
+            if (PreparedArtifact* const levels =
+                    prepared ? std::get_if<PreparedArtifact>(&*prepared) : nullptr) {
+                PlanView seen = view;
+                seen.eyes_m = std::span(&eye_m, 1);
+                seen.light = known(items_[item].artifact).plan.light;
+                levels->levels.start(cost, prop, seen);
+            }
+            return prepared;
+        });
+}
+
+void ArtifactCache::step(GpuStore& store, const CacheRequest& wish) {
+    step_once(store, wish);
+    while (set_up_.waits && !steady_) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        step_once(store, wish);
+    }
+}
+
+void ArtifactCache::step_once(GpuStore& store, const CacheRequest& wish) {
+    note_shown(wish);
+    if (const std::unique_ptr<ArtifactReader::Answer> answer = reader_ ? reader_->take() : nullptr) {
+        receive(answer->item, std::move(answer->prepared));
+    }
+    const Queue needs = needed(wish);
+    const Queue wants = wanted(wish);
+    const ResidencyStep next = next_step(records_, needs.items(), wants.items(), set_up_.budget_bytes);
+    if (next.release) {
+        release(store, *next.release);
+    } else if (reader_) {
+        reader_->request(next.load);
+    }
+    upload(store, needs.items(), wants.items());
+    bool arriving = false;
+    for (std::size_t item = 0; item < items_.size(); ++item) {
+        arriving = arriving || arrives(item);
+    }
+    steady_ = !next.release && (!next.load || !reader_) && !arriving;
+}
+
+bool ArtifactCache::has(const CacheRequest& wish) const {
+    const Queue needs = needed(wish);
+    return std::all_of(needs.items().begin(), needs.items().end(), [&](std::size_t item) {
+        return records_[item].left_out || (loaded_[item] && !arrives(item));
+    });
+}
+
+bool ArtifactCache::release_some(GpuStore& store) {
+    if (reader_) {
+        reader_->request(std::nullopt);
+    }
+    for (std::size_t artifact = 0; artifact < size(); ++artifact) {
+        const std::size_t begin = levels_item(artifact);
+        const std::size_t end = artifact + 1 < size() ? first_items_[artifact + 1] : items_.size();
+        for (std::size_t item = begin; item < end; ++item) {
+            if (loaded_[item]) {
+                release(store, levels(artifact) != nullptr ? begin : item);
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+void ArtifactCache::note_shown(const CacheRequest& wish) {
+    if (shown_ != wish.shown) {
+        shown_ = wish.shown;
+        ++shows_;
+    }
+    Queue shown;
+    shown.add(levels_item(wish.shown));
+    add_text(shown, wish.shown, TextPart::Caption, wish.shown_language);
+    add_text(shown, wish.shown, TextPart::NarrationSequencer, wish.shown_language);
+    for (const std::size_t item : shown.items()) {
+        records_[item].last_shown = shows_;
+    }
+}
+
+void ArtifactCache::receive(std::size_t item, Result<ArtifactReader::Prepared> prepared) {
+    if (records_[item].loaded || records_[item].left_out) {
+        return;
+    }
+    if (!prepared) {
+        leave_out(item, prepared.error().message);
+        return;
+    }
+    if (auto* const levels = std::get_if<PreparedArtifact>(&*prepared)) {
+        loaded_[item] = std::make_unique<Loaded>(LoadedLevels(std::move(*levels)));
+    } else {
+        loaded_[item] = std::make_unique<Loaded>(LoadedTexts(std::move(std::get<TextPictures>(*prepared))));
+    }
+    records_[item].bytes = std::visit([](const auto& each) { return each.bytes(); }, *loaded_[item]);
+    records_[item].loaded = true;
+}
+
+bool ArtifactCache::arrives(std::size_t item) const {
+    return loaded_[item] && !std::visit([](const auto& each) { return each.ready(); }, *loaded_[item]);
+}
+
+/// Uploads the most urgent item that is prepared but not ready; unwanted items come last.
+void ArtifactCache::upload(GpuStore& store, std::span<const std::size_t> needed,
+                           std::span<const std::size_t> wanted) {
+    const auto first_of = [&](std::span<const std::size_t> items) {
+        const auto found =
+            std::find_if(items.begin(), items.end(), [&](std::size_t item) { return arrives(item); });
+        return found != items.end() ? std::optional(*found) : std::nullopt;
+    };
+    const std::optional<std::size_t> urgent = first_of(needed);
+    std::optional<std::size_t> next = urgent ? urgent : first_of(wanted);
+    for (std::size_t item = 0; item < items_.size() && !next; ++item) {
+        next = arrives(item) ? std::optional(item) : std::nullopt;
+    }
+    if (!next) {
+        return;
+    }
+    if (const Result<void> done = upload(store, *next, urgent ? urgent_bytes : early_bytes); !done) {
+        const std::string reason = known(items_[*next].artifact).file.string() + ": " + done.error().message;
+        say_left_out(*next, reason);
+        release(store, *next);
+        leave_out(*next, reason);
+    }
+}
+
+Result<void> ArtifactCache::upload(GpuStore& store, std::size_t item, std::uint64_t max_bytes) {
+    TRY_VOID(std::visit([&](auto& each) { return each.upload(store, max_bytes); }, *loaded_[item]));
+    if (!items_[item].part && !arrives(item)) {
+        states_[items_[item].artifact] = ArtifactState::Ready;
+    }
+    return {};
+}
+
+/// Releasing an artifact's levels also releases its texts.
+void ArtifactCache::release(GpuStore& store, std::size_t item) {
+    const std::size_t artifact = items_[item].artifact;
+    std::size_t end = item + 1;
+    if (const LoadedLevels* const gone = items_[item].part ? nullptr : levels(artifact)) {
+        const LevelState state = gone->artifact.levels.state();
+        past_switches_ += state.switches;
+        past_ignored_times_ += state.ignored_times;
+        states_[artifact] = ArtifactState::Away;
+        end = artifact + 1 < size() ? first_items_[artifact + 1] : items_.size();
+    }
+    for (std::size_t each = item; each < end; ++each) {
+        if (loaded_[each]) {
+            std::visit([&](auto& loaded) { loaded.release(store); }, *loaded_[each]);
+            loaded_[each].reset();
+            records_[each].loaded = false;
+        }
+    }
+}
+
+void ArtifactCache::leave_out(std::size_t item, const std::string& reason) {
+    records_[item].left_out = true;
+    if (!items_[item].part) {
+        const std::size_t artifact = items_[item].artifact;
+        states_[artifact] = ArtifactState::LeftOut;
+        auto more = std::make_shared<std::vector<PackLeftOut>>(*left_out_);
+        more->push_back(pack_left_out(known(artifact).file.string(), reason));
+        left_out_ = std::move(more);
+    }
+}
+
+void ArtifactCache::say_left_out(std::size_t item, const std::string& reason) const {
+    say_line(set_up_.program,
+             fmt::format("{}: {}", items_[item].part ? "texts left out" : "left out", reason));
+}
+
+LoadedLevels* ArtifactCache::levels(std::size_t artifact) const {
+    return std::get_if<LoadedLevels>(loaded_[levels_item(artifact)].get());
+}
+
+RunLevels* ArtifactCache::find(std::size_t artifact) {
+    return states_[artifact] == ArtifactState::Ready ? &levels(artifact)->artifact.levels : nullptr;
+}
+
+const RunLevels* ArtifactCache::find(std::size_t artifact) const {
+    return const_cast<ArtifactCache*>(this)->find(artifact);
+}
+
+double ArtifactCache::exposure(std::size_t artifact) const {
+    const LoadedLevels* const loaded = levels(artifact);
+    return loaded != nullptr ? loaded->artifact.exposure : 1.0;
+}
+
+ArtifactTriangles ArtifactCache::triangles(std::size_t artifact) const {
+    return find(artifact) != nullptr ? levels(artifact)->artifact.triangles : ArtifactTriangles{};
+}
+
+const LoadedTexts* ArtifactCache::texts(std::size_t artifact, TextPart part, std::size_t language) const {
+    return std::get_if<LoadedTexts>(loaded_[text_item(artifact, part, language)].get());
+}
+
+std::size_t ArtifactCache::ready() const {
+    return static_cast<std::size_t>(std::count(states_.begin(), states_.end(), ArtifactState::Ready));
+}
+
+std::uint64_t ArtifactCache::bytes() const {
+    std::uint64_t bytes = 0;
+    for (const ResidentItem& record : records_) {
+        bytes += record.loaded ? record.bytes : 0;
+    }
+    return bytes;
+}
+
+std::uint64_t ArtifactCache::uploaded_text_bytes() const {
+    std::uint64_t bytes = 0;
+    for (const std::unique_ptr<Loaded>& each : loaded_) {
+        const LoadedTexts* const texts = std::get_if<LoadedTexts>(each.get());
+        bytes += texts != nullptr ? texts->uploaded_bytes() : 0;
+    }
+    return bytes;
+}
+
+std::uint64_t ArtifactCache::switches() const {
+    std::uint64_t switches = past_switches_;
+    for (std::size_t artifact = 0; artifact < size(); ++artifact) {
+        const LoadedLevels* const loaded = levels(artifact);
+        switches += loaded != nullptr ? loaded->artifact.levels.state().switches : 0;
+    }
+    return switches;
+}
+
+std::uint64_t ArtifactCache::ignored_times() const {
+    std::uint64_t ignored = past_ignored_times_;
+    for (std::size_t artifact = 0; artifact < size(); ++artifact) {
+        const LoadedLevels* const loaded = levels(artifact);
+        ignored += loaded != nullptr ? loaded->artifact.levels.state().ignored_times : 0;
+    }
+    return ignored;
+}
+
+} // namespace frustumscreen

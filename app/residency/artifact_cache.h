@@ -1,0 +1,166 @@
+/// The artifact cache: artifacts in memory, with their texts, loaded ahead of the visitor, in pieces, within
+/// a budget.
+///
+///     request -> next_step (residency.h) -> ArtifactReader -> prepared -> some bytes a frame (loaded.h) ->
+///     ready
+///
+/// Texts    The chosen artifact's caption comes before the artifact, because it is smaller; its narration
+///          comes after it, only in the chosen language. Artifacts that may be chosen next bring their
+///          captions; the chosen one's captions in the other languages come last. Texts stay while they are
+///          shown and while the budget allows, and no longer than their artifact.
+/// Budget   counts an artifact's GPU memory and main memory from the moment that it is prepared. While one is
+///          read, its file's parts and one level of it are needed in addition.
+/// Threads  constructed on any thread; everything else on the render thread, with the display's context
+///          current, including destruction unless everything was released. The reader has a thread of its
+///          own, which exists only if there is more to load. A step reads no file and waits for nothing.
+/// Errors   an artifact that proves unusable is left out, with a line on standard error; the others stay. If
+///          only its texts are unusable, only they are left out.
+#pragma once
+
+#include "app/exhibit/artifact_state.h"
+#include "app/library/pack_left_out.h"
+#include "app/pack/container/limits.h"
+#include "app/render/gpu_store.h"
+#include "app/residency/artifact_reader.h"
+#include "app/residency/loaded.h"
+#include "app/residency/prepared_artifact.h"
+#include "app/residency/residency.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace frustumscreen {
+
+struct ArtifactCacheSetUp {
+    std::vector<KnownArtifact> artifacts; ///< at least one
+    std::string technique = "auto";
+    double deadline_ms = 16.0;
+    std::uint64_t budget_bytes = 0;
+    TextStyle style = {};
+    std::string language = "en"; ///< of the first caption, BCP 47
+    bool waits = false; ///< `step` returns once loading is complete, so that a run of simulated time is
+                        ///< repeatable
+    std::string_view program = "frustumscreen"; ///< prefix of its lines on standard error
+    std::vector<PackLeftOut> left_out = {};     ///< left out before
+};
+
+/// The cache request: the shown artifact, and those that may be shown next.
+struct CacheRequest {
+    std::size_t shown = 0;
+    std::string_view shown_language;     ///< of the shown artifact's texts, BCP 47
+    std::span<const std::size_t> wanted; ///< most urgent first, beginning with the chosen one; as
+                                         ///< WantedArtifacts
+    std::string_view language;           ///< the chosen language
+};
+
+class ArtifactCache {
+public:
+    /// Bytes uploaded per frame for an artifact that the visitor waits for, and for one loaded ahead.
+    static constexpr std::uint64_t urgent_bytes = std::uint64_t{4} << 20U;
+    static constexpr std::uint64_t early_bytes = std::uint64_t{1} << 20U;
+
+    /// `first`: the first artifact, not yet uploaded. Needs no context.
+    ArtifactCache(ArtifactCacheSetUp set_up, PreparedArtifact first);
+    /// Waits for the reader, if there is one. Does not empty the store: release everything first.
+    ~ArtifactCache();
+    ArtifactCache(const ArtifactCache&) = delete;
+    ArtifactCache& operator=(const ArtifactCache&) = delete;
+
+    /// Uploads the first artifact and its caption at once. On failure nothing stays in the store.
+    [[nodiscard]] Result<void> upload_first(GpuStore& store);
+    /// Starts loading the other artifacts; needs no context. `cost`: of frames on this GPU; `prop`, `view`,
+    /// `eye_m`: the pose and eye for the expected times of quality levels.
+    void start(const FrameCost& cost, const PropShape& prop, const PlanView& view, const glm::dvec3& eye_m);
+    /// Once a frame.
+    void step(GpuStore& store, const CacheRequest& wish);
+    /// True if everything shown and waited for is in memory, except for items that were left out.
+    [[nodiscard]] bool has(const CacheRequest& wish) const;
+    /// Releases one more artifact or text from the store and stops requesting; false: nothing was left.
+    bool release_some(GpuStore& store);
+
+    /// Null if the artifact is not ready.
+    [[nodiscard]] RunLevels* find(std::size_t artifact);
+    [[nodiscard]] const RunLevels* find(std::size_t artifact) const;
+    [[nodiscard]] double exposure(std::size_t artifact) const;
+    /// None if the artifact is not ready, or has no hotspots.
+    [[nodiscard]] ArtifactTriangles triangles(std::size_t artifact) const;
+    /// Null if none of the part is loaded.
+    [[nodiscard]] const LoadedTexts* texts(std::size_t artifact, TextPart part, std::size_t language) const;
+    [[nodiscard]] const KnownArtifact& known(std::size_t artifact) const {
+        return set_up_.artifacts[artifact];
+    }
+    [[nodiscard]] std::size_t size() const { return set_up_.artifacts.size(); }
+    [[nodiscard]] std::span<const ArtifactState> states() const { return states_; }
+    /// Includes those of the set-up. A list is immutable, so that another thread can report it; a change
+    /// makes a new list.
+    [[nodiscard]] const PacksLeftOut& left_out() const { return left_out_; }
+
+    [[nodiscard]] std::size_t ready() const;                 ///< artifacts that can be drawn at once
+    [[nodiscard]] std::uint64_t bytes() const;               ///< of everything loaded or being uploaded
+    [[nodiscard]] std::uint64_t uploaded_text_bytes() const; ///< of texts in the store
+    [[nodiscard]] std::uint64_t switches() const;            ///< of quality levels, including those of
+                                                             ///< released artifacts
+    [[nodiscard]] std::uint64_t ignored_times() const;
+
+private:
+    using Loaded = std::variant<LoadedLevels, LoadedTexts>;
+    /// A unit that is loaded and released as a whole.
+    struct Item {
+        std::size_t artifact = 0;
+        std::optional<TextPart> part; ///< nullopt: the levels
+        std::size_t language = 0;     ///< of the part
+    };
+    /// Items in order of urgency.
+    class Queue {
+    public:
+        void add(std::size_t item) { items_.at(count_++) = item; }
+        [[nodiscard]] std::span<const std::size_t> items() const { return std::span(items_).first(count_); }
+
+    private:
+        std::array<std::size_t, 8 + pack_format::max_languages> items_{};
+        std::size_t count_ = 0;
+    };
+
+    [[nodiscard]] std::size_t levels_item(std::size_t artifact) const { return first_items_[artifact]; }
+    [[nodiscard]] std::size_t text_item(std::size_t artifact, TextPart part, std::size_t language) const;
+    /// Adds nothing if the artifact has no such text.
+    void add_text(Queue& queue, std::size_t artifact, TextPart part, std::string_view language) const;
+    [[nodiscard]] Queue needed(const CacheRequest& wish) const;
+    [[nodiscard]] Queue wanted(const CacheRequest& wish) const;
+    [[nodiscard]] Result<ArtifactReader::Prepared> prepare(std::size_t item,
+                                                           const ArtifactReader::GivenUp& given_up) const;
+
+    void step_once(GpuStore& store, const CacheRequest& wish);
+    void note_shown(const CacheRequest& wish);
+    void receive(std::size_t item, Result<ArtifactReader::Prepared> prepared);
+    [[nodiscard]] bool arrives(std::size_t item) const;
+    void upload(GpuStore& store, std::span<const std::size_t> needed, std::span<const std::size_t> wanted);
+    [[nodiscard]] Result<void> upload(GpuStore& store, std::size_t item, std::uint64_t max_bytes);
+    void release(GpuStore& store, std::size_t item);
+    void leave_out(std::size_t item, const std::string& reason);
+    void say_left_out(std::size_t item, const std::string& reason) const;
+    /// Null if they are not loaded.
+    [[nodiscard]] LoadedLevels* levels(std::size_t artifact) const;
+
+    ArtifactCacheSetUp set_up_;
+    std::vector<Item> items_;
+    std::vector<std::size_t> first_items_;        ///< by artifact: its levels; its texts follow
+    std::vector<std::unique_ptr<Loaded>> loaded_; ///< by item; null: not loaded
+    std::vector<ResidentItem> records_;           ///< by item
+    std::vector<ArtifactState> states_;
+    PacksLeftOut left_out_;
+    std::optional<std::size_t> shown_;
+    std::uint64_t shows_ = 0; ///< number of changes of the shown artifact
+    bool steady_ = false;     ///< the latest step left nothing to do
+    std::uint64_t past_switches_ = 0, past_ignored_times_ = 0;
+    std::unique_ptr<ArtifactReader> reader_; ///< last: its thread uses `set_up_`
+};
+
+} // namespace frustumscreen

@@ -1,0 +1,159 @@
+#include "app/tracking/live_tracked_state.h"
+
+#include "app/geometry/time_curves.h"
+#include "app/tracking/motion_filter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace frustumscreen {
+
+namespace {
+
+constexpr double longest_flip_s = 0.1;
+/// The lever is 0, because only the position of the head counts, not its rotation.
+constexpr double head_lever_m = 0.0;
+
+/// Errors that a filter cannot see: the tracker's registration, and its field bent by metal. Polhemus states
+/// that poses with a reported distortion are wrong by some millimetres.
+constexpr double tracker_off_m = 0.0005;
+constexpr double metal_off_m = 0.006;
+/// As above, for tags: the camera's position, and how the tags were glued.
+constexpr double tags_off_m = 0.0015;
+/// A tracker of 30 Hz is at most 90 ms old when the picture is lit; tags at 8 Hz, on a slow processor, 230
+/// ms.
+constexpr Nanoseconds tracker_lost_after = std::chrono::milliseconds(150);
+constexpr Nanoseconds tags_lost_after = std::chrono::milliseconds(300);
+
+/// Heads seen by a camera scatter more than sensors, and move less than hands.
+constexpr std::array seen_head_models = {MotionModel{MotionModel::Kind::Rest, 0.004},
+                                         MotionModel{MotionModel::Kind::Glide, 1.0}};
+
+MotionFilterOptions seen_head_filter() {
+    constexpr double scatter_m = 0.010;
+    MotionFilterOptions options = exhibit_filter();
+    options.place = {seen_head_models, scatter_m, 0.5, 0.0, 0.2};
+    return options;
+}
+
+PoseEstimatorOptions seen_head_options() {
+    PoseEstimatorOptions options;
+    options.surprise_m = 0.12; // the distance from the camera is the least certain
+    options.forgotten_after = std::chrono::milliseconds(600);
+    return options;
+}
+
+PoseEstimator estimator() {
+    return PoseEstimator(std::make_unique<MotionFilter>(exhibit_filter()));
+}
+
+} // namespace
+
+LiveTrackedState::LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m)
+    : default_eye_m_(default_eye_m), prop_(estimator()), tags_(estimator()), head_(estimator()),
+      visitor_(std::make_unique<MotionFilter>(seen_head_filter()), seen_head_options()), lever_m_(lever_m),
+      source_arbiter_({.lever_m = lever_m}), shown_prop_({.lever_m = lever_m}),
+      shown_head_({.lever_m = head_lever_m}) {}
+
+bool LiveTrackedState::take(const PoseSample& sample) {
+    if (!sample.ok || (sample.station != prop_station && sample.station != head_station)) {
+        return true;
+    }
+    PoseEstimator& estimator = sample.station == prop_station ? prop_ : head_;
+    const RigidTransform table_from_station{sample.rotation, sample.position_m}; // perhaps not unit
+    const Taken taken = estimator.take(sample.time, table_from_station);
+    return taken == Taken::Used || taken == Taken::Late;
+}
+
+bool LiveTrackedState::take_tags(const UncertainPose& pose) {
+    const Taken taken = tags_.take(pose.time, pose.table_from_prop);
+    if (taken == Taken::Used) {
+        tags_sd_m_ = pose.place_sd_m + lever_m_ * pose.turn_sd_rad;
+    }
+    return taken == Taken::Used || taken == Taken::Late;
+}
+
+/// The point that visitors look at.
+glm::dvec3 LiveTrackedState::middle_of_prop() const {
+    return prop_is_at_.point({0.0, 0.0, lever_m_});
+}
+
+bool LiveTrackedState::take_visitor(const SeenHead& head) {
+    if (active_visitor_.see(head, middle_of_prop())) {
+        visitor_.forget();
+    }
+    if (active_visitor_.person() != head.person) {
+        return true;
+    }
+    const Taken taken = visitor_.take(head.time, {{1.0, 0.0, 0.0, 0.0}, head.middle_m});
+    if (taken == Taken::Used) {
+        visitor_sd_m_ = head.across_sd_m;
+    }
+    return taken != Taken::NoPose;
+}
+
+SourcePose LiveTrackedState::by_tracker(MonotonicTime lit) const {
+    const PoseSpread spread = prop_.spread(lit);
+    const double metal = health_ == TrackerHealth::MetalNear ? metal_off_m : 0.0;
+    const glm::dvec3 parts(spread.place_m + lever_m_ * spread.turn_rad, tracker_off_m, metal);
+    return {prop_.at(lit), glm::length(parts), tracker_lost_after};
+}
+
+SourcePose LiveTrackedState::by_tags(MonotonicTime lit) const {
+    const PoseSpread spread = tags_.spread(lit);
+    const glm::dvec3 parts(spread.place_m + lever_m_ * spread.turn_rad, tags_off_m, tags_sd_m_);
+    return {tags_.at(lit), glm::length(parts), tags_lost_after};
+}
+
+TrackedState LiveTrackedState::at(MonotonicTime lit) {
+    TrackedState tracked_state;
+    tracked_state.time = lit;
+    const PoseEstimate prop = source_arbiter_.follow(by_tracker(lit), by_tags(lit), lit);
+    tracked_state.by_tags = source_arbiter_.leader() == Source::Tags;
+    if (prop.reinitialisations > 0) {
+        tracked_state.table_from_prop = shown_prop_.follow(prop, lit);
+        tracked_state.prop_age = prop.age;
+        tracked_state.prop_known = prop.status != PoseStatus::Stale;
+    }
+    prop_is_at_ = tracked_state.table_from_prop;
+    look_for_eye(tracked_state);
+    return tracked_state;
+}
+
+void LiveTrackedState::look_for_eye(TrackedState& tracked_state) {
+    const auto is_known = [](const PoseEstimate& estimate) {
+        return estimate.reinitialisations > 0 && estimate.status != PoseStatus::Stale;
+    };
+    const PoseEstimate head = head_.at(tracked_state.time);
+    const PoseEstimate visitor = visitor_.at(tracked_state.time);
+    tracked_state.head_known = is_known(head);
+    tracked_state.head_seen = !tracked_state.head_known && is_known(visitor);
+    glm::dvec3 eye_m = default_eye_m_;
+    EyeOf of = EyeOf::Default;
+    if (tracked_state.head_known) {
+        of = EyeOf::Sensor;
+        eye_m = head.pose.translation;
+    } else if (tracked_state.head_seen) {
+        of = EyeOf::SeenHead;
+        eye_m = eye_of_head(visitor.pose.translation, middle_of_prop());
+        tracked_state.eye_sd_m = std::hypot(visitor_.spread(tracked_state.time).place_m, visitor_sd_m_);
+    }
+    PoseEstimate goal{{{1.0, 0.0, 0.0, 0.0}, eye_m}, PoseStatus::Exact, Nanoseconds(0), 0};
+    eye_goals_ += of != eye_of_ ? 1 : 0;
+    eye_of_ = of;
+    goal.reinitialisations = head.reinitialisations + visitor.reinitialisations + eye_goals_;
+    tracked_state.eye_m = shown_head_.follow(goal, tracked_state.time).translation;
+}
+
+void LightDelay::flipped(MonotonicTime now, MonotonicTime flipped) {
+    const double share = last_ ? follow_share(to_seconds(now - *last_), time_constant_s) : 1.0;
+    flip_s_ += share * (std::clamp(to_seconds(flipped - now), 0.0, longest_flip_s) - flip_s_);
+    last_ = last_ ? std::max(*last_, now) : now;
+}
+
+Nanoseconds LightDelay::from_now() const {
+    return display_latency_ + Nanoseconds(std::llround(flip_s_ * 1e9));
+}
+
+} // namespace frustumscreen

@@ -1,0 +1,91 @@
+/// The tracked state, prop pose and eye, at the time at which the picture is lit: from a live tracker's
+/// samples, smoothed and predicted. An offline picture uses TrackedStateTracker, which does neither.
+///
+/// Tags     an optional second tracker of the prop. Each of the two has its own estimator; the source arbiter
+///          (hand_over.h) chooses between them.
+/// Visitor  heads that a camera sees, without a marker on them. While no sensor reports the visitor's head,
+///          the eye is that of the active visitor (holder.h); it glides from one person to another.
+/// Frames   table T, metres; samples too (registered_tracker.h).
+/// Time     a sample takes effect at its own time; `at(lit)` asks for the time at which the picture is lit.
+/// Threads  values; one caller. Allocates nothing after construction.
+#pragma once
+
+#include "app/tracking/active_visitor.h"
+#include "app/tracking/pose_estimator.h"
+#include "app/tracking/shown_pose.h"
+#include "app/tracking/source_arbiter.h"
+#include "app/tracking/tracked_state.h"
+#include "app/tracking/uncertain_pose.h"
+
+#include <optional>
+
+namespace frustumscreen {
+
+class LiveTrackedState {
+public:
+    /// `lever_m`: half the prop's height.
+    LiveTrackedState(const glm::dvec3& default_eye_m, double lever_m);
+
+    /// Returns false for a sample that claims to be usable but is not a pose, or moves as no hand can.
+    bool take(const PoseSample& sample);
+    /// As `take`, for a pose from the tags.
+    bool take_tags(const UncertainPose& pose);
+    /// Takes a head; heads come in ascending time. Returns false if its position is invalid.
+    bool take_visitor(const SeenHead& head);
+    /// Sets the tracker's health; metal near the tracker increases the spread of its poses.
+    void tracker_is(TrackerHealth health) { health_ = health; }
+    /// Number of changes between tracker and tags.
+    [[nodiscard]] std::uint64_t hand_overs() const { return source_arbiter_.changes(); }
+    /// The tracked state at `lit`. A lost prop stays where it was; `prop_known` becomes false after a while.
+    /// The eye of a lost head glides to a seen head, otherwise to the default eye, and from there to a head
+    /// that is found. `lit` must not decrease from call to call.
+    [[nodiscard]] TrackedState at(MonotonicTime lit);
+
+private:
+    enum class EyeOf { Default, Sensor, SeenHead };
+    [[nodiscard]] glm::dvec3 middle_of_prop() const;
+    /// Sets the eye of `tracked_state`.
+    void look_for_eye(TrackedState& tracked_state);
+    /// The pose of each source, with its spread and the age at which it is lost.
+    [[nodiscard]] SourcePose by_tracker(MonotonicTime lit) const;
+    [[nodiscard]] SourcePose by_tags(MonotonicTime lit) const;
+
+    glm::dvec3 default_eye_m_;
+    PoseEstimator prop_;
+    PoseEstimator tags_;
+    PoseEstimator head_;
+    PoseEstimator visitor_;     ///< the active visitor's head, as seen by a camera
+    double visitor_sd_m_ = 0.0; ///< from its latest sighting
+    ActiveVisitor active_visitor_;
+    double lever_m_;
+    TrackerHealth health_ = TrackerHealth::Well;
+    double tags_sd_m_ = 0.0; ///< from the latest pose of the tags
+    SourceArbiter source_arbiter_;
+    ShownPose shown_prop_;
+    RigidTransform prop_is_at_; ///< in the latest tracked state
+    ShownPose shown_head_;
+    EyeOf eye_of_ = EyeOf::Default;
+    std::uint64_t eye_goals_ = 1; ///< number of goals so far; the default eye is the first
+};
+
+/// Estimates the time from `now`, the start of a frame, until its picture is lit: the display's own latency
+/// plus a slow average of the measured time from the start of a frame to its flip. The average uses the exact
+/// solution over the time between two flips, so displays of 30 Hz and of 120 Hz converge equally.
+class LightDelay {
+public:
+    static constexpr double time_constant_s = 0.16;
+
+    explicit LightDelay(Nanoseconds display_latency) : display_latency_(display_latency) {}
+
+    /// A frame that began at `now` was flipped at `flipped`. The time between is clamped to 0 to 100 ms; the
+    /// first one counts in full. A decreasing `now` has no effect.
+    void flipped(MonotonicTime now, MonotonicTime flipped);
+    [[nodiscard]] Nanoseconds from_now() const;
+
+private:
+    Nanoseconds display_latency_;
+    double flip_s_ = 0.0;
+    std::optional<MonotonicTime> last_; ///< start of the last frame
+};
+
+} // namespace frustumscreen

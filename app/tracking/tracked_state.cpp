@@ -1,0 +1,42 @@
+#include "app/tracking/tracked_state.h"
+
+#include <cmath>
+
+namespace frustumscreen {
+
+TrackedStateTracker::TrackedStateTracker(const glm::dvec3& default_eye_m, const TrackedStateLimits& limits)
+    : default_eye_m_(default_eye_m), limits_(limits) {}
+
+bool TrackedStateTracker::take(const PoseSample& sample) {
+    if (!sample.ok || (sample.station != prop_station && sample.station != head_station)) {
+        return true;
+    }
+    const std::optional<glm::dquat> rotation = normalised(sample.rotation);
+    const glm::dvec3& p = sample.position_m;
+    if (!rotation || !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+        return false;
+    }
+    std::optional<Latest>& latest = sample.station == prop_station ? prop_ : head_;
+    if (!latest || sample.time >= latest->time) {
+        latest = Latest{{*rotation, p}, sample.time};
+    }
+    return true;
+}
+
+TrackedState TrackedStateTracker::at(MonotonicTime now) const {
+    TrackedState tracked_state;
+    tracked_state.time = now;
+    tracked_state.eye_m = default_eye_m_;
+    if (prop_) {
+        tracked_state.table_from_prop = prop_->table_from_station;
+        tracked_state.prop_age = now - prop_->time;
+        tracked_state.prop_known = tracked_state.prop_age <= limits_.oldest_prop;
+    }
+    if (head_ && now - head_->time <= limits_.oldest_head) {
+        tracked_state.eye_m = head_->table_from_station.translation;
+        tracked_state.head_known = true;
+    }
+    return tracked_state;
+}
+
+} // namespace frustumscreen

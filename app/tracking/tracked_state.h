@@ -1,0 +1,61 @@
+/// The tracked state: the pose of the prop and the position of the visitor's eye at one time.
+///
+/// Frames   table T, metres; samples too (registered_tracker.h).
+/// Time     a sample takes effect at its own time; `at(now)` asks for any later time.
+/// Threads  values; one caller.
+#pragma once
+
+#include "app/geometry/transform.h"
+#include "firmware_host/tracker/tracker.h"
+
+#include <glm/glm.hpp>
+
+#include <optional>
+
+namespace frustumscreen {
+
+struct TrackedState {
+    RigidTransform table_from_prop;
+    glm::dvec3 eye_m{0.0};   ///< between the visitor's eyes
+    MonotonicTime time;      ///< time of this state
+    bool prop_known = false; ///< a usable pose of the prop was seen and is not too old
+    bool head_known = false; ///< from a sensor on the visitor's head
+    bool head_seen =
+        false; ///< eye from a camera; if neither, `eye_m` is the default eye, or easing towards it
+    double eye_sd_m = 0.0; ///< of a seen head: error of `eye_m` across its line to the prop, RMS on each axis
+    Nanoseconds prop_age{0}; ///< of the pose used
+    TrackerHealth tracker = TrackerHealth::Well;
+    bool by_tags = false; ///< `table_from_prop` is from the tags
+
+    [[nodiscard]] bool eye_known() const { return head_known || head_seen; }
+};
+
+struct TrackedStateLimits {
+    Nanoseconds oldest_prop = std::chrono::seconds(1);
+    Nanoseconds oldest_head = std::chrono::seconds(1);
+};
+
+class TrackedStateTracker {
+public:
+    explicit TrackedStateTracker(const glm::dvec3& default_eye_m, const TrackedStateLimits& limits = {});
+
+    /// Samples with ok = false, of other stations, or older than the last one of their station are ignored.
+    /// Rotations are normalised. Returns false for a sample that claims to be usable but is not a pose (not
+    /// finite, or a zero quaternion); it is ignored too.
+    bool take(const PoseSample& sample);
+    /// The latest pose, neither filtered nor predicted.
+    [[nodiscard]] TrackedState at(MonotonicTime now) const;
+
+private:
+    struct Latest {
+        RigidTransform table_from_station;
+        MonotonicTime time;
+    };
+
+    glm::dvec3 default_eye_m_;
+    TrackedStateLimits limits_;
+    std::optional<Latest> prop_;
+    std::optional<Latest> head_;
+};
+
+} // namespace frustumscreen

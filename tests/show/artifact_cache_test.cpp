@@ -1,0 +1,121 @@
+// Artifacts loaded and released while the exhibit runs, from packs in a folder.
+
+#include "app/show/live_exhibit.h"
+#include "tests/show/comings.h"
+
+namespace frustumscreen::synthetic {
+namespace {
+
+using std::chrono::milliseconds;
+
+TEST_F(Comings, TheFirstIsThereAtOnceAndItsNeighboursComeByThemselves) {
+    start(5, false);
+    EXPECT_EQ(show->artifacts()[0], ArtifactState::Ready);
+    EXPECT_EQ(show->state({}).loaded, 1U);
+    await(1);
+    await(4);
+    EXPECT_EQ(show->artifacts()[2], ArtifactState::Away); // not requested yet
+    EXPECT_EQ(show->artifacts()[3], ArtifactState::Away);
+    EXPECT_EQ(show->state({}).loaded, 3U);
+    rest();
+    EXPECT_TRUE(shown_blue());
+}
+
+TEST_F(Comings, WhatIsChosenBeforeItIsThereHasAPictureInItsPlaceAndFadesIn) {
+    start(5, false);
+    rest(); // until the first has faded in
+    const std::array<Command, 2> twice{Command::NextArtifact, Command::NextArtifact};
+    step(twice); // to the third, which was not loaded ahead
+    bool stood_in = false;
+    double last = 0.0;
+    while (true) {
+        const bool was_ready = show->artifacts()[2] == ArtifactState::Ready;
+        const Presentation presentation = step();
+        stood_in = stood_in || (presentation.placeholder && presentation.placeholder->artifact == 2);
+        if (!was_ready) {
+            EXPECT_TRUE(presentation.artifact != 2 || presentation.brightness == 0.0);
+        } else if (presentation.artifact == 2) {
+            EXPECT_LE(presentation.brightness - last, 0.25);
+            last = presentation.brightness;
+        }
+        if (last >= 1.0 && !presentation.placeholder) {
+            break;
+        }
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    EXPECT_TRUE(stood_in);
+    EXPECT_TRUE(shown_blue());
+}
+
+TEST_F(Comings, EachShowsItsOwnPicture) {
+    start(5, true);
+    std::vector<int> blues;
+    for (int k = 0; k < 5; ++k) {
+        rest();
+        blues.push_back(shown_blue().value_or(-1));
+        step(next);
+    }
+    for (std::size_t k = 1; k < blues.size(); ++k) {
+        EXPECT_GT(blues[k], blues[k - 1] + 5) << k;
+    }
+    rest();
+    EXPECT_EQ(show->state({}).loaded, 5U); // all fit
+}
+
+TEST_F(Comings, APackThatGoesBadAfterTheStartIsLeftOutThenAndTheOthersStay) {
+    start(4, false);
+    files.damage(1);
+    std::filesystem::remove(files.files()[3]);
+    await(1);
+    await(3);
+    EXPECT_EQ(show->artifacts()[1], ArtifactState::LeftOut);
+    EXPECT_EQ(show->artifacts()[3], ArtifactState::LeftOut);
+    ASSERT_EQ(show->state({}).left_out->size(), 2U);
+    EXPECT_EQ(show->state({}).left_out->front().pack, files.files()[1].string());
+    EXPECT_NE(show->state({}).left_out->front().reason.find("damaged"), std::string::npos)
+        << show->state({}).left_out->front().reason;
+    step(next); // skips it
+    await(2);
+    rest();
+    EXPECT_EQ(step().artifact, 2U);
+    EXPECT_EQ(step().lamps & 3U, 3U); // there is still another one
+}
+
+TEST_F(Comings, APackThatIsReplacedWhileTheExhibitRunsIsNotShownWithTheOldOnesPlan) {
+    start(3, false);
+    Pack other = numbered_pack(1);
+    other.title = "Another";
+    static_cast<void>(write_file(files.files()[1], write_pack(other).value()));
+    await(2);
+    await(1);
+    EXPECT_EQ(show->artifacts()[1], ArtifactState::LeftOut);
+}
+
+TEST_F(Comings, WhereAllOthersAreBadTheFirstStays) {
+    start(3, false);
+    std::filesystem::remove(files.files()[1]);
+    std::filesystem::remove(files.files()[2]);
+    step(next);
+    await(1);
+    await(2);
+    rest();
+    const Presentation presentation = step(next);
+    EXPECT_EQ(presentation.artifact, 0U);
+    EXPECT_EQ(presentation.brightness, 1.0);
+    EXPECT_EQ(presentation.lamps & 3U, 0U);
+}
+
+TEST_F(Comings, NothingIsTakenFromTheStoreTwice) {
+    start(5, true);
+    rest();
+    const std::uint64_t before = show->use().gpu_bytes;
+    for (int k = 0; k < 20; ++k) {
+        step(next);
+        rest();
+    }
+    EXPECT_EQ(show->use().gpu_bytes, show->use().planned_gpu_bytes);
+    EXPECT_GE(show->use().gpu_bytes, before);
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic
