@@ -64,10 +64,11 @@ void read_attract(TableReader& table, ExhibitFile& file) {
 
 void read_key(TableReader& table, CarriedKey& key) {
     table.any_text("name", key.name);
-    table.require("exhibit_file.key_name",
-                  !key.name.empty() && key.name == printable(key.name, max_key_name_bytes), "name",
-                  fmt::format("is missing or no name; allowed is one line of 1 to {} bytes, such as \"2031\"",
-                              max_key_name_bytes));
+    table.require(
+        "exhibit_file.key_name", !key.name.empty() && key.name == printable(key.name, max_key_name_bytes),
+        "name",
+        fmt::format("is missing or not a name; allowed is one line of 1 to {} bytes, such as \"2031\"",
+                    max_key_name_bytes));
     table.any_text("public_key", key.public_key);
     const Result<PublicKey> parsed = parse_public_key(key.public_key);
     table.require("exhibit_file.public_key", parsed.has_value(), "public_key",

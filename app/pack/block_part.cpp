@@ -196,7 +196,7 @@ Result<void> check_block(ReliefBlock& block, std::size_t k, std::uint32_t texels
         return std::abs(number(block)) <= max_texels_along;
     }; // false for NaN
     if (!std::all_of(numbers.begin(), numbers.end(), sound)) {
-        return bad_input("blocks.not_finite", "block {} has a number that is not finite or beyond {}", k,
+        return bad_input("blocks.not_finite", "block {} has a number that is not finite or is beyond {}", k,
                          max_texels_along);
     }
     if (block.residual_step <= 0.0F || block.gradient_u.x > block.gradient_u.y ||

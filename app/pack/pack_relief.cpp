@@ -42,10 +42,9 @@ std::optional<std::string> fault_of(const std::vector<ReliefOutline>& reliefs,
         if (reliefs[k].texels <= last || !measured(error.mean_box, max_error_box) ||
             !measured(error.p95_box, max_error_box) || !measured(error.max_box, max_error_box) ||
             !measured(error.colour_rmse, max_colour_rmse)) {
-            return fmt::format(
-                "has a relief of {} texels that is no finer than the one before, or whose error "
-                "is no measurement; bake the pack again",
-                reliefs[k].texels);
+            return fmt::format("has a relief of {} texels that is not finer than the one before, or whose "
+                               "error is not a measured one; bake the pack again",
+                               reliefs[k].texels);
         }
         last = reliefs[k].texels;
     }

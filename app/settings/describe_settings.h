@@ -389,7 +389,7 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
                    "memory for loaded artifacts, in 10^6 bytes; the least recently shown is unloaded first");
     fields.tables(
         "keys", exhibit.keys, max_trusted_keys, [](auto& item, auto& key) { key_settings(item, key); },
-        "the museum's public keys: what comes on a stick is signed with one of them");
+        "the museum's public keys: what comes on a stick must be signed with one of them");
     fields.choice(
         "unsigned", exhibit.unsigned_packs, unsigned_names,
         "packs from a stick without a signature; \"allow\" is for a bench, and the staff's picture says so");
@@ -409,7 +409,8 @@ void sound_settings(auto& fields, auto& sound) {
     fields.number("gain_db", sound.gain_db, sound_gain, "volume; 0: as the words were recorded");
     fields.tables(
         "hours", sound.hours, max_hours, [](auto& item, auto& hour) { hour_settings(item, hour); },
-        "quieter at night: in the order of their hours; the last one holds over midnight");
+        "volume by the hour, such as quieter at night; in the order of the hours, and the last row holds "
+        "over midnight");
 }
 
 void hours_settings(auto& fields, auto& hours) {
@@ -418,10 +419,10 @@ void hours_settings(auto& fields, auto& hours) {
                            allowed_spans,
                            day == 0 ? "when the exhibit is awake; []: not at all" : "the same");
     }
-    fields.parsed_list("exceptions", hours.exceptions, max_exceptions, text_of_exception,
-                       parse_hours_exception, allowed_exceptions,
-                       "days on which other times hold, in place of the weekday's; several of one day count "
-                       "together");
+    fields.parsed_list(
+        "exceptions", hours.exceptions, max_exceptions, text_of_exception, parse_hours_exception,
+        allowed_exceptions,
+        "days with other times than the weekday's; several entries for one day count together");
     fields.parsed("time_zone", hours.time_zone, std::identity(), parse_time_zone, allowed_time_zones,
                   "time zone of these times; left out: the machine's own");
 }

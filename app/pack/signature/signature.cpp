@@ -108,7 +108,7 @@ Result<ReadSignature> read_signature(std::string_view text) {
         return damaged("has an algorithm that is not minisign's");
     }
     if (read.trusted_comment.size() > max_comment_bytes || !is_comment(read.trusted_comment)) {
-        return damaged("has a trusted comment that is too long or holds bytes that are no text");
+        return damaged("has a trusted comment that is too long or holds bytes that are not text");
     }
     const std::optional<std::uint64_t> serial = serial_in(read.trusted_comment);
     if (!serial) {

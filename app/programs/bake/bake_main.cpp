@@ -110,10 +110,9 @@ int run(int argc, char** argv) {
         "what a folder's artifact.toml says.",
         "frustumscreen-bake");
     app.set_version_flag("--version", name_and_version("frustumscreen-bake"));
-    app.footer(
-        "frustumscreen-bake --watch FOLDER looks at a folder and draws its page again whenever it changes; "
-        "--batch DIR "
-        "bakes a collection; --words bakes the exhibit's own words. Each says more with --help behind it.");
+    app.footer("frustumscreen-bake --watch FOLDER watches a folder and draws its page again whenever it "
+               "changes; --batch DIR bakes a collection; --words bakes the exhibit's own words. Add --help "
+               "to each of them to read more.");
     add_options(app, arguments);
     if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (arguments.input.empty()) {
