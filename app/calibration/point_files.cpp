@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 4> corner_names{"top_left", "top_right", 
                                                        "bottom_left"};
 constexpr std::array<std::string_view, 2> eye_names{"left", "right"};
 /// More rows than any calibration has; a larger file is not one of these.
-constexpr std::size_t max_rows = 1000;
+constexpr std::size_t max_touch_rows = 1000;
 /// Rests have a row for each of their points.
 constexpr std::size_t max_points = 50000;
 /// More than a person makes. eye_fit.cpp tries every pair, so the limit bounds its time.
@@ -36,7 +36,8 @@ constexpr std::size_t max_sights = 100;
 class PointRows {
 public:
     using Columns = std::span<const std::string_view>;
-    PointRows(std::string_view text, std::string_view name, Columns columns, std::size_t max_rows = max_rows)
+    PointRows(std::string_view text, std::string_view name, Columns columns,
+              std::size_t max_rows = max_touch_rows)
         : rows_(text, name), columns_(columns), max_rows_(max_rows) {
         if (!rows_.next() ||
             !std::equal(columns.begin(), columns.end(), rows_.fields().begin(), rows_.fields().end())) {

@@ -43,7 +43,7 @@ struct QualityLevelTime {
     FrameWork work;
     double ms = 0.0;     ///< median of some frames; not a time if never measured: infinite until the first
                          ///< observation
-    bool relief = false; ///< `relief`, `on_gpu`: as in Rung
+    bool relief = false; ///< `relief`, `on_gpu`: as in QualityLevel
     bool on_gpu = false;
 };
 

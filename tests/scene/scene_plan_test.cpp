@@ -214,7 +214,7 @@ TEST(ScenePlan, ReadsWhatTheGovernorMayPickAndNothingFiner) {
     EXPECT_EQ(plan_scene(settings, garbage, request(settings)).value().levels.front(), 3U);
 }
 
-TEST(ScenePlan, WithoutEconomiesHoldsEverythingAndDrawsTheSame) {
+TEST(ScenePlan, WithoutCullKindsHoldsEverythingAndDrawsTheSame) {
     const Settings settings = steep_table();
     SceneRequest asked = request(settings);
     const ScenePlan lean = plan_scene(settings, outline(), asked).value();
