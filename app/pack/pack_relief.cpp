@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view section_name = "relief_blocks";
 
-void cast_relief_fields(auto& fields, auto& relief) {
+void rasterize_relief_fields(auto& fields, auto& relief) {
     fields.whole("texels", relief.texels, max_relief_texels);
     fields.whole("blocks", relief.blocks, max_relief_blocks);
     fields.whole("bytes", relief.bytes, max_part_bytes);
@@ -30,7 +30,7 @@ void cast_relief_fields(auto& fields, auto& relief) {
 
 void reliefs_fields(auto& fields, auto& reliefs) {
     fields.objects("reliefs", reliefs, max_reliefs,
-                   [](auto& item, auto& relief) { cast_relief_fields(item, relief); });
+                   [](auto& item, auto& relief) { rasterize_relief_fields(item, relief); });
 }
 
 std::optional<std::string> fault_of(const std::vector<ReliefOutline>& reliefs,

@@ -93,9 +93,9 @@ TEST(Ladder, HasAReliefInBothWaysWhereTheGpuMayDrawIt) {
     }
     EXPECT_EQ(on_gpu, 2U);
     EXPECT_EQ(both.size(), ladder(levels, {true}, 4, relief).size() + 2);
-    const QualityLevel cast{384, 4, true, true};
+    const QualityLevel raster{384, 4, true, true};
     const QualityLevel drawn{384, 4, true, true, true};
-    EXPECT_FALSE(cast.shows_as(drawn));
+    EXPECT_FALSE(raster.shows_as(drawn));
 }
 
 TEST(Governor, TakesTheWayOfAReliefThatIsQuickerAtItsErrors) {
