@@ -91,8 +91,14 @@ std::optional<std::string> fault_of(const std::vector<Entry>& entries, std::vect
     std::set<std::string_view> languages;
     std::vector<std::string> named;
     for (const Entry& entry : entries) {
-        if (!languages.insert(entry.language).second || !has_good_keys(entry)) {
-            return fmt::format("names '{}' twice, or a key that is not valid", printable(entry.language, 40));
+        const std::string language = printable(entry.language, 40);
+        if (!languages.insert(entry.language).second) {
+            return fmt::format("names the language '{}' twice; bake the pack again", language);
+        }
+        if (!has_good_keys(entry)) {
+            return fmt::format(
+                "has a sound in '{}' whose key is not valid, or is named twice; bake the pack again",
+                language);
         }
         for (std::string& part : parts_of(entry)) {
             named.push_back(std::move(part));

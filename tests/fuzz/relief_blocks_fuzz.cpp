@@ -33,7 +33,7 @@ void require_raster(const BlockRelief& relief) {
     list_blocks(items, relief, view);
     RasterSamples samples;
     samples.begin(view.lit, 2);
-    cast(samples, relief, view, items);
+    rasterize(samples, relief, view, items);
     for (std::size_t k = 0; k < samples.nearness.size(); ++k) {
         if (samples.nearness[k] > 0.0F) {
             fuzz::require(samples.block[k] < relief.blocks.size(), "a sample shows a block that is there");

@@ -126,7 +126,7 @@ TEST_F(PackTexts, other_data_than_defined_are_refused) {
     expect_fault("sections.texts.data.size", data(texts, [](Json& d) { d["size"] = 1; }));
     expect_fault("sections.texts.data.languages[0].atlas is missing",
                  data(texts, [](Json& d) { d["languages"][0].erase("atlas"); }));
-    expect_fault("the section texts names 'en' twice",
+    expect_fault("the section texts names the language 'en' twice",
                  data(texts, [](Json& d) { d["languages"][1]["language"] = "en"; }));
     expect_fault("the section texts does not name exactly its own parts",
                  data(texts, [](Json& d) { d["languages"][1]["glyphs"] = "levels/0.bin"; }));
