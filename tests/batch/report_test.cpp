@@ -18,12 +18,15 @@ protected:
 
 const std::vector<BatchRow> rows = [] {
     std::vector<BatchRow> made(3);
-    made[0] = {"a, \"b\"\nc", BatchStatus::Baked, 1.25, "", "=Jug & <b>", 2, 1'500'000, 0.5, 1.0, 2.0, 1, 0,
+    made[0] = {"a, \"b\"\nc", BatchStatus::Baked, 1.25, "", "=Jug & <b>", 2, 1'500'000, 0.5, 1.0, 2.0, 0,
                true};
+    made[0].scan = {"G&B", 4622,      2313,  {{8192, 4096}, {8192, 4096}, {16, 16}},
+                    3,     true,      false, {0.1, 2.0, 30.25},
+                    "cm",  1'200'000, 4000,  1};
     made[1].object = "bad";
     made[1].status = BatchStatus::Failed;
     made[1].sentence = "x: <script>alert(1)</script>, \"no\"";
-    made[2] = {"plain", BatchStatus::Unchanged, 3.0, "", "T", 1, 10, 0, 0, 0, 0, 0, false};
+    made[2] = {"plain", BatchStatus::Unchanged, 3.0, "", "T", 1, 10, 0, 0, 0, 0, false};
     return made;
 }();
 
@@ -38,6 +41,42 @@ TEST_F(Report, CsvIsReadAsItWasMeant) {
         "['a, \"b\"\\nc', 'baked', '1.2', '', '1500000', '=Jug & <b>']\n"
         "['bad', 'failed', '0.0', 'x: <script>alert(1)</script>, \"no\"', '', '']\n"
         "['plain', 'unchanged', '3.0', '', '10', 'T']\n");
+}
+
+TEST_F(Report, TheScansColumnsAreThoseOfACheck) {
+    ASSERT_TRUE(write_file(folder / "report.csv", as_bytes(report_csv(rows))));
+    ASSERT_TRUE(write_file(folder / "report.html", as_bytes(report_page(rows, "C", 1.0, {}))));
+    std::string keys;
+    std::string headings;
+    for (const ScanColumn& column : scan_columns()) {
+        keys += fmt::format("{} ", column.key);
+        headings += fmt::format("{}|", column.heading);
+    }
+    EXPECT_EQ(python("import csv\n"
+                     "rows = list(csv.DictReader(open('report.csv', newline='')))\n"
+                     "keys = list(rows[0])\n"
+                     "print(' '.join(keys[keys.index('title') + 1:]), '')\n"
+                     "print([rows[0][k] for k in ('format', 'triangles', 'pictures', 'colours', 'normals', "
+                     "'extents', 'unit', 'estimated_bytes', 'lost')])\n"
+                     "print([rows[1][k] for k in ('format', 'triangles', 'lost')])\n"
+                     "from html.parser import HTMLParser\n"
+                     "class Look(HTMLParser):\n"
+                     "    tag = ''; cells = {'th': [], 'td': []}\n"
+                     "    def handle_starttag(self, tag, attributes):\n"
+                     "        self.tag = tag\n"
+                     "        if tag in self.cells: self.cells[tag].append('')\n"
+                     "    def handle_data(self, data):\n"
+                     "        if self.tag in self.cells: self.cells[self.tag][-1] += data.strip()\n"
+                     "look = Look(); look.feed(open('report.html').read())\n"
+                     "th, td = look.cells['th'], look.cells['td']\n"
+                     "assert len(td) == 3 * len(th), (len(td), len(th))\n"
+                     "print('|'.join(th[th.index('silent') + 1:-1]) + '|')\n"
+                     "print(td[len(th):][th.index('pictures')], td[len(th):][th.index('format')])\n"),
+              keys +
+                  "\n['G&B', '4622', '8192x4096 8192x4096 16x16', 'yes', 'no', '0.1 2 30.25', 'cm', "
+                  "'1200000', '1']\n"
+                  "['', '', '']\n" +
+                  headings + "\n2 of 8192x4096, 16x16 G&B\n");
 }
 
 TEST_F(Report, ThePageShowsEveryWordAndRunsNone) {
