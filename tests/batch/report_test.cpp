@@ -92,7 +92,7 @@ TEST_F(Report, ThePageShowsEveryWordAndRunsNone) {
                      "        if any(c in data for c in '<&') and '{' not in data: print(data.strip())\n"
                      "Look().feed(open('report.html').read())\n"),
               "Coll & <i>\nColl & <i>\nPassed over, without an artifact.toml: old <stuff>\n"
-              "x: <script>alert(1)</script>, \"no\"\nhref ./a%2C%20%22b%22%0Ac.html\n=Jug & <b>\n")
+              "x: <script>alert(1)</script>, \"no\"\nhref ./a%2C%20%22b%22%0Ac.html\nG&B\n=Jug & <b>\n")
         << "what failed comes first";
 }
 

@@ -9,7 +9,7 @@
 #include "app/programs/common/progress_line.h"
 #include "assets_baked/folder/artifact_file.h"
 #include "firmware_host/base/json.h"
-#include "firmware_host/base/standard_error.h"
+#include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -34,7 +34,7 @@ struct Arguments {
     BakeArguments bake;
 };
 
-/// The scans to look at; those of a folder that cannot be baked whatever they hold have their fault already.
+/// The scans to look at; a folder without any has its fault already.
 struct Listed {
     std::vector<CheckedScan> scans;
     std::vector<std::string> passed_over;
@@ -55,11 +55,8 @@ void list_folder(const fs::path& folder, Listed& listed) {
         return;
     }
     for (const BatchObject& object : collection->objects) {
-        CheckedScan& scan = listed.scans.emplace_back();
-        scan.input = object.input;
-        if (!object.fault.empty()) {
-            scan.fault = Error{ErrorKind::BadInput, "check.not_in_a_batch", object.fault};
-        }
+        listed.scans.emplace_back().input =
+            object.input; // one that a batch refuses for its name can be baked alone
     }
     listed.passed_over.insert(listed.passed_over.end(), collection->passed_over.begin(),
                               collection->passed_over.end());

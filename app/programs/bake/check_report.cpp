@@ -11,7 +11,7 @@ namespace frustumscreen {
 
 namespace {
 
-constexpr std::size_t longest_name = 60;
+constexpr std::size_t longest_name = 200;
 
 std::string name_of(const CheckedScan& scan) {
     return printable(scan.input.string(), longest_name);
