@@ -18,10 +18,10 @@
 namespace frustumscreen {
 
 struct ScanMeasures {
-    std::size_t points = 0;              ///< different ones that triangles use
-    glm::dvec3 extents{0.0};             ///< of the bounding box, in the file's axes and units
-    std::uint64_t estimated_bytes = 0;   ///< of the pack, without texts and speech
-    std::size_t estimated_triangles = 0; ///< of the level that is usually shown
+    std::size_t points = 0;                ///< different ones that triangles use
+    glm::dvec3 extents{0.0};               ///< of the bounding box, in the file's axes and units
+    std::uint64_t estimated_bytes = 0;     ///< of the pack, without texts and speech
+    std::uint64_t estimated_triangles = 0; ///< of the level that is usually shown
 };
 
 [[nodiscard]] Result<ScanMeasures> measure_scan(const SourceMesh& mesh, const BakeOptions& options);

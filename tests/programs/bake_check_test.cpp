@@ -61,10 +61,10 @@ TEST_F(BakeCheck, SaysOfOneScanWhatItHasInLines) {
     const std::string said = text("out.txt");
     EXPECT_TRUE(said.starts_with("scans/box.obj: can be baked\n")) << said;
     for (const char* line :
-         {"  format           OBJ\n", "  triangles        4\n", "  vertices         4\n",
-          "  pictures         32x16\n", "  materials        1\n", "  vertex colours   no\n",
-          "  normals          yes\n", "  extents          120 x 300 x 80\n", "  unit, guessed    mm\n",
-          "  pack, about      ", "  shown, about     ", "  lost             nothing\n"}) {
+         {"  format          OBJ\n", "  triangles       4\n", "  vertices        4\n",
+          "  pictures        32x16\n", "  materials       1\n", "  vertex colours  no\n",
+          "  normals         yes\n", "  extents         120 x 300 x 80\n", "  unit, guessed   mm\n",
+          "  pack, about     ", "  shown, about    ", "  lost            nothing\n"}) {
         EXPECT_NE(said.find(line), std::string::npos) << line << said;
     }
     EXPECT_EQ(text("err.txt"), "");
