@@ -45,5 +45,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     check(decode_png16(bytes, max_texels));
     check(decode_webp8(bytes, max_texels));
     check(decode_image(bytes, max_texels));
+    const Result<ShrunkImage> shrunk = decode_shrunk(bytes, max_texels / 16, max_texels);
+    check(shrunk ? Result<Image8>(shrunk->image) : tl::unexpected<Error>(shrunk.error()));
+    fuzz::require(!shrunk || shrunk->image.texels.size() <= max_texels / 16, "a shrunk picture is small");
     return 0;
 }

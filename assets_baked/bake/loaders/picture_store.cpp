@@ -4,7 +4,6 @@
 #include "firmware_host/base/printable.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace frustumscreen {
@@ -48,10 +47,10 @@ void PictureStore::note_shrunk(LoadNotes& notes) const {
     }
     if (shrunk > 0) {
         notes.guessed(
-            "{} of its {} {} shrunk while reading: together they have {:.0f} million texels, and a pack "
-            "of this --size shows no more than {:.0f} million",
-            shrunk, counted(kept_.size(), "picture", "pictures"), shrunk == 1 ? "is" : "are",
-            std::ceil(texels / 1e6), std::ceil(static_cast<double>(kept_texels_) / 1e6));
+            "{} of its {} {} shrunk while reading: together they have {:.3g} million texels, and a pack "
+            "of this --size shows no more than {:.3g} million",
+            shrunk, counted(kept_.size(), "picture", "pictures"), shrunk == 1 ? "is" : "are", texels / 1e6,
+            static_cast<double>(kept_texels_) / 1e6);
     }
 }
 
