@@ -115,7 +115,7 @@ struct Presentation {
     std::size_t artifact = 0;            ///< index into the catalogue
     double brightness = 0.0; ///< of the artifact: 0..1, a factor on linear light; 0 until it is ready
     WantedArtifacts wanted;  ///< to load ahead
-    std::optional<PresentedStandIn> placeholder; ///< in place of the chosen artifact until that is ready
+    std::optional<PresentedPlaceholder> placeholder; ///< in place of the chosen artifact until that is ready
     std::string_view language;        ///< the caption's, shown or not; valid as long as the exhibit
     std::string_view wanted_language; ///< the chosen one, to load texts ahead; valid as long as the exhibit
     std::optional<PresentedCaption> caption;

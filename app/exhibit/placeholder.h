@@ -19,7 +19,7 @@
 
 namespace frustumscreen {
 
-struct PresentedStandIn {
+struct PresentedPlaceholder {
     std::size_t artifact = 0; ///< whose PackCard::table_picture it is
     TableRectangle rectangle; ///< square
     double brightness = 0.0;  ///< above 0, up to 1; a factor on linear light
@@ -38,7 +38,7 @@ public:
     };
     struct Output {
         double brightness = 1.0; ///< of the artifact that is shown, 0..1
-        std::optional<PresentedStandIn> picture;
+        std::optional<PresentedPlaceholder> picture;
         bool waits = false; ///< an artifact is not ready, or fades
     };
     [[nodiscard]] Output step(MonotonicTime now, const Input& input);

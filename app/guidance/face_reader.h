@@ -28,7 +28,7 @@
 
 namespace frustumscreen {
 
-/// The surroundings of guidance: the prop, its light and its room to move.
+/// The environment of guidance: the prop, its light and its room to move.
 struct GuidanceSetup {
     PropShape prop;
     Pinhole projector;

@@ -180,13 +180,13 @@ RenderNeeds needs_of_any_pack(const Settings& settings, int samples, bool relief
         key.dithered = dithered;
         key.even_light = true; // as in every live picture
         needs.draws.insert(key);
-        needs.draws.insert(cast_shader(dithered));
+        needs.draws.insert(raster_shader(dithered));
         if (reliefs_on_gpu) {
             key.blocks = true;
             needs.draws.insert(key);
         }
     }
-    needs.casts = 2; // in a fade
+    needs.relief_draws = 2; // in a fade
     needs.draws.insert({ShaderKey::Pass::EdgeFeather});
     needs.draws.insert({ShaderKey::Pass::TablePicture});
     return with_cut_outs(needs);

@@ -283,9 +283,9 @@ Result<TextPictures> draw_texts(const TextSource& source, const ArtifactTexts& t
     };
     if (!std::equal(drawing.pictures.begin(), drawing.pictures.end(), sizes.begin(), sizes.end(),
                     as_laid_out)) {
-        return at(source.file.string(), Error{ErrorKind::BadInput, "show.texts_changed",
-                                              "the texts are others than when the exhibit was "
-                                              "started; start it again"});
+        return at(source.file.string(),
+                  Error{ErrorKind::BadInput, "show.texts_changed",
+                        "the texts have changed since the exhibit was started; start it again"});
     }
     return std::move(drawing.pictures);
 }

@@ -23,7 +23,7 @@ Result<Prompt> decode(const PromptRecording& recording) {
     }
     TRY(const Bytes opus, load_sound(recording.pack, recording.language, recording.key));
     if (opus.empty()) {
-        return bad_input("show.no_sound", "{} has no sound of it any more; bake the pack again",
+        return bad_input("show.no_sound", "{} no longer has its sound; bake the pack again",
                          recording.pack.string());
     }
     return read_opus(opus);

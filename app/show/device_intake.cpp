@@ -164,7 +164,7 @@ void DeviceIntake::tell_of_camera(RunStatus& status) const {
         status.drifted = verdict.state == DriftState::Moved;
         status.drift_m = verdict.off_m;
     } else if (looks_for_drift_) {
-        status.drift = Sentence("no calibration is kept that marks could be held against; measure the table");
+        status.drift = Sentence("no calibration is kept to compare the marks with; measure the table");
     }
 }
 

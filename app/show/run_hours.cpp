@@ -24,9 +24,9 @@ RunHours::RunHours(const HoursSettings& settings, OffsetAt offset_at, std::strin
     : timetable_(settings, std::move(offset_at)),
       zone_missing_(missing_zone.empty()
                         ? Sentence()
-                        : format_sentence("; this machine has no time zone \"{}\" of hours.time_zone, "
-                                          "its own is taken",
-                                          missing_zone)) {}
+                        : format_sentence(
+                              "; this machine has no time zone \"{}\" of hours.time_zone, so its own is used",
+                              missing_zone)) {}
 
 void RunHours::look_at_clock(MonotonicTime now, std::chrono::sys_seconds wall) {
     wall_ = wall;

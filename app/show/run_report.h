@@ -96,7 +96,7 @@ public:
     /// call.
     void note_hang(bool hangs);
     [[nodiscard]] bool wanted() const { return !places_.status_file.empty(); }
-    /// The surroundings read last; null: none yet, or there is no file.
+    /// The environment read last; null: none yet, or there is no file.
     [[nodiscard]] SharedEnvironment environment();
 
 private:

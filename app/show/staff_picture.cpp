@@ -97,7 +97,7 @@ private:
             if (facts_.tracks_head) {
                 add_signal("head", facts_.head);
             }
-            add("Let them lie still: noise is what they tremble, in the last second.");
+            add("Let them lie still: noise is how much they trembled in the last second.");
             add(facts_.camera);
             break;
         case StaffPage::Buttons:
@@ -153,7 +153,7 @@ private:
         }
         const bool is_first = button == 0;
         if (view_.page == StaffPage::Light && button <= 2) {
-            return is_first ? "white, black and greys in turn" : "one back of these";
+            return is_first ? "white, black and greys in turn" : "the one before";
         }
         if (view_.page == StaffPage::Sound && button <= 2) {
             return is_first ? "louder, with a tone; after the loudest comes the quietest"

@@ -184,7 +184,7 @@ void TableShow::place(const Presentation& presentation, const std::optional<Tabl
 }
 
 /// Artifacts stand on the lower side of their places.
-void TableShow::place_placeholder(const PresentedStandIn& placeholder, OnTable& on_table) const {
+void TableShow::place_placeholder(const PresentedPlaceholder& placeholder, OnTable& on_table) const {
     if (placeholder.artifact >= cards_.size()) {
         return;
     }

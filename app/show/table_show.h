@@ -44,7 +44,7 @@ public:
     void place(const Presentation& presentation, const std::optional<TablePolygon>& shadow,
                OnTable& on_table) const;
     /// The picture that grows into the prop's place. It lies on the prop, and the prop does not hide it.
-    void place_placeholder(const PresentedStandIn& placeholder, OnTable& on_table) const;
+    void place_placeholder(const PresentedPlaceholder& placeholder, OnTable& on_table) const;
     /// Places one picture of each kind, so that drivers compile for them before the first frame.
     void place_samples(const glm::dvec2& at_m, OnTable& on_table) const;
 

@@ -169,7 +169,7 @@ std::string set_line(const StatusReport& status) {
 std::string signatures_line(const StatusReport& status) {
     return !status.set || status.set->of_ended_keys.empty()
                ? std::string()
-               : "packs of a key that does not count any more: " + brief(status.set->of_ended_keys);
+               : "packs of a key that is no longer trusted: " + brief(status.set->of_ended_keys);
 }
 
 std::string left_out_line(const StatusReport& status) {

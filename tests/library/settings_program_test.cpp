@@ -153,13 +153,13 @@ TEST_F(SettingsProgram, RefusesWhatIsNoSmallFile) {
     const auto anew = [&] { std::filesystem::remove_all(folder / "stick/kiosk.toml"); };
     anew();
     std::filesystem::create_symlink(folder / "settings/kiosk.toml.before", folder / "stick/kiosk.toml");
-    expect_refused(ImportRefusal::NotAPack, "no ordinary file");
+    expect_refused(ImportRefusal::NotAPack, "not a regular file");
     anew();
     std::filesystem::create_directory(folder / "stick/kiosk.toml");
-    expect_refused(ImportRefusal::NotAPack, "no ordinary file");
+    expect_refused(ImportRefusal::NotAPack, "not a regular file");
     anew();
     ASSERT_EQ(::mkfifo((folder / "stick/kiosk.toml").c_str(), 0600), 0);
-    expect_refused(ImportRefusal::NotAPack, "no ordinary file");
+    expect_refused(ImportRefusal::NotAPack, "not a regular file");
 }
 
 /// A stick that is pulled from the office computer too early has such files.

@@ -153,7 +153,7 @@ TEST(ArtifactReader, AReliefIsExposedAsTheMeshesOfItsArtifact) {
 }
 
 /// The governor measures what its quality levels draw; the relief is in the GPU memory only if one of them draws it there.
-TEST(ArtifactReader, AReliefIsPreparedInEachWayThatARungDrawsItAndNoOther) {
+TEST(ArtifactReader, AReliefIsPreparedInEachWayThatAQualityLevelDrawsItAndNoOther) {
     const synthetic::ShownPacks packs(1);
     KnownArtifact known = packs.known(0);
     Pack pack = synthetic::numbered_pack(0);

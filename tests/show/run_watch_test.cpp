@@ -116,9 +116,10 @@ TEST_F(RunWatchTest, NotesADiskThatHangsAndThatItAnswersAgain) {
     watch->note(status);
     status.library_hangs = false;
     watch->note(status);
-    EXPECT_EQ(::testing::internal::GetCapturedStderr(),
-              "frustumscreen: set: the library's disk does not answer; no other set can come until it does\n"
-              "frustumscreen: set: the library's disk answers again\n");
+    EXPECT_EQ(
+        ::testing::internal::GetCapturedStderr(),
+        "frustumscreen: set: the library's disk does not answer; no other set can come until it answers\n"
+        "frustumscreen: set: the library's disk answers again\n");
 }
 
 TEST_F(RunWatchTest, NotesEachChangeOnce) {

@@ -203,8 +203,8 @@ int batch_command(int argc, char** argv) {
     add_options(app, arguments);
     if (const auto end = app.end_of_arguments(argc, argv, [&] {
             if (arguments.folder.empty() || arguments.output.empty()) {
-                throw WrongUse{
-                    "--batch needs the folder DIR of the objects behind it, and -o that of the packs"};
+                throw WrongUse{"--batch needs DIR, the folder of the objects, after it; -o needs the folder "
+                               "of the packs"};
             }
         })) {
         return *end;

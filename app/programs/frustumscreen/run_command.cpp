@@ -112,7 +112,7 @@ struct OpenExhibit {
     DevicePlan devices;
     std::unique_ptr<Show> show;
     std::optional<Error> error_screen;   ///< why there is nothing to show; shown instead
-    std::unique_ptr<SetArrival> arrival; ///< none: no set of packs can end the excuse
+    std::unique_ptr<SetArrival> arrival; ///< none: no set of packs can end the error screen
     MonotonicTime start;
     Inputs inputs;
 };

@@ -39,7 +39,7 @@ int say(const ImportReport& report, const ImportArguments& arguments) {
     }
     if (report.stage != ImportStage::Failed) {
         if (report.packs.empty() && !arguments.json) {
-            fmt::print("no pack (*.fspack) was found; packs lie on the stick itself, or one folder down\n");
+            fmt::print("no pack (*.fspack) was found; put packs into the stick's root, or one folder down\n");
         }
         return 0;
     }

@@ -34,8 +34,8 @@ std::string read_size(const std::string& text, Size& size) {
     good = good && std::min(size.width, size.height) >= min_side &&
            std::max(size.width, size.height) <= max_side;
     return good ? std::string()
-                : fmt::format("'{}' is no size; allowed are {} to {} pixels a side, such as 1280x800", text,
-                              min_side, max_side);
+                : fmt::format("'{}' is not a size; allowed are {} to {} pixels a side, such as 1280x800",
+                              text, min_side, max_side);
 }
 
 Result<void> write_picture(const std::string& file, const Size& size, const SafeArguments& arguments) {

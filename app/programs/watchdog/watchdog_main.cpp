@@ -92,7 +92,8 @@ private:
         if (act.step == Step::Reboot) {
             faults_.keep(now, true);
             if (!memory_.keep(now, since_boot(), ladder_.memory(), true)) {
-                journal_.note(LogPriority::Error, "the reboot could not be written down, so it is not done");
+                journal_.note(LogPriority::Error,
+                              "the reboot cannot be recorded, so the computer is not restarted");
                 return;
             }
         }
