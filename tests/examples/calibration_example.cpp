@@ -18,7 +18,8 @@ TEST(RoomExample, Calibration) {
         const glm::dvec2 pixel(960.0 + 3600.0 * place.x / below_m, 600.0 - 3600.0 * place.y / below_m);
         touches.push_back({{turned, place}, pixel, block_m});
     }
-    const TouchCalibration found = calibrate_touch(touches, {1920, 1200, 0.0});
+    const TouchSetup setup{1920, 1200, 0.0, 0.12, {}, {}}; // picture; heights of sensor and prop
+    const TouchCalibration found = calibrate_touch(touches, setup);
     EXPECT_EQ(found.verdict, Verdict::Good) << found.reason;
     EXPECT_NEAR(found.table->table_from_projector.translation.z, 1.5, 1e-4);
     EXPECT_NEAR(found.table->pinhole.fx, 3600.0, 0.5);

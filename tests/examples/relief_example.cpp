@@ -28,12 +28,12 @@ BlockRelief square_half_way_up() {
 TEST(RoomExample, Relief) {
     // example
     const BlockRelief relief = square_half_way_up(); // 8 x 8 cells at z = 0.5 of the box
-    CastScene scene;
+    RasterScene scene;
     scene.prop_from_box = glm::scale(glm::dmat4(1.0), glm::dvec3(0.08)); // the box is 8 cm wide
     scene.projector = {192, 120, 360.0, 360.0, 96.0, 60.0};
     scene.prop_from_projector = {{0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.5}};
     scene.eye_m = {0.0, 0.0, 1.0};
-    CastView view;
+    RasterView view;
     set_up(view, make_frustum({}), scene);
 
     std::vector<glm::vec3> points(192 * 120); // of the picture, in the box frame
